@@ -1,0 +1,289 @@
+//! Eight f64 lanes with one meaning on every instruction set: the only place with `unsafe`.
+//!
+//! A pair sum is written once against [`Lanes`] and compiled for the portable, AVX2 and AVX-512 back ends; the
+//! processor's best one is chosen at run time. The lane count, the order of the horizontal sum and the absence
+//! of fused multiply–add are fixed here, so every back end gives the same bits.
+
+pub mod algebra;
+mod portable;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+use crate::vector::{Tensor, Vector};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Number of lanes.
+pub const LANES: usize = 8;
+
+/// Eight indices that were checked against the length of the arrays they gather from.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneIndices {
+    raw: [u32; LANES],
+    bound: usize,
+}
+
+impl LaneIndices {
+    /// Checks that every index is below `bound`.
+    ///
+    /// # Panics
+    /// If one is not: a neighbour list that does not belong to the arrays.
+    #[inline(always)]
+    #[must_use]
+    pub fn new(raw: &[u32; LANES], bound: usize) -> Self {
+        let mut largest = 0;
+        for &index in raw {
+            largest = if index > largest { index } else { largest };
+        }
+        assert!((largest as usize) < bound && bound <= i32::MAX as usize / 16, "neighbour index out of range");
+        Self { raw: *raw, bound }
+    }
+}
+
+/// Eight f64 values with lane-wise arithmetic.
+pub trait Lanes:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// The same value in every lane.
+    fn splat(value: f64) -> Self;
+    /// Loads `source[index · stride + offset]` for eight indices, where `source` is a flat array of records.
+    /// Implementations may rely on `offset < stride` and on the length check in [`gather`].
+    #[doc(hidden)]
+    fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self;
+    /// Loads four neighbouring values of eight records and transposes them: `result[k]` holds
+    /// `source[index · stride + offset][k]` for eight indices.
+    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices) -> [Self; 4];
+    /// Lane-wise square root.
+    fn sqrt(self) -> Self;
+    /// Lane-wise `if self > other { self } else { other }`.
+    fn max(self, other: Self) -> Self;
+    /// Lane-wise `if self < other { self } else { other }`.
+    fn min(self, other: Self) -> Self;
+    /// `self` in the lanes where `a < b`, zero elsewhere.
+    fn where_less(self, a: Self, b: Self) -> Self;
+    /// Sum over the lanes as ((0+4)+(2+6)) + ((1+5)+(3+7)).
+    fn sum(self) -> f64;
+    /// The lanes in order.
+    fn to_array(self) -> [f64; LANES];
+}
+
+/// A flat view of an array of equal records of f64; made by the gather functions only.
+#[derive(Debug, Clone, Copy)]
+pub struct FlatRecords<'a> {
+    first: *const f64,
+    stride: usize,
+    records: usize,
+    lifetime: std::marker::PhantomData<&'a [f64]>,
+}
+
+/// Gathers scalars, shape `[8]`.
+#[inline(always)]
+#[must_use]
+pub fn gather<V: Lanes>(source: &[f64], indices: &LaneIndices) -> V {
+    let records =
+        FlatRecords { first: source.as_ptr(), stride: 1, records: source.len(), lifetime: std::marker::PhantomData };
+    V::gather_records(records, indices, 0)
+}
+
+/// Gathers vectors, shape `[D][8]`.
+#[inline(always)]
+#[must_use]
+pub fn gather_vectors<V: Lanes, const D: usize>(source: &[Vector<D>], indices: &LaneIndices) -> [V; D] {
+    let records = FlatRecords {
+        first: source.as_ptr().cast(),
+        stride: D,
+        records: source.len(),
+        lifetime: std::marker::PhantomData,
+    };
+    let mut lanes = [V::splat(0.0); D];
+    for axis in 0..D {
+        lanes[axis] = V::gather_records(records, indices, axis);
+    }
+    lanes
+}
+
+/// Gathers tensors, shape `[D][D][8]`, indexed `[row][column]`.
+#[inline(always)]
+#[must_use]
+pub fn gather_tensors<V: Lanes, const D: usize>(source: &[Tensor<D>], indices: &LaneIndices) -> [[V; D]; D] {
+    let records = FlatRecords {
+        first: source.as_ptr().cast(),
+        stride: D * D,
+        records: source.len(),
+        lifetime: std::marker::PhantomData,
+    };
+    // nalgebra stores column by column
+    let mut lanes = [[V::splat(0.0); D]; D];
+    for row in 0..D {
+        for column in 0..D {
+            lanes[row][column] = V::gather_records(records, indices, row + D * column);
+        }
+    }
+    lanes
+}
+
+/// A computation over lanes. `run` must be `#[inline(always)]`, so that it is compiled for the chosen back end.
+pub trait LanePass {
+    /// The computation.
+    fn run<V: Lanes>(self);
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Level {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+/// An instruction set that this processor has; it changes the speed, never the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct InstructionSet(Level);
+
+impl InstructionSet {
+    /// All that this processor has, slowest first.
+    #[must_use]
+    pub fn available() -> Vec<Self> {
+        let mut sets = vec![Self(Level::Portable)];
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx2") {
+                sets.push(Self(Level::Avx2));
+            }
+            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
+                sets.push(Self(Level::Avx512));
+            }
+        }
+        sets
+    }
+
+    /// The fastest that this processor has.
+    #[must_use]
+    pub fn best() -> Self {
+        Self::available().last().copied().unwrap_or(Self(Level::Portable))
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            Level::Portable => "portable",
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 => "AVX2",
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 => "AVX-512",
+        }
+    }
+
+    /// Runs `pass` with this instruction set.
+    #[inline]
+    pub fn run<P: LanePass>(self, pass: P) {
+        match self.0 {
+            Level::Portable => pass.run::<portable::Portable>(),
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 => x86::run_avx2(pass, self),
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 => x86::run_avx512(pass, self),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Everything<'a> {
+        a: &'a [f64],
+        vectors: &'a [Vector<3>],
+        tensors: &'a [Tensor<3>],
+        quads: &'a [[f64; 4]],
+        out: &'a mut Vec<u64>,
+    }
+
+    impl LanePass for Everything<'_> {
+        #[inline(always)]
+        fn run<V: Lanes>(self) {
+            let n = self.a.len();
+            for start in 0..n - LANES {
+                let raw: [u32; LANES] = std::array::from_fn(|k| ((start + 3 * k * k) % n) as u32);
+                let indices = LaneIndices::new(&raw, n);
+                let a: V = gather(self.a, &indices);
+                let [x, y, z] = gather_vectors::<V, 3>(self.vectors, &indices);
+                let t = gather_tensors::<V, 3>(self.tensors, &indices);
+                let b = (x * y - z / a).max(t[0][2]).min(t[2][1] + a);
+                let c = (b * b + V::splat(0.1)).sqrt().where_less(x, -t[1][1]);
+                let [p, q, r, s] = V::load_quads(self.quads, 2, 1, &indices);
+                let c = c + (p - q) * (r + s);
+                self.out.push((b + c).sum().to_bits());
+                self.out.extend((c - b).to_array().map(f64::to_bits));
+            }
+        }
+    }
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits() {
+        let n = 101;
+        let value = |k: usize| (k as f64 * 0.618_033_988_749_895).fract() * 3.0 - 1.4;
+        let a: Vec<f64> = (0..n).map(|k| value(k) + 5.0).collect();
+        let vectors: Vec<_> = (0..n).map(|k| Vector::<3>::from_fn(|i, _| value(7 * k + i))).collect();
+        let tensors: Vec<_> = (0..n).map(|k| Tensor::<3>::from_fn(|i, j| value(11 * k + 3 * i + j))).collect();
+        let quads: Vec<_> = (0..2 * n).map(|k| std::array::from_fn(|i| value(5 * k + i))).collect();
+        let mut results = Vec::new();
+        for set in InstructionSet::available() {
+            let mut out = Vec::new();
+            set.run(Everything { a: &a, vectors: &vectors, tensors: &tensors, quads: &quads, out: &mut out });
+            assert!(out.len() > 8 * 50);
+            results.push(out);
+        }
+        for other in &results[1..] {
+            assert_eq!(&results[0], other);
+        }
+    }
+
+    #[test]
+    fn the_portable_lanes_agree_with_scalar_code() {
+        struct Check<'a>(&'a [Tensor<2>]);
+        impl LanePass for Check<'_> {
+            #[inline(always)]
+            fn run<V: Lanes>(self) {
+                let indices = LaneIndices::new(&[3, 1, 4, 1, 5, 0, 2, 6], self.0.len());
+                let t = gather_tensors::<V, 2>(self.0, &indices);
+                let determinant = (t[0][0] * t[1][1] - t[0][1] * t[1][0]).to_array();
+                let quads: Vec<[f64; 4]> =
+                    (0..3 * self.0.len()).map(|k| std::array::from_fn(|i| (4 * k + i) as f64)).collect();
+                let loaded = V::load_quads(&quads, 3, 2, &indices).map(V::to_array);
+                for (lane, &index) in [3usize, 1, 4, 1, 5, 0, 2, 6].iter().enumerate() {
+                    for (k, value) in loaded.iter().enumerate() {
+                        assert_eq!(value[lane], quads[3 * index + 2][k]);
+                    }
+                    let m = &self.0[index];
+                    assert_eq!(determinant[lane], m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)]);
+                }
+            }
+        }
+        let tensors: Vec<_> = (0..7).map(|k| Tensor::<2>::from_fn(|i, j| (k * 4 + 2 * i + j) as f64 + 0.25)).collect();
+        for set in InstructionSet::available() {
+            set.run(Check(&tensors));
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "out of range")]
+    fn an_index_beyond_the_arrays_is_refused() {
+        let _ = LaneIndices::new(&[0, 1, 2, 3, 4, 5, 6, 7], 7);
+    }
+
+    #[test]
+    #[should_panic(expected = "shorter")]
+    fn a_shorter_array_is_refused() {
+        struct Short<'a>(&'a [f64]);
+        impl LanePass for Short<'_> {
+            #[inline(always)]
+            fn run<V: Lanes>(self) {
+                let indices = LaneIndices::new(&[0, 1, 2, 3, 4, 5, 6, 7], 8);
+                let _ = gather::<V>(self.0, &indices).sum();
+            }
+        }
+        InstructionSet::best().run(Short(&[1.0; 7]));
+    }
+}

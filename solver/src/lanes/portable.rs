@@ -1,0 +1,111 @@
+//! The back end for any processor: arrays of eight.
+#![expect(unsafe_code, reason = "unchecked gathers behind one length check")]
+
+use super::{FlatRecords, LANES, LaneIndices, Lanes};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+#[derive(Clone, Copy)]
+pub(super) struct Portable([f64; LANES]);
+
+macro_rules! lane_wise {
+    ($($trait:ident $method:ident $operator:tt),*) => {$(
+        impl $trait for Portable {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                let mut lanes = self.0;
+                for k in 0..LANES {
+                    lanes[k] = self.0[k] $operator other.0[k];
+                }
+                Self(lanes)
+            }
+        }
+    )*};
+}
+lane_wise!(Add add +, Sub sub -, Mul mul *, Div div /);
+
+impl Neg for Portable {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.map(|x| -x))
+    }
+}
+
+impl Portable {
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let mut lanes = self.0;
+        for k in 0..LANES {
+            lanes[k] = f(self.0[k], other.0[k]);
+        }
+        Self(lanes)
+    }
+}
+
+impl Lanes for Portable {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self([value; LANES])
+    }
+
+    #[inline(always)]
+    fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self {
+        assert!(source.records >= indices.bound && offset < source.stride, "array shorter than its index bound");
+        let mut lanes = [0.0; LANES];
+        for k in 0..LANES {
+            // SAFETY: raw[k] < bound ≤ records and offset < stride, so the element lies inside the borrowed slice.
+            lanes[k] = unsafe { *source.first.add(indices.raw[k] as usize * source.stride + offset) };
+        }
+        Self(lanes)
+    }
+
+    #[inline(always)]
+    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices) -> [Self; 4] {
+        assert!(source.len() >= indices.bound * stride && offset < stride, "array shorter than its index bound");
+        let mut quads = [Self([0.0; LANES]); 4];
+        for lane in 0..LANES {
+            // SAFETY: raw < bound and offset < stride, so the record lies inside the slice.
+            let record = unsafe { source.get_unchecked(indices.raw[lane] as usize * stride + offset) };
+            for k in 0..4 {
+                quads[k].0[lane] = record[k];
+            }
+        }
+        quads
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.map(f64::sqrt))
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a < b { a } else { b })
+    }
+
+    #[inline(always)]
+    fn where_less(self, a: Self, b: Self) -> Self {
+        let mut lanes = self.0;
+        for k in 0..LANES {
+            lanes[k] = if a.0[k] < b.0[k] { lanes[k] } else { 0.0 };
+        }
+        Self(lanes)
+    }
+
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        let x = self.0;
+        ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]))
+    }
+
+    #[inline(always)]
+    fn to_array(self) -> [f64; LANES] {
+        self.0
+    }
+}

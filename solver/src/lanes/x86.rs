@@ -1,0 +1,280 @@
+//! The x86-64 back ends: AVX2 as two registers of four lanes, AVX-512 as one of eight.
+#![expect(unsafe_code, reason = "vector intrinsics; a value of these types exists only after the processor was asked")]
+
+use super::{FlatRecords, InstructionSet, LANES, LaneIndices, LanePass, Lanes, Level};
+use std::arch::x86_64::*;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Runs a pass with AVX-512.
+#[inline]
+pub(super) fn run_avx512<P: LanePass>(pass: P, set: InstructionSet) {
+    #[target_feature(enable = "avx512f,avx512vl")]
+    fn inner<P: LanePass>(pass: P) {
+        pass.run::<Avx512>();
+    }
+    assert!(set.0 == Level::Avx512, "instruction set was not detected");
+    // SAFETY: an InstructionSet of this level is made only where the processor reported the features.
+    unsafe { inner(pass) }
+}
+
+/// Runs a pass with AVX2.
+#[inline]
+pub(super) fn run_avx2<P: LanePass>(pass: P, set: InstructionSet) {
+    #[target_feature(enable = "avx2")]
+    fn inner<P: LanePass>(pass: P) {
+        pass.run::<Avx2>();
+    }
+    assert!(set.0 == Level::Avx2, "instruction set was not detected");
+    // SAFETY: an InstructionSet of this level is made only where the processor reported the features.
+    unsafe { inner(pass) }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct Avx512(__m512d);
+
+#[derive(Clone, Copy)]
+pub(super) struct Avx2(__m256d, __m256d);
+
+macro_rules! lane_wise {
+    ($($trait:ident $method:ident $wide:ident $half:ident),*) => {$(
+        impl $trait for Avx512 {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                // SAFETY: values of this type exist only inside run_avx512.
+                Self(unsafe { $wide(self.0, other.0) })
+            }
+        }
+        impl $trait for Avx2 {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                // SAFETY: values of this type exist only inside run_avx2.
+                unsafe { Self($half(self.0, other.0), $half(self.1, other.1)) }
+            }
+        }
+    )*};
+}
+lane_wise!(
+    Add add _mm512_add_pd _mm256_add_pd,
+    Sub sub _mm512_sub_pd _mm256_sub_pd,
+    Mul mul _mm512_mul_pd _mm256_mul_pd,
+    Div div _mm512_div_pd _mm256_div_pd
+);
+
+impl Neg for Avx512 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx512.
+        unsafe {
+            let sign = _mm512_castpd_si512(_mm512_set1_pd(-0.0));
+            Self(_mm512_castsi512_pd(_mm512_xor_si512(_mm512_castpd_si512(self.0), sign)))
+        }
+    }
+}
+
+impl Neg for Avx2 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx2.
+        unsafe {
+            let sign = _mm256_set1_pd(-0.0);
+            Self(_mm256_xor_pd(self.0, sign), _mm256_xor_pd(self.1, sign))
+        }
+    }
+}
+
+impl Lanes for Avx512 {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        // SAFETY: called from passes inside run_avx512 only.
+        Self(unsafe { _mm512_set1_pd(value) })
+    }
+
+    #[inline(always)]
+    fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self {
+        assert!(source.records >= indices.bound && offset < source.stride, "array shorter than its index bound");
+        let mut lanes = [0.0; LANES];
+        for (lane, raw) in lanes.iter_mut().zip(indices.raw) {
+            // SAFETY: raw < bound ≤ records and offset < stride, so the element lies inside the borrowed slice.
+            *lane = unsafe { *source.first.add(raw as usize * source.stride + offset) };
+        }
+        // SAFETY: the array holds eight values.
+        unsafe { Self(_mm512_loadu_pd(lanes.as_ptr())) }
+    }
+
+    #[inline(always)]
+    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices) -> [Self; 4] {
+        assert!(source.len() >= indices.bound * stride && offset < stride, "array shorter than its index bound");
+        // SAFETY: raw < bound and offset < stride, so every record lies inside the slice.
+        unsafe {
+            let load =
+                |lane: usize| _mm256_loadu_pd(source.as_ptr().add(indices.raw[lane] as usize * stride + offset).cast());
+            let pair = |low: __m256d, high: __m256d| _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(low), high);
+            let rows = [pair(load(0), load(4)), pair(load(1), load(5)), pair(load(2), load(6)), pair(load(3), load(7))];
+            // a 4 × 4 transpose in each half
+            let (a, b) = (_mm512_unpacklo_pd(rows[0], rows[1]), _mm512_unpackhi_pd(rows[0], rows[1]));
+            let (c, d) = (_mm512_unpacklo_pd(rows[2], rows[3]), _mm512_unpackhi_pd(rows[2], rows[3]));
+            let low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
+            let high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+            [
+                Self(_mm512_permutex2var_pd(a, low, c)),
+                Self(_mm512_permutex2var_pd(b, low, d)),
+                Self(_mm512_permutex2var_pd(a, high, c)),
+                Self(_mm512_permutex2var_pd(b, high, d)),
+            ]
+        }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx512.
+        Self(unsafe { _mm512_sqrt_pd(self.0) })
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx512. MAXPD is `a > b ? a : b`.
+        Self(unsafe { _mm512_max_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx512. MINPD is `a < b ? a : b`.
+        Self(unsafe { _mm512_min_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn where_less(self, a: Self, b: Self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx512.
+        unsafe { Self(_mm512_maskz_mov_pd(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(a.0, b.0), self.0)) }
+    }
+
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        // SAFETY: values of this type exist only inside run_avx512.
+        unsafe { sum_halves(_mm512_castpd512_pd256(self.0), _mm512_extractf64x4_pd::<1>(self.0)) }
+    }
+
+    #[inline(always)]
+    fn to_array(self) -> [f64; LANES] {
+        let mut lanes = [0.0; LANES];
+        // SAFETY: the array holds eight values.
+        unsafe { _mm512_storeu_pd(lanes.as_mut_ptr(), self.0) };
+        lanes
+    }
+}
+
+impl Lanes for Avx2 {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        // SAFETY: called from passes inside run_avx2 only.
+        unsafe { Self(_mm256_set1_pd(value), _mm256_set1_pd(value)) }
+    }
+
+    #[inline(always)]
+    fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self {
+        assert!(source.records >= indices.bound && offset < source.stride, "array shorter than its index bound");
+        let mut lanes = [0.0; LANES];
+        for (lane, raw) in lanes.iter_mut().zip(indices.raw) {
+            // SAFETY: raw < bound ≤ records and offset < stride, so the element lies inside the borrowed slice.
+            *lane = unsafe { *source.first.add(raw as usize * source.stride + offset) };
+        }
+        // SAFETY: the array holds eight values.
+        unsafe { Self(_mm256_loadu_pd(lanes.as_ptr()), _mm256_loadu_pd(lanes.as_ptr().add(4))) }
+    }
+
+    #[inline(always)]
+    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices) -> [Self; 4] {
+        assert!(source.len() >= indices.bound * stride && offset < stride, "array shorter than its index bound");
+        // SAFETY: raw < bound and offset < stride, so every record lies inside the slice.
+        unsafe {
+            let load =
+                |lane: usize| _mm256_loadu_pd(source.as_ptr().add(indices.raw[lane] as usize * stride + offset).cast());
+            let [a, b, c, d] = transposed(load(0), load(1), load(2), load(3));
+            let [e, f, g, h] = transposed(load(4), load(5), load(6), load(7));
+            [Self(a, e), Self(b, f), Self(c, g), Self(d, h)]
+        }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx2.
+        unsafe { Self(_mm256_sqrt_pd(self.0), _mm256_sqrt_pd(self.1)) }
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx2. MAXPD is `a > b ? a : b`.
+        unsafe { Self(_mm256_max_pd(self.0, other.0), _mm256_max_pd(self.1, other.1)) }
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx2. MINPD is `a < b ? a : b`.
+        unsafe { Self(_mm256_min_pd(self.0, other.0), _mm256_min_pd(self.1, other.1)) }
+    }
+
+    #[inline(always)]
+    fn where_less(self, a: Self, b: Self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx2.
+        unsafe {
+            Self(
+                _mm256_and_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a.0, b.0), self.0),
+                _mm256_and_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a.1, b.1), self.1),
+            )
+        }
+    }
+
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        // SAFETY: values of this type exist only inside run_avx2.
+        unsafe { sum_halves(self.0, self.1) }
+    }
+
+    #[inline(always)]
+    fn to_array(self) -> [f64; LANES] {
+        let mut lanes = [0.0; LANES];
+        // SAFETY: the array holds eight values, four a store.
+        unsafe {
+            _mm256_storeu_pd(lanes.as_mut_ptr(), self.0);
+            _mm256_storeu_pd(lanes.as_mut_ptr().add(4), self.1);
+        }
+        lanes
+    }
+}
+
+/// ((0+4)+(2+6)) + ((1+5)+(3+7)) of lanes 0–3 in `low` and 4–7 in `high`.
+///
+/// # Safety
+/// Needs AVX.
+#[inline(always)]
+unsafe fn sum_halves(low: __m256d, high: __m256d) -> f64 {
+    // SAFETY: passed on to the caller.
+    unsafe {
+        let four = _mm256_add_pd(low, high);
+        let two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd::<1>(four));
+        _mm_cvtsd_f64(two) + _mm_cvtsd_f64(_mm_unpackhi_pd(two, two))
+    }
+}
+
+/// The transpose of four rows.
+///
+/// # Safety
+/// Needs AVX.
+#[inline(always)]
+unsafe fn transposed(r0: __m256d, r1: __m256d, r2: __m256d, r3: __m256d) -> [__m256d; 4] {
+    // SAFETY: passed on to the caller.
+    unsafe {
+        let (a, b) = (_mm256_unpacklo_pd(r0, r1), _mm256_unpackhi_pd(r0, r1));
+        let (c, d) = (_mm256_unpacklo_pd(r2, r3), _mm256_unpackhi_pd(r2, r3));
+        [
+            _mm256_permute2f128_pd::<0x20>(a, c),
+            _mm256_permute2f128_pd::<0x20>(b, d),
+            _mm256_permute2f128_pd::<0x31>(a, c),
+            _mm256_permute2f128_pd::<0x31>(b, d),
+        ]
+    }
+}

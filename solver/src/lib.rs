@@ -1,0 +1,28 @@
+//! A compact SPH kernel for granular and sediment flows: no I/O, knows no case, SI units throughout.
+//!
+//! Reading order: [`vector`], the leaves ([`kernel`], [`rheology`], [`equation_of_state`], [`turbulence`]), then
+//! [`neighbours`], [`operators`], [`terms`] and [`boundary`], and last the step in `weakly_compressible` and the
+//! loop in [`simulation`]. Equation numbers are those of Salehizadeh & Shafiei (2018).
+
+pub mod vector;
+
+pub mod equation_of_state;
+pub mod kernel;
+pub mod lanes;
+pub mod numerics;
+pub mod rheology;
+pub mod turbulence;
+
+pub mod boundary;
+pub mod neighbours;
+pub mod operators;
+pub mod particles;
+mod records;
+pub mod terms;
+
+pub mod divergence;
+pub mod scene;
+pub mod simulation;
+pub mod snapshot;
+pub mod time_step;
+mod weakly_compressible;

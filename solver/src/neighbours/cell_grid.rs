@@ -1,0 +1,127 @@
+//! A uniform grid of cells no smaller than the search radius, with the particles sorted by cell.
+
+use crate::vector::Vector;
+
+/// Cells in x-fastest order; the entries of one cell, and of neighbouring cells along x, are contiguous.
+#[derive(Debug)]
+pub(crate) struct CellGrid<const D: usize> {
+    origin: Vector<D>,
+    inverse_size: f64,
+    cells: [usize; D],
+    start: Vec<u32>,
+    cell_of: Vec<u32>,
+    /// Particle index of each entry.
+    pub(crate) index: Vec<u32>,
+    /// Position of each entry `[m]`.
+    pub(crate) position: Vec<Vector<D>>,
+}
+
+/// More cells than this a particle are wasted on empty space: far particles share the border cells instead.
+const CELLS_PER_PARTICLE: usize = 8;
+
+impl<const D: usize> CellGrid<D> {
+    pub(crate) fn new() -> Self {
+        Self {
+            origin: Vector::zeros(),
+            inverse_size: 1.0,
+            cells: [1; D],
+            start: Vec::new(),
+            cell_of: Vec::new(),
+            index: Vec::new(),
+            position: Vec::new(),
+        }
+    }
+
+    /// Lays the grid over the given positions with cells of `size` `[m]`.
+    pub(crate) fn cover<'a>(&mut self, positions: impl Iterator<Item = &'a Vector<D>>, size: f64) {
+        let mut lower = Vector::<D>::repeat(f64::INFINITY);
+        let mut upper = Vector::<D>::repeat(f64::NEG_INFINITY);
+        let mut count = 0usize;
+        for position in positions {
+            for axis in 0..D {
+                lower[axis] = lower[axis].min(position[axis]);
+                upper[axis] = upper[axis].max(position[axis]);
+            }
+            count += 1;
+        }
+        if count == 0 {
+            (lower, upper) = (Vector::zeros(), Vector::zeros());
+        }
+        self.origin = lower;
+        self.inverse_size = 1.0 / size;
+        let limit = CELLS_PER_PARTICLE * count + 1024;
+        let mut total = 1usize;
+        for axis in 0..D {
+            let wanted = ((upper[axis] - lower[axis]) * self.inverse_size).floor() as usize + 1;
+            self.cells[axis] = wanted.clamp(1, limit);
+            total = total.saturating_mul(self.cells[axis]);
+        }
+        // a stray particle far away must not buy a huge grid
+        while total > limit {
+            let longest = (0..D).max_by_key(|&axis| self.cells[axis]).unwrap_or(0);
+            total /= self.cells[longest];
+            self.cells[longest] = self.cells[longest].div_ceil(2);
+            total *= self.cells[longest];
+        }
+    }
+
+    #[inline(always)]
+    fn coordinate(&self, position: &Vector<D>, axis: usize) -> usize {
+        let cell = ((position[axis] - self.origin[axis]) * self.inverse_size).floor();
+        // clamping keeps neighbours in neighbouring cells; a NaN goes to cell 0
+        (cell.max(0.0) as usize).min(self.cells[axis] - 1)
+    }
+
+    /// Index of the cell that holds a position.
+    #[inline(always)]
+    fn cell(&self, position: &Vector<D>) -> usize {
+        let mut cell = 0;
+        for axis in (0..D).rev() {
+            cell = cell * self.cells[axis] + self.coordinate(position, axis);
+        }
+        cell
+    }
+
+    /// Sorts `entries` (index, position) by cell; stable, so the order is a function of the input alone.
+    pub(crate) fn sort<'a>(&mut self, entries: impl Iterator<Item = (u32, &'a Vector<D>)> + Clone) {
+        let total: usize = self.cells.iter().product();
+        self.start.clear();
+        self.start.resize(total + 1, 0);
+        self.cell_of.clear();
+        for (_, position) in entries.clone() {
+            let cell = self.cell(position);
+            self.cell_of.push(cell as u32);
+            self.start[cell + 1] += 1;
+        }
+        for cell in 0..total {
+            self.start[cell + 1] += self.start[cell];
+        }
+        let count = self.cell_of.len();
+        self.index.resize(count, 0);
+        self.position.resize(count, Vector::zeros());
+        for (&cell, (index, position)) in self.cell_of.iter().zip(entries) {
+            let place = self.start[cell as usize] as usize;
+            self.start[cell as usize] += 1;
+            self.index[place] = index;
+            self.position[place] = *position;
+        }
+        // every start has moved to its cell's end, which is the next cell's start
+        self.start.copy_within(0..total, 1);
+        self.start[0] = 0;
+    }
+
+    /// Calls `visit` with every contiguous range of entries in the cells around `position`.
+    #[inline(always)]
+    pub(crate) fn ranges(&self, position: &Vector<D>, mut visit: impl FnMut(std::ops::Range<usize>)) {
+        let centre: [usize; D] = std::array::from_fn(|axis| self.coordinate(position, axis));
+        let low = |axis: usize| centre[axis].saturating_sub(1);
+        let high = |axis: usize| (centre[axis] + 1).min(self.cells[axis] - 1);
+        let planes = if D == 3 { low(2)..=high(2) } else { 0..=0 };
+        for plane in planes {
+            for row in low(1)..=high(1) {
+                let line = (plane * self.cells[1] + row) * self.cells[0];
+                visit(self.start[line + low(0)] as usize..self.start[line + high(0) + 1] as usize);
+            }
+        }
+    }
+}

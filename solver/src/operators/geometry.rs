@@ -1,0 +1,140 @@
+//! One pass over the neighbours for all that depends on positions and pressure: the moment matrix with its
+//! corrections, the corrected pressure gradient, and the stress as the divergence takes it.
+
+use super::correction::corrections;
+use crate::kernel::Kernel;
+use crate::lanes::algebra::{accumulate, difference, dot, reduce_vector, splat_vector};
+use crate::lanes::{InstructionSet, LaneIndices, LanePass, Lanes};
+use crate::neighbours::VerletList;
+use crate::numerics::MomentumOperator;
+use crate::particles::Particles;
+use crate::records::{self, Records};
+use crate::vector::{Tensor, Vector, deviator, strain_rate};
+use rayon::prelude::*;
+
+/// The constants of the pass.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Geometry<'a, const D: usize> {
+    pub(crate) kernel: Kernel<D>,
+    pub(crate) list: &'a VerletList,
+    pub(crate) instruction_set: InstructionSet,
+    pub(crate) momentum_operator: MomentumOperator,
+    /// (C_s Δ)² `[m²]` of the eddy viscosity (5).
+    pub(crate) mixing_area: f64,
+}
+
+/// Values of a neighbour's record: position, volume, pressure.
+pub(crate) const fn values(dimension: usize) -> usize {
+    dimension + 2
+}
+
+struct Output<'a, const D: usize> {
+    correction: &'a mut [Tensor<D>],
+    force_correction: &'a mut [Tensor<D>],
+    pressure_gradient: &'a mut [Vector<D>],
+    flux: &'a mut [Tensor<D>],
+}
+
+impl<const D: usize> Geometry<'_, D> {
+    /// Updates corrections, pressure gradients and fluxes of the flow particles.
+    pub(crate) fn run(&self, particles: &mut Particles<D>) {
+        const BLOCK: usize = crate::neighbours::BLOCK;
+        let flow = particles.flow_count();
+        let mut records = std::mem::replace(&mut particles.geometry_records, Records::new(0));
+        let shared = &*particles;
+        records.fill(particles.position.len(), |index, record| {
+            record.vector(&shared.position[index]);
+            record.scalar(shared.volume[index]);
+            record.scalar(shared.pressure[index]);
+        });
+        particles.geometry_records = records;
+        let mut correction = std::mem::take(&mut particles.correction);
+        let mut force_correction = std::mem::take(&mut particles.force_correction);
+        let mut pressure_gradient = std::mem::take(&mut particles.pressure_gradient);
+        let mut flux = std::mem::take(&mut particles.flux);
+        let shared = &*particles;
+        (
+            correction.par_chunks_mut(BLOCK),
+            force_correction.par_chunks_mut(BLOCK),
+            pressure_gradient[..flow].par_chunks_mut(BLOCK),
+            flux[..flow].par_chunks_mut(BLOCK),
+        )
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(4)
+            .for_each(|(block, (correction, force_correction, pressure_gradient, flux))| {
+                let out = Output { correction, force_correction, pressure_gradient, flux };
+                self.instruction_set.run(Pass { constants: self, particles: shared, first: block * BLOCK, out });
+            });
+        particles.correction = correction;
+        particles.force_correction = force_correction;
+        particles.pressure_gradient = pressure_gradient;
+        particles.flux = flux;
+    }
+}
+
+struct Pass<'a, const D: usize> {
+    constants: &'a Geometry<'a, D>,
+    particles: &'a Particles<D>,
+    first: usize,
+    out: Output<'a, D>,
+}
+
+impl<const D: usize> LanePass for Pass<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let Self { constants, particles, first, out } = self;
+        let total = particles.position.len();
+        let zero = V::splat(0.0);
+        for offset in 0..out.flux.len() {
+            let a = first + offset;
+            let place = splat_vector::<V, D>(&particles.position[a]);
+            let pressure_a = V::splat(particles.pressure[a]);
+            // M is symmetric: only the upper triangle is summed
+            let mut moment = [[zero; D]; D];
+            let mut gradient = [zero; D];
+            let row = constants.list.row(a);
+            for chunk in row.flow.iter().chain(row.wall) {
+                let b = LaneIndices::new(chunk, total);
+                let record = particles.geometry_records.load::<V>(const { values(D).div_ceil(4) }, &b);
+                let position = records::vector::<V, D>(&record, 0);
+                let volume = records::scalar(&record, D);
+                let pressure = records::scalar(&record, D + 1);
+                let r = difference(&place, &position);
+                let weight = volume * constants.kernel.gradient_factor(dot(&r, &r));
+                accumulate(&mut gradient, (pressure - pressure_a) * weight, &r);
+                for i in 0..D {
+                    let weighted = weight * r[i];
+                    for j in i..D {
+                        moment[i][j] = moment[i][j] - weighted * r[j];
+                    }
+                }
+            }
+            let mut symmetric = Tensor::<D>::zeros();
+            for i in 0..D {
+                for j in i..D {
+                    symmetric[(i, j)] = moment[i][j].sum();
+                    symmetric[(j, i)] = symmetric[(i, j)];
+                }
+            }
+            let (for_gradients, for_forces) = corrections(&symmetric);
+            out.correction[offset] = for_gradients;
+            out.force_correction[offset] = match constants.momentum_operator {
+                MomentumOperator::SingleDivergence => for_forces,
+                _ => Tensor::identity(),
+            };
+            out.pressure_gradient[offset] = for_gradients * reduce_vector(&gradient);
+            let mut stress = particles.stress[a];
+            if constants.mixing_area > 0.0 {
+                // 2 ρ ν_s ε′ with ν_s = (C_s Δ)² |γ̇|, (5)
+                let rate = deviator(&strain_rate(&particles.velocity_gradient[a]));
+                let shear_rate = (2.0 * crate::vector::double_contraction(&rate, &rate)).sqrt();
+                stress += rate * (2.0 * particles.density[a] * constants.mixing_area * shear_rate);
+            }
+            for axis in 0..D {
+                stress[(axis, axis)] -= particles.pressure[a];
+            }
+            out.flux[offset] = stress * out.force_correction[offset];
+        }
+    }
+}

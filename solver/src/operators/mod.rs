@@ -1,0 +1,4 @@
+//! Discrete differential operators and their corrections.
+
+pub mod correction;
+pub(crate) mod geometry;

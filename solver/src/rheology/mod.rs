@@ -1,0 +1,150 @@
+//! Constitutive laws. A law knows nothing of particles: it turns a local state into a deviatoric stress.
+//!
+//! Two kinds of law share one enum: viscous laws (shear rate, pressure → viscosity) and plastic laws with a
+//! memory of the stress (trial stress → admissible stress). A new law is one file and one line in `laws!`.
+//!
+//! Everywhere |γ̇| = √(2 ε′:ε′) `[1/s]` and τ = √(½ s:s) `[Pa]`, so that in simple shear |γ̇| = |du/dy| and
+//! τ = |s_xy|. A source that measures the strain rate by |S| = √(S:S) = |γ̇|/√2 means by its yield stress √2
+//! times the one here.
+
+mod bingham;
+mod herschel_bulkley;
+mod mu_i;
+mod newtonian;
+mod parameter_range;
+mod regularisation;
+mod regularised_mu_i;
+mod stress_update;
+
+pub use bingham::Bingham;
+pub use herschel_bulkley::HerschelBulkley;
+pub use mu_i::MuI;
+pub use newtonian::Newtonian;
+pub use regularised_mu_i::RegularisedMuI;
+
+use crate::vector::Tensor;
+use serde::{Deserialize, Serialize};
+
+/// A parameter outside its range: the field's name, its value, the rule it breaks, and what to do about it.
+pub type ParameterProblem = (&'static str, f64, &'static str, &'static str);
+
+/// A law whose deviatoric stress follows from the present strain rate alone: s = 2 η(|γ̇|, p) ε′.
+pub trait ViscousLaw {
+    /// Dynamic viscosity η `[Pa·s]` at a shear rate |γ̇| = √(2 ε′:ε′) `[1/s]` and a pressure `[Pa]`.
+    fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64;
+
+    /// Upper bound `[Pa·s]` of the viscosity over all shear rates at a pressure `[Pa]`: what limits an explicit time step.
+    fn largest_viscosity(&self, pressure: f64) -> f64;
+}
+
+/// A law that carries the stress along: elastic up to a yield stress, then a plastic shear rate.
+pub trait PlasticLaw {
+    /// Equivalent shear stress `[Pa]` at the end of a time step `[s]` whose elastic trial gives
+    /// `trial_shear_stress` `[Pa]`, at a pressure `[Pa]` and a shear modulus `[Pa]`.
+    fn admissible_shear_stress(
+        &self,
+        trial_shear_stress: f64,
+        pressure: f64,
+        shear_modulus: f64,
+        time_step: f64,
+    ) -> f64;
+
+    /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]`.
+    fn yield_stress(&self, pressure: f64) -> f64;
+
+    /// Apparent viscosity τ/|γ̇| `[Pa·s]` of the steady flow at a shear rate `[1/s]` and a pressure `[Pa]`;
+    /// finite also at rest. For diagnostics: the stress update does not use it.
+    fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64;
+}
+
+macro_rules! laws {
+    (viscous: [$($viscous:ident),* $(,)?], plastic: [$($plastic:ident),* $(,)?] $(,)?) => {
+        /// The constitutive law of one material, chosen by its `law` key, for example `law = "mu-i"`.
+        #[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
+        #[serde(tag = "law", rename_all = "kebab-case")]
+        pub enum Rheology {
+            $(#[doc = concat!("Viscous: [`", stringify!($viscous), "`].")] $viscous($viscous),)*
+            $(#[doc = concat!("Plastic: [`", stringify!($plastic), "`].")] $plastic($plastic),)*
+        }
+
+        impl Rheology {
+            /// Deviatoric stress `[Pa]` after a time step `[s]`, shape `[D, D]`.
+            ///
+            /// `previous` is the deviatoric stress `[Pa]` before the step (viscous laws do not look at it),
+            /// `velocity_gradient` `[1/s]` has `[i][j] = ∂v_i/∂x_j`, pressure and shear modulus are in `[Pa]`.
+            /// A plastic law has no stress at `pressure` ≤ 0; a viscous one has whatever its viscosity gives.
+            #[inline]
+            #[must_use]
+            pub fn updated_stress<const D: usize>(
+                &self,
+                previous: &Tensor<D>,
+                velocity_gradient: &Tensor<D>,
+                pressure: f64,
+                shear_modulus: f64,
+                time_step: f64,
+            ) -> Tensor<D> {
+                match self {
+                    $(Self::$viscous(law) => stress_update::viscous(law, velocity_gradient, pressure),)*
+                    $(Self::$plastic(law) => {
+                        stress_update::plastic(law, previous, velocity_gradient, pressure, shear_modulus, time_step)
+                    })*
+                }
+            }
+
+            /// Apparent viscosity `[Pa·s]` at a shear rate `[1/s]` and a pressure `[Pa]`, finite for every law.
+            #[inline]
+            #[must_use]
+            pub fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64 {
+                match self {
+                    $(Self::$viscous(law) => law.viscosity(shear_rate, pressure),)*
+                    $(Self::$plastic(law) => law.viscosity(shear_rate, pressure),)*
+                }
+            }
+
+            /// Viscosity `[Pa·s]` that bounds an explicit time step at a pressure `[Pa]`; 0 for plastic laws,
+            /// which only the acoustic bound limits.
+            #[inline]
+            #[must_use]
+            pub fn largest_viscosity(&self, pressure: f64) -> f64 {
+                match self {
+                    $(Self::$viscous(law) => law.largest_viscosity(pressure),)*
+                    $(Self::$plastic(_) => 0.0,)*
+                }
+            }
+
+            /// Whether the law carries the stress from step to step.
+            #[inline]
+            #[must_use]
+            pub fn is_plastic(&self) -> bool {
+                match self {
+                    $(Self::$viscous(_) => false,)*
+                    $(Self::$plastic(_) => true,)*
+                }
+            }
+
+            /// Friction coefficient `[-]` of a contact with a rough wall: the yield stress at unit pressure;
+            /// 0 for viscous laws.
+            #[must_use]
+            pub fn contact_friction(&self) -> f64 {
+                match self {
+                    $(Self::$viscous(_) => 0.0,)*
+                    $(Self::$plastic(law) => law.yield_stress(1.0),)*
+                }
+            }
+
+            /// The first parameter outside its range, if any.
+            #[must_use]
+            pub fn parameter_problem(&self) -> Option<ParameterProblem> {
+                match self {
+                    $(Self::$viscous(law) => law.parameter_problem(),)*
+                    $(Self::$plastic(law) => law.parameter_problem(),)*
+                }
+            }
+        }
+    };
+}
+
+laws! {
+    viscous: [Newtonian, Bingham, HerschelBulkley, RegularisedMuI],
+    plastic: [MuI],
+}

@@ -1,0 +1,5 @@
+//! Closures for what the particles do not resolve.
+
+mod smagorinsky;
+
+pub use smagorinsky::Smagorinsky;

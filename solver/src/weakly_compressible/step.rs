@@ -1,0 +1,128 @@
+//! One time step of model A, readable on a page.
+
+use crate::boundary::contact;
+use crate::divergence::{Divergence, Quantity};
+use crate::numerics::{Contact, MomentumOperator};
+use crate::simulation::Simulation;
+use crate::terms::continuity::GradientUse;
+use crate::vector::Vector;
+use rayon::prelude::*;
+
+/// A speed beyond this many sound speeds is a divergence `[-]`: weak compressibility has long been lost.
+const LARGEST_MACH_NUMBER: f64 = 3.0;
+
+impl<const D: usize> Simulation<D> {
+    /// Symplectic Euler: forces at (x, v)ⁿ → vⁿ⁺¹ → ρⁿ⁺¹, sⁿ⁺¹ → xⁿ⁺¹.
+    pub(crate) fn advance(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
+        self.update_pressure();
+        self.images.copy_scalars(&mut self.particles.pressure);
+        self.images.copy_scalars(&mut self.particles.volume);
+        self.images.copy_scalars(&mut self.particles.density);
+        self.images.copy_tensors(&mut self.particles.stress);
+        self.model.walls().stress(&mut self.particles);
+        self.images.copy_scalars(&mut self.particles.pressure);
+        match self.model.numerics.momentum_operator {
+            MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence => {
+                self.model.geometry().run(&mut self.particles);
+                self.images.copy_vectors(&mut self.particles.pressure_gradient);
+                self.images.copy_tensors(&mut self.particles.flux);
+                self.images.copy_tensors(&mut self.particles.velocity_gradient);
+                self.model.momentum().run(&mut self.particles);
+            }
+            MomentumOperator::Pairwise | MomentumOperator::PairwiseCorrected => {
+                if self.model.gradient_use() != GradientUse::None {
+                    self.model.geometry().run(&mut self.particles);
+                    self.images.copy_vectors(&mut self.particles.pressure_gradient);
+                }
+                self.images.copy_scalars(&mut self.particles.viscosity);
+                self.images.copy_scalars(&mut self.particles.artificial_viscosity);
+                self.model.pairwise().run(&mut self.particles);
+            }
+        }
+        self.update_velocity(time_step)?;
+        self.update_density_and_stress(time_step)?;
+        self.update_position(time_step);
+        Ok(())
+    }
+
+    /// Velocity gradient and stress of the initial state, without advancing it.
+    pub(crate) fn prime(&mut self) -> Result<(), Divergence<D>> {
+        self.update_pressure();
+        self.images.copy_scalars(&mut self.particles.pressure);
+        self.images.copy_scalars(&mut self.particles.volume);
+        self.model.walls().stress(&mut self.particles);
+        self.images.copy_scalars(&mut self.particles.pressure);
+        self.model.geometry().run(&mut self.particles);
+        self.largest_speed = self.particles.velocity.iter().fold(0.0_f64, |most, v| most.max(v.norm()));
+        self.update_density_and_stress(0.0)
+    }
+
+    fn update_pressure(&mut self) {
+        let flow = self.particles.flow_count();
+        let equation_of_state = self.model.equation_of_state;
+        let particles = &mut self.particles;
+        (&mut particles.pressure[..flow], &mut particles.volume[..flow], &particles.density[..flow], &particles.mass)
+            .into_par_iter()
+            .with_min_len(4096)
+            .for_each(|(pressure, volume, density, mass)| {
+                *pressure = equation_of_state.pressure(*density);
+                *volume = mass / density;
+            });
+    }
+
+    fn update_velocity(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
+        let flow = self.particles.flow_count();
+        let limit = (LARGEST_MACH_NUMBER * self.model.equation_of_state.sound_speed()).powi(2);
+        let range = match self.model.numerics.contact {
+            Contact::HalfSpacing => 0.5 * self.model.spacing,
+            Contact::None => f64::NEG_INFINITY,
+        };
+        let (walls, friction) = (&self.model.wall_planes, self.model.contact_friction);
+        let particles = &mut self.particles;
+        let (largest, bad) = (&mut particles.velocity[..flow], &particles.acceleration, &particles.position[..flow])
+            .into_par_iter()
+            .with_min_len(4096)
+            .enumerate()
+            .map(|(index, (velocity, acceleration, position))| {
+                *velocity += acceleration * time_step;
+                *velocity += contact::impulse(walls, position, velocity, range, friction);
+                let square = velocity.norm_squared();
+                // written so that a NaN is bad
+                (square, if square <= limit { usize::MAX } else { index })
+            })
+            .reduce(|| (0.0, usize::MAX), |a, b| (a.0.max(b.0), a.1.min(b.1)));
+        self.largest_speed = largest.sqrt();
+        if bad != usize::MAX {
+            return Err(self.divergence(bad, Quantity::Speed));
+        }
+        Ok(())
+    }
+
+    fn update_density_and_stress(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
+        self.images.copy_vectors(&mut self.particles.velocity);
+        self.model.walls().velocity(&mut self.particles);
+        self.images.copy_vectors(&mut self.particles.velocity);
+        let extremes = self.model.continuity(time_step).run(&mut self.particles);
+        self.kinematic_viscosity = match self.model.gradient_use() {
+            GradientUse::None => self.particles.viscosity[0] / self.model.equation_of_state.reference_density,
+            _ => extremes.kinematic_viscosity,
+        };
+        match extremes.bad_density {
+            Some(bad) => Err(self.divergence(bad, Quantity::Density)),
+            None => Ok(()),
+        }
+    }
+
+    fn update_position(&mut self, time_step: f64) {
+        let flow = self.particles.flow_count();
+        let particles = &mut self.particles;
+        (&mut particles.position[..flow], &particles.velocity[..flow])
+            .into_par_iter()
+            .with_min_len(4096)
+            .for_each(|(position, velocity): (&mut Vector<D>, &Vector<D>)| *position += velocity * time_step);
+        self.images.copy_positions(&mut self.particles.position);
+        self.displacement += time_step * self.largest_speed;
+        self.time += time_step;
+        self.steps += 1;
+    }
+}
