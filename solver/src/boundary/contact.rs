@@ -41,7 +41,7 @@ mod tests {
         let velocity = Vector::<2>::new(2.0, -1.0);
         let after = velocity + impulse(&[bed], &position, &velocity, 0.5, 0.4);
         assert!((after - Vector::<2>::new(1.6, 0.0)).norm() < 1e-15);
-        assert_eq!(impulse(&[bed], &position, &Vector::<2>::new(2.0, 1.0), 0.5, 0.4), Vector::zeros());
-        assert_eq!(impulse(&[bed], &Vector::<2>::new(0.0, 0.6), &velocity, 0.5, 0.4), Vector::zeros());
+        assert_eq!(impulse(&[bed], &position, &Vector::<2>::new(2.0, 1.0), 0.5, 0.4), Vector::<2>::zeros());
+        assert_eq!(impulse(&[bed], &Vector::<2>::new(0.0, 0.6), &velocity, 0.5, 0.4), Vector::<2>::zeros());
     }
 }

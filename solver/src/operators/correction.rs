@@ -101,11 +101,11 @@ mod tests {
     #[test]
     fn an_isolated_particle_falls_back_to_the_identity() {
         let (gradient, force) = corrections(&Tensor::<2>::zeros());
-        assert_eq!(gradient, Tensor::identity());
-        assert_eq!(force, Tensor::identity());
+        assert_eq!(gradient, Tensor::<2>::identity());
+        assert_eq!(force, Tensor::<2>::identity());
         // a flat cluster: no information across
         let (gradient, _) = corrections(&Tensor::<2>::new(1.0, 0.0, 0.0, 0.05));
-        assert_eq!(gradient, Tensor::identity());
+        assert_eq!(gradient, Tensor::<2>::identity());
     }
 
     #[test]
@@ -113,6 +113,6 @@ mod tests {
         let half = Tensor::<2>::new(1.0, 0.0, 0.0, 0.5);
         let (gradient, force) = corrections(&half);
         assert!((gradient[(1, 1)] - 2.0).abs() < 1e-14);
-        assert_eq!(force, Tensor::identity());
+        assert_eq!(force, Tensor::<2>::identity());
     }
 }
