@@ -62,6 +62,8 @@ pub struct Numerics {
     pub smagorinsky_constant: f64,
     /// Coefficient of the velocity hourglass control `[-]`.
     pub hourglass: f64,
+    /// Damping ζ of elastic shear below the yield, as a viscosity ζ ρ0 c_s h `[-]`; none where the material yields.
+    pub elastic_damping: f64,
     /// Elastic shear modulus over bulk modulus G/K `[-]`, for laws with a yield by return mapping.
     pub shear_modulus_ratio: f64,
     /// Courant number of the sound speed `[-]`.
@@ -87,6 +89,7 @@ impl Default for Numerics {
             viscosity_switch: ViscositySwitch::Constant,
             smagorinsky_constant: 0.0,
             hourglass: 0.2,
+            elastic_damping: 0.5,
             shear_modulus_ratio: 0.3,
             acoustic_courant: 0.4,
             advective_courant: 0.25,
@@ -136,6 +139,7 @@ impl Numerics {
                 "between 0 and 1",
             ),
             ("hourglass", self.hourglass, within(self.hourglass, 0.0, 2.0), "between 0 and 2"),
+            ("elastic_damping", self.elastic_damping, within(self.elastic_damping, 0.0, 1.0), "between 0 and 1"),
             (
                 "shear_modulus_ratio",
                 self.shear_modulus_ratio,

@@ -9,7 +9,8 @@ use crate::neighbours::VerletList;
 use crate::numerics::MomentumOperator;
 use crate::particles::Particles;
 use crate::records::{self, Records};
-use crate::vector::{Tensor, Vector, deviator, strain_rate};
+use crate::rheology::Rheology;
+use crate::vector::{Tensor, Vector, deviator, equivalent_shear_stress, strain_rate};
 use rayon::prelude::*;
 
 /// The constants of the pass.
@@ -19,6 +20,10 @@ pub(crate) struct Geometry<'a, const D: usize> {
     pub(crate) list: &'a VerletList,
     pub(crate) instruction_set: InstructionSet,
     pub(crate) momentum_operator: MomentumOperator,
+    pub(crate) rheology: &'a Rheology,
+    /// ζ ρ0 c_s h `[Pa·s]`: viscosity that damps elastic waves below the yield. Without it an arrested layer
+    /// swings for ever; a flowing one does not feel it.
+    pub(crate) elastic_viscosity: f64,
     /// (C_s Δ)² `[m²]` of the eddy viscosity (5).
     pub(crate) mixing_area: f64,
 }
@@ -125,6 +130,13 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             };
             out.pressure_gradient[offset] = for_gradients * reduce_vector(&gradient);
             let mut stress = particles.stress[a];
+            if constants.elastic_viscosity > 0.0 && constants.rheology.is_plastic() {
+                let elasticity = constants.rheology.elasticity(equivalent_shear_stress(&stress), particles.pressure[a]);
+                if elasticity > 0.0 {
+                    let rate = deviator(&strain_rate(&particles.velocity_gradient[a]));
+                    stress += rate * (2.0 * elasticity * constants.elastic_viscosity);
+                }
+            }
             if constants.mixing_area > 0.0 {
                 // 2 ρ ν_s ε′ with ν_s = (C_s Δ)² |γ̇|, (5)
                 let rate = deviator(&strain_rate(&particles.velocity_gradient[a]));

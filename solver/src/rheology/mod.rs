@@ -122,6 +122,21 @@ macro_rules! laws {
                 }
             }
 
+            /// How far below its yield a plastic material is: 1 where the equivalent shear stress `[Pa]` is more than
+            /// one per cent below the yield stress at a pressure `[Pa]`, falling to 0 at the yield `[-]`; 0 for viscous
+            /// laws and without pressure.
+            #[inline]
+            #[must_use]
+            pub fn elasticity(&self, shear_stress: f64, pressure: f64) -> f64 {
+                match self {
+                    $(Self::$viscous(_) => 0.0,)*
+                    $(Self::$plastic(law) => {
+                        let yield_stress = law.yield_stress(pressure);
+                        if yield_stress > 0.0 { (100.0 * (1.0 - shear_stress / yield_stress)).clamp(0.0, 1.0) } else { 0.0 }
+                    })*
+                }
+            }
+
             /// Friction coefficient `[-]` of a contact with a rough wall: the yield stress at unit pressure;
             /// 0 for viscous laws.
             #[must_use]

@@ -75,6 +75,12 @@ impl<const D: usize> Model<D> {
             list: &self.list,
             instruction_set: self.instruction_set,
             momentum_operator: self.numerics.momentum_operator,
+            rheology: &self.rheology,
+            elastic_viscosity: self.numerics.elastic_damping
+                * self.equation_of_state.reference_density
+                * self.equation_of_state.sound_speed()
+                * self.numerics.shear_modulus_ratio.sqrt()
+                * self.kernel.smoothing_length(),
             mixing_area: (self.numerics.smagorinsky_constant * self.spacing).powi(2),
         }
     }

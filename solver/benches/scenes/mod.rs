@@ -1,0 +1,123 @@
+//! The blocks that the benches step: a dam at rest beside a symmetry plane, and a periodic block that drifts.
+
+use bagnold_solver::boundary::{AxisBoundary, Domain, Wall, WallTreatment, wall};
+use bagnold_solver::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::numerics::{Contact, MomentumOperator, Numerics};
+use bagnold_solver::rheology::{MuI, Newtonian, Rheology};
+use bagnold_solver::scene::{Flow, Scene};
+use bagnold_solver::vector::{Tensor, Vector};
+use rand::{RngExt, SeedableRng};
+
+const GRAVITY: f64 = 9.81;
+/// Height of every dam `[m]`; the width is the same, so that the spacing alone changes with the size.
+const HEIGHT: f64 = 1.0;
+const DENSITY: f64 = 1000.0;
+
+/// What is stepped.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Law {
+    /// Plain WCSPH: pairwise operators, no coupling, no damping but (15), about 20 neighbours.
+    Newtonian,
+    /// The recipe's step at a smoothing length over spacing `[-]`.
+    MuI {
+        /// h/Δ `[-]`: 1.3 gives about 20 neighbours, 1.5 about 28.
+        smoothing_ratio: f64,
+    },
+}
+
+impl Law {
+    pub(crate) fn name(self) -> String {
+        match self {
+            Self::Newtonian => "newtonian_h_over_dx_1.3".to_owned(),
+            Self::MuI { smoothing_ratio } => format!("mu_i_h_over_dx_{smoothing_ratio}"),
+        }
+    }
+
+    fn numerics(self) -> Numerics {
+        match self {
+            Self::Newtonian => Numerics {
+                momentum_operator: MomentumOperator::Pairwise,
+                density_coupling: 0.0,
+                hourglass: 0.0,
+                wall_treatment: WallTreatment::Paper,
+                contact: Contact::None,
+                smoothing_ratio: 1.3,
+                ..Numerics::default()
+            },
+            Self::MuI { smoothing_ratio } => Numerics { smoothing_ratio, ..Numerics::default() },
+        }
+    }
+
+    fn rheology(self) -> Rheology {
+        match self {
+            Self::Newtonian => Rheology::Newtonian(Newtonian { viscosity: 0.001 }),
+            Self::MuI { .. } => Rheology::MuI(MuI {
+                static_friction: 0.382,
+                limiting_friction: 0.643,
+                reference_inertia: 0.279,
+                grain_diameter: 2e-3,
+                grain_density: 1600.0,
+            }),
+        }
+    }
+}
+
+/// A square block of about `size` particles on a bed, hydrostatic and at rest beside a symmetry plane, free to
+/// collapse on its other side.
+pub(crate) fn dam_break(size: usize, law: Law) -> Scene<2> {
+    let cells = (size as f64).sqrt().round() as usize;
+    let spacing = HEIGHT / cells as f64;
+    let equation_of_state = EquationOfState {
+        reference_density: DENSITY,
+        bulk_modulus: 50.0 * DENSITY * GRAVITY * HEIGHT,
+        tension: Tension::Cut,
+    };
+    let pressure = |place: &Vector<2>| DENSITY * GRAVITY * (HEIGHT - place[1]).max(0.0);
+    let flow = lattice(cells, spacing, |place| equation_of_state.density(pressure(place)));
+    let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
+    let walls = vec![Wall { axis: 1, surface: 0.0, side: 1.0, velocity: Vector::zeros() }];
+    let extent = (Vector::<2>::zeros(), Vector::<2>::new(1.5 * HEIGHT, HEIGHT));
+    let wall_particles = wall::fill(&walls, &domain, extent, spacing, 4);
+    Scene {
+        flow,
+        walls,
+        wall_particles,
+        domain,
+        gravity: Vector::<2>::new(0.0, -GRAVITY),
+        spacing,
+        equation_of_state,
+        rheology: law.rheology(),
+        numerics: law.numerics(),
+    }
+}
+
+/// A periodic block of about `size` particles that moves by more than half a list skin in every step, and the same
+/// block at rest.
+pub(crate) fn drifting_and_resting(size: usize, smoothing_ratio: f64) -> [Scene<2>; 2] {
+    let cells = (size as f64).sqrt().round() as usize;
+    let mut resting = dam_break(cells * cells, Law::MuI { smoothing_ratio });
+    resting.flow = lattice(cells, resting.spacing, |_| DENSITY);
+    resting.domain = Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: HEIGHT }; 2] };
+    (resting.walls, resting.wall_particles) = (Vec::new(), Vec::new());
+    resting.gravity = Vector::zeros();
+    let mut drifting = resting.clone();
+    // Δt v = 0.4 h v/c must exceed half the skin, 0.1 h, and stay below the advective bound of 0.25 h
+    drifting.flow.velocity.fill(Vector::<2>::new(0.4, 0.3) * resting.equation_of_state.sound_speed());
+    [drifting, resting]
+}
+
+/// A slightly jittered square lattice of `cells` × `cells` particles at rest.
+fn lattice(cells: usize, spacing: f64, density: impl Fn(&Vector<2>) -> f64) -> Flow<2> {
+    let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(7);
+    let mut flow = Flow::default();
+    for index in 0..cells * cells {
+        let mut place = |cell: usize| (cell as f64 + 0.5 + 0.1 * (random.random::<f64>() - 0.5)) * spacing;
+        let position = Vector::<2>::new(place(index % cells), place(index / cells));
+        flow.density.push(density(&position));
+        flow.position.push(position);
+        flow.velocity.push(Vector::zeros());
+        flow.mass.push(DENSITY * spacing * spacing);
+        flow.stress.push(Tensor::zeros());
+    }
+    flow
+}

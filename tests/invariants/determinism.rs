@@ -1,0 +1,78 @@
+//! The same bits for every number of threads and every instruction set.
+
+use crate::patches::{Disorder, EQUATION_OF_STATE, SPACING, advance, bed, block, open_scene, simulation};
+use bagnold_solver::boundary::{AxisBoundary, wall};
+use bagnold_solver::lanes::InstructionSet;
+use bagnold_solver::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::scene::Scene;
+use bagnold_solver::vector::Vector;
+use rayon::ThreadPoolBuilder;
+
+const STEPS: usize = 200;
+
+/// A column that starts to collapse beside a mirror plane, large enough for every parallel loop to be split.
+fn column<const D: usize>(cells: [usize; D]) -> Scene<D> {
+    let disorder = Disorder { jitter: 0.1, speed: 0.05, ..Disorder::NONE };
+    let height = cells[D - 1] as f64 * SPACING;
+    let mut scene = open_scene(block(cells, disorder, 17));
+    for (position, density) in scene.flow.position.iter().zip(&mut scene.flow.density) {
+        *density = EQUATION_OF_STATE.density(1500.0 * 9.81 * (height - position[D - 1]).max(0.0));
+    }
+    scene.domain.axes[0] = AxisBoundary::Mirror { lower: Some(0.0), upper: None };
+    if D == 3 {
+        scene.domain.axes[1] = AxisBoundary::Periodic { lower: 0.0, upper: cells[1] as f64 * SPACING };
+    }
+    let reach = Vector::<D>::from_fn(|axis, _| (cells[axis] as f64 + 8.0) * SPACING);
+    scene.walls = vec![bed()];
+    scene.wall_particles = wall::fill(&scene.walls, &scene.domain, (Vector::zeros(), reach), SPACING, 4);
+    scene.gravity[D - 1] = -9.81;
+    scene
+}
+
+fn bytes<const D: usize>(scene: &Scene<D>, threads: usize, instruction_set: InstructionSet) -> Vec<u8> {
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
+    pool.install(|| {
+        let mut simulation = simulation(scene.clone());
+        simulation.use_instruction_set(instruction_set);
+        advance(&mut simulation, STEPS);
+        assert!(simulation.neighbour_searches() > 3, "the particles are sorted anew in the run");
+        simulation.snapshot().to_bytes()
+    })
+}
+
+fn check<const D: usize>(scene: &Scene<D>) {
+    let expected = bytes(scene, 1, InstructionSet::best());
+    assert!(expected.iter().any(|&byte| byte != 0));
+    assert!(bytes(scene, 3, InstructionSet::best()) == expected, "three threads change the state");
+    for instruction_set in InstructionSet::available() {
+        let found = bytes(scene, 2, instruction_set);
+        assert!(found == expected, "{} changes the state", instruction_set.name());
+    }
+}
+
+#[test]
+fn a_plane_column_is_the_same_to_the_last_bit() {
+    check(&column([110, 80]));
+}
+
+#[test]
+fn a_column_in_space_is_the_same_to_the_last_bit() {
+    check(&column([13, 12, 14]));
+}
+
+#[test]
+fn the_papers_numerics_are_the_same_to_the_last_bit() {
+    let mut scene = column([60, 40]);
+    scene.numerics = Numerics { momentum_operator: MomentumOperator::Pairwise, ..Numerics::paper() };
+    scene.rheology = crate::patches::SYRUP;
+    check(&scene);
+}
+
+#[test]
+fn one_changed_bit_in_the_start_changes_the_bytes() {
+    let scene = column([20, 12]);
+    let mut other = scene.clone();
+    other.flow.density[7] = other.flow.density[7].next_up();
+    let best = InstructionSet::best();
+    assert!(bytes(&scene, 1, best) != bytes(&other, 1, best), "the comparison can fail");
+}

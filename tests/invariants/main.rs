@@ -1,0 +1,12 @@
+//! What must hold in every run, whatever the case: balances, symmetries, determinism, exact messages.
+
+mod density_coupling;
+mod determinism;
+mod free_fall;
+mod momentum_balance;
+mod neighbour_list;
+mod patches;
+mod scene_errors;
+mod stopping;
+mod symmetries;
+mod walls;

@@ -1,0 +1,186 @@
+//! Cases without their types: what the command line, the report and the tests work with.
+
+use super::parameters::{Changes, is_set, resolve, table_of};
+use super::result::{CaseResult, RunSummary, microseconds_each};
+use super::{Case, CaseFile, Progress, Run, Tier};
+use crate::error::InputError;
+use crate::observe::Recorded;
+use crate::store::Store;
+use sha2::{Digest, Sha256};
+use std::sync::OnceLock;
+
+/// A case whose types are hidden; every [`Case`] is one.
+pub trait AnyCase: Sync {
+    /// Name on the command line and in files.
+    fn name(&self) -> &'static str;
+    /// One line for `bagnold list`.
+    fn summary(&self) -> &'static str;
+    /// The tier's parameters as a complete, commented file for `bagnold run`.
+    fn show(&self, tier: Tier) -> String;
+    /// Types and checks a tier's parameters with the user's changes.
+    ///
+    /// # Errors
+    /// The first field that is unknown, of the wrong type, or breaks a rule.
+    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, InputError>;
+}
+
+/// Checked parameters and the runs that they ask for; each run's record is kept as it comes in.
+pub trait Prepared: Send + Sync {
+    /// Name of the case.
+    fn name(&self) -> &'static str;
+    /// Number of runs.
+    fn run_count(&self) -> usize;
+    /// Full name of a run; empty where the case has a single one.
+    fn variant(&self, run: usize) -> String;
+    /// Expected cost of a run in particle-steps.
+    fn particle_steps(&self, run: usize) -> f64;
+    /// Takes a run's record from the store or simulates it, in the current rayon pool.
+    ///
+    /// # Errors
+    /// Parameters whose combination gives no valid scene.
+    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), InputError>;
+    /// Judges and draws the records. Runs that were not simulated are left out.
+    fn finish(self: Box<Self>) -> CaseResult;
+}
+
+impl<C: Case> AnyCase for C {
+    fn name(&self) -> &'static str {
+        Case::name(self)
+    }
+
+    fn summary(&self) -> &'static str {
+        Case::summary(self)
+    }
+
+    fn show(&self, tier: Tier) -> String {
+        file_text(self, tier, &self.parameters(tier))
+    }
+
+    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, InputError> {
+        let defaults = self.parameters(tier);
+        let parameters = resolve(Case::name(self), &defaults, changes)?;
+        self.check(&parameters).map_err(|error| match (&changes.file, error.field_path()) {
+            (Some((file, _)), Some(field)) if !is_set(changes.settings, field) => error.in_file(file),
+            _ => error,
+        })?;
+        let changed = table_of(&parameters) != table_of(&defaults);
+        Ok(Box::new(Plan::<C> {
+            tier,
+            command: if changed {
+                "bagnold run case.toml".to_owned()
+            } else {
+                format!("bagnold run {} --tier {tier}", Case::name(self))
+            },
+            parameters_toml: file_text(self, tier, &parameters),
+            slots: self.runs(&parameters).into_iter().map(|run| (run, OnceLock::new())).collect(),
+            parameters,
+            case: self,
+        }))
+    }
+}
+
+/// A run and, once it is done, its record and whether that came from the store.
+type Slot<C> = (<C as Case>::Run, OnceLock<(Recorded<<C as Case>::Observation>, bool)>);
+
+struct Plan<C: Case> {
+    case: &'static C,
+    tier: Tier,
+    parameters: C::Parameters,
+    parameters_toml: String,
+    command: String,
+    slots: Vec<Slot<C>>,
+}
+
+impl<C: Case> Prepared for Plan<C> {
+    fn name(&self) -> &'static str {
+        Case::name(self.case)
+    }
+
+    fn run_count(&self) -> usize {
+        self.slots.len()
+    }
+
+    fn variant(&self, run: usize) -> String {
+        self.slots[run].0.variant()
+    }
+
+    fn particle_steps(&self, run: usize) -> f64 {
+        self.slots[run].0.particle_steps()
+    }
+
+    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), InputError> {
+        let (description, slot) = &self.slots[run];
+        let key = store.key(self.name(), description);
+        if let Some(record) = key.as_ref().and_then(|key| store.fetch(key)) {
+            slot.get_or_init(|| (record, true));
+            return Ok(());
+        }
+        let record = self.case.simulate(description, progress)?;
+        if let Some(key) = &key {
+            store.keep(key, &record);
+        }
+        slot.get_or_init(|| (record, false));
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> CaseResult {
+        let plan = *self;
+        let (summaries, records): (Vec<RunSummary>, Vec<_>) = plan
+            .slots
+            .into_iter()
+            .filter_map(|(run, slot)| slot.into_inner().map(|(record, from_store)| (run, record, from_store)))
+            .map(|(run, record, from_store)| (summary(&run, &record, from_store), (run, record)))
+            .unzip();
+        let case = plan.case;
+        let metrics = case.metrics(&plan.parameters, &records);
+        let figures = case.figures(&plan.parameters, &records);
+        let tables = case.tables(&plan.parameters, &records);
+        CaseResult {
+            name: Case::name(case).to_owned(),
+            summary: Case::summary(case).to_owned(),
+            description: case.description().to_owned(),
+            tier: plan.tier,
+            parameters_toml: plan.parameters_toml,
+            command: plan.command,
+            metrics,
+            figures,
+            tables,
+            state_hash: hash_of_states(&summaries),
+            runs: summaries,
+            frames: records.into_iter().map(|(_, record)| record.frames).collect(),
+        }
+    }
+}
+
+fn file_text<C: Case>(case: &C, tier: Tier, parameters: &C::Parameters) -> String {
+    let text = toml::to_string(parameters).expect("a case's parameters are structs that TOML can hold");
+    CaseFile::text(case.name(), tier, &text, case.field_notes())
+}
+
+fn summary<R: Run, O>(run: &R, record: &Recorded<O>, from_store: bool) -> RunSummary {
+    RunSummary {
+        variant: run.variant(),
+        outcome: record.outcome.clone(),
+        particles: record.particles,
+        steps: record.steps,
+        simulated_time: record.simulated_time,
+        wall_seconds: record.wall_seconds,
+        threads: record.threads,
+        microseconds_per_particle_step: microseconds_each(
+            record.wall_seconds,
+            record.particles as f64 * record.steps as f64,
+        ),
+        state_hash: record.state_hash.clone(),
+        from_store,
+    }
+}
+
+fn hash_of_states(runs: &[RunSummary]) -> String {
+    let mut hash = Sha256::new();
+    for run in runs {
+        hash.update(run.state_hash.as_bytes());
+        // A separator, so that no two lists of hashes run together to the same bytes.
+        hash.update([0]);
+    }
+    crate::store::hexadecimal(&hash.finalize())
+}

@@ -1,0 +1,140 @@
+//! A case as a TOML file: `case` and `tier` on top, the parameters below.
+
+use super::Tier;
+use crate::error::{InputError, nearest};
+use std::path::{Path, PathBuf};
+use toml::{Table, Value};
+
+/// A file that was read, its parameters still untyped.
+#[derive(Debug, Clone)]
+pub struct CaseFile {
+    /// Where it stands.
+    pub path: PathBuf,
+    /// The case that it describes.
+    pub case: String,
+    /// The tier whose parameters fill what the file leaves out.
+    pub tier: Option<Tier>,
+    /// Everything else.
+    pub fields: Table,
+}
+
+impl CaseFile {
+    /// Reads a file; its parameters are checked when the case takes them.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is not TOML, or does not name its case.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let text = std::fs::read_to_string(path).map_err(|error| InputError::unreadable(path, &error))?;
+        Self::parse(path, &text)
+    }
+
+    fn parse(path: &Path, text: &str) -> Result<Self, InputError> {
+        let mut fields: Table = toml::from_str(text).map_err(|error| {
+            let (line, column) = position(text, error.span().map_or(0, |span| span.start));
+            InputError::Syntax { file: path.to_owned(), line, column, message: error.message().to_owned() }
+        })?;
+        let wrong = |field: &str, value: &Value, rule: &str, remedy: &str| {
+            InputError::field(field, value, rule, remedy).in_file(path)
+        };
+        let case = match fields.remove("case") {
+            Some(Value::String(case)) => case,
+            Some(other) => return Err(wrong("case", &other, "the name of a case", "`bagnold list` prints the names")),
+            None => return Err(InputError::NoCase { file: path.to_owned() }),
+        };
+        let tier = match fields.remove("tier") {
+            None => None,
+            Some(value) => Some(value.clone().try_into::<Tier>().map_err(|_| {
+                let rule = "one of `quick`, `paper`, `fine`";
+                let guess = value.as_str().and_then(|name| nearest(name, ["quick", "paper", "fine"]));
+                let remedy = guess
+                    .map_or_else(|| "leave it out for `quick`".to_owned(), |guess| format!("did you mean `{guess}`?"));
+                wrong("tier", &value, rule, &remedy)
+            })?),
+        };
+        Ok(Self { path: path.to_owned(), case, tier, fields })
+    }
+
+    /// The text of a complete file: the parameters in the order of their struct, each with its note.
+    #[must_use]
+    pub(super) fn text(case: &str, tier: Tier, parameters: &str, notes: &[(&str, &str)]) -> String {
+        let mut text = format!("case = \"{case}\"\ntier = \"{tier}\"\n");
+        if !parameters.starts_with('[') {
+            text.push('\n');
+        }
+        let mut section = String::new();
+        for line in parameters.lines() {
+            if let Some(name) = line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
+                section = format!("{name}.");
+                if !text.ends_with("\n\n") {
+                    text.push('\n');
+                }
+            }
+            text.push_str(line);
+            let path = line.split_once(" = ").map(|(key, _)| format!("{section}{key}"));
+            if let Some((_, note)) = path.and_then(|path| notes.iter().find(|(field, _)| *field == path)) {
+                text.push_str("  # ");
+                text.push_str(note);
+            }
+            text.push('\n');
+        }
+        // The serialiser already parts its tables by an empty line, and so does the loop above.
+        text.replace("\n\n\n", "\n\n")
+    }
+}
+
+/// Line and column of a byte offset, both from 1.
+fn position(text: &str, offset: usize) -> (usize, usize) {
+    let before = text.get(..offset).unwrap_or(text);
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+    (line, column)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(text: &str) -> String {
+        CaseFile::parse(Path::new("case.toml"), text).expect_err("bad file").to_string()
+    }
+
+    #[test]
+    fn a_file_must_be_toml_and_name_its_case() {
+        assert_eq!(
+            message("depth = 1.0"),
+            "case.toml: `case` is missing, but must name the case that the file describes; add `case = \"…\"` (`bagnold list` prints the names)"
+        );
+        assert_eq!(
+            message("case = 3"),
+            "case.toml: `case` is 3, but must be the name of a case; `bagnold list` prints the names"
+        );
+        assert_eq!(
+            message("case = \"film\"\ntier = \"papre\""),
+            "case.toml: `tier` is \"papre\", but must be one of `quick`, `paper`, `fine`; did you mean `paper`?"
+        );
+        assert!(message("case = \"film\"\ndepth = = 1").starts_with("case.toml: line 2, column 9: "));
+    }
+
+    #[test]
+    fn an_unreadable_file_is_named_with_the_reason() {
+        let error = CaseFile::read(Path::new("no/such/case.toml")).expect_err("no such file");
+        assert_eq!(
+            error.to_string(),
+            "no/such/case.toml: cannot be read (no such file or directory); check the path and its permissions"
+        );
+    }
+
+    #[test]
+    fn notes_stand_behind_their_fields() {
+        let text = CaseFile::text(
+            "film",
+            Tier::Paper,
+            "depth = 0.01\n\n[fluid]\ndensity = 1000.0\n",
+            &[("depth", "height of the layer [m]"), ("fluid.density", "[kg/m³]")],
+        );
+        assert_eq!(
+            text,
+            "case = \"film\"\ntier = \"paper\"\n\ndepth = 0.01  # height of the layer [m]\n\n[fluid]\ndensity = 1000.0  # [kg/m³]\n"
+        );
+    }
+}

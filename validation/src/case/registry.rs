@@ -1,0 +1,49 @@
+//! The cases that the program knows, by name.
+
+use super::AnyCase;
+use crate::error::{InputError, nearest};
+
+/// A list of cases with unique names.
+#[derive(Clone, Copy)]
+pub struct Registry(&'static [&'static dyn AnyCase]);
+
+impl Registry {
+    /// A registry of these cases, which `list` and the report keep in this order.
+    #[must_use]
+    pub const fn new(cases: &'static [&'static dyn AnyCase]) -> Self {
+        Self(cases)
+    }
+
+    /// All cases.
+    pub fn iter(self) -> impl Iterator<Item = &'static dyn AnyCase> {
+        self.0.iter().copied()
+    }
+
+    /// The case of that name.
+    ///
+    /// # Errors
+    /// An unknown name; the error suggests the nearest one.
+    pub fn find(self, name: &str) -> Result<&'static dyn AnyCase, InputError> {
+        self.iter().find(|case| case.name() == name).ok_or_else(|| InputError::UnknownCase {
+            file: None,
+            name: name.to_owned(),
+            nearest: nearest(name, self.iter().map(AnyCase::name)),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::pendulum::REGISTRY;
+
+    #[test]
+    fn an_unknown_case_is_refused_with_the_nearest_name() {
+        let message = |name| REGISTRY.find(name).err().map(|error| error.to_string());
+        assert_eq!(message("pendulum"), None);
+        assert_eq!(
+            message("pendlum"),
+            Some("unknown case `pendlum`; did you mean `pendulum`? `bagnold list` prints all cases".to_owned())
+        );
+        assert_eq!(message("zzz"), Some("unknown case `zzz`; `bagnold list` prints all cases".to_owned()));
+    }
+}

@@ -1,0 +1,112 @@
+//! What a finished case hands to reports, files and tests: plain data, whatever the case's types were.
+
+use super::Tier;
+use crate::figure::Figure;
+use crate::metric::{Metric, Verdict};
+use crate::observe::{Frame, Outcome};
+use crate::output::Table;
+use serde::{Deserialize, Serialize};
+
+/// One run of a case in brief.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunSummary {
+    /// Full name, `key=value,…`; empty where the case has a single run.
+    pub variant: String,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Flow particles.
+    pub particles: usize,
+    /// Time steps taken.
+    pub steps: u64,
+    /// Simulated time `[s]`.
+    pub simulated_time: f64,
+    /// Wall time of the simulation, also if it was taken from the store `[s]`.
+    pub wall_seconds: f64,
+    /// Threads that the run's loops used.
+    pub threads: usize,
+    /// Wall time per particle and step `[µs]`; `None` if no step was taken.
+    pub microseconds_per_particle_step: Option<f64>,
+    /// Hash of the final state's bits.
+    pub state_hash: String,
+    /// Taken from the store instead of simulated.
+    pub from_store: bool,
+}
+
+impl RunSummary {
+    /// Particles × steps `[-]`.
+    #[must_use]
+    pub fn particle_steps(&self) -> f64 {
+        self.particles as f64 * self.steps as f64
+    }
+
+    /// Whether the run diverged although its case did not declare it.
+    #[must_use]
+    pub fn diverged_unexpectedly(&self) -> bool {
+        matches!(self.outcome, Outcome::Diverged { expected: false, .. })
+    }
+}
+
+/// A finished case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CaseResult {
+    /// Name on the command line.
+    pub name: String,
+    /// One line about it.
+    pub summary: String,
+    /// A paragraph: what is simulated and what it is judged against.
+    pub description: String,
+    /// The tier that its parameters started from.
+    pub tier: Tier,
+    /// The parameters as run: a complete file for `bagnold run`.
+    pub parameters_toml: String,
+    /// The command that repeats it; `case.toml` stands for a file holding `parameters_toml`.
+    pub command: String,
+    /// Judged and observed numbers in report order.
+    pub metrics: Vec<Metric>,
+    /// Pictures.
+    pub figures: Vec<Figure>,
+    /// Profiles and time series.
+    pub tables: Vec<Table>,
+    /// The runs in the case's order.
+    pub runs: Vec<RunSummary>,
+    /// Snapshots of each run, in the order of `runs`.
+    pub frames: Vec<Vec<Frame>>,
+    /// SHA-256 over the runs' state hashes in order.
+    pub state_hash: String,
+}
+
+impl CaseResult {
+    /// Sum of the runs' wall times `[s]`.
+    #[must_use]
+    pub fn wall_seconds(&self) -> f64 {
+        self.runs.iter().map(|run| run.wall_seconds).sum()
+    }
+
+    /// Particles × steps over all runs `[-]`.
+    #[must_use]
+    pub fn particle_steps(&self) -> f64 {
+        self.runs.iter().map(RunSummary::particle_steps).sum()
+    }
+
+    /// Mean wall time per particle and step `[µs]`; `None` if no step was taken.
+    #[must_use]
+    pub fn microseconds_per_particle_step(&self) -> Option<f64> {
+        microseconds_each(self.wall_seconds(), self.particle_steps())
+    }
+
+    /// Metrics whose gate does not hold.
+    pub fn failures(&self) -> impl Iterator<Item = &Metric> {
+        self.metrics.iter().filter(|metric| metric.verdict() == Verdict::Fail)
+    }
+
+    /// Runs that diverged although the case did not declare it.
+    pub fn unexpected_divergences(&self) -> impl Iterator<Item = &RunSummary> {
+        self.runs.iter().filter(|run| run.diverged_unexpectedly())
+    }
+}
+
+/// Wall time over the number of things done in it `[µs]`.
+#[must_use]
+pub(super) fn microseconds_each(wall_seconds: f64, count: f64) -> Option<f64> {
+    (count > 0.0).then(|| wall_seconds * 1e6 / count)
+}

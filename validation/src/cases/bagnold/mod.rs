@@ -1,0 +1,82 @@
+//! Dry grains flowing down an incline: Bagnold's profile (36)–(37), the way to it, arrest and runaway.
+
+mod figures;
+mod metrics;
+mod parameters;
+mod runs;
+
+pub use parameters::{Arrangement, BagnoldParameters, Start};
+pub use runs::{BagnoldRun, Purpose};
+
+use super::layer::LayerObservation;
+use crate::case::{Case, Progress, Tier};
+use crate::error::InputError;
+use crate::figure::Figure;
+use crate::metric::Metric;
+use crate::observe::Recorded;
+use crate::output::Table;
+
+/// The case.
+#[derive(Debug)]
+pub struct Bagnold;
+
+/// A run with what it left behind.
+type Record = (BagnoldRun, Recorded<LayerObservation>);
+
+impl Case for Bagnold {
+    type Parameters = BagnoldParameters;
+    type Run = BagnoldRun;
+    type Observation = LayerObservation;
+
+    fn name(&self) -> &'static str {
+        "bagnold"
+    }
+
+    fn summary(&self) -> &'static str {
+        "μ(I) grains on an incline: Bagnold's velocity profile, its approach, arrest below and runaway above"
+    }
+
+    fn description(&self) -> &'static str {
+        "A layer of glass beads with the μ(I) rheology on an incline, periodic along the slope, over a no-slip bed. \
+         Between the static and the limiting friction angle the steady velocity follows Bagnold's profile (36)–(37), \
+         exact for the model; the way to it from rest is compared with an independent one-dimensional solver. \
+         Below that band the layer must come to rest, above it must accelerate without end. \
+         Bagnold's flow amplifies stress errors twenty to fifty times (dln I/dμ), so the implied stress error \
+         |μ(I)/tanθ − 1| stands beside the velocity error."
+    }
+
+    fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
+        parameters::FIELD_NOTES
+    }
+
+    fn parameters(&self, tier: Tier) -> BagnoldParameters {
+        BagnoldParameters::of_tier(tier)
+    }
+
+    fn check(&self, parameters: &BagnoldParameters) -> Result<(), InputError> {
+        parameters.check()
+    }
+
+    fn runs(&self, parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
+        runs::all(parameters)
+    }
+
+    fn simulate(&self, run: &BagnoldRun, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+        run.simulate(progress)
+    }
+
+    fn metrics(&self, parameters: &BagnoldParameters, records: &[Record]) -> Vec<Metric> {
+        metrics::all(parameters, records)
+    }
+
+    fn figures(&self, parameters: &BagnoldParameters, records: &[Record]) -> Vec<Figure> {
+        figures::all(parameters, records)
+    }
+
+    fn tables(&self, _: &BagnoldParameters, records: &[Record]) -> Vec<Table> {
+        records
+            .iter()
+            .flat_map(|(run, record)| super::layer::tables(&crate::case::Run::variant(run), &record.data))
+            .collect()
+    }
+}

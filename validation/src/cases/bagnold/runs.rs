@@ -1,0 +1,221 @@
+//! The simulations that the case asks for.
+
+use super::parameters::{Arrangement, BagnoldParameters, Start, profile};
+use crate::case::{Progress, Run};
+use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
+use crate::error::InputError;
+use crate::observe::Recorded;
+use crate::reference::BagnoldProfile;
+use bagnold_solver::numerics::Numerics;
+use bagnold_solver::rheology::{MuI, Rheology};
+use serde::Serialize;
+
+/// What a run is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Purpose {
+    /// Bagnold's steady profile.
+    Steady,
+    /// The same, one of several resolutions.
+    Convergence,
+    /// Slope below the static friction angle.
+    Arrest,
+    /// Slope above the limiting friction angle.
+    Runaway,
+}
+
+/// One simulation.
+#[derive(Debug, Clone, Serialize)]
+pub struct BagnoldRun {
+    /// What it is for.
+    pub purpose: Purpose,
+    /// Slope angle `[°]`.
+    pub slope_angle: f64,
+    /// Start.
+    pub start: Start,
+    /// Slope angle of the profile it starts with `[°]`.
+    pub start_angle: f64,
+    /// Arrangement of the particles.
+    pub particles: Arrangement,
+    /// Rows over the layer.
+    pub resolution: usize,
+    layer_height: f64,
+    gravity: f64,
+    solid_fraction: f64,
+    columns: usize,
+    jitter: f64,
+    seed: u64,
+    preparation: Preparation,
+    duration: f64,
+    averaging_time: f64,
+    material: MuI,
+    numerics: Numerics,
+}
+
+/// All runs in report order.
+pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
+    // (h/10 mm)^1.5 is how the time to the steady state grows with the layer
+    let scale = parameters.duration_factor * libm::pow(parameters.layer_height / 0.01, 1.5);
+    let new = |purpose, slope_angle: f64, start, particles, resolution, duration: f64| BagnoldRun {
+        purpose,
+        slope_angle,
+        start,
+        start_angle: if purpose == Purpose::Arrest { parameters.arrest_start_angle } else { slope_angle },
+        particles,
+        resolution,
+        layer_height: parameters.layer_height,
+        gravity: parameters.gravity,
+        solid_fraction: parameters.solid_fraction,
+        columns: parameters.columns,
+        jitter: match particles {
+            Arrangement::Lattice => 0.0,
+            Arrangement::Jittered => parameters.jitter,
+        },
+        seed: parameters.seed,
+        preparation: parameters.preparation,
+        duration,
+        averaging_time: parameters.averaging_time,
+        material: parameters.material,
+        numerics: parameters.numerics,
+    };
+    // the recipe's 3.5, 4, 4.5 and 5 s at 22, 23, 24 and 25°
+    let from_rest = |angle: f64| (3.5 + 0.5 * (angle - 22.0)).clamp(3.5, 5.0) * scale;
+    let from_profile = 2.0 * scale;
+    let mut runs: Vec<BagnoldRun> = Vec::new();
+    for &start in &parameters.starts {
+        for &angle in &parameters.slope_angles {
+            let duration = if start == Start::Rest { from_rest(angle) } else { from_profile };
+            runs.push(new(Purpose::Steady, angle, start, Arrangement::Jittered, parameters.resolution, duration));
+        }
+    }
+    let angle = parameters.convergence_slope_angle;
+    for &rows in &parameters.convergence_resolutions {
+        runs.push(new(Purpose::Convergence, angle, Start::Profile, Arrangement::Lattice, rows, from_profile));
+    }
+    for &rows in &parameters.convergence_resolutions {
+        let run = new(Purpose::Convergence, angle, Start::Rest, Arrangement::Jittered, rows, from_rest(angle));
+        if !runs.iter().any(|other| other.variant() == run.variant()) {
+            runs.push(run);
+        }
+    }
+    for &angle in &parameters.arrest_slope_angles {
+        runs.push(new(
+            Purpose::Arrest,
+            angle,
+            Start::Profile,
+            Arrangement::Jittered,
+            parameters.resolution,
+            1.5 * scale,
+        ));
+    }
+    for &angle in &parameters.runaway_slope_angles {
+        runs.push(new(
+            Purpose::Runaway,
+            angle,
+            Start::Rest,
+            Arrangement::Jittered,
+            parameters.resolution,
+            20.0 * scale,
+        ));
+    }
+    runs
+}
+
+impl Run for BagnoldRun {
+    fn variant(&self) -> String {
+        let start = match self.start {
+            Start::Rest => "rest".to_owned(),
+            Start::Profile if self.start_angle != self.slope_angle => format!("profile_{}", self.start_angle),
+            Start::Profile => "profile".to_owned(),
+        };
+        let particles = match self.particles {
+            Arrangement::Lattice => "lattice",
+            Arrangement::Jittered => "jittered",
+        };
+        format!("slope_angle={},start={start},particles={particles},resolution={}", self.slope_angle, self.resolution)
+    }
+
+    fn particle_steps(&self) -> f64 {
+        let still = |_: f64| 0.0;
+        let layer = self.layer(&still, &still);
+        // a runaway layer stops long before its time is up
+        let share = if self.purpose == Purpose::Runaway { 0.4 } else { 1.0 };
+        share * layer.expected_steps() * (self.resolution * self.columns) as f64
+    }
+}
+
+impl BagnoldRun {
+    /// The exact steady profile at the run's slope angle.
+    #[must_use]
+    pub fn profile(&self) -> BagnoldProfile {
+        self.profile_at(self.slope_angle)
+    }
+
+    /// The exact steady profile that the run started with.
+    #[must_use]
+    pub fn start_profile(&self) -> BagnoldProfile {
+        self.profile_at(self.start_angle)
+    }
+
+    fn profile_at(&self, angle: f64) -> BagnoldProfile {
+        profile(&self.material, self.layer_height, self.solid_fraction, self.gravity, angle)
+    }
+
+    /// Sound speed `[m/s]`.
+    #[must_use]
+    pub fn sound_speed(&self) -> f64 {
+        (self.bulk_modulus() / (self.solid_fraction * self.material.grain_density)).sqrt()
+    }
+
+    fn bulk_modulus(&self) -> f64 {
+        let density = self.solid_fraction * self.material.grain_density;
+        match self.purpose {
+            // at 50 ρ0 g H particles leak once the mean passes half the sound speed
+            Purpose::Runaway => 200.0 * density * self.gravity * self.layer_height,
+            _ => {
+                let mean = |angle: f64| self.profile_at(angle).depth_mean().unwrap_or(0.0);
+                let expected = mean(self.slope_angle).max(mean(self.start_angle));
+                bulk_modulus(density, self.gravity, self.layer_height, expected)
+            }
+        }
+    }
+
+    fn layer<'a>(
+        &self,
+        velocity: &'a (dyn Fn(f64) -> f64 + Sync),
+        shear_stress: &'a (dyn Fn(f64) -> f64 + Sync),
+    ) -> Layer<'a> {
+        Layer {
+            height: self.layer_height,
+            rows: self.resolution,
+            columns: self.columns,
+            slope_angle: self.slope_angle.to_radians(),
+            gravity: self.gravity,
+            reference_density: self.solid_fraction * self.material.grain_density,
+            bulk_modulus: self.bulk_modulus(),
+            rheology: Rheology::MuI(self.material),
+            numerics: self.numerics,
+            jitter: self.jitter,
+            seed: self.seed,
+            preparation: self.preparation,
+            velocity,
+            shear_stress,
+            duration: self.duration,
+            window: self.averaging_time,
+            interval: 2e-3,
+            stop_above: if self.purpose == Purpose::Runaway { 0.5 * self.sound_speed() } else { f64::INFINITY },
+            frames: 2,
+        }
+    }
+
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+        let start = self.start_profile();
+        let moving = self.start == Start::Profile;
+        let velocity = |y: f64| if moving { start.velocity(y).unwrap_or(0.0) } else { 0.0 };
+        // A layer tilted until it fails carries the static friction when it starts. From no stress at all it would
+        // first fall freely until the elastic shear is wound up, which at 22° is a sixth of its steady velocity.
+        let friction = self.material.static_friction.min(libm::tan(self.slope_angle.to_radians()));
+        let shear_stress = |y: f64| if moving { start.shear_stress(y) } else { friction * start.pressure(y) };
+        Ok(self.layer(&velocity, &shear_stress).run(progress)?)
+    }
+}

@@ -1,0 +1,74 @@
+//! The case's figures.
+
+use super::Record;
+use super::fluid::FluidKind;
+use super::metrics::{convergence_errors, shear_rates};
+use super::parameters::FilmRun;
+use crate::cases::bagnold::Arrangement;
+use crate::figure::{Axis, Figure, Mark, Panel, Series};
+
+pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+    let jittered: Vec<&Record> = records.iter().filter(|(run, _)| run.particles == Arrangement::Jittered).collect();
+    let mut figures = Vec::new();
+    if !jittered.is_empty() {
+        figures.push(profiles(&jittered));
+    }
+    let errors = convergence_errors(records);
+    if errors.len() >= 2 {
+        let mut panel =
+            Panel::new("", Axis::logarithmic("rows over the film [-]"), Axis::logarithmic("relative L2 of u [%]"));
+        let (rows, error) = errors[0];
+        let guide = errors.iter().map(|(n, _)| (*n, error * (rows / n) * (rows / n))).collect();
+        panel.series.push(Series::new("second order", Mark::Reference, 0, guide));
+        panel.series.push(Series::new("Newtonian, lattice", Mark::LinePoints, 0, errors));
+        figures.push(Figure {
+            name: "convergence".to_owned(),
+            caption: "Relative L2 error of the Newtonian velocity profile with the number of rows over the film."
+                .to_owned(),
+            panels: vec![panel],
+            columns: 1,
+        });
+    }
+    figures
+}
+
+fn label(run: &FilmRun) -> &'static str {
+    match run.fluid.kind() {
+        FluidKind::Newtonian => "Newtonian",
+        FluidKind::Bingham => "Bingham",
+        FluidKind::HerschelBulkley => "Herschel–Bulkley",
+    }
+}
+
+fn profiles(records: &[&Record]) -> Figure {
+    let mut velocity = Panel::new("", Axis::linear("u [m/s]"), Axis::linear("y/h [-]"));
+    let mut rate = Panel::new("", Axis::linear("du/dy [1/s]"), Axis::linear("y/h [-]"));
+    for (slot, (run, record)) in records.iter().enumerate() {
+        let incline = run.incline();
+        let h = incline.layer_height;
+        let exact: Vec<(f64, f64)> =
+            (0..=200).map(|k| f64::from(k) / 200.0).map(|y| (run.fluid.velocity(incline, y * h), y)).collect();
+        let name = if slot == 0 { "exact" } else { "" };
+        let rates =
+            exact.windows(2).map(|p| ((p[1].0 - p[0].0) / ((p[1].1 - p[0].1) * h), 0.5 * (p[0].1 + p[1].1))).collect();
+        velocity.series.push(Series::new(name, Mark::Reference, slot, exact));
+        rate.series.push(Series::new(name, Mark::Reference, slot, rates));
+        let data = &record.data.profile;
+        let points = (0..data.height.len())
+            .filter(|&bin| data.samples[bin] > 0.0)
+            .map(|bin| (data.velocity[bin], data.height[bin] / h))
+            .collect();
+        velocity.series.push(Series::new(label(run), Mark::Points, slot, points));
+        let points = shear_rates(record).into_iter().map(|(y, rate)| (rate, y / h)).collect();
+        rate.series.push(Series::new(label(run), Mark::Points, slot, points));
+    }
+    Figure {
+        name: "velocity-profile".to_owned(),
+        caption:
+            "Velocity and shear rate over the depth from displaced particles, against the exact solutions. The plug of \
+                  the yield-stress fluids begins where the shear rate falls to zero."
+                .to_owned(),
+        panels: vec![velocity, rate],
+        columns: 2,
+    }
+}

@@ -1,0 +1,273 @@
+//! Parameters, tiers and runs.
+
+use super::fluid::{Fluid, FluidKind};
+use crate::case::{Progress, Run, Tier};
+use crate::cases::bagnold::Arrangement;
+use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
+use crate::cases::rules;
+use crate::error::InputError;
+use crate::observe::Recorded;
+use crate::reference::Incline;
+use bagnold_solver::numerics::Numerics;
+use bagnold_solver::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
+use serde::{Deserialize, Serialize};
+
+/// Parameters of the case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FilmParameters {
+    /// Layer height h `[m]`.
+    pub layer_height: f64,
+    /// Slope angle `[°]`.
+    pub slope_angle: f64,
+    /// Gravity `[m/s²]`.
+    pub gravity: f64,
+    /// Density `[kg/m³]`.
+    pub density: f64,
+    /// Fluids to run.
+    pub fluids: Vec<FluidKind>,
+    /// Rows of particles over the layer.
+    pub resolution: usize,
+    /// Columns of particles along the period.
+    pub columns: usize,
+    /// Largest random displacement of a particle in spacings `[-]`.
+    pub jitter: f64,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// What happens before the start.
+    pub preparation: Preparation,
+    /// Rows of the Newtonian convergence study on the lattice; empty for none.
+    pub convergence_resolutions: Vec<usize>,
+    /// Simulated time of the Newtonian film, from rest, over ρh²/η `[-]`.
+    pub relaxation_times: f64,
+    /// Simulated time of the yield-stress films, from the exact profile, over ρh²/η `[-]`.
+    pub yield_relaxation_times: f64,
+    /// Newtonian fluid.
+    pub newtonian: Newtonian,
+    /// Bingham fluid.
+    pub bingham: Bingham,
+    /// Herschel–Bulkley fluid.
+    pub herschel_bulkley: HerschelBulkley,
+    /// Numerics.
+    pub numerics: Numerics,
+}
+
+pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
+    ("layer_height", "[m]"),
+    ("slope_angle", "[°]"),
+    ("gravity", "[m/s²]"),
+    ("density", "[kg/m³]"),
+    ("fluids", "\"newtonian\", \"bingham\" and \"herschel_bulkley\""),
+    ("resolution", "rows of particles over the layer"),
+    ("columns", "columns of particles along the period"),
+    ("jitter", "[-], largest random displacement in spacings"),
+    ("preparation", "\"settled\" or \"none\""),
+    ("convergence_resolutions", "rows of the Newtonian study; empty for none"),
+    ("relaxation_times", "[-], simulated time over ρh²/η, Newtonian from rest"),
+    ("yield_relaxation_times", "[-], the same for yield stresses, from the exact profile"),
+    ("newtonian.viscosity", "[Pa·s]"),
+    ("bingham.yield_stress", "[Pa]"),
+    ("bingham.plastic_viscosity", "[Pa·s]"),
+    ("bingham.regularisation_rate", "[1/s], Papanastasiou's"),
+    ("herschel_bulkley.yield_stress", "[Pa]"),
+    ("herschel_bulkley.consistency", "[Pa·s^n]"),
+    ("herschel_bulkley.flow_index", "n [-]"),
+    ("herschel_bulkley.regularisation_rate", "[1/s]"),
+];
+
+impl FilmParameters {
+    pub(super) fn of_tier(tier: Tier) -> Self {
+        let quick = Self {
+            layer_height: 0.01,
+            slope_angle: 10.0,
+            gravity: 9.81,
+            density: 1000.0,
+            fluids: vec![FluidKind::Newtonian, FluidKind::Bingham, FluidKind::HerschelBulkley],
+            resolution: 20,
+            columns: 8,
+            jitter: 0.1,
+            seed: 1,
+            preparation: Preparation::Settled,
+            convergence_resolutions: vec![10, 20],
+            relaxation_times: 3.0,
+            yield_relaxation_times: 1.0,
+            newtonian: Newtonian { viscosity: 1.0 },
+            // a plug over the upper 0.3 h that creeps by about 1 % of its speed
+            bingham: Bingham { yield_stress: 5.1, plastic_viscosity: 0.5, regularisation_rate: 0.3 },
+            herschel_bulkley: HerschelBulkley {
+                yield_stress: 5.1,
+                consistency: 1.1,
+                flow_index: 0.7,
+                regularisation_rate: 0.3,
+            },
+            numerics: Numerics::default(),
+        };
+        match tier {
+            Tier::Quick => quick,
+            Tier::Paper => Self { resolution: 40, columns: 12, convergence_resolutions: vec![10, 20, 40], ..quick },
+            Tier::Fine => Self { resolution: 80, columns: 12, convergence_resolutions: vec![20, 40, 80], ..quick },
+        }
+    }
+
+    pub(super) fn check(&self) -> Result<(), InputError> {
+        rules::positive("layer_height", self.layer_height, "give it in metres, such as 0.01")?;
+        rules::slope_angle("slope_angle", self.slope_angle)?;
+        rules::between("slope_angle", self.slope_angle, 0.1, 89.0, "a film needs a slope to flow down")?;
+        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
+        rules::positive("density", self.density, "give it in kg/m³, such as 1000")?;
+        rules::rows("resolution", self.resolution)?;
+        for (index, &rows) in self.convergence_resolutions.iter().enumerate() {
+            rules::rows(&format!("convergence_resolutions[{index}]"), rows)?;
+        }
+        rules::columns("columns", self.columns, &self.numerics)?;
+        rules::between("jitter", self.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
+        rules::positive("relaxation_times", self.relaxation_times, "3 leaves 0.1 % of the approach")?;
+        rules::positive("yield_relaxation_times", self.yield_relaxation_times, "1 lets the errors of the start decay")?;
+        rules::material("newtonian", &Rheology::Newtonian(self.newtonian))?;
+        rules::material("bingham", &Rheology::Bingham(self.bingham))?;
+        rules::material("herschel_bulkley", &Rheology::HerschelBulkley(self.herschel_bulkley))?;
+        let base = self.incline().shear_stress(0.0);
+        let fluids = [
+            ("bingham.yield_stress", self.bingham.yield_stress),
+            ("herschel_bulkley.yield_stress", self.herschel_bulkley.yield_stress),
+        ];
+        for (field, yield_stress) in fluids {
+            let remedy = format!("the shear stress at the bed is {base:.3} Pa: above it nothing flows");
+            rules::between(field, yield_stress, 0.0, 0.95 * base, &remedy)?;
+        }
+        rules::numerics("numerics", &self.numerics)
+    }
+
+    fn incline(&self) -> Incline {
+        Incline {
+            layer_height: self.layer_height,
+            slope_angle: self.slope_angle.to_radians(),
+            gravity: self.gravity,
+            density: self.density,
+        }
+    }
+
+    fn fluid(&self, kind: FluidKind) -> Fluid {
+        match kind {
+            FluidKind::Newtonian => Fluid::Newtonian(self.newtonian),
+            FluidKind::Bingham => Fluid::Bingham(self.bingham),
+            FluidKind::HerschelBulkley => Fluid::HerschelBulkley(self.herschel_bulkley),
+        }
+    }
+}
+
+/// One simulation.
+#[derive(Debug, Clone, Serialize)]
+pub struct FilmRun {
+    /// Fluid.
+    pub fluid: Fluid,
+    /// Arrangement of the particles.
+    pub particles: Arrangement,
+    /// Rows over the layer.
+    pub resolution: usize,
+    layer_height: f64,
+    slope_angle: f64,
+    gravity: f64,
+    density: f64,
+    columns: usize,
+    jitter: f64,
+    seed: u64,
+    preparation: Preparation,
+    relaxation_times: f64,
+    numerics: Numerics,
+}
+
+pub(super) fn runs(parameters: &FilmParameters) -> Vec<FilmRun> {
+    let new = |kind, particles, resolution| FilmRun {
+        fluid: parameters.fluid(kind),
+        particles,
+        resolution,
+        layer_height: parameters.layer_height,
+        slope_angle: parameters.slope_angle,
+        gravity: parameters.gravity,
+        density: parameters.density,
+        columns: parameters.columns,
+        jitter: if particles == Arrangement::Lattice { 0.0 } else { parameters.jitter },
+        seed: parameters.seed,
+        preparation: parameters.preparation,
+        relaxation_times: match kind {
+            FluidKind::Newtonian => parameters.relaxation_times,
+            _ => parameters.yield_relaxation_times,
+        },
+        numerics: parameters.numerics,
+    };
+    let mut runs = Vec::new();
+    for &kind in &parameters.fluids {
+        runs.push(new(kind, Arrangement::Jittered, parameters.resolution));
+        if kind == FluidKind::Newtonian {
+            let study = parameters.convergence_resolutions.iter();
+            runs.extend(study.map(|&rows| new(kind, Arrangement::Lattice, rows)));
+        }
+    }
+    runs
+}
+
+impl Run for FilmRun {
+    fn variant(&self) -> String {
+        let fluid = match self.fluid.kind() {
+            FluidKind::Newtonian => "newtonian",
+            FluidKind::Bingham => "bingham",
+            FluidKind::HerschelBulkley => "herschel_bulkley",
+        };
+        let particles = if self.particles == Arrangement::Lattice { "lattice" } else { "jittered" };
+        format!("fluid={fluid},particles={particles},resolution={}", self.resolution)
+    }
+
+    fn particle_steps(&self) -> f64 {
+        self.layer(&|_| 0.0).expected_steps() * (self.resolution * self.columns) as f64
+    }
+}
+
+impl FilmRun {
+    /// The film's geometry.
+    #[must_use]
+    pub fn incline(&self) -> Incline {
+        Incline {
+            layer_height: self.layer_height,
+            slope_angle: self.slope_angle.to_radians(),
+            gravity: self.gravity,
+            density: self.density,
+        }
+    }
+
+    fn layer<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Layer<'a> {
+        let incline = self.incline();
+        let viscosity = self.fluid.relaxing_viscosity(incline);
+        let duration = self.relaxation_times * self.density * self.layer_height * self.layer_height / viscosity;
+        let mean = self.fluid.flux(incline) / self.layer_height;
+        Layer {
+            height: self.layer_height,
+            rows: self.resolution,
+            columns: self.columns,
+            slope_angle: incline.slope_angle,
+            gravity: self.gravity,
+            reference_density: self.density,
+            bulk_modulus: bulk_modulus(self.density, self.gravity, self.layer_height, mean),
+            rheology: self.fluid.rheology(),
+            numerics: self.numerics,
+            jitter: self.jitter,
+            seed: self.seed,
+            preparation: self.preparation,
+            velocity,
+            // viscous laws make their stress from the velocity
+            shear_stress: &|_| 0.0,
+            duration,
+            window: 0.15 * duration,
+            interval: duration / 500.0,
+            stop_above: f64::INFINITY,
+            frames: 2,
+        }
+    }
+
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+        let moving = self.fluid.kind() != FluidKind::Newtonian;
+        let incline = self.incline();
+        let velocity = |y: f64| if moving { self.fluid.velocity(incline, y) } else { 0.0 };
+        Ok(self.layer(&velocity).run(progress)?)
+    }
+}

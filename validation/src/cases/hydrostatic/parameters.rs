@@ -1,0 +1,225 @@
+//! Parameters, tiers and runs.
+
+use crate::case::{Progress, Run, Tier};
+use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
+use crate::cases::rules;
+use crate::error::InputError;
+use crate::observe::Recorded;
+use bagnold_solver::numerics::Numerics;
+use bagnold_solver::rheology::{MuI, Newtonian, Rheology};
+use serde::{Deserialize, Serialize};
+
+/// Parameters of the case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HydrostaticParameters {
+    /// Layer height H `[m]`.
+    pub layer_height: f64,
+    /// Gravity `[m/s²]`.
+    pub gravity: f64,
+    /// Rows of particles over the layer.
+    pub resolution: usize,
+    /// Columns of particles along the period.
+    pub columns: usize,
+    /// Largest random displacement of a particle in spacings `[-]`.
+    pub jitter: f64,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// What happens before the start.
+    pub preparation: Preparation,
+    /// Simulated time `[s]`.
+    pub duration: f64,
+    /// Bulk density of the grains' layer over the grain density `[-]`.
+    pub solid_fraction: f64,
+    /// Density of the liquid `[kg/m³]`.
+    pub liquid_density: f64,
+    /// The liquid.
+    pub liquid: Newtonian,
+    /// The grains.
+    pub grains: MuI,
+    /// Numerics.
+    pub numerics: Numerics,
+}
+
+pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
+    ("layer_height", "[m]"),
+    ("gravity", "[m/s²]"),
+    ("resolution", "rows of particles over the layer"),
+    ("columns", "columns of particles along the period"),
+    ("jitter", "[-], largest random displacement in spacings"),
+    ("preparation", "\"settled\" or \"none\""),
+    ("duration", "[s]"),
+    ("solid_fraction", "[-], bulk density over grain density"),
+    ("liquid_density", "[kg/m³]"),
+    ("liquid.viscosity", "[Pa·s]"),
+    ("grains.static_friction", "μ_s [-]"),
+    ("grains.limiting_friction", "μ_2 [-]"),
+    ("grains.reference_inertia", "I_0 [-]"),
+    ("grains.grain_diameter", "D [m]"),
+    ("grains.grain_density", "ρ_s [kg/m³]"),
+];
+
+impl HydrostaticParameters {
+    pub(super) fn of_tier(tier: Tier) -> Self {
+        let quick = Self {
+            layer_height: 0.1,
+            gravity: 9.81,
+            resolution: 20,
+            columns: 12,
+            jitter: 0.1,
+            seed: 1,
+            preparation: Preparation::Settled,
+            duration: 2.25,
+            solid_fraction: 0.6,
+            liquid_density: 1000.0,
+            liquid: Newtonian { viscosity: 1e-3 },
+            grains: MuI {
+                static_friction: 0.382,
+                limiting_friction: 0.643,
+                reference_inertia: 0.279,
+                grain_diameter: 0.5e-3,
+                grain_density: 2500.0,
+            },
+            numerics: Numerics::default(),
+        };
+        match tier {
+            Tier::Quick => quick,
+            Tier::Paper => Self { resolution: 40, columns: 20, duration: 4.0, ..quick },
+            Tier::Fine => Self { resolution: 80, columns: 40, duration: 10.0, ..quick },
+        }
+    }
+
+    pub(super) fn check(&self) -> Result<(), InputError> {
+        rules::positive("layer_height", self.layer_height, "give it in metres, such as 0.1")?;
+        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
+        rules::rows("resolution", self.resolution)?;
+        rules::columns("columns", self.columns, &self.numerics)?;
+        rules::between("jitter", self.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
+        rules::between("duration", self.duration, 2.2, 1e4, "drift is measured over 0.4 s about 1 s and about 2 s")?;
+        rules::between("solid_fraction", self.solid_fraction, 0.0, 0.74, "grains fill 0.5 to 0.64 of the space")?;
+        rules::positive("liquid_density", self.liquid_density, "give it in kg/m³, such as 1000")?;
+        rules::material("liquid", &Rheology::Newtonian(self.liquid))?;
+        rules::material("grains", &Rheology::MuI(self.grains))?;
+        rules::numerics("numerics", &self.numerics)
+    }
+}
+
+/// Which material a run is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MaterialKind {
+    /// The Newtonian liquid.
+    Newtonian,
+    /// The grains.
+    MuI,
+}
+
+/// One simulation.
+#[derive(Debug, Clone, Serialize)]
+pub struct HydrostaticRun {
+    /// Material.
+    pub material: MaterialKind,
+    /// σ of the density–pressure coupling `[-]`.
+    pub density_coupling: f64,
+    /// Layer height H `[m]`.
+    pub layer_height: f64,
+    /// Gravity `[m/s²]`.
+    pub gravity: f64,
+    /// Bulk density `[kg/m³]`.
+    pub density: f64,
+    /// Static friction of the material `[-]`, 0 for the liquid.
+    pub static_friction: f64,
+    resolution: usize,
+    columns: usize,
+    jitter: f64,
+    seed: u64,
+    preparation: Preparation,
+    duration: f64,
+    rheology: Rheology,
+    numerics: Numerics,
+}
+
+pub(super) fn runs(parameters: &HydrostaticParameters) -> Vec<HydrostaticRun> {
+    let new = |material, density_coupling| {
+        let (rheology, density, static_friction) = match material {
+            MaterialKind::Newtonian => (Rheology::Newtonian(parameters.liquid), parameters.liquid_density, 0.0),
+            MaterialKind::MuI => (
+                Rheology::MuI(parameters.grains),
+                parameters.solid_fraction * parameters.grains.grain_density,
+                parameters.grains.static_friction,
+            ),
+        };
+        HydrostaticRun {
+            material,
+            density_coupling,
+            layer_height: parameters.layer_height,
+            gravity: parameters.gravity,
+            density,
+            static_friction,
+            resolution: parameters.resolution,
+            columns: parameters.columns,
+            jitter: parameters.jitter,
+            seed: parameters.seed,
+            preparation: parameters.preparation,
+            duration: parameters.duration,
+            rheology,
+            numerics: Numerics { density_coupling, ..parameters.numerics },
+        }
+    };
+    let coupling = parameters.numerics.density_coupling;
+    let mut runs = vec![new(MaterialKind::Newtonian, coupling), new(MaterialKind::MuI, coupling)];
+    if coupling > 0.0 {
+        runs.extend([new(MaterialKind::Newtonian, 0.0), new(MaterialKind::MuI, 0.0)]);
+    }
+    runs
+}
+
+impl Run for HydrostaticRun {
+    fn variant(&self) -> String {
+        let material = match self.material {
+            MaterialKind::Newtonian => "newtonian",
+            MaterialKind::MuI => "mu_i",
+        };
+        format!("material={material},density_coupling={},resolution={}", self.density_coupling, self.resolution)
+    }
+
+    fn particle_steps(&self) -> f64 {
+        self.layer().expected_steps() * (self.resolution * self.columns) as f64
+    }
+}
+
+impl HydrostaticRun {
+    fn layer(&self) -> Layer<'static> {
+        Layer {
+            height: self.layer_height,
+            rows: self.resolution,
+            columns: self.columns,
+            slope_angle: 0.0,
+            gravity: self.gravity,
+            reference_density: self.density,
+            bulk_modulus: bulk_modulus(self.density, self.gravity, self.layer_height, 0.0),
+            rheology: self.rheology,
+            numerics: self.numerics,
+            jitter: self.jitter,
+            seed: self.seed,
+            preparation: self.preparation,
+            velocity: &|_| 0.0,
+            shear_stress: &|_| 0.0,
+            duration: self.duration,
+            window: 0.5,
+            interval: 5e-3,
+            stop_above: f64::INFINITY,
+            frames: 3,
+        }
+    }
+
+    /// Exact pressure `[Pa]` at a height `[m]`.
+    #[must_use]
+    pub fn pressure(&self, y: f64) -> f64 {
+        self.layer().hydrostatic_pressure(y)
+    }
+
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+        Ok(self.layer().run(progress)?)
+    }
+}

@@ -1,0 +1,283 @@
+//! A layer on an incline, periodic along the slope: the scene that hydrostatic, film and bagnold share.
+
+mod preparation;
+mod probe;
+
+pub use preparation::Preparation;
+pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
+
+use crate::case::Progress;
+use crate::metric::{Confidence, Limit, Metric};
+use crate::observe::{Frame, Outcome, Recorded};
+use crate::output::Table;
+use bagnold_solver::boundary::wall::fill;
+use bagnold_solver::boundary::{AxisBoundary, Domain, Wall};
+use bagnold_solver::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::numerics::Numerics;
+use bagnold_solver::rheology::Rheology;
+use bagnold_solver::scene::{Flow, Scene, SceneError};
+use bagnold_solver::simulation::{Simulation, StopReason};
+use bagnold_solver::vector::{Tensor, Vector};
+use rand::{RngExt, SeedableRng};
+use std::ops::ControlFlow;
+
+/// A layer and how it is run. Lengths in `[m]`, angles in `[rad]`, SI units throughout.
+#[derive(Clone)]
+pub struct Layer<'a> {
+    /// Layer height H `[m]`.
+    pub height: f64,
+    /// Rows of particles over the height.
+    pub rows: usize,
+    /// Columns of particles along the period.
+    pub columns: usize,
+    /// Slope angle θ `[rad]`.
+    pub slope_angle: f64,
+    /// Gravity `[m/s²]`.
+    pub gravity: f64,
+    /// Reference density ρ0 `[kg/m³]`.
+    pub reference_density: f64,
+    /// Bulk modulus K `[Pa]`.
+    pub bulk_modulus: f64,
+    /// Constitutive law.
+    pub rheology: Rheology,
+    /// Numerics.
+    pub numerics: Numerics,
+    /// Largest random displacement of a particle, in spacings, along each axis `[-]`.
+    pub jitter: f64,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// Whether displaced particles settle before the start.
+    pub preparation: Preparation,
+    /// Initial velocity along the slope `[m/s]` at a height `[m]`.
+    pub velocity: &'a (dyn Fn(f64) -> f64 + Sync),
+    /// Initial shear stress `[Pa]` at a height `[m]`.
+    pub shear_stress: &'a (dyn Fn(f64) -> f64 + Sync),
+    /// Simulated time `[s]`.
+    pub duration: f64,
+    /// Length of the averaging window before the end `[s]`.
+    pub window: f64,
+    /// Interval of the time series `[s]`.
+    pub interval: f64,
+    /// Depth mean of the velocity at which the run stops `[m/s]`; infinite for none.
+    pub stop_above: f64,
+    /// Number of snapshots, the first and last state included.
+    pub frames: usize,
+}
+
+/// Bins over the depth.
+pub const BINS: usize = 20;
+
+/// Stiffness K = ρ0 max(50 g H, (3 Ū)²) `[Pa]`, Ū the expected steady depth mean if there is one: one rule everywhere.
+#[must_use]
+pub fn bulk_modulus(reference_density: f64, gravity: f64, height: f64, expected_mean: f64) -> f64 {
+    reference_density * (50.0 * gravity * height).max((3.0 * expected_mean).powi(2))
+}
+
+impl Layer<'_> {
+    /// Particle spacing Δ `[m]`.
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.height / self.rows as f64
+    }
+
+    /// Exact pressure `[Pa]` of the compressible layer at rest, K (exp(ρ0 g cosθ (H − y)/K) − 1).
+    #[must_use]
+    pub fn hydrostatic_pressure(&self, y: f64) -> f64 {
+        hydrostatic_pressure(
+            self.bulk_modulus,
+            self.reference_density,
+            self.gravity * libm::cos(self.slope_angle),
+            self.height - y,
+        )
+    }
+
+    /// Expected number of steps for the whole run, from the acoustic bound.
+    #[must_use]
+    pub fn expected_steps(&self) -> f64 {
+        let sound_speed = (self.bulk_modulus / self.reference_density).sqrt();
+        let smoothing_length = self.numerics.smoothing_ratio * self.spacing();
+        let acoustic = self.numerics.acoustic_courant * smoothing_length / sound_speed;
+        let viscosity = self.rheology.largest_viscosity(self.reference_density * self.gravity * self.height);
+        let viscous = if viscosity > 0.0 {
+            self.numerics.viscous_courant * smoothing_length * smoothing_length * self.reference_density / viscosity
+        } else {
+            f64::INFINITY
+        };
+        self.duration / acoustic.min(viscous)
+    }
+
+    /// The scene with the initial velocities and shear stresses.
+    fn started(&self, mut scene: Scene<2>) -> Scene<2> {
+        let flow = &mut scene.flow;
+        for (particle, position) in flow.position.iter().enumerate() {
+            let shear = (self.shear_stress)(position[1]);
+            flow.velocity[particle] = Vector::<2>::new((self.velocity)(position[1]), 0.0);
+            flow.stress[particle] = Tensor::<2>::new(0.0, shear, shear, 0.0);
+        }
+        scene
+    }
+
+    /// The scene at rest, without shear stress.
+    #[must_use]
+    pub fn scene(&self) -> Scene<2> {
+        let spacing = self.spacing();
+        let length = self.columns as f64 * spacing;
+        let domain = Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: length }, AxisBoundary::Open] };
+        let bed = Wall { axis: 1, surface: 0.0, side: 1.0, velocity: Vector::<2>::zeros() };
+        let wall_rows = (2.0 * self.numerics.smoothing_ratio).ceil() as usize + 1;
+        let extent = (Vector::<2>::zeros(), Vector::<2>::new(length, self.height));
+        let equation_of_state = EquationOfState {
+            reference_density: self.reference_density,
+            bulk_modulus: self.bulk_modulus,
+            tension: Tension::Cut,
+        };
+        let mut random = rand_pcg::Pcg64::seed_from_u64(self.seed);
+        let mut flow = Flow::default();
+        for row in 0..self.rows {
+            for column in 0..self.columns {
+                let site = Vector::<2>::new((column as f64 + 0.5) * spacing, (row as f64 + 0.5) * spacing);
+                let shift = Vector::<2>::from_fn(|_, _| self.jitter * spacing * (2.0 * random.random::<f64>() - 1.0));
+                let position = site + shift;
+                // the density belongs to the site and the mass to the density, so that the layer neither
+                // sinks nor swells when it is released
+                let density = equation_of_state.density(self.hydrostatic_pressure(site[1]));
+                flow.position.push(position);
+                flow.velocity.push(Vector::<2>::zeros());
+                flow.density.push(density);
+                flow.mass.push(density * spacing * spacing);
+                flow.stress.push(Tensor::<2>::zeros());
+            }
+        }
+        Scene {
+            flow,
+            wall_particles: fill(&[bed], &domain, extent, spacing, wall_rows),
+            walls: vec![bed],
+            domain,
+            gravity: Vector::<2>::new(libm::sin(self.slope_angle), -libm::cos(self.slope_angle)) * self.gravity,
+            spacing,
+            equation_of_state,
+            rheology: self.rheology,
+            numerics: self.numerics,
+        }
+    }
+
+    /// Runs the layer and records what the probe sees.
+    ///
+    /// # Errors
+    /// A scene that breaks a rule of the solver.
+    pub fn run(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, SceneError> {
+        let started = std::time::Instant::now();
+        let scene = match self.preparation {
+            Preparation::Settled => preparation::settled(self.scene())?,
+            Preparation::None => self.scene(),
+        };
+        let mut simulation = Simulation::new(self.started(scene))?;
+        if simulation.time_step_bounds().viscous < simulation.time_step_bounds().acoustic {
+            tracing::info!(
+                "explicit viscous step: about {:.2e} steps for {} s",
+                simulation.estimated_steps(self.duration),
+                self.duration
+            );
+        }
+        let particles = self.rows * self.columns;
+        let mut probe = LayerProbe::new(self);
+        let mut frames = Vec::new();
+        let mut last_good = simulation.snapshot();
+        let frame_interval = self.duration / (self.frames.max(2) - 1) as f64;
+        let reason = simulation.run(self.duration, self.interval, |simulation| {
+            let snapshot = simulation.snapshot();
+            probe.observe(&snapshot);
+            if snapshot.time >= frame_interval * frames.len() as f64 && frames.len() + 1 < self.frames.max(2) {
+                frames.push(Frame::of_layer(&snapshot));
+            }
+            progress.advance(snapshot.time, self.duration, simulation.steps() as f64 * particles as f64);
+            let stop = probe.mean_velocity() > self.stop_above;
+            last_good = snapshot;
+            if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let outcome = match &reason {
+            StopReason::Finished => Outcome::Finished,
+            StopReason::Stopped => Outcome::Stopped {
+                criterion: format!(
+                    "the depth mean of the velocity passed {:.3} m/s, half the sound speed",
+                    self.stop_above
+                ),
+            },
+            StopReason::Diverged(divergence) => Outcome::Diverged { message: divergence.to_string(), expected: false },
+        };
+        let end = if matches!(reason, StopReason::Diverged(_)) { last_good } else { simulation.snapshot() };
+        frames.push(Frame::of_layer(&end));
+        Ok(Recorded {
+            outcome,
+            state_hash: crate::observe::state_hash(&end.to_bytes()),
+            particles,
+            steps: simulation.steps(),
+            simulated_time: simulation.time(),
+            wall_seconds: started.elapsed().as_secs_f64(),
+            threads: rayon::current_num_threads(),
+            frames,
+            data: probe.finish(),
+        })
+    }
+}
+
+/// Exact pressure `[Pa]` of a compressible layer at rest at `depth` `[m]` below its surface.
+#[must_use]
+pub fn hydrostatic_pressure(bulk_modulus: f64, reference_density: f64, gravity_across: f64, depth: f64) -> f64 {
+    bulk_modulus * libm::expm1(reference_density * gravity_across * depth.max(0.0) / bulk_modulus)
+}
+
+impl Frame {
+    fn of_layer(snapshot: &bagnold_solver::snapshot::Snapshot<2>) -> Self {
+        let flat = |v: &Vector<2>| [v[0], v[1], 0.0];
+        Self {
+            time: snapshot.time,
+            position: snapshot.position.iter().map(flat).collect(),
+            scalars: vec![
+                ("pressure".to_owned(), "Pa".to_owned(), snapshot.pressure.clone()),
+                ("density".to_owned(), "kg/m³".to_owned(), snapshot.density.clone()),
+                ("shear_stress".to_owned(), "Pa".to_owned(), snapshot.stress.iter().map(|s| s[(0, 1)]).collect()),
+            ],
+            vectors: vec![("velocity".to_owned(), "m/s".to_owned(), snapshot.velocity.iter().map(flat).collect())],
+        }
+    }
+}
+
+/// Tables of one run: depth profile and time series.
+#[must_use]
+pub fn tables(variant: &str, data: &LayerObservation) -> Vec<Table> {
+    let stem = variant.replace(['=', ','], "-").replace('_', "-");
+    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+    let profile = &data.profile;
+    let series = &data.series;
+    vec![
+        Table {
+            name: format!("profile-{stem}"),
+            columns: names(&["y [m]", "u [m/s]", "p [Pa]", "p - s_yy [Pa]", "s_xy [Pa]", "samples [-]"]),
+            rows: (0..profile.height.len())
+                .filter(|&bin| profile.samples[bin] > 0.0)
+                .map(|bin| {
+                    let columns = [&profile.height, &profile.velocity, &profile.pressure, &profile.normal_stress];
+                    let mut row: Vec<f64> = columns.iter().map(|column| column[bin]).collect();
+                    row.extend([profile.shear_stress[bin], profile.samples[bin]]);
+                    row
+                })
+                .collect(),
+        },
+        Table {
+            name: format!("series-{stem}"),
+            columns: names(&["t [s]", "mean u [m/s]", "rms speed [m/s]", "relative height [-]"]),
+            rows: (0..series.time.len())
+                .map(|k| vec![series.time[k], series.mean_velocity[k], series.rms_speed[k], series.relative_height[k]])
+                .collect(),
+        },
+    ]
+}
+
+/// The number of particles that ended below the bed or far above the layer, gated at 0.
+#[must_use]
+pub fn particles_lost(variant: &str, record: &Recorded<LayerObservation>) -> Metric {
+    Metric::observed("particles_lost", variant, record.data.particles_lost as f64, "-")
+        .against(Some(0.0), "no particle passes a wall", Confidence::Exact)
+        .gated(Limit::AtMost(0.0), "a particle below the bed is lost mass")
+}

@@ -1,0 +1,66 @@
+//! How displaced particles come to rest before a run starts.
+
+use bagnold_solver::rheology::{Newtonian, Rheology};
+use bagnold_solver::scene::{Scene, SceneError};
+use bagnold_solver::simulation::Simulation;
+use bagnold_solver::vector::{Tensor, Vector};
+use serde::{Deserialize, Serialize};
+
+/// What happens before the start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Preparation {
+    /// The displaced particles settle without friction and without flowing.
+    Settled,
+    /// Nothing: the run starts with the particles as they were displaced.
+    None,
+}
+
+/// Peaks of the kinetic energy after which the layer counts as settled.
+const PEAKS: usize = 12;
+/// Longest settling, in times that sound needs across the layer `[-]`.
+const LONGEST: f64 = 60.0;
+
+/// Lets the particles of a scene at rest find their places.
+///
+/// Displaced particles do not support each other as the lattice did: released at once the layer drops by a few
+/// parts in a thousand, is weightless meanwhile, and so without friction, and picks up speed that no continuum has.
+/// The layer settles as a frictionless liquid under the gravity across it, and whenever its kinetic energy passes a
+/// peak all velocities are set to zero (dynamic relaxation).
+pub(super) fn settled(scene: Scene<2>) -> Result<Scene<2>, SceneError> {
+    let height = scene.flow.position.iter().fold(0.0_f64, |most, x| most.max(x[1]));
+    let limit = LONGEST * height / scene.equation_of_state.sound_speed();
+    let mut resting = scene.clone();
+    resting.rheology = Rheology::Newtonian(Newtonian { viscosity: 0.0 });
+    resting.gravity = Vector::<2>::new(0.0, scene.gravity[1]);
+    let mut elapsed = 0.0;
+    for _ in 0..PEAKS {
+        let mut simulation = Simulation::new(resting.clone())?;
+        let mut highest = 0.0_f64;
+        while elapsed + simulation.time() < limit {
+            if simulation.step().is_err() {
+                // the run itself will say what is wrong with this start
+                return Ok(scene);
+            }
+            let energy = kinetic_energy(&simulation);
+            if energy < highest {
+                break;
+            }
+            highest = energy;
+        }
+        elapsed += simulation.time();
+        let snapshot = simulation.snapshot();
+        resting.flow.position = snapshot.position;
+        resting.flow.density = snapshot.density;
+        resting.flow.velocity.fill(Vector::<2>::zeros());
+        resting.flow.stress.fill(Tensor::<2>::zeros());
+    }
+    let flow = resting.flow;
+    Ok(Scene { flow, ..scene })
+}
+
+fn kinetic_energy(simulation: &Simulation<2>) -> f64 {
+    let particles = simulation.particles();
+    let flow = particles.flow_count();
+    particles.mass[..flow].iter().zip(&particles.velocity[..flow]).map(|(m, v)| 0.5 * m * v.norm_squared()).sum()
+}

@@ -1,0 +1,172 @@
+//! What a layer leaves behind: time series of depth means, depth profiles averaged over a window, pressure noise.
+
+use super::{BINS, Layer};
+use bagnold_solver::snapshot::Snapshot;
+use serde::{Deserialize, Serialize};
+
+/// Depth means over time; every array has the shape `[samples]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct TimeSeries {
+    /// Time `[s]`.
+    pub time: Vec<f64>,
+    /// Mass-weighted mean of the velocity along the slope `[m/s]`.
+    pub mean_velocity: Vec<f64>,
+    /// Root mean square of the speed `[m/s]`.
+    pub rms_speed: Vec<f64>,
+    /// Twice the mass-weighted mean height over the nominal height `[-]`.
+    pub relative_height: Vec<f64>,
+    /// Root mean square of p less its local linear fit, over ρ0 g cosθ H `[-]`; empty where not asked for.
+    pub pressure_noise: Vec<f64>,
+}
+
+/// Depth profile in bins of equal height, averaged over particles and time; every array has the shape `[bins]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct DepthProfile {
+    /// Mean height of the samples `[m]`.
+    pub height: Vec<f64>,
+    /// Velocity along the slope `[m/s]`.
+    pub velocity: Vec<f64>,
+    /// Pressure `[Pa]`.
+    pub pressure: Vec<f64>,
+    /// Stress across the slope p − s_yy `[Pa]`.
+    pub normal_stress: Vec<f64>,
+    /// Shear stress s_xy `[Pa]`.
+    pub shear_stress: Vec<f64>,
+    /// Samples (particles × times) in the bin.
+    pub samples: Vec<f64>,
+}
+
+/// All that a layer's run leaves behind.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LayerObservation {
+    /// Depth means over the whole run.
+    pub series: TimeSeries,
+    /// Profile over the last window.
+    pub profile: DepthProfile,
+    /// Extremes of p/(ρ0 g cosθ (H − y)) below 0.8 H in the last window `[-]`.
+    pub pressure_ratio: (f64, f64),
+    /// Particles that ended outside the layer's neighbourhood: below the bed, or above twice the height.
+    pub particles_lost: usize,
+}
+
+/// Collects observations during a run.
+#[derive(Debug)]
+pub struct LayerProbe {
+    height: f64,
+    length: f64,
+    reach: f64,
+    weight: f64,
+    hydrostatic: (f64, f64, f64),
+    window_start: f64,
+    noise: bool,
+    series: TimeSeries,
+    sums: Vec<[f64; 6]>,
+    ratio: (f64, f64),
+    lost: usize,
+}
+
+impl LayerProbe {
+    pub(super) fn new(layer: &Layer<'_>) -> Self {
+        let across = layer.gravity * libm::cos(layer.slope_angle);
+        Self {
+            height: layer.height,
+            length: layer.columns as f64 * layer.spacing(),
+            reach: 2.0 * layer.numerics.smoothing_ratio * layer.spacing(),
+            weight: layer.reference_density * across * layer.height,
+            hydrostatic: (layer.bulk_modulus, layer.reference_density, across),
+            window_start: layer.duration - layer.window,
+            noise: layer.slope_angle == 0.0,
+            series: TimeSeries::default(),
+            sums: vec![[0.0; 6]; BINS],
+            ratio: (f64::INFINITY, f64::NEG_INFINITY),
+            lost: 0,
+        }
+    }
+
+    /// Latest depth mean of the velocity `[m/s]`.
+    pub(super) fn mean_velocity(&self) -> f64 {
+        self.series.mean_velocity.last().copied().unwrap_or(0.0)
+    }
+
+    pub(super) fn observe(&mut self, snapshot: &Snapshot<2>) {
+        let mass: f64 = snapshot.mass.iter().sum();
+        let (mut momentum, mut height, mut square) = (0.0, 0.0, 0.0);
+        for ((m, v), x) in snapshot.mass.iter().zip(&snapshot.velocity).zip(&snapshot.position) {
+            momentum += m * v[0];
+            height += m * x[1];
+            square += m * v.norm_squared();
+        }
+        self.series.time.push(snapshot.time);
+        self.series.mean_velocity.push(momentum / mass);
+        self.series.relative_height.push(2.0 * height / mass / self.height);
+        self.series.rms_speed.push((square / mass).sqrt());
+        self.lost = snapshot.position.iter().filter(|x| !(x[1] > 0.0 && x[1] < 2.0 * self.height)).count();
+        if snapshot.time >= self.window_start {
+            self.observe_profile(snapshot);
+        }
+        if self.noise && snapshot.time >= self.window_start {
+            self.series.pressure_noise.push(self.pressure_noise(snapshot));
+        }
+    }
+
+    fn observe_profile(&mut self, snapshot: &Snapshot<2>) {
+        for a in 0..snapshot.position.len() {
+            let y = snapshot.position[a][1];
+            let pressure = snapshot.pressure[a];
+            let normal = pressure - snapshot.stress[a][(1, 1)];
+            let bin = ((y / self.height * BINS as f64).max(0.0) as usize).min(BINS - 1);
+            let values = [y, snapshot.velocity[a][0], pressure, normal, snapshot.stress[a][(0, 1)], 1.0];
+            for (sum, value) in self.sums[bin].iter_mut().zip(values) {
+                *sum += value;
+            }
+            let (bulk_modulus, density, gravity) = self.hydrostatic;
+            let exact = super::hydrostatic_pressure(bulk_modulus, density, gravity, self.height - y);
+            if y < 0.8 * self.height {
+                self.ratio.0 = self.ratio.0.min(pressure / exact);
+                self.ratio.1 = self.ratio.1.max(pressure / exact);
+            }
+        }
+    }
+
+    /// Root mean square over all particles of p less the linear fit through the neighbours within 2h, over the
+    /// pressure scale ρ0 g cosθ H.
+    fn pressure_noise(&self, snapshot: &Snapshot<2>) -> f64 {
+        let n = snapshot.position.len();
+        let mut sum = 0.0;
+        for a in 0..n {
+            // normal equations of p ≈ c0 + c1 x + c2 y around particle a
+            let mut matrix = nalgebra::Matrix3::<f64>::zeros();
+            let mut right = nalgebra::Vector3::<f64>::zeros();
+            for b in 0..n {
+                let mut dx = snapshot.position[b][0] - snapshot.position[a][0];
+                dx -= self.length * (dx / self.length).round();
+                let dy = snapshot.position[b][1] - snapshot.position[a][1];
+                if dx * dx + dy * dy < self.reach * self.reach {
+                    let row = nalgebra::Vector3::new(1.0, dx / self.reach, dy / self.reach);
+                    matrix += row * row.transpose();
+                    right += row * snapshot.pressure[b];
+                }
+            }
+            let fit = matrix.lu().solve(&right).map_or(snapshot.pressure[a], |c| c[0]);
+            sum += (snapshot.pressure[a] - fit).powi(2);
+        }
+        (sum / n as f64).sqrt() / self.weight
+    }
+
+    pub(super) fn finish(self) -> LayerObservation {
+        let column = |k: usize| self.sums.iter().map(|sums| sums[k] / sums[5]).collect::<Vec<f64>>();
+        LayerObservation {
+            profile: DepthProfile {
+                height: column(0),
+                velocity: column(1),
+                pressure: column(2),
+                normal_stress: column(3),
+                shear_stress: column(4),
+                samples: self.sums.iter().map(|sums| sums[5]).collect(),
+            },
+            pressure_ratio: self.ratio,
+            particles_lost: self.lost,
+            series: self.series,
+        }
+    }
+}

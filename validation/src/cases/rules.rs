@@ -1,0 +1,66 @@
+//! Rules that the parameters of several cases share.
+
+use crate::error::InputError;
+use bagnold_solver::numerics::Numerics;
+use bagnold_solver::rheology::Rheology;
+
+/// A positive, finite value.
+pub(super) fn positive(field: &str, value: f64, remedy: &str) -> Result<(), InputError> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(InputError::field(field, value, "positive and finite", remedy))
+}
+
+/// A value in [lower, upper].
+pub(super) fn between(field: &str, value: f64, lower: f64, upper: f64, remedy: &str) -> Result<(), InputError> {
+    if value >= lower && value <= upper {
+        return Ok(());
+    }
+    Err(InputError::field(field, value, &format!("between {lower} and {upper}"), remedy))
+}
+
+/// A slope angle `[°]`.
+pub(super) fn slope_angle(field: &str, value: f64) -> Result<(), InputError> {
+    if value > -90.0 && value < 90.0 {
+        return Ok(());
+    }
+    Err(InputError::field(
+        field,
+        value,
+        "inside (−90°, 90°)",
+        "give the angle between the slope and the horizontal in degrees",
+    ))
+}
+
+/// Rows of particles over a layer.
+pub(super) fn rows(field: &str, value: usize) -> Result<(), InputError> {
+    if (4..=1000).contains(&value) {
+        return Ok(());
+    }
+    Err(InputError::field(field, value, "between 4 and 1000", "20 is quick, 40 is accurate"))
+}
+
+/// Columns of particles along a period: the kernel with its skin must fit into it.
+pub(super) fn columns(field: &str, value: usize, numerics: &Numerics) -> Result<(), InputError> {
+    let least = (2.0 * numerics.smoothing_ratio * (1.0 + numerics.verlet_skin)).ceil() as usize;
+    if value >= least && value <= 100_000 {
+        return Ok(());
+    }
+    let rule = format!("between {least} and 100000");
+    Err(InputError::field(field, value, &rule, "the period must hold the reach of the kernel; 12 is quick"))
+}
+
+/// The ranges of a constitutive law's own parameters.
+pub(super) fn material(path: &str, law: &Rheology) -> Result<(), InputError> {
+    law.parameter_problem().map_or(Ok(()), |(field, value, rule, remedy)| {
+        Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
+    })
+}
+
+/// The ranges of the numerics.
+pub(super) fn numerics(path: &str, numerics: &Numerics) -> Result<(), InputError> {
+    numerics.parameter_problem().map_or(Ok(()), |(field, value, rule, remedy)| {
+        Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
+    })
+}

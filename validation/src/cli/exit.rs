@@ -1,0 +1,37 @@
+//! How the program ends.
+
+use crate::case::CaseResult;
+use crate::metric::Metric;
+use std::process::ExitCode;
+
+/// Exit code, by what happened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exit {
+    /// All gates hold, but for known failures.
+    Held = 0,
+    /// A gate fails that is not a known failure.
+    GateFailed = 1,
+    /// The input was refused, or its output could not be written.
+    BadInput = 2,
+    /// A run diverged although its case does not expect it.
+    Diverged = 3,
+}
+
+impl Exit {
+    /// Judges results. A divergence weighs more than a gate, since its metrics mean nothing.
+    pub fn of(results: &[CaseResult], is_known: impl Fn(&CaseResult, &Metric) -> bool) -> Self {
+        if results.iter().any(|result| result.unexpected_divergences().next().is_some()) {
+            Self::Diverged
+        } else if results.iter().any(|result| result.failures().any(|metric| !is_known(result, metric))) {
+            Self::GateFailed
+        } else {
+            Self::Held
+        }
+    }
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit as u8)
+    }
+}

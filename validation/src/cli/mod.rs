@@ -1,0 +1,86 @@
+//! The command line: arguments → calls. No physics here.
+
+mod arguments;
+mod exit;
+mod logging;
+mod progress;
+mod report;
+mod run;
+mod summary;
+#[cfg(test)]
+mod tests;
+
+pub use arguments::{Arguments, Command};
+pub use exit::Exit;
+
+use crate::case::Registry;
+use crate::cases::REGISTRY;
+use crate::error::InputError;
+use crate::store::{Store, StorePolicy};
+use arguments::Work;
+use clap::Parser;
+use std::io::Write;
+use std::process::ExitCode;
+
+/// The program: reads its arguments, prints on standard output and error.
+#[must_use]
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    logging::start(arguments.verbose, arguments.quiet);
+    match execute(&arguments, REGISTRY, &mut std::io::stdout()) {
+        Ok(exit) => exit.into(),
+        Err(error) => {
+            eprintln!("error: {error}");
+            Exit::BadInput.into()
+        }
+    }
+}
+
+/// Does what the arguments ask for, with the cases of a registry.
+///
+/// # Errors
+/// Input that is refused; nothing was written then.
+pub fn execute(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send)) -> Result<Exit, InputError> {
+    match &arguments.command {
+        Command::List => {
+            let width = registry.iter().map(|case| case.name().len()).max().unwrap_or(0);
+            for case in registry.iter() {
+                say(output, &format!("{:width$}  {}\n", case.name(), case.summary()));
+            }
+            Ok(Exit::Held)
+        }
+        Command::Show(show) => {
+            say(output, &registry.find(&show.case)?.show(show.tier));
+            Ok(Exit::Held)
+        }
+        Command::Run(command) => in_pool(&command.work, || run::run(command, registry, arguments.quiet, output)),
+        Command::Report(command) => {
+            in_pool(&command.work, || report::report(command, registry, arguments.quiet, output))
+        }
+    }
+}
+
+/// Runs a command inside a pool of the threads asked for.
+fn in_pool(work: &Work, command: impl FnOnce() -> Result<Exit, InputError> + Send) -> Result<Exit, InputError> {
+    // For rayon, 0 threads means all cores.
+    let threads = usize::from(work.threads.unwrap_or(0));
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| InputError::Threads { threads, reason: error.to_string() })?;
+    pool.install(command)
+}
+
+impl Work {
+    fn open_store(&self) -> Store {
+        let policy = if self.fresh { StorePolicy::Refresh } else { StorePolicy::Use };
+        self.store.as_ref().map_or_else(|| Store::open(policy), |folder| Store::at(folder, policy))
+    }
+}
+
+/// Prints. A reader who has gone, such as `head`, is not an error.
+fn say(output: &mut (dyn Write + Send), text: &str) {
+    if let Err(error) = output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
+        tracing::debug!("standard output: {error}");
+    }
+}

@@ -1,0 +1,83 @@
+//! `bagnold run`: one case into one folder.
+
+use super::arguments::Run;
+use super::progress::Progress;
+use super::{Exit, say, summary};
+use crate::case::{AnyCase, CaseFile, CaseResult, Changes, Prepared, Registry, Tier, execute};
+use crate::error::InputError;
+use crate::metric::json::MetricsDocument;
+use crate::output::{OutputFolder, write_case};
+use crate::store::Store;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Simulates, judges, writes and prints one case.
+pub(super) fn run(
+    command: &Run,
+    registry: Registry,
+    quiet: bool,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, InputError> {
+    let (prepared, tier) = prepare(command, registry)?;
+    let folder =
+        command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/runs/{}-{tier}", prepared.name())));
+    if command.out.is_none() {
+        OutputFolder::adopt(Path::new("reports"))?;
+    }
+    let claimed = OutputFolder::claim(&folder)?;
+    let known = super::report::known_failures()?;
+    let results = simulate(vec![prepared], &command.work.open_store(), quiet)?;
+
+    let threads = rayon::current_num_threads();
+    for result in &results {
+        let document = MetricsDocument::of(result, threads);
+        write_case(claimed.staging(), result, &document).map_err(|error| InputError::unwritable(&folder, &error))?;
+        if command.json {
+            say(output, &document.text());
+        }
+    }
+    claimed.publish()?;
+    if !command.json {
+        for result in &results {
+            say(output, &summary::of_case(result, |metric| known.lists(result, metric)));
+        }
+        say(output, &format!("written to {}\n", folder.display()));
+    }
+    Ok(Exit::of(&results, |result, metric| known.lists(result, metric)))
+}
+
+/// Simulates with a progress bar.
+pub(super) fn simulate(
+    cases: Vec<Box<dyn Prepared>>,
+    store: &Store,
+    quiet: bool,
+) -> Result<Vec<CaseResult>, InputError> {
+    let progress = Progress::new(&cases, quiet);
+    let results = execute(cases, store, &progress);
+    progress.clear();
+    results
+}
+
+/// The case that the target means, with the changes asked for, and its tier.
+fn prepare(command: &Run, registry: Registry) -> Result<(Box<dyn Prepared>, Tier), InputError> {
+    let (case, tier, file): (&'static dyn AnyCase, _, _) = if names_a_file(&command.target, registry) {
+        let file = CaseFile::read(Path::new(&command.target))?;
+        let case = registry.find(&file.case).map_err(|error| error.in_file(&file.path))?;
+        (case, command.tier.or(file.tier), Some(file))
+    } else {
+        (registry.find(&command.target)?, command.tier, None)
+    };
+    let tier = tier.unwrap_or(Tier::Quick);
+    let changes = Changes {
+        file: file.as_ref().map(|file| (file.path.as_path(), file.fields.clone())),
+        settings: &command.settings,
+    };
+    Ok((case.prepare(tier, &changes)?, tier))
+}
+
+/// A case goes before a file of the same name; what looks like a path is meant as one.
+fn names_a_file(target: &str, registry: Registry) -> bool {
+    let path = Path::new(target);
+    registry.find(target).is_err()
+        && (path.components().count() > 1 || path.extension().is_some_and(|ending| ending == "toml") || path.is_file())
+}

@@ -1,0 +1,127 @@
+//! Results as a compact table for the terminal.
+
+use crate::case::CaseResult;
+use crate::metric::{Limit, Metric, Verdict};
+use crate::observe::Outcome;
+use std::fmt::Write as _;
+
+/// A case's metrics, one a line, and what went wrong in its runs.
+pub(super) fn of_case(result: &CaseResult, is_known: impl Fn(&Metric) -> bool) -> String {
+    heading(result) + &table(result.metrics.iter().map(|metric| row(metric, is_known(metric))).collect())
+}
+
+/// The metrics of a case whose gates do not hold; empty if all hold.
+pub(super) fn failures(result: &CaseResult, is_known: impl Fn(&Metric) -> bool) -> String {
+    table(result.failures().map(|metric| row(metric, is_known(metric))).collect())
+}
+
+fn table(mut rows: Vec<[String; 7]>) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
+    rows.insert(0, ["verdict", "metric", "variant", "value", "unit", "limit", "margin"].map(str::to_owned));
+    let mut text = String::new();
+    let widths: [usize; 7] =
+        std::array::from_fn(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
+    for row in rows {
+        let cells: Vec<String> = row.iter().zip(widths).map(|(cell, width)| format!("{cell:width$}")).collect();
+        text.push_str(cells.join("  ").trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+/// One line about a case, and one for each run that did not end as it should.
+pub(super) fn heading(result: &CaseResult) -> String {
+    let stored = result.runs.iter().filter(|run| run.from_store).count();
+    let mut text = format!("{}, {} tier: {} runs", result.name, result.tier, result.runs.len());
+    // Writing to a string cannot fail.
+    if stored > 0 {
+        let _ = write!(text, " ({stored} from the store)");
+    }
+    let _ = write!(text, ", {:.1} s of computing", result.wall_seconds());
+    if let Some(time) = result.microseconds_per_particle_step() {
+        let _ = write!(text, ", {time:.3} µs per particle and step");
+    }
+    text.push('\n');
+    for run in &result.runs {
+        if let Outcome::Diverged { message, expected } = &run.outcome {
+            let how = if *expected { "diverged, as expected" } else { "DIVERGED" };
+            let _ = writeln!(text, "{how}: {} {message}", run.variant);
+        }
+    }
+    text
+}
+
+fn row(metric: &Metric, is_known: bool) -> [String; 7] {
+    let verdict = match metric.verdict() {
+        Verdict::Pass => "pass",
+        Verdict::Fail if is_known => "fail (known)",
+        Verdict::Fail => "FAIL",
+        Verdict::Observed => "observed",
+    };
+    // Only a limit that judges is shown, so that the line agrees with its verdict.
+    let limit = metric.gate.as_ref().map(|gate| gate.limit).filter(|_| metric.verdict() != Verdict::Observed);
+    [
+        verdict.to_owned(),
+        metric.name.clone(),
+        metric.variant.clone(),
+        number(metric.value),
+        metric.unit.clone(),
+        limit.map_or_else(String::new, rule),
+        limit.map_or_else(String::new, |limit| number(limit.margin(metric.value))),
+    ]
+}
+
+fn rule(limit: Limit) -> String {
+    match limit {
+        Limit::AtMost(bound) => format!("≤ {}", number(bound)),
+        Limit::AtLeast(bound) => format!("≥ {}", number(bound)),
+        Limit::Within(lower, upper) => format!("{} … {}", number(lower), number(upper)),
+    }
+}
+
+/// Four significant figures.
+fn number(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        "0".to_owned()
+    } else if !(1e-3..1e5).contains(&size) {
+        format!("{value:.3e}")
+    } else {
+        // The number of digits before the point, at least one, decides how many follow it.
+        let before = size.log10().floor() as i32;
+        let after = usize::try_from(3 - before).unwrap_or(0);
+        format!("{value:.after$}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_four_significant_figures() {
+        let pairs = [
+            (0.0, "0"),
+            (0.012345, "0.01235"),
+            (-1.0, "-1.000"),
+            (98765.4, "98765"),
+            (1e-9, "1.000e-9"),
+            (1234567.0, "1.235e6"),
+            (f64::NAN, "NaN"),
+        ];
+        for (value, text) in pairs {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn an_observed_metric_shows_no_limit() {
+        let metric = Metric::observed("run_out", "a=1", 0.5, "m");
+        assert_eq!(row(&metric, false), ["observed", "run_out", "a=1", "0.5000", "m", "", ""].map(str::to_owned));
+        let failed = metric.gated(Limit::AtMost(0.25), "reason");
+        assert_eq!(row(&failed, false)[0], "FAIL");
+        assert_eq!(row(&failed, true)[..], ["fail (known)", "run_out", "a=1", "0.5000", "m", "≤ 0.2500", "-0.2500"]);
+    }
+}

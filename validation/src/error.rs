@@ -1,0 +1,215 @@
+//! Errors that a user's input can cause: each names file, field, value, rule and remedy.
+
+use std::path::{Path, PathBuf};
+
+/// Bad input. The program prints it and ends with exit code 2.
+#[derive(Debug, thiserror::Error)]
+pub enum InputError {
+    /// A field holds a value that breaks a rule; cases build it with [`InputError::field`].
+    #[error("{}`{field}` is {value}, but must be {rule}; {remedy}", origin(.file))]
+    Field {
+        /// File it stands in, where known; the loader adds it.
+        file: Option<PathBuf>,
+        /// Dotted TOML path.
+        field: String,
+        /// The offending value as written.
+        value: String,
+        /// The rule it breaks, completing "must be …".
+        rule: String,
+        /// What to do about it.
+        remedy: String,
+    },
+    /// The parameters are each in range, but together give no valid scene.
+    #[error("the parameters give no valid scene: {0}")]
+    Scene(#[from] bagnold_solver::scene::SceneError),
+    /// A file names a field that the case does not have.
+    #[error("{}unknown field `{field}`; {}`bagnold show {case}` prints all fields", origin(.file), did_you_mean(.nearest))]
+    UnknownField {
+        /// File it stands in, where known.
+        file: Option<PathBuf>,
+        /// Dotted TOML path.
+        field: String,
+        /// The known field whose name is nearest, as a dotted path.
+        nearest: Option<String>,
+        /// Whose parameters they are.
+        case: String,
+    },
+    /// A field without a default is absent.
+    #[error("{}`{field}` is missing; `bagnold show {case}` prints it with a valid value", origin(.file))]
+    MissingField {
+        /// File that lacks it, where known.
+        file: Option<PathBuf>,
+        /// Dotted TOML path.
+        field: String,
+        /// Whose parameters they are.
+        case: String,
+    },
+    /// A file is not TOML.
+    #[error("{}: line {line}, column {column}: {message}; correct the TOML syntax there", .file.display())]
+    Syntax {
+        /// The file.
+        file: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// The parser's words.
+        message: String,
+    },
+    /// A file does not say whose parameters it holds.
+    #[error("{}: `case` is missing, but must name the case that the file describes; add `case = \"…\"` (`bagnold list` prints the names)", .file.display())]
+    NoCase {
+        /// The file.
+        file: PathBuf,
+    },
+    /// No case has this name.
+    #[error("{}unknown case `{name}`; {}`bagnold list` prints all cases", origin(.file), did_you_mean(.nearest))]
+    UnknownCase {
+        /// File that names it, if it was not the command line.
+        file: Option<PathBuf>,
+        /// The name asked for.
+        name: String,
+        /// The case whose name is nearest.
+        nearest: Option<String>,
+    },
+    /// A file cannot be read.
+    #[error("{}: cannot be read ({reason}); check the path and its permissions", .file.display())]
+    Unreadable {
+        /// The file.
+        file: PathBuf,
+        /// The system's reason.
+        reason: String,
+    },
+    /// `--set` without `=`.
+    #[error("`--set {argument}` must have the form path=value; for example `--set {example}`")]
+    SetForm {
+        /// The argument as given.
+        argument: String,
+        /// A valid one for this case.
+        example: String,
+    },
+    /// `--set` names a path that the case's parameters do not have.
+    #[error("`--set {path}={value}`: unknown field `{path}`; {}`bagnold show {case}` prints all fields", did_you_mean(.nearest))]
+    SetPath {
+        /// The dotted path as given.
+        path: String,
+        /// The value as given.
+        value: String,
+        /// The existing path that is nearest.
+        nearest: Option<String>,
+        /// Whose parameters they are.
+        case: String,
+    },
+    /// `--set` gives a value of the wrong type.
+    #[error("`--set {path}={value}`: `{path}` is {value}, but must be {rule}; {remedy}")]
+    SetValue {
+        /// The dotted path as given.
+        path: String,
+        /// The value as given.
+        value: String,
+        /// The rule it breaks, completing "must be …".
+        rule: String,
+        /// What to do about it.
+        remedy: String,
+    },
+    /// The output folder holds files that are not Bagnold's.
+    #[error("output folder {}: not empty and not written by bagnold, so nothing was changed; name an empty or new folder with --out", .folder.display())]
+    ForeignFolder {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// Files cannot be written.
+    #[error("{}: cannot be written ({reason}); choose a folder that you may write to with --out", .path.display())]
+    Unwritable {
+        /// File or folder.
+        path: PathBuf,
+        /// The system's reason.
+        reason: String,
+    },
+    /// The thread pool cannot be built.
+    #[error("`--threads {threads}` cannot be started ({reason}); ask for fewer threads")]
+    Threads {
+        /// Number of threads asked for.
+        threads: usize,
+        /// The system's reason.
+        reason: String,
+    },
+}
+
+impl InputError {
+    /// A parameter that breaks a rule: "`field` is `value`, but must be `rule`; `remedy`".
+    #[must_use]
+    pub fn field(field: &str, value: impl std::fmt::Display, rule: &str, remedy: &str) -> Self {
+        Self::Field {
+            file: None,
+            field: field.to_owned(),
+            value: value.to_string(),
+            rule: rule.to_owned(),
+            remedy: remedy.to_owned(),
+        }
+    }
+
+    /// A file that cannot be read, with the system's reason.
+    #[must_use]
+    pub fn unreadable(file: &Path, error: &std::io::Error) -> Self {
+        Self::Unreadable { file: file.to_owned(), reason: reason(error) }
+    }
+
+    /// A file or folder that cannot be written, with the system's reason.
+    #[must_use]
+    pub fn unwritable(path: &Path, error: &std::io::Error) -> Self {
+        Self::Unwritable { path: path.to_owned(), reason: reason(error) }
+    }
+
+    /// The dotted path of the parameter at fault, if the error is about one.
+    #[must_use]
+    pub fn field_path(&self) -> Option<&str> {
+        match self {
+            Self::Field { field, .. } | Self::UnknownField { field, .. } | Self::MissingField { field, .. } => {
+                Some(field)
+            }
+            _ => None,
+        }
+    }
+
+    /// Says in which file the parameter at fault stands, unless that is already known.
+    #[must_use]
+    pub fn in_file(mut self, path: &Path) -> Self {
+        if let Self::Field { file, .. }
+        | Self::UnknownField { file, .. }
+        | Self::MissingField { file, .. }
+        | Self::UnknownCase { file, .. } = &mut self
+        {
+            file.get_or_insert_with(|| path.to_owned());
+        }
+        self
+    }
+}
+
+/// The name that is most like `name`, if any is like it at all.
+#[must_use]
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    // Jaro–Winkler forgives a wrong tail and swapped letters; below 0.7 a suggestion would be a guess.
+    known
+        .into_iter()
+        .map(|candidate| (strsim::jaro_winkler(name, candidate), candidate))
+        .filter(|(likeness, _)| *likeness >= 0.7)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate.to_owned())
+}
+
+fn origin(file: &Option<PathBuf>) -> String {
+    file.as_ref().map_or_else(String::new, |file| format!("{}: ", file.display()))
+}
+
+fn did_you_mean(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or_else(String::new, |name| format!("did you mean `{name}`? "))
+}
+
+/// The system's words without the error number, which means nothing to a reader: "permission denied".
+fn reason(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    let words = text.split(" (os error").next().unwrap_or(&text);
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+}

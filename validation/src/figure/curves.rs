@@ -1,0 +1,215 @@
+//! What is drawn inside the frame: bands, lines, references, points with error bars.
+
+use super::canvas::{Canvas, Ink, Point, Rectangle};
+use super::clip::{clip_chain, clip_polygon, dashes, thin};
+use super::error::FigureError;
+use super::palette::{BLACK, GREY, Shape, colour, shape};
+use super::range::Mapping;
+use super::{Band, Mark, Panel, Series};
+use plotters::style::{RGBColor, WHITE};
+
+/// Stroke of a simulated curve `[px]`.
+const CURVE: f64 = 4.0;
+/// Stroke of a reference `[px]`.
+const REFERENCE: f64 = 3.5;
+/// Opacity of a band: two that overlap are still told apart.
+const BAND_OPACITY: f64 = 0.25;
+
+/// The two axes and the window between them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plot {
+    pub(super) x: Mapping,
+    pub(super) y: Mapping,
+    pub(super) window: Rectangle,
+}
+
+impl Plot {
+    /// The place of a value pair; `None` where one of them has none.
+    pub(super) fn place(&self, (x, y): (f64, f64)) -> Option<Point> {
+        Some((self.x.pixel(x)?, self.y.pixel(y)?))
+    }
+
+    fn chain(&self, points: &[(f64, f64)]) -> Vec<Option<Point>> {
+        points.iter().map(|&point| self.place(point)).collect()
+    }
+}
+
+/// Draws bands, then lines, then references, then points: what is judged stays visible under what judges it.
+pub(super) fn draw_bands(canvas: &mut Canvas<'_>, plot: &Plot, bands: &[Band]) -> Result<(), FigureError> {
+    for band in bands {
+        for outline in band_outlines(plot, band) {
+            canvas.polygon(&outline, Ink { colour: GREY, opacity: BAND_OPACITY, width: 0.0 })?;
+        }
+    }
+    Ok(())
+}
+
+/// Draws every series of a panel.
+pub(super) fn draw_series(canvas: &mut Canvas<'_>, plot: &Plot, panel: &Panel) -> Result<(), FigureError> {
+    let of = |wanted: &'static [Mark]| panel.series.iter().filter(move |series| wanted.contains(&series.mark));
+    for series in of(&[Mark::Line, Mark::LinePoints]) {
+        for piece in clip_chain(&plot.chain(&series.points), &plot.window) {
+            canvas.polyline(&thin(piece), Ink::solid(colour(series.colour), CURVE))?;
+        }
+    }
+    for series in of(&[Mark::Reference]) {
+        let pattern = reference_pattern(panel, series);
+        for piece in clip_chain(&plot.chain(&series.points), &plot.window) {
+            for dash in dashes(&thin(piece), pattern) {
+                canvas.polyline(&dash, Ink::solid(BLACK, REFERENCE))?;
+            }
+        }
+    }
+    for series in of(&[Mark::Points, Mark::LinePoints]) {
+        draw_points(canvas, plot, series)?;
+    }
+    Ok(())
+}
+
+/// The closed outlines of a band, one for each run of drawable points.
+pub(super) fn band_outlines(plot: &Plot, band: &Band) -> Vec<Vec<Point>> {
+    let mut outlines = Vec::new();
+    let mut run: Vec<(Point, Point)> = Vec::new();
+    let edges = band.points.iter().map(|&(x, lower, upper)| {
+        // On a logarithmic axis a lower edge at or below zero is the bottom of the plot.
+        let bottom = plot.y.pixel(lower).or((lower <= 0.0).then_some(plot.window.bottom));
+        Some(((plot.x.pixel(x)?, bottom?), (plot.x.pixel(x)?, plot.y.pixel(upper)?)))
+    });
+    for edge in edges.chain(std::iter::once(None)) {
+        match edge {
+            Some(pair) => run.push(pair),
+            None => {
+                let outline: Vec<Point> =
+                    run.iter().map(|pair| pair.0).chain(run.iter().rev().map(|pair| pair.1)).collect();
+                run.clear();
+                let cut = clip_polygon(&outline, &plot.window);
+                if cut.len() >= 3 {
+                    outlines.push(cut);
+                }
+            }
+        }
+    }
+    outlines
+}
+
+fn draw_points(canvas: &mut Canvas<'_>, plot: &Plot, series: &Series) -> Result<(), FigureError> {
+    let radius = marker_radius(series.points.len());
+    let ink = colour(series.colour);
+    let mut last: Option<Point> = None;
+    for (index, &(x, y)) in series.points.iter().enumerate() {
+        let Some(centre) = plot.place((x, y)).filter(|&centre| plot.window.grown(0.5).contains(centre)) else {
+            continue;
+        };
+        // Markers that hide their own line say less than fewer markers.
+        let crowded = series.mark == Mark::LinePoints
+            && last.is_some_and(|last| (centre.0 - last.0).hypot(centre.1 - last.1) < 3.0 * radius);
+        if crowded {
+            continue;
+        }
+        last = Some(centre);
+        if let Some(&half) = series.error.get(index).filter(|half| half.is_finite() && **half > 0.0) {
+            draw_error_bar(canvas, plot, (x, y), half, ink)?;
+        }
+        if series.mark == Mark::Points {
+            // A white rim keeps neighbours apart; on a line of its own it would only cut the line.
+            draw_marker(canvas, centre, radius + 1.5, shape(series.colour), WHITE)?;
+        }
+        draw_marker(canvas, centre, radius, shape(series.colour), ink)?;
+    }
+    Ok(())
+}
+
+/// Large clouds get small markers.
+fn marker_radius(points: usize) -> f64 {
+    match points {
+        0..=60 => 8.0,
+        61..=400 => 5.5,
+        _ => 3.5,
+    }
+}
+
+fn draw_error_bar(
+    canvas: &mut Canvas<'_>,
+    plot: &Plot,
+    (x, y): (f64, f64),
+    half: f64,
+    colour: RGBColor,
+) -> Result<(), FigureError> {
+    let ink = Ink::solid(colour, 2.5);
+    let Some(across) = plot.x.pixel(x) else { return Ok(()) };
+    let window = &plot.window;
+    // A bar that reaches below zero on a logarithmic axis ends at the frame.
+    let low = plot.y.pixel(y - half).unwrap_or(window.bottom);
+    let high = plot.y.pixel(y + half).unwrap_or(window.top);
+    let (bottom, top) = (low.clamp(window.top, window.bottom), high.clamp(window.top, window.bottom));
+    canvas.line((across, bottom), (across, top), ink)?;
+    for (end, cut) in [(low, bottom), (high, top)] {
+        if end == cut {
+            canvas.line((across - 8.0, cut), (across + 8.0, cut), ink)?;
+        }
+    }
+    Ok(())
+}
+
+/// Draws one marker.
+pub(super) fn draw_marker(
+    canvas: &mut Canvas<'_>,
+    (x, y): Point,
+    radius: f64,
+    shape: Shape,
+    colour: RGBColor,
+) -> Result<(), FigureError> {
+    let ink = Ink::solid(colour, 0.0);
+    // Sizes that look equal, not sizes that are equal.
+    let corners: &[(f64, f64)] = match shape {
+        Shape::Disc => return canvas.disc((x, y), radius, ink),
+        Shape::Square => &[(-0.88, -0.88), (0.88, -0.88), (0.88, 0.88), (-0.88, 0.88)],
+        Shape::Triangle => &[(0.0, -1.25), (1.1, 0.75), (-1.1, 0.75)],
+        Shape::TriangleDown => &[(0.0, 1.25), (1.1, -0.75), (-1.1, -0.75)],
+        Shape::Diamond => &[(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)],
+    };
+    let outline: Vec<Point> = corners.iter().map(|&(dx, dy)| (x + radius * dx, y + radius * dy)).collect();
+    canvas.polygon(&outline, ink)
+}
+
+/// Dashed for the first reference of a panel; a second and third label get dash-dots and dots.
+fn reference_pattern(panel: &Panel, series: &Series) -> &'static [f64] {
+    const PATTERNS: [&[f64]; 3] = [&[13.0, 8.0], &[16.0, 7.0, 4.0, 7.0], &[4.0, 7.0]];
+    let mut labels: Vec<&str> = Vec::new();
+    for other in panel.series.iter().filter(|other| other.mark == Mark::Reference && !other.label.is_empty()) {
+        if !labels.contains(&other.label.as_str()) {
+            labels.push(&other.label);
+        }
+    }
+    let slot = labels.iter().position(|&label| label == series.label).unwrap_or(0);
+    PATTERNS[slot % PATTERNS.len()]
+}
+
+/// Draws the sample of a series in a legend, from `left` to `right` at height `y`.
+pub(super) fn draw_sample(
+    canvas: &mut Canvas<'_>,
+    panel: &Panel,
+    series: &Series,
+    (left, right, y): (f64, f64, f64),
+) -> Result<(), FigureError> {
+    let ink = colour(series.colour);
+    match series.mark {
+        Mark::Reference => {
+            for dash in dashes(&[(left, y), (right, y)], reference_pattern(panel, series)) {
+                canvas.polyline(&dash, Ink::solid(BLACK, REFERENCE))?;
+            }
+        }
+        Mark::Line | Mark::LinePoints => canvas.line((left, y), (right, y), Ink::solid(ink, CURVE))?,
+        Mark::Points => {}
+    }
+    if matches!(series.mark, Mark::Points | Mark::LinePoints) {
+        let radius = marker_radius(series.points.len()).max(5.5);
+        draw_marker(canvas, (0.5 * (left + right), y), radius, shape(series.colour), ink)?;
+    }
+    Ok(())
+}
+
+/// Draws the sample of a band in a legend.
+pub(super) fn draw_band_sample(canvas: &mut Canvas<'_>, place: &Rectangle) -> Result<(), FigureError> {
+    canvas.fill_rectangle(place, Ink { colour: GREY, opacity: BAND_OPACITY, width: 0.0 })
+}

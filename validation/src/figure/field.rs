@@ -1,0 +1,183 @@
+//! Particles coloured by a scalar, and the colour bar.
+
+use super::Field;
+use super::axes::{Sizes, TICK_GAP, text, widest_label};
+use super::canvas::{Canvas, Direction, Ink, Rectangle, TextSpec};
+use super::curves::Plot;
+use super::error::FigureError;
+use super::font::{Weight, width};
+use super::palette::{AXIS, BLACK, GREY, colour_map};
+use super::range::{Mapping, Range};
+use super::ticks::{Ticks, ticks};
+use super::{Axis, Scale};
+use plotters::style::text_anchor::{HPos, VPos};
+
+/// Thickness of a colour bar `[px]`.
+const BAR: f64 = 26.0;
+/// Space between plot and colour bar `[px]`.
+const BAR_GAP: f64 = 26.0;
+
+/// Where a colour bar stands: a flat field has no height to put one beside it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum BarPlace {
+    Beside,
+    Above,
+}
+
+/// The scale of a field's colours with its bar.
+#[derive(Debug)]
+pub(super) struct ColourScale {
+    range: Range,
+    ticks: Ticks,
+    pub(super) place: BarPlace,
+}
+
+impl ColourScale {
+    pub(super) fn of(field: &Field, place: BarPlace) -> Self {
+        let range = Range::of_colours(field.limits, &field.values);
+        let wanted = match place {
+            BarPlace::Beside => 6,
+            BarPlace::Above => 5,
+        };
+        Self { range, ticks: ticks(range, Scale::Linear, wanted), place }
+    }
+
+    fn fraction(&self, value: f64) -> f64 {
+        (value - self.range.lower) / (self.range.upper - self.range.lower)
+    }
+
+    /// The label with the factor of the numbers, such as `p [Pa] · 10³`.
+    fn label(&self, field: &Field) -> String {
+        if self.ticks.factor.is_empty() {
+            field.label.clone()
+        } else {
+            format!("{}  ({})", field.label, self.ticks.factor)
+        }
+    }
+
+    /// Space that the bar takes from the panel: (right of the plot, above it) `[px]`.
+    pub(super) fn space(&self, sizes: Sizes) -> (f64, f64) {
+        match self.place {
+            BarPlace::Beside => {
+                (BAR_GAP + BAR + TICK_GAP + widest_label(&self.ticks, sizes.tick) + 1.9 * sizes.label, 0.0)
+            }
+            BarPlace::Above => (0.0, 14.0 + BAR + TICK_GAP + 1.6 * sizes.tick),
+        }
+    }
+
+    /// Draws the bar at the plot's side.
+    pub(super) fn draw_bar(
+        &self,
+        canvas: &mut Canvas<'_>,
+        field: &Field,
+        window: &Rectangle,
+        sizes: Sizes,
+    ) -> Result<(), FigureError> {
+        match self.place {
+            BarPlace::Beside => self.draw_beside(canvas, field, window, sizes),
+            BarPlace::Above => self.draw_above(canvas, field, window, sizes),
+        }
+    }
+
+    fn draw_beside(
+        &self,
+        canvas: &mut Canvas<'_>,
+        field: &Field,
+        window: &Rectangle,
+        sizes: Sizes,
+    ) -> Result<(), FigureError> {
+        let left = window.right + BAR_GAP;
+        let bar = Rectangle { left, right: left + BAR, ..*window };
+        let steps = COLOUR_STEPS;
+        for step in 0..steps {
+            // Each strip reaches to the end, so that no seam shows between strips.
+            let bottom = bar.bottom - bar.height() * f64::from(step) / f64::from(steps);
+            let strip = Rectangle { bottom, ..bar };
+            canvas.fill_rectangle(&strip, strip_ink(step, steps))?;
+        }
+        canvas.frame(&bar, Ink::solid(AXIS, 2.0))?;
+        let mapping = Mapping { range: self.range, scale: Scale::Linear, start: bar.bottom, end: bar.top };
+        let spec = text(sizes.tick, HPos::Left, VPos::Center, AXIS);
+        for tick in &self.ticks.major {
+            if let Some(y) = mapping.pixel(tick.value) {
+                canvas.line((bar.right, y), (bar.right + 6.0, y), Ink::solid(AXIS, 2.0))?;
+                canvas.text(&tick.label, (bar.right + 6.0 + TICK_GAP, y), spec)?;
+            }
+        }
+        let x = bar.right + TICK_GAP + widest_label(&self.ticks, sizes.tick) + 1.2 * sizes.label;
+        let upwards =
+            TextSpec { direction: Direction::Upwards, ..text(sizes.label, HPos::Center, VPos::Center, BLACK) };
+        canvas.text(&self.label(field), (x, 0.5 * (bar.top + bar.bottom)), upwards)
+    }
+
+    fn draw_above(
+        &self,
+        canvas: &mut Canvas<'_>,
+        field: &Field,
+        window: &Rectangle,
+        sizes: Sizes,
+    ) -> Result<(), FigureError> {
+        let bottom = window.top - 14.0;
+        let left = window.left + 0.55 * window.width();
+        let bar = Rectangle { left, top: bottom - BAR, right: window.right, bottom };
+        let steps = COLOUR_STEPS;
+        for step in 0..steps {
+            let left = bar.left + bar.width() * f64::from(step) / f64::from(steps);
+            canvas.fill_rectangle(&Rectangle { left, ..bar }, strip_ink(step, steps))?;
+        }
+        canvas.frame(&bar, Ink::solid(AXIS, 2.0))?;
+        let mapping = Mapping { range: self.range, scale: Scale::Linear, start: bar.left, end: bar.right };
+        let spec = text(sizes.tick, HPos::Center, VPos::Center, AXIS);
+        for tick in &self.ticks.major {
+            if let Some(x) = mapping.pixel(tick.value) {
+                canvas.line((x, bar.top), (x, bar.top - 6.0), Ink::solid(AXIS, 2.0))?;
+                canvas.text(&tick.label, (x, bar.top - 6.0 - 0.7 * sizes.tick), spec)?;
+            }
+        }
+        let label = text(sizes.label, HPos::Right, VPos::Center, BLACK);
+        canvas.text(&self.label(field), (bar.left - sizes.label, 0.5 * (bar.top + bar.bottom)), label)
+    }
+
+    /// Whether the bar is above the plot and leaves room for a title left of it.
+    pub(super) fn leaves_room_for(&self, title: &str, field: &Field, plot_width: f64, sizes: Sizes) -> bool {
+        let taken = width(&self.label(field), sizes.label, Weight::Regular) + 2.0 * sizes.label;
+        self.place == BarPlace::Above && width(title, sizes.title, Weight::Bold) < 0.55 * plot_width - taken
+    }
+}
+
+const COLOUR_STEPS: u32 = 128;
+
+fn strip_ink(step: u32, steps: u32) -> Ink {
+    Ink::solid(colour_map((f64::from(step) + 0.5) / f64::from(steps)), 0.0)
+}
+
+/// Draws every particle at its true size, those without a value in grey.
+pub(super) fn draw_field(
+    canvas: &mut Canvas<'_>,
+    plot: &Plot,
+    field: &Field,
+    colours: &ColourScale,
+) -> Result<(), FigureError> {
+    let scale = plot.window.width() / (plot.x.range.upper - plot.x.range.lower);
+    // A particle below a pixel would vanish from the sheet.
+    let radius = (0.5 * diameter(field) * scale).clamp(0.6, 400.0);
+    for (index, &point) in field.points.iter().enumerate() {
+        let Some(centre) = plot.place(point).filter(|&centre| plot.window.contains(centre)) else { continue };
+        let value = field.values.get(index).copied().unwrap_or(f64::NAN);
+        let colour = if value.is_nan() { GREY } else { colour_map(colours.fraction(value)) };
+        canvas.disc(centre, radius, Ink::solid(colour, 0.0))?;
+    }
+    Ok(())
+}
+
+/// The particle diameter, 0 where it makes no sense.
+fn diameter(field: &Field) -> f64 {
+    if field.diameter.is_finite() { field.diameter.max(0.0) } else { 0.0 }
+}
+
+/// The part of the plane that a field's axis shows: its own limits, else all particles with their radii.
+pub(super) fn extent(axis: &Axis, field: &Field, coordinate: fn(&(f64, f64)) -> f64) -> (Range, bool) {
+    let radius = 0.5 * diameter(field);
+    let edges = field.points.iter().map(coordinate).flat_map(|centre| [centre - radius, centre + radius]);
+    Range::fit(axis, Scale::Linear, edges)
+}

@@ -1,0 +1,225 @@
+//! The legend: what it says, where it hides no data, and how it is drawn.
+
+use super::canvas::{Canvas, Direction, Ink, Point, Rectangle, TextSpec};
+use super::curves::{Plot, band_outlines, draw_band_sample, draw_sample};
+use super::error::FigureError;
+use super::font::{Weight, width};
+use super::palette::{BLACK, GRID};
+use super::{Mark, Panel};
+use plotters::style::WHITE;
+use plotters::style::text_anchor::{HPos, VPos};
+
+/// Where a legend stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    /// In a corner or at an edge of the plot that holds no data.
+    Inside,
+    /// Right of the plot.
+    Beside,
+    /// Under the horizontal axis.
+    Below,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Item {
+    Band,
+    Series(usize),
+}
+
+/// The entries of a panel's legend with their measures.
+#[derive(Debug)]
+pub(super) struct Legend {
+    entries: Vec<(String, Item)>,
+    em: f64,
+    widest: f64,
+}
+
+impl Legend {
+    /// Every label once: simulations in their order, then references, then bands.
+    pub(super) fn of(panel: &Panel, em: f64) -> Self {
+        let mut entries: Vec<(String, Item)> = Vec::new();
+        let of = |reference: bool| {
+            let enumerated = panel.series.iter().enumerate();
+            let wanted = enumerated.filter(move |(_, series)| (series.mark == Mark::Reference) == reference);
+            wanted.map(|(index, series)| (&series.label, Item::Series(index)))
+        };
+        let bands = panel.bands.iter().map(|band| (&band.label, Item::Band));
+        for (label, item) in of(false).chain(of(true)).chain(bands) {
+            if !label.is_empty() && entries.iter().all(|(known, _)| known != label) {
+                entries.push((label.clone(), item));
+            }
+        }
+        let widest = entries.iter().map(|(label, _)| width(label, em, Weight::Regular)).fold(0.0, f64::max);
+        Self { entries, em, widest }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    fn sample(&self) -> f64 {
+        2.2 * self.em
+    }
+
+    fn row(&self) -> f64 {
+        1.35 * self.em
+    }
+
+    fn entry_width(&self) -> f64 {
+        self.sample() + 0.5 * self.em + self.widest
+    }
+
+    /// Width of the box with one entry a row.
+    pub(super) fn box_width(&self) -> f64 {
+        self.entry_width() + 1.2 * self.em
+    }
+
+    fn box_height(&self) -> f64 {
+        self.row() * self.entries.len() as f64 + 0.6 * self.em
+    }
+
+    fn columns_below(&self, available: f64) -> usize {
+        ((available / (self.entry_width() + self.em)).floor() as usize).clamp(1, self.entries.len().max(1))
+    }
+
+    /// Height of the rows under the plot.
+    pub(super) fn height_below(&self, available: f64) -> f64 {
+        self.entries.len().div_ceil(self.columns_below(available)) as f64 * self.row() + 0.4 * self.em
+    }
+
+    /// The free place inside the plot, corners first; `None` if every one would hide data.
+    pub(super) fn free_place(&self, panel: &Panel, plot: &Plot) -> Option<Rectangle> {
+        let window = &plot.window;
+        let gap = 0.5 * self.em;
+        let (width, height) = (self.box_width(), self.box_height());
+        if width + 2.0 * gap > 0.7 * window.width() || height + 2.0 * gap > 0.7 * window.height() {
+            return None;
+        }
+        let drawn = inked_points(panel, plot);
+        let (left, right) = (window.left + gap, window.right - gap - width);
+        let (top, bottom) = (window.top + gap, window.bottom - gap - height);
+        let (centre, middle) = (0.5 * (left + right), 0.5 * (top + bottom));
+        let candidates = [
+            (right, top),
+            (left, top),
+            (right, bottom),
+            (left, bottom),
+            (right, middle),
+            (left, middle),
+            (centre, top),
+            (centre, bottom),
+        ];
+        candidates
+            .into_iter()
+            .map(|(left, top)| Rectangle { left, top, right: left + width, bottom: top + height })
+            .find(|place| {
+                let guarded = place.grown(0.4 * self.em);
+                !drawn.iter().any(|&point| guarded.contains(point))
+            })
+    }
+
+    /// Draws the legend in a box of its own.
+    pub(super) fn draw_box(
+        &self,
+        canvas: &mut Canvas<'_>,
+        panel: &Panel,
+        (left, top): Point,
+    ) -> Result<(), FigureError> {
+        let place = Rectangle { left, top, right: left + self.box_width(), bottom: top + self.box_height() };
+        canvas.fill_rectangle(&place, Ink::solid(WHITE, 0.0))?;
+        canvas.frame(&place, Ink::solid(GRID, 2.0))?;
+        for (index, entry) in self.entries.iter().enumerate() {
+            let y = top + 0.3 * self.em + (index as f64 + 0.5) * self.row();
+            self.draw_entry(canvas, panel, entry, (left + 0.6 * self.em, y))?;
+        }
+        Ok(())
+    }
+
+    /// Draws the legend in rows from `left` to `right`, starting at `top`.
+    pub(super) fn draw_rows(
+        &self,
+        canvas: &mut Canvas<'_>,
+        panel: &Panel,
+        (left, right, top): (f64, f64, f64),
+    ) -> Result<(), FigureError> {
+        let columns = self.columns_below(right - left);
+        let step = self.entry_width() + self.em;
+        let start = left + 0.5 * (right - left - step * columns.min(self.entries.len()) as f64 + self.em).max(0.0);
+        for (index, entry) in self.entries.iter().enumerate() {
+            let x = start + (index % columns) as f64 * step;
+            let y = top + ((index / columns) as f64 + 0.5) * self.row();
+            self.draw_entry(canvas, panel, entry, (x, y))?;
+        }
+        Ok(())
+    }
+
+    fn draw_entry(
+        &self,
+        canvas: &mut Canvas<'_>,
+        panel: &Panel,
+        (label, item): &(String, Item),
+        (left, y): Point,
+    ) -> Result<(), FigureError> {
+        let right = left + self.sample();
+        match *item {
+            Item::Band => {
+                let half = 0.4 * self.em;
+                draw_band_sample(canvas, &Rectangle { left, top: y - half, right, bottom: y + half })?;
+            }
+            Item::Series(index) => {
+                if let Some(series) = panel.series.get(index) {
+                    draw_sample(canvas, panel, series, (left, right, y))?;
+                }
+            }
+        }
+        let spec = TextSpec {
+            em: self.em,
+            weight: Weight::Regular,
+            horizontal: HPos::Left,
+            vertical: VPos::Center,
+            colour: BLACK,
+            direction: Direction::Rightwards,
+        };
+        canvas.text(label, (right + 0.5 * self.em, y), spec)
+    }
+}
+
+/// Points that stand for everything drawn: markers, curves and outlines of bands sampled every few pixels, particles.
+fn inked_points(panel: &Panel, plot: &Plot) -> Vec<Point> {
+    let mut inked: Vec<Point> = Vec::new();
+    for series in &panel.series {
+        let places: Vec<Option<Point>> = series.points.iter().map(|&point| plot.place(point)).collect();
+        inked.extend(places.iter().flatten());
+        if series.mark != Mark::Points {
+            for pair in places.windows(2) {
+                if let (Some(from), Some(to)) = (pair[0], pair[1]) {
+                    sample_segment(&mut inked, from, to);
+                }
+            }
+        }
+        for (&(x, y), &half) in series.points.iter().zip(&series.error) {
+            if let (Some(low), Some(high)) = (plot.place((x, y - half)), plot.place((x, y + half))) {
+                sample_segment(&mut inked, low, high);
+            }
+        }
+    }
+    for outline in panel.bands.iter().flat_map(|band| band_outlines(plot, band)) {
+        for (index, &from) in outline.iter().enumerate() {
+            sample_segment(&mut inked, from, outline[(index + 1) % outline.len()]);
+        }
+    }
+    if let Some(field) = &panel.field {
+        inked.extend(field.points.iter().filter_map(|&point| plot.place(point)));
+    }
+    inked
+}
+
+fn sample_segment(inked: &mut Vec<Point>, from: Point, to: Point) {
+    const EVERY: f64 = 6.0;
+    let length = (to.0 - from.0).hypot(to.1 - from.1);
+    let steps = (length / EVERY).ceil().clamp(1.0, 2000.0) as usize;
+    inked.extend((0..=steps).map(|step| {
+        let share = step as f64 / steps as f64;
+        (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
+    }));
+}

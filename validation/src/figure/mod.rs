@@ -1,0 +1,162 @@
+//! Figures as plain data: cases describe what to draw, this module draws it.
+
+mod axes;
+mod canvas;
+mod clip;
+mod construct;
+mod curves;
+mod error;
+mod field;
+mod font;
+mod legend;
+mod palette;
+mod panel;
+mod range;
+pub mod render;
+mod sheet;
+mod ticks;
+
+#[cfg(test)]
+mod tests;
+
+pub use error::FigureError;
+pub(crate) use ticks::superscript;
+
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// One coordinate axis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Axis {
+    /// Label with unit, such as `u [m/s]`.
+    pub label: String,
+    /// Logarithmic instead of linear.
+    pub scale: Scale,
+    /// Fixed limits; `None` fits the data.
+    pub limits: Option<(f64, f64)>,
+}
+
+/// Spacing of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Scale {
+    /// Equal differences.
+    Linear,
+    /// Equal ratios; values ≤ 0 are not drawn.
+    Logarithmic,
+}
+
+/// How a series is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Mark {
+    /// Solid line: a simulation that is continuous.
+    Line,
+    /// Dashed black line: a reference.
+    Reference,
+    /// Points, with error bars where `error` is given.
+    Points,
+    /// Line with points.
+    LinePoints,
+}
+
+/// One curve or cloud.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Series {
+    /// Legend entry; empty for none.
+    pub label: String,
+    /// How it is drawn.
+    pub mark: Mark,
+    /// Colour slot in the colour-blind safe palette; the same slot is the same run in every panel.
+    pub colour: usize,
+    /// Points (x, y) in axis units.
+    pub points: Vec<(f64, f64)>,
+    /// Half height of the error bar of each point, or empty.
+    pub error: Vec<f64>,
+}
+
+/// A shaded band, such as a reference's uncertainty or a gate: (x, lower, upper).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Band {
+    /// Legend entry; empty for none.
+    pub label: String,
+    /// (x, lower, upper) in axis units.
+    pub points: Vec<(f64, f64, f64)>,
+}
+
+/// Particles coloured by a scalar, drawn with equal axis scales and a colour bar.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Field {
+    /// Positions (x, y) in axis units.
+    pub points: Vec<(f64, f64)>,
+    /// The scalar of each point.
+    pub values: Vec<f64>,
+    /// Label of the colour bar with unit.
+    pub label: String,
+    /// Particle diameter in axis units.
+    pub diameter: f64,
+    /// Colour limits; `None` fits the data.
+    pub limits: Option<(f64, f64)>,
+}
+
+/// One coordinate system with what is drawn in it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Panel {
+    /// Title, may be empty.
+    pub title: String,
+    /// Horizontal axis.
+    pub x: Axis,
+    /// Vertical axis.
+    pub y: Axis,
+    /// Bands, drawn first.
+    pub bands: Vec<Band>,
+    /// Curves and clouds.
+    pub series: Vec<Series>,
+    /// A particle field, drawn between bands and series.
+    pub field: Option<Field>,
+}
+
+/// A figure: one or more panels on one sheet.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Figure {
+    /// File name without ending, kebab-case, unique within the case.
+    pub name: String,
+    /// Caption for the report: what is seen and what it means.
+    pub caption: String,
+    /// Panels in reading order.
+    pub panels: Vec<Panel>,
+    /// Panels a row.
+    pub columns: usize,
+}
+
+/// The files of a written figure.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Written {
+    /// The vector file.
+    pub svg: PathBuf,
+    /// The raster file, 1600 px wide.
+    pub png: PathBuf,
+}
+
+/// Draws `figure` into `folder` as `NAME.svg` and `NAME.png`; the folder is made if it is missing.
+///
+/// # Errors
+/// If the name is no file name, drawing fails, or a file cannot be written.
+pub fn write(figure: &Figure, folder: &Path) -> Result<Written, FigureError> {
+    if !is_file_name(&figure.name) {
+        return Err(FigureError::Name { name: figure.name.clone() });
+    }
+    let drawn = render::svg(figure)?;
+    let raster = render::png(&drawn)?;
+    let write_error = |path: &Path, source| FigureError::Write { path: path.to_owned(), source };
+    std::fs::create_dir_all(folder).map_err(|source| write_error(folder, source))?;
+    let written =
+        Written { svg: folder.join(format!("{}.svg", figure.name)), png: folder.join(format!("{}.png", figure.name)) };
+    std::fs::write(&written.svg, drawn).map_err(|source| write_error(&written.svg, source))?;
+    std::fs::write(&written.png, raster).map_err(|source| write_error(&written.png, source))?;
+    Ok(written)
+}
+
+/// Whether `name` is safe as a file or folder name: it can neither leave its folder nor need quoting in a link.
+pub(crate) fn is_file_name(name: &str) -> bool {
+    name.starts_with(|first: char| first.is_ascii_alphanumeric())
+        && name.chars().all(|character| character.is_ascii_alphanumeric() || "-_.".contains(character))
+}

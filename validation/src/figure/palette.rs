@@ -1,0 +1,104 @@
+//! Colours that colour-blind readers can tell apart, marker shapes, and the colour map of fields.
+
+use plotters::style::RGBColor;
+
+/// Text and references.
+pub(super) const BLACK: RGBColor = RGBColor(0, 0, 0);
+/// Axes and tick labels.
+pub(super) const AXIS: RGBColor = RGBColor(60, 60, 60);
+/// Grid lines.
+pub(super) const GRID: RGBColor = RGBColor(226, 226, 226);
+/// Bands and particles without a value.
+pub(super) const GREY: RGBColor = RGBColor(120, 120, 120);
+
+/// The palette of Okabe and Ito (2008), strongest contrasts first. Black is kept for references;
+/// its yellow, too faint for a thin line on white, is replaced by a brown-grey.
+const SLOTS: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),   // blue
+    RGBColor(213, 94, 0),    // vermillion
+    RGBColor(0, 158, 115),   // bluish green
+    RGBColor(204, 121, 167), // reddish purple
+    RGBColor(230, 159, 0),   // orange
+    RGBColor(86, 180, 233),  // sky blue
+    RGBColor(118, 106, 98),  // brown-grey
+];
+
+/// The colour of a slot; after the palette's end come its darker shades, then it repeats.
+pub(super) fn colour(slot: usize) -> RGBColor {
+    let RGBColor(red, green, blue) = SLOTS[slot % SLOTS.len()];
+    let shade = |channel: u8| if slot / SLOTS.len() % 2 == 1 { (u16::from(channel) * 11 / 20) as u8 } else { channel };
+    RGBColor(shade(red), shade(green), shade(blue))
+}
+
+/// Marker shapes, so that a black and white print keeps the series apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shape {
+    Disc,
+    Square,
+    Triangle,
+    Diamond,
+    TriangleDown,
+}
+
+/// The marker of a slot. Five shapes against fourteen colours: the pairs repeat only after 70 slots.
+pub(super) fn shape(slot: usize) -> Shape {
+    const SHAPES: [Shape; 5] = [Shape::Disc, Shape::Square, Shape::Triangle, Shape::Diamond, Shape::TriangleDown];
+    SHAPES[slot % SHAPES.len()]
+}
+
+/// Ten equidistant samples of viridis (van der Walt and Smith 2015), perceptually uniform.
+const VIRIDIS: [RGBColor; 10] = [
+    RGBColor(0x44, 0x01, 0x54),
+    RGBColor(0x48, 0x28, 0x78),
+    RGBColor(0x3e, 0x4a, 0x89),
+    RGBColor(0x31, 0x68, 0x8e),
+    RGBColor(0x26, 0x82, 0x8e),
+    RGBColor(0x1f, 0x9e, 0x89),
+    RGBColor(0x35, 0xb7, 0x79),
+    RGBColor(0x6d, 0xcd, 0x59),
+    RGBColor(0xb4, 0xde, 0x2c),
+    RGBColor(0xfd, 0xe7, 0x25),
+];
+
+/// The colour at `fraction` of the colour map; outside 0 … 1 its ends, grey for NaN.
+pub(super) fn colour_map(fraction: f64) -> RGBColor {
+    if fraction.is_nan() {
+        return GREY;
+    }
+    let last = VIRIDIS.len() - 1;
+    let place = fraction.clamp(0.0, 1.0) * last as f64;
+    let below = (place.floor() as usize).min(last - 1);
+    let weight = place - below as f64;
+    let RGBColor(red, green, blue) = VIRIDIS[below];
+    let RGBColor(next_red, next_green, next_blue) = VIRIDIS[below + 1];
+    let mix = |a: u8, b: u8| (f64::from(a) + weight * (f64::from(b) - f64::from(a))).round() as u8;
+    RGBColor(mix(red, next_red), mix(green, next_green), mix(blue, next_blue))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colour_map_brightens_monotonically_and_survives_anything() {
+        let brightness =
+            |RGBColor(r, g, b): RGBColor| 0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b);
+        let mut previous = -1.0;
+        for step in 0..=100 {
+            let now = brightness(colour_map(f64::from(step) / 100.0));
+            assert!(now >= previous - 0.6, "step {step}");
+            previous = now;
+        }
+        assert_eq!(colour_map(f64::NAN), GREY);
+        assert_eq!(colour_map(f64::INFINITY), VIRIDIS[9]);
+        assert_eq!(colour_map(-3.0), VIRIDIS[0]);
+    }
+
+    #[test]
+    fn slots_repeat_without_clashing_pairs() {
+        for slot in 1..70 {
+            assert!(colour(slot) != colour(0) || shape(slot) != shape(0));
+        }
+        assert_eq!((colour(70), shape(70)), (colour(0), shape(0)));
+    }
+}

@@ -1,0 +1,248 @@
+//! One panel: how much room it wants, and drawing it in the room it gets.
+
+use super::axes::{Sizes, TICK, TICK_GAP, draw_axes, draw_grid, text, widest_label};
+use super::canvas::{Canvas, Rectangle, TextSpec};
+use super::curves::{Plot, draw_bands, draw_series};
+use super::error::FigureError;
+use super::field::{BarPlace, ColourScale, draw_field, extent};
+use super::font::{Weight, width};
+use super::legend::{Legend, Place};
+use super::palette::{AXIS, BLACK};
+use super::range::{Mapping, Range};
+use super::ticks::{Ticks, ticks};
+use super::{Panel, Scale};
+use plotters::style::text_anchor::{HPos, VPos};
+
+/// Space around a plot for everything that stands outside its frame `[px]`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Margins {
+    pub(super) left: f64,
+    pub(super) right: f64,
+    pub(super) top: f64,
+    pub(super) bottom: f64,
+}
+
+impl Margins {
+    /// The larger of both on every side.
+    pub(super) fn union(self, other: Self) -> Self {
+        Self {
+            left: self.left.max(other.left),
+            right: self.right.max(other.right),
+            top: self.top.max(other.top),
+            bottom: self.bottom.max(other.bottom),
+        }
+    }
+}
+
+/// A panel whose axes are known and whose place is not yet.
+pub(super) struct Prepared<'p> {
+    panel: &'p Panel,
+    title: String,
+    sizes: Sizes,
+    x: (Range, Scale, Ticks),
+    y: (Range, Scale, Ticks),
+    colours: Option<ColourScale>,
+    legend: Legend,
+    legend_place: Place,
+    has_data: bool,
+}
+
+impl<'p> Prepared<'p> {
+    /// Fits axes and ticks of `panel` for a plot of about `width` × `height` pixels.
+    pub(super) fn new(panel: &'p Panel, title: String, sizes: Sizes, (wide, high): (f64, f64)) -> Self {
+        let (x, y, has_data) = ranges(panel);
+        let colours = panel.field.as_ref().map(|field| {
+            let flat = (x.0.upper - x.0.lower) > 2.6 * (y.0.upper - y.0.lower);
+            ColourScale::of(field, if flat { BarPlace::Above } else { BarPlace::Beside })
+        });
+        // Equal scales: the narrower direction decides.
+        let aspect = (y.0.upper - y.0.lower) / (x.0.upper - x.0.lower);
+        let (plot_wide, plot_high) = match colours {
+            Some(_) => (wide.min(high / aspect), high.min(wide * aspect)),
+            None => (wide, high),
+        };
+        let x_ticks = uncrowded(x, plot_wide, sizes.tick);
+        let y_wanted = (plot_high / (3.0 * sizes.tick)).clamp(2.0, 8.0) as usize;
+        Self {
+            panel,
+            title,
+            sizes,
+            x: (x.0, x.1, x_ticks),
+            y: (y.0, y.1, ticks(y.0, y.1, y_wanted)),
+            colours,
+            legend: Legend::of(panel, sizes.legend),
+            legend_place: Place::Inside,
+            has_data,
+        }
+    }
+
+    /// Height of the plot over its width where both axes must have one scale.
+    pub(super) fn aspect(&self) -> Option<f64> {
+        let (x, y) = (self.x.0, self.y.0);
+        self.colours.as_ref().map(|_| (y.upper - y.lower) / (x.upper - x.lower))
+    }
+
+    /// Decides on which side the legend stands, given the plot that the panel would have with none outside.
+    pub(super) fn settle_legend(&mut self, trial: &Rectangle) {
+        let plot = self.plot(self.fitted(trial));
+        self.legend_place = if self.legend.is_empty() || self.legend.free_place(self.panel, &plot).is_some() {
+            Place::Inside
+        } else if trial.width() > 1000.0 && self.panel.field.is_none() {
+            Place::Beside
+        } else {
+            Place::Below
+        };
+    }
+
+    /// The room that axes, title, legend and colour bar need around a plot `plot_width` pixels wide.
+    pub(super) fn margins(&self, plot_width: f64) -> Margins {
+        let sizes = self.sizes;
+        let label = |label: &str| if label.is_empty() { 0.0 } else { 1.5 * sizes.label };
+        let half_last = self.x.2.major.last().map_or(0.0, |tick| 0.5 * width(&tick.label, sizes.tick, Weight::Regular));
+        let mut margins = Margins {
+            left: TICK + TICK_GAP + widest_label(&self.y.2, sizes.tick) + label(&self.panel.y.label) + 10.0,
+            right: half_last.max(12.0) + 8.0,
+            top: 14.0,
+            bottom: TICK + TICK_GAP + 1.2 * sizes.tick + label(&self.panel.x.label).max(0.3 * sizes.tick) + 8.0,
+        };
+        if let Some(colours) = &self.colours {
+            let (beside, above) = colours.space(sizes);
+            margins.right = margins.right.max(beside + 10.0);
+            margins.top += above;
+        }
+        if !self.title.is_empty() && !self.title_beside_bar(plot_width) {
+            margins.top += 1.5 * sizes.title;
+        }
+        if !self.y.2.factor.is_empty() {
+            margins.top = margins.top.max(1.6 * sizes.tick);
+            let factor = width(&self.y.2.factor, sizes.tick, Weight::Regular);
+            margins.left = margins.left.max(TICK + factor + 4.0);
+        }
+        match self.legend_place {
+            Place::Inside => {}
+            Place::Beside => margins.right += self.legend.box_width() + 24.0,
+            Place::Below => margins.bottom += self.legend.height_below(plot_width),
+        }
+        margins
+    }
+
+    /// Draws the panel with its plot in `room`.
+    pub(super) fn draw(&self, canvas: &mut Canvas<'_>, room: &Rectangle) -> Result<(), FigureError> {
+        let plot = self.plot(self.fitted(room));
+        let window = plot.window;
+        let sizes = self.sizes;
+        draw_grid(canvas, &plot, &self.x.2, &self.y.2)?;
+        draw_bands(canvas, &plot, &self.panel.bands)?;
+        if let (Some(field), Some(colours)) = (&self.panel.field, &self.colours) {
+            draw_field(canvas, &plot, field, colours)?;
+            colours.draw_bar(canvas, field, &window, sizes)?;
+        }
+        draw_series(canvas, &plot, self.panel)?;
+        let labels = (self.panel.x.label.as_str(), self.panel.y.label.as_str());
+        draw_axes(canvas, &plot, (&self.x.2, &self.y.2), labels, sizes)?;
+        self.draw_title(canvas, &window)?;
+        if !self.has_data {
+            let middle = (0.5 * (window.left + window.right), 0.5 * (window.top + window.bottom));
+            canvas.text("no data", middle, text(sizes.label, HPos::Center, VPos::Center, AXIS))?;
+        }
+        self.draw_legend(canvas, &plot)
+    }
+
+    fn draw_title(&self, canvas: &mut Canvas<'_>, window: &Rectangle) -> Result<(), FigureError> {
+        let sizes = self.sizes;
+        let mut above = window.top - 0.85 * sizes.title;
+        if let Some(colours) = &self.colours
+            && !self.title_beside_bar(window.width())
+        {
+            above -= colours.space(sizes).1;
+        }
+        let regular = text(sizes.title, HPos::Left, VPos::Center, BLACK);
+        canvas.text(&self.title, (window.left, above), TextSpec { weight: Weight::Bold, ..regular })
+    }
+
+    /// Whether the title stands on the line of a colour bar above the plot.
+    fn title_beside_bar(&self, plot_width: f64) -> bool {
+        match (&self.panel.field, &self.colours) {
+            (Some(field), Some(colours)) => colours.leaves_room_for(&self.title, field, plot_width, self.sizes),
+            _ => false,
+        }
+    }
+
+    fn draw_legend(&self, canvas: &mut Canvas<'_>, plot: &Plot) -> Result<(), FigureError> {
+        if self.legend.is_empty() {
+            return Ok(());
+        }
+        let window = &plot.window;
+        match self.legend_place {
+            Place::Beside => self.legend.draw_box(canvas, self.panel, (window.right + 24.0, window.top)),
+            Place::Below => {
+                let top = window.bottom + TICK + TICK_GAP + 1.25 * self.sizes.tick + 1.5 * self.sizes.label;
+                self.legend.draw_rows(canvas, self.panel, (window.left, window.right, top))
+            }
+            Place::Inside => {
+                let gap = 0.5 * self.sizes.legend;
+                // Panels that share margins may have got a slightly smaller plot than the trial's.
+                let corner = self
+                    .legend
+                    .free_place(self.panel, plot)
+                    .map_or((window.right - gap - self.legend.box_width(), window.top + gap), |place| {
+                        (place.left, place.top)
+                    });
+                self.legend.draw_box(canvas, self.panel, corner)
+            }
+        }
+    }
+
+    /// The largest plot in `room` that keeps equal scales, if it must.
+    fn fitted(&self, room: &Rectangle) -> Rectangle {
+        let Some(aspect) = self.aspect() else { return *room };
+        let width = room.width().min(room.height() / aspect);
+        let height = width * aspect;
+        let left = room.left + 0.5 * (room.width() - width);
+        Rectangle { left, top: room.bottom - height, right: left + width, bottom: room.bottom }
+    }
+
+    fn plot(&self, window: Rectangle) -> Plot {
+        Plot {
+            x: Mapping { range: self.x.0, scale: self.x.1, start: window.left, end: window.right },
+            y: Mapping { range: self.y.0, scale: self.y.1, start: window.bottom, end: window.top },
+            window,
+        }
+    }
+}
+
+/// Ticks of a horizontal axis whose numbers stand clear of each other.
+fn uncrowded((range, scale): Span, plot_width: f64, em: f64) -> Ticks {
+    let mut wanted = (plot_width / (5.0 * em)).clamp(2.0, 8.0) as usize;
+    loop {
+        let found = ticks(range, scale, wanted);
+        let numbers = found.major.iter().filter(|tick| !tick.label.is_empty()).count() as f64;
+        if wanted <= 2 || numbers * (widest_label(&found, em) + 0.8 * em) <= plot_width {
+            return found;
+        }
+        wanted -= 1;
+    }
+}
+
+type Span = (Range, Scale);
+
+/// What both axes show, and whether there is anything to show.
+fn ranges(panel: &Panel) -> (Span, Span, bool) {
+    if let Some(field) = &panel.field {
+        let (x, has_x) = extent(&panel.x, field, |point| point.0);
+        let (y, has_y) = extent(&panel.y, field, |point| point.1);
+        return ((x, Scale::Linear), (y, Scale::Linear), has_x && has_y);
+    }
+    let points = || panel.series.iter().flat_map(|series| &series.points);
+    let bands = || panel.bands.iter().flat_map(|band| &band.points);
+    // Error bars count for the extent where they are finite: they are part of the statement.
+    let bars = panel
+        .series
+        .iter()
+        .flat_map(|series| series.points.iter().zip(&series.error).flat_map(|(&(_, y), &half)| [y - half, y + half]));
+    let xs = points().map(|point| point.0).chain(bands().map(|point| point.0));
+    let ys = points().map(|point| point.1).chain(bands().flat_map(|&(_, lower, upper)| [lower, upper])).chain(bars);
+    let (x, has_x) = Range::fit(&panel.x, panel.x.scale, xs);
+    let (y, has_y) = Range::fit(&panel.y, panel.y.scale, ys);
+    ((x, panel.x.scale), (y, panel.y.scale), has_x && has_y)
+}

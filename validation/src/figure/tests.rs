@@ -1,0 +1,160 @@
+//! Whole figures: what is in the SVG, whether the PNG shows it, and data that must not break anything.
+
+use super::*;
+use resvg::tiny_skia::Pixmap;
+
+fn axis(label: &str, scale: Scale) -> Axis {
+    Axis { label: label.to_owned(), scale, limits: None }
+}
+
+fn series(label: &str, mark: Mark, colour: usize, points: &[(f64, f64)]) -> Series {
+    Series { label: label.to_owned(), mark, colour, points: points.to_vec(), error: Vec::new() }
+}
+
+fn panel(series: Vec<Series>) -> Panel {
+    Panel {
+        title: String::new(),
+        x: axis("u [m/s]", Scale::Linear),
+        y: axis("y [m]", Scale::Linear),
+        bands: Vec::new(),
+        series,
+        field: None,
+    }
+}
+
+fn figure(panels: Vec<Panel>) -> Figure {
+    Figure { name: "velocity-profile".to_owned(), caption: String::new(), panels, columns: 2 }
+}
+
+fn raster(figure: &Figure) -> Pixmap {
+    let drawn = render::svg(figure).expect("SVG");
+    Pixmap::decode_png(&render::png(&drawn).expect("PNG")).expect("a PNG")
+}
+
+/// Share of pixels of exactly this colour.
+fn share(pixels: &Pixmap, red: u8, green: u8, blue: u8) -> f64 {
+    let count = pixels.pixels().iter().filter(|pixel| (pixel.red(), pixel.green(), pixel.blue()) == (red, green, blue));
+    count.count() as f64 / pixels.pixels().len() as f64
+}
+
+#[test]
+fn the_svg_holds_labels_legend_and_escaped_text() {
+    let line = series("slope <24°> & \"rough\"", Mark::Line, 0, &[(0.0, 0.0), (1.0, 1.0)]);
+    let drawn = render::svg(&figure(vec![panel(vec![line])])).expect("SVG");
+    assert!(drawn.contains("u [m/s]") && drawn.contains("y [m]"));
+    assert!(drawn.contains("slope &lt;24°&gt; &amp; &quot;rough&quot;"));
+    assert!(!drawn.contains("<24°>"));
+    assert!(drawn.contains("width=\"1600\""));
+    assert!(!drawn.contains("NaN") && !drawn.contains("inf"));
+}
+
+#[test]
+fn the_png_is_1600_wide_and_shows_the_curve_in_its_colour_and_the_reference_in_black() {
+    let curve = [(0.0, 0.0), (1.0, 1.0)];
+    let pixels = raster(&figure(vec![panel(vec![series("", Mark::Line, 0, &curve)])]));
+    assert_eq!(pixels.width(), 1600);
+    assert!(share(&pixels, 0, 114, 178) > 1e-3, "the curve is missing");
+    let without = raster(&figure(vec![panel(vec![series("", Mark::Line, 1, &curve)])]));
+    assert_eq!(share(&without, 0, 114, 178), 0.0);
+    assert!(share(&without, 213, 94, 0) > 1e-3);
+    let reference = raster(&figure(vec![panel(vec![series("", Mark::Reference, 0, &curve)])]));
+    assert!(share(&reference, 0, 0, 0) > share(&without, 0, 0, 0) + 1e-3);
+    assert!(share(&pixels, 255, 255, 255) > 0.8);
+}
+
+#[test]
+fn text_is_rasterised_with_the_embedded_font() {
+    let mut named = panel(Vec::new());
+    named.x.label = "M".repeat(40);
+    let with = share(&raster(&figure(vec![named])), 0, 0, 0);
+    let without = share(&raster(&figure(vec![panel(Vec::new())])), 0, 0, 0);
+    assert!(with > without + 1e-3, "{with} against {without}");
+}
+
+#[test]
+fn the_same_data_give_the_same_bytes() {
+    let make = || render::svg(&figure(vec![field_panel(30), panel(vec![])])).expect("SVG");
+    assert_eq!(make(), make());
+    assert_eq!(render::png(&make()).expect("PNG"), render::png(&make()).expect("PNG"));
+}
+
+fn field_panel(count: usize) -> Panel {
+    let points: Vec<(f64, f64)> =
+        (0..count * 10).map(|index| ((index % count) as f64 * 0.1, (index / count) as f64 * 0.1)).collect();
+    let values = points.iter().map(|&(_, y)| 100.0 * (1.0 - y)).collect();
+    let field = Field { points, values, label: "p [Pa]".to_owned(), diameter: 0.1, limits: None };
+    Panel { field: Some(field), ..panel(Vec::new()) }
+}
+
+#[test]
+fn particles_are_circles_of_their_true_diameter_that_touch() {
+    let drawn = render::svg(&figure(vec![field_panel(20)])).expect("SVG");
+    let attribute = |line: &str, name: &str| -> Option<f64> {
+        let rest = line.split(&format!(" {name}=\"")).nth(1)?;
+        rest.split('"').next()?.parse().ok()
+    };
+    let circles: Vec<(f64, f64, f64)> = drawn
+        .lines()
+        .filter(|line| line.starts_with("<circle"))
+        .filter_map(|line| Some((attribute(line, "cx")?, attribute(line, "cy")?, attribute(line, "r")?)))
+        .collect();
+    assert_eq!(circles.len(), 200);
+    let horizontal = circles[1].0 - circles[0].0;
+    let vertical = circles[0].1 - circles[20].1;
+    assert!((horizontal - vertical).abs() <= 1.0, "unequal scales: {horizontal} and {vertical}");
+    assert!((2.0 * circles[0].2 - horizontal).abs() <= 2.0, "diameter {} in {horizontal}", 2.0 * circles[0].2);
+}
+
+#[test]
+fn degenerate_data_draw_something() {
+    let odd: [&[(f64, f64)]; 7] = [
+        &[],
+        &[(1.0, 1.0)],
+        &[(1.0, 2.0), (1.0, 2.0)],
+        &[(f64::NAN, 1.0), (1.0, f64::NAN)],
+        &[(f64::INFINITY, 1.0), (f64::NEG_INFINITY, -1.0), (0.0, 0.0)],
+        &[(1e300, -1e300), (-1e300, 1e300), (1e-300, 5e-324)],
+        &[(-1.0, -1.0), (0.0, 0.0)],
+    ];
+    for points in odd {
+        for scale in [Scale::Linear, Scale::Logarithmic] {
+            for mark in [Mark::Line, Mark::Reference, Mark::Points, Mark::LinePoints] {
+                let mut odd = panel(vec![series("odd", mark, usize::MAX, points)]);
+                odd.series[0].error = vec![f64::NAN, -1.0, f64::INFINITY];
+                odd.bands
+                    .push(Band { label: "band".to_owned(), points: points.iter().map(|&(x, y)| (x, y, -y)).collect() });
+                odd.x.scale = scale;
+                odd.y.scale = scale;
+                odd.x.limits = Some((f64::NAN, 0.0));
+                let drawn = render::svg(&figure(vec![odd])).expect("SVG");
+                assert!(!drawn.contains("NaN"));
+            }
+        }
+    }
+    for (points, values, diameter) in [
+        (vec![], vec![], 0.0),
+        (vec![(0.0, 0.0)], vec![1.0], f64::NAN),
+        (vec![(0.0, 0.0), (1.0, f64::NAN)], vec![f64::INFINITY], -1.0),
+        (vec![(0.0, 0.0), (1e-9, 1e9)], vec![2.0, 2.0], 1e-9),
+        (vec![(0.0, 0.0), (1e9, 1e-9)], vec![f64::NAN, f64::NAN], 0.0),
+    ] {
+        let field = Field { points, values, label: "p [Pa]".to_owned(), diameter, limits: Some((1.0, 1.0)) };
+        let drawn = render::svg(&figure(vec![Panel { field: Some(field), ..panel(Vec::new()) }])).expect("SVG");
+        render::png(&drawn).expect("PNG");
+    }
+    render::png(&render::svg(&figure(Vec::new())).expect("SVG")).expect("PNG");
+    let none = Figure { columns: 0, ..figure(vec![panel(Vec::new()); 9]) };
+    render::png(&render::svg(&none).expect("SVG")).expect("PNG");
+}
+
+#[test]
+fn files_get_the_figure_s_name_and_a_name_stays_in_its_folder() {
+    let folder = tempfile::tempdir().expect("folder");
+    let written = write(&figure(vec![panel(Vec::new())]), &folder.path().join("figures")).expect("written");
+    assert!(written.svg.ends_with("figures/velocity-profile.svg") && written.svg.exists());
+    assert!(std::fs::read(&written.png).expect("PNG").starts_with(b"\x89PNG"));
+    for name in ["", "../escape", "a/b", ".hidden", "a b"] {
+        let named = Figure { name: name.to_owned(), ..figure(Vec::new()) };
+        assert!(matches!(write(&named, folder.path()), Err(FigureError::Name { .. })), "{name:?}");
+    }
+}

@@ -1,0 +1,184 @@
+//! A metric: one number that a case is judged by, with what it is judged against.
+
+pub mod json;
+
+use serde::{Deserialize, Serialize};
+
+/// What a verdict rests on; the three are never mixed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Against an exact solution of the model's own equations, a conservation law or a convergence order.
+    Verification,
+    /// Against an experiment or a published fit.
+    Validation,
+    /// Against the project's own earlier result.
+    Regression,
+}
+
+/// The outcome of a gate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// The gate holds.
+    Pass,
+    /// The gate does not hold.
+    Fail,
+    /// There is no gate: the value is reported only.
+    Observed,
+}
+
+/// How sure the project is of a reference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Confidence {
+    /// Exact for the model.
+    Exact,
+    /// Read in two or more independent documents.
+    High,
+    /// Read in one document that quotes the original.
+    Medium,
+    /// Known in the field, no document at hand; never gates.
+    Unverified,
+}
+
+/// The rule of a gate, in the metric's unit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Limit {
+    /// value ≤ bound.
+    AtMost(f64),
+    /// value ≥ bound.
+    AtLeast(f64),
+    /// lower ≤ value ≤ upper.
+    Within(f64, f64),
+}
+
+impl Limit {
+    /// Whether `value` respects the limit; NaN never does.
+    #[must_use]
+    pub fn holds(self, value: f64) -> bool {
+        match self {
+            Self::AtMost(bound) => value <= bound,
+            Self::AtLeast(bound) => value >= bound,
+            Self::Within(lower, upper) => value >= lower && value <= upper,
+        }
+    }
+
+    /// Distance of `value` to the nearest bound, in the metric's unit; negative where the limit is broken.
+    #[must_use]
+    pub fn margin(self, value: f64) -> f64 {
+        match self {
+            Self::AtMost(bound) => bound - value,
+            Self::AtLeast(bound) => value - bound,
+            Self::Within(lower, upper) => (value - lower).min(upper - value),
+        }
+    }
+}
+
+/// A gate: the limit and the reason why it is where it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Gate {
+    /// The rule.
+    pub limit: Limit,
+    /// Why the limit stands where it does, one sentence.
+    pub reason: String,
+}
+
+/// What a value is compared with.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Reference {
+    /// The reference's value in the metric's unit, where it is a number.
+    pub value: Option<f64>,
+    /// Where it comes from: equation, paper or solver.
+    pub source: String,
+    /// How sure the project is of it.
+    pub confidence: Confidence,
+}
+
+/// One judged or observed number.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Metric {
+    /// Stable snake_case name, such as `velocity_l2`.
+    pub name: String,
+    /// Which run, as `key=value,key=value` in one fixed order; empty where the case has a single run.
+    pub variant: String,
+    /// The value.
+    pub value: f64,
+    /// Its unit, `-` for none, `%` for percent.
+    pub unit: String,
+    /// What it is compared with, if anything.
+    pub reference: Option<Reference>,
+    /// What the verdict rests on.
+    pub kind: Kind,
+    /// The gate, if there is one; a metric without a gate is observed.
+    pub gate: Option<Gate>,
+    /// Relative tolerance of the drift snapshot: how far the value may move before a change is reported `[-]`.
+    pub snapshot_tolerance: f64,
+    /// Absolute floor of that tolerance, in the metric's unit: the value's own noise.
+    pub snapshot_floor: f64,
+}
+
+impl Metric {
+    /// An observed verification metric; the `with_…` methods and fields refine it.
+    #[must_use]
+    pub fn observed(name: &str, variant: &str, value: f64, unit: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            variant: variant.to_owned(),
+            value,
+            unit: unit.to_owned(),
+            reference: None,
+            kind: Kind::Verification,
+            gate: None,
+            snapshot_tolerance: 1e-6,
+            snapshot_floor: 0.0,
+        }
+    }
+
+    /// Adds a gate with its reason.
+    #[must_use]
+    pub fn gated(mut self, limit: Limit, reason: &str) -> Self {
+        self.gate = Some(Gate { limit, reason: reason.to_owned() });
+        self
+    }
+
+    /// Adds a reference.
+    #[must_use]
+    pub fn against(mut self, value: Option<f64>, source: &str, confidence: Confidence) -> Self {
+        self.reference = Some(Reference { value, source: source.to_owned(), confidence });
+        self
+    }
+
+    /// Sets what the verdict rests on.
+    #[must_use]
+    pub fn of_kind(mut self, kind: Kind) -> Self {
+        self.kind = kind;
+        self
+    }
+
+    /// Sets the drift snapshot's relative tolerance `[-]` and absolute floor (metric's unit).
+    #[must_use]
+    pub fn with_snapshot_tolerance(mut self, relative: f64, floor: f64) -> Self {
+        self.snapshot_tolerance = relative;
+        self.snapshot_floor = floor;
+        self
+    }
+
+    /// The gate's outcome. An unverified reference never gates.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        let unverified =
+            self.reference.as_ref().is_some_and(|reference| reference.confidence == Confidence::Unverified);
+        match &self.gate {
+            Some(gate) if !unverified => {
+                if gate.limit.holds(self.value) {
+                    Verdict::Pass
+                } else {
+                    Verdict::Fail
+                }
+            }
+            _ => Verdict::Observed,
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! What a run leaves behind: plain data that knows nothing of the simulation it came from.
+
+use serde::{Deserialize, Serialize};
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// Reached its end time.
+    Finished,
+    /// Stopped by its own criterion.
+    Stopped {
+        /// The criterion, in words.
+        criterion: String,
+    },
+    /// Diverged; the last good state was kept.
+    Diverged {
+        /// Which particle, where, when, which quantity, in words.
+        message: String,
+        /// Whether the case declares this divergence as its expected result.
+        expected: bool,
+    },
+}
+
+/// One particle picture for VTU files and field figures; every per-particle array has the same length.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Frame {
+    /// Time `[s]`.
+    pub time: f64,
+    /// Positions `[m]`, third component 0 in 2-D.
+    pub position: Vec<[f64; 3]>,
+    /// Named scalars with their units, such as ("pressure", "Pa", values).
+    pub scalars: Vec<(String, String, Vec<f64>)>,
+    /// Named vectors with their units, such as ("velocity", "m/s", values).
+    pub vectors: Vec<(String, String, Vec<[f64; 3]>)>,
+}
+
+/// A run's record: the observation and how it came about.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Recorded<O> {
+    /// How the run ended.
+    pub outcome: Outcome,
+    /// Hash of the final state's bits in particle-identity order: the same on any machine and thread count.
+    pub state_hash: String,
+    /// Flow particles.
+    pub particles: usize,
+    /// Time steps taken.
+    pub steps: u64,
+    /// Simulated time `[s]`.
+    pub simulated_time: f64,
+    /// Wall time of the simulation `[s]`.
+    pub wall_seconds: f64,
+    /// Threads that the run's loops used.
+    pub threads: usize,
+    /// Snapshots in time order, last one the final (or last good) state.
+    pub frames: Vec<Frame>,
+    /// What the case measured.
+    pub data: O,
+}
+
+/// Hash of a state's bytes: 32 hexadecimal digits of its SHA-256.
+#[must_use]
+pub fn state_hash(bytes: &[u8]) -> String {
+    use sha2::Digest;
+    sha2::Sha256::digest(bytes).iter().take(16).map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,49 @@
+//! Files that a run writes.
+
+mod base64;
+mod folder;
+pub mod snapshots;
+mod table;
+
+pub use folder::OutputFolder;
+pub use table::Table;
+
+use crate::case::CaseResult;
+use crate::figure::{self, FigureError};
+use crate::metric::json::{MetricsDocument, pretty};
+use std::io;
+use std::path::Path;
+
+/// Writes everything about a case into a folder: parameters, metrics, provenance, tables, figures and snapshots.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_case(folder: &Path, result: &CaseResult, document: &MetricsDocument) -> io::Result<()> {
+    std::fs::write(folder.join("case.toml"), &result.parameters_toml)?;
+    std::fs::write(folder.join("metrics.json"), document.text())?;
+    std::fs::write(folder.join("provenance.json"), pretty(&document.provenance))?;
+    let tables = folder.join("tables");
+    std::fs::create_dir_all(&tables)?;
+    for table in &result.tables {
+        table.write(&tables)?;
+    }
+    for (run, frames) in result.runs.iter().zip(&result.frames).filter(|(_, frames)| !frames.is_empty()) {
+        snapshots::write(&folder.join("snapshots"), &snapshots::file_name(&run.variant), frames)?;
+    }
+    write_figures(&folder.join("figures"), result)
+}
+
+/// Writes a case's figures. One that cannot be drawn is no reason to lose the numbers: it is logged.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_figures(folder: &Path, result: &CaseResult) -> io::Result<()> {
+    for drawn in &result.figures {
+        match figure::write(drawn, folder) {
+            Ok(_) => {}
+            Err(FigureError::Write { source, .. }) => return Err(source),
+            Err(error) => tracing::error!("{}, figure {}: failed to {error}", result.name, drawn.name),
+        }
+    }
+    Ok(())
+}

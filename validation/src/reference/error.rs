@@ -1,0 +1,95 @@
+//! What can be wrong with a reference: a data file, or parameters that have no reference solution.
+
+/// A reference that cannot be read or computed. Data errors name file, line and column, each counted from 1.
+#[derive(Debug, thiserror::Error)]
+pub enum ReferenceError {
+    /// The file cannot be read.
+    #[error("read the reference data {file}: {source}")]
+    Unreadable {
+        /// File as the caller named it.
+        file: String,
+        /// The operating system's reason.
+        source: std::io::Error,
+    },
+    /// A metadata line is not `# key: value` with a known key and an allowed value.
+    #[error("read the reference data {file}, line {line}: `{text}` {rule}")]
+    Metadata {
+        /// File as the caller named it.
+        file: String,
+        /// Line of the file.
+        line: u64,
+        /// What stands there.
+        text: String,
+        /// What it breaks, and what to write instead.
+        rule: String,
+    },
+    /// A required metadata line is absent.
+    #[error("read the reference data {file}: the line `# {key}: …` is missing; add it above the table")]
+    MissingMetadata {
+        /// File as the caller named it.
+        file: String,
+        /// The absent key.
+        key: &'static str,
+    },
+    /// The table's shape or text is wrong.
+    #[error("read the reference data {file}, line {line}, column {column}: {rule}")]
+    Table {
+        /// File as the caller named it.
+        file: String,
+        /// Line of the file.
+        line: u64,
+        /// Column of the table.
+        column: usize,
+        /// What it breaks, and what to do.
+        rule: String,
+    },
+    /// A number column holds something else.
+    #[error(
+        "read the reference data {file}, line {line}, column {column} (`{name}`): `{text}` is not a finite number; \
+         write one with a decimal point, or drop the row"
+    )]
+    Number {
+        /// File as the caller named it.
+        file: String,
+        /// Line of the file.
+        line: u64,
+        /// Column of the table.
+        column: usize,
+        /// Name of the column.
+        name: String,
+        /// What stands there.
+        text: String,
+    },
+    /// The table has no such column.
+    #[error("read the reference data {file}: there is no {kind} column `{name}`; its columns are {known}")]
+    NoColumn {
+        /// File as the caller named it.
+        file: String,
+        /// "number" or "label".
+        kind: &'static str,
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
+    /// A parameter of a reference solution is outside its range.
+    #[error("compute the reference solution: {field} is {value}, but must be {rule}")]
+    Parameter {
+        /// Name of the field.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// The range.
+        rule: &'static str,
+    },
+    /// A time step of the 1-D solver did not converge.
+    #[error(
+        "compute the layer's motion at t = {time} s: the residual stays at {residual} m/s; use a shorter time step"
+    )]
+    NotConverged {
+        /// Time at the start of the step `[s]`.
+        time: f64,
+        /// Largest residual `[m/s]`.
+        residual: f64,
+    },
+}

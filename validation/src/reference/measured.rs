@@ -1,0 +1,226 @@
+//! Reference data in CSV files with a header that says what they are and how far to trust them.
+//!
+//! ```text
+//! # quantity: velocity over depth
+//! # unit: m/s
+//! # kind: measured
+//! # confidence: high
+//! # uncertainty: 3 % of the surface velocity
+//! # source: author, year, figure
+//! # licence: own data
+//! height [m],velocity [m/s],run
+//! 0.001,0.012,a
+//! ```
+//!
+//! All seven keys are required, each once. A column with a unit in brackets holds finite numbers; one without
+//! holds labels.
+
+use super::ReferenceError;
+use std::path::Path;
+
+/// Where a reference value comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Exact for the model.
+    Analytic,
+    /// An independent numerical solution of the same model.
+    Computed,
+    /// A published fit to experiments or simulations.
+    Fit,
+    /// Measured values.
+    Measured,
+    /// A sentence of a paper.
+    Statement,
+}
+
+/// How well a reference value is established.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Confidence {
+    /// Known in the field, no document at hand: never gates a result.
+    Unverified,
+    /// Sources conflict.
+    Low,
+    /// Read in one document that quotes the original.
+    Medium,
+    /// Read in two or more independent documents.
+    High,
+}
+
+/// What the header of a reference file says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Metadata {
+    /// What the values are.
+    pub quantity: String,
+    /// Unit of that quantity.
+    pub unit: String,
+    /// Where the values come from.
+    pub kind: Kind,
+    /// How well they are established.
+    pub confidence: Confidence,
+    /// How far they may be off, in words; per-row figures stand in a column.
+    pub uncertainty: String,
+    /// Publication, figure, table.
+    pub source: String,
+    /// Terms of use.
+    pub licence: String,
+}
+
+/// One column of a reference table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Column {
+    /// Finite numbers in a unit.
+    Numbers {
+        /// Name without the unit.
+        name: String,
+        /// Unit, from the brackets.
+        unit: String,
+        /// One value a row, in that unit.
+        values: Vec<f64>,
+    },
+    /// Text.
+    Labels {
+        /// Name.
+        name: String,
+        /// One label a row.
+        values: Vec<String>,
+    },
+}
+
+impl Column {
+    /// Name without the unit.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Numbers { name, .. } | Self::Labels { name, .. } => name,
+        }
+    }
+}
+
+/// A reference table with its provenance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredData {
+    /// File as the caller named it.
+    pub file: String,
+    /// What the header says.
+    pub metadata: Metadata,
+    /// Columns in the order of the file, all of the same length.
+    pub columns: Vec<Column>,
+}
+
+impl MeasuredData {
+    /// Reads a file.
+    pub fn read(path: &Path) -> Result<Self, ReferenceError> {
+        let file = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|source| ReferenceError::Unreadable { file: file.clone(), source })?;
+        Self::parse(&file, &text)
+    }
+
+    /// Reads a text; `file` names it in errors.
+    pub fn parse(file: &str, text: &str) -> Result<Self, ReferenceError> {
+        // A byte-order mark, as spreadsheets write it, would hide the first `#`.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let header_lines = text.lines().take_while(|line| line.starts_with('#') || line.trim().is_empty()).count();
+        let metadata = parse_metadata(file, text, header_lines)?;
+        let columns = super::measured_table::parse_table(file, text, header_lines)?;
+        Ok(Self { file: file.to_owned(), metadata, columns })
+    }
+
+    /// Values of a number column, by its name without the unit.
+    pub fn numbers(&self, name: &str) -> Result<&[f64], ReferenceError> {
+        self.columns
+            .iter()
+            .find_map(|column| match column {
+                Column::Numbers { name: own, values, .. } if own == name => Some(values.as_slice()),
+                _ => None,
+            })
+            .ok_or_else(|| self.no_column("number", name))
+    }
+
+    /// Values of a label column.
+    pub fn labels(&self, name: &str) -> Result<&[String], ReferenceError> {
+        self.columns
+            .iter()
+            .find_map(|column| match column {
+                Column::Labels { name: own, values } if own == name => Some(values.as_slice()),
+                _ => None,
+            })
+            .ok_or_else(|| self.no_column("label", name))
+    }
+
+    fn no_column(&self, kind: &'static str, name: &str) -> ReferenceError {
+        let known: Vec<String> = self.columns.iter().map(|column| format!("`{}`", column.name())).collect();
+        ReferenceError::NoColumn { file: self.file.clone(), kind, name: name.to_owned(), known: known.join(", ") }
+    }
+}
+
+const KEYS: [&str; 7] = ["quantity", "unit", "kind", "confidence", "uncertainty", "source", "licence"];
+
+fn parse_metadata(file: &str, text: &str, header_lines: usize) -> Result<Metadata, ReferenceError> {
+    let mut found: [Option<(u64, String)>; 7] = Default::default();
+    for (index, line) in text.lines().enumerate().take(header_lines) {
+        let number = index as u64 + 1;
+        let refuse = |rule: String| {
+            Err(ReferenceError::Metadata { file: file.to_owned(), line: number, text: line.to_owned(), rule })
+        };
+        if line.trim().is_empty() {
+            continue;
+        }
+        let Some((key, value)) = line.trim_start_matches('#').split_once(':') else {
+            return refuse("has no colon; write `# key: value`".to_owned());
+        };
+        let (key, value) = (key.trim(), value.trim());
+        let Some(slot) = KEYS.iter().position(|known| *known == key) else {
+            return refuse(format!("has an unknown key; the keys are {}", KEYS.join(", ")));
+        };
+        if value.is_empty() {
+            return refuse("has no value; write one, \"none\" if there is none".to_owned());
+        }
+        if found[slot].replace((number, value.to_owned())).is_some() {
+            return refuse("repeats a key; keep one of the lines".to_owned());
+        }
+    }
+    let mut take = |key: &'static str| {
+        let slot = KEYS.iter().position(|known| *known == key);
+        slot.and_then(|slot| found[slot].take()).ok_or(ReferenceError::MissingMetadata { file: file.to_owned(), key })
+    };
+    let kinds = [
+        ("analytic", Kind::Analytic),
+        ("computed", Kind::Computed),
+        ("fit", Kind::Fit),
+        ("measured", Kind::Measured),
+        ("statement", Kind::Statement),
+    ];
+    let confidences = [
+        ("high", Confidence::High),
+        ("medium", Confidence::Medium),
+        ("low", Confidence::Low),
+        ("unverified", Confidence::Unverified),
+    ];
+    Ok(Metadata {
+        quantity: take("quantity")?.1,
+        unit: take("unit")?.1,
+        kind: choose(file, take("kind")?, &kinds)?,
+        confidence: choose(file, take("confidence")?, &confidences)?,
+        uncertainty: take("uncertainty")?.1,
+        source: take("source")?.1,
+        licence: take("licence")?.1,
+    })
+}
+
+/// One of a few words.
+fn choose<T: Copy>(file: &str, (line, text): (u64, String), choices: &[(&str, T)]) -> Result<T, ReferenceError> {
+    choices.iter().find(|(word, _)| *word == text).map(|(_, value)| *value).ok_or_else(|| {
+        let words: Vec<&str> = choices.iter().map(|(word, _)| *word).collect();
+        ReferenceError::Metadata {
+            file: file.to_owned(),
+            line,
+            text,
+            rule: format!("is not one of {}", words.join(", ")),
+        }
+    })
+}
+
+#[cfg(test)]
+#[path = "measured_tests.rs"]
+mod tests;

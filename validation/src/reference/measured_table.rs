@@ -1,0 +1,84 @@
+//! The table of a reference file: CSV text → columns, with the place of everything that is wrong.
+
+use super::{Column, ReferenceError};
+
+/// Columns of the table that follows `header_lines` lines of a text.
+pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result<Vec<Column>, ReferenceError> {
+    let table: String = text.lines().skip(header_lines).flat_map(|line| [line, "\n"]).collect();
+    let offset = header_lines as u64;
+    let refuse = |line: u64, column: usize, rule: String| ReferenceError::Table {
+        file: file.to_owned(),
+        line: line + offset,
+        column,
+        rule,
+    };
+    let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(table.as_bytes());
+    let names = reader.headers().map_err(|error| refuse(1, 1, error.to_string()))?.clone();
+    if names.is_empty() {
+        return Err(refuse(1, 1, "there is no table; write the columns' names and at least one row".to_owned()));
+    }
+    let mut columns: Vec<Column> = Vec::with_capacity(names.len());
+    for (index, name) in names.iter().enumerate() {
+        let column = parse_name(name).map_err(|rule| refuse(1, index + 1, rule))?;
+        if columns.iter().any(|other| other.name() == column.name()) {
+            return Err(refuse(1, index + 1, format!("the name `{}` is used twice; rename one", column.name())));
+        }
+        columns.push(column);
+    }
+    let mut rows = 0;
+    for record in reader.records() {
+        let record =
+            record.map_err(|error| refuse(error.position().map_or(1, csv::Position::line), 1, error.to_string()))?;
+        let line = record.position().map_or(1, csv::Position::line);
+        if record.len() != columns.len() {
+            let rule = format!(
+                "the row has {} fields, the table {} columns; complete or shorten it",
+                record.len(),
+                columns.len()
+            );
+            return Err(refuse(line, record.len().min(columns.len()), rule));
+        }
+        for (index, (column, text)) in columns.iter_mut().zip(&record).enumerate() {
+            match column {
+                Column::Labels { values, .. } => values.push(text.to_owned()),
+                Column::Numbers { name, values, .. } => match text.parse::<f64>() {
+                    Ok(value) if value.is_finite() => values.push(value),
+                    _ => {
+                        return Err(ReferenceError::Number {
+                            file: file.to_owned(),
+                            line: line + offset,
+                            column: index + 1,
+                            name: name.clone(),
+                            text: text.to_owned(),
+                        });
+                    }
+                },
+            }
+        }
+        rows += 1;
+    }
+    if rows == 0 {
+        return Err(refuse(1, 1, "the table has no rows; add at least one".to_owned()));
+    }
+    Ok(columns)
+}
+
+/// An empty column of a name such as `height [m]`.
+fn parse_name(text: &str) -> Result<Column, String> {
+    let column = match text.split_once('[') {
+        None => Column::Labels { name: text.to_owned(), values: Vec::new() },
+        Some((name, rest)) => {
+            let unit = rest
+                .strip_suffix(']')
+                .ok_or_else(|| format!("`{text}` does not end with its unit's bracket; write `name [unit]`"))?;
+            if unit.trim().is_empty() {
+                return Err(format!("`{text}` has an empty unit; write `[-]` for a pure number"));
+            }
+            Column::Numbers { name: name.trim().to_owned(), unit: unit.trim().to_owned(), values: Vec::new() }
+        }
+    };
+    if column.name().is_empty() {
+        return Err("the column has no name; write `name [unit]`".to_owned());
+    }
+    Ok(column)
+}

@@ -1,0 +1,17 @@
+//! What results are compared with: exact profiles, a 1-D solver that checks the particles independently, and
+//! published or measured data in CSV files.
+//!
+//! Nothing here uses the particle solver, so that agreement with it means something.
+
+mod bagnold_profile;
+mod error;
+mod film;
+mod layer_transient;
+mod measured;
+mod measured_table;
+
+pub use bagnold_profile::BagnoldProfile;
+pub use error::ReferenceError;
+pub use film::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
+pub use layer_transient::{LayerProfile, LayerTransient, TransientHistory};
+pub use measured::{Column, Confidence, Kind, MeasuredData, Metadata};

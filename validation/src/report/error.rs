@@ -1,0 +1,66 @@
+//! What can go wrong while a report is read, judged or written.
+
+use crate::figure::FigureError;
+use std::path::PathBuf;
+
+/// Why a report was not written; the message completes "failed to …".
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// A case name that would not stay inside the report's folder.
+    #[error(
+        "write the case {name:?}: a name consists of letters, digits, '-', '_' and '.', and starts with a letter or digit"
+    )]
+    Name {
+        /// The name as given.
+        name: String,
+    },
+    /// A file or folder could not be written.
+    #[error("write {path}: {source}")]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A figure's file could not be written.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// The page's template is damaged.
+    #[error("fill the page's template: {0}")]
+    Template(#[from] minijinja::Error),
+}
+
+/// Why a committed file of `reports/baseline` was not read or written; the message completes "failed to …".
+#[derive(Debug, thiserror::Error)]
+pub enum BaselineError {
+    /// The file could not be read.
+    #[error("read {path}: {source}")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file could not be written.
+    #[error("write {path}: {source}")]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file is not what it should be.
+    #[error("read {path}: {message}; correct the file, or delete it to start afresh")]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong in it.
+        message: String,
+    },
+    /// A case name that is no file name.
+    #[error("name a baseline after the case {name:?}: a case name is kebab-case")]
+    Name {
+        /// The name as given.
+        name: String,
+    },
+}

@@ -1,0 +1,231 @@
+//! Every metric against its gate, the baseline and the list of known failures; every run against divergence.
+
+use super::baseline::{Drift, Key};
+use super::known_failures::Standing;
+use super::{CaseReport, Report};
+use crate::metric::{Kind, Metric, Verdict};
+use crate::observe::Outcome;
+
+/// How bad a result is; the order is that of the page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// A gate fails that is not listed, or the list of known failures contradicts the result.
+    Failure,
+    /// A listed gate fails as expected.
+    KnownFailure,
+    /// No gate fails, but the value has drifted from the baseline.
+    Drifted,
+    /// The gate holds.
+    Pass,
+    /// There is no gate.
+    Observed,
+}
+
+/// One metric, judged.
+#[derive(Debug, Clone)]
+pub struct Judged<'r> {
+    /// The metric.
+    pub metric: &'r Metric,
+    /// Against its gate.
+    pub verdict: Verdict,
+    /// Against the list of known failures.
+    pub standing: Standing,
+    /// Against the baseline.
+    pub drift: Drift,
+}
+
+impl Judged<'_> {
+    /// The worst of the three verdicts.
+    #[must_use]
+    pub fn severity(&self) -> Severity {
+        match (&self.standing, self.verdict) {
+            (standing, _) if standing.is_error() => Severity::Failure,
+            (Standing::Known(_), _) => Severity::KnownFailure,
+            (_, Verdict::Fail) => Severity::Failure,
+            _ if self.drift.is_failure() => Severity::Drifted,
+            (_, Verdict::Pass) => Severity::Pass,
+            (_, Verdict::Observed) => Severity::Observed,
+        }
+    }
+}
+
+/// One case, judged; metrics with the worst first, those of one name together.
+#[derive(Debug, Clone)]
+pub struct JudgedCase<'r> {
+    /// The case.
+    pub case: &'r CaseReport,
+    /// Its metrics.
+    pub metrics: Vec<Judged<'r>>,
+    /// Baseline values that the case no longer measures.
+    pub vanished: Vec<Key>,
+    /// Runs that diverged without having declared it: variant and message.
+    pub diverged: Vec<(&'r str, &'r str)>,
+}
+
+impl JudgedCase<'_> {
+    /// The worst of the case; an empty case is observed.
+    #[must_use]
+    pub fn severity(&self) -> Severity {
+        let worst = self.metrics.iter().map(Judged::severity).min().unwrap_or(Severity::Observed);
+        if !self.diverged.is_empty() {
+            Severity::Failure
+        } else if !self.vanished.is_empty() {
+            worst.min(Severity::Drifted)
+        } else {
+            worst
+        }
+    }
+
+    /// How many metrics have this severity.
+    #[must_use]
+    pub fn count(&self, severity: Severity) -> usize {
+        self.metrics.iter().filter(|judged| judged.severity() == severity).count()
+    }
+}
+
+/// Gates of one kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Tally {
+    /// Gates that hold.
+    pub hold: usize,
+    /// Gates that fail and are not listed.
+    pub fail: usize,
+    /// Gates that fail and are listed.
+    pub known: usize,
+}
+
+/// Comparisons with the baseline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct DriftTally {
+    /// Values within their tolerance.
+    pub unchanged: usize,
+    /// Values outside, in another unit, or vanished.
+    pub drifted: usize,
+    /// Values without a baseline.
+    pub new: usize,
+}
+
+/// A judged report.
+#[derive(Debug, Clone)]
+pub struct Judgement<'r> {
+    /// Cases, the worst first, else in the report's order.
+    pub cases: Vec<JudgedCase<'r>>,
+    /// Gates against exact solutions.
+    pub verification: Tally,
+    /// Gates against experiments and published fits.
+    pub validation: Tally,
+    /// Gates against the project's own earlier results.
+    pub regression: Tally,
+    /// Comparisons with the baseline.
+    pub drift: DriftTally,
+    /// Entries of the list of known failures that contradict the results.
+    pub contradictions: usize,
+    /// Runs that diverged without having declared it.
+    pub diverged: usize,
+}
+
+impl Judgement<'_> {
+    /// Whether anything failed that is not a known failure: a gate, the list itself, or a run. Drift is not counted:
+    /// it is the snapshot's verdict, not the gate's.
+    #[must_use]
+    pub fn has_unexpected_failure(&self) -> bool {
+        let tallies = [self.verification, self.validation, self.regression];
+        tallies.iter().any(|tally| tally.fail > 0) || self.contradictions > 0 || self.diverged > 0
+    }
+
+    /// Gates of any kind that fail, listed or not.
+    #[must_use]
+    pub fn failing_gates(&self) -> usize {
+        [self.verification, self.validation, self.regression].iter().map(|tally| tally.fail + tally.known).sum()
+    }
+
+    /// Gates of any kind that hold.
+    #[must_use]
+    pub fn holding_gates(&self) -> usize {
+        [self.verification, self.validation, self.regression].iter().map(|tally| tally.hold).sum()
+    }
+
+    /// Whether every gate holds, nothing drifted, and there was a gate at all.
+    #[must_use]
+    pub fn is_green(&self) -> bool {
+        self.holding_gates() > 0
+            && self.failing_gates() == 0
+            && self.drift.drifted == 0
+            && !self.has_unexpected_failure()
+    }
+}
+
+/// Judges every case of `report`.
+#[must_use]
+pub fn judge(report: &Report) -> Judgement<'_> {
+    let mut cases: Vec<JudgedCase<'_>> = report.cases.iter().map(|case| judge_case(report, case)).collect();
+    let mut judgement = Judgement {
+        cases: Vec::new(),
+        verification: Tally::default(),
+        validation: Tally::default(),
+        regression: Tally::default(),
+        drift: DriftTally::default(),
+        contradictions: 0,
+        diverged: 0,
+    };
+    for case in &cases {
+        judgement.diverged += case.diverged.len();
+        judgement.drift.drifted += case.vanished.len();
+        for judged in &case.metrics {
+            judgement.count(judged);
+        }
+    }
+    // Stable: cases of one severity keep the registry's order.
+    cases.sort_by_key(JudgedCase::severity);
+    judgement.cases = cases;
+    judgement
+}
+
+impl Judgement<'_> {
+    fn count(&mut self, judged: &Judged<'_>) {
+        let tally = match judged.metric.kind {
+            Kind::Verification => &mut self.verification,
+            Kind::Validation => &mut self.validation,
+            Kind::Regression => &mut self.regression,
+        };
+        match (judged.verdict, &judged.standing) {
+            (Verdict::Observed, _) => {}
+            (Verdict::Pass, _) => tally.hold += 1,
+            (Verdict::Fail, Standing::Known(_)) => tally.known += 1,
+            (Verdict::Fail, _) => tally.fail += 1,
+        }
+        if judged.standing.is_error() {
+            self.contradictions += 1;
+        }
+        match judged.drift {
+            Drift::New => self.drift.new += 1,
+            Drift::Unchanged { .. } => self.drift.unchanged += 1,
+            Drift::Drifted { .. } | Drift::UnitChanged { .. } => self.drift.drifted += 1,
+        }
+    }
+}
+
+fn judge_case<'r>(report: &'r Report, case: &'r CaseReport) -> JudgedCase<'r> {
+    let mut metrics: Vec<Judged<'r>> = case
+        .metrics
+        .iter()
+        .map(|metric| Judged {
+            metric,
+            verdict: metric.verdict(),
+            standing: report.known_failures.standing(&case.name, metric),
+            drift: report.baseline.drift(&case.name, metric),
+        })
+        .collect();
+    let first_of_name = |name: &str| case.metrics.iter().position(|metric| metric.name == name);
+    metrics.sort_by_key(|judged| (judged.severity(), first_of_name(&judged.metric.name)));
+    let diverged = case.runs.iter().filter_map(|run| match &run.outcome {
+        Outcome::Diverged { message, expected: false } => Some((run.variant.as_str(), message.as_str())),
+        _ => None,
+    });
+    JudgedCase {
+        case,
+        metrics,
+        vanished: report.baseline.vanished(&case.name, &case.metrics),
+        diverged: diverged.collect(),
+    }
+}

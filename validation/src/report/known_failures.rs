@@ -1,0 +1,205 @@
+//! Gates that honest attempts did not reach. They stay red on the page, but only a change of them is an error.
+
+use super::baseline::{Key, snapshot_tolerance};
+use super::error::BaselineError;
+use crate::metric::{Metric, Verdict};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// One listed gate.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KnownFailure {
+    /// Case name.
+    pub case: String,
+    /// Metric name.
+    pub metric: String,
+    /// Variant.
+    pub variant: String,
+    /// The best value that was reached, in the metric's unit.
+    pub best_value: f64,
+    /// Day of that value, `YYYY-MM-DD`.
+    pub date: String,
+    /// Why the gate is not reached, and what was tried.
+    pub reason: String,
+}
+
+/// The list of `reports/baseline/known_failures.toml`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KnownFailures {
+    /// The listed gates.
+    #[serde(default, rename = "failure")]
+    pub failures: Vec<KnownFailure>,
+}
+
+/// What the list says about a metric.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Standing {
+    /// Not listed: the gate's own verdict counts.
+    Unlisted,
+    /// Listed and failing as expected: shown red, no error.
+    Known(KnownFailure),
+    /// Listed, but the gate holds: the entry must go. An error.
+    PassesAgain(KnownFailure),
+    /// Listed and failing by more than the best value's snapshot tolerance beyond it. An error.
+    Worse(KnownFailure),
+    /// Listed, but the metric has no gate (or an unverified reference): the entry means nothing. An error.
+    WithoutGate(KnownFailure),
+}
+
+impl Standing {
+    /// Whether the list and the result contradict each other.
+    #[must_use]
+    pub fn is_error(&self) -> bool {
+        matches!(self, Self::PassesAgain(_) | Self::Worse(_) | Self::WithoutGate(_))
+    }
+
+    /// The list's entry, if there is one.
+    #[must_use]
+    pub fn entry(&self) -> Option<&KnownFailure> {
+        match self {
+            Self::Unlisted => None,
+            Self::Known(entry) | Self::PassesAgain(entry) | Self::Worse(entry) | Self::WithoutGate(entry) => {
+                Some(entry)
+            }
+        }
+    }
+}
+
+impl KnownFailures {
+    /// Reads the list; a missing file is an empty list.
+    ///
+    /// # Errors
+    /// If the file cannot be read, has an unknown or missing field, an empty reason or date, a best value that is not
+    /// finite, or names a gate twice.
+    pub fn read(path: &Path) -> Result<Self, BaselineError> {
+        let text = match std::fs::read_to_string(path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
+            Err(source) => return Err(BaselineError::Read { path: path.to_owned(), source }),
+        };
+        let refuse = |message: String| BaselineError::Content { path: path.to_owned(), message };
+        let list: Self = toml::from_str(&text).map_err(|error| refuse(error.to_string().trim_end().to_owned()))?;
+        for (index, failure) in list.failures.iter().enumerate() {
+            let name = format!("failure {} ({} {} {})", index + 1, failure.case, failure.metric, failure.variant);
+            if failure.reason.trim().is_empty() || failure.date.trim().is_empty() {
+                return Err(refuse(format!("{name} needs a date and a reason")));
+            }
+            if !failure.best_value.is_finite() {
+                return Err(refuse(format!("{name} needs a finite best_value")));
+            }
+            if list.failures[..index].iter().any(|other| other.key() == failure.key()) {
+                return Err(refuse(format!("{name} is listed twice")));
+            }
+        }
+        Ok(list)
+    }
+
+    /// The entry for `metric` of `case`.
+    #[must_use]
+    pub fn entry(&self, case: &str, metric: &Metric) -> Option<&KnownFailure> {
+        let key = Key::of(case, metric);
+        self.failures.iter().find(|failure| failure.key() == key)
+    }
+
+    /// What the list says about `metric` of `case`.
+    #[must_use]
+    pub fn standing(&self, case: &str, metric: &Metric) -> Standing {
+        let Some(entry) = self.entry(case, metric).cloned() else { return Standing::Unlisted };
+        match (metric.verdict(), &metric.gate) {
+            (Verdict::Pass, _) => Standing::PassesAgain(entry),
+            (Verdict::Fail, Some(gate)) => {
+                // The margin knows which direction is worse; a NaN is worse than anything.
+                let lost = gate.limit.margin(entry.best_value) - gate.limit.margin(metric.value);
+                if lost <= snapshot_tolerance(metric, entry.best_value) {
+                    Standing::Known(entry)
+                } else {
+                    Standing::Worse(entry)
+                }
+            }
+            _ => Standing::WithoutGate(entry),
+        }
+    }
+}
+
+impl KnownFailure {
+    fn key(&self) -> Key {
+        Key { case: self.case.clone(), metric: self.metric.clone(), variant: self.variant.clone() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::metric::Limit;
+
+    const LIST: &str = r#"
+[[failure]]
+case = "bagnold"
+metric = "velocity_l2"
+variant = "resolution=40"
+best_value = 0.9
+date = "2025-01-31"
+reason = "slip at the wall"
+"#;
+
+    fn read(text: &str) -> Result<KnownFailures, BaselineError> {
+        let folder = tempfile::tempdir().expect("folder");
+        let path = folder.path().join("known_failures.toml");
+        std::fs::write(&path, text).expect("file");
+        KnownFailures::read(&path)
+    }
+
+    fn metric(value: f64, limit: Limit) -> Metric {
+        Metric::observed("velocity_l2", "resolution=40", value, "%")
+            .gated(limit, "prototype")
+            .with_snapshot_tolerance(0.05, 0.0)
+    }
+
+    #[test]
+    fn a_listed_gate_is_known_until_it_passes_or_gets_worse() {
+        let list = read(LIST).expect("list");
+        let standing = |value| list.standing("bagnold", &metric(value, Limit::AtMost(0.7)));
+        assert!(matches!(standing(0.9), Standing::Known(_)));
+        assert!(matches!(standing(0.94), Standing::Known(_)), "within 5 % of the best value");
+        assert!(matches!(standing(0.8), Standing::Known(_)), "better, but still failing");
+        assert!(matches!(standing(0.95), Standing::Worse(_)));
+        assert!(matches!(standing(f64::NAN), Standing::Worse(_)));
+        assert!(matches!(standing(0.69), Standing::PassesAgain(_)));
+        assert!(!standing(0.9).is_error() && standing(0.95).is_error() && standing(0.69).is_error());
+    }
+
+    #[test]
+    fn worse_follows_the_direction_of_the_gate() {
+        let list = read(LIST).expect("list");
+        let standing = |value| list.standing("bagnold", &metric(value, Limit::AtLeast(1.5)));
+        assert!(matches!(standing(0.84), Standing::Worse(_)));
+        assert!(matches!(standing(1.2), Standing::Known(_)));
+    }
+
+    #[test]
+    fn other_metrics_are_unlisted_and_an_entry_without_a_gate_is_an_error() {
+        let list = read(LIST).expect("list");
+        let gated = metric(0.9, Limit::AtMost(0.7));
+        assert_eq!(list.standing("film", &gated), Standing::Unlisted);
+        let observed = Metric { gate: None, ..gated };
+        assert!(matches!(list.standing("bagnold", &observed), Standing::WithoutGate(_)));
+    }
+
+    #[test]
+    fn the_file_is_checked() {
+        for (text, expected) in [
+            (LIST.replace("best_value = 0.9", "best_value = 0.9\nblame = \"x\""), "blame"),
+            (LIST.replace("slip at the wall", " "), "date and a reason"),
+            (LIST.replace("0.9", "nan"), "finite best_value"),
+            (LIST.repeat(2), "listed twice"),
+            (LIST.replace("date = \"2025-01-31\"\n", ""), "date"),
+        ] {
+            let error = read(&text).expect_err("refused").to_string();
+            assert!(error.contains(expected) && error.contains("known_failures.toml"), "{error}");
+        }
+        assert_eq!(read("").expect("empty"), KnownFailures::default());
+        assert!(KnownFailures::read(Path::new("no/such/file.toml")).expect("missing").failures.is_empty());
+    }
+}

@@ -1,0 +1,165 @@
+//! Verdicts → one self-contained folder with a page, figures and the numbers behind them.
+
+pub mod baseline;
+mod error;
+pub mod judgement;
+pub mod known_failures;
+pub mod number;
+mod page;
+mod rows;
+mod view;
+
+#[cfg(test)]
+mod tests;
+
+pub use baseline::{Baseline, Drift, Key};
+pub use error::{BaselineError, ReportError};
+pub use judgement::{Judgement, judge};
+pub use known_failures::{KnownFailure, KnownFailures, Standing};
+
+use crate::case::Tier;
+use crate::figure::{self, Figure, FigureError};
+use crate::metric::Metric;
+use crate::observe::Outcome;
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+
+/// Everything that a report shows.
+#[derive(Debug, Clone)]
+pub struct Report {
+    /// Heading of the page.
+    pub title: String,
+    /// The tier that all cases ran at.
+    pub tier: Tier,
+    /// How the report came about.
+    pub generated: Provenance,
+    /// The cases in the order of their registry.
+    pub cases: Vec<CaseReport>,
+    /// The committed values to compare with; may be empty.
+    pub baseline: Baseline,
+    /// The gates that are known to fail; may be empty.
+    pub known_failures: KnownFailures,
+}
+
+/// How a report came about.
+#[derive(Debug, Clone, Default)]
+pub struct Provenance {
+    /// Version of the program.
+    pub version: String,
+    /// Commit of the sources, empty if unknown.
+    pub commit: String,
+    /// Threads used.
+    pub threads: usize,
+    /// Wall time of everything `[s]`.
+    pub wall_seconds: f64,
+    /// The command that makes the report again.
+    pub command: String,
+    /// Day and time, shown in the footer only; `None` where the page must be the same every time.
+    pub date: Option<String>,
+}
+
+/// One case of a report.
+#[derive(Debug, Clone)]
+pub struct CaseReport {
+    /// Name, also of its folders.
+    pub name: String,
+    /// One line.
+    pub summary: String,
+    /// A paragraph: what is simulated and what it is judged against.
+    pub description: String,
+    /// The parameters as run; written as `case.toml`.
+    pub parameters_toml: String,
+    /// The command that reproduces the case.
+    pub command: String,
+    /// Judged and observed numbers.
+    pub metrics: Vec<Metric>,
+    /// Figures in reading order.
+    pub figures: Vec<Figure>,
+    /// The simulations behind the metrics.
+    pub runs: Vec<RunSummary>,
+    /// The text of `metrics.json`, written as it is.
+    pub metrics_json: String,
+}
+
+/// One simulation of a case.
+#[derive(Debug, Clone)]
+pub struct RunSummary {
+    /// Full name, `key=value,…`.
+    pub variant: String,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Flow particles.
+    pub particles: usize,
+    /// Time steps.
+    pub steps: u64,
+    /// Simulated time `[s]`.
+    pub simulated_time: f64,
+    /// Wall time `[s]`.
+    pub wall_seconds: f64,
+    /// Threads that the run's loops used.
+    pub threads: usize,
+    /// Wall time over particles and steps `[µs]`.
+    pub microseconds_per_particle_step: f64,
+    /// Hash of the final state.
+    pub state_hash: String,
+    /// Whether the result was taken from the store instead of simulated again.
+    pub from_store: bool,
+}
+
+/// A figure as the page refers to it.
+#[derive(Debug, Clone)]
+struct Drawn {
+    caption: String,
+    name: String,
+    /// Why there is no picture, or nothing.
+    failure: Option<String>,
+}
+
+/// Writes the report into `folder`: `index.html`, `figures/CASE/NAME.{svg,png}`, `cases/CASE/metrics.json` and
+/// `cases/CASE/case.toml`. Files of the same names are replaced, others are left alone.
+///
+/// A figure that cannot be drawn does not spoil the report: the page says so in its place.
+///
+/// # Errors
+/// If a case name is no folder name, or a file cannot be written.
+pub fn write(report: &Report, folder: &Path) -> Result<(), ReportError> {
+    if let Some(case) = report.cases.iter().find(|case| !figure::is_file_name(&case.name)) {
+        return Err(ReportError::Name { name: case.name.clone() });
+    }
+    make(folder)?;
+    let drawn: Vec<Vec<Drawn>> = report
+        .cases
+        .par_iter()
+        .map(|case| draw(case, &folder.join("figures").join(&case.name)))
+        .collect::<Result<_, _>>()?;
+    for case in &report.cases {
+        let place = folder.join("cases").join(&case.name);
+        make(&place)?;
+        put(place.join("metrics.json"), &case.metrics_json)?;
+        put(place.join("case.toml"), &case.parameters_toml)?;
+    }
+    let html = page::render(report, &judge(report), &drawn)?;
+    put(folder.join("index.html"), &html)
+}
+
+fn draw(case: &CaseReport, folder: &Path) -> Result<Vec<Drawn>, ReportError> {
+    case.figures
+        .par_iter()
+        .map(|figure| {
+            let failure = match figure::write(figure, folder) {
+                Ok(_) => None,
+                Err(error @ FigureError::Write { .. }) => return Err(error.into()),
+                Err(error) => Some(error.to_string()),
+            };
+            Ok(Drawn { caption: figure.caption.clone(), name: figure.name.clone(), failure })
+        })
+        .collect()
+}
+
+fn make(folder: &Path) -> Result<(), ReportError> {
+    std::fs::create_dir_all(folder).map_err(|source| ReportError::Write { path: folder.to_owned(), source })
+}
+
+fn put(path: PathBuf, text: &str) -> Result<(), ReportError> {
+    std::fs::write(&path, text).map_err(|source| ReportError::Write { path, source })
+}

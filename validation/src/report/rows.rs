@@ -1,0 +1,176 @@
+//! One judged metric in words: the cells of its row and its line in the banner.
+
+use super::baseline::{Drift, Key};
+use super::judgement::{Judged, Severity};
+use super::known_failures::Standing;
+use super::number::{four_digits, two_digits, with_unit};
+use super::view::{Mark, Row};
+use crate::metric::{Confidence, Kind, Limit, Metric, Verdict};
+
+/// The mark of a severity.
+pub(super) fn mark(severity: Severity) -> Mark {
+    match severity {
+        Severity::Failure => Mark::FAIL,
+        Severity::KnownFailure => Mark::KNOWN,
+        Severity::Drifted => Mark::DRIFT,
+        Severity::Pass => Mark::PASS,
+        Severity::Observed => Mark::OBSERVED,
+    }
+}
+
+/// The rows of a case; reasons and sources that stand in the row above are marked as repeated.
+pub(super) fn rows(metrics: &[Judged<'_>]) -> Vec<Row> {
+    let mut rows: Vec<Row> = Vec::with_capacity(metrics.len());
+    for judged in metrics {
+        let mut row = row(judged);
+        if let Some(above) = rows.last().filter(|above| above.metric == row.metric) {
+            row.reason_repeats = above.reason == row.reason;
+            row.source_repeats = above.source == row.source && above.confidence == row.confidence;
+        }
+        rows.push(row);
+    }
+    rows
+}
+
+fn row(judged: &Judged<'_>) -> Row {
+    let metric = judged.metric;
+    let reference = metric.reference.as_ref();
+    let gate = metric.gate.as_ref();
+    let (drift, change, relative_change) = drift(judged);
+    Row {
+        mark: gate_mark(judged),
+        metric: metric.name.clone(),
+        variant: metric.variant.split(',').filter(|part| !part.is_empty()).map(str::to_owned).collect(),
+        value: with_unit(metric.value, &metric.unit),
+        reference: reference
+            .and_then(|reference| reference.value)
+            .map(|value| with_unit(value, &metric.unit))
+            .unwrap_or_default(),
+        source: reference.map(|reference| reference.source.clone()).unwrap_or_default(),
+        confidence: reference.map_or("", |reference| confidence(reference.confidence)),
+        kind: kind(metric.kind),
+        limit: gate.map(|gate| limit(gate.limit, &metric.unit)).unwrap_or_default(),
+        reason: gate.map(|gate| gate.reason.clone()).unwrap_or_default(),
+        reason_repeats: false,
+        source_repeats: false,
+        margin: gate.map(|gate| margin(metric, gate.limit)).unwrap_or_default(),
+        relative_margin: gate.map(|gate| relative_margin(metric, gate.limit)).unwrap_or_default(),
+        drift,
+        change,
+        relative_change,
+        note: note(judged),
+    }
+}
+
+/// The mark of the gate alone: drift has a column of its own.
+fn gate_mark(judged: &Judged<'_>) -> Mark {
+    match judged.severity() {
+        Severity::Drifted if judged.verdict == Verdict::Observed => Mark::OBSERVED,
+        Severity::Drifted => Mark::PASS,
+        severity => mark(severity),
+    }
+}
+
+/// What the list of known failures adds, in a sentence.
+pub(super) fn note(judged: &Judged<'_>) -> String {
+    let best = |value: f64| with_unit(value, &judged.metric.unit);
+    match &judged.standing {
+        Standing::Unlisted => String::new(),
+        Standing::Known(entry) => {
+            format!("Known since {} (best {}): {}", entry.date, best(entry.best_value), entry.reason)
+        }
+        Standing::PassesAgain(_) => "Listed as a known failure, but the gate holds: remove the entry.".to_owned(),
+        Standing::Worse(entry) => {
+            format!("Known since {}, but worse than its best value {}.", entry.date, best(entry.best_value))
+        }
+        Standing::WithoutGate(_) => "Listed as a known failure, but there is no gate: remove the entry.".to_owned(),
+    }
+}
+
+/// `value limit` of a metric, for the banner.
+pub(super) fn statement(judged: &Judged<'_>) -> String {
+    let metric = judged.metric;
+    let value = with_unit(metric.value, &metric.unit);
+    match (judged.severity(), &metric.gate, &judged.drift) {
+        (Severity::Drifted, _, Drift::Drifted { baseline, tolerance, .. }) => {
+            format!("{value}, baseline {} ± {}", with_unit(*baseline, &metric.unit), two_digits(*tolerance))
+        }
+        (Severity::Drifted, _, Drift::UnitChanged { unit }) => format!("{value}, baseline in {unit}"),
+        (_, Some(gate), _) => format!("{value}, limit {}", limit(gate.limit, &metric.unit)),
+        _ => value,
+    }
+}
+
+/// A metric of the baseline that is gone.
+pub(super) fn vanished(key: &Key) -> String {
+    if key.variant.is_empty() { key.metric.clone() } else { format!("{} ({})", key.metric, key.variant) }
+}
+
+fn limit(limit: Limit, unit: &str) -> String {
+    match limit {
+        Limit::AtMost(bound) => format!("≤ {}", with_unit(bound, unit)),
+        Limit::AtLeast(bound) => format!("≥ {}", with_unit(bound, unit)),
+        Limit::Within(lower, upper) => format!("{} … {}", four_digits(lower), with_unit(upper, unit)),
+    }
+}
+
+fn margin(metric: &Metric, limit: Limit) -> String {
+    let margin = limit.margin(metric.value);
+    if margin.is_nan() {
+        return "–".to_owned();
+    }
+    let sign = if margin > 0.0 { "+" } else { "" };
+    format!("{sign}{}", two_digits(margin))
+}
+
+/// The margin as a share of the limit: how near a gate is to its edge.
+fn relative_margin(metric: &Metric, limit: Limit) -> String {
+    let scale = match limit {
+        Limit::AtMost(bound) | Limit::AtLeast(bound) => bound.abs(),
+        Limit::Within(lower, upper) => 0.5 * (upper - lower).abs(),
+    };
+    let share = 100.0 * limit.margin(metric.value) / scale;
+    if share.is_finite() { format!("{} % of limit", whole(share)) } else { String::new() }
+}
+
+fn drift(judged: &Judged<'_>) -> (Mark, String, String) {
+    let signed = |change: f64| match change {
+        c if c.is_nan() => "not a number".to_owned(),
+        c if c > 0.0 => format!("+{}", two_digits(c)),
+        c => two_digits(c),
+    };
+    let relative = |change: f64, baseline: f64| {
+        let share = 100.0 * change / baseline.abs();
+        let sign = if share > 0.0 { "+" } else { "" };
+        if share.is_finite() && change != 0.0 { format!("{sign}{} %", two_digits(share)) } else { String::new() }
+    };
+    match &judged.drift {
+        Drift::New => (Mark { word: "new", ..Mark::OBSERVED }, "new".to_owned(), String::new()),
+        Drift::Unchanged { change, baseline } => {
+            (Mark { word: "unchanged", ..Mark::PASS }, signed(*change), relative(*change, *baseline))
+        }
+        Drift::Drifted { change, baseline, .. } => (Mark::DRIFT, signed(*change), relative(*change, *baseline)),
+        Drift::UnitChanged { unit } => (Mark::DRIFT, format!("unit was {unit}"), String::new()),
+    }
+}
+
+fn whole(share: f64) -> String {
+    if share.abs() < 9.95 { two_digits(share) } else { format!("{share:.0}").replace('-', "−") }
+}
+
+fn kind(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Verification => "verification",
+        Kind::Validation => "validation",
+        Kind::Regression => "regression",
+    }
+}
+
+fn confidence(confidence: Confidence) -> &'static str {
+    match confidence {
+        Confidence::Exact => "exact",
+        Confidence::High => "high confidence",
+        Confidence::Medium => "medium confidence",
+        Confidence::Unverified => "unverified: never gates",
+    }
+}

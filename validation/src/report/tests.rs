@@ -1,0 +1,212 @@
+//! The page as a whole: what a reader sees first, escaping, and reports with nothing in them.
+
+use super::*;
+use crate::figure::{Axis, Panel, Scale};
+use crate::metric::{Confidence, Kind, Limit, Metric};
+
+fn gated(name: &str, value: f64) -> Metric {
+    Metric::observed(name, "resolution=40", value, "%")
+        .gated(Limit::AtMost(0.7), "prototype reached 0.56 %")
+        .against(Some(0.0), "Eq. (36)", Confidence::Exact)
+        .with_snapshot_tolerance(0.05, 0.0)
+}
+
+fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {
+    CaseReport {
+        name: name.to_owned(),
+        summary: format!("summary of {name}"),
+        description: "First paragraph.\n\nSecond paragraph.".to_owned(),
+        parameters_toml: "depth = 0.01\n".to_owned(),
+        command: format!("bagnold run {name}"),
+        metrics,
+        figures: Vec::new(),
+        runs: Vec::new(),
+        metrics_json: "{}\n".to_owned(),
+    }
+}
+
+fn report(cases: Vec<CaseReport>) -> Report {
+    Report {
+        title: "Report".to_owned(),
+        tier: Tier::Quick,
+        generated: Provenance::default(),
+        cases,
+        baseline: Baseline::default(),
+        known_failures: KnownFailures::default(),
+    }
+}
+
+fn known(case: &str, metric: &str, best_value: f64) -> KnownFailures {
+    KnownFailures {
+        failures: vec![KnownFailure {
+            case: case.to_owned(),
+            metric: metric.to_owned(),
+            variant: "resolution=40".to_owned(),
+            best_value,
+            date: "2025-01-31".to_owned(),
+            reason: "two attempts".to_owned(),
+        }],
+    }
+}
+
+fn html(report: &Report) -> String {
+    page::render(report, &judge(report), &[]).expect("page")
+}
+
+fn place(text: &str, part: &str) -> usize {
+    text.find(part).unwrap_or_else(|| panic!("{part:?} is not on the page"))
+}
+
+fn drawing(name: &str) -> Figure {
+    let axis = |label: &str| Axis { label: label.to_owned(), scale: Scale::Linear, limits: None };
+    let panel = Panel {
+        title: String::new(),
+        x: axis("u [m/s]"),
+        y: axis("y [m]"),
+        bands: Vec::new(),
+        series: Vec::new(),
+        field: None,
+    };
+    Figure { name: name.to_owned(), caption: "a caption".to_owned(), panels: vec![panel], columns: 1 }
+}
+
+#[test]
+fn a_failing_gate_is_the_first_thing_on_the_page() {
+    let report = report(vec![
+        case("film", vec![gated("velocity_l2", 0.5)]),
+        case("bagnold", vec![gated("wall_slip", 0.3), gated("velocity_l2", 0.9)]),
+    ]);
+    let page = html(&report);
+    assert!(page.contains("1 of 3 gates fail"));
+    assert!(page.contains("class=\"banner fail\""));
+    assert!(place(&page, "velocity_l2") < place(&page, "wall_slip"), "failures come first");
+    assert!(place(&page, "id=\"verdicts-bagnold\"") < place(&page, "id=\"verdicts-film\""), "so do failing cases");
+    let (film, bagnold) = (place(&page, "id=\"verdicts-film\""), place(&page, "id=\"verdicts-bagnold\""));
+    assert!(page[bagnold..film].split('>').next().is_some_and(|tag| tag.ends_with("open")), "unfolded");
+    assert!(!page[film..].split('>').next().is_some_and(|tag| tag.ends_with("open")), "folded");
+    assert!(judge(&report).has_unexpected_failure());
+}
+
+#[test]
+fn a_known_failure_is_red_and_first_but_not_unexpected() {
+    let mut report = report(vec![case("bagnold", vec![gated("wall_slip", 0.3), gated("velocity_l2", 0.9)])]);
+    report.known_failures = known("bagnold", "velocity_l2", 0.9);
+    let judgement = judge(&report);
+    assert!(!judgement.has_unexpected_failure() && !judgement.is_green());
+    assert_eq!((judgement.verification.known, judgement.verification.fail, judgement.verification.hold), (1, 0, 1));
+    let page = html(&report);
+    assert!(page.contains("class=\"banner known\"") && page.contains("two attempts"));
+
+    report.known_failures = known("bagnold", "velocity_l2", 0.8);
+    assert!(judge(&report).has_unexpected_failure(), "worse than its best value");
+    report.known_failures = known("bagnold", "wall_slip", 0.8);
+    let judgement = judge(&report);
+    assert_eq!(judgement.contradictions, 1, "a listed gate that holds");
+    assert!(html(&report).contains("remove the entry"));
+}
+
+#[test]
+fn green_needs_a_gate_that_holds_and_no_drift() {
+    let metrics = vec![gated("velocity_l2", 0.5)];
+    let mut report = report(vec![case("bagnold", metrics.clone())]);
+    assert!(judge(&report).is_green());
+    assert!(html(&report).contains("class=\"banner pass\""));
+    report.baseline = Baseline::of("bagnold", &metrics);
+    assert!(judge(&report).is_green());
+    report.baseline = Baseline::of("bagnold", &[gated("velocity_l2", 0.4)]);
+    let judgement = judge(&report);
+    assert!(!judgement.is_green() && !judgement.has_unexpected_failure());
+    let page = html(&report);
+    assert!(page.contains("class=\"banner drift\"") && page.contains("+0.1"));
+    report.baseline = Baseline::of("bagnold", &[gated("velocity_l2", 0.5), gated("gone", 0.4)]);
+    assert_eq!(judge(&report).drift.drifted, 1, "a vanished metric");
+    assert!(html(&report).contains("no longer measured"));
+}
+
+#[test]
+fn kinds_are_counted_apart_and_observed_values_not_at_all() {
+    let report = report(vec![case(
+        "collapse",
+        vec![
+            gated("run_out", 0.9).of_kind(Kind::Validation),
+            gated("velocity_l2", 0.1),
+            gated("gci", 0.9).against(None, "hearsay", Confidence::Unverified),
+            Metric::observed("final_height", "", 1.0, "m"),
+        ],
+    )]);
+    let judgement = judge(&report);
+    assert_eq!((judgement.validation.fail, judgement.validation.hold), (1, 0));
+    assert_eq!((judgement.verification.fail, judgement.verification.hold), (0, 1));
+    let order: Vec<&str> = judgement.cases[0].metrics.iter().map(|judged| judged.metric.name.as_str()).collect();
+    assert_eq!(order, ["run_out", "velocity_l2", "gci", "final_height"]);
+}
+
+#[test]
+fn an_undeclared_divergence_is_a_failure_and_a_declared_one_is_not() {
+    let run = |expected| RunSummary {
+        variant: "slope_angle=34".to_owned(),
+        outcome: Outcome::Diverged { message: "speed of particle 17".to_owned(), expected },
+        particles: 400,
+        steps: 1000,
+        simulated_time: 0.5,
+        wall_seconds: 1.0,
+        threads: 2,
+        microseconds_per_particle_step: 0.4,
+        state_hash: "0123456789abcdef".to_owned(),
+        from_store: true,
+    };
+    let mut report = report(vec![case("bagnold", vec![gated("velocity_l2", 0.5)])]);
+    report.cases[0].runs = vec![run(true)];
+    assert!(judge(&report).is_green());
+    report.cases[0].runs = vec![run(false)];
+    assert!(judge(&report).has_unexpected_failure());
+    let page = html(&report);
+    assert!(place(&page, "speed of particle 17") < place(&page, "id=\"verdicts\""));
+}
+
+#[test]
+fn everything_inserted_is_escaped() {
+    let evil = "<script>alert(1)</script>\"'&";
+    let mut case = case("film", vec![gated(evil, 0.9).gated(Limit::AtMost(0.1), evil)]);
+    case.metrics[0].variant = evil.to_owned();
+    case.metrics[0].unit = evil.to_owned();
+    case.summary = evil.to_owned();
+    case.description = evil.to_owned();
+    case.parameters_toml = evil.to_owned();
+    case.command = evil.to_owned();
+    let mut report = report(vec![case]);
+    report.title = evil.to_owned();
+    report.generated.commit = evil.to_owned();
+    let page = html(&report);
+    assert!(!page.contains("<script>alert"));
+    assert!(page.contains("&lt;script&gt;alert(1)"));
+    assert_eq!(page.matches("</script>").count(), 1, "only the page's own");
+}
+
+#[test]
+fn the_folder_is_self_contained_and_reproducible() {
+    let folder = tempfile::tempdir().expect("folder");
+    let mut film = case("film", vec![gated("velocity_l2", 0.5)]);
+    film.figures = vec![drawing("velocity-profile"), drawing("not a name")];
+    let report = report(vec![film]);
+    write(&report, folder.path()).expect("written");
+    let read = |path: &str| std::fs::read_to_string(folder.path().join(path)).expect(path);
+    let page = read("index.html");
+    assert_eq!(read("cases/film/metrics.json"), "{}\n");
+    assert_eq!(read("cases/film/case.toml"), "depth = 0.01\n");
+    assert!(folder.path().join("figures/film/velocity-profile.png").exists());
+    assert!(page.contains("figures/film/velocity-profile.svg"));
+    assert!(page.contains("could not be drawn"), "a figure that fails is named on the page");
+    assert!(!page.contains("http"), "nothing is loaded from elsewhere");
+    write(&report, folder.path()).expect("written again");
+    assert_eq!(page, read("index.html"));
+}
+
+#[test]
+fn empty_reports_and_escaping_names() {
+    let folder = tempfile::tempdir().expect("folder");
+    write(&report(Vec::new()), folder.path()).expect("an empty report is a report");
+    let page = html(&report(vec![case("film", Vec::new())]));
+    assert!(page.contains("Nothing was judged") && page.contains("no metrics"));
+    assert!(matches!(write(&report(vec![case("../film", Vec::new())]), folder.path()), Err(ReportError::Name { .. })));
+}

@@ -1,0 +1,127 @@
+//! What the template sees: nothing but text, made by `page` and `rows`.
+
+use serde::Serialize;
+
+/// A verdict in colour, symbol and word, so that none of them is needed alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub(super) struct Mark {
+    /// Class of the style sheet.
+    pub(super) class: &'static str,
+    pub(super) symbol: &'static str,
+    pub(super) word: &'static str,
+}
+
+impl Mark {
+    pub(super) const FAIL: Self = Self { class: "fail", symbol: "✗", word: "fails" };
+    pub(super) const KNOWN: Self = Self { class: "known", symbol: "✗", word: "known failure" };
+    pub(super) const DRIFT: Self = Self { class: "drift", symbol: "≠", word: "drifted" };
+    pub(super) const PASS: Self = Self { class: "pass", symbol: "✓", word: "holds" };
+    pub(super) const OBSERVED: Self = Self { class: "observed", symbol: "○", word: "observed" };
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct Page {
+    pub(super) title: String,
+    pub(super) tier: &'static str,
+    pub(super) banner: Banner,
+    pub(super) counts: Vec<Count>,
+    pub(super) cases: Vec<Case>,
+    pub(super) provenance: Vec<(&'static str, String)>,
+    pub(super) command: String,
+    pub(super) date: Option<String>,
+    pub(super) style: &'static str,
+    pub(super) script: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct Banner {
+    pub(super) mark: Mark,
+    pub(super) headline: String,
+    pub(super) detail: String,
+    pub(super) items: Vec<BannerItem>,
+    pub(super) omitted: usize,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct BannerItem {
+    pub(super) mark: Mark,
+    pub(super) case: String,
+    pub(super) what: String,
+    pub(super) variant: String,
+    pub(super) statement: String,
+    pub(super) note: String,
+}
+
+/// One of the three separate verdicts.
+#[derive(Debug, Serialize)]
+pub(super) struct Count {
+    pub(super) mark: Mark,
+    pub(super) name: &'static str,
+    pub(super) meaning: &'static str,
+    pub(super) statement: String,
+    pub(super) detail: String,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct Case {
+    pub(super) name: String,
+    pub(super) summary: String,
+    pub(super) description: Vec<String>,
+    pub(super) mark: Mark,
+    /// Failing cases are unfolded.
+    pub(super) open: bool,
+    pub(super) statement: String,
+    pub(super) rows: Vec<Row>,
+    pub(super) vanished: Vec<String>,
+    pub(super) figures: Vec<Picture>,
+    pub(super) parameters: String,
+    pub(super) command: String,
+    pub(super) runs: Vec<Run>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct Row {
+    pub(super) mark: Mark,
+    pub(super) metric: String,
+    pub(super) variant: Vec<String>,
+    pub(super) value: String,
+    pub(super) reference: String,
+    pub(super) source: String,
+    pub(super) confidence: &'static str,
+    pub(super) kind: &'static str,
+    pub(super) limit: String,
+    pub(super) reason: String,
+    /// The reason stands in the row above already.
+    pub(super) reason_repeats: bool,
+    /// The source stands in the row above already.
+    pub(super) source_repeats: bool,
+    pub(super) margin: String,
+    pub(super) relative_margin: String,
+    pub(super) drift: Mark,
+    pub(super) change: String,
+    pub(super) relative_change: String,
+    pub(super) note: String,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct Picture {
+    pub(super) name: String,
+    pub(super) caption: String,
+    pub(super) failure: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct Run {
+    pub(super) variant: String,
+    pub(super) mark: Mark,
+    pub(super) outcome: String,
+    pub(super) particles: String,
+    pub(super) steps: String,
+    pub(super) simulated_time: String,
+    pub(super) wall_seconds: String,
+    pub(super) threads: usize,
+    pub(super) pace: String,
+    pub(super) hash: String,
+    pub(super) short_hash: String,
+    pub(super) from_store: bool,
+}

@@ -1,0 +1,251 @@
+//! Finished runs on disk, shared by tests and report: nothing is simulated twice by the same program.
+
+mod entry;
+mod provenance;
+
+pub use provenance::{commit, profile, source_hash, target_features, version, workspace};
+
+use crate::observe::Recorded;
+use serde::{Serialize, de::DeserializeOwned};
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+/// Folders of this many versions of the sources are kept.
+const KEPT_VERSIONS: usize = 3;
+
+/// Begins the name of every folder that the store may delete.
+const FOLDER_PREFIX: &str = "sources-";
+
+/// Whether finished runs are taken from the store.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StorePolicy {
+    /// Taken from the store, or simulated and kept there.
+    Use,
+    /// Simulated and kept there, in place of what was stored before.
+    Refresh,
+    /// Simulated; the store is neither read nor written: for tests of determinism, threads and timing.
+    Bypass,
+}
+
+/// The store, or its absence.
+#[derive(Debug, Clone)]
+pub struct Store {
+    /// Folder of this version of the sources.
+    folder: PathBuf,
+    policy: StorePolicy,
+}
+
+/// Identifies a run of a case by this version of the sources.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Key(String);
+
+impl Store {
+    /// The store at its usual place: `BAGNOLD_STORE`, else `reports/store` in the workspace that this
+    /// program was built in, else `.bagnold-store` in the current folder.
+    #[must_use]
+    pub fn open(policy: StorePolicy) -> Self {
+        let root = match std::env::var_os("BAGNOLD_STORE") {
+            Some(path) if !path.is_empty() => PathBuf::from(path),
+            _ => workspace().map_or_else(|| PathBuf::from(".bagnold-store"), |root| root.join("reports").join("store")),
+        };
+        Self::at(&root, policy)
+    }
+
+    /// The store in a folder of one's choice.
+    #[must_use]
+    pub fn at(root: &Path, policy: StorePolicy) -> Self {
+        Self::for_sources(root, source_hash(), policy)
+    }
+
+    fn for_sources(root: &Path, sources: &str, policy: StorePolicy) -> Self {
+        let version = sources.get(..16).unwrap_or(sources);
+        Self { folder: root.join(format!("{FOLDER_PREFIX}{version}")), policy }
+    }
+
+    /// The key of a run, or `None` if there is nothing to look up or keep.
+    #[must_use]
+    pub fn key<R: Serialize>(&self, case: &str, run: &R) -> Option<Key> {
+        if self.policy == StorePolicy::Bypass {
+            return None;
+        }
+        let description = postcard::to_stdvec(run)
+            .inspect_err(|error| {
+                tracing::warn!("{case}: a run cannot be stored, its description does not serialise: {error}")
+            })
+            .ok()?;
+        let mut hash = Sha256::new();
+        for part in [source_hash().as_bytes(), case.as_bytes(), &description] {
+            hash.update((part.len() as u64).to_le_bytes());
+            hash.update(part);
+        }
+        Some(Key(hexadecimal(&hash.finalize())))
+    }
+
+    /// The stored record; `None` if there is none, it is damaged, or it is not wanted.
+    #[must_use]
+    pub fn fetch<O: DeserializeOwned>(&self, key: &Key) -> Option<Recorded<O>> {
+        if self.policy != StorePolicy::Use {
+            return None;
+        }
+        match entry::read(&self.path(key)) {
+            Ok(record) => record,
+            Err(damage) => {
+                tracing::warn!("stored result {}: {damage}; simulated again", self.path(key).display());
+                None
+            }
+        }
+    }
+
+    /// Keeps a record. A store that cannot be written costs time later, but is no reason to fail now.
+    pub fn keep<O: Serialize>(&self, key: &Key, record: &Recorded<O>) {
+        let new = !self.folder.is_dir();
+        if let Err(error) = entry::write(&self.path(key), record) {
+            tracing::warn!("stored result {}: not kept: {error}", self.path(key).display());
+        } else if new {
+            self.prune();
+        }
+    }
+
+    fn path(&self, key: &Key) -> PathBuf {
+        self.folder.join(format!("{}.postcard", key.0))
+    }
+
+    /// Deletes the oldest versions. Only folders with the store's own kind of name are touched.
+    fn prune(&self) {
+        let Some(root) = self.folder.parent() else { return };
+        let mut others: Vec<(SystemTime, PathBuf)> = std::fs::read_dir(root)
+            .into_iter()
+            .flatten()
+            .flatten()
+            .filter(|entry| is_version(&entry.file_name().to_string_lossy()) && entry.path() != self.folder)
+            .filter_map(|entry| Some((entry.metadata().ok()?.modified().ok()?, entry.path())))
+            .collect();
+        others.sort_by_key(|other| std::cmp::Reverse(other.0));
+        for (_, folder) in others.iter().skip(KEPT_VERSIONS - 1) {
+            if let Err(error) = std::fs::remove_dir_all(folder) {
+                tracing::debug!("old stored results {}: not deleted: {error}", folder.display());
+            }
+        }
+    }
+}
+
+fn is_version(name: &str) -> bool {
+    name.strip_prefix(FOLDER_PREFIX)
+        .is_some_and(|version| version.len() == 16 && version.bytes().all(|byte| byte.is_ascii_hexdigit()))
+}
+
+/// Lower-case hexadecimal digits of some bytes.
+#[must_use]
+pub fn hexadecimal(bytes: &[u8]) -> String {
+    bytes
+        .iter()
+        .flat_map(|byte| [byte >> 4, byte & 15])
+        .filter_map(|digit| char::from_digit(digit.into(), 16))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::observe::Outcome;
+
+    fn record(data: f64) -> Recorded<f64> {
+        Recorded {
+            outcome: Outcome::Finished,
+            state_hash: "00".to_owned(),
+            particles: 1,
+            steps: 2,
+            simulated_time: 3.0,
+            wall_seconds: 4.0,
+            threads: 1,
+            frames: Vec::new(),
+            data,
+        }
+    }
+
+    fn key(store: &Store, run: u32) -> Key {
+        store.key("test", &run).expect("a number serialises")
+    }
+
+    #[test]
+    fn a_record_comes_back_bit_for_bit_and_for_its_run_only() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let store = Store::at(folder.path(), StorePolicy::Use);
+        let kept = record(0.1 + 0.2);
+        store.keep(&key(&store, 1), &kept);
+        assert_eq!(store.fetch(&key(&store, 1)), Some(kept));
+        assert_eq!(store.fetch::<f64>(&key(&store, 2)), None);
+        assert_ne!(store.key("test", &1), store.key("other", &1));
+    }
+
+    #[test]
+    fn a_damaged_record_is_not_used_and_is_replaced() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let store = Store::at(folder.path(), StorePolicy::Use);
+        let key = key(&store, 1);
+        store.keep(&key, &record(1.0));
+        let path = store.path(&key);
+        let whole = std::fs::read(&path).expect("stored entry");
+        let mut flipped = whole.clone();
+        *flipped.last_mut().expect("not empty") ^= 1;
+        for damaged in [&whole[..whole.len() - 1], &whole[..3], &[], &flipped] {
+            std::fs::write(&path, damaged).expect("writable");
+            assert_eq!(store.fetch::<f64>(&key), None);
+        }
+        store.keep(&key, &record(2.0));
+        assert_eq!(store.fetch(&key), Some(record(2.0)));
+    }
+
+    #[test]
+    fn bypass_touches_nothing_and_refresh_replaces() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let bypass = Store::at(folder.path(), StorePolicy::Bypass);
+        assert_eq!(bypass.key("test", &1), None);
+        let refresh = Store::at(folder.path(), StorePolicy::Refresh);
+        let key = key(&refresh, 1);
+        refresh.keep(&key, &record(1.0));
+        assert_eq!(refresh.fetch::<f64>(&key), None);
+        refresh.keep(&key, &record(2.0));
+        assert_eq!(Store::at(folder.path(), StorePolicy::Use).fetch(&key), Some(record(2.0)));
+    }
+
+    #[test]
+    fn the_newest_versions_stay_and_foreign_folders_are_left_alone() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        std::fs::create_dir(folder.path().join("sources-of-mine")).expect("writable");
+        for (age, digit) in ["1", "2", "3", "4"].iter().enumerate() {
+            let store = Store::for_sources(folder.path(), &digit.repeat(64), StorePolicy::Use);
+            store.keep(&key(&store, 1), &record(1.0));
+            // Distinct times of modification, whatever the file system's resolution.
+            let time = SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(1000 + age as u64);
+            std::fs::File::open(&store.folder).and_then(|folder| folder.set_modified(time)).expect("settable");
+        }
+        let mut left: Vec<String> = std::fs::read_dir(folder.path())
+            .expect("readable")
+            .flatten()
+            .map(|entry| entry.file_name().to_string_lossy().into_owned())
+            .collect();
+        left.sort();
+        let expected = ["2", "3", "4"].map(|digit| format!("{FOLDER_PREFIX}{}", digit.repeat(16)));
+        assert_eq!(left, [&expected[..], &["sources-of-mine".to_owned()]].concat());
+    }
+
+    #[test]
+    fn many_writers_of_one_entry_do_no_harm() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let store = Store::at(folder.path(), StorePolicy::Use);
+        let key = key(&store, 1);
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| {
+                    for _ in 0..50 {
+                        store.keep(&key, &record(1.0));
+                        assert_eq!(store.fetch(&key), Some(record(1.0)));
+                    }
+                });
+            }
+        });
+        assert_eq!(std::fs::read_dir(&store.folder).expect("readable").count(), 1);
+    }
+}
