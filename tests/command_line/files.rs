@@ -1,0 +1,152 @@
+//! What a run and a report write, and that nothing is lost.
+
+use crate::program::{CHEAP, Place, document, path};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Every file below a folder with its contents.
+fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    for entry in std::fs::read_dir(folder).expect("readable").flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            files.extend(contents(&path));
+        } else {
+            let bytes = std::fs::read(&path).expect("readable");
+            files.insert(path, bytes);
+        }
+    }
+    files
+}
+
+/// The files with this ending, which must be there and not empty, as text.
+fn texts(files: &BTreeMap<PathBuf, Vec<u8>>, ending: &str) -> Vec<String> {
+    let found: Vec<String> = files
+        .iter()
+        .filter(|(path, _)| path.extension().is_some_and(|extension| extension == ending))
+        .map(|(_, bytes)| String::from_utf8_lossy(bytes).into_owned())
+        .collect();
+    assert!(!found.is_empty() && found.iter().all(|text| !text.is_empty()), "{ending}: {:?}", files.keys());
+    found
+}
+
+#[test]
+fn a_run_writes_every_kind_of_file() {
+    let place = Place::new();
+    place.run(CHEAP).code(0);
+    let files = contents(&place.path("out"));
+    assert!(files.values().all(|bytes| !bytes.is_empty()));
+    for name in ["case.toml", "metrics.json", "provenance.json"] {
+        assert!(files.contains_key(&place.path("out").join(name)), "{name}");
+    }
+    for text in texts(&files, "csv") {
+        let mut lines = text.lines();
+        let columns = lines.next().expect("a heading").split(',').count();
+        assert!(columns > 1 && text.lines().count() > 2, "{text}");
+        assert!(lines.all(|line| line.split(',').count() == columns && !line.contains("NaN")));
+    }
+    for text in texts(&files, "pvd") {
+        // every snapshot that the collection names is there
+        let names: Vec<&str> = text.split("file=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+        assert!(
+            !names.is_empty() && names.iter().all(|name| place.path("out/snapshots").join(name).is_file()),
+            "{text}"
+        );
+    }
+    assert!(texts(&files, "vtu").iter().all(|text| text.contains("<VTKFile") && text.contains("</VTKFile>")));
+    assert!(texts(&files, "svg").iter().all(|text| text.contains("<svg") && text.contains("</svg>")));
+    assert!(texts(&files, "png").iter().all(|text| text.contains("PNG")));
+}
+
+#[test]
+fn the_written_case_runs_again_to_the_same_state() {
+    let place = Place::new();
+    let first = document(&place.run(&[CHEAP, &["--json"]].concat()).code(0));
+    let case = place.path("out/case.toml").display().to_string();
+    let again = ["run", &case, "--out", "again", "--json", "--fresh", "--threads", "1"];
+    let second = document(&place.bagnold(&again).assert().code(0));
+    assert_eq!(second.provenance.runs_from_store, 0);
+    assert_eq!((first.state_hash, first.metrics), (second.state_hash, second.metrics));
+    let text = |folder: &str| std::fs::read_to_string(place.path(folder).join("case.toml")).expect("written");
+    assert_eq!(text("out"), text("again"));
+}
+
+#[test]
+fn a_failed_run_leaves_the_old_results_as_they_were() {
+    let place = Place::new();
+    place.run(CHEAP).code(0);
+    place.file("out/notes.txt", "mine");
+    let before = contents(&place.path("out"));
+    place.run(&[CHEAP, &["--set", "slope_angle=90"]].concat()).code(2);
+    assert_eq!(contents(&place.path("out")), before);
+    // refused only when the scene is built, after the folder was claimed
+    let impossible = ["--set", "gravity=1e300"];
+    let refused = place.run(&[CHEAP, &impossible].concat()).code(2);
+    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(message.starts_with("error: the parameters give no valid scene: "), "{message}");
+    assert_eq!(contents(&place.path("out")), before);
+    // a run that succeeds replaces its own files only
+    place.run(&[CHEAP, &["--set", "seed=2"]].concat()).code(0);
+    assert_eq!(std::fs::read_to_string(place.path("out/notes.txt")).expect("still there"), "mine");
+    assert_ne!(contents(&place.path("out")), before);
+}
+
+#[test]
+fn a_killed_run_leaves_the_old_results_and_the_next_one_cleans_up() {
+    let place = Place::new();
+    place.run(CHEAP).code(0);
+    let out = place.path("out");
+    let before = contents(&out);
+    let names = || {
+        let entries = std::fs::read_dir(&out).expect("readable").flatten();
+        entries.map(|entry| entry.file_name()).collect::<std::collections::BTreeSet<_>>()
+    };
+    let old_names = names();
+    let mut run = std::process::Command::new(path())
+        .args(["run", "bagnold", "--tier", "fine", "--out", "out"])
+        .current_dir(place.path(""))
+        .env("BAGNOLD_STORE", place.path("store"))
+        .spawn()
+        .expect("started");
+    let begin = Instant::now();
+    while names() == old_names && begin.elapsed() < Duration::from_secs(20) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let claimed = names() != old_names;
+    run.kill().expect("killed");
+    run.wait().expect("ended");
+    assert!(claimed, "the run claims its folder at once");
+    let after = contents(&out);
+    for (path, bytes) in &before {
+        assert_eq!(after.get(path), Some(bytes), "{}", path.display());
+    }
+    place.run(CHEAP).code(0);
+    assert_eq!(names(), old_names, "nothing of the killed run stays behind");
+}
+
+#[test]
+fn a_report_is_one_page_with_the_verdicts() {
+    let place = Place::new();
+    // the usual store: what the physics tests have simulated is not simulated again
+    let mut command = place.bagnold(&["report", "--cases", "film", "--out", "report"]);
+    match std::env::var_os("BAGNOLD_STORE") {
+        Some(store) => command.env("BAGNOLD_STORE", store),
+        None => command.env_remove("BAGNOLD_STORE"),
+    };
+    let finished = command.assert();
+    let code = finished.get_output().status.code();
+    assert!(matches!(code, Some(0 | 1)), "{finished}");
+    let page = std::fs::read_to_string(place.path("report/index.html")).expect("a page");
+    for word in ["film", "Verification", "Validation", "Regression", "velocity_l2", "holds"] {
+        assert!(page.contains(word), "the page lacks {word:?}");
+    }
+    assert_eq!(code == Some(1), page.contains("fails"), "the page and the exit code agree");
+    for outside in ["src=\"http", "href=\"http", "url(http", "@import"] {
+        assert!(!page.contains(outside), "the page must be self-contained: {outside}");
+    }
+    // every picture that the page shows is in the folder
+    for name in page.split("src=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
+        assert!(name.starts_with("data:") || place.path("report").join(name).is_file(), "{name}");
+    }
+}

@@ -1,0 +1,7 @@
+//! The program as a user meets it: messages, exit codes, files.
+
+mod bad_input;
+mod exit_codes;
+mod files;
+mod permission;
+mod program;

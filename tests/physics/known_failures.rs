@@ -1,0 +1,124 @@
+//! The list of gates that are known to fail: every entry must speak of something that is still measured.
+
+use crate::verdict::complaints;
+use bagnold_validation::case::{CaseResult, Changes, RunSummary, Tier};
+use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::metric::{Limit, Metric};
+use bagnold_validation::observe::Outcome;
+use bagnold_validation::report::{KnownFailure, KnownFailures};
+use std::path::Path;
+
+/// The committed list.
+pub(crate) fn read() -> KnownFailures {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reports/baseline/known_failures.toml");
+    KnownFailures::read(&path).unwrap_or_else(|error| panic!("failed to {error}"))
+}
+
+/// The cheapest tier that has all runs an entry's variant speaks of; it has to measure the metric.
+pub(crate) fn owing_tier(entry: &KnownFailure) -> Option<Tier> {
+    let case = REGISTRY.find(&entry.case).ok()?;
+    [Tier::Quick, Tier::Paper, Tier::Fine].into_iter().find(|&tier| {
+        case.prepare(tier, &Changes::default()).is_ok_and(|prepared| {
+            let runs: Vec<String> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
+            runs_of(&entry.variant).iter().all(|variant| runs.contains(variant))
+        })
+    })
+}
+
+/// The runs behind a metric: an order of convergence joins several resolutions as `resolution=10_20_40`.
+fn runs_of(variant: &str) -> Vec<String> {
+    match variant.split_once("resolution=") {
+        Some((before, resolutions)) if resolutions.contains('_') => {
+            resolutions.split('_').map(|rows| format!("{before}resolution={rows}")).collect()
+        }
+        _ => vec![variant.to_owned()],
+    }
+}
+
+#[test]
+fn every_known_failure_names_runs_of_a_case() {
+    let stale: Vec<String> = read()
+        .failures
+        .iter()
+        .filter(|entry| owing_tier(entry).is_none())
+        .map(|entry| format!("{} {} [{}]", entry.case, entry.metric, entry.variant))
+        .collect();
+    assert!(stale.is_empty(), "no tier has these runs, remove the entries:\n{}", stale.join("\n"));
+}
+
+fn entry(metric: &str, variant: &str, best_value: f64) -> KnownFailure {
+    KnownFailure {
+        case: "film".to_owned(),
+        metric: metric.to_owned(),
+        variant: variant.to_owned(),
+        best_value,
+        date: "2025-01-31".to_owned(),
+        reason: "for the test".to_owned(),
+    }
+}
+
+#[test]
+fn an_entry_is_owed_by_the_cheapest_tier_that_has_its_runs() {
+    let tier = |variant: &str| owing_tier(&entry("observed_order", variant, 1.0));
+    assert_eq!(tier("fluid=newtonian,particles=lattice,resolution=10_20"), Some(Tier::Quick));
+    assert_eq!(tier("fluid=newtonian,particles=lattice,resolution=10_20_40"), Some(Tier::Paper));
+    assert_eq!(tier("fluid=bingham,particles=jittered,resolution=80"), Some(Tier::Fine));
+    assert_eq!(tier("fluid=honey,particles=jittered,resolution=20"), None);
+}
+
+/// A result of `film` with one gate at 1.
+fn result(value: f64, outcome: Outcome) -> CaseResult {
+    let variant = "fluid=bingham,particles=jittered,resolution=20";
+    let metric = Metric::observed("velocity_l2", variant, value, "%")
+        .gated(Limit::AtMost(1.0), "for the test")
+        .with_snapshot_tolerance(0.05, 0.0);
+    CaseResult {
+        name: "film".to_owned(),
+        summary: String::new(),
+        description: String::new(),
+        tier: Tier::Quick,
+        parameters_toml: String::new(),
+        command: String::new(),
+        metrics: vec![metric],
+        figures: Vec::new(),
+        tables: Vec::new(),
+        runs: vec![RunSummary {
+            variant: variant.to_owned(),
+            outcome,
+            particles: 1,
+            steps: 1,
+            simulated_time: 1.0,
+            wall_seconds: 1.0,
+            threads: 1,
+            microseconds_per_particle_step: None,
+            state_hash: String::new(),
+            from_store: false,
+        }],
+        frames: Vec::new(),
+        state_hash: String::new(),
+    }
+}
+
+#[test]
+fn the_verdict_can_fail_in_every_way() {
+    let variant = "fluid=bingham,particles=jittered,resolution=20";
+    let none = KnownFailures::default();
+    let listed = KnownFailures { failures: vec![entry("velocity_l2", variant, 2.0)] };
+    let stale = KnownFailures { failures: vec![entry("gone", variant, 2.0)] };
+    let judged = |value, list: &KnownFailures| complaints(&result(value, Outcome::Finished), list, Tier::Quick);
+    assert_eq!(judged(0.9, &none), [""; 0]);
+    assert_eq!(judged(2.0, &listed), [""; 0]);
+    assert_eq!(
+        judged(2.5, &none),
+        [format!("  velocity_l2 [{variant}] = 2.500000e0 %, limit ≤ 1 %, margin -1.5000e0 %: the gate fails")]
+    );
+    let one = |lines: Vec<String>, words: &str| assert!(lines.len() == 1 && lines[0].contains(words), "{lines:?}");
+    one(judged(f64::NAN, &none), "the gate fails");
+    one(judged(0.9, &listed), "now passes");
+    one(judged(2.5, &listed), "became worse");
+    one(judged(0.9, &stale), "is not measured");
+    assert_eq!(complaints(&result(0.9, Outcome::Finished), &stale, Tier::Paper), [""; 0]);
+    let diverged = |expected| Outcome::Diverged { message: "diverged at t = 1 s".to_owned(), expected };
+    one(complaints(&result(0.9, diverged(false)), &none, Tier::Quick), "diverged at t = 1 s");
+    assert_eq!(complaints(&result(0.9, diverged(true)), &none, Tier::Quick), [""; 0]);
+}

@@ -1,0 +1,41 @@
+//! Every case against its gates: the quick tier always, the paper tier with `cargo test -- --ignored`.
+//!
+//! The runs come from the store that the report uses too, so that none is simulated twice.
+
+mod known_failures;
+mod verdict;
+
+use bagnold_validation::cases::REGISTRY;
+
+/// Both tiers of each case. A name here is that of the registry with `_` for `-`.
+macro_rules! cases {
+    ($($case:ident),+ $(,)?) => {
+        /// The cases that have tests.
+        const TESTED: &[&str] = &[$(stringify!($case)),+];
+
+        $(mod $case {
+            use crate::verdict::assert_gates;
+            use bagnold_validation::case::Tier;
+
+            #[test]
+            fn holds_its_gates_at_the_quick_tier() {
+                assert_gates(&stringify!($case).replace('_', "-"), Tier::Quick);
+            }
+
+            #[test]
+            #[ignore = "minutes: the paper tier"]
+            fn holds_its_gates_at_the_paper_tier() {
+                assert_gates(&stringify!($case).replace('_', "-"), Tier::Paper);
+            }
+        })+
+    };
+}
+
+cases!(hydrostatic, film, bagnold);
+
+#[test]
+fn every_registered_case_is_tested() {
+    let registered: Vec<&str> = REGISTRY.iter().map(|case| case.name()).collect();
+    let tested: Vec<String> = TESTED.iter().map(|name| name.replace('_', "-")).collect();
+    assert_eq!(tested, registered, "add the case to `cases!` in tests/physics/main.rs");
+}

@@ -1,0 +1,82 @@
+//! One case at one tier: simulated or taken from the store, then judged.
+
+use crate::known_failures::{self, owing_tier};
+use bagnold_validation::case::{CaseResult, Changes, Silent, Tier, execute};
+use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::metric::{Limit, Metric, Verdict};
+use bagnold_validation::observe::Outcome;
+use bagnold_validation::report::{KnownFailures, Standing};
+use bagnold_validation::store::{Store, StorePolicy};
+use std::sync::{Mutex, PoisonError};
+
+/// A case already uses every core; two at a time would only disturb each other.
+static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+
+/// Fails with one line for each thing that is wrong with a case.
+pub(crate) fn assert_gates(case: &str, tier: Tier) {
+    let list = known_failures::read();
+    let prepared = REGISTRY
+        .find(case)
+        .and_then(|case| case.prepare(tier, &Changes::default()))
+        .unwrap_or_else(|error| panic!("{case}: {error}"));
+    let results = {
+        let _turn = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+        execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent)
+    };
+    for result in results.unwrap_or_else(|error| panic!("{case}: {error}")) {
+        assert!(result.metrics.iter().any(|metric| metric.verdict() != Verdict::Observed), "{case} has no gate");
+        let complaints = complaints(&result, &list, tier);
+        assert!(
+            complaints.is_empty(),
+            "{case}, {tier} tier: {} of {} metrics or runs are not as they should be\n{}",
+            complaints.len(),
+            result.metrics.len() + result.runs.len(),
+            complaints.join("\n")
+        );
+    }
+}
+
+/// What is wrong, a line each: diverged runs, failed gates, contradictions of the list of known failures.
+pub(crate) fn complaints(result: &CaseResult, list: &KnownFailures, tier: Tier) -> Vec<String> {
+    let diverged = result.unexpected_divergences().map(|run| match &run.outcome {
+        Outcome::Diverged { message, .. } => format!("  [{}] {message}", run.variant),
+        outcome => format!("  [{}] counts as diverged, but ended as {outcome:?}", run.variant),
+    });
+    let gates = result.metrics.iter().filter_map(|metric| complaint(metric, &list.standing(&result.name, metric)));
+    let stale = list
+        .failures
+        .iter()
+        .filter(|entry| entry.case == result.name && owing_tier(entry) == Some(tier))
+        .filter(|entry| {
+            !result.metrics.iter().any(|metric| metric.name == entry.metric && metric.variant == entry.variant)
+        })
+        .map(|entry| {
+            format!("  {} [{}] is a known failure, but is not measured: remove the entry", entry.metric, entry.variant)
+        });
+    diverged.chain(gates).chain(stale).collect()
+}
+
+fn complaint(metric: &Metric, standing: &Standing) -> Option<String> {
+    let why = match standing {
+        Standing::Unlisted if metric.verdict() == Verdict::Fail => "the gate fails".to_owned(),
+        Standing::Unlisted | Standing::Known(_) => return None,
+        Standing::PassesAgain(entry) => {
+            format!("a known failure since {} now passes: remove the entry", entry.date)
+        }
+        Standing::Worse(entry) => format!("a known failure became worse than its best value {:e}", entry.best_value),
+        Standing::WithoutGate(_) => "a known failure, but the metric has no gate: remove the entry".to_owned(),
+    };
+    let Metric { name, variant, value, unit, .. } = metric;
+    let limit = metric.gate.as_ref().map_or_else(String::new, |gate| {
+        format!(", limit {} {unit}, margin {:.4e} {unit}", rule(gate.limit), gate.limit.margin(*value))
+    });
+    Some(format!("  {name} [{variant}] = {value:.6e} {unit}{limit}: {why}"))
+}
+
+fn rule(limit: Limit) -> String {
+    match limit {
+        Limit::AtMost(bound) => format!("≤ {bound}"),
+        Limit::AtLeast(bound) => format!("≥ {bound}"),
+        Limit::Within(lower, upper) => format!("{lower} … {upper}"),
+    }
+}
