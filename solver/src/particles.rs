@@ -241,6 +241,7 @@ impl<const D: usize> Particles<D> {
         permute(&mut self.density, order, &mut scratch.scalars);
         permute(&mut self.volume, order, &mut scratch.scalars);
         permute(&mut self.artificial_viscosity, order, &mut scratch.scalars);
+        permute(&mut self.viscosity, order, &mut scratch.scalars);
         permute(&mut self.mass, order, &mut scratch.scalars);
         permute(&mut self.identity, order, &mut scratch.identities);
     }

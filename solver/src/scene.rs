@@ -149,7 +149,11 @@ impl<const D: usize> Scene<D> {
             return Err(SceneError::Parameter { field, value, rule, remedy });
         }
         for (particle, position) in self.flow.position.iter().enumerate() {
-            let finite = [("position", position.sum()), ("velocity", self.flow.velocity[particle].sum())];
+            let finite = [
+                ("position", position.sum()),
+                ("velocity", self.flow.velocity[particle].sum()),
+                ("stress", self.flow.stress[particle].sum()),
+            ];
             for (quantity, value) in finite {
                 if !value.is_finite() {
                     return Err(SceneError::Value { quantity, particle, value, rule: "finite" });

@@ -125,6 +125,7 @@ impl<const D: usize> Simulation<D> {
     pub fn run(&mut self, end: f64, interval: f64, mut observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<D> {
         let origin = self.time;
         let mut observed = 0u64;
+        let mut observed_step = self.steps;
         if observe(self).is_break() {
             return StopReason::Stopped;
         }
@@ -136,10 +137,14 @@ impl<const D: usize> Simulation<D> {
             let due = ((self.time - origin) / interval + 1e-9).floor() as u64;
             if due > observed {
                 observed = due;
+                observed_step = self.steps;
                 if observe(self).is_break() {
                     return StopReason::Stopped;
                 }
             }
+        }
+        if observed_step < self.steps && observe(self).is_break() {
+            return StopReason::Stopped;
         }
         StopReason::Finished
     }

@@ -22,6 +22,12 @@ pub enum InputError {
     /// The parameters are each in range, but together give no valid scene.
     #[error("the parameters give no valid scene: {0}")]
     Scene(#[from] bagnold_solver::scene::SceneError),
+    /// The committed baseline or list of known failures cannot be used.
+    #[error("failed to {0}; correct the file or restore it from version control")]
+    Baseline(#[from] crate::report::BaselineError),
+    /// A report cannot be written.
+    #[error("failed to {0}; check the folder and its permissions")]
+    Report(#[from] crate::report::ReportError),
     /// A file names a field that the case does not have.
     #[error("{}unknown field `{field}`; {}`bagnold show {case}` prints all fields", origin(.file), did_you_mean(.nearest))]
     UnknownField {

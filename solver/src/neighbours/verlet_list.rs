@@ -82,12 +82,14 @@ impl VerletList {
                         let particle = block * BLOCK + row;
                         let chunks = &mut chunks[row * stride..(row + 1) * stride];
                         let flow_found = search(positions, particle, radius, grids.0, &mut buffer);
-                        let flow_chunks = store(&buffer[..flow_found], sentinel, chunks);
+                        let flow_chunks = store(&buffer[..flow_found.min(LARGEST_ROW)], sentinel, chunks)
+                            .max(flow_found.div_ceil(LANES));
                         let mut wall_chunks = 0;
                         if particle < flow {
                             let wall_found = search(positions, particle, radius, grids.1, &mut buffer);
                             let rest = flow_chunks.min(stride);
-                            wall_chunks = store(&buffer[..wall_found], sentinel, &mut chunks[rest..]);
+                            wall_chunks = store(&buffer[..wall_found.min(LARGEST_ROW)], sentinel, &mut chunks[rest..])
+                                .max(wall_found.div_ceil(LANES));
                         }
                         *count = (flow_chunks.min(255) as u8, wall_chunks.min(255) as u8);
                         largest = largest.max((flow_chunks + wall_chunks, particle));
@@ -130,7 +132,7 @@ fn search<const D: usize>(
             found += usize::from(distance_squared < limit && index as usize != particle);
         }
     });
-    found.min(LARGEST_ROW)
+    found
 }
 
 /// Writes indices as padded chunks as far as they fit and returns how many chunks are needed.

@@ -4,12 +4,12 @@ use super::ParameterProblem;
 
 /// Refuses what is not a finite number above zero.
 pub(super) fn positive(field: &'static str, value: f64, remedy: &'static str) -> Option<ParameterProblem> {
-    (!(value > 0.0 && value.is_finite())).then_some((field, value, "must be finite and greater than 0", remedy))
+    (!(value > 0.0 && value.is_finite())).then_some((field, value, "finite and greater than 0", remedy))
 }
 
 /// Refuses what is not a finite number of at least zero.
 pub(super) fn not_negative(field: &'static str, value: f64, remedy: &'static str) -> Option<ParameterProblem> {
-    (!(value >= 0.0 && value.is_finite())).then_some((field, value, "must be finite and not negative", remedy))
+    (!(value >= 0.0 && value.is_finite())).then_some((field, value, "finite and not negative", remedy))
 }
 
 /// Refuses the friction parameters of μ(I) (31), (32) that give no law: 0 < μ_s ≤ μ_2, I_0, D, ρ_s > 0.
@@ -30,7 +30,7 @@ pub(super) fn friction(
         (!above_static).then_some((
             "limiting_friction",
             limiting_friction,
-            "must be finite and at least static_friction",
+            "finite and at least static_friction",
             "give the friction of fast flow, or static_friction itself for a law without rate dependence",
         ))
     })

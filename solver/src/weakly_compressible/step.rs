@@ -27,6 +27,7 @@ impl<const D: usize> Simulation<D> {
                 self.images.copy_vectors(&mut self.particles.pressure_gradient);
                 self.images.copy_tensors(&mut self.particles.flux);
                 self.images.copy_tensors(&mut self.particles.velocity_gradient);
+                self.images.copy_scalars(&mut self.particles.artificial_viscosity);
                 self.model.momentum().run(&mut self.particles);
             }
             MomentumOperator::Pairwise | MomentumOperator::PairwiseCorrected => {

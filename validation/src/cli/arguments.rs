@@ -109,6 +109,9 @@ pub struct Report {
     /// Folder to write.
     #[arg(long, value_name = "DIR", default_value = "reports")]
     pub out: PathBuf,
+    /// Make these results the baseline that later reports and tests are compared with.
+    #[arg(long)]
+    pub update_baseline: bool,
     /// How to compute.
     #[command(flatten)]
     pub work: Work,
@@ -118,7 +121,7 @@ pub struct Report {
 #[derive(Debug, Args)]
 pub struct Work {
     /// Threads to use [default: all cores].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
     /// Simulate even what is stored from an earlier run of the same program.
     #[arg(long)]

@@ -1,19 +1,21 @@
 //! `bagnold report`: many cases on one page.
 
-use super::arguments::Report;
+use super::arguments::Report as Arguments;
 use super::run::simulate;
 use super::{Exit, say, summary};
-use crate::case::{CaseResult, Changes, Prepared, Registry};
+use crate::case::{CaseResult, Changes, Prepared, Registry, Tier};
 use crate::error::InputError;
-use crate::metric::Metric;
 use crate::metric::json::MetricsDocument;
-use crate::output::{OutputFolder, write_figures};
-use std::io::{self, Write};
-use std::path::Path;
+use crate::output::OutputFolder;
+use crate::report::{self, Baseline, CaseReport, KnownFailures, Provenance, Report, Standing};
+use crate::store::provenance;
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Instant;
 
 /// Simulates and judges the cases, writes the page and prints what fails.
 pub(super) fn report(
-    command: &Report,
+    command: &Arguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
@@ -21,19 +23,49 @@ pub(super) fn report(
     let cases = prepare(command, registry)?;
     let claimed = OutputFolder::claim(&command.out)?;
     let known = known_failures()?;
+    let names: Vec<String> = cases.iter().map(|case| case.name().to_owned()).collect();
+    let mut baseline = Baseline::default();
+    for name in &names {
+        baseline.extend(Baseline::read(&baseline_folder(), name, command.tier)?);
+    }
+    let started = Instant::now();
     let results = simulate(cases, &command.work.open_store(), quiet)?;
-    write(claimed.staging(), &results).map_err(|error| InputError::unwritable(&command.out, &error))?;
+    if command.update_baseline {
+        baseline = Baseline::default();
+        for result in &results {
+            let fresh = Baseline::of(&result.name, &result.metrics);
+            fresh.write(&baseline_folder(), &result.name, command.tier)?;
+            baseline.extend(fresh);
+        }
+    }
+    let page = Report {
+        title: "Bagnold validation report".to_owned(),
+        tier: command.tier,
+        generated: Provenance {
+            version: provenance::version().to_owned(),
+            commit: provenance::commit(),
+            threads: rayon::current_num_threads(),
+            wall_seconds: started.elapsed().as_secs_f64(),
+            command: repeated(command),
+            date: None,
+        },
+        cases: results.iter().map(case_report).collect(),
+        baseline,
+        known_failures: known.clone(),
+    };
+    report::write(&page, claimed.staging())?;
     claimed.publish()?;
 
     for result in &results {
+        let is_known = |metric: &_| is_known(&known, result, metric);
         say(output, &summary::heading(result));
-        say(output, &summary::failures(result, |metric| known.lists(result, metric)));
+        say(output, &summary::failures(result, is_known));
     }
     say(output, &format!("written to {}\n", command.out.join("index.html").display()));
-    Ok(Exit::of(&results, |result, metric| known.lists(result, metric)))
+    Ok(Exit::of(&results, |result, metric| is_known(&known, result, metric)))
 }
 
-fn prepare(command: &Report, registry: Registry) -> Result<Vec<Box<dyn Prepared>>, InputError> {
+fn prepare(command: &Arguments, registry: Registry) -> Result<Vec<Box<dyn Prepared>>, InputError> {
     let wanted = if command.cases.is_empty() {
         registry.iter().collect()
     } else {
@@ -42,29 +74,44 @@ fn prepare(command: &Report, registry: Registry) -> Result<Vec<Box<dyn Prepared>
     wanted.into_iter().map(|case| case.prepare(command.tier, &Changes::default())).collect()
 }
 
-/// The report's files: `metrics/CASE.json` and `figures/CASE/`.
-fn write(folder: &Path, results: &[CaseResult]) -> io::Result<()> {
-    let metrics = folder.join("metrics");
-    std::fs::create_dir_all(&metrics)?;
-    let threads = rayon::current_num_threads();
-    for result in results {
-        let document = MetricsDocument::of(result, threads);
-        std::fs::write(metrics.join(format!("{}.json", result.name)), document.text())?;
-        write_figures(&folder.join("figures").join(&result.name), result)?;
+/// The command that makes the same report again.
+fn repeated(command: &Arguments) -> String {
+    let mut words = "bagnold report".to_owned();
+    if command.tier != Tier::Quick {
+        words += &format!(" --tier {}", command.tier);
     }
-    Ok(())
+    if !command.cases.is_empty() {
+        words += &format!(" --cases {}", command.cases.join(","));
+    }
+    words
 }
 
-/// The gates that are known to fail.
+fn case_report(result: &CaseResult) -> CaseReport {
+    CaseReport {
+        name: result.name.clone(),
+        summary: result.summary.clone(),
+        description: result.description.clone(),
+        parameters_toml: result.parameters_toml.clone(),
+        command: result.command.clone(),
+        metrics: result.metrics.clone(),
+        figures: result.figures.clone(),
+        runs: result.runs.clone(),
+        metrics_json: MetricsDocument::of(result, rayon::current_num_threads()).text(),
+    }
+}
+
+/// The committed folder with baseline values and known failures.
+fn baseline_folder() -> PathBuf {
+    let reports = provenance::workspace().map_or_else(|| PathBuf::from("reports"), |root| root.join("reports"));
+    reports.join("baseline")
+}
+
+/// The gates that are known to fail, from `reports/baseline/known_failures.toml`.
 pub(super) fn known_failures() -> Result<KnownFailures, InputError> {
-    Ok(KnownFailures)
+    Ok(KnownFailures::read(&baseline_folder().join("known_failures.toml"))?)
 }
 
-/// Gates that do not hold in spite of honest attempts, from `reports/baseline/known_failures.toml`.
-pub(super) struct KnownFailures;
-
-impl KnownFailures {
-    pub(super) fn lists(&self, _result: &CaseResult, _metric: &Metric) -> bool {
-        false
-    }
+/// Whether a failing gate is listed, and fails as listed.
+pub(super) fn is_known(known: &KnownFailures, result: &CaseResult, metric: &crate::metric::Metric) -> bool {
+    matches!(known.standing(&result.name, metric), Standing::Known(_))
 }

@@ -39,11 +39,11 @@ pub(super) fn run(
     claimed.publish()?;
     if !command.json {
         for result in &results {
-            say(output, &summary::of_case(result, |metric| known.lists(result, metric)));
+            say(output, &summary::of_case(result, |metric| super::report::is_known(&known, result, metric)));
         }
         say(output, &format!("written to {}\n", folder.display()));
     }
-    Ok(Exit::of(&results, |result, metric| known.lists(result, metric)))
+    Ok(Exit::of(&results, |result, metric| super::report::is_known(&known, result, metric)))
 }
 
 /// Simulates with a progress bar.

@@ -8,6 +8,9 @@ use std::path::{Component, Path, PathBuf};
 /// Says that a folder is Bagnold's, and which of its entries are.
 const MARKER: &str = ".bagnold-output";
 
+/// What a fresh checkout holds in `reports/`, and the store that tests may have filled: they make no folder foreign.
+const COMMITTED: [&str; 5] = ["README.md", "gallery", "baseline", "history.csv", "store"];
+
 const MARKER_TITLE: &str = "Written by bagnold, which replaces these entries the next time:";
 
 /// A folder that is ours to write. What it held stays until [`OutputFolder::publish`]; without that,
@@ -35,7 +38,9 @@ impl OutputFolder {
         };
         match std::fs::read_dir(folder) {
             Ok(mut entries) => {
-                if entries.next().is_some() && !folder.join(MARKER).is_file() {
+                let is_foreign = entries
+                    .any(|entry| entry.is_ok_and(|entry| !COMMITTED.iter().any(|name| entry.file_name() == *name)));
+                if is_foreign && !folder.join(MARKER).is_file() {
                     return Err(InputError::ForeignFolder { folder: folder.to_owned() });
                 }
             }

@@ -20,7 +20,6 @@ pub use known_failures::{KnownFailure, KnownFailures, Standing};
 use crate::case::Tier;
 use crate::figure::{self, Figure, FigureError};
 use crate::metric::Metric;
-use crate::observe::Outcome;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -76,34 +75,9 @@ pub struct CaseReport {
     /// Figures in reading order.
     pub figures: Vec<Figure>,
     /// The simulations behind the metrics.
-    pub runs: Vec<RunSummary>,
+    pub runs: Vec<crate::case::RunSummary>,
     /// The text of `metrics.json`, written as it is.
     pub metrics_json: String,
-}
-
-/// One simulation of a case.
-#[derive(Debug, Clone)]
-pub struct RunSummary {
-    /// Full name, `key=value,…`.
-    pub variant: String,
-    /// How it ended.
-    pub outcome: Outcome,
-    /// Flow particles.
-    pub particles: usize,
-    /// Time steps.
-    pub steps: u64,
-    /// Simulated time `[s]`.
-    pub simulated_time: f64,
-    /// Wall time `[s]`.
-    pub wall_seconds: f64,
-    /// Threads that the run's loops used.
-    pub threads: usize,
-    /// Wall time over particles and steps `[µs]`.
-    pub microseconds_per_particle_step: f64,
-    /// Hash of the final state.
-    pub state_hash: String,
-    /// Whether the result was taken from the store instead of simulated again.
-    pub from_store: bool,
 }
 
 /// A figure as the page refers to it.

@@ -5,7 +5,8 @@ use super::judgement::{JudgedCase, Judgement, Severity, Tally};
 use super::number::{count, four_digits};
 use super::rows::{mark, note, rows, statement, vanished};
 use super::view::{Banner, BannerItem, Case, Count, Mark, Page, Picture, Run};
-use super::{CaseReport, Drawn, Provenance, Report, RunSummary};
+use super::{CaseReport, Drawn, Provenance, Report};
+use crate::case::RunSummary;
 use crate::metric::Verdict;
 use crate::observe::Outcome;
 
@@ -265,7 +266,7 @@ fn run(run: &RunSummary) -> Run {
         simulated_time: four_digits(run.simulated_time),
         wall_seconds: seconds(run.wall_seconds),
         threads: run.threads,
-        pace: four_digits(run.microseconds_per_particle_step),
+        pace: run.microseconds_per_particle_step.map_or_else(|| "–".to_owned(), four_digits),
         hash: run.state_hash.clone(),
         short_hash: run.state_hash.chars().take(12).collect(),
         from_store: run.from_store,

@@ -143,15 +143,15 @@ fn kinds_are_counted_apart_and_observed_values_not_at_all() {
 
 #[test]
 fn an_undeclared_divergence_is_a_failure_and_a_declared_one_is_not() {
-    let run = |expected| RunSummary {
+    let run = |expected| crate::case::RunSummary {
         variant: "slope_angle=34".to_owned(),
-        outcome: Outcome::Diverged { message: "speed of particle 17".to_owned(), expected },
+        outcome: crate::observe::Outcome::Diverged { message: "speed of particle 17".to_owned(), expected },
         particles: 400,
         steps: 1000,
         simulated_time: 0.5,
         wall_seconds: 1.0,
         threads: 2,
-        microseconds_per_particle_step: 0.4,
+        microseconds_per_particle_step: Some(0.4),
         state_hash: "0123456789abcdef".to_owned(),
         from_store: true,
     };

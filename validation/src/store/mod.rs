@@ -1,7 +1,7 @@
 //! Finished runs on disk, shared by tests and report: nothing is simulated twice by the same program.
 
 mod entry;
-mod provenance;
+pub mod provenance;
 
 pub use provenance::{commit, profile, source_hash, target_features, version, workspace};
 

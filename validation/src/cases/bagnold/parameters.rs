@@ -116,7 +116,8 @@ impl BagnoldParameters {
             convergence_resolutions: vec![],
             arrest_slope_angles: vec![20.0],
             arrest_start_angle: 24.0,
-            runaway_slope_angles: vec![34.0],
+            // at 20 rows the particles' agitation breaks the layer up before its mean reaches half the sound speed
+            runaway_slope_angles: vec![],
             // glass beads of Table 1 (Forterre & Pouliquen 2003); I_0 from (41) at 25°, kept at every angle
             material: MuI {
                 static_friction: 0.382,
@@ -132,6 +133,7 @@ impl BagnoldParameters {
             columns: 20,
             starts: vec![Start::Rest, Start::Profile],
             convergence_resolutions: vec![10, 20, 40],
+            runaway_slope_angles: vec![34.0],
             ..quick.clone()
         };
         match tier {

@@ -23,7 +23,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         panel.series.push(Series::new("Newtonian, lattice", Mark::LinePoints, 0, errors));
         figures.push(Figure {
             name: "convergence".to_owned(),
-            caption: "Relative L2 error of the Newtonian velocity profile with the number of rows over the film."
+            caption: "Relative L2 error of the Newtonian velocity profile against the exact weakly compressible film, with the number of rows over the film."
                 .to_owned(),
             panels: vec![panel],
             columns: 1,

@@ -89,7 +89,7 @@ impl FilmParameters {
             seed: 1,
             preparation: Preparation::Settled,
             convergence_resolutions: vec![10, 20],
-            relaxation_times: 3.0,
+            relaxation_times: 5.0,
             yield_relaxation_times: 1.0,
             newtonian: Newtonian { viscosity: 1.0 },
             // a plug over the upper 0.3 h that creeps by about 1 % of its speed
@@ -100,7 +100,8 @@ impl FilmParameters {
                 flow_index: 0.7,
                 regularisation_rate: 0.3,
             },
-            numerics: Numerics::default(),
+            // a viscous fluid needs no artificial viscosity, which is first order: α h c/8 is 0.4 % of ν at 20 rows
+            numerics: Numerics { artificial_viscosity: 0.0, ..Numerics::default() },
         };
         match tier {
             Tier::Quick => quick,
@@ -121,7 +122,7 @@ impl FilmParameters {
         }
         rules::columns("columns", self.columns, &self.numerics)?;
         rules::between("jitter", self.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
-        rules::positive("relaxation_times", self.relaxation_times, "3 leaves 0.1 % of the approach")?;
+        rules::positive("relaxation_times", self.relaxation_times, "5 leaves less than 0.01 % of the approach")?;
         rules::positive("yield_relaxation_times", self.yield_relaxation_times, "1 lets the errors of the start decay")?;
         rules::material("newtonian", &Rheology::Newtonian(self.newtonian))?;
         rules::material("bingham", &Rheology::Bingham(self.bingham))?;
@@ -233,6 +234,20 @@ impl FilmRun {
             gravity: self.gravity,
             density: self.density,
         }
+    }
+
+    /// Exact velocity `[m/s]` of the Newtonian film as a weakly compressible fluid, whose density grows with the
+    /// pressure p = K (exp(ρ0 g cosθ (h − y)/K) − 1): η du/dy = p tanθ. It exceeds the incompressible one by 0.7 % of
+    /// the surface velocity at K = 50 ρ0 g h. None for the other fluids.
+    #[must_use]
+    pub fn weakly_compressible_velocity(&self, height: f64) -> Option<f64> {
+        let Fluid::Newtonian(law) = self.fluid else { return None };
+        let layer = self.layer(&|_| 0.0);
+        let (bulk_modulus, h) = (layer.bulk_modulus, self.layer_height);
+        let rate = self.density * self.gravity * libm::cos(layer.slope_angle) / bulk_modulus;
+        // (exp(ah) − exp(a(h − y)))/a − y without cancellation for a stiff fluid
+        let integral = libm::exp(rate * (h - height)) * libm::expm1(rate * height) / rate - height;
+        Some(libm::tan(layer.slope_angle) * bulk_modulus / law.viscosity * integral)
     }
 
     fn layer<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Layer<'a> {
