@@ -158,7 +158,7 @@ fn a_report_holds_every_case_and_keeps_what_is_not_its_own() {
     assert_eq!(bagnold(&arguments).0, Ok(Exit::Held));
     std::fs::write(out.join("README.md"), "mine").expect("writable");
     assert_eq!(bagnold(&arguments).0, Ok(Exit::Held));
-    assert!(out.join("metrics/pendulum.json").is_file());
+    assert!(out.join("cases/pendulum/metrics.json").is_file());
     assert!(out.join("README.md").is_file());
     let unknown = bagnold(&[&arguments[..], &["--cases", "pendulum,film"]].concat()).0.expect_err("refused");
     assert_eq!(unknown, "unknown case `film`; `bagnold list` prints all cases");

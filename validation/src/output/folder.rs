@@ -62,6 +62,7 @@ impl OutputFolder {
             write_marker(folder, &BTreeSet::new()).map_err(unwritable)?;
             claimed.made.insert(0, marker);
         }
+        remove_abandoned(folder);
         std::fs::create_dir_all(&claimed.staging).map_err(unwritable)?;
         Ok(claimed)
     }
@@ -137,6 +138,20 @@ fn remove(path: &Path) -> io::Result<()> {
     match removed {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => Ok(()),
+    }
+}
+
+/// Removes what killed processes left half written; a living process keeps its own.
+fn remove_abandoned(folder: &Path) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let process = name.to_str().and_then(|name| name.strip_prefix(MARKER)?.strip_prefix("-staging-"));
+        if process.is_some_and(|process| !Path::new("/proc").join(process).exists())
+            && let Err(error) = std::fs::remove_dir_all(entry.path())
+        {
+            tracing::warn!("cannot remove {}: {error}", entry.path().display());
+        }
     }
 }
 
