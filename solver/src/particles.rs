@@ -1,6 +1,7 @@
 //! The particles as a structure of arrays: flow, walls, images and the sentinel, in this order.
 
 use crate::boundary::{Images, Wall, wall::WallParticle};
+use crate::lanes::LANES;
 use crate::records::Records;
 use crate::vector::{Tensor, Vector};
 
@@ -53,6 +54,9 @@ pub struct Particles<const D: usize> {
     /// Accelerations `[m/s²]`.
     pub(crate) acceleration: Vec<Vector<D>>,
 
+    /// V_b F of every pair `[1/m²]`, chunk by chunk as in the neighbour list: made by the geometry pass, used by
+    /// the others, so that a step takes one square root a pair.
+    pub(crate) pair_weights: Vec<[f64; LANES]>,
     /// What the geometry pass reads of a neighbour.
     pub(crate) geometry_records: Records,
     /// What the momentum pass reads of a neighbour.
@@ -161,6 +165,7 @@ impl<const D: usize> Particles<D> {
             correction: vec![Tensor::identity(); n],
             force_correction: vec![Tensor::identity(); n],
             acceleration: vec![Vector::zeros(); n],
+            pair_weights: Vec::new(),
             geometry_records: Records::new(crate::operators::geometry::values(D)),
             momentum_records: Records::new(crate::terms::momentum::values(D)),
             continuity_records: Records::new(crate::terms::continuity::values(D)),

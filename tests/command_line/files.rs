@@ -141,7 +141,7 @@ fn a_report_is_one_page_with_the_verdicts() {
     for word in ["film", "Verification", "Validation", "Regression", "velocity_l2", "holds"] {
         assert!(page.contains(word), "the page lacks {word:?}");
     }
-    assert_eq!(code == Some(1), page.contains("fails"), "the page and the exit code agree");
+    assert_eq!(code == Some(1), page.contains("class=\"banner fail\""), "the page and the exit code agree");
     for outside in ["src=\"http", "href=\"http", "url(http", "@import"] {
         assert!(!page.contains(outside), "the page must be self-contained: {outside}");
     }

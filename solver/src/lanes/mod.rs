@@ -52,6 +52,8 @@ pub trait Lanes:
     /// Loads four neighbouring values of eight records and transposes them: `result[k]` holds
     /// `source[index · stride + offset][k]` for eight indices.
     fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices) -> [Self; 4];
+    /// Eight values in order.
+    fn load(values: &[f64; LANES]) -> Self;
     /// Lane-wise square root.
     fn sqrt(self) -> Self;
     /// Lane-wise `if self > other { self } else { other }`.

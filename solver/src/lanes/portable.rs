@@ -75,6 +75,11 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
+    fn load(values: &[f64; LANES]) -> Self {
+        Self(*values)
+    }
+
+    #[inline(always)]
     fn sqrt(self) -> Self {
         Self(self.0.map(f64::sqrt))
     }

@@ -129,6 +129,12 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
+    fn load(values: &[f64; LANES]) -> Self {
+        // SAFETY: the array holds eight values.
+        Self(unsafe { _mm512_loadu_pd(values.as_ptr()) })
+    }
+
+    #[inline(always)]
     fn sqrt(self) -> Self {
         // SAFETY: values of this type exist only inside run_avx512.
         Self(unsafe { _mm512_sqrt_pd(self.0) })
@@ -197,6 +203,12 @@ impl Lanes for Avx2 {
             let [e, f, g, h] = transposed(load(4), load(5), load(6), load(7));
             [Self(a, e), Self(b, f), Self(c, g), Self(d, h)]
         }
+    }
+
+    #[inline(always)]
+    fn load(values: &[f64; LANES]) -> Self {
+        // SAFETY: the array holds eight values, four a load.
+        unsafe { Self(_mm256_loadu_pd(values.as_ptr()), _mm256_loadu_pd(values.as_ptr().add(4))) }
     }
 
     #[inline(always)]

@@ -41,6 +41,13 @@ impl VerletList {
         Row { flow, wall }
     }
 
+    /// Chunks a row.
+    #[inline(always)]
+    #[must_use]
+    pub fn stride(&self) -> usize {
+        self.stride
+    }
+
     /// The neighbours of `particle` without padding, in list order.
     #[must_use]
     pub fn neighbours(&self, particle: usize, sentinel: u32) -> Vec<u32> {

@@ -4,7 +4,7 @@
 use super::correction::corrections;
 use crate::kernel::Kernel;
 use crate::lanes::algebra::{accumulate, difference, dot, reduce_vector, splat_vector};
-use crate::lanes::{InstructionSet, LaneIndices, LanePass, Lanes};
+use crate::lanes::{InstructionSet, LANES, LaneIndices, LanePass, Lanes};
 use crate::neighbours::VerletList;
 use crate::numerics::MomentumOperator;
 use crate::particles::Particles;
@@ -38,6 +38,7 @@ struct Output<'a, const D: usize> {
     force_correction: &'a mut [Tensor<D>],
     pressure_gradient: &'a mut [Vector<D>],
     flux: &'a mut [Tensor<D>],
+    pair_weights: &'a mut [[f64; LANES]],
 }
 
 impl<const D: usize> Geometry<'_, D> {
@@ -57,24 +58,31 @@ impl<const D: usize> Geometry<'_, D> {
         let mut force_correction = std::mem::take(&mut particles.force_correction);
         let mut pressure_gradient = std::mem::take(&mut particles.pressure_gradient);
         let mut flux = std::mem::take(&mut particles.flux);
+        let stride = self.list.stride();
+        let mut pair_weights = std::mem::take(&mut particles.pair_weights);
+        if pair_weights.len() < flow * stride {
+            pair_weights.resize(flow * stride, [0.0; LANES]);
+        }
         let shared = &*particles;
         (
             correction.par_chunks_mut(BLOCK),
             force_correction.par_chunks_mut(BLOCK),
             pressure_gradient[..flow].par_chunks_mut(BLOCK),
             flux[..flow].par_chunks_mut(BLOCK),
+            pair_weights[..flow * stride].par_chunks_mut(BLOCK * stride),
         )
             .into_par_iter()
             .enumerate()
             .with_min_len(4)
-            .for_each(|(block, (correction, force_correction, pressure_gradient, flux))| {
-                let out = Output { correction, force_correction, pressure_gradient, flux };
+            .for_each(|(block, (correction, force_correction, pressure_gradient, flux, pair_weights))| {
+                let out = Output { correction, force_correction, pressure_gradient, flux, pair_weights };
                 self.instruction_set.run(Pass { constants: self, particles: shared, first: block * BLOCK, out });
             });
         particles.correction = correction;
         particles.force_correction = force_correction;
         particles.pressure_gradient = pressure_gradient;
         particles.flux = flux;
+        particles.pair_weights = pair_weights;
     }
 }
 
@@ -91,6 +99,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
         let Self { constants, particles, first, out } = self;
         let total = particles.position.len();
         let zero = V::splat(0.0);
+        let stride = constants.list.stride();
         for offset in 0..out.flux.len() {
             let a = first + offset;
             let place = splat_vector::<V, D>(&particles.position[a]);
@@ -99,7 +108,8 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             let mut moment = [[zero; D]; D];
             let mut gradient = [zero; D];
             let row = constants.list.row(a);
-            for chunk in row.flow.iter().chain(row.wall) {
+            let weights = &mut out.pair_weights[offset * stride..(offset + 1) * stride];
+            for (chunk, stored) in row.flow.iter().chain(row.wall).zip(weights) {
                 let b = LaneIndices::new(chunk, total);
                 let record = particles.geometry_records.load::<V>(const { values(D).div_ceil(4) }, &b);
                 let position = records::vector::<V, D>(&record, 0);
@@ -107,6 +117,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                 let pressure = records::scalar(&record, D + 1);
                 let r = difference(&place, &position);
                 let weight = volume * constants.kernel.gradient_factor(dot(&r, &r));
+                *stored = weight.to_array();
                 accumulate(&mut gradient, (pressure - pressure_a) * weight, &r);
                 for i in 0..D {
                     let weighted = weight * r[i];

@@ -179,28 +179,28 @@ fn all_sums<V: Lanes, const D: usize>(constants: &Continuity<'_, D>, particles: 
     let mut coupling = zero;
     let mut gradient = [[zero; D]; D];
     let row = constants.list.row(a);
-    for chunk in row.flow {
+    let weights = &particles.pair_weights[a * constants.list.stride()..];
+    let (flow_weights, wall_weights) = weights.split_at(row.flow.len());
+    for (chunk, weight) in row.flow.iter().zip(flow_weights) {
         let b = LaneIndices::new(chunk, total);
         let record = particles.continuity_records.load::<V>(const { values(D).div_ceil(4) }, &b);
         let position = records::vector::<V, D>(&record, 0);
         let velocity = records::vector::<V, D>(&record, D);
-        let volume = records::scalar(&record, 2 * D);
         let pressure = records::scalar(&record, 2 * D + 1);
         let pressure_gradient = records::vector::<V, D>(&record, 2 * D + 2);
         let r = difference(&place, &position);
-        let weight = volume * constants.kernel.gradient_factor(dot(&r, &r));
+        let weight = V::load(weight);
         let sum = sum_of(&pressure_gradient_a, &pressure_gradient);
         coupling = coupling + weight * density_coupling::bracket(pressure_a - pressure, &sum, &r);
         accumulate_outer(&mut gradient, weight, &difference(&velocity, &velocity_a), &r);
     }
-    for chunk in row.wall {
+    for (chunk, weight) in row.wall.iter().zip(wall_weights) {
         let w = LaneIndices::new(chunk, total);
         let record = particles.continuity_records.load::<V>(const { values(D).div_ceil(4) }, &w);
         let position = records::vector::<V, D>(&record, 0);
         let velocity = records::vector::<V, D>(&record, D);
-        let volume = records::scalar(&record, 2 * D);
         let r = difference(&place, &position);
-        let weight = volume * constants.kernel.gradient_factor(dot(&r, &r));
+        let weight = V::load(weight);
         accumulate_outer(&mut gradient, weight, &difference(&velocity, &velocity_a), &r);
     }
     let gradient = reduce_tensor(&gradient);

@@ -94,12 +94,13 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             let mut divergence = [zero; D];
             let mut damping = [zero; D];
             let row = constants.list.row(a);
-            for chunk in row.flow {
+            let weights = &particles.pair_weights[a * constants.list.stride()..];
+            let (flow_weights, wall_weights) = weights.split_at(row.flow.len());
+            for (chunk, weight) in row.flow.iter().zip(flow_weights) {
                 let b = LaneIndices::new(chunk, total);
                 let record = particles.momentum_records.load::<V>(const { values(D).div_ceil(4) }, &b);
                 let position = records::vector::<V, D>(&record, 0);
                 let velocity = records::vector::<V, D>(&record, D);
-                let volume = records::scalar(&record, 2 * D);
                 let density = records::scalar(&record, 2 * D + 1);
                 let pressure_speed = records::scalar(&record, 2 * D + 2);
                 let flux = records::tensor::<V, D>(&record, 2 * D + 4);
@@ -107,7 +108,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                 let r = difference(&place, &position);
                 let slip = difference(&velocity_a, &velocity);
                 let distance_squared = dot(&r, &r);
-                let weight = volume * constants.kernel.gradient_factor(distance_squared);
+                let weight = V::load(weight);
                 let regular = distance_squared + singularity;
                 // one division serves 1/(ρ̄ r²) of (15) and 2/(ρ_a + ρ_b) of the hourglass control
                 let inverse = V::splat(2.0) / ((density_a + density) * regular);
@@ -129,17 +130,16 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                 accumulate(&mut damping, mass_weight * drag, &unexplained);
             }
             let correction_a = splat_tensor::<V, D>(&particles.force_correction[a]);
-            for chunk in row.wall {
+            for (chunk, weight) in row.wall.iter().zip(wall_weights) {
                 let w = LaneIndices::new(chunk, total);
                 let position = gather_vectors::<V, D>(&particles.position, &w);
                 let stress = gather_tensors::<V, D>(&particles.flux, &w);
-                let volume: V = gather(&particles.volume, &w);
                 let pressure: V = gather(&particles.pressure, &w);
                 let normal = gather_vectors::<V, D>(&particles.wall_normal, &w);
                 let depth: V = gather(&particles.wall_depth, &w);
                 let wall_velocity = gather_vectors::<V, D>(&particles.wall_velocity, &w);
                 let r = difference(&place, &position);
-                let weight = volume * constants.kernel.gradient_factor(dot(&r, &r));
+                let weight = V::load(weight);
                 let corrected = product(&correction_a, &r);
                 // β = 1 + d_w/d_a as in (20); the distance of a to the surface is n·r − d_w
                 let distance = (dot(&normal, &r) - depth).max(V::splat(1e-6 * smoothing_length));

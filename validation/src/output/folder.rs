@@ -38,8 +38,9 @@ impl OutputFolder {
         };
         match std::fs::read_dir(folder) {
             Ok(mut entries) => {
-                let is_foreign = entries
-                    .any(|entry| entry.is_ok_and(|entry| !COMMITTED.iter().any(|name| entry.file_name() == *name)));
+                let is_reports = folder.file_name().is_some_and(|name| name == "reports");
+                let is_committed = |name: &std::ffi::OsStr| is_reports && COMMITTED.iter().any(|kept| name == *kept);
+                let is_foreign = entries.any(|entry| entry.is_ok_and(|entry| !is_committed(&entry.file_name())));
                 if is_foreign && !folder.join(MARKER).is_file() {
                     return Err(InputError::ForeignFolder { folder: folder.to_owned() });
                 }
@@ -143,6 +144,10 @@ fn remove(path: &Path) -> io::Result<()> {
 
 /// Removes what killed processes left half written; a living process keeps its own.
 fn remove_abandoned(folder: &Path) {
+    // without /proc nothing tells which processes live
+    if !Path::new("/proc/self").exists() {
+        return;
+    }
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
         let name = entry.file_name();

@@ -38,6 +38,7 @@ impl Case for Bagnold {
 
     fn description(&self) -> &'static str {
         "A layer of glass beads with the μ(I) rheology on an incline, periodic along the slope, over a no-slip bed. \
+         From rest the displaced particles are settled first and carry the shear stress of the static friction limit. \
          Between the static and the limiting friction angle the steady velocity follows Bagnold's profile (36)–(37), \
          exact for the model; the way to it from rest is compared with an independent one-dimensional solver. \
          Below that band the layer must come to rest, above it must accelerate without end. \

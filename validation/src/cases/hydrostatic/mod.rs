@@ -35,8 +35,8 @@ impl Case for Hydrostatic {
     }
 
     fn description(&self) -> &'static str {
-        "A layer that starts from displaced particles with the hydrostatic density must stay at rest with the exact \
-         hydrostatic pressure of its equation of state, without the particle-scale pressure noise that weakly \
+        "A layer of displaced particles, settled without friction before the start (`preparation`), must stay at rest \
+         with the exact hydrostatic pressure of its equation of state, without the particle-scale pressure noise that weakly \
          compressible SPH is known for. The same run without the density–pressure coupling (27) shows that the noise \
          measure can fail. Under friction the pressure of a layer at rest is not unique (between the active and the \
          passive state), but the stress across the layer is: p − s_yy is gated and p observed."
