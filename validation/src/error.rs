@@ -22,6 +22,14 @@ pub enum InputError {
     /// The parameters are each in range, but together give no valid scene.
     #[error("the parameters give no valid scene: {0}")]
     Scene(#[from] bagnold_solver::scene::SceneError),
+    /// The parameters ask for no simulation, so no gate could fail.
+    #[error(
+        "the parameters of `{case}` ask for no run; fill at least one of its lists, `bagnold show {case}` prints them"
+    )]
+    NothingToRun {
+        /// The case.
+        case: String,
+    },
     /// The committed baseline or list of known failures cannot be used.
     #[error("failed to {0}; correct the file or restore it from version control")]
     Baseline(#[from] crate::report::BaselineError),

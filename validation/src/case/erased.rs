@@ -63,6 +63,9 @@ impl<C: Case> AnyCase for C {
             (Some((file, _)), Some(field)) if !is_set(changes.settings, field) => error.in_file(file),
             _ => error,
         })?;
+        if self.runs(&parameters).is_empty() {
+            return Err(InputError::NothingToRun { case: Case::name(self).to_owned() });
+        }
         let changed = table_of(&parameters) != table_of(&defaults);
         Ok(Box::new(Plan::<C> {
             tier,
