@@ -2,6 +2,7 @@
 //!
 //! Equation (6): p = K (ρ/ρ0 − 1), with sound speed c = √(K/ρ0); (23) is its inverse, ρ = ρ0 (p/K + 1).
 
+use crate::lanes::Real;
 use serde::{Deserialize, Serialize};
 
 /// What becomes of a negative pressure.
@@ -30,11 +31,12 @@ impl EquationOfState {
     /// Pressure `[Pa]` at a density `[kg/m³]`, equation (6).
     #[inline(always)]
     #[must_use]
-    pub fn pressure(&self, density: f64) -> f64 {
+    pub fn pressure<R: Real>(&self, density: R) -> R {
         // (ρ − ρ0)/ρ0 keeps the digits that ρ/ρ0 − 1 loses near ρ0.
-        let pressure = self.bulk_modulus * ((density - self.reference_density) / self.reference_density);
+        let reference = R::splat(self.reference_density);
+        let pressure = R::splat(self.bulk_modulus) * ((density - reference) / reference);
         match self.tension {
-            Tension::Cut => pressure.max(0.0),
+            Tension::Cut => pressure.max(R::splat(0.0)),
             Tension::Kept => pressure,
         }
     }

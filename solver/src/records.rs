@@ -47,12 +47,18 @@ impl Records {
         });
     }
 
-    /// Loads the records of eight particles.
+    /// Loads the records of eight particles; `quads` is their length in quads.
     #[inline(always)]
-    pub(crate) fn load<V: Lanes>(&self, quads: usize, indices: &LaneIndices) -> LaneRecord<V> {
+    pub(crate) fn load<V: Lanes>(&self, quads: usize, indices: &LaneIndices<'_>) -> LaneRecord<V> {
+        self.load_start(quads, quads, indices)
+    }
+
+    /// Loads the first `wanted` quads of the records of eight particles, which are `quads` long.
+    #[inline(always)]
+    pub(crate) fn load_start<V: Lanes>(&self, quads: usize, wanted: usize, indices: &LaneIndices<'_>) -> LaneRecord<V> {
         debug_assert_eq!(quads, self.quads);
         let mut record = [[V::splat(0.0); 4]; QUADS];
-        for quad in 0..quads {
+        for quad in 0..wanted {
             record[quad] = V::load_quads(&self.data, quads, quad, indices);
         }
         record

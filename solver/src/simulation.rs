@@ -268,7 +268,7 @@ impl<const D: usize> Simulation<D> {
         }
         self.flow_grid.cover(particles.position[..flow].iter(), radius);
         self.flow_grid.sort(particles.position[..flow].iter().enumerate().map(|(index, x)| (index as u32, x)));
-        particles.sort_flow(&self.flow_grid.index, &mut self.scratch);
+        particles.sort_flow(&self.flow_grid.index[..flow], &mut self.scratch);
         self.images.rebuild(&self.domain, &particles.position, radius);
         particles.append_images(&self.images);
         let total = real + self.images.len();
@@ -282,7 +282,8 @@ impl<const D: usize> Simulation<D> {
         self.flow_grid.sort((0..flow).chain(flow_images).map(entry));
         self.wall_grid.sort((flow..real).chain(wall_images).map(entry));
         let grids = (&self.flow_grid, &self.wall_grid);
-        let filled = self.model.list.rebuild(&particles.position, flow, real, radius, grids);
+        let filled =
+            self.model.list.rebuild(&particles.position, flow, real, radius, grids, self.model.instruction_set);
         self.displacement = 0.0;
         self.searches += 1;
         filled.map_err(|crowded| self.divergence(crowded, Quantity::Neighbours))

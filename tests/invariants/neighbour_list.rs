@@ -54,15 +54,9 @@ fn sort<const D: usize>(offsets: &mut [Vector<D>]) {
     });
 }
 
-fn listed<const D: usize>(simulation: &Simulation<D>, centre: usize, chunks: &[[u32; 8]]) -> Vec<Vector<D>> {
+fn listed<const D: usize>(simulation: &Simulation<D>, centre: usize, indices: &[u32]) -> Vec<Vector<D>> {
     let position = &simulation.particles().position;
-    let sentinel = position.len() - 1;
-    let mut found: Vec<_> = chunks
-        .iter()
-        .flatten()
-        .filter(|&&index| index as usize != sentinel)
-        .map(|&index| position[index as usize] - position[centre])
-        .collect();
+    let mut found: Vec<_> = indices.iter().map(|&index| position[index as usize] - position[centre]).collect();
     sort(&mut found);
     found
 }
@@ -80,9 +74,9 @@ fn compare<const D: usize>(scene: Scene<D>) -> usize {
         let no_walls: &[Vector<D>] = &[];
         // rows of wall particles hold flow neighbours only
         let wall_sources = if particle < flow { &walls[..] } else { no_walls };
-        for (chunks, sources) in [(row.flow, &scene.flow.position[..]), (row.wall, wall_sources)] {
+        for (indices, sources) in [(&row.flow, &scene.flow.position[..]), (&row.wall, wall_sources)] {
             let (found, expected) =
-                (listed(&simulation, particle, chunks), offsets(&scene.domain, &centre, sources, radius));
+                (listed(&simulation, particle, indices), offsets(&scene.domain, &centre, sources, radius));
             assert_eq!(found.len(), expected.len(), "neighbours of particle {particle} at {centre}");
             for (found, expected) in found.iter().zip(&expected) {
                 assert!((found - expected).norm() < 1e-12, "a neighbour at {found} instead of {expected}");
@@ -146,7 +140,7 @@ fn open_flows_agree_with_the_public_brute_force() {
     let position = &simulation.particles().position;
     let real = simulation.particles().real_count();
     for (particle, expected) in brute_force::neighbours(&position[..real], real, radius).iter().enumerate() {
-        let mut found = simulation.neighbours().neighbours(particle, real as u32);
+        let mut found = simulation.neighbours().row(particle).flow;
         found.sort_unstable();
         assert_eq!(&found, expected, "row {particle}");
     }
@@ -215,8 +209,8 @@ fn no_pair_is_missed_between_two_searches() {
         for particle in 0..simulation.particles().flow_count() {
             let centre = before.position[simulation.particles().identity[particle] as usize];
             let row = simulation.neighbours().row(particle);
-            for (chunks, sources) in [(row.flow, &before.position), (row.wall, &walls)] {
-                let found = listed(&simulation, particle, chunks);
+            for (indices, sources) in [(&row.flow, &before.position), (&row.wall, &walls)] {
+                let found = listed(&simulation, particle, indices);
                 for expected in offsets(&domain, &centre, sources, support) {
                     let near = found.iter().any(|offset| (offset - expected).norm() < moved);
                     assert!(near, "step {}: the neighbour at {expected} is missing", simulation.steps());
@@ -234,7 +228,7 @@ fn a_row_that_cannot_hold_its_neighbours_is_an_error_and_not_a_loss() {
         let result = Simulation::new(open_scene(scattered::<2>(count, 0.5, 1)));
         match result {
             Ok(simulation) => {
-                let listed = simulation.neighbours().neighbours(0, count as u32).len();
+                let listed = simulation.neighbours().row(0).flow.len();
                 assert_eq!(listed, count - 1, "particle 0 of {count} misses neighbours");
             }
             Err(SceneError::Value { quantity, .. }) => {

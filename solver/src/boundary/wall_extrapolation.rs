@@ -5,7 +5,8 @@
 
 use super::WallTreatment;
 use crate::kernel::Kernel;
-use crate::lanes::{InstructionSet, LaneIndices, LanePass, Lanes, gather, gather_tensors, gather_vectors};
+use crate::lanes::algebra::{difference, dot, splat_vector, store_vector, zero_tensor, zero_vector};
+use crate::lanes::{InstructionSet, LANES, LanePass, Lanes, gather, gather_tensors, gather_vectors};
 use crate::neighbours::VerletList;
 use crate::particles::Particles;
 use crate::vector::{Tensor, Vector};
@@ -33,19 +34,13 @@ impl<const D: usize> WallExtrapolation<'_, D> {
     /// Pressure `[Pa]`, deviatoric stress `[Pa]` and momentum flux tensor of every wall particle.
     pub(crate) fn stress(&self, particles: &mut Particles<D>) {
         let (first, count) = (particles.flow_count(), particles.wall_count());
-        let total = particles.position.len();
         // the flow's values are read while the walls' are made, so these go to a buffer of their own first
         let mut result = std::mem::take(&mut particles.wall_stress);
         result.resize(count, (0.0, Tensor::zeros()));
         let shared = &*particles;
         result.par_chunks_mut(BLOCK).enumerate().with_min_len(4).for_each(|(block, out)| {
-            self.instruction_set.run(StressPass {
-                constants: self,
-                particles: shared,
-                first: first + block * BLOCK,
-                total,
-                out,
-            });
+            let first_group = self.list.flow_groups() + block * (BLOCK / LANES);
+            self.instruction_set.run(StressPass { constants: self, particles: shared, first_group, out });
         });
         for (offset, (pressure, stress)) in result.iter().enumerate() {
             let wall = first + offset;
@@ -60,18 +55,12 @@ impl<const D: usize> WallExtrapolation<'_, D> {
     /// surface that fits the flow best, relative to the wall's own velocity.
     pub(crate) fn velocity(&self, particles: &mut Particles<D>) {
         let (first, count) = (particles.flow_count(), particles.wall_count());
-        let total = particles.position.len();
         let mut result = std::mem::take(&mut particles.wall_velocity_fit);
         result.resize(count, Vector::zeros());
         let shared = &*particles;
         result.par_chunks_mut(BLOCK).enumerate().with_min_len(4).for_each(|(block, out)| {
-            self.instruction_set.run(VelocityPass {
-                constants: self,
-                particles: shared,
-                first: first + block * BLOCK,
-                total,
-                out,
-            });
+            let first_group = self.list.flow_groups() + block * (BLOCK / LANES);
+            self.instruction_set.run(VelocityPass { constants: self, particles: shared, first_group, out });
         });
         particles.velocity[first..first + count].copy_from_slice(&result);
         particles.wall_velocity_fit = result;
@@ -81,47 +70,41 @@ impl<const D: usize> WallExtrapolation<'_, D> {
 struct StressPass<'a, const D: usize> {
     constants: &'a WallExtrapolation<'a, D>,
     particles: &'a Particles<D>,
-    first: usize,
-    total: usize,
+    first_group: usize,
     out: &'a mut [(f64, Tensor<D>)],
 }
 
 impl<const D: usize> LanePass for StressPass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { constants, particles, first, total, out } = self;
+        let Self { constants, particles, first_group, out } = self;
         let zero = V::splat(0.0);
         let weight_of_gravity = constants.reference_density * constants.gravity.norm() * constants.spacing;
         // a layer of half a spacing's weight carries the full hydrostatic increment, a weightless one none:
         // without this factor particles without pressure ride on a frictionless cushion
         let full_increment = V::splat((0.5 * weight_of_gravity).max(f64::MIN_POSITIVE));
         let smallest_pressure = V::splat((1e-3 * weight_of_gravity).max(f64::MIN_POSITIVE));
-        for (offset, out) in out.iter_mut().enumerate() {
-            let w = first + offset;
-            let place = particles.position[w];
-            let normal = particles.wall_normal[w];
-            let gravity_along_normal = constants.gravity.dot(&normal);
+        let gravity = splat_vector::<V, D>(&constants.gravity);
+        for (offset, out) in out.chunks_mut(LANES).enumerate() {
+            let group = constants.list.group(first_group + offset);
+            let place = gather_vectors::<V, D>(&particles.position, &group.own);
+            let normal = gather_vectors::<V, D>(&particles.wall_normal, &group.own);
+            let gravity_along_normal = dot(&gravity, &normal);
             let (mut weights, mut pressures) = (zero, zero);
-            let mut stresses = [[zero; D]; D];
-            for chunk in constants.list.row(w).flow {
-                let f = LaneIndices::new(chunk, total);
+            let mut stresses = zero_tensor::<V, D>();
+            for f in group.flow {
                 let position = gather_vectors::<V, D>(&particles.position, &f);
                 let pressure: V = gather(&particles.pressure, &f);
                 let density: V = gather(&particles.density, &f);
                 let volume: V = gather(&particles.volume, &f);
-                let (mut distance_squared, mut along_normal, mut along_gravity) = (zero, zero, zero);
-                for axis in 0..D {
-                    let r = V::splat(place[axis]) - position[axis];
-                    distance_squared = distance_squared + r * r;
-                    along_normal = along_normal + r * V::splat(normal[axis]);
-                    along_gravity = along_gravity + r * V::splat(constants.gravity[axis]);
-                }
-                let weight = volume * constants.kernel.value(distance_squared);
+                let r = difference(&place, &position);
+                let weight = volume * constants.kernel.value(dot(&r, &r));
                 weights = weights + weight;
                 match constants.treatment {
                     WallTreatment::Extrapolated => {
                         let share = (pressure / full_increment).min(V::splat(1.0)).max(zero);
-                        let extrapolated = pressure + density * V::splat(gravity_along_normal) * along_normal * share;
+                        let increment = density * gravity_along_normal * dot(&r, &normal) * share;
+                        let extrapolated = pressure + increment;
                         pressures = pressures + weight * extrapolated;
                         let stress = gather_tensors::<V, D>(&particles.stress, &f);
                         let ratio = weight * extrapolated / pressure.max(smallest_pressure);
@@ -133,17 +116,21 @@ impl<const D: usize> LanePass for StressPass<'_, D> {
                     }
                     // (22), with the sign of hydrostatic growth along gravity
                     WallTreatment::Paper => {
-                        pressures = pressures + weight * (pressure + density * along_gravity);
+                        pressures = pressures + weight * (pressure + density * dot(&r, &gravity));
                     }
                 }
             }
-            let weight = weights.sum();
-            *out = (0.0, Tensor::zeros());
-            if weight > DRY {
-                out.0 = (pressures.sum() / weight).max(0.0);
-                for i in 0..D {
-                    for j in 0..D {
-                        out.1[(i, j)] = stresses[i][j].sum() / weight;
+            // a dry wall carries nothing
+            let wet = V::splat(1.0).where_less(V::splat(DRY), weights) / weights.max(V::splat(DRY));
+            let pressure = (wet * pressures).max(zero).to_array();
+            for (lane, out) in out.iter_mut().enumerate() {
+                out.0 = pressure[lane];
+            }
+            for i in 0..D {
+                for j in 0..D {
+                    let stress = (wet * stresses[i][j]).to_array();
+                    for (lane, out) in out.iter_mut().enumerate() {
+                        out.1[(i, j)] = stress[lane];
                     }
                 }
             }
@@ -154,50 +141,43 @@ impl<const D: usize> LanePass for StressPass<'_, D> {
 struct VelocityPass<'a, const D: usize> {
     constants: &'a WallExtrapolation<'a, D>,
     particles: &'a Particles<D>,
-    first: usize,
-    total: usize,
+    first_group: usize,
     out: &'a mut [Vector<D>],
 }
 
 impl<const D: usize> LanePass for VelocityPass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { constants, particles, first, total, out } = self;
-        let zero = V::splat(0.0);
+        let Self { constants, particles, first_group, out } = self;
         let nearest = V::splat(NEAREST * constants.spacing);
-        for (offset, out) in out.iter_mut().enumerate() {
-            let w = first + offset;
-            let place = particles.position[w];
-            let normal = particles.wall_normal[w];
-            let depth = particles.wall_depth[w];
-            let wall_velocity = particles.wall_velocity[w];
-            let mut moment = zero;
-            let mut sums = [zero; D];
-            for chunk in constants.list.row(w).flow {
-                let f = LaneIndices::new(chunk, total);
+        let smallest = V::splat(DRY * constants.spacing * constants.spacing);
+        for (offset, out) in out.chunks_mut(LANES).enumerate() {
+            let group = constants.list.group(first_group + offset);
+            let place = gather_vectors::<V, D>(&particles.position, &group.own);
+            let normal = gather_vectors::<V, D>(&particles.wall_normal, &group.own);
+            let wall_velocity = gather_vectors::<V, D>(&particles.wall_velocity, &group.own);
+            let depth: V = gather(&particles.wall_depth, &group.own);
+            let mut moment = V::splat(0.0);
+            let mut sums = zero_vector::<V, D>();
+            for f in group.flow {
                 let position = gather_vectors::<V, D>(&particles.position, &f);
                 let velocity = gather_vectors::<V, D>(&particles.velocity, &f);
                 let volume: V = gather(&particles.volume, &f);
-                let (mut distance_squared, mut along_normal) = (zero, zero);
-                for axis in 0..D {
-                    let r = position[axis] - V::splat(place[axis]);
-                    distance_squared = distance_squared + r * r;
-                    along_normal = along_normal + r * V::splat(normal[axis]);
-                }
-                let distance = (along_normal - V::splat(depth)).max(nearest);
-                let weight = volume * constants.kernel.value(distance_squared) * distance;
+                let r = difference(&position, &place);
+                let distance = (dot(&r, &normal) - depth).max(nearest);
+                let weight = volume * constants.kernel.value(dot(&r, &r)) * distance;
                 moment = moment + weight * distance;
                 for axis in 0..D {
-                    sums[axis] = sums[axis] + weight * (velocity[axis] - V::splat(wall_velocity[axis]));
+                    sums[axis] = sums[axis] + weight * (velocity[axis] - wall_velocity[axis]);
                 }
             }
-            let moment = moment.sum();
-            *out = wall_velocity;
-            if moment > DRY * constants.spacing * constants.spacing {
-                for axis in 0..D {
-                    out[axis] -= depth * sums[axis].sum() / moment;
-                }
+            // a dry wall moves as it is told
+            let slope = (depth / moment.max(smallest)).where_less(smallest, moment);
+            let mut velocity = wall_velocity;
+            for axis in 0..D {
+                velocity[axis] = wall_velocity[axis] - slope * sums[axis];
             }
+            store_vector(&velocity, out);
         }
     }
 }

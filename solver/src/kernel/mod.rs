@@ -73,16 +73,19 @@ impl<const D: usize> Kernel<D> {
         shape * V::splat(self.value_scale)
     }
 
-    /// F = (1/r) dW/dr `[1/m^(D+2)]` at the squared distance r² `[m²]`; never positive, exactly zero from 2h on.
+    /// V F with F = (1/r) dW/dr `[1/m²]` at the squared distance r² `[m²]` of a neighbour with the volume V `[m^D]`;
+    /// never positive, exactly zero from 2h on.
     #[inline(always)]
     #[must_use]
-    pub fn gradient_factor<V: Lanes>(&self, distance_squared: V) -> V {
-        let q = distance_squared.sqrt() * V::splat(self.inverse_smoothing_length);
-        let shape = match self.shape {
-            KernelShape::CubicSpline => cubic_spline::gradient_factor(q),
-            KernelShape::WendlandC2 => wendland::gradient_factor(q),
-        };
-        shape * V::splat(self.gradient_scale)
+    pub fn gradient_weight<V: Lanes>(&self, distance_squared: V, volume: V) -> V {
+        // the scale goes to the volume, which does not wait for the square root
+        let scaled = volume * V::splat(self.gradient_scale);
+        let distance = distance_squared.sqrt();
+        let inverse = self.inverse_smoothing_length;
+        match self.shape {
+            KernelShape::CubicSpline => cubic_spline::gradient_factor(distance * V::splat(inverse)) * scaled,
+            KernelShape::WendlandC2 => wendland::gradient_weight(distance * V::splat(0.5 * inverse), scaled),
+        }
     }
 
     /// W `[1/m^D]` at a distance `[m]`, one value.
@@ -104,7 +107,8 @@ impl<const D: usize> Kernel<D> {
             fn run<V: Lanes>(self) {
                 let distance_squared = V::splat(self.1 * self.1);
                 let value = self.0.value(distance_squared).to_array()[0];
-                *self.2 = (value, self.0.gradient_factor(distance_squared).to_array()[0]);
+                let weight = self.0.gradient_weight(distance_squared, V::splat(1.0));
+                *self.2 = (value, weight.to_array()[0]);
             }
         }
         let mut result = (0.0, 0.0);

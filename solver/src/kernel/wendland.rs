@@ -16,9 +16,9 @@ pub(super) fn value<V: Lanes>(q: V) -> V {
     t2 * t2 * (V::splat(2.0) * q + V::splat(1.0))
 }
 
-/// (1/q) dW/dq over W(0): −5 (1 − q/2)³, without a division.
+/// (1/q) dW/dq over W(0), −5 (1 − q/2)³ without a division, times a scale, at q/2.
 #[inline(always)]
-pub(super) fn gradient_factor<V: Lanes>(q: V) -> V {
-    let t = (V::splat(1.0) - V::splat(0.5) * q).max(V::splat(0.0));
-    t * t * t * V::splat(-5.0)
+pub(super) fn gradient_weight<V: Lanes>(half_q: V, scale: V) -> V {
+    let t = (V::splat(1.0) - half_q).max(V::splat(0.0));
+    (t * t) * (t * (scale * V::splat(-5.0)))
 }

@@ -2,12 +2,24 @@
 //!
 //! Loops and no closures: only what is inlined without fail is compiled for the chosen instruction set.
 
-use super::Lanes;
+use super::{LANES, LaneIndices, Lanes, Real};
 use crate::vector::{Tensor, Vector};
+
+/// Zero, shape `[D]`.
+#[inline(always)]
+pub fn zero_vector<V: Real, const D: usize>() -> [V; D] {
+    [V::splat(0.0); D]
+}
+
+/// Zero, shape `[D, D]`.
+#[inline(always)]
+pub fn zero_tensor<V: Real, const D: usize>() -> [[V; D]; D] {
+    [[V::splat(0.0); D]; D]
+}
 
 /// The same vector in every lane.
 #[inline(always)]
-pub fn splat_vector<V: Lanes, const D: usize>(vector: &Vector<D>) -> [V; D] {
+pub fn splat_vector<V: Real, const D: usize>(vector: &Vector<D>) -> [V; D] {
     let mut lanes = [V::splat(0.0); D];
     for i in 0..D {
         lanes[i] = V::splat(vector[i]);
@@ -15,21 +27,9 @@ pub fn splat_vector<V: Lanes, const D: usize>(vector: &Vector<D>) -> [V; D] {
     lanes
 }
 
-/// The same tensor in every lane, indexed `[row][column]`.
-#[inline(always)]
-pub fn splat_tensor<V: Lanes, const D: usize>(tensor: &Tensor<D>) -> [[V; D]; D] {
-    let mut lanes = [[V::splat(0.0); D]; D];
-    for i in 0..D {
-        for j in 0..D {
-            lanes[i][j] = V::splat(tensor[(i, j)]);
-        }
-    }
-    lanes
-}
-
 /// a − b.
 #[inline(always)]
-pub fn difference<V: Lanes, const D: usize>(a: &[V; D], b: &[V; D]) -> [V; D] {
+pub fn difference<V: Real, const D: usize>(a: &[V; D], b: &[V; D]) -> [V; D] {
     let mut lanes = *a;
     for i in 0..D {
         lanes[i] = a[i] - b[i];
@@ -39,7 +39,7 @@ pub fn difference<V: Lanes, const D: usize>(a: &[V; D], b: &[V; D]) -> [V; D] {
 
 /// a + b.
 #[inline(always)]
-pub fn sum_of<V: Lanes, const D: usize>(a: &[V; D], b: &[V; D]) -> [V; D] {
+pub fn sum_of<V: Real, const D: usize>(a: &[V; D], b: &[V; D]) -> [V; D] {
     let mut lanes = *a;
     for i in 0..D {
         lanes[i] = a[i] + b[i];
@@ -49,7 +49,7 @@ pub fn sum_of<V: Lanes, const D: usize>(a: &[V; D], b: &[V; D]) -> [V; D] {
 
 /// f a with one factor a lane.
 #[inline(always)]
-pub fn scaled<V: Lanes, const D: usize>(factor: V, a: &[V; D]) -> [V; D] {
+pub fn scaled<V: Real, const D: usize>(factor: V, a: &[V; D]) -> [V; D] {
     let mut lanes = *a;
     for i in 0..D {
         lanes[i] = factor * a[i];
@@ -59,7 +59,7 @@ pub fn scaled<V: Lanes, const D: usize>(factor: V, a: &[V; D]) -> [V; D] {
 
 /// Scalar product.
 #[inline(always)]
-pub fn dot<V: Lanes, const D: usize>(a: &[V; D], b: &[V; D]) -> V {
+pub fn dot<V: Real, const D: usize>(a: &[V; D], b: &[V; D]) -> V {
     let mut sum = a[0] * b[0];
     for i in 1..D {
         sum = sum + a[i] * b[i];
@@ -69,7 +69,7 @@ pub fn dot<V: Lanes, const D: usize>(a: &[V; D], b: &[V; D]) -> V {
 
 /// T a.
 #[inline(always)]
-pub fn product<V: Lanes, const D: usize>(tensor: &[[V; D]; D], a: &[V; D]) -> [V; D] {
+pub fn product<V: Real, const D: usize>(tensor: &[[V; D]; D], a: &[V; D]) -> [V; D] {
     let mut lanes = *a;
     for i in 0..D {
         lanes[i] = dot(&tensor[i], a);
@@ -79,7 +79,7 @@ pub fn product<V: Lanes, const D: usize>(tensor: &[[V; D]; D], a: &[V; D]) -> [V
 
 /// Adds f a to a sum.
 #[inline(always)]
-pub fn accumulate<V: Lanes, const D: usize>(sum: &mut [V; D], factor: V, a: &[V; D]) {
+pub fn accumulate<V: Real, const D: usize>(sum: &mut [V; D], factor: V, a: &[V; D]) {
     for i in 0..D {
         sum[i] = sum[i] + factor * a[i];
     }
@@ -87,7 +87,7 @@ pub fn accumulate<V: Lanes, const D: usize>(sum: &mut [V; D], factor: V, a: &[V;
 
 /// Adds f a ⊗ b to a sum.
 #[inline(always)]
-pub fn accumulate_outer<V: Lanes, const D: usize>(sum: &mut [[V; D]; D], factor: V, a: &[V; D], b: &[V; D]) {
+pub fn accumulate_outer<V: Real, const D: usize>(sum: &mut [[V; D]; D], factor: V, a: &[V; D], b: &[V; D]) {
     for i in 0..D {
         let weighted = factor * a[i];
         for j in 0..D {
@@ -96,24 +96,151 @@ pub fn accumulate_outer<V: Lanes, const D: usize>(sum: &mut [[V; D]; D], factor:
     }
 }
 
-/// The sum over the lanes of every component.
+/// A B.
 #[inline(always)]
-pub fn reduce_vector<V: Lanes, const D: usize>(lanes: &[V; D]) -> Vector<D> {
-    let mut vector = Vector::zeros();
-    for i in 0..D {
-        vector[i] = lanes[i].sum();
-    }
-    vector
-}
-
-/// The sum over the lanes of every component.
-#[inline(always)]
-pub fn reduce_tensor<V: Lanes, const D: usize>(lanes: &[[V; D]; D]) -> Tensor<D> {
-    let mut tensor = Tensor::zeros();
+pub fn matrix_product<V: Real, const D: usize>(a: &[[V; D]; D], b: &[[V; D]; D]) -> [[V; D]; D] {
+    let mut lanes = *a;
     for i in 0..D {
         for j in 0..D {
-            tensor[(i, j)] = lanes[i][j].sum();
+            let mut sum = a[i][0] * b[0][j];
+            for k in 1..D {
+                sum = sum + a[i][k] * b[k][j];
+            }
+            lanes[i][j] = sum;
         }
     }
-    tensor
+    lanes
+}
+
+/// ε′, the deviator of ½(G + Gᵀ), of a velocity gradient G; its trace is shared over D directions.
+#[inline(always)]
+pub fn deviatoric_rate<V: Real, const D: usize>(gradient: &[[V; D]; D]) -> [[V; D]; D] {
+    let mut lanes = *gradient;
+    let mut trace = gradient[0][0];
+    for i in 1..D {
+        trace = trace + gradient[i][i];
+    }
+    let mean = trace * V::splat(1.0 / D as f64);
+    for i in 0..D {
+        for j in 0..D {
+            lanes[i][j] = V::splat(0.5) * (gradient[i][j] + gradient[j][i]);
+        }
+        lanes[i][i] = gradient[i][i] - mean;
+    }
+    lanes
+}
+
+/// √(c T:T).
+#[inline(always)]
+pub fn invariant<V: Real, const D: usize>(factor: f64, tensor: &[[V; D]; D]) -> V {
+    let mut sum = tensor[0][0] * tensor[0][0];
+    for i in 0..D {
+        for j in 0..D {
+            if i + j > 0 {
+                sum = sum + tensor[i][j] * tensor[i][j];
+            }
+        }
+    }
+    (V::splat(factor) * sum).sqrt()
+}
+
+/// f T with one factor a lane.
+#[inline(always)]
+pub fn scaled_tensor<V: Real, const D: usize>(factor: V, tensor: &[[V; D]; D]) -> [[V; D]; D] {
+    let mut lanes = *tensor;
+    for i in 0..D {
+        lanes[i] = scaled(factor, &tensor[i]);
+    }
+    lanes
+}
+
+/// The first eight indices.
+const FIRST: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7];
+
+/// One value a lane, at most eight; zero in the lanes that are left.
+#[inline(always)]
+pub fn load<V: Lanes>(values: &[f64]) -> V {
+    let mut lanes = [0.0; LANES];
+    for (lane, value) in lanes.iter_mut().zip(values) {
+        *lane = *value;
+    }
+    V::load(&lanes)
+}
+
+/// One vector a lane, at most eight; zero in the lanes that are left.
+#[inline(always)]
+pub fn load_vector<V: Lanes, const D: usize>(vectors: &[Vector<D>]) -> [V; D] {
+    let mut quads = [[0.0; 4]; LANES];
+    for (quad, vector) in quads.iter_mut().zip(vectors) {
+        for i in 0..D {
+            quad[i] = vector[i];
+        }
+    }
+    let loaded = V::load_quads(&quads, 1, 0, &LaneIndices::new(&FIRST, LANES));
+    let mut lanes = zero_vector::<V, D>();
+    lanes.copy_from_slice(&loaded[..D]);
+    lanes
+}
+
+/// One tensor a lane, at most eight; zero in the lanes that are left.
+#[inline(always)]
+pub fn load_tensor<V: Lanes, const D: usize>(tensors: &[Tensor<D>]) -> [[V; D]; D] {
+    let mut lanes = zero_tensor::<V, D>();
+    // a quad holds all four components in the plane, a column in space
+    for first in (0..D * D).step_by(if D == 2 { 4 } else { D }) {
+        let width = if D == 2 { 4 } else { D };
+        let mut quads = [[0.0; 4]; LANES];
+        for (quad, tensor) in quads.iter_mut().zip(tensors) {
+            for k in 0..width {
+                quad[k] = tensor[first + k];
+            }
+        }
+        let loaded = V::load_quads(&quads, 1, 0, &LaneIndices::new(&FIRST, LANES));
+        for k in 0..width {
+            lanes[(first + k) % D][(first + k) / D] = loaded[k];
+        }
+    }
+    lanes
+}
+
+/// Writes a value a lane as far as `out` goes, at most eight.
+#[inline(always)]
+pub fn store<V: Lanes>(lanes: V, out: &mut [f64]) {
+    let values = lanes.to_array();
+    for (out, value) in out.iter_mut().zip(values) {
+        *out = value;
+    }
+}
+
+/// Writes a vector a lane as far as `out` goes, at most eight.
+#[inline(always)]
+pub fn store_vector<V: Lanes, const D: usize>(lanes: &[V; D], out: &mut [Vector<D>]) {
+    let mut values = [V::splat(0.0); 4];
+    values[..D].copy_from_slice(lanes);
+    let mut quads = [[0.0; 4]; LANES];
+    V::store_quads(&values, &mut quads, 1, 0);
+    for (out, quad) in out.iter_mut().zip(&quads) {
+        for i in 0..D {
+            out[i] = quad[i];
+        }
+    }
+}
+
+/// Writes a tensor a lane as far as `out` goes, at most eight.
+#[inline(always)]
+pub fn store_tensor<V: Lanes, const D: usize>(lanes: &[[V; D]; D], out: &mut [Tensor<D>]) {
+    for first in (0..D * D).step_by(if D == 2 { 4 } else { D }) {
+        let width = if D == 2 { 4 } else { D };
+        let mut values = [V::splat(0.0); 4];
+        for k in 0..width {
+            values[k] = lanes[(first + k) % D][(first + k) / D];
+        }
+        let mut quads = [[0.0; 4]; LANES];
+        V::store_quads(&values, &mut quads, 1, 0);
+        for (out, quad) in out.iter_mut().zip(&quads) {
+            for k in 0..width {
+                out[first + k] = quad[k];
+            }
+        }
+    }
 }

@@ -1,69 +1,50 @@
 //! Eight f64 lanes with one meaning on every instruction set: the only place with `unsafe`.
 //!
 //! A pair sum is written once against [`Lanes`] and compiled for the portable, AVX2 and AVX-512 back ends; the
-//! processor's best one is chosen at run time. The lane count, the order of the horizontal sum and the absence
-//! of fused multiply–add are fixed here, so every back end gives the same bits.
+//! processor's best one is chosen at run time. The lane count, the absence of fused multiply–add and the meaning of
+//! every operation are fixed here, so every back end gives the same bits. A lane is a particle: lanes are never summed.
 
 pub mod algebra;
+mod indices;
 mod portable;
+mod real;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub use indices::{CheckedIndices, LaneChunks, LaneIndices};
+pub use real::Real;
+
 use crate::vector::{Tensor, Vector};
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Number of lanes.
 pub const LANES: usize = 8;
 
-/// Eight indices that were checked against the length of the arrays they gather from.
-#[derive(Debug, Clone, Copy)]
-pub struct LaneIndices {
-    raw: [u32; LANES],
-    bound: usize,
-}
-
-impl LaneIndices {
-    /// Checks that every index is below `bound`.
-    ///
-    /// # Panics
-    /// If one is not: a neighbour list that does not belong to the arrays.
-    #[inline(always)]
-    #[must_use]
-    pub fn new(raw: &[u32; LANES], bound: usize) -> Self {
-        let mut largest = 0;
-        for &index in raw {
-            largest = if index > largest { index } else { largest };
-        }
-        assert!((largest as usize) < bound && bound <= i32::MAX as usize / 16, "neighbour index out of range");
-        Self { raw: *raw, bound }
-    }
-}
-
 /// Eight f64 values with lane-wise arithmetic.
-pub trait Lanes:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
-{
-    /// The same value in every lane.
-    fn splat(value: f64) -> Self;
+pub trait Lanes: Real {
     /// Loads `source[index · stride + offset]` for eight indices, where `source` is a flat array of records.
     /// Implementations may rely on `offset < stride` and on the length check in [`gather`].
     #[doc(hidden)]
-    fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self;
+    fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices<'_>, offset: usize) -> Self;
     /// Loads four neighbouring values of eight records and transposes them: `result[k]` holds
     /// `source[index · stride + offset][k]` for eight indices.
-    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices) -> [Self; 4];
+    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices<'_>) -> [Self; 4];
     /// Eight values in order.
     fn load(values: &[f64; LANES]) -> Self;
-    /// Lane-wise square root.
-    fn sqrt(self) -> Self;
-    /// Lane-wise `if self > other { self } else { other }`.
-    fn max(self, other: Self) -> Self;
-    /// Lane-wise `if self < other { self } else { other }`.
-    fn min(self, other: Self) -> Self;
-    /// `self` in the lanes where `a < b`, zero elsewhere.
-    fn where_less(self, a: Self, b: Self) -> Self;
-    /// Sum over the lanes as ((0+4)+(2+6)) + ((1+5)+(3+7)).
-    fn sum(self) -> f64;
+    /// The transpose of [`Lanes::load_quads`]: writes the four values of lane k to `out[k · stride + offset]` for as
+    /// many lanes as `out` has records, at most eight.
+    fn store_quads(quads: &[Self; 4], out: &mut [[f64; 4]], stride: usize, offset: usize);
+    /// Bit k is set where `self < other` in lane k.
+    fn less_mask(self, other: Self) -> u32;
+    /// Packs the `indices` whose bit in `mask` is set, but not `excluded`, to the front of `out`, in order, and
+    /// returns their number. What stands behind them in `out` is of no meaning.
+    fn pack(indices: &[u32; LANES], mask: u32, excluded: u32, out: &mut [u32; LANES]) -> usize {
+        let mut count = 0;
+        for k in 0..LANES {
+            out[count.min(LANES - 1)] = indices[k];
+            count += usize::from((mask >> k) & 1 == 1 && indices[k] != excluded);
+        }
+        count
+    }
     /// The lanes in order.
     fn to_array(self) -> [f64; LANES];
 }
@@ -80,7 +61,7 @@ pub struct FlatRecords<'a> {
 /// Gathers scalars, shape `[8]`.
 #[inline(always)]
 #[must_use]
-pub fn gather<V: Lanes>(source: &[f64], indices: &LaneIndices) -> V {
+pub fn gather<V: Lanes>(source: &[f64], indices: &LaneIndices<'_>) -> V {
     let records =
         FlatRecords { first: source.as_ptr(), stride: 1, records: source.len(), lifetime: std::marker::PhantomData };
     V::gather_records(records, indices, 0)
@@ -89,7 +70,7 @@ pub fn gather<V: Lanes>(source: &[f64], indices: &LaneIndices) -> V {
 /// Gathers vectors, shape `[D][8]`.
 #[inline(always)]
 #[must_use]
-pub fn gather_vectors<V: Lanes, const D: usize>(source: &[Vector<D>], indices: &LaneIndices) -> [V; D] {
+pub fn gather_vectors<V: Lanes, const D: usize>(source: &[Vector<D>], indices: &LaneIndices<'_>) -> [V; D] {
     let records = FlatRecords {
         first: source.as_ptr().cast(),
         stride: D,
@@ -106,7 +87,7 @@ pub fn gather_vectors<V: Lanes, const D: usize>(source: &[Vector<D>], indices: &
 /// Gathers tensors, shape `[D][D][8]`, indexed `[row][column]`.
 #[inline(always)]
 #[must_use]
-pub fn gather_tensors<V: Lanes, const D: usize>(source: &[Tensor<D>], indices: &LaneIndices) -> [[V; D]; D] {
+pub fn gather_tensors<V: Lanes, const D: usize>(source: &[Tensor<D>], indices: &LaneIndices<'_>) -> [[V; D]; D] {
     let records = FlatRecords {
         first: source.as_ptr().cast(),
         stride: D * D,
@@ -216,8 +197,16 @@ mod tests {
                 let c = (b * b + V::splat(0.1)).sqrt().where_less(x, -t[1][1]);
                 let [p, q, r, s] = V::load_quads(self.quads, 2, 1, &indices);
                 let c = c + (p - q) * (r + s);
-                self.out.push((b + c).sum().to_bits());
+                self.out.extend((b + c).to_array().map(f64::to_bits));
                 self.out.extend((c - b).to_array().map(f64::to_bits));
+                let mut packed = [0; LANES];
+                let mask = p.less_mask(r);
+                let count = V::pack(&raw, mask, raw[2], &mut packed);
+                self.out.push(u64::from(mask));
+                self.out.extend(packed[..count].iter().map(|&index| u64::from(index)));
+                let mut stored = [[0.0; 4]; 3 * LANES];
+                V::store_quads(&[p, q, r, s], &mut stored, 3, 1);
+                self.out.extend(stored.as_flattened().iter().map(|value| value.to_bits()));
             }
         }
     }
@@ -270,12 +259,6 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "out of range")]
-    fn an_index_beyond_the_arrays_is_refused() {
-        let _ = LaneIndices::new(&[0, 1, 2, 3, 4, 5, 6, 7], 7);
-    }
-
-    #[test]
     #[should_panic(expected = "shorter")]
     fn a_shorter_array_is_refused() {
         struct Short<'a>(&'a [f64]);
@@ -283,7 +266,7 @@ mod tests {
             #[inline(always)]
             fn run<V: Lanes>(self) {
                 let indices = LaneIndices::new(&[0, 1, 2, 3, 4, 5, 6, 7], 8);
-                let _ = gather::<V>(self.0, &indices).sum();
+                let _ = gather::<V>(self.0, &indices).to_array();
             }
         }
         InstructionSet::best().run(Short(&[1.0; 7]));

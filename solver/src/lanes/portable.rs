@@ -1,7 +1,7 @@
 //! The back end for any processor: arrays of eight.
 #![expect(unsafe_code, reason = "unchecked gathers behind one length check")]
 
-use super::{FlatRecords, LANES, LaneIndices, Lanes};
+use super::{FlatRecords, LANES, LaneIndices, Lanes, Real};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 #[derive(Clone, Copy)]
@@ -43,40 +43,10 @@ impl Portable {
     }
 }
 
-impl Lanes for Portable {
+impl Real for Portable {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Self([value; LANES])
-    }
-
-    #[inline(always)]
-    fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self {
-        assert!(source.records >= indices.bound && offset < source.stride, "array shorter than its index bound");
-        let mut lanes = [0.0; LANES];
-        for k in 0..LANES {
-            // SAFETY: raw[k] < bound ≤ records and offset < stride, so the element lies inside the borrowed slice.
-            lanes[k] = unsafe { *source.first.add(indices.raw[k] as usize * source.stride + offset) };
-        }
-        Self(lanes)
-    }
-
-    #[inline(always)]
-    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices) -> [Self; 4] {
-        assert!(source.len() >= indices.bound * stride && offset < stride, "array shorter than its index bound");
-        let mut quads = [Self([0.0; LANES]); 4];
-        for lane in 0..LANES {
-            // SAFETY: raw < bound and offset < stride, so the record lies inside the slice.
-            let record = unsafe { source.get_unchecked(indices.raw[lane] as usize * stride + offset) };
-            for k in 0..4 {
-                quads[k].0[lane] = record[k];
-            }
-        }
-        quads
-    }
-
-    #[inline(always)]
-    fn load(values: &[f64; LANES]) -> Self {
-        Self(*values)
     }
 
     #[inline(always)]
@@ -95,22 +65,67 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
-    fn where_less(self, a: Self, b: Self) -> Self {
+    fn if_less(self, a: Self, b: Self, other: Self) -> Self {
         let mut lanes = self.0;
         for k in 0..LANES {
-            lanes[k] = if a.0[k] < b.0[k] { lanes[k] } else { 0.0 };
+            lanes[k] = if a.0[k] < b.0[k] { lanes[k] } else { other.0[k] };
+        }
+        Self(lanes)
+    }
+}
+
+impl Lanes for Portable {
+    #[inline(always)]
+    fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self {
+        assert!(source.records >= indices.bound && offset < source.stride, "array shorter than its index bound");
+        let mut lanes = [0.0; LANES];
+        for k in 0..LANES {
+            // SAFETY: raw[k] < bound ≤ records and offset < stride, so the element lies inside the borrowed slice.
+            lanes[k] = unsafe { *source.first.add(indices.raw[k] as usize * source.stride + offset) };
         }
         Self(lanes)
     }
 
     #[inline(always)]
-    fn sum(self) -> f64 {
-        let x = self.0;
-        ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]))
+    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices<'_>) -> [Self; 4] {
+        assert!(source.len() >= indices.bound * stride && offset < stride, "array shorter than its index bound");
+        let mut quads = [Self([0.0; LANES]); 4];
+        for lane in 0..LANES {
+            // SAFETY: raw < bound and offset < stride, so the record lies inside the slice.
+            let record = unsafe { source.get_unchecked(indices.raw[lane] as usize * stride + offset) };
+            for k in 0..4 {
+                quads[k].0[lane] = record[k];
+            }
+        }
+        quads
+    }
+
+    #[inline(always)]
+    fn load(values: &[f64; LANES]) -> Self {
+        Self(*values)
+    }
+
+    #[inline(always)]
+    fn less_mask(self, other: Self) -> u32 {
+        let mut mask = 0;
+        for k in 0..LANES {
+            mask |= u32::from(self.0[k] < other.0[k]) << k;
+        }
+        mask
     }
 
     #[inline(always)]
     fn to_array(self) -> [f64; LANES] {
         self.0
+    }
+
+    #[inline(always)]
+    fn store_quads(quads: &[Self; 4], out: &mut [[f64; 4]], stride: usize, offset: usize) {
+        assert!(offset < stride, "a quad beyond its record");
+        for (lane, record) in out.chunks_exact_mut(stride).enumerate().take(LANES) {
+            for k in 0..4 {
+                record[offset][k] = quads[k].0[lane];
+            }
+        }
     }
 }

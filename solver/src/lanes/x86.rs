@@ -1,7 +1,7 @@
 //! The x86-64 back ends: AVX2 as two registers of four lanes, AVX-512 as one of eight.
 #![expect(unsafe_code, reason = "vector intrinsics; a value of these types exists only after the processor was asked")]
 
-use super::{FlatRecords, InstructionSet, LANES, LaneIndices, LanePass, Lanes, Level};
+use super::{FlatRecords, InstructionSet, LANES, LaneIndices, LanePass, Lanes, Level, Real};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -86,7 +86,7 @@ impl Neg for Avx2 {
     }
 }
 
-impl Lanes for Avx512 {
+impl Real for Avx512 {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         // SAFETY: called from passes inside run_avx512 only.
@@ -94,19 +94,45 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx512.
+        Self(unsafe { _mm512_sqrt_pd(self.0) })
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx512. MAXPD is `a > b ? a : b`.
+        Self(unsafe { _mm512_max_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx512. MINPD is `a < b ? a : b`.
+        Self(unsafe { _mm512_min_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn if_less(self, a: Self, b: Self, other: Self) -> Self {
+        // SAFETY: values of this type exist only inside run_avx512.
+        unsafe { Self(_mm512_mask_mov_pd(other.0, _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a.0, b.0), self.0)) }
+    }
+}
+
+impl Lanes for Avx512 {
+    #[inline(always)]
     fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self {
         assert!(source.records >= indices.bound && offset < source.stride, "array shorter than its index bound");
         let mut lanes = [0.0; LANES];
         for (lane, raw) in lanes.iter_mut().zip(indices.raw) {
             // SAFETY: raw < bound ≤ records and offset < stride, so the element lies inside the borrowed slice.
-            *lane = unsafe { *source.first.add(raw as usize * source.stride + offset) };
+            *lane = unsafe { *source.first.add(*raw as usize * source.stride + offset) };
         }
         // SAFETY: the array holds eight values.
         unsafe { Self(_mm512_loadu_pd(lanes.as_ptr())) }
     }
 
     #[inline(always)]
-    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices) -> [Self; 4] {
+    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices<'_>) -> [Self; 4] {
         assert!(source.len() >= indices.bound * stride && offset < stride, "array shorter than its index bound");
         // SAFETY: raw < bound and offset < stride, so every record lies inside the slice.
         unsafe {
@@ -135,33 +161,20 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    fn sqrt(self) -> Self {
+    fn less_mask(self, other: Self) -> u32 {
         // SAFETY: values of this type exist only inside run_avx512.
-        Self(unsafe { _mm512_sqrt_pd(self.0) })
+        unsafe { u32::from(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0)) }
     }
 
     #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        // SAFETY: values of this type exist only inside run_avx512. MAXPD is `a > b ? a : b`.
-        Self(unsafe { _mm512_max_pd(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        // SAFETY: values of this type exist only inside run_avx512. MINPD is `a < b ? a : b`.
-        Self(unsafe { _mm512_min_pd(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn where_less(self, a: Self, b: Self) -> Self {
-        // SAFETY: values of this type exist only inside run_avx512.
-        unsafe { Self(_mm512_maskz_mov_pd(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(a.0, b.0), self.0)) }
-    }
-
-    #[inline(always)]
-    fn sum(self) -> f64 {
-        // SAFETY: values of this type exist only inside run_avx512.
-        unsafe { sum_halves(_mm512_castpd512_pd256(self.0), _mm512_extractf64x4_pd::<1>(self.0)) }
+    fn pack(indices: &[u32; LANES], mask: u32, excluded: u32, out: &mut [u32; LANES]) -> usize {
+        // SAFETY: called from passes inside run_avx512 only; both arrays hold eight values.
+        unsafe {
+            let all = _mm256_loadu_si256(indices.as_ptr().cast());
+            let kept = mask as u8 & _mm256_cmpneq_epi32_mask(all, _mm256_set1_epi32(excluded.cast_signed()));
+            _mm256_storeu_si256(out.as_mut_ptr().cast(), _mm256_maskz_compress_epi32(kept, all));
+            kept.count_ones() as usize
+        }
     }
 
     #[inline(always)]
@@ -171,44 +184,37 @@ impl Lanes for Avx512 {
         unsafe { _mm512_storeu_pd(lanes.as_mut_ptr(), self.0) };
         lanes
     }
+
+    #[inline(always)]
+    fn store_quads(quads: &[Self; 4], out: &mut [[f64; 4]], stride: usize, offset: usize) {
+        assert!(offset < stride, "a quad beyond its record");
+        // SAFETY: register shuffles only; the stores go through slices.
+        unsafe {
+            let [x, y, z, w] = [quads[0].0, quads[1].0, quads[2].0, quads[3].0];
+            let (a, b) = (_mm512_unpacklo_pd(x, y), _mm512_unpackhi_pd(x, y));
+            let (c, d) = (_mm512_unpacklo_pd(z, w), _mm512_unpackhi_pd(z, w));
+            let low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
+            let high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+            let rows = [
+                _mm512_permutex2var_pd(a, low, c),
+                _mm512_permutex2var_pd(b, low, d),
+                _mm512_permutex2var_pd(a, high, c),
+                _mm512_permutex2var_pd(b, high, d),
+            ];
+            for (lane, record) in out.chunks_exact_mut(stride).enumerate().take(LANES) {
+                let row = rows[lane % 4];
+                let half = if lane < 4 { _mm512_castpd512_pd256(row) } else { _mm512_extractf64x4_pd::<1>(row) };
+                _mm256_storeu_pd(record[offset].as_mut_ptr(), half);
+            }
+        }
+    }
 }
 
-impl Lanes for Avx2 {
+impl Real for Avx2 {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         // SAFETY: called from passes inside run_avx2 only.
         unsafe { Self(_mm256_set1_pd(value), _mm256_set1_pd(value)) }
-    }
-
-    #[inline(always)]
-    fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self {
-        assert!(source.records >= indices.bound && offset < source.stride, "array shorter than its index bound");
-        let mut lanes = [0.0; LANES];
-        for (lane, raw) in lanes.iter_mut().zip(indices.raw) {
-            // SAFETY: raw < bound ≤ records and offset < stride, so the element lies inside the borrowed slice.
-            *lane = unsafe { *source.first.add(raw as usize * source.stride + offset) };
-        }
-        // SAFETY: the array holds eight values.
-        unsafe { Self(_mm256_loadu_pd(lanes.as_ptr()), _mm256_loadu_pd(lanes.as_ptr().add(4))) }
-    }
-
-    #[inline(always)]
-    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices) -> [Self; 4] {
-        assert!(source.len() >= indices.bound * stride && offset < stride, "array shorter than its index bound");
-        // SAFETY: raw < bound and offset < stride, so every record lies inside the slice.
-        unsafe {
-            let load =
-                |lane: usize| _mm256_loadu_pd(source.as_ptr().add(indices.raw[lane] as usize * stride + offset).cast());
-            let [a, b, c, d] = transposed(load(0), load(1), load(2), load(3));
-            let [e, f, g, h] = transposed(load(4), load(5), load(6), load(7));
-            [Self(a, e), Self(b, f), Self(c, g), Self(d, h)]
-        }
-    }
-
-    #[inline(always)]
-    fn load(values: &[f64; LANES]) -> Self {
-        // SAFETY: the array holds eight values, four a load.
-        unsafe { Self(_mm256_loadu_pd(values.as_ptr()), _mm256_loadu_pd(values.as_ptr().add(4))) }
     }
 
     #[inline(always)]
@@ -230,20 +236,57 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    fn where_less(self, a: Self, b: Self) -> Self {
+    fn if_less(self, a: Self, b: Self, other: Self) -> Self {
         // SAFETY: values of this type exist only inside run_avx2.
         unsafe {
             Self(
-                _mm256_and_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a.0, b.0), self.0),
-                _mm256_and_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a.1, b.1), self.1),
+                _mm256_blendv_pd(other.0, self.0, _mm256_cmp_pd::<_CMP_LT_OQ>(a.0, b.0)),
+                _mm256_blendv_pd(other.1, self.1, _mm256_cmp_pd::<_CMP_LT_OQ>(a.1, b.1)),
             )
+        }
+    }
+}
+
+impl Lanes for Avx2 {
+    #[inline(always)]
+    fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self {
+        assert!(source.records >= indices.bound && offset < source.stride, "array shorter than its index bound");
+        let mut lanes = [0.0; LANES];
+        for (lane, raw) in lanes.iter_mut().zip(indices.raw) {
+            // SAFETY: raw < bound ≤ records and offset < stride, so the element lies inside the borrowed slice.
+            *lane = unsafe { *source.first.add(*raw as usize * source.stride + offset) };
+        }
+        // SAFETY: the array holds eight values.
+        unsafe { Self(_mm256_loadu_pd(lanes.as_ptr()), _mm256_loadu_pd(lanes.as_ptr().add(4))) }
+    }
+
+    #[inline(always)]
+    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices<'_>) -> [Self; 4] {
+        assert!(source.len() >= indices.bound * stride && offset < stride, "array shorter than its index bound");
+        // SAFETY: raw < bound and offset < stride, so every record lies inside the slice.
+        unsafe {
+            let load =
+                |lane: usize| _mm256_loadu_pd(source.as_ptr().add(indices.raw[lane] as usize * stride + offset).cast());
+            let [a, b, c, d] = transposed(load(0), load(1), load(2), load(3));
+            let [e, f, g, h] = transposed(load(4), load(5), load(6), load(7));
+            [Self(a, e), Self(b, f), Self(c, g), Self(d, h)]
         }
     }
 
     #[inline(always)]
-    fn sum(self) -> f64 {
+    fn load(values: &[f64; LANES]) -> Self {
+        // SAFETY: the array holds eight values, four a load.
+        unsafe { Self(_mm256_loadu_pd(values.as_ptr()), _mm256_loadu_pd(values.as_ptr().add(4))) }
+    }
+
+    #[inline(always)]
+    fn less_mask(self, other: Self) -> u32 {
         // SAFETY: values of this type exist only inside run_avx2.
-        unsafe { sum_halves(self.0, self.1) }
+        unsafe {
+            let near = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0));
+            let far = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(self.1, other.1));
+            (near | (far << 4)).cast_unsigned()
+        }
     }
 
     #[inline(always)]
@@ -256,19 +299,19 @@ impl Lanes for Avx2 {
         }
         lanes
     }
-}
 
-/// ((0+4)+(2+6)) + ((1+5)+(3+7)) of lanes 0–3 in `low` and 4–7 in `high`.
-///
-/// # Safety
-/// Needs AVX.
-#[inline(always)]
-unsafe fn sum_halves(low: __m256d, high: __m256d) -> f64 {
-    // SAFETY: passed on to the caller.
-    unsafe {
-        let four = _mm256_add_pd(low, high);
-        let two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd::<1>(four));
-        _mm_cvtsd_f64(two) + _mm_cvtsd_f64(_mm_unpackhi_pd(two, two))
+    #[inline(always)]
+    fn store_quads(quads: &[Self; 4], out: &mut [[f64; 4]], stride: usize, offset: usize) {
+        assert!(offset < stride, "a quad beyond its record");
+        // SAFETY: register shuffles only; the stores go through slices.
+        unsafe {
+            let near = transposed(quads[0].0, quads[1].0, quads[2].0, quads[3].0);
+            let far = transposed(quads[0].1, quads[1].1, quads[2].1, quads[3].1);
+            for (lane, record) in out.chunks_exact_mut(stride).enumerate().take(LANES) {
+                let row = if lane < 4 { near[lane] } else { far[lane - 4] };
+                _mm256_storeu_pd(record[offset].as_mut_ptr(), row);
+            }
+        }
     }
 }
 

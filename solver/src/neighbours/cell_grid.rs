@@ -1,6 +1,8 @@
 //! A uniform grid of cells no smaller than the search radius, with the particles sorted by cell.
 
+use crate::lanes::LANES;
 use crate::vector::Vector;
+use std::ops::Range;
 
 /// Cells in x-fastest order; the entries of one cell, and of neighbouring cells along x, are contiguous.
 #[derive(Debug)]
@@ -10,10 +12,10 @@ pub(crate) struct CellGrid<const D: usize> {
     cells: [usize; D],
     start: Vec<u32>,
     cell_of: Vec<u32>,
-    /// Particle index of each entry.
+    /// Particle index of each entry, and of [`LANES`] more that mean nothing.
     pub(crate) index: Vec<u32>,
-    /// Position of each entry `[m]`.
-    pub(crate) position: Vec<Vector<D>>,
+    /// Coordinates of the entries along each axis `[m]`, and of [`LANES`] more that mean nothing.
+    pub(crate) coordinates: [Vec<f64>; D],
 }
 
 /// More cells than this a particle are wasted on empty space: far particles share the border cells instead.
@@ -28,7 +30,7 @@ impl<const D: usize> CellGrid<D> {
             start: Vec::new(),
             cell_of: Vec::new(),
             index: Vec::new(),
-            position: Vec::new(),
+            coordinates: std::array::from_fn(|_| Vec::new()),
         }
     }
 
@@ -67,8 +69,8 @@ impl<const D: usize> CellGrid<D> {
 
     #[inline(always)]
     fn coordinate(&self, position: &Vector<D>, axis: usize) -> usize {
-        let cell = ((position[axis] - self.origin[axis]) * self.inverse_size).floor();
-        // clamping keeps neighbours in neighbouring cells; a NaN goes to cell 0
+        let cell = (position[axis] - self.origin[axis]) * self.inverse_size;
+        // truncated and clamped, which keeps neighbours in neighbouring cells; a NaN goes to cell 0
         (cell.max(0.0) as usize).min(self.cells[axis] - 1)
     }
 
@@ -97,31 +99,43 @@ impl<const D: usize> CellGrid<D> {
             self.start[cell + 1] += self.start[cell];
         }
         let count = self.cell_of.len();
-        self.index.resize(count, 0);
-        self.position.resize(count, Vector::zeros());
+        self.index.resize(count + LANES, 0);
+        for coordinates in &mut self.coordinates {
+            coordinates.resize(count + LANES, 0.0);
+        }
         for (&cell, (index, position)) in self.cell_of.iter().zip(entries) {
             let place = self.start[cell as usize] as usize;
             self.start[cell as usize] += 1;
             self.index[place] = index;
-            self.position[place] = *position;
+            for axis in 0..D {
+                self.coordinates[axis][place] = position[axis];
+            }
         }
         // every start has moved to its cell's end, which is the next cell's start
         self.start.copy_within(0..total, 1);
         self.start[0] = 0;
     }
 
-    /// Calls `visit` with every contiguous range of entries in the cells around `position`.
+    /// The ranges of entries in the cells around `position`, some of them empty.
     #[inline(always)]
-    pub(crate) fn ranges(&self, position: &Vector<D>, mut visit: impl FnMut(std::ops::Range<usize>)) {
-        let centre: [usize; D] = std::array::from_fn(|axis| self.coordinate(position, axis));
-        let low = |axis: usize| centre[axis].saturating_sub(1);
-        let high = |axis: usize| (centre[axis] + 1).min(self.cells[axis] - 1);
-        let planes = if D == 3 { low(2)..=high(2) } else { 0..=0 };
+    pub(crate) fn ranges(&self, position: &Vector<D>) -> [Range<usize>; 9] {
+        let mut ranges = [const { 0..0 }; 9];
+        let mut low = [0; D];
+        let mut high = [0; D];
+        for axis in 0..D {
+            let centre = self.coordinate(position, axis);
+            low[axis] = centre.saturating_sub(1);
+            high[axis] = (centre + 1).min(self.cells[axis] - 1);
+        }
+        let planes = if D == 3 { low[2]..high[2] + 1 } else { 0..1 };
+        let mut count = 0;
         for plane in planes {
-            for row in low(1)..=high(1) {
+            for row in low[1]..high[1] + 1 {
                 let line = (plane * self.cells[1] + row) * self.cells[0];
-                visit(self.start[line + low(0)] as usize..self.start[line + high(0) + 1] as usize);
+                ranges[count] = self.start[line + low[0]] as usize..self.start[line + high[0] + 1] as usize;
+                count += 1;
             }
         }
+        ranges
     }
 }

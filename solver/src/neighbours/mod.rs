@@ -5,5 +5,5 @@ mod cell_grid;
 mod verlet_list;
 
 pub(crate) use cell_grid::CellGrid;
-pub(crate) use verlet_list::BLOCK;
+pub(crate) use verlet_list::{BLOCK, Group};
 pub use verlet_list::{Row, VerletList};

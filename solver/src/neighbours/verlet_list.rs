@@ -1,61 +1,114 @@
-//! A full neighbour list of fixed stride in chunks of eight lanes.
+//! A full neighbour list in groups of eight particles: one lane, one particle.
 //!
-//! Each row holds first the flow neighbours, then the wall neighbours, each part padded with the sentinel: a far
-//! particle of no volume, whose contributions are exactly zero. Rows of wall particles hold flow neighbours only.
+//! Chunk k of a group holds the k-th neighbour of each of its eight particles, so that a pair sum adds up in its
+//! lane, in list order, and everything that follows a sum is done for eight particles at once. A group has first its
+//! own particles, then their flow neighbours, then their wall neighbours, each part padded with the sentinel: a far
+//! particle of no volume, whose contributions are exactly zero. Wall particles have flow neighbours only.
 
 use super::CellGrid;
-use crate::lanes::LANES;
+use crate::lanes::{CheckedIndices, InstructionSet, LANES, LaneChunks, LaneIndices, LanePass, Lanes};
 use crate::vector::Vector;
 use rayon::prelude::*;
+use std::ops::Range;
 
-/// Chunks of eight neighbour indices of one particle.
+/// Eight particles and their neighbours.
 #[derive(Debug, Clone, Copy)]
-pub struct Row<'a> {
+pub(crate) struct Group<'a> {
+    /// The particles themselves.
+    pub(crate) own: LaneIndices<'a>,
     /// Flow neighbours and their images.
-    pub flow: &'a [[u32; LANES]],
+    pub(crate) flow: LaneChunks<'a>,
     /// Wall neighbours and their images.
-    pub wall: &'a [[u32; LANES]],
+    pub(crate) wall: LaneChunks<'a>,
+    /// Both, in this order.
+    pub(crate) pairs: LaneChunks<'a>,
+    /// Where the first flow chunk stands among all chunks; the wall chunks follow the flow chunks.
+    pub(crate) first_pair: usize,
 }
 
-/// The neighbour list of all real particles.
+/// The neighbours of one particle, for diagnostics and tests.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Row {
+    /// Flow neighbours and their images, in list order.
+    pub flow: Vec<u32>,
+    /// Wall neighbours and their images, in list order.
+    pub wall: Vec<u32>,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Extent {
+    start: u32,
+    flow: u16,
+    wall: u16,
+}
+
+/// The neighbour list of all real particles: groups of the flow, then groups of the walls.
 #[derive(Debug, Default)]
 pub struct VerletList {
-    stride: usize,
-    chunks: Vec<[u32; LANES]>,
-    counts: Vec<(u8, u8)>,
+    /// Flow particles.
+    flow: usize,
+    sentinel: u32,
+    extents: Vec<Extent>,
+    indices: CheckedIndices,
+    /// Chunks set aside for a block of groups.
+    region: usize,
 }
 
-/// Rows a block of the parallel loops.
+/// Particles a block of the parallel loops.
 pub(crate) const BLOCK: usize = 256;
+const GROUPS: usize = BLOCK / LANES;
 const LARGEST_ROW: usize = 1024;
 
 impl VerletList {
-    /// The row of real particle `particle`.
+    /// Group `index` of eight flow particles: those from 8 `index` on.
     #[inline(always)]
     #[must_use]
-    pub fn row(&self, particle: usize) -> Row<'_> {
-        let (flow, wall) = self.counts[particle];
-        let (flow, wall) = (flow as usize, wall as usize);
-        let row = &self.chunks[particle * self.stride..particle * self.stride + flow + wall];
-        let (flow, wall) = row.split_at(flow);
-        Row { flow, wall }
+    pub(crate) fn group(&self, index: usize) -> Group<'_> {
+        let Extent { start, flow, wall } = self.extents[index];
+        let first_pair = start as usize + 1;
+        let wall_start = first_pair + flow as usize;
+        let mut own = self.indices.part(first_pair - 1..first_pair);
+        let Some(own) = own.next() else { unreachable!("a part of one chunk") };
+        Group {
+            own,
+            flow: self.indices.part(first_pair..wall_start),
+            wall: self.indices.part(wall_start..wall_start + wall as usize),
+            pairs: self.indices.part(first_pair..wall_start + wall as usize),
+            first_pair,
+        }
     }
 
-    /// Chunks a row.
-    #[inline(always)]
+    /// Groups of flow particles; the groups of the wall particles follow.
     #[must_use]
-    pub fn stride(&self) -> usize {
-        self.stride
+    pub(crate) fn flow_groups(&self) -> usize {
+        self.flow.div_ceil(LANES)
     }
 
-    /// The neighbours of `particle` without padding, in list order.
+    /// Chunks set aside for every [`BLOCK`] of particles: what belongs to a block's pairs may be kept in slices of
+    /// this length.
     #[must_use]
-    pub fn neighbours(&self, particle: usize, sentinel: u32) -> Vec<u32> {
-        let row = self.row(particle);
-        row.flow.iter().chain(row.wall).flatten().copied().filter(|&index| index != sentinel).collect()
+    pub(crate) fn region(&self) -> usize {
+        self.region
     }
 
-    /// Fills the list for the first `flow + wall` positions with all neighbours nearer than `radius` `[m]`.
+    /// The neighbours of a real particle without padding.
+    #[must_use]
+    pub fn row(&self, particle: usize) -> Row {
+        let (group, lane) = if particle < self.flow {
+            (particle / LANES, particle % LANES)
+        } else {
+            let wall = particle - self.flow;
+            (self.flow_groups() + wall / LANES, wall % LANES)
+        };
+        let group = self.group(group);
+        let listed = |chunks: LaneChunks<'_>| {
+            chunks.raw().iter().map(|chunk| chunk[lane]).filter(|&index| index != self.sentinel).collect()
+        };
+        Row { flow: listed(group.flow), wall: listed(group.wall) }
+    }
+
+    /// Fills the list for the first `real` positions, of which the first `flow` are the flow's, with all neighbours
+    /// nearer than `radius` `[m]`.
     ///
     /// # Errors
     /// The particle that has more neighbours than a row can hold: the flow has collapsed onto itself.
@@ -66,88 +119,194 @@ impl VerletList {
         real: usize,
         radius: f64,
         grids: (&CellGrid<D>, &CellGrid<D>),
+        set: InstructionSet,
     ) -> Result<(), usize> {
-        let sentinel = positions.len() as u32 - 1;
-        if self.stride == 0 {
-            self.stride = if D == 2 { 8 } else { 20 };
+        self.flow = flow;
+        self.sentinel = positions.len() as u32 - 1;
+        let groups = self.flow_groups() + (real - flow).div_ceil(LANES);
+        let search = Search { positions, flow, real, radius, grids, sentinel: self.sentinel };
+        self.extents.resize(groups, Extent::default());
+        if self.region == 0 {
+            self.region = GROUPS * if D == 2 { 40 } else { 130 };
         }
         loop {
-            let stride = self.stride;
-            self.chunks.resize(real * stride, [sentinel; LANES]);
-            self.counts.resize(real, (0, 0));
-            let worst = (
-                self.chunks[..real * stride].par_chunks_mut(BLOCK * stride),
-                self.counts[..real].par_chunks_mut(BLOCK),
-            )
-                .into_par_iter()
-                .enumerate()
-                .with_min_len(4)
-                .map(|(block, (chunks, counts))| {
-                    let mut buffer = [0u32; LARGEST_ROW];
-                    let mut largest = (0, 0);
-                    for (row, count) in counts.iter_mut().enumerate() {
-                        let particle = block * BLOCK + row;
-                        let chunks = &mut chunks[row * stride..(row + 1) * stride];
-                        let flow_found = search(positions, particle, radius, grids.0, &mut buffer);
-                        let flow_chunks = store(&buffer[..flow_found.min(LARGEST_ROW)], sentinel, chunks)
-                            .max(flow_found.div_ceil(LANES));
-                        let mut wall_chunks = 0;
-                        if particle < flow {
-                            let wall_found = search(positions, particle, radius, grids.1, &mut buffer);
-                            let rest = flow_chunks.min(stride);
-                            wall_chunks = store(&buffer[..wall_found.min(LARGEST_ROW)], sentinel, &mut chunks[rest..])
-                                .max(wall_found.div_ceil(LANES));
-                        }
-                        *count = (flow_chunks.min(255) as u8, wall_chunks.min(255) as u8);
-                        largest = largest.max((flow_chunks + wall_chunks, particle));
-                    }
-                    largest
-                })
-                .reduce(|| (0, 0), std::cmp::Ord::max);
-            if worst.0 <= stride {
+            let (region, extents) = (self.region, &mut self.extents);
+            let (needed, crowded) = self.indices.refill(positions.len(), |chunks| {
+                chunks.resize(groups.div_ceil(GROUPS) * region, [0; LANES]);
+                (chunks.par_chunks_mut(region), extents.par_chunks_mut(GROUPS))
+                    .into_par_iter()
+                    .enumerate()
+                    .map(|(block, (chunks, extents))| {
+                        let mut result = (0, usize::MAX);
+                        let result_of_block = &mut result;
+                        set.run(BlockSearch { search, block, region, chunks, extents, result: result_of_block });
+                        result
+                    })
+                    .reduce(|| (0, usize::MAX), |a, b| (a.0.max(b.0), a.1.min(b.1)))
+            });
+            if crowded != usize::MAX {
+                // what was cut short is not to be read
+                self.extents.fill(Extent::default());
+                return Err(crowded);
+            }
+            if needed <= region {
                 return Ok(());
             }
-            if worst.0 > LARGEST_ROW / LANES {
-                return Err(worst.1);
-            }
-            self.stride = worst.0 + 1;
+            self.region = needed + needed / 8;
         }
     }
 }
 
-/// Collects the neighbours of one particle in a grid; a full buffer reports its capacity.
-#[inline(always)]
-fn search<const D: usize>(
-    positions: &[Vector<D>],
-    particle: usize,
+#[derive(Clone, Copy)]
+struct Search<'a, const D: usize> {
+    positions: &'a [Vector<D>],
+    flow: usize,
+    real: usize,
     radius: f64,
-    grid: &CellGrid<D>,
-    buffer: &mut [u32; LARGEST_ROW],
-) -> usize {
-    let centre = positions[particle];
-    let limit = radius * radius;
-    let mut found = 0usize;
-    grid.ranges(&centre, |range| {
-        for (position, &index) in grid.position[range.clone()].iter().zip(&grid.index[range]) {
-            let mut distance_squared = 0.0;
-            for axis in 0..D {
-                let difference = centre[axis] - position[axis];
-                distance_squared += difference * difference;
-            }
-            // branch-free: the slot is written always and kept only for a neighbour
-            buffer[found.min(LARGEST_ROW - 1)] = index;
-            found += usize::from(distance_squared < limit && index as usize != particle);
-        }
-    });
-    found
+    grids: (&'a CellGrid<D>, &'a CellGrid<D>),
+    sentinel: u32,
 }
 
-/// Writes indices as padded chunks as far as they fit and returns how many chunks are needed.
-#[inline(always)]
-fn store(found: &[u32], sentinel: u32, chunks: &mut [[u32; LANES]]) -> usize {
-    for (chunk, indices) in chunks.iter_mut().zip(found.chunks(LANES)) {
-        *chunk = [sentinel; LANES];
-        chunk[..indices.len()].copy_from_slice(indices);
+/// Neighbours of one particle as they are found; what is packed last may reach a chunk beyond the largest row.
+type FoundRow = [u32; LARGEST_ROW + LANES];
+
+/// The search for a block of groups.
+struct BlockSearch<'a, const D: usize> {
+    search: Search<'a, D>,
+    block: usize,
+    region: usize,
+    chunks: &'a mut [[u32; LANES]],
+    extents: &'a mut [Extent],
+    /// Chunks that the block needs, and its first particle that has too many neighbours.
+    result: &'a mut (usize, usize),
+}
+
+impl<const D: usize> LanePass for BlockSearch<'_, D> {
+    /// Fills the groups as far as they fit.
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let Self { search, block, region, chunks, extents, result } = self;
+        let mut rows: [FoundRow; LANES] = [[0; LARGEST_ROW + LANES]; LANES];
+        let (mut used, mut crowded) = (0, usize::MAX);
+        for (offset, extent) in extents.iter_mut().enumerate() {
+            let own = search.particles(block * GROUPS + offset);
+            let place = used;
+            used += 1;
+            if let Some(chunk) = chunks.get_mut(place) {
+                *chunk = own;
+            }
+            let mut parts = [0; 2];
+            for part in 0..2 {
+                let grid = if part == 0 { search.grids.0 } else { search.grids.1 };
+                let mut found = [0; LANES];
+                let mut longest = 0;
+                for lane in 0..LANES {
+                    let particle = own[lane];
+                    // no walls for the padding and for walls
+                    if particle != search.sentinel && (part == 0 || (particle as usize) < search.flow) {
+                        found[lane] = search.row::<V>(particle, grid, &mut rows[lane]);
+                    }
+                    if found[lane] > LARGEST_ROW {
+                        crowded = crowded.min(particle as usize);
+                        found[lane] = LARGEST_ROW;
+                    }
+                    longest = if found[lane] > longest { found[lane] } else { longest };
+                }
+                for lane in 0..LANES {
+                    rows[lane][found[lane]..longest].fill(search.sentinel);
+                }
+                if let Some(target) = chunks.get_mut(used..used + longest) {
+                    for (k, chunk) in target.iter_mut().enumerate() {
+                        for lane in 0..LANES {
+                            chunk[lane] = rows[lane][k];
+                        }
+                    }
+                }
+                parts[part] = longest;
+                used += longest;
+            }
+            *extent = Extent { start: (block * region + place) as u32, flow: parts[0] as u16, wall: parts[1] as u16 };
+        }
+        // nothing of an older list stays behind; a block that did not fit is filled again
+        let rest = if used <= chunks.len() { used } else { 0 };
+        chunks[rest..].fill([search.sentinel; LANES]);
+        *result = (used, crowded);
     }
-    found.len().div_ceil(LANES)
+}
+
+impl<const D: usize> Search<'_, D> {
+    /// The particles of a group, padded with the sentinel.
+    fn particles(&self, group: usize) -> [u32; LANES] {
+        let flow_groups = self.flow.div_ceil(LANES);
+        let range: Range<usize> = if group < flow_groups {
+            LANES * group..self.flow
+        } else {
+            self.flow + LANES * (group - flow_groups)..self.real
+        };
+        let mut own = [self.sentinel; LANES];
+        for (slot, particle) in own.iter_mut().zip(range) {
+            *slot = particle as u32;
+        }
+        own
+    }
+
+    /// Writes the neighbours of one particle in a grid and returns their number; what does not fit is counted but
+    /// not kept.
+    #[inline(always)]
+    fn row<V: Lanes>(&self, particle: u32, grid: &CellGrid<D>, row: &mut FoundRow) -> usize {
+        let centre = self.positions[particle as usize];
+        let limit = V::splat(self.radius * self.radius);
+        let mut found = 0usize;
+        for range in grid.ranges(&centre) {
+            let mut start = range.start;
+            while start < range.end {
+                let mut distance_squared = V::splat(0.0);
+                for axis in 0..D {
+                    let Some(coordinates) = grid.coordinates[axis][start..].first_chunk() else { unreachable!() };
+                    let difference = V::splat(centre[axis]) - V::load(coordinates);
+                    distance_squared = distance_squared + difference * difference;
+                }
+                let Some(indices) = grid.index[start..].first_chunk() else { unreachable!() };
+                let near = distance_squared.less_mask(limit);
+                let left = range.end - start;
+                let inside = if left < LANES { (1 << left) - 1 } else { (1 << LANES) - 1 };
+                let slot = if found < LARGEST_ROW { found } else { LARGEST_ROW };
+                let Some(out) = row[slot..].first_chunk_mut() else { unreachable!() };
+                found += V::pack(indices, near & inside, particle, out);
+                start += LANES;
+            }
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rebuilt(list: &mut VerletList, positions: &[Vector<2>], radius: f64) {
+        let real = positions.len() - 1;
+        let mut grids = (CellGrid::new(), CellGrid::new());
+        for grid in [&mut grids.0, &mut grids.1] {
+            grid.cover(positions[..real].iter(), radius);
+        }
+        grids.0.sort((0..real).map(|index| (index as u32, &positions[index])));
+        grids.1.sort(std::iter::empty());
+        list.rebuild(positions, real, real, radius, (&grids.0, &grids.1), InstructionSet::best()).expect("room");
+    }
+
+    #[test]
+    fn a_crowded_list_after_a_larger_one_grows_and_keeps_nothing_of_it() {
+        let mut list = VerletList::default();
+        let line = |count: usize, step: f64| -> Vec<_> {
+            (0..count).map(|k| Vector::<2>::new(k as f64 * step, 0.0)).chain([Vector::<2>::repeat(1e9)]).collect()
+        };
+        rebuilt(&mut list, &line(3000, 1.0), 1.5);
+        assert_eq!(list.row(7).flow, [6, 8]);
+        rebuilt(&mut list, &line(600, 0.01), 1.005);
+        for particle in [0, 299, 599] {
+            let expected: Vec<u32> = (0..600u32).filter(|&k| k != particle && k.abs_diff(particle) <= 100).collect();
+            assert_eq!(list.row(particle as usize).flow, expected);
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! Kernel corrections from the moment matrix M = −Σ V_b F r⊗r, which tends to the identity inside the flow.
 
+use crate::lanes::{LANES, Lanes};
 use crate::vector::Tensor;
 
 /// Smallest eigenvalue of M at which gradients use L = M⁻¹ in full `[-]`.
@@ -11,36 +12,69 @@ const NO_FORCE: f64 = 0.6;
 /// Width of the blend of the force correction `[-]`.
 const FORCE_BLEND: f64 = 0.2;
 
-/// L of (9) for gradients and E for forces, both shape `[D, D]` `[-]`.
+/// L of (9) for gradients and E for forces, both shape `[D, D]` `[-]`, lane by lane.
 ///
 /// L = M⁻¹ blends linearly to the identity as the smallest eigenvalue λ of M falls from 0.3 to 0.1 (the paper has no
 /// fall-back, and (9) is singular for an isolated particle). E = w M⁻¹ + (1 − w) I, w = clamp((λ − 0.6)/0.2, 0, 1):
 /// forces are corrected only where the neighbourhood is nearly full, so that a free surface stays a free surface.
 #[inline(always)]
 #[must_use]
-pub fn corrections<const D: usize>(moment: &Tensor<D>) -> (Tensor<D>, Tensor<D>) {
+pub fn corrections<V: Lanes, const D: usize>(moment: &[[V; D]; D]) -> ([[V; D]; D], [[V; D]; D]) {
     let smallest = smallest_eigenvalue(moment);
-    let identity = Tensor::<D>::identity();
-    let gradient_weight = ((smallest - NO_GRADIENT) / (FULL_GRADIENT - NO_GRADIENT)).clamp(0.0, 1.0);
-    if gradient_weight == 0.0 || gradient_weight.is_nan() {
-        return (identity, identity);
-    }
     let inverse = inverse(moment);
-    let force_weight = ((smallest - NO_FORCE) / FORCE_BLEND).clamp(0.0, 1.0);
-    (
-        inverse * gradient_weight + identity * (1.0 - gradient_weight),
-        inverse * force_weight + identity * (1.0 - force_weight),
-    )
+    let for_gradients = blended(&inverse, ramp(smallest, NO_GRADIENT, FULL_GRADIENT - NO_GRADIENT), smallest);
+    let for_forces = blended(&inverse, ramp(smallest, NO_FORCE, FORCE_BLEND), smallest);
+    (for_gradients, for_forces)
+}
+
+/// clamp((value − from)/width, 0, 1).
+#[inline(always)]
+fn ramp<V: Lanes>(value: V, from: f64, width: f64) -> V {
+    ((value - V::splat(from)) * V::splat(1.0 / width)).max(V::splat(0.0)).min(V::splat(1.0))
+}
+
+/// w M⁻¹ + (1 − w) I; the identity where M is too flat to be inverted, or not a number.
+#[inline(always)]
+fn blended<V: Lanes, const D: usize>(inverse: &[[V; D]; D], share: V, smallest: V) -> [[V; D]; D] {
+    let mut lanes = *inverse;
+    for i in 0..D {
+        for j in 0..D {
+            let part = (inverse[i][j] * share).where_less(V::splat(NO_GRADIENT), smallest);
+            lanes[i][j] = if i == j { part + (V::splat(1.0) - share) } else { part };
+        }
+    }
+    lanes
 }
 
 /// Smallest eigenvalue of a symmetric tensor; exact in 2-D, in 3-D by the trigonometric solution.
 #[inline(always)]
-fn smallest_eigenvalue<const D: usize>(m: &Tensor<D>) -> f64 {
-    let mean = m.trace() / D as f64;
+fn smallest_eigenvalue<V: Lanes, const D: usize>(m: &[[V; D]; D]) -> V {
     if D == 2 {
-        let half_difference = 0.5 * (m[(0, 0)] - m[(1, 1)]);
-        return mean - (half_difference * half_difference + m[(0, 1)] * m[(0, 1)]).sqrt();
+        let half_difference = V::splat(0.5) * (m[0][0] - m[1][1]);
+        let mean = V::splat(0.5) * (m[0][0] + m[1][1]);
+        return mean - (half_difference * half_difference + m[0][1] * m[0][1]).sqrt();
     }
+    let mut components = [[[0.0; LANES]; D]; D];
+    for i in 0..D {
+        for j in 0..D {
+            components[i][j] = m[i][j].to_array();
+        }
+    }
+    let mut smallest = [0.0; LANES];
+    for lane in 0..LANES {
+        let mut matrix = Tensor::<D>::zeros();
+        for i in 0..D {
+            for j in 0..D {
+                matrix[(i, j)] = components[i][j][lane];
+            }
+        }
+        smallest[lane] = smallest_eigenvalue_in_space(&matrix);
+    }
+    V::load(&smallest)
+}
+
+fn smallest_eigenvalue_in_space<const D: usize>(m: &Tensor<D>) -> f64 {
+    let mean = m.trace() / D as f64;
     let mut deviator = *m;
     for i in 0..D {
         deviator[(i, i)] -= mean;
@@ -49,36 +83,87 @@ fn smallest_eigenvalue<const D: usize>(m: &Tensor<D>) -> f64 {
     if scale < 1e-14 * mean.abs() {
         return mean;
     }
-    let half_determinant = 0.5 * determinant_3(&deviator) / (scale * scale * scale);
+    let d = |i: usize, j: usize| deviator[(i, j)];
+    let determinant = d(0, 0) * (d(1, 1) * d(2, 2) - d(1, 2) * d(2, 1))
+        - d(0, 1) * (d(1, 0) * d(2, 2) - d(1, 2) * d(2, 0))
+        + d(0, 2) * (d(1, 0) * d(2, 1) - d(1, 1) * d(2, 0));
+    let half_determinant = 0.5 * determinant / (scale * scale * scale);
     let angle = libm::acos(half_determinant.clamp(-1.0, 1.0)) / 3.0;
     mean + 2.0 * scale * libm::cos(angle + 2.0 * std::f64::consts::PI / 3.0)
 }
 
+/// Inverse by cofactors; infinite or not a number where there is none.
 #[inline(always)]
-fn determinant_3<const D: usize>(m: &Tensor<D>) -> f64 {
-    m[(0, 0)] * (m[(1, 1)] * m[(2, 2)] - m[(1, 2)] * m[(2, 1)])
-        - m[(0, 1)] * (m[(1, 0)] * m[(2, 2)] - m[(1, 2)] * m[(2, 0)])
-        + m[(0, 2)] * (m[(1, 0)] * m[(2, 1)] - m[(1, 1)] * m[(2, 0)])
-}
-
-/// Inverse by cofactors; called only where the smallest eigenvalue is well above zero.
-#[inline(always)]
-fn inverse<const D: usize>(m: &Tensor<D>) -> Tensor<D> {
+fn inverse<V: Lanes, const D: usize>(m: &[[V; D]; D]) -> [[V; D]; D] {
+    let mut lanes = *m;
     if D == 2 {
-        let scale = 1.0 / (m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)]);
-        return Tensor::from_fn(|i, j| if i == j { m[(1 - i, 1 - i)] * scale } else { -m[(i, j)] * scale });
+        let scale = V::splat(1.0) / (m[0][0] * m[1][1] - m[0][1] * m[1][0]);
+        for i in 0..D {
+            for j in 0..D {
+                lanes[i][j] = if i == j { m[1 - i][1 - i] * scale } else { -m[i][j] * scale };
+            }
+        }
+        return lanes;
     }
-    let scale = 1.0 / determinant_3(m);
-    Tensor::from_fn(|i, j| {
-        let (a, b) = ((j + 1) % 3, (j + 2) % 3);
-        let (c, d) = ((i + 1) % 3, (i + 2) % 3);
-        (m[(a, c)] * m[(b, d)] - m[(a, d)] * m[(b, c)]) * scale
-    })
+    for i in 0..D {
+        for j in 0..D {
+            let (a, b) = ((j + 1) % 3, (j + 2) % 3);
+            let (c, d) = ((i + 1) % 3, (i + 2) % 3);
+            lanes[i][j] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
+        }
+    }
+    let scale = V::splat(1.0) / (m[0][0] * lanes[0][0] + m[0][1] * lanes[1][0] + m[0][2] * lanes[2][0]);
+    for i in 0..D {
+        for j in 0..D {
+            lanes[i][j] = lanes[i][j] * scale;
+        }
+    }
+    lanes
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanes::algebra::{store, store_tensor, zero_tensor};
+    use crate::lanes::{InstructionSet, LanePass};
+
+    struct One<'a, const D: usize> {
+        moment: &'a Tensor<D>,
+        corrections: &'a mut [Tensor<D>; 2],
+        eigenvalue: &'a mut f64,
+    }
+
+    impl<const D: usize> LanePass for One<'_, D> {
+        #[inline(always)]
+        fn run<V: Lanes>(self) {
+            let mut moment = zero_tensor::<V, D>();
+            for i in 0..D {
+                for j in 0..D {
+                    moment[i][j] = V::splat(self.moment[(i, j)]);
+                }
+            }
+            let (gradient, force) = super::corrections(&moment);
+            store_tensor(&gradient, &mut self.corrections[..1]);
+            store_tensor(&force, &mut self.corrections[1..]);
+            store(super::smallest_eigenvalue(&moment), std::slice::from_mut(self.eigenvalue));
+        }
+    }
+
+    /// The corrections of one matrix and its smallest eigenvalue, through the lanes.
+    fn through_lanes<const D: usize>(moment: &Tensor<D>) -> ([Tensor<D>; 2], f64) {
+        let (mut corrections, mut eigenvalue) = ([Tensor::zeros(); 2], 0.0);
+        let pass = One { moment, corrections: &mut corrections, eigenvalue: &mut eigenvalue };
+        InstructionSet::best().run(pass);
+        (corrections, eigenvalue)
+    }
+
+    fn corrections<const D: usize>(moment: &Tensor<D>) -> (Tensor<D>, Tensor<D>) {
+        through_lanes(moment).0.into()
+    }
+
+    fn smallest_eigenvalue<const D: usize>(moment: &Tensor<D>) -> f64 {
+        through_lanes(moment).1
+    }
 
     #[test]
     fn a_full_neighbourhood_is_inverted() {

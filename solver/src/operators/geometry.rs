@@ -3,15 +3,19 @@
 
 use super::correction::corrections;
 use crate::kernel::Kernel;
-use crate::lanes::algebra::{accumulate, difference, dot, reduce_vector, splat_vector};
-use crate::lanes::{InstructionSet, LANES, LaneIndices, LanePass, Lanes};
+use crate::lanes::algebra::{
+    accumulate, deviatoric_rate, difference, dot, invariant, load, load_tensor, matrix_product, product, store_tensor,
+    store_vector, zero_tensor, zero_vector,
+};
+use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::neighbours::VerletList;
 use crate::numerics::MomentumOperator;
 use crate::particles::Particles;
 use crate::records::{self, Records};
 use crate::rheology::Rheology;
-use crate::vector::{Tensor, Vector, deviator, equivalent_shear_stress, strain_rate};
+use crate::vector::{Tensor, Vector};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// The constants of the pass.
 #[derive(Debug, Clone, Copy)]
@@ -58,25 +62,23 @@ impl<const D: usize> Geometry<'_, D> {
         let mut force_correction = std::mem::take(&mut particles.force_correction);
         let mut pressure_gradient = std::mem::take(&mut particles.pressure_gradient);
         let mut flux = std::mem::take(&mut particles.flux);
-        let stride = self.list.stride();
         let mut pair_weights = std::mem::take(&mut particles.pair_weights);
-        if pair_weights.len() < flow * stride {
-            pair_weights.resize(flow * stride, [0.0; LANES]);
-        }
+        let region = self.list.region();
+        pair_weights.resize(flow.div_ceil(BLOCK) * region, [0.0; LANES]);
         let shared = &*particles;
         (
             correction.par_chunks_mut(BLOCK),
             force_correction.par_chunks_mut(BLOCK),
             pressure_gradient[..flow].par_chunks_mut(BLOCK),
             flux[..flow].par_chunks_mut(BLOCK),
-            pair_weights[..flow * stride].par_chunks_mut(BLOCK * stride),
+            pair_weights.par_chunks_mut(region),
         )
             .into_par_iter()
             .enumerate()
             .with_min_len(4)
             .for_each(|(block, (correction, force_correction, pressure_gradient, flux, pair_weights))| {
                 let out = Output { correction, force_correction, pressure_gradient, flux, pair_weights };
-                self.instruction_set.run(Pass { constants: self, particles: shared, first: block * BLOCK, out });
+                self.instruction_set.run(Pass { constants: self, particles: shared, block, out });
             });
         particles.correction = correction;
         particles.force_correction = force_correction;
@@ -89,34 +91,34 @@ impl<const D: usize> Geometry<'_, D> {
 struct Pass<'a, const D: usize> {
     constants: &'a Geometry<'a, D>,
     particles: &'a Particles<D>,
-    first: usize,
+    block: usize,
     out: Output<'a, D>,
 }
 
 impl<const D: usize> LanePass for Pass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { constants, particles, first, out } = self;
-        let total = particles.position.len();
-        let zero = V::splat(0.0);
-        let stride = constants.list.stride();
-        for offset in 0..out.flux.len() {
-            let a = first + offset;
-            let place = splat_vector::<V, D>(&particles.position[a]);
-            let pressure_a = V::splat(particles.pressure[a]);
+        const BLOCK: usize = crate::neighbours::BLOCK;
+        let Self { constants, particles, block, out } = self;
+        let list = constants.list;
+        let region_start = block * list.region();
+        let mut offset = 0;
+        while offset < out.flux.len() {
+            let group = list.group((block * BLOCK + offset) / LANES);
+            let own = particles.geometry_records.load::<V>(const { values(D).div_ceil(4) }, &group.own);
+            let place = records::vector::<V, D>(&own, 0);
+            let pressure_a = records::scalar(&own, D + 1);
             // M is symmetric: only the upper triangle is summed
-            let mut moment = [[zero; D]; D];
-            let mut gradient = [zero; D];
-            let row = constants.list.row(a);
-            let weights = &mut out.pair_weights[offset * stride..(offset + 1) * stride];
-            for (chunk, stored) in row.flow.iter().chain(row.wall).zip(weights) {
-                let b = LaneIndices::new(chunk, total);
+            let mut moment = zero_tensor::<V, D>();
+            let mut gradient = zero_vector::<V, D>();
+            let weights = &mut out.pair_weights[group.first_pair - region_start..];
+            for (b, stored) in group.pairs.zip(weights) {
                 let record = particles.geometry_records.load::<V>(const { values(D).div_ceil(4) }, &b);
                 let position = records::vector::<V, D>(&record, 0);
                 let volume = records::scalar(&record, D);
                 let pressure = records::scalar(&record, D + 1);
                 let r = difference(&place, &position);
-                let weight = volume * constants.kernel.gradient_factor(dot(&r, &r));
+                let weight = constants.kernel.gradient_weight(dot(&r, &r), volume);
                 *stored = weight.to_array();
                 accumulate(&mut gradient, (pressure - pressure_a) * weight, &r);
                 for i in 0..D {
@@ -126,38 +128,61 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                     }
                 }
             }
-            let mut symmetric = Tensor::<D>::zeros();
-            for i in 0..D {
-                for j in i..D {
-                    symmetric[(i, j)] = moment[i][j].sum();
-                    symmetric[(j, i)] = symmetric[(i, j)];
+            for i in 1..D {
+                for j in 0..i {
+                    moment[i][j] = moment[j][i];
                 }
             }
-            let (for_gradients, for_forces) = corrections(&symmetric);
-            out.correction[offset] = for_gradients;
-            out.force_correction[offset] = match constants.momentum_operator {
-                MomentumOperator::SingleDivergence => for_forces,
-                _ => Tensor::identity(),
-            };
-            out.pressure_gradient[offset] = for_gradients * reduce_vector(&gradient);
-            let mut stress = particles.stress[a];
-            if constants.elastic_viscosity > 0.0 && constants.rheology.is_plastic() {
-                let elasticity = constants.rheology.elasticity(equivalent_shear_stress(&stress), particles.pressure[a]);
-                if elasticity > 0.0 {
-                    let rate = deviator(&strain_rate(&particles.velocity_gradient[a]));
-                    stress += rate * (2.0 * elasticity * constants.elastic_viscosity);
-                }
+            let end = (offset + LANES).min(out.flux.len());
+            let (for_gradients, mut for_forces) = corrections(&moment);
+            if constants.momentum_operator != MomentumOperator::SingleDivergence {
+                for_forces = identity();
             }
-            if constants.mixing_area > 0.0 {
-                // 2 ρ ν_s ε′ with ν_s = (C_s Δ)² |γ̇|, (5)
-                let rate = deviator(&strain_rate(&particles.velocity_gradient[a]));
-                let shear_rate = (2.0 * crate::vector::double_contraction(&rate, &rate)).sqrt();
-                stress += rate * (2.0 * particles.density[a] * constants.mixing_area * shear_rate);
-            }
-            for axis in 0..D {
-                stress[(axis, axis)] -= particles.pressure[a];
-            }
-            out.flux[offset] = stress * out.force_correction[offset];
+            let first = block * BLOCK + offset;
+            let stress = constants.stress(particles, first..first + end - offset, pressure_a);
+            store_tensor(&for_gradients, &mut out.correction[offset..end]);
+            store_tensor(&for_forces, &mut out.force_correction[offset..end]);
+            store_vector(&product(&for_gradients, &gradient), &mut out.pressure_gradient[offset..end]);
+            store_tensor(&matrix_product(&stress, &for_forces), &mut out.flux[offset..end]);
+            offset = end;
         }
+    }
+}
+
+#[inline(always)]
+fn identity<V: Lanes, const D: usize>() -> [[V; D]; D] {
+    let mut lanes = zero_tensor::<V, D>();
+    for i in 0..D {
+        lanes[i][i] = V::splat(1.0);
+    }
+    lanes
+}
+
+impl<const D: usize> Geometry<'_, D> {
+    /// σ = s − pI `[Pa]` of eight particles with the stresses that their law does not carry.
+    #[inline(always)]
+    fn stress<V: Lanes>(&self, particles: &Particles<D>, places: Range<usize>, pressure: V) -> [[V; D]; D] {
+        let mut stress = load_tensor::<V, D>(&particles.stress[places.clone()]);
+        let damped = self.elastic_viscosity > 0.0 && self.rheology.is_plastic();
+        if damped || self.mixing_area > 0.0 {
+            let rate = deviatoric_rate(&load_tensor::<V, D>(&particles.velocity_gradient[places.clone()]));
+            let mut viscosity = V::splat(0.0);
+            if damped {
+                let elasticity = self.rheology.elasticity(invariant(0.5, &stress), pressure);
+                viscosity = elasticity * V::splat(self.elastic_viscosity);
+            }
+            if self.mixing_area > 0.0 {
+                // ρ ν_s with ν_s = (C_s Δ)² |γ̇|, (5)
+                let density = load::<V>(&particles.density[places]);
+                viscosity = viscosity + density * V::splat(self.mixing_area) * invariant(2.0, &rate);
+            }
+            for i in 0..D {
+                accumulate(&mut stress[i], V::splat(2.0) * viscosity, &rate[i]);
+            }
+        }
+        for axis in 0..D {
+            stress[axis][axis] = stress[axis][axis] - pressure;
+        }
+        stress
     }
 }

@@ -22,6 +22,8 @@ pub use mu_i::MuI;
 pub use newtonian::Newtonian;
 pub use regularised_mu_i::RegularisedMuI;
 
+use crate::lanes::algebra::{load_tensor, store_tensor};
+use crate::lanes::{LANES, Lanes, Real};
 use crate::vector::Tensor;
 use serde::{Deserialize, Serialize};
 
@@ -38,19 +40,21 @@ pub trait ViscousLaw {
 }
 
 /// A law that carries the stress along: elastic up to a yield stress, then a plastic shear rate.
+///
+/// The formulas of the stress update are written for any [`Real`], a single value or eight lanes.
 pub trait PlasticLaw {
     /// Equivalent shear stress `[Pa]` at the end of a time step `[s]` whose elastic trial gives
-    /// `trial_shear_stress` `[Pa]`, at a pressure `[Pa]` and a shear modulus `[Pa]`.
-    fn admissible_shear_stress(
+    /// `trial_shear_stress` `[Pa]`, at a pressure `[Pa]` and a shear modulus `[Pa]`: the trial up to the yield stress.
+    fn admissible_shear_stress<R: Real>(
         &self,
-        trial_shear_stress: f64,
-        pressure: f64,
+        trial_shear_stress: R,
+        pressure: R,
         shear_modulus: f64,
         time_step: f64,
-    ) -> f64;
+    ) -> R;
 
-    /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]`.
-    fn yield_stress(&self, pressure: f64) -> f64;
+    /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]`; 0 without pressure.
+    fn yield_stress<R: Real>(&self, pressure: R) -> R;
 
     /// Apparent viscosity τ/|γ̇| `[Pa·s]` of the steady flow at a shear rate `[1/s]` and a pressure `[Pa]`;
     /// finite also at rest. For diagnostics: the stress update does not use it.
@@ -85,6 +89,36 @@ macro_rules! laws {
             ) -> Tensor<D> {
                 match self {
                     $(Self::$viscous(law) => stress_update::viscous(law, velocity_gradient, pressure),)*
+                    $(Self::$plastic(law) => {
+                        let (previous, gradient) = (components(previous), components(velocity_gradient));
+                        let stress =
+                            stress_update::plastic(law, &previous, &gradient, pressure, shear_modulus, time_step);
+                        Tensor::from_fn(|i, j| stress[i][j])
+                    })*
+                }
+            }
+
+            /// [`Rheology::updated_stress`] of eight particles, one a lane.
+            #[inline(always)]
+            pub(crate) fn updated_stresses<V: Lanes, const D: usize>(
+                &self,
+                previous: &[[V; D]; D],
+                velocity_gradient: &[[V; D]; D],
+                pressure: V,
+                shear_modulus: f64,
+                time_step: f64,
+            ) -> [[V; D]; D] {
+                match self {
+                    $(Self::$viscous(law) => {
+                        let mut gradients = [Tensor::<D>::zeros(); LANES];
+                        store_tensor(velocity_gradient, &mut gradients);
+                        let pressure = pressure.to_array();
+                        let mut stresses = gradients;
+                        for lane in 0..LANES {
+                            stresses[lane] = stress_update::viscous(law, &gradients[lane], pressure[lane]);
+                        }
+                        load_tensor(&stresses)
+                    })*
                     $(Self::$plastic(law) => {
                         stress_update::plastic(law, previous, velocity_gradient, pressure, shear_modulus, time_step)
                     })*
@@ -125,14 +159,16 @@ macro_rules! laws {
             /// How far below its yield a plastic material is: 1 where the equivalent shear stress `[Pa]` is more than
             /// one per cent below the yield stress at a pressure `[Pa]`, falling to 0 at the yield `[-]`; 0 for viscous
             /// laws and without pressure.
-            #[inline]
+            #[inline(always)]
             #[must_use]
-            pub fn elasticity(&self, shear_stress: f64, pressure: f64) -> f64 {
+            pub fn elasticity<R: Real>(&self, shear_stress: R, pressure: R) -> R {
+                let (zero, one) = (R::splat(0.0), R::splat(1.0));
                 match self {
-                    $(Self::$viscous(_) => 0.0,)*
+                    $(Self::$viscous(_) => zero,)*
                     $(Self::$plastic(law) => {
                         let yield_stress = law.yield_stress(pressure);
-                        if yield_stress > 0.0 { (100.0 * (1.0 - shear_stress / yield_stress)).clamp(0.0, 1.0) } else { 0.0 }
+                        let distance = R::splat(100.0) * (one - shear_stress / yield_stress);
+                        distance.max(zero).min(one).where_less(zero, yield_stress)
                     })*
                 }
             }
@@ -157,6 +193,18 @@ macro_rules! laws {
             }
         }
     };
+}
+
+/// The components of a tensor, indexed `[row][column]`.
+#[inline(always)]
+fn components<const D: usize>(tensor: &Tensor<D>) -> [[f64; D]; D] {
+    let mut components = [[0.0; D]; D];
+    for i in 0..D {
+        for j in 0..D {
+            components[i][j] = tensor[(i, j)];
+        }
+    }
+    components
 }
 
 laws! {

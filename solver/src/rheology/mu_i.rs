@@ -17,6 +17,7 @@
 //! B² − 4H = (τ* + A − S_2)² + 4 A (S_2 − S_0), which rounding cannot make negative. For μ_2 = μ_s this is τ = S_0.
 
 use super::{ParameterProblem, PlasticLaw, RegularisedMuI, parameter_range};
+use crate::lanes::Real;
 use serde::{Deserialize, Serialize};
 
 /// Shear rate `[1/s]` below which the apparent viscosity no longer grows: a strain of 1e-6 in a second is rest.
@@ -81,12 +82,6 @@ impl MuI {
         }
     }
 
-    /// ξ √p = I_0 √(p/ρ_s)/D `[1/s]` at a pressure `[Pa]` > 0: the shear rate at which I = I_0.
-    #[inline]
-    fn reference_shear_rate(&self, pressure: f64) -> f64 {
-        self.reference_inertia * (pressure / self.grain_density).sqrt() / self.grain_diameter
-    }
-
     pub(super) fn parameter_problem(&self) -> Option<ParameterProblem> {
         parameter_range::friction(
             self.static_friction,
@@ -99,33 +94,31 @@ impl MuI {
 }
 
 impl PlasticLaw for MuI {
-    #[inline]
-    fn admissible_shear_stress(
+    #[inline(always)]
+    fn admissible_shear_stress<R: Real>(
         &self,
-        trial_shear_stress: f64,
-        pressure: f64,
+        trial_shear_stress: R,
+        pressure: R,
         shear_modulus: f64,
         time_step: f64,
-    ) -> f64 {
-        if pressure.is_nan() || pressure <= 0.0 {
-            return 0.0;
-        }
-        let static_stress = self.static_friction * pressure; // S_0
-        if trial_shear_stress <= static_stress {
-            return trial_shear_stress;
-        }
-        let limiting_stress = self.limiting_friction * pressure; // S_2
-        let relaxation = self.reference_shear_rate(pressure) * shear_modulus * time_step; // A
+    ) -> R {
+        let pressure = pressure.max(R::splat(0.0));
+        let static_stress = R::splat(self.static_friction) * pressure; // S_0
+        let limiting_stress = R::splat(self.limiting_friction) * pressure; // S_2
+        // A = G Δt ξ √p, where ξ √p is the shear rate at which I = I_0
+        let rate = (pressure / R::splat(self.grain_density)).sqrt();
+        let relaxation = rate * R::splat(self.reference_inertia / self.grain_diameter * shear_modulus * time_step);
         let sum = limiting_stress + trial_shear_stress + relaxation; // B
         let product = limiting_stress * trial_shear_stress + static_stress * relaxation; // H
         let gap = trial_shear_stress + relaxation - limiting_stress;
-        let discriminant = gap * gap + 4.0 * relaxation * (limiting_stress - static_stress);
-        2.0 * product / (sum + discriminant.sqrt())
+        let discriminant = gap * gap + R::splat(4.0) * relaxation * (limiting_stress - static_stress);
+        let admissible = R::splat(2.0) * product / (sum + discriminant.sqrt());
+        admissible.if_less(static_stress, trial_shear_stress, trial_shear_stress)
     }
 
-    #[inline]
-    fn yield_stress(&self, pressure: f64) -> f64 {
-        self.static_friction * pressure.max(0.0)
+    #[inline(always)]
+    fn yield_stress<R: Real>(&self, pressure: R) -> R {
+        R::splat(self.static_friction) * pressure.max(R::splat(0.0))
     }
 
     #[inline]

@@ -1,11 +1,13 @@
 //! From a scalar law to a stress tensor: the viscous stress, and the elastic trial with radial return.
 
 use super::{PlasticLaw, ViscousLaw};
-use crate::vector::{Tensor, deviator, double_contraction, equivalent_shear_stress, strain_rate};
+use crate::lanes::Real;
+use crate::lanes::algebra::{accumulate, deviatoric_rate, invariant, matrix_product};
+use crate::vector::{Tensor, deviator, double_contraction, strain_rate};
 
 /// Deviatoric stress s = 2 η ε′ `[Pa]`, equation (30), of a velocity gradient `[1/s]` at a pressure `[Pa]`.
 #[inline]
-pub(super) fn viscous<const D: usize, L: ViscousLaw>(
+pub(super) fn viscous<L: ViscousLaw, const D: usize>(
     law: &L,
     velocity_gradient: &Tensor<D>,
     pressure: f64,
@@ -20,28 +22,43 @@ pub(super) fn viscous<const D: usize, L: ViscousLaw>(
 /// Trial s* = s + 2 G Δt ε′. Where τ* = √(½ s*:s*) yields, s = s* τ/τ* with the law's admissible τ. Elsewhere the
 /// trial is turned by the spin ω = ½(∇v − ∇vᵀ), s = s* + Δt (ω s* − s* ω). Not turned while yielding: the Jaumann
 /// rate in steady shear gives a normal stress s_yy = −τ²/G, a bias of the flow that does not converge.
-#[inline]
-pub(super) fn plastic<const D: usize, L: PlasticLaw>(
+#[inline(always)]
+pub(super) fn plastic<R: Real, L: PlasticLaw, const D: usize>(
     law: &L,
-    previous: &Tensor<D>,
-    velocity_gradient: &Tensor<D>,
-    pressure: f64,
+    previous: &[[R; D]; D],
+    velocity_gradient: &[[R; D]; D],
+    pressure: R,
     shear_modulus: f64,
     time_step: f64,
-) -> Tensor<D> {
-    // Also refuses NaN: a lost particle then carries no stress instead of spreading NaN through its neighbours.
-    if pressure.is_nan() || pressure <= 0.0 {
-        return Tensor::zeros();
+) -> [[R; D]; D] {
+    let rate = deviatoric_rate(velocity_gradient);
+    let mut trial = *previous;
+    for i in 0..D {
+        accumulate(&mut trial[i], R::splat(2.0 * shear_modulus * time_step), &rate[i]);
     }
-    let rate = deviator(&strain_rate(velocity_gradient));
-    let trial = previous + rate * (2.0 * shear_modulus * time_step);
-    let trial_shear_stress = equivalent_shear_stress(&trial);
-    if trial_shear_stress > law.yield_stress(pressure) {
-        let admissible = law.admissible_shear_stress(trial_shear_stress, pressure, shear_modulus, time_step);
-        return trial * (admissible / trial_shear_stress);
+    let mut spin = trial;
+    for i in 0..D {
+        for j in 0..D {
+            spin[i][j] = R::splat(0.5 * time_step) * (velocity_gradient[i][j] - velocity_gradient[j][i]);
+        }
     }
-    let spin = (velocity_gradient - velocity_gradient.transpose()) * (0.5 * time_step);
-    trial + spin * trial - trial * spin
+    let (ahead, behind) = (matrix_product(&spin, &trial), matrix_product(&trial, &spin));
+    let trial_shear_stress = invariant(0.5, &trial);
+    let yield_stress = law.yield_stress(pressure);
+    let admissible = law.admissible_shear_stress(trial_shear_stress, pressure, shear_modulus, time_step);
+    let scale = admissible / trial_shear_stress;
+    let mut stress = trial;
+    for i in 0..D {
+        for j in 0..D {
+            let turned = trial[i][j] + (ahead[i][j] - behind[i][j]);
+            let returned = scale * trial[i][j];
+            // No pressure, no stress. A NaN has none either: a lost particle then carries no stress instead of
+            // spreading NaN through its neighbours.
+            stress[i][j] =
+                returned.if_less(yield_stress, trial_shear_stress, turned).where_less(R::splat(0.0), pressure);
+        }
+    }
+    stress
 }
 
 #[cfg(test)]

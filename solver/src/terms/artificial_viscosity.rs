@@ -1,6 +1,6 @@
 //! Artificial viscosity (15) for approaching pairs and Morris & Monaghan's switch (16) of its coefficient.
 
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Real};
 
 /// Smallest coefficient of the switch `[-]`.
 pub const SWITCH_LOWEST: f64 = 0.1;
@@ -22,9 +22,10 @@ pub fn pair_factor<V: Lanes>(strength: V, approach: V, inverse: V) -> V {
 /// `divergence` is ∇·v `[1/s]`, `decay_rate` c/h `[1/s]`.
 #[inline(always)]
 #[must_use]
-pub fn switched(coefficient: f64, divergence: f64, decay_rate: f64, time_step: f64) -> f64 {
-    let change = (-divergence).max(0.0) - (coefficient - SWITCH_LOWEST) * DECAY * decay_rate;
-    (coefficient + time_step * change).clamp(SWITCH_LOWEST, SWITCH_HIGHEST)
+pub fn switched<R: Real>(coefficient: R, divergence: R, decay_rate: f64, time_step: f64) -> R {
+    let lowest = R::splat(SWITCH_LOWEST);
+    let change = (-divergence).max(R::splat(0.0)) - (coefficient - lowest) * R::splat(DECAY * decay_rate);
+    (coefficient + R::splat(time_step) * change).max(lowest).min(R::splat(SWITCH_HIGHEST))
 }
 
 #[cfg(test)]

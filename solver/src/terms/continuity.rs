@@ -6,15 +6,18 @@
 use super::{artificial_viscosity, density_coupling};
 use crate::equation_of_state::EquationOfState;
 use crate::kernel::Kernel;
-use crate::lanes::algebra::{accumulate_outer, difference, dot, reduce_tensor, splat_vector, sum_of};
-use crate::lanes::{InstructionSet, LaneIndices, LanePass, Lanes};
-use crate::neighbours::VerletList;
+use crate::lanes::algebra::{
+    accumulate_outer, difference, dot, load, load_tensor, matrix_product, store, store_tensor, sum_of, zero_tensor,
+};
+use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
+use crate::neighbours::{Group, VerletList};
 use crate::numerics::ViscositySwitch;
 use crate::particles::Particles;
 use crate::records::{self, Records};
 use crate::rheology::Rheology;
 use crate::vector::{Tensor, shear_rate};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// The constants of the pass.
 #[derive(Debug, Clone, Copy)]
@@ -32,9 +35,14 @@ pub(crate) struct Continuity<'a, const D: usize> {
     pub(crate) gradient: GradientUse,
 }
 
-/// Values of a neighbour's record: position, velocity, volume, pressure, pressure gradient.
+/// Values of a neighbour's record: position, velocity, pressure, pressure gradient.
 pub(crate) const fn values(dimension: usize) -> usize {
-    3 * dimension + 2
+    3 * dimension + 1
+}
+
+/// Values of a record if the density alone is updated: position, velocity.
+const fn short_values(dimension: usize) -> usize {
+    2 * dimension
 }
 
 /// Whether the velocity gradient is made.
@@ -87,12 +95,15 @@ impl<const D: usize> Continuity<'_, D> {
         let flow = particles.flow_count();
         let mut records = std::mem::replace(&mut particles.continuity_records, Records::new(0));
         let shared = &*particles;
+        let full = self.gradient != GradientUse::None;
+        records.set_values(if full { values(D) } else { short_values(D) });
         records.fill(particles.position.len(), |index, record| {
             record.vector(&shared.position[index]);
             record.vector(&shared.velocity[index]);
-            record.scalar(shared.volume[index]);
-            record.scalar(shared.pressure[index]);
-            record.vector(&shared.pressure_gradient[index]);
+            if full {
+                record.scalar(shared.pressure[index]);
+                record.vector(&shared.pressure_gradient[index]);
+            }
         });
         particles.continuity_records = records;
         let mut density = std::mem::take(&mut particles.density);
@@ -114,13 +125,13 @@ impl<const D: usize> Continuity<'_, D> {
             .map(|(block, (density, velocity_gradient, stress, viscosity, artificial_viscosity))| {
                 let out = Output { density, velocity_gradient, stress, viscosity, artificial_viscosity };
                 let mut extremes = Extremes::NONE;
-                let first = block * BLOCK;
+                let extremes_of_block = &mut extremes;
                 self.instruction_set.run(Pass {
                     constants: self,
                     particles: shared,
-                    first,
+                    block,
                     out,
-                    extremes: &mut extremes,
+                    extremes: extremes_of_block,
                 });
                 extremes
             })
@@ -137,7 +148,7 @@ impl<const D: usize> Continuity<'_, D> {
 struct Pass<'a, const D: usize> {
     constants: &'a Continuity<'a, D>,
     particles: &'a Particles<D>,
-    first: usize,
+    block: usize,
     out: Output<'a, D>,
     extremes: &'a mut Extremes,
 }
@@ -145,134 +156,147 @@ struct Pass<'a, const D: usize> {
 impl<const D: usize> LanePass for Pass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { constants, particles, first, mut out, extremes } = self;
-        for offset in 0..out.density.len() {
-            let a = first + offset;
+        const BLOCK: usize = crate::neighbours::BLOCK;
+        let Self { constants, particles, block, mut out, extremes } = self;
+        let count = out.density.len();
+        let mut offset = 0;
+        while offset < count {
+            let group = constants.list.group((block * BLOCK + offset) / LANES);
             let sums = if constants.gradient == GradientUse::None {
-                divergence_only::<V, D>(constants, particles, a)
+                divergence_only::<V, D>(particles, &group)
             } else {
-                all_sums::<V, D>(constants, particles, a)
+                all_sums::<V, D>(particles, &group)
             };
-            advance(constants, a, offset, &sums, &mut out, extremes);
+            let end = (offset + LANES).min(count);
+            constants.advance(particles, block * BLOCK, offset..end, &sums, &mut out, extremes);
+            offset = end;
         }
     }
 }
 
-/// The pair sums of one particle.
-struct Sums<const D: usize> {
+/// The pair sums of eight particles.
+struct Sums<V, const D: usize> {
     /// Σ V_b v_ab·∇_aW_ab = −∇·v `[1/s]`.
-    compression: f64,
+    compression: V,
     /// The coupling's pair sum `[Pa/m²]`.
-    coupling: f64,
-    /// Corrected velocity gradient `[1/s]`.
-    gradient: Tensor<D>,
+    coupling: V,
+    /// Velocity gradient before its correction `[1/s]`.
+    gradient: [[V; D]; D],
 }
 
 #[inline(always)]
-fn all_sums<V: Lanes, const D: usize>(constants: &Continuity<'_, D>, particles: &Particles<D>, a: usize) -> Sums<D> {
-    let total = particles.position.len();
-    let zero = V::splat(0.0);
-    let place = splat_vector::<V, D>(&particles.position[a]);
-    let velocity_a = splat_vector::<V, D>(&particles.velocity[a]);
-    let pressure_gradient_a = splat_vector::<V, D>(&particles.pressure_gradient[a]);
-    let pressure_a = V::splat(particles.pressure[a]);
-    let mut coupling = zero;
-    let mut gradient = [[zero; D]; D];
-    let row = constants.list.row(a);
-    let weights = &particles.pair_weights[a * constants.list.stride()..];
-    let (flow_weights, wall_weights) = weights.split_at(row.flow.len());
-    for (chunk, weight) in row.flow.iter().zip(flow_weights) {
-        let b = LaneIndices::new(chunk, total);
-        let record = particles.continuity_records.load::<V>(const { values(D).div_ceil(4) }, &b);
+fn all_sums<V: Lanes, const D: usize>(particles: &Particles<D>, group: &Group<'_>) -> Sums<V, D> {
+    let all = &particles.continuity_records;
+    let own = all.load::<V>(const { values(D).div_ceil(4) }, &group.own);
+    let place = records::vector::<V, D>(&own, 0);
+    let velocity_a = records::vector::<V, D>(&own, D);
+    let pressure_a = records::scalar(&own, 2 * D);
+    let pressure_gradient_a = records::vector::<V, D>(&own, 2 * D + 1);
+    let mut coupling = V::splat(0.0);
+    let mut gradient = zero_tensor::<V, D>();
+    let weights = &particles.pair_weights[group.first_pair..];
+    let (flow_weights, wall_weights) = weights.split_at(group.flow.len());
+    for (b, weight) in group.flow.zip(flow_weights) {
+        let record = all.load::<V>(const { values(D).div_ceil(4) }, &b);
         let position = records::vector::<V, D>(&record, 0);
         let velocity = records::vector::<V, D>(&record, D);
-        let pressure = records::scalar(&record, 2 * D + 1);
-        let pressure_gradient = records::vector::<V, D>(&record, 2 * D + 2);
+        let pressure = records::scalar(&record, 2 * D);
+        let pressure_gradient = records::vector::<V, D>(&record, 2 * D + 1);
         let r = difference(&place, &position);
         let weight = V::load(weight);
         let sum = sum_of(&pressure_gradient_a, &pressure_gradient);
         coupling = coupling + weight * density_coupling::bracket(pressure_a - pressure, &sum, &r);
         accumulate_outer(&mut gradient, weight, &difference(&velocity, &velocity_a), &r);
     }
-    for (chunk, weight) in row.wall.iter().zip(wall_weights) {
-        let w = LaneIndices::new(chunk, total);
-        let record = particles.continuity_records.load::<V>(const { values(D).div_ceil(4) }, &w);
+    for (w, weight) in group.wall.zip(wall_weights) {
+        let (quads, wanted) = const { (values(D).div_ceil(4), short_values(D).div_ceil(4)) };
+        let record = all.load_start::<V>(quads, wanted, &w);
         let position = records::vector::<V, D>(&record, 0);
         let velocity = records::vector::<V, D>(&record, D);
         let r = difference(&place, &position);
-        let weight = V::load(weight);
-        accumulate_outer(&mut gradient, weight, &difference(&velocity, &velocity_a), &r);
+        accumulate_outer(&mut gradient, V::load(weight), &difference(&velocity, &velocity_a), &r);
     }
-    let gradient = reduce_tensor(&gradient);
     // the trace of the uncorrected gradient Σ V (v_b − v_a) ⊗ ∇W is ∇·v of (7)
-    Sums { compression: -gradient.trace(), coupling: coupling.sum(), gradient: gradient * particles.correction[a] }
+    let mut compression = -gradient[0][0];
+    for i in 1..D {
+        compression = compression - gradient[i][i];
+    }
+    Sums { compression, coupling, gradient }
 }
 
 #[inline(always)]
-fn divergence_only<V: Lanes, const D: usize>(
-    constants: &Continuity<'_, D>,
-    particles: &Particles<D>,
-    a: usize,
-) -> Sums<D> {
-    let total = particles.position.len();
-    let place = splat_vector::<V, D>(&particles.position[a]);
-    let velocity_a = splat_vector::<V, D>(&particles.velocity[a]);
+fn divergence_only<V: Lanes, const D: usize>(particles: &Particles<D>, group: &Group<'_>) -> Sums<V, D> {
+    let all = &particles.continuity_records;
+    let own = all.load::<V>(const { short_values(D).div_ceil(4) }, &group.own);
+    let place = records::vector::<V, D>(&own, 0);
+    let velocity_a = records::vector::<V, D>(&own, D);
     let mut compression = V::splat(0.0);
-    let row = constants.list.row(a);
-    for chunk in row.flow.iter().chain(row.wall) {
-        let b = LaneIndices::new(chunk, total);
-        let record = particles.continuity_records.load::<V>(const { values(D).div_ceil(4) }, &b);
+    for (b, weight) in group.pairs.zip(&particles.pair_weights[group.first_pair..]) {
+        let record = all.load::<V>(const { short_values(D).div_ceil(4) }, &b);
         let position = records::vector::<V, D>(&record, 0);
         let velocity = records::vector::<V, D>(&record, D);
-        let volume = records::scalar(&record, 2 * D);
         let r = difference(&place, &position);
-        let weight = volume * constants.kernel.gradient_factor(dot(&r, &r));
-        compression = compression + weight * dot(&difference(&velocity_a, &velocity), &r);
+        compression = compression + V::load(weight) * dot(&difference(&velocity_a, &velocity), &r);
     }
-    Sums { compression: compression.sum(), coupling: 0.0, gradient: Tensor::zeros() }
+    Sums { compression, coupling: V::splat(0.0), gradient: zero_tensor() }
 }
 
-#[inline(always)]
-fn advance<const D: usize>(
-    constants: &Continuity<'_, D>,
-    a: usize,
-    offset: usize,
-    sums: &Sums<D>,
-    out: &mut Output<'_, D>,
-    extremes: &mut Extremes,
-) {
-    let dt = constants.time_step;
-    let equation_of_state = &constants.equation_of_state;
-    // (24) with (27); ρ is never floored: a floor opens voids
-    let density = out.density[offset]
-        + dt * out.density[offset] * sums.compression
-        + dt * dt * constants.density_coupling * sums.coupling;
-    out.density[offset] = density;
-    let relative = density / equation_of_state.reference_density;
-    if !(relative > DENSITY_RANGE.0 && relative < DENSITY_RANGE.1) && extremes.bad_density.is_none() {
-        extremes.bad_density = Some(a);
-    }
-    if constants.viscosity_switch == ViscositySwitch::MorrisMonaghan {
-        let decay_rate = equation_of_state.sound_speed() / constants.kernel.smoothing_length();
-        out.artificial_viscosity[offset] =
-            artificial_viscosity::switched(out.artificial_viscosity[offset], -sums.compression, decay_rate, dt);
-    }
-    let pressure = equation_of_state.pressure(density);
-    let law = constants.rheology;
-    match constants.gradient {
-        GradientUse::None => {}
-        GradientUse::Stress => {
-            out.velocity_gradient[offset] = sums.gradient;
-            out.stress[offset] =
-                law.updated_stress(&out.stress[offset], &sums.gradient, pressure, constants.shear_modulus, dt);
+impl<const D: usize> Continuity<'_, D> {
+    /// Advances the eight particles at `places` of a block.
+    #[inline(always)]
+    fn advance<V: Lanes>(
+        &self,
+        particles: &Particles<D>,
+        block_start: usize,
+        places: Range<usize>,
+        sums: &Sums<V, D>,
+        out: &mut Output<'_, D>,
+        extremes: &mut Extremes,
+    ) {
+        let dt = self.time_step;
+        let equation_of_state = &self.equation_of_state;
+        let law = self.rheology;
+        // (24) with (27); ρ is never floored: a floor opens voids
+        let previous = load::<V>(&out.density[places.clone()]);
+        let density = previous
+            + V::splat(dt) * previous * sums.compression
+            + V::splat(dt * dt * self.density_coupling) * sums.coupling;
+        let inverse_reference = 1.0 / equation_of_state.reference_density;
+        store(density, &mut out.density[places.clone()]);
+        for place in places.clone() {
+            let relative = out.density[place] * inverse_reference;
+            if !(relative > DENSITY_RANGE.0 && relative < DENSITY_RANGE.1) && extremes.bad_density.is_none() {
+                extremes.bad_density = Some(block_start + place);
+            }
         }
-        GradientUse::Viscosity => {
-            out.velocity_gradient[offset] = sums.gradient;
-            out.viscosity[offset] = law.viscosity(shear_rate(&sums.gradient), pressure);
+        if self.viscosity_switch == ViscositySwitch::MorrisMonaghan {
+            let decay_rate = equation_of_state.sound_speed() / self.kernel.smoothing_length();
+            let alpha = load::<V>(&out.artificial_viscosity[places.clone()]);
+            let switched = artificial_viscosity::switched(alpha, -sums.compression, decay_rate, dt);
+            store(switched, &mut out.artificial_viscosity[places.clone()]);
         }
-    }
-    if !law.is_plastic() && constants.gradient != GradientUse::None {
-        let viscosity = law.viscosity(shear_rate(&sums.gradient), pressure);
-        extremes.kinematic_viscosity = extremes.kinematic_viscosity.max(viscosity / density);
+        if self.gradient == GradientUse::None {
+            return;
+        }
+        let particles_here = block_start + places.start..block_start + places.end;
+        let correction = load_tensor::<V, D>(&particles.correction[particles_here]);
+        let gradient = matrix_product(&sums.gradient, &correction);
+        let pressure = equation_of_state.pressure(density);
+        store_tensor(&gradient, &mut out.velocity_gradient[places.clone()]);
+        if self.gradient == GradientUse::Stress {
+            let stress = load_tensor::<V, D>(&out.stress[places.clone()]);
+            let stress = law.updated_stresses(&stress, &gradient, pressure, self.shear_modulus, dt);
+            store_tensor(&stress, &mut out.stress[places.clone()]);
+        }
+        if self.gradient == GradientUse::Viscosity || !law.is_plastic() {
+            let pressure = pressure.to_array();
+            for (lane, place) in places.enumerate() {
+                let viscosity = law.viscosity(shear_rate(&out.velocity_gradient[place]), pressure[lane]);
+                out.viscosity[place] = viscosity;
+                if !law.is_plastic() {
+                    extremes.kinematic_viscosity = extremes.kinematic_viscosity.max(viscosity / out.density[place]);
+                }
+            }
+        }
     }
 }

@@ -8,9 +8,9 @@
 use super::{artificial_viscosity, hourglass};
 use crate::kernel::Kernel;
 use crate::lanes::algebra::{
-    accumulate, difference, dot, product, reduce_vector, scaled, splat_tensor, splat_vector, sum_of,
+    accumulate, difference, dot, load_tensor, product, scaled, store_vector, sum_of, zero_vector,
 };
-use crate::lanes::{InstructionSet, LaneIndices, LanePass, Lanes, gather, gather_tensors, gather_vectors};
+use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::neighbours::VerletList;
 use crate::numerics::ViscositySwitch;
 use crate::particles::Particles;
@@ -32,9 +32,11 @@ pub(crate) struct Momentum<'a, const D: usize> {
     pub(crate) hourglass: f64,
 }
 
-/// Values of a neighbour's record: position, velocity, volume, density, √(p/ρ0), α, flux, velocity gradient.
+/// Values of a neighbour's record: position, velocity, density, √(p/ρ0), α, flux, velocity gradient. A wall particle
+/// has its depth in the place of the density, the velocity of the wall itself, and its normal in the first places of
+/// the velocity gradient.
 pub(crate) const fn values(dimension: usize) -> usize {
-    2 * dimension + 4 + 2 * dimension * dimension
+    2 * dimension + 3 + 2 * dimension * dimension
 }
 
 impl<const D: usize> Momentum<'_, D> {
@@ -45,20 +47,24 @@ impl<const D: usize> Momentum<'_, D> {
         let shared = &*particles;
         let inverse_density = 1.0 / self.reference_density;
         records.fill(particles.position.len(), |index, record| {
+            let wall = shared.wall_depth[index] > 0.0;
             record.vector(&shared.position[index]);
-            record.vector(&shared.velocity[index]);
-            record.scalar(shared.volume[index]);
-            record.scalar(shared.density[index]);
+            record.vector(if wall { &shared.wall_velocity[index] } else { &shared.velocity[index] });
+            record.scalar(if wall { shared.wall_depth[index] } else { shared.density[index] });
             record.scalar((shared.pressure[index].max(0.0) * inverse_density).sqrt());
             record.scalar(shared.artificial_viscosity[index]);
             record.tensor(&shared.flux[index]);
-            record.tensor(&shared.velocity_gradient[index]);
+            if wall {
+                record.vector(&shared.wall_normal[index]);
+            } else {
+                record.tensor(&shared.velocity_gradient[index]);
+            }
         });
         particles.momentum_records = records;
         let mut acceleration = std::mem::take(&mut particles.acceleration);
         let shared = &*particles;
         acceleration.par_chunks_mut(BLOCK).enumerate().with_min_len(4).for_each(|(block, out)| {
-            self.instruction_set.run(Pass { constants: self, particles: shared, first: block * BLOCK, out });
+            self.instruction_set.run(Pass { constants: self, particles: shared, block, out });
         });
         particles.acceleration = acceleration;
     }
@@ -67,55 +73,52 @@ impl<const D: usize> Momentum<'_, D> {
 struct Pass<'a, const D: usize> {
     constants: &'a Momentum<'a, D>,
     particles: &'a Particles<D>,
-    first: usize,
+    block: usize,
     out: &'a mut [Vector<D>],
 }
 
 impl<const D: usize> LanePass for Pass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { constants, particles, first, out } = self;
-        let total = particles.position.len();
-        let zero = V::splat(0.0);
+        const BLOCK: usize = crate::neighbours::BLOCK;
+        let Self { constants, particles, block, out } = self;
+        let all = &particles.momentum_records;
         let smoothing_length = constants.kernel.smoothing_length();
         let singularity = V::splat(1e-4 * smoothing_length * smoothing_length);
         let speed = smoothing_length * constants.sound_speed;
         let hourglass_strength = constants.hourglass * smoothing_length;
-        let inverse_density = 1.0 / constants.reference_density;
-        for (offset, out) in out.iter_mut().enumerate() {
-            let a = first + offset;
-            let place = splat_vector::<V, D>(&particles.position[a]);
-            let velocity_a = splat_vector::<V, D>(&particles.velocity[a]);
-            let gradient_a = splat_tensor::<V, D>(&particles.velocity_gradient[a]);
-            let flux_a = splat_tensor::<V, D>(&particles.flux[a]);
-            let density_a = V::splat(particles.density[a]);
-            let pressure_speed_a = V::splat((particles.pressure[a].max(0.0) * inverse_density).sqrt());
-            let alpha_a = V::splat(particles.artificial_viscosity[a]);
-            let mut divergence = [zero; D];
-            let mut damping = [zero; D];
-            let row = constants.list.row(a);
-            let weights = &particles.pair_weights[a * constants.list.stride()..];
-            let (flow_weights, wall_weights) = weights.split_at(row.flow.len());
-            for (chunk, weight) in row.flow.iter().zip(flow_weights) {
-                let b = LaneIndices::new(chunk, total);
-                let record = particles.momentum_records.load::<V>(const { values(D).div_ceil(4) }, &b);
+        for (offset, out) in out.chunks_mut(LANES).enumerate() {
+            let group = constants.list.group(block * (BLOCK / LANES) + offset);
+            let own = all.load::<V>(const { values(D).div_ceil(4) }, &group.own);
+            let place = records::vector::<V, D>(&own, 0);
+            let velocity_a = records::vector::<V, D>(&own, D);
+            let density_a = records::scalar(&own, 2 * D);
+            let pressure_speed_a = records::scalar(&own, 2 * D + 1);
+            let alpha_a = records::scalar(&own, 2 * D + 2);
+            let flux_a = records::tensor::<V, D>(&own, 2 * D + 3);
+            let gradient_a = records::tensor::<V, D>(&own, 2 * D + 3 + D * D);
+            let mut divergence = zero_vector::<V, D>();
+            let mut damping = zero_vector::<V, D>();
+            let weights = &particles.pair_weights[group.first_pair..];
+            let (flow_weights, wall_weights) = weights.split_at(group.flow.len());
+            for (b, weight) in group.flow.zip(flow_weights) {
+                let record = all.load::<V>(const { values(D).div_ceil(4) }, &b);
                 let position = records::vector::<V, D>(&record, 0);
                 let velocity = records::vector::<V, D>(&record, D);
-                let density = records::scalar(&record, 2 * D + 1);
-                let pressure_speed = records::scalar(&record, 2 * D + 2);
-                let flux = records::tensor::<V, D>(&record, 2 * D + 4);
-                let gradient = records::tensor::<V, D>(&record, 2 * D + 4 + D * D);
+                let density = records::scalar(&record, 2 * D);
+                let pressure_speed = records::scalar(&record, 2 * D + 1);
+                let flux = records::tensor::<V, D>(&record, 2 * D + 3);
+                let gradient = records::tensor::<V, D>(&record, 2 * D + 3 + D * D);
                 let r = difference(&place, &position);
                 let slip = difference(&velocity_a, &velocity);
-                let distance_squared = dot(&r, &r);
                 let weight = V::load(weight);
-                let regular = distance_squared + singularity;
+                let regular = dot(&r, &r) + singularity;
                 // one division serves 1/(ρ̄ r²) of (15) and 2/(ρ_a + ρ_b) of the hourglass control
                 let inverse = V::splat(2.0) / ((density_a + density) * regular);
                 let alpha = match constants.viscosity_switch {
                     ViscositySwitch::Constant => V::splat(constants.artificial_viscosity * speed),
                     ViscositySwitch::MorrisMonaghan => {
-                        let alpha = records::scalar(&record, 2 * D + 3);
+                        let alpha = records::scalar(&record, 2 * D + 2);
                         (alpha + alpha_a) * V::splat(0.5 * speed)
                     }
                 };
@@ -129,22 +132,22 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                 accumulate(&mut damping, mass_weight * push, &r);
                 accumulate(&mut damping, mass_weight * drag, &unexplained);
             }
-            let correction_a = splat_tensor::<V, D>(&particles.force_correction[a]);
-            for (chunk, weight) in row.wall.iter().zip(wall_weights) {
-                let w = LaneIndices::new(chunk, total);
-                let position = gather_vectors::<V, D>(&particles.position, &w);
-                let stress = gather_tensors::<V, D>(&particles.flux, &w);
-                let pressure: V = gather(&particles.pressure, &w);
-                let normal = gather_vectors::<V, D>(&particles.wall_normal, &w);
-                let depth: V = gather(&particles.wall_depth, &w);
-                let wall_velocity = gather_vectors::<V, D>(&particles.wall_velocity, &w);
+            let first = block * BLOCK + offset * LANES;
+            let correction_a = load_tensor::<V, D>(&particles.force_correction[first..first + out.len()]);
+            for (w, weight) in group.wall.zip(wall_weights) {
+                let record = all.load::<V>(const { values(D).div_ceil(4) }, &w);
+                let position = records::vector::<V, D>(&record, 0);
+                let wall_velocity = records::vector::<V, D>(&record, D);
+                let depth = records::scalar(&record, 2 * D);
+                let pressure_speed = records::scalar(&record, 2 * D + 1);
+                let stress = records::tensor::<V, D>(&record, 2 * D + 3);
+                let normal = records::vector::<V, D>(&record, 2 * D + 3 + D * D);
                 let r = difference(&place, &position);
                 let weight = V::load(weight);
                 let corrected = product(&correction_a, &r);
                 // β = 1 + d_w/d_a as in (20); the distance of a to the surface is n·r − d_w
                 let distance = (dot(&normal, &r) - depth).max(V::splat(1e-6 * smoothing_length));
                 let factor = (V::splat(1.0) + depth / distance).min(V::splat(hourglass::WALL_FACTOR_LIMIT));
-                let pressure_speed = (pressure * V::splat(inverse_density)).sqrt();
                 let drag = hourglass::twice_viscosity::<V>(hourglass_strength, pressure_speed_a + pressure_speed);
                 let traction = sum_of(&product(&flux_a, &r), &product(&stress, &corrected));
                 accumulate(&mut divergence, weight, &traction);
@@ -152,8 +155,11 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                 let unexplained = difference(&slip, &product(&gradient_a, &r));
                 accumulate(&mut damping, weight * drag, &unexplained);
             }
-            let specific_volume = 1.0 / particles.density[a];
-            *out = reduce_vector(&divergence) * specific_volume + reduce_vector(&damping) + constants.gravity;
+            let mut acceleration = damping;
+            for i in 0..D {
+                acceleration[i] = divergence[i] / density_a + damping[i] + V::splat(constants.gravity[i]);
+            }
+            store_vector(&acceleration, out);
         }
     }
 }

@@ -6,10 +6,11 @@
 use super::artificial_viscosity;
 use crate::kernel::Kernel;
 use crate::lanes::algebra::{
-    accumulate, accumulate_outer, difference, dot, reduce_tensor, reduce_vector, scaled, splat_vector,
+    accumulate, accumulate_outer, difference, dot, load_tensor, matrix_product, product, scaled, store_vector,
+    zero_tensor, zero_vector,
 };
-use crate::lanes::{InstructionSet, LaneIndices, LanePass, Lanes, gather, gather_vectors};
-use crate::neighbours::VerletList;
+use crate::lanes::{InstructionSet, LANES, LaneIndices, LanePass, Lanes, gather, gather_vectors};
+use crate::neighbours::{Group, VerletList};
 use crate::numerics::{MomentumOperator, ViscositySwitch};
 use crate::particles::Particles;
 use crate::records::{self, Records};
@@ -34,9 +35,9 @@ pub(crate) struct Pairwise<'a, const D: usize> {
     pub(crate) viscosity_switch: ViscositySwitch,
 }
 
-/// Values of a neighbour's record: position, velocity, volume, density, p/ρ², viscosity, α.
+/// Values of a neighbour's record: position, velocity, volume, density, p/ρ², viscosity.
 const fn values(dimension: usize) -> usize {
-    2 * dimension + 5
+    2 * dimension + 4
 }
 
 impl<const D: usize> Pairwise<'_, D> {
@@ -54,69 +55,99 @@ impl<const D: usize> Pairwise<'_, D> {
             record.scalar(density);
             record.scalar(shared.pressure[index] / (density * density));
             record.scalar(shared.viscosity[index]);
-            record.scalar(shared.artificial_viscosity[index]);
         });
         particles.momentum_records = records;
         let mut acceleration = std::mem::take(&mut particles.acceleration);
+        let mut pair_weights = std::mem::take(&mut particles.pair_weights);
+        let region = self.list.region();
+        pair_weights.resize(acceleration.len().div_ceil(BLOCK) * region, [0.0; LANES]);
         let shared = &*particles;
-        acceleration.par_chunks_mut(BLOCK).enumerate().with_min_len(4).for_each(|(block, out)| {
-            self.instruction_set.run(Pass { constants: self, particles: shared, first: block * BLOCK, out });
-        });
+        (acceleration.par_chunks_mut(BLOCK), pair_weights.par_chunks_mut(region))
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(4)
+            .for_each(|(block, (out, pair_weights))| {
+                self.instruction_set.run(Pass { constants: self, particles: shared, block, out, pair_weights });
+            });
         particles.acceleration = acceleration;
+        particles.pair_weights = pair_weights;
     }
 }
 
 struct Pass<'a, const D: usize> {
     constants: &'a Pairwise<'a, D>,
     particles: &'a Particles<D>,
-    first: usize,
+    block: usize,
     out: &'a mut [Vector<D>],
+    pair_weights: &'a mut [[f64; LANES]],
 }
 
 impl<const D: usize> LanePass for Pass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { constants, particles, first, out } = self;
-        for (offset, out) in out.iter_mut().enumerate() {
-            let a = first + offset;
-            let mut sums = plain_sums::<V, D>(constants, particles, a);
+        const BLOCK: usize = crate::neighbours::BLOCK;
+        let Self { constants, particles, block, out, pair_weights } = self;
+        let region_start = block * constants.list.region();
+        for (offset, out) in out.chunks_mut(LANES).enumerate() {
+            let group = constants.list.group(block * (BLOCK / LANES) + offset);
+            let weights = &mut pair_weights[group.first_pair - region_start..];
+            let mut sums = plain_sums::<V, D>(constants, particles, &group, weights);
             if constants.momentum_operator == MomentumOperator::PairwiseCorrected {
-                let (scale, excess) = schwaiger::<V, D>(constants, particles, a);
-                sums.viscous = (sums.viscous - excess) * scale;
+                let first = block * BLOCK + offset * LANES;
+                // Γ of (14) is the moment matrix, whose blended inverse is the gradient correction
+                let correction = load_tensor::<V, D>(&particles.correction[first..first + out.len()]);
+                let excess = schwaiger::<V, D>(constants, particles, &group, weights, &correction);
+                let mut scale = correction[0][0];
+                for i in 1..D {
+                    scale = scale + correction[i][i];
+                }
+                let scale = scale * V::splat(1.0 / D as f64);
+                sums.viscous = scaled(scale, &difference(&sums.viscous, &excess));
             }
-            *out = sums.pressure + sums.viscous / particles.density[a] + constants.gravity;
+            let mut acceleration = sums.pressure;
+            for i in 0..D {
+                let viscous = sums.viscous[i] / sums.density;
+                acceleration[i] = sums.pressure[i] + viscous + V::splat(constants.gravity[i]);
+            }
+            store_vector(&acceleration, out);
         }
     }
 }
 
-/// Pair sums of one particle.
-struct Sums<const D: usize> {
+/// Pair sums of eight particles.
+struct Sums<V, const D: usize> {
     /// Pressure and artificial viscosity `[m/s²]`.
-    pressure: Vector<D>,
+    pressure: [V; D],
     /// (11) `[N/m³]`.
-    viscous: Vector<D>,
+    viscous: [V; D],
+    /// Their own densities `[kg/m³]`.
+    density: V,
 }
 
 #[inline(always)]
-fn plain_sums<V: Lanes, const D: usize>(constants: &Pairwise<'_, D>, particles: &Particles<D>, a: usize) -> Sums<D> {
-    let total = particles.position.len();
-    let zero = V::splat(0.0);
+fn plain_sums<V: Lanes, const D: usize>(
+    constants: &Pairwise<'_, D>,
+    particles: &Particles<D>,
+    group: &Group<'_>,
+    weights: &mut [[f64; LANES]],
+) -> Sums<V, D> {
     let smoothing_length = constants.kernel.smoothing_length();
     // δ = 0.01 h in (11); 2(d + 2) is 8 in the plane
     let singularity = V::splat(1e-4 * smoothing_length * smoothing_length);
     let factor = V::splat(2.0 * 2.0 * (D as f64 + 2.0));
     let speed = smoothing_length * constants.sound_speed;
-    let place = splat_vector::<V, D>(&particles.position[a]);
-    let velocity_a = splat_vector::<V, D>(&particles.velocity[a]);
-    let density_a = V::splat(particles.density[a]);
-    let viscosity_a = V::splat(particles.viscosity[a]);
-    let alpha_a = V::splat(particles.artificial_viscosity[a]);
-    let specific_a = V::splat(particles.pressure[a] / (particles.density[a] * particles.density[a]));
-    let (mut pressure_sum, mut viscous_sum) = ([zero; D], [zero; D]);
-    let row = constants.list.row(a);
-    for chunk in row.flow {
-        let b = LaneIndices::new(chunk, total);
-        let record = particles.momentum_records.load::<V>(const { values(D).div_ceil(4) }, &b);
+    let all = &particles.momentum_records;
+    let own = all.load::<V>(const { values(D).div_ceil(4) }, &group.own);
+    let place = records::vector::<V, D>(&own, 0);
+    let velocity_a = records::vector::<V, D>(&own, D);
+    let density_a = records::scalar(&own, 2 * D + 1);
+    let specific_a = records::scalar(&own, 2 * D + 2);
+    let viscosity_a = records::scalar(&own, 2 * D + 3);
+    let alpha_a: V = gather(&particles.artificial_viscosity, &group.own);
+    let (mut pressure_sum, mut viscous_sum) = (zero_vector::<V, D>(), zero_vector::<V, D>());
+    let (flow_weights, wall_weights) = weights.split_at_mut(group.flow.len());
+    for (b, stored) in group.flow.zip(flow_weights) {
+        let record = all.load::<V>(const { values(D).div_ceil(4) }, &b);
         let position = records::vector::<V, D>(&record, 0);
         let velocity = records::vector::<V, D>(&record, D);
         let volume = records::scalar(&record, 2 * D);
@@ -126,7 +157,8 @@ fn plain_sums<V: Lanes, const D: usize>(constants: &Pairwise<'_, D>, particles: 
         let r = difference(&place, &position);
         let slip = difference(&velocity_a, &velocity);
         let distance_squared = dot(&r, &r);
-        let weight = volume * constants.kernel.gradient_factor(distance_squared);
+        let weight = constants.kernel.gradient_weight(distance_squared, volume);
+        *stored = weight.to_array();
         let regular = distance_squared + singularity;
         let approach = dot(&r, &slip);
         // one division for the harmonic mean of the viscosities over r² and for 1/(ρ̄ r²)
@@ -138,7 +170,7 @@ fn plain_sums<V: Lanes, const D: usize>(constants: &Pairwise<'_, D>, particles: 
         let alpha = match constants.viscosity_switch {
             ViscositySwitch::Constant => V::splat(constants.artificial_viscosity * speed),
             ViscositySwitch::MorrisMonaghan => {
-                let alpha = records::scalar(&record, 2 * D + 4);
+                let alpha: V = gather(&particles.artificial_viscosity, &b);
                 (alpha + alpha_a) * V::splat(0.5 * speed)
             }
         };
@@ -148,14 +180,14 @@ fn plain_sums<V: Lanes, const D: usize>(constants: &Pairwise<'_, D>, particles: 
         accumulate(&mut pressure_sum, along, &r);
         accumulate(&mut viscous_sum, rub, &r);
     }
-    for chunk in row.wall {
-        let w = LaneIndices::new(chunk, total);
+    for (w, stored) in group.wall.zip(wall_weights) {
         let position = gather_vectors::<V, D>(&particles.position, &w);
         let volume: V = gather(&particles.volume, &w);
         let pressure: V = gather(&particles.pressure, &w);
         let r = difference(&place, &position);
         let distance_squared = dot(&r, &r);
-        let weight = volume * constants.kernel.gradient_factor(distance_squared);
+        let weight = constants.kernel.gradient_weight(distance_squared, volume);
+        *stored = weight.to_array();
         // (23): ρ_w = ρ0 (p_w/K + 1)
         let density = V::splat(constants.reference_density)
             + pressure * V::splat(constants.reference_density / constants.bulk_modulus);
@@ -166,14 +198,14 @@ fn plain_sums<V: Lanes, const D: usize>(constants: &Pairwise<'_, D>, particles: 
         accumulate(&mut pressure_sum, -along, &r);
         accumulate(&mut viscous_sum, rub, &r);
     }
-    Sums { pressure: reduce_vector(&pressure_sum), viscous: reduce_vector(&viscous_sum) }
+    Sums { pressure: pressure_sum, viscous: viscous_sum, density: density_a }
 }
 
 /// v_aw = β v_a, β = min(β_max, 1 + d_w/d_a), (18)–(20), relative to the wall.
 #[inline(always)]
 fn wall_difference<V: Lanes, const D: usize>(
     particles: &Particles<D>,
-    w: &LaneIndices,
+    w: &LaneIndices<'_>,
     r: &[V; D],
     velocity_a: &[V; D],
     smoothing_length: f64,
@@ -186,49 +218,43 @@ fn wall_difference<V: Lanes, const D: usize>(
     scaled(factor, &difference(velocity_a, &wall_velocity))
 }
 
-/// tr(Γ⁻¹)/d of (14) and the second term of (13): [∇(μv) − v∇μ + μ∇v]·Σ V ∇W.
+/// The second term of (13), [∇(μv) − v∇μ + μ∇v]·Σ V ∇W, with the correction L `[-]` of the gradients.
 #[inline(always)]
 fn schwaiger<V: Lanes, const D: usize>(
     constants: &Pairwise<'_, D>,
     particles: &Particles<D>,
-    a: usize,
-) -> (f64, Vector<D>) {
-    let total = particles.position.len();
-    let zero = V::splat(0.0);
+    group: &Group<'_>,
+    weights: &[[f64; LANES]],
+    correction: &[[V; D]; D],
+) -> [V; D] {
     let smoothing_length = constants.kernel.smoothing_length();
-    let place = splat_vector::<V, D>(&particles.position[a]);
-    let velocity_a = splat_vector::<V, D>(&particles.velocity[a]);
-    let viscosity_a = V::splat(particles.viscosity[a]);
-    let mut deficit = [zero; D];
+    let all = &particles.momentum_records;
+    let own = all.load::<V>(const { values(D).div_ceil(4) }, &group.own);
+    let place = records::vector::<V, D>(&own, 0);
+    let velocity_a = records::vector::<V, D>(&own, D);
+    let viscosity_a = records::scalar(&own, 2 * D + 3);
+    let mut deficit = zero_vector::<V, D>();
     // with (9), ∇(μv) − v_a∇μ = L Σ V μ_b (v_b − v_a) ∇W, and μ_a∇v likewise: one sum with (μ_b + μ_a)
-    let mut gradient = [[zero; D]; D];
-    let row = constants.list.row(a);
-    for chunk in row.flow {
-        let b = LaneIndices::new(chunk, total);
-        let record = particles.momentum_records.load::<V>(const { values(D).div_ceil(4) }, &b);
+    let mut gradient = zero_tensor::<V, D>();
+    let (flow_weights, wall_weights) = weights.split_at(group.flow.len());
+    for (b, weight) in group.flow.zip(flow_weights) {
+        let record = all.load::<V>(const { values(D).div_ceil(4) }, &b);
         let position = records::vector::<V, D>(&record, 0);
         let velocity = records::vector::<V, D>(&record, D);
-        let volume = records::scalar(&record, 2 * D);
         let viscosity = records::scalar(&record, 2 * D + 3);
         let r = difference(&place, &position);
         let slip = difference(&velocity_a, &velocity);
-        let weight = volume * constants.kernel.gradient_factor(dot(&r, &r));
+        let weight = V::load(weight);
         accumulate(&mut deficit, weight, &r);
         accumulate_outer(&mut gradient, -weight * (viscosity + viscosity_a), &slip, &r);
     }
-    for chunk in row.wall {
-        let w = LaneIndices::new(chunk, total);
+    for (w, weight) in group.wall.zip(wall_weights) {
         let position = gather_vectors::<V, D>(&particles.position, &w);
-        let volume: V = gather(&particles.volume, &w);
         let r = difference(&place, &position);
-        let weight = volume * constants.kernel.gradient_factor(dot(&r, &r));
+        let weight = V::load(weight);
         let slip = wall_difference::<V, D>(particles, &w, &r, &velocity_a, smoothing_length);
         accumulate(&mut deficit, weight, &r);
         accumulate_outer(&mut gradient, -weight * (viscosity_a + viscosity_a), &slip, &r);
     }
-    let correction = particles.correction[a];
-    let gradient = reduce_tensor(&gradient) * correction;
-    let deficit = reduce_vector(&deficit);
-    // Γ of (14) is the moment matrix, whose blended inverse is the gradient correction
-    (correction.trace() / D as f64, gradient * deficit)
+    product(&matrix_product(&gradient, correction), &deficit)
 }

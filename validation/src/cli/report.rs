@@ -7,7 +7,7 @@ use crate::case::{CaseResult, Changes, Prepared, Registry, Tier};
 use crate::error::InputError;
 use crate::metric::json::MetricsDocument;
 use crate::output::OutputFolder;
-use crate::report::{self, Baseline, CaseReport, KnownFailures, Provenance, Report, Standing};
+use crate::report::{self, Baseline, CaseReport, KnownFailures, Provenance, Report, Standing, history};
 use crate::store::provenance;
 use std::io::Write;
 use std::path::PathBuf;
@@ -32,9 +32,12 @@ pub(super) fn report(
     let results = simulate(cases, &command.work.open_store(), quiet)?;
     if command.update_baseline {
         baseline = Baseline::default();
+        let commit = provenance::commit();
         for result in &results {
             let fresh = Baseline::of(&result.name, &result.metrics);
             fresh.write(&baseline_folder(), &result.name, command.tier)?;
+            let made_by = (provenance::version(), commit.as_str());
+            history::append(&history_file(), made_by, command.tier, &result.name, &result.metrics)?;
             baseline.extend(fresh);
         }
     }
@@ -100,10 +103,19 @@ fn case_report(result: &CaseResult) -> CaseReport {
     }
 }
 
+/// The project's own folder of reports, with what is committed in it.
+fn reports_folder() -> PathBuf {
+    provenance::workspace().map_or_else(|| PathBuf::from("reports"), |root| root.join("reports"))
+}
+
 /// The committed folder with baseline values and known failures.
 fn baseline_folder() -> PathBuf {
-    let reports = provenance::workspace().map_or_else(|| PathBuf::from("reports"), |root| root.join("reports"));
-    reports.join("baseline")
+    reports_folder().join("baseline")
+}
+
+/// The committed figures over time.
+fn history_file() -> PathBuf {
+    reports_folder().join("history.csv")
 }
 
 /// The gates that are known to fail, from `reports/baseline/known_failures.toml`.

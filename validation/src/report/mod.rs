@@ -2,6 +2,7 @@
 
 pub mod baseline;
 mod error;
+pub mod history;
 pub mod judgement;
 pub mod known_failures;
 pub mod number;

@@ -1,6 +1,6 @@
 //! The simulations that the case asks for.
 
-use super::parameters::{Arrangement, BagnoldParameters, Start, profile};
+use super::parameters::{ARREST_DURATION, Arrangement, BagnoldParameters, Start, profile};
 use crate::case::{Progress, Run};
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::error::InputError;
@@ -49,13 +49,13 @@ pub struct BagnoldRun {
     duration: f64,
     averaging_time: f64,
     material: MuI,
+    regularisation_rate: f64,
     numerics: Numerics,
 }
 
 /// All runs in report order.
 pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
-    // (h/10 mm)^1.5 is how the time to the steady state grows with the layer
-    let scale = parameters.duration_factor * libm::pow(parameters.layer_height / 0.01, 1.5);
+    let scale = parameters.duration_scale();
     let new = |purpose, slope_angle: f64, start, particles, resolution, duration: f64| BagnoldRun {
         purpose,
         slope_angle,
@@ -76,6 +76,7 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
         duration,
         averaging_time: parameters.averaging_time,
         material: parameters.material,
+        regularisation_rate: parameters.regularisation_rate,
         numerics: parameters.numerics,
     };
     // the recipe's 3.5, 4, 4.5 and 5 s at 22, 23, 24 and 25°
@@ -105,7 +106,7 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
             Start::Profile,
             Arrangement::Jittered,
             parameters.resolution,
-            1.5 * scale,
+            ARREST_DURATION * scale,
         ));
     }
     for &angle in &parameters.runaway_slope_angles {
@@ -193,7 +194,11 @@ impl BagnoldRun {
             gravity: self.gravity,
             reference_density: self.solid_fraction * self.material.grain_density,
             bulk_modulus: self.bulk_modulus(),
-            rheology: Rheology::MuI(self.material),
+            rheology: if self.regularisation_rate > 0.0 {
+                Rheology::RegularisedMuI(self.material.regularised(self.regularisation_rate))
+            } else {
+                Rheology::MuI(self.material)
+            },
             numerics: self.numerics,
             jitter: self.jitter,
             seed: self.seed,
@@ -205,6 +210,7 @@ impl BagnoldRun {
             interval: 2e-3,
             stop_above: if self.purpose == Purpose::Runaway { 0.5 * self.sound_speed() } else { f64::INFINITY },
             frames: 2,
+            may_diverge: false,
         }
     }
 

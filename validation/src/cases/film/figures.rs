@@ -1,14 +1,24 @@
 //! The case's figures.
 
 use super::Record;
+use super::comparison::NumericsSet;
 use super::fluid::FluidKind;
 use super::metrics::{convergence_errors, shear_rates};
 use super::parameters::FilmRun;
 use crate::cases::bagnold::Arrangement;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::observe::Outcome;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
-    let jittered: Vec<&Record> = records.iter().filter(|(run, _)| run.particles == Arrangement::Jittered).collect();
+    let newtonian = |run: &FilmRun| run.fluid.kind() == FluidKind::Newtonian && run.particles == Arrangement::Jittered;
+    let finest = records.iter().filter(|(run, _)| newtonian(run)).map(|(run, _)| run.resolution).max();
+    let jittered: Vec<&Record> = records
+        .iter()
+        .filter(|(run, _)| run.particles == Arrangement::Jittered && run.numerics_set == NumericsSet::Default)
+        // a second Newtonian film may have been run for the comparison
+        .filter(|(run, _)| !newtonian(run) || Some(run.resolution) == finest)
+        .collect();
+    let compared = records.iter().find(|(run, _)| run.numerics_set != NumericsSet::Default);
     let mut figures = Vec::new();
     if !jittered.is_empty() {
         figures.push(profiles(&jittered));
@@ -28,6 +38,11 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
             panels: vec![panel],
             columns: 1,
         });
+    }
+    if let Some((first, _)) = compared {
+        let rows = first.resolution;
+        let films: Vec<&Record> = records.iter().filter(|(run, _)| newtonian(run) && run.resolution == rows).collect();
+        figures.push(operators(&films));
     }
     figures
 }
@@ -69,6 +84,42 @@ fn profiles(records: &[&Record]) -> Figure {
                   the yield-stress fluids begins where the shear rate falls to zero."
                 .to_owned(),
         panels: vec![velocity, rate],
+        columns: 2,
+    }
+}
+
+/// The Newtonian film with every set of numerics: the profile, and its error in parts of the surface velocity.
+fn operators(films: &[&Record]) -> Figure {
+    let mut velocity = Panel::new("", Axis::linear("u [m/s]"), Axis::linear("y/h [-]"));
+    let mut error = Panel::new("", Axis::linear("(u − u exact)/u exact(h) [%]"), Axis::linear("y/h [-]"));
+    for (slot, (run, record)) in films.iter().enumerate() {
+        let incline = run.incline();
+        let h = incline.layer_height;
+        if slot == 0 {
+            let exact =
+                (0..=200).map(|k| f64::from(k) / 200.0).map(|y| (run.fluid.velocity(incline, y * h), y)).collect();
+            velocity.series.push(Series::new("exact", Mark::Reference, 0, exact));
+            error.series.push(Series::new("", Mark::Reference, 0, vec![(0.0, 0.0), (0.0, 1.0)]));
+        }
+        let data = &record.data.profile;
+        let surface = run.fluid.velocity(incline, h);
+        let bins = (0..data.height.len()).filter(|&bin| data.samples[bin] > 0.0);
+        let points: Vec<(f64, f64)> = bins.map(|bin| (data.velocity[bin], data.height[bin] / h)).collect();
+        let errors =
+            points.iter().map(|&(u, y)| (100.0 * (u - run.fluid.velocity(incline, y * h)) / surface, y)).collect();
+        let diverged = matches!(record.outcome, Outcome::Diverged { .. });
+        let name = format!("{}{}", run.numerics_set.label(), if diverged { " (diverged)" } else { "" });
+        velocity.series.push(Series::new(&name, Mark::Points, slot, points));
+        error.series.push(Series::new("", Mark::LinePoints, slot, errors));
+    }
+    Figure {
+        name: "operators".to_owned(),
+        caption: "The Newtonian film from displaced particles with the default operator and walls and with those of the \
+                  collapse paper: one divergence operator for pressure and viscous stress against the pressure term (10) \
+                  with the pairwise viscosity (11), its correction (13), and the paper's no-slip walls. Observed, not \
+                  judged: only the default is gated."
+            .to_owned(),
+        panels: vec![velocity, error],
         columns: 2,
     }
 }

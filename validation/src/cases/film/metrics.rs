@@ -1,13 +1,14 @@
 //! How the runs are judged.
 
 use super::Record;
+use super::comparison::NumericsSet;
 use super::fluid::FluidKind;
 use super::parameters::FilmRun;
 use crate::case::Run;
 use crate::cases::bagnold::Arrangement;
 use crate::cases::layer::{self, BINS, LayerObservation};
 use crate::metric::{Confidence, Limit, Metric};
-use crate::observe::Recorded;
+use crate::observe::{Outcome, Recorded};
 use crate::statistics::{linear_fit, log_log_slope};
 
 const EXACT: &str = "exact solution of the film";
@@ -16,6 +17,10 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (run, record) in records {
         let variant = run.variant();
+        if run.numerics_set != NumericsSet::Default {
+            compared(&mut metrics, run, record, &variant);
+            continue;
+        }
         metrics.push(layer::particles_lost(&variant, record));
         profile(&mut metrics, run, record, &variant);
         if let Some(value) = compressible_l2(run, record) {
@@ -41,12 +46,30 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     metrics
 }
 
+/// What another set of numerics gives: to be seen beside the default, not to be judged.
+fn compared(metrics: &mut Vec<Metric>, run: &FilmRun, record: &Recorded<LayerObservation>, variant: &str) {
+    // a run that diverged has no profile to speak of
+    if matches!(record.outcome, Outcome::Diverged { .. }) {
+        return;
+    }
+    for (name, value) in [("velocity_l2", velocity_l2(run, record)), ("flux_error", flux_error(run, record))] {
+        metrics.push(
+            Metric::observed(name, variant, value, "%")
+                .against(Some(0.0), EXACT, Confidence::Exact)
+                .with_snapshot_tolerance(0.02, 0.05),
+        );
+    }
+}
+
+/// Error of the depth-integrated velocity `[%]`.
+pub(super) fn flux_error(run: &FilmRun, record: &Recorded<LayerObservation>) -> f64 {
+    let (incline, velocity) = (run.incline(), &record.data.profile.velocity);
+    let mean = filled(record).map(|bin| velocity[bin]).sum::<f64>() / filled(record).count() as f64;
+    100.0 * (mean * incline.layer_height / run.fluid.flux(incline) - 1.0)
+}
+
 fn profile(metrics: &mut Vec<Metric>, run: &FilmRun, record: &Recorded<LayerObservation>, variant: &str) {
-    let incline = run.incline();
-    let data = &record.data.profile;
-    let flux: f64 = filled(record).map(|bin| data.velocity[bin]).sum::<f64>() / filled(record).count() as f64
-        * incline.layer_height;
-    let flux_error = 100.0 * (flux / run.fluid.flux(incline) - 1.0);
+    let flux_error = flux_error(run, record);
     // first order in the spacing at the bed, so that 20 rows have twice the error of 40
     let limit = match (run.fluid.kind(), run.resolution) {
         (FluidKind::Newtonian, 40..) => Some((1.0, "issue 1: 1 % at 40 rows")),

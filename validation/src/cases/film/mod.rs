@@ -1,5 +1,6 @@
 //! Newtonian, Bingham and Herschel–Bulkley films on an incline against their exact profiles.
 
+mod comparison;
 mod figures;
 mod fluid;
 mod metrics;
@@ -40,7 +41,8 @@ impl Case for Film {
         "A viscous film on an incline, periodic along the slope, over a no-slip bed. The Newtonian film starts from rest; \
          the two yield-stress films, regularised after Papanastasiou and so with a long viscous relaxation, start from \
          their exact profile and must keep it. Velocity profile, flux and the edge of the plug are compared with the \
-         exact solutions of the unregularised laws: the regularisation's creep of the plug is part of the error."
+         exact solutions of the unregularised laws: the regularisation's creep of the plug is part of the error. The \
+         Newtonian film is also run with the collapse paper's operators and walls, which are observed and do not gate."
     }
 
     fn field_notes(&self) -> &'static [(&'static str, &'static str)] {

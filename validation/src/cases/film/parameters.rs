@@ -1,5 +1,6 @@
 //! Parameters, tiers and runs.
 
+use super::comparison::NumericsSet;
 use super::fluid::{Fluid, FluidKind};
 use crate::case::{Progress, Run, Tier};
 use crate::cases::bagnold::Arrangement;
@@ -38,6 +39,8 @@ pub struct FilmParameters {
     pub preparation: Preparation,
     /// Rows of the Newtonian convergence study on the lattice; empty for none.
     pub convergence_resolutions: Vec<usize>,
+    /// Rows of the Newtonian film that compares other operators and walls with the default; 0 for none.
+    pub comparison_resolution: usize,
     /// Simulated time of the Newtonian film, from rest, over ρh²/η `[-]`.
     pub relaxation_times: f64,
     /// Simulated time of the yield-stress films, from the exact profile, over ρh²/η `[-]`.
@@ -63,6 +66,7 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("jitter", "[-], largest random displacement in spacings"),
     ("preparation", "\"settled\" or \"none\""),
     ("convergence_resolutions", "rows of the Newtonian study; empty for none"),
+    ("comparison_resolution", "rows of the Newtonian film with other operators and walls; 0 for none"),
     ("relaxation_times", "[-], simulated time over ρh²/η, Newtonian from rest"),
     ("yield_relaxation_times", "[-], the same for yield stresses, from the exact profile"),
     ("newtonian.viscosity", "[Pa·s]"),
@@ -89,6 +93,7 @@ impl FilmParameters {
             seed: 1,
             preparation: Preparation::Settled,
             convergence_resolutions: vec![10, 20],
+            comparison_resolution: 20,
             relaxation_times: 5.0,
             yield_relaxation_times: 1.0,
             newtonian: Newtonian { viscosity: 1.0 },
@@ -119,6 +124,13 @@ impl FilmParameters {
         rules::rows("resolution", self.resolution)?;
         for (index, &rows) in self.convergence_resolutions.iter().enumerate() {
             rules::rows(&format!("convergence_resolutions[{index}]"), rows)?;
+        }
+        if self.comparison_resolution > 0 {
+            rules::rows("comparison_resolution", self.comparison_resolution)?;
+            let widest = NumericsSet::OTHERS.map(|set| set.numerics(self.numerics));
+            for numerics in &widest {
+                rules::columns("columns", self.columns, numerics)?;
+            }
         }
         rules::columns("columns", self.columns, &self.numerics)?;
         rules::between("jitter", self.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
@@ -166,6 +178,8 @@ pub struct FilmRun {
     pub particles: Arrangement,
     /// Rows over the layer.
     pub resolution: usize,
+    /// Which numerics.
+    pub numerics_set: NumericsSet,
     layer_height: f64,
     slope_angle: f64,
     gravity: f64,
@@ -179,10 +193,11 @@ pub struct FilmRun {
 }
 
 pub(super) fn runs(parameters: &FilmParameters) -> Vec<FilmRun> {
-    let new = |kind, particles, resolution| FilmRun {
+    let new = |kind, particles, resolution, numerics_set: NumericsSet| FilmRun {
         fluid: parameters.fluid(kind),
         particles,
         resolution,
+        numerics_set,
         layer_height: parameters.layer_height,
         slope_angle: parameters.slope_angle,
         gravity: parameters.gravity,
@@ -195,15 +210,23 @@ pub(super) fn runs(parameters: &FilmParameters) -> Vec<FilmRun> {
             FluidKind::Newtonian => parameters.relaxation_times,
             _ => parameters.yield_relaxation_times,
         },
-        numerics: parameters.numerics,
+        numerics: numerics_set.numerics(parameters.numerics),
     };
     let mut runs = Vec::new();
     for &kind in &parameters.fluids {
-        runs.push(new(kind, Arrangement::Jittered, parameters.resolution));
+        runs.push(new(kind, Arrangement::Jittered, parameters.resolution, NumericsSet::Default));
         if kind == FluidKind::Newtonian {
             let study = parameters.convergence_resolutions.iter();
-            runs.extend(study.map(|&rows| new(kind, Arrangement::Lattice, rows)));
+            runs.extend(study.map(|&rows| new(kind, Arrangement::Lattice, rows, NumericsSet::Default)));
         }
+    }
+    if parameters.comparison_resolution > 0 && parameters.fluids.contains(&FluidKind::Newtonian) {
+        let other = |set| new(FluidKind::Newtonian, Arrangement::Jittered, parameters.comparison_resolution, set);
+        // the default is compared at the same resolution, which the profile may have run already
+        if parameters.comparison_resolution != parameters.resolution {
+            runs.push(other(NumericsSet::Default));
+        }
+        runs.extend(NumericsSet::OTHERS.map(other));
     }
     runs
 }
@@ -216,7 +239,11 @@ impl Run for FilmRun {
             FluidKind::HerschelBulkley => "herschel_bulkley",
         };
         let particles = if self.particles == Arrangement::Lattice { "lattice" } else { "jittered" };
-        format!("fluid={fluid},particles={particles},resolution={}", self.resolution)
+        let numerics = match self.numerics_set {
+            NumericsSet::Default => String::new(),
+            other => format!("numerics={},", other.name()),
+        };
+        format!("fluid={fluid},particles={particles},{numerics}resolution={}", self.resolution)
     }
 
     fn particle_steps(&self) -> f64 {
@@ -276,6 +303,8 @@ impl FilmRun {
             interval: duration / 500.0,
             stop_above: f64::INFINITY,
             frames: 2,
+            // (13) is known to go unstable on displaced particles; that is shown, and no error of the run
+            may_diverge: self.numerics_set != NumericsSet::Default,
         }
     }
 

@@ -210,6 +210,7 @@ impl HydrostaticRun {
             interval: 5e-3,
             stop_above: f64::INFINITY,
             frames: 3,
+            may_diverge: false,
         }
     }
 

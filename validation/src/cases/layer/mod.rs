@@ -62,7 +62,12 @@ pub struct Layer<'a> {
     pub stop_above: f64,
     /// Number of snapshots, the first and last state included.
     pub frames: usize,
+    /// Whether a divergence is a result of the run and not an error.
+    pub may_diverge: bool,
 }
+
+/// Ratio of viscous to acoustic steps from which a run says how long it will take before it starts.
+const WORTH_A_WARNING: f64 = 100.0;
 
 /// Bins over the depth.
 pub const BINS: usize = 20;
@@ -172,12 +177,19 @@ impl Layer<'_> {
             Preparation::None => self.scene(),
         };
         let mut simulation = Simulation::new(self.started(scene))?;
-        if simulation.time_step_bounds().viscous < simulation.time_step_bounds().acoustic {
-            tracing::info!(
-                "explicit viscous step: about {:.2e} steps for {} s",
-                simulation.estimated_steps(self.duration),
-                self.duration
-            );
+        if simulation.estimated_steps(self.duration) * simulation.time_step_bounds().acoustic > self.duration {
+            let (steps, acoustic) =
+                (simulation.estimated_steps(self.duration), self.duration / simulation.time_step_bounds().acoustic);
+            if steps > WORTH_A_WARNING * acoustic {
+                tracing::warn!(
+                    "the explicit viscous step needs about {steps:.1e} steps for {} s, {:.0} times as many as the speed \
+                     of sound would: a larger regularisation rate shortens it",
+                    self.duration,
+                    steps / acoustic
+                );
+            } else {
+                tracing::info!("explicit viscous step: about {steps:.1e} steps for {} s", self.duration);
+            }
         }
         let particles = self.rows * self.columns;
         let mut probe = LayerProbe::new(self);
@@ -203,7 +215,9 @@ impl Layer<'_> {
                     self.stop_above
                 ),
             },
-            StopReason::Diverged(divergence) => Outcome::Diverged { message: divergence.to_string(), expected: false },
+            StopReason::Diverged(divergence) => {
+                Outcome::Diverged { message: divergence.to_string(), expected: self.may_diverge }
+            }
         };
         let end = if matches!(reason, StopReason::Diverged(_)) { last_good } else { simulation.snapshot() };
         frames.push(Frame::of_layer(&end));
@@ -250,7 +264,7 @@ pub fn tables(variant: &str, data: &LayerObservation) -> Vec<Table> {
     let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
     let profile = &data.profile;
     let series = &data.series;
-    vec![
+    let mut tables = vec![
         Table {
             name: format!("profile-{stem}"),
             columns: names(&["y [m]", "u [m/s]", "p [Pa]", "p - s_yy [Pa]", "s_xy [Pa]", "samples [-]"]),
@@ -271,7 +285,10 @@ pub fn tables(variant: &str, data: &LayerObservation) -> Vec<Table> {
                 .map(|k| vec![series.time[k], series.mean_velocity[k], series.rms_speed[k], series.relative_height[k]])
                 .collect(),
         },
-    ]
+    ];
+    // a run that diverged before its averaging window has no profile
+    tables.retain(|table| !table.rows.is_empty());
+    tables
 }
 
 /// The number of particles that ended below the bed or far above the layer, gated at 0.

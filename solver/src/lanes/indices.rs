@@ -1,0 +1,144 @@
+//! Indices that were checked once, so that the loads of every later pass need no check of their own.
+
+use super::LANES;
+use rayon::prelude::*;
+
+/// Largest bound: any element of any record is then addressed without overflow.
+const LARGEST_BOUND: usize = i32::MAX as usize / 16;
+
+/// Eight indices below a bound.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneIndices<'a> {
+    pub(super) raw: &'a [u32; LANES],
+    pub(super) bound: usize,
+}
+
+impl<'a> LaneIndices<'a> {
+    /// Checks that every index is below `bound`.
+    ///
+    /// # Panics
+    /// If one is not: a neighbour list that does not belong to the arrays.
+    #[inline(always)]
+    #[must_use]
+    pub fn new(raw: &'a [u32; LANES], bound: usize) -> Self {
+        let largest = largest_of(raw) as usize;
+        assert!(largest < bound && bound <= LARGEST_BOUND, "neighbour index out of range");
+        Self { raw, bound }
+    }
+}
+
+#[inline(always)]
+fn largest_of(raw: &[u32; LANES]) -> u32 {
+    let mut largest = 0;
+    for &index in raw {
+        largest = if index > largest { index } else { largest };
+    }
+    largest
+}
+
+/// Chunks of eight indices, all below one bound. They change only by [`CheckedIndices::refill`], which checks them.
+#[derive(Debug, Default)]
+pub struct CheckedIndices {
+    chunks: Vec<[u32; LANES]>,
+    bound: usize,
+}
+
+impl CheckedIndices {
+    /// Lets `fill` rewrite the chunks and checks that every index is below `bound` afterwards.
+    ///
+    /// # Panics
+    /// If one is not.
+    pub fn refill<R>(&mut self, bound: usize, fill: impl FnOnce(&mut Vec<[u32; LANES]>) -> R) -> R {
+        // taken out, so that unchecked chunks cannot stay behind a panic
+        let mut chunks = std::mem::take(&mut self.chunks);
+        let result = fill(&mut chunks);
+        let largest = chunks.par_chunks(4096).map(|part| part.iter().map(largest_of).max().unwrap_or(0)).max();
+        assert!((largest.unwrap_or(0) as usize) < bound && bound <= LARGEST_BOUND, "neighbour index out of range");
+        (self.chunks, self.bound) = (chunks, bound);
+        result
+    }
+
+    /// Number of chunks.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.chunks.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.chunks.is_empty()
+    }
+
+    /// Some neighbouring chunks.
+    #[inline(always)]
+    #[must_use]
+    pub fn part(&self, range: std::ops::Range<usize>) -> LaneChunks<'_> {
+        LaneChunks { raw: &self.chunks[range], bound: self.bound }
+    }
+}
+
+/// Checked chunks, to be walked through.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneChunks<'a> {
+    raw: &'a [[u32; LANES]],
+    bound: usize,
+}
+
+impl<'a> LaneChunks<'a> {
+    /// Number of chunks left.
+    #[inline(always)]
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.raw.len()
+    }
+
+    /// Whether none is left.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.raw.is_empty()
+    }
+
+    /// The bare indices.
+    #[must_use]
+    pub fn raw(&self) -> &'a [[u32; LANES]] {
+        self.raw
+    }
+}
+
+impl<'a> Iterator for LaneChunks<'a> {
+    type Item = LaneIndices<'a>;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<LaneIndices<'a>> {
+        let (first, rest) = self.raw.split_first()?;
+        self.raw = rest;
+        Some(LaneIndices { raw: first, bound: self.bound })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[should_panic(expected = "out of range")]
+    fn an_index_beyond_the_arrays_is_refused() {
+        let _ = LaneIndices::new(&[0, 1, 2, 3, 4, 5, 6, 7], 7);
+    }
+
+    #[test]
+    #[should_panic(expected = "out of range")]
+    fn a_list_with_an_index_beyond_the_arrays_is_refused() {
+        CheckedIndices::default().refill(7, |chunks| *chunks = vec![[0; LANES], [3, 1, 7, 2, 0, 0, 0, 0]]);
+    }
+
+    #[test]
+    fn a_part_is_walked_in_order() {
+        let mut indices = CheckedIndices::default();
+        indices.refill(5, |chunks| chunks.extend([[0; LANES], [1; LANES], [2; LANES], [4; LANES]]));
+        let seen: Vec<u32> = indices.part(1..4).map(|chunk| chunk.raw[3]).collect();
+        assert_eq!(seen, [1, 2, 4]);
+    }
+}

@@ -1,0 +1,51 @@
+//! What a formula needs of a number, so that one formula serves a single value and eight lanes alike.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// One f64 or eight lanes of f64, with the same rounding.
+pub trait Real:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// The same value in every lane.
+    fn splat(value: f64) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// `if self > other { self } else { other }`: a NaN in `self` gives `other`.
+    fn max(self, other: Self) -> Self;
+    /// `if self < other { self } else { other }`: a NaN in `self` gives `other`.
+    fn min(self, other: Self) -> Self;
+    /// `if a < b { self } else { other }`.
+    fn if_less(self, a: Self, b: Self, other: Self) -> Self;
+    /// `self` where `a < b`, zero elsewhere.
+    #[inline(always)]
+    fn where_less(self, a: Self, b: Self) -> Self {
+        self.if_less(a, b, Self::splat(0.0))
+    }
+}
+
+impl Real for f64 {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn if_less(self, a: Self, b: Self, other: Self) -> Self {
+        if a < b { self } else { other }
+    }
+}

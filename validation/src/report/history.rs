@@ -1,0 +1,78 @@
+//! `history.csv`: every gated figure whenever the baseline is taken anew, so that a trend over many commits shows.
+
+use super::error::BaselineError;
+use crate::case::Tier;
+use crate::metric::{Metric, Verdict};
+use serde::Serialize;
+use std::path::Path;
+
+/// One figure at one time. The commit that carries the row dates it.
+#[derive(Debug, Serialize)]
+struct Row<'a> {
+    version: &'a str,
+    /// Commit that was checked out when the figure was made; the change that moved it comes on top.
+    base_commit: &'a str,
+    tier: Tier,
+    case: &'a str,
+    metric: &'a str,
+    variant: &'a str,
+    value: f64,
+    unit: &'a str,
+    verdict: Verdict,
+}
+
+/// Appends the gated metrics of `case` to the history at `path`, which is made with its header if it is missing.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn append(
+    path: &Path,
+    (version, base_commit): (&str, &str),
+    tier: Tier,
+    case: &str,
+    metrics: &[Metric],
+) -> Result<(), BaselineError> {
+    let write_error = |source| BaselineError::Write { path: path.to_owned(), source };
+    let is_new = !path.exists();
+    let file = std::fs::OpenOptions::new().create(true).append(true).open(path).map_err(write_error)?;
+    let mut writer = csv::WriterBuilder::new().has_headers(is_new).from_writer(file);
+    for metric in metrics.iter().filter(|metric| metric.verdict() != Verdict::Observed) {
+        let row = Row {
+            version,
+            base_commit,
+            tier,
+            case,
+            metric: &metric.name,
+            variant: &metric.variant,
+            value: metric.value,
+            unit: &metric.unit,
+            verdict: metric.verdict(),
+        };
+        writer.serialize(row).map_err(|error| write_error(error.into()))?;
+    }
+    writer.flush().map_err(write_error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::metric::Limit;
+
+    #[test]
+    fn gated_figures_are_appended_below_one_header() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("history.csv");
+        let metrics = [
+            Metric::observed("velocity_l2", "slope_angle=24", 0.4, "%").gated(Limit::Within(-1.5, 1.5), "a reason"),
+            Metric::observed("velocity_l2_measured_height", "slope_angle=24", 0.4, "%"),
+        ];
+        for commit in ["aaa", "bbb"] {
+            append(&path, ("0.1.0", commit), Tier::Quick, "bagnold", &metrics).expect("a writable folder");
+        }
+        let text = std::fs::read_to_string(&path).expect("the history");
+        let expected = "version,base_commit,tier,case,metric,variant,value,unit,verdict\n\
+                        0.1.0,aaa,quick,bagnold,velocity_l2,slope_angle=24,0.4,%,pass\n\
+                        0.1.0,bbb,quick,bagnold,velocity_l2,slope_angle=24,0.4,%,pass\n";
+        assert_eq!(text, expected);
+    }
+}
