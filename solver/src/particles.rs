@@ -4,6 +4,7 @@ use crate::boundary::{Images, Wall, wall::WallParticle};
 use crate::lanes::LANES;
 use crate::records::Records;
 use crate::vector::{Tensor, Vector};
+use rayon::prelude::*;
 
 /// A far place for the sentinel, in units of the smoothing length `[-]`.
 const FAR: f64 = 1e9;
@@ -277,8 +278,9 @@ impl<const D: usize> SortScratch<D> {
     }
 }
 
-fn permute<T: Copy>(array: &mut [T], order: &[u32], scratch: &mut Vec<T>) {
-    scratch.clear();
-    scratch.extend(order.iter().map(|&old| array[old as usize]));
+fn permute<T: Copy + Send + Sync>(array: &mut [T], order: &[u32], scratch: &mut Vec<T>) {
+    let Some(&first) = array.first() else { return };
+    scratch.resize(order.len(), first);
+    (&mut scratch[..], order).into_par_iter().with_min_len(8192).for_each(|(new, &old)| *new = array[old as usize]);
     array[..order.len()].copy_from_slice(scratch);
 }

@@ -21,19 +21,27 @@ impl<'a> LaneIndices<'a> {
     #[inline(always)]
     #[must_use]
     pub fn new(raw: &'a [u32; LANES], bound: usize) -> Self {
-        let largest = largest_of(raw) as usize;
-        assert!(largest < bound && bound <= LARGEST_BOUND, "neighbour index out of range");
+        assert!(all_below(std::slice::from_ref(raw), bound), "neighbour index out of range");
         Self { raw, bound }
     }
 }
 
+/// Whether every index is below the bound.
 #[inline(always)]
-fn largest_of(raw: &[u32; LANES]) -> u32 {
-    let mut largest = 0;
-    for &index in raw {
-        largest = if index > largest { index } else { largest };
+fn all_below(chunks: &[[u32; LANES]], bound: usize) -> bool {
+    if bound == 0 || bound > LARGEST_BOUND {
+        return chunks.is_empty();
     }
-    largest
+    let last = bound as u32 - 1;
+    // For numbers below 2³¹ the top bit of last − index tells whether index > last, and that of the index itself
+    // whether it is such a number. A maximum would need instructions that plain x86-64 does not have.
+    let mut bits = [0; LANES];
+    for chunk in chunks {
+        for lane in 0..LANES {
+            bits[lane] |= last.wrapping_sub(chunk[lane]) | chunk[lane];
+        }
+    }
+    bits.iter().fold(0, |all, bits| all | bits) >> 31 == 0
 }
 
 /// Chunks of eight indices, all below one bound. They change only by [`CheckedIndices::refill`], which checks them.
@@ -52,8 +60,7 @@ impl CheckedIndices {
         // taken out, so that unchecked chunks cannot stay behind a panic
         let mut chunks = std::mem::take(&mut self.chunks);
         let result = fill(&mut chunks);
-        let largest = chunks.par_chunks(4096).map(|part| part.iter().map(largest_of).max().unwrap_or(0)).max();
-        assert!((largest.unwrap_or(0) as usize) < bound && bound <= LARGEST_BOUND, "neighbour index out of range");
+        assert!(chunks.par_chunks(4096).all(|part| all_below(part, bound)), "neighbour index out of range");
         (self.chunks, self.bound) = (chunks, bound);
         result
     }
@@ -132,6 +139,17 @@ mod tests {
     #[should_panic(expected = "out of range")]
     fn a_list_with_an_index_beyond_the_arrays_is_refused() {
         CheckedIndices::default().refill(7, |chunks| *chunks = vec![[0; LANES], [3, 1, 7, 2, 0, 0, 0, 0]]);
+    }
+
+    #[test]
+    fn the_check_is_exact_for_every_kind_of_number() {
+        for bound in [1, 7, 4000, LARGEST_BOUND] {
+            for index in [0, 1, 6, 7, 3999, 4000, LARGEST_BOUND as u32, u32::MAX / 2, u32::MAX / 2 + 1, u32::MAX] {
+                let chunks = [[0; LANES], [0, 0, 0, index, 0, 0, 0, 0]];
+                assert_eq!(all_below(&chunks, bound), (index as usize) < bound, "{index} below {bound}");
+            }
+        }
+        assert!(!all_below(&[[0; LANES]], 0) && !all_below(&[[0; LANES]], LARGEST_BOUND + 1));
     }
 
     #[test]

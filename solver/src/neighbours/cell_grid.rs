@@ -116,9 +116,9 @@ impl<const D: usize> CellGrid<D> {
         self.start[0] = 0;
     }
 
-    /// The ranges of entries in the cells around `position`, some of them empty.
+    /// The ranges of entries in the cells around `position`, and how many there are.
     #[inline(always)]
-    pub(crate) fn ranges(&self, position: &Vector<D>) -> [Range<usize>; 9] {
+    pub(crate) fn ranges(&self, position: &Vector<D>) -> ([Range<usize>; 9], usize) {
         let mut ranges = [const { 0..0 }; 9];
         let mut low = [0; D];
         let mut high = [0; D];
@@ -136,6 +136,6 @@ impl<const D: usize> CellGrid<D> {
                 count += 1;
             }
         }
-        ranges
+        (ranges, count)
     }
 }

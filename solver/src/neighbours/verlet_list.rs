@@ -257,7 +257,8 @@ impl<const D: usize> Search<'_, D> {
         let centre = self.positions[particle as usize];
         let limit = V::splat(self.radius * self.radius);
         let mut found = 0usize;
-        for range in grid.ranges(&centre) {
+        let (ranges, count) = grid.ranges(&centre);
+        for range in &ranges[..count] {
             let mut start = range.start;
             while start < range.end {
                 let mut distance_squared = V::splat(0.0);
