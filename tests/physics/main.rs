@@ -31,7 +31,7 @@ macro_rules! cases {
     };
 }
 
-cases!(hydrostatic, film, bagnold);
+cases!(hydrostatic, film, bagnold, column_planar);
 
 #[test]
 fn every_registered_case_is_tested() {

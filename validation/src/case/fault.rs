@@ -120,7 +120,7 @@ fn rule(message: &str) -> String {
         "i8" | "i16" | "i32" | "i64" | "isize" => "a whole number",
         "a boolean" => "true or false",
         "a string" | "string only" => "a string",
-        "a sequence" => "an array such as [1.0, 2.0]",
+        "a sequence" => "an array in brackets, such as [1.0, 2.0] or [\"newtonian\"]",
         structure if structure.starts_with("struct ") => "a table of fields",
         other => other,
     }

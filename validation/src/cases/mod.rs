@@ -1,6 +1,7 @@
 //! The canonical cases. A new case is one file or folder here and one line in [`REGISTRY`].
 
 pub mod bagnold;
+pub mod column_planar;
 pub mod film;
 pub mod hydrostatic;
 pub mod layer;
@@ -9,4 +10,5 @@ mod rules;
 use crate::case::Registry;
 
 /// All cases, in the order of `bagnold list` and of the report.
-pub static REGISTRY: Registry = Registry::new(&[&hydrostatic::Hydrostatic, &film::Film, &bagnold::Bagnold]);
+pub static REGISTRY: Registry =
+    Registry::new(&[&hydrostatic::Hydrostatic, &film::Film, &bagnold::Bagnold, &column_planar::ColumnPlanar]);

@@ -17,7 +17,7 @@ Exit codes: 0 all gates hold, 1 a gate fails, 2 bad input, 3 a run diverged.";
 const RUN_EXAMPLES: &str = "Examples:
   bagnold run film
   bagnold run bagnold --tier paper --out results/bagnold
-  bagnold run my.toml --set resolution=40 --set particles.start=jittered
+  bagnold run my.toml --set resolution=30 --set numerics.hourglass=0.1
   bagnold run film --json > metrics.json
 
 A file names its case with `case = \"film\"` and takes from the tier what it leaves out; `bagnold show film`

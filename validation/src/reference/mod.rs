@@ -4,6 +4,7 @@
 //! Nothing here uses the particle solver, so that agreement with it means something.
 
 mod bagnold_profile;
+mod collapse_laws;
 mod error;
 mod film;
 mod layer_transient;
@@ -11,6 +12,7 @@ mod measured;
 mod measured_table;
 
 pub use bagnold_profile::BagnoldProfile;
+pub use collapse_laws::{CollapseLaw, DRAWN, PLANAR_HEIGHT, PLANAR_RUN_OUT};
 pub use error::ReferenceError;
 pub use film::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
 pub use layer_transient::{LayerProfile, LayerTransient, TransientHistory};

@@ -1,7 +1,7 @@
 //! Every metric against its gate, the baseline and the list of known failures; every run against divergence.
 
 use super::baseline::{Drift, Key};
-use super::known_failures::Standing;
+use super::known_failures::{KnownFailure, Standing};
 use super::{CaseReport, Report};
 use crate::metric::{Kind, Metric, Verdict};
 use crate::observe::Outcome;
@@ -120,6 +120,8 @@ pub struct Judgement<'r> {
     pub drift: DriftTally,
     /// Entries of the list of known failures that contradict the results.
     pub contradictions: usize,
+    /// Listed known failures whose metric this report does not have: of other tiers or other cases.
+    pub known_elsewhere: usize,
     /// Runs that diverged without having declared it.
     pub diverged: usize,
 }
@@ -167,7 +169,14 @@ pub fn judge(report: &Report) -> Judgement<'_> {
         drift: DriftTally::default(),
         contradictions: 0,
         diverged: 0,
+        known_elsewhere: 0,
     };
+    let listed_here = |failure: &&KnownFailure| {
+        let is_it = |metric: &Metric| metric.name == failure.metric && metric.variant == failure.variant;
+        report.cases.iter().any(|case| case.name == failure.case && case.metrics.iter().any(is_it))
+    };
+    let known = &report.known_failures.failures;
+    judgement.known_elsewhere = known.len() - known.iter().filter(listed_here).count();
     for case in &cases {
         judgement.diverged += case.diverged.len();
         judgement.drift.drifted += case.vanished.len();

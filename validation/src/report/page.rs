@@ -119,6 +119,9 @@ fn headline(judgement: &Judgement<'_>) -> (Mark, String, String) {
     if known > 0 {
         details.push(format!("{known} of them known"));
     }
+    if judgement.known_elsewhere > 0 {
+        details.push(format!("{} at other tiers or cases", plural(judgement.known_elsewhere, "known failure")));
+    }
     if judgement.contradictions > 0 {
         details.push(format!("{} at odds with the list of known failures", plural(judgement.contradictions, "result")));
     }

@@ -24,6 +24,36 @@ pub fn linear_fit(points: &[(f64, f64)]) -> Option<LinearFit> {
     slope.is_finite().then_some(LinearFit { slope, intercept: y - slope * x })
 }
 
+/// Exponent of a power law with its standard error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exponent {
+    /// n in y = c xⁿ `[-]`.
+    pub value: f64,
+    /// Its standard error from the scatter about the line `[-]`; not a number with two points.
+    pub standard_error: f64,
+    /// c in y = c xⁿ, in the unit of y over that of xⁿ.
+    pub coefficient: f64,
+}
+
+/// The power law through points of positive coordinates, by least squares of the logarithms; none with fewer than two.
+#[must_use]
+pub fn power_law(points: &[(f64, f64)]) -> Option<Exponent> {
+    if points.iter().any(|(x, y)| !(*x > 0.0 && *y > 0.0)) {
+        return None;
+    }
+    let logarithms: Vec<_> = points.iter().map(|(x, y)| (libm::log(*x), libm::log(*y))).collect();
+    let fit = linear_fit(&logarithms)?;
+    let n = logarithms.len() as f64;
+    let mean = logarithms.iter().map(|p| p.0).sum::<f64>() / n;
+    let spread: f64 = logarithms.iter().map(|p| (p.0 - mean) * (p.0 - mean)).sum();
+    let residual: f64 = logarithms.iter().map(|p| (p.1 - fit.intercept - fit.slope * p.0).powi(2)).sum();
+    Some(Exponent {
+        value: fit.slope,
+        standard_error: (residual / (n - 2.0) / spread).sqrt(),
+        coefficient: libm::exp(fit.intercept),
+    })
+}
+
 /// Slope of the line through (ln x, ln y); none where a value is not positive.
 #[must_use]
 pub fn log_log_slope(points: &[(f64, f64)]) -> Option<f64> {
@@ -44,6 +74,16 @@ mod tests {
         assert!((fit.slope - 2.0).abs() < 1e-14 && (fit.intercept - 1.0).abs() < 1e-14);
         assert_eq!(linear_fit(&[(1.0, 1.0), (1.0, 2.0)]), None);
         assert_eq!(linear_fit(&[]), None);
+    }
+
+    #[test]
+    fn the_error_of_an_exponent_is_that_of_the_regression() {
+        // ln y = 0, 1, 1 at ln x = 0, 1, 2: slope 1/2, residuals (−1, 2, −1)/6, error √((6/36)/1/2)
+        let e = std::f64::consts::E;
+        let fit = power_law(&[(1.0, 1.0), (e, e), (e * e, e)]).unwrap();
+        assert!((fit.value - 0.5).abs() < 1e-14 && (fit.standard_error - (1.0f64 / 12.0).sqrt()).abs() < 1e-14);
+        assert!((fit.coefficient - libm::exp(1.0 / 6.0)).abs() < 1e-14);
+        assert_eq!(power_law(&[(1.0, 1.0)]), None);
     }
 
     #[test]

@@ -2,4 +2,4 @@
 
 mod fit;
 
-pub use fit::{LinearFit, linear_fit, log_log_slope};
+pub use fit::{Exponent, LinearFit, linear_fit, log_log_slope, power_law};

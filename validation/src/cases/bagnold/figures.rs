@@ -105,8 +105,8 @@ fn stresses(records: &[&Record]) -> Figure {
     Figure {
         name: "pressure-and-stress".to_owned(),
         caption: "Pressure against the hydrostatic line, inertial number against its constant exact value, and the stress \
-                  ratio that the measured inertial number implies, relative to tanθ. The flow turns a stress error of 0.1 % \
-                  into a velocity error of 2 to 5 %."
+                  ratio that the measured inertial number implies, relative to tanθ. The flow turns an error of 0.1 % of the \
+                  friction coefficient into one of 0.8 % (25°) to 2 % (22°) of the velocity."
             .to_owned(),
         panels: vec![pressure, inertia, implied],
         columns: 3,

@@ -27,7 +27,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
             metrics.push(
                 Metric::observed("noise_without_coupling", &variant, noise / self::noise(&coupled.data), "-")
                     .against(None, "the same run with the coupling (27)", Confidence::Exact)
-                    .gated(Limit::AtLeast(20.0), "issue 1: 20 times the noise shows that the test can fail")
+                    .gated(Limit::AtLeast(20.0), "specification 1: 20 times the noise shows that the test can fail")
                     .with_snapshot_tolerance(0.3, 0.0),
             );
         }
@@ -42,13 +42,13 @@ fn coupled(metrics: &mut Vec<Metric>, run: &HydrostaticRun, record: &Recorded<La
     metrics.push(
         Metric::observed("pressure_noise", &variant, noise(data), "-")
             .against(Some(0.0), "smooth pressure", Confidence::Exact)
-            .gated(Limit::AtMost(1e-3), "issue 1: rms of p less its local linear fit within 2h, over ρgH")
+            .gated(Limit::AtMost(1e-3), "specification 1: rms of p less its local linear fit within 2h, over ρgH")
             .with_snapshot_tolerance(0.1, 1e-6),
     );
     let l2 = |name: &str, value: f64| {
         Metric::observed(name, &variant, 100.0 * value, "%").against(Some(0.0), EXACT, Confidence::Exact)
     };
-    let reason = "issue 1: 1 % of the hydrostatic profile";
+    let reason = "specification 1: 1 % of the hydrostatic profile";
     match run.material {
         MaterialKind::Newtonian => metrics.push(
             l2("pressure_l2", profile_l2(run, &data.profile.height, &data.profile.pressure))
@@ -79,7 +79,7 @@ fn coupled(metrics: &mut Vec<Metric>, run: &HydrostaticRun, record: &Recorded<La
     metrics.push(
         Metric::observed("height_drift", &variant, drift, "%")
             .against(Some(0.0), "a layer at rest keeps its height", Confidence::Exact)
-            .gated(Limit::Within(-0.1, 0.1), "issue 1: mean height from 1 s to 2 s")
+            .gated(Limit::Within(-0.1, 0.1), "specification 1: mean height from 1 s to 2 s")
             .with_snapshot_tolerance(0.1, 1e-4),
     );
     let breathing =

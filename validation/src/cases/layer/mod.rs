@@ -69,6 +69,9 @@ pub struct Layer<'a> {
 /// Ratio of viscous to acoustic steps from which a run says how long it will take before it starts.
 const WORTH_A_WARNING: f64 = 100.0;
 
+/// What a particle-step of a small layer costs on one core, for estimates `[s]`.
+const SECONDS_PER_PARTICLE_STEP: f64 = 0.7e-6;
+
 /// Bins over the depth.
 pub const BINS: usize = 20;
 
@@ -182,10 +185,14 @@ impl Layer<'_> {
                 (simulation.estimated_steps(self.duration), self.duration / simulation.time_step_bounds().acoustic);
             if steps > WORTH_A_WARNING * acoustic {
                 tracing::warn!(
-                    "the explicit viscous step needs about {steps:.1e} steps for {} s, {:.0} times as many as the speed \
-                     of sound would: a larger regularisation rate shortens it",
+                    "slope angle {:.1}°, {} rows: the explicit viscous step needs about {steps:.1e} steps for {} s, {:.0} \
+                     times as many as the speed of sound would; that is {:.1} h on one core. A larger regularisation \
+                     rate shortens it, but lets the material creep: it is still compared with the unregularised law",
+                    self.slope_angle.to_degrees(),
+                    self.rows,
                     self.duration,
-                    steps / acoustic
+                    steps / acoustic,
+                    steps * (self.rows * self.columns) as f64 * SECONDS_PER_PARTICLE_STEP / 3600.0
                 );
             } else {
                 tracing::info!("explicit viscous step: about {steps:.1e} steps for {} s", self.duration);
@@ -200,7 +207,7 @@ impl Layer<'_> {
             let snapshot = simulation.snapshot();
             probe.observe(&snapshot);
             if snapshot.time >= frame_interval * frames.len() as f64 && frames.len() + 1 < self.frames.max(2) {
-                frames.push(Frame::of_layer(&snapshot));
+                frames.push(Frame::of_flow(&snapshot));
             }
             progress.advance(snapshot.time, self.duration, simulation.steps() as f64 * particles as f64);
             let stop = probe.mean_velocity() > self.stop_above;
@@ -220,7 +227,7 @@ impl Layer<'_> {
             }
         };
         let end = if matches!(reason, StopReason::Diverged(_)) { last_good } else { simulation.snapshot() };
-        frames.push(Frame::of_layer(&end));
+        frames.push(Frame::of_flow(&end));
         Ok(Recorded {
             outcome,
             state_hash: crate::observe::state_hash(&end.to_bytes()),
@@ -242,7 +249,8 @@ pub fn hydrostatic_pressure(bulk_modulus: f64, reference_density: f64, gravity_a
 }
 
 impl Frame {
-    fn of_layer(snapshot: &bagnold_solver::snapshot::Snapshot<2>) -> Self {
+    /// A picture of the flow in the plane.
+    pub(in crate::cases) fn of_flow(snapshot: &bagnold_solver::snapshot::Snapshot<2>) -> Self {
         let flat = |v: &Vector<2>| [v[0], v[1], 0.0];
         Self {
             time: snapshot.time,

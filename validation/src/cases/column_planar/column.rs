@@ -1,0 +1,217 @@
+//! One column: its scene and its run.
+
+use super::deposit::{Collapse, Surveyor};
+use super::parameters::ColumnPlanarParameters;
+use crate::case::{Progress, Run};
+use crate::error::InputError;
+use crate::observe::{Frame, Outcome, Recorded, state_hash};
+use bagnold_solver::boundary::wall::fill;
+use bagnold_solver::boundary::{AxisBoundary, Domain, Wall};
+use bagnold_solver::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::numerics::Numerics;
+use bagnold_solver::rheology::{MuI, Rheology};
+use bagnold_solver::scene::{Flow, Scene};
+use bagnold_solver::simulation::{Simulation, StopReason};
+use bagnold_solver::vector::{Tensor, Vector};
+use rand::{RngExt, SeedableRng};
+use serde::Serialize;
+use std::ops::ControlFlow;
+
+/// Agitation (kinetic over released potential energy) below which the deposit rests and the run ends `[-]`.
+const AT_REST: f64 = 1e-7;
+/// Time over √(h_0/g) before which no column has fallen `[-]`.
+const EARLIEST_REST: f64 = 2.0;
+/// Points of the time series over √(h_0/g).
+const POINTS: f64 = 40.0;
+/// Pictures over the collapse, at these times over √(h_0/g) `[-]`; the deposit follows.
+const PICTURES: [f64; 4] = [0.0, 0.75, 1.5, 2.5];
+
+/// One simulation.
+#[derive(Debug, Clone, Serialize)]
+pub struct ColumnRun {
+    /// Name of the grains.
+    pub material: String,
+    /// h_0/r_0 `[-]`.
+    pub aspect_ratio: f64,
+    /// Particles over the half width.
+    pub resolution: usize,
+    /// Half width r_0 `[m]`.
+    pub half_width: f64,
+    /// Constitutive law.
+    pub law: MuI,
+    gravity: f64,
+    solid_fraction: f64,
+    jitter: f64,
+    seed: u64,
+    duration: f64,
+    numerics: Numerics,
+}
+
+pub(super) fn all(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
+    let mut runs = Vec::new();
+    for (material, columns) in parameters.materials() {
+        runs.extend(columns.aspect_ratios.iter().map(|&aspect_ratio| ColumnRun {
+            material: material.to_owned(),
+            aspect_ratio,
+            resolution: parameters.resolution_of(aspect_ratio),
+            half_width: columns.half_width_of(aspect_ratio),
+            law: columns.law,
+            gravity: parameters.gravity,
+            solid_fraction: columns.solid_fraction,
+            jitter: parameters.jitter,
+            seed: parameters.seed,
+            duration: parameters.duration,
+            numerics: parameters.numerics,
+        }));
+    }
+    runs
+}
+
+impl Run for ColumnRun {
+    fn variant(&self) -> String {
+        format!("material={},aspect_ratio={},resolution={}", self.material, self.aspect_ratio, self.resolution)
+    }
+
+    fn particle_steps(&self) -> f64 {
+        let step = self.numerics.acoustic_courant * self.numerics.smoothing_ratio * self.spacing() / self.sound_speed();
+        // most columns rest well before their time is up
+        let expected = 5.0_f64.min(self.duration) * self.time_scale() / step;
+        expected * (self.resolution * self.rows()) as f64
+    }
+}
+
+impl ColumnRun {
+    /// Particle spacing `[m]`.
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.half_width / self.resolution as f64
+    }
+
+    /// Initial height over the half width as the particles give it `[-]`: a whole number of rows.
+    #[must_use]
+    pub fn initial_height(&self) -> f64 {
+        self.rows() as f64 / self.resolution as f64
+    }
+
+    /// √(h_0/g) `[s]`.
+    #[must_use]
+    pub fn time_scale(&self) -> f64 {
+        (self.initial_height() * self.half_width / self.gravity).sqrt()
+    }
+
+    fn rows(&self) -> usize {
+        (self.aspect_ratio * self.resolution as f64).round().max(1.0) as usize
+    }
+
+    fn bulk_density(&self) -> f64 {
+        self.solid_fraction * self.law.grain_density
+    }
+
+    /// K = 50 ρ0 g h_0 `[Pa]`.
+    fn bulk_modulus(&self) -> f64 {
+        50.0 * self.bulk_density() * self.gravity * self.initial_height() * self.half_width
+    }
+
+    fn sound_speed(&self) -> f64 {
+        (self.bulk_modulus() / self.bulk_density()).sqrt()
+    }
+
+    /// End of the bed `[m]`: well beyond the longest published run-out, 3.7 a^0.64 or 2.7 a.
+    fn bed_end(&self) -> f64 {
+        let a = self.aspect_ratio;
+        self.half_width * (2.0 + 1.5 * (2.7 * a).min(3.7 * libm::pow(a, 0.7)))
+    }
+
+    fn scene(&self) -> Scene<2> {
+        let spacing = self.spacing();
+        let height = self.rows() as f64 * spacing;
+        let equation_of_state = EquationOfState {
+            reference_density: self.bulk_density(),
+            bulk_modulus: self.bulk_modulus(),
+            tension: Tension::Cut,
+        };
+        let mut random = rand_pcg::Pcg64::seed_from_u64(self.seed);
+        let mut flow = Flow::default();
+        for row in 0..self.rows() {
+            for column in 0..self.resolution {
+                let site = Vector::<2>::new((column as f64 + 0.5) * spacing, (row as f64 + 0.5) * spacing);
+                let shift = Vector::<2>::from_fn(|_, _| self.jitter * spacing * (2.0 * random.random::<f64>() - 1.0));
+                let pressure = crate::cases::layer::hydrostatic_pressure(
+                    self.bulk_modulus(),
+                    self.bulk_density(),
+                    self.gravity,
+                    height - site[1],
+                );
+                let density = equation_of_state.density(pressure);
+                flow.position.push(site + shift);
+                flow.velocity.push(Vector::<2>::zeros());
+                flow.density.push(density);
+                flow.mass.push(density * spacing * spacing);
+                flow.stress.push(Tensor::<2>::zeros());
+            }
+        }
+        let symmetry = AxisBoundary::Mirror { lower: Some(0.0), upper: None };
+        let domain = Domain { axes: [symmetry, AxisBoundary::Open] };
+        let bed = Wall { axis: 1, surface: 0.0, side: 1.0, velocity: Vector::<2>::zeros() };
+        let layers = (2.0 * self.numerics.smoothing_ratio).ceil() as usize + 1;
+        let extent = (Vector::<2>::zeros(), Vector::<2>::new(self.bed_end(), height));
+        Scene {
+            flow,
+            wall_particles: fill(&[bed], &domain, extent, spacing, layers),
+            walls: vec![bed],
+            domain,
+            gravity: Vector::<2>::new(0.0, -self.gravity),
+            spacing,
+            equation_of_state,
+            rheology: Rheology::MuI(self.law),
+            numerics: self.numerics,
+        }
+    }
+
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError> {
+        let started = std::time::Instant::now();
+        let mut simulation = Simulation::new(self.scene())?;
+        let particles = self.resolution * self.rows();
+        let (scale, duration) = (self.time_scale(), self.duration * self.time_scale());
+        let mut surveyor = Surveyor {
+            half_width: self.half_width,
+            spacing: self.spacing(),
+            gravity: self.gravity,
+            bed_end: self.bed_end(),
+            collapse: Collapse::default(),
+        };
+        let mut frames = Vec::new();
+        let mut last_good = simulation.snapshot();
+        let reason = simulation.run(duration, scale / POINTS, |simulation| {
+            let snapshot = simulation.snapshot();
+            surveyor.observe(&snapshot);
+            if PICTURES.get(frames.len()).is_some_and(|time| snapshot.time >= time * scale) {
+                frames.push(Frame::of_flow(&snapshot));
+            }
+            progress.advance(snapshot.time, duration, simulation.steps() as f64 * particles as f64);
+            let rests = snapshot.time > EARLIEST_REST * scale && surveyor.agitation() < AT_REST;
+            last_good = snapshot;
+            if rests { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let outcome = match &reason {
+            StopReason::Finished => Outcome::Finished,
+            StopReason::Stopped => Outcome::Stopped {
+                criterion: format!("the deposit rests: kinetic energy below {AT_REST:.0e} of the energy released"),
+            },
+            StopReason::Diverged(divergence) => Outcome::Diverged { message: divergence.to_string(), expected: false },
+        };
+        let end = if matches!(reason, StopReason::Diverged(_)) { last_good } else { simulation.snapshot() };
+        frames.push(Frame::of_flow(&end));
+        Ok(Recorded {
+            outcome,
+            state_hash: state_hash(&end.to_bytes()),
+            particles,
+            steps: simulation.steps(),
+            simulated_time: simulation.time(),
+            wall_seconds: started.elapsed().as_secs_f64(),
+            threads: rayon::current_num_threads(),
+            frames,
+            data: surveyor.finish(&end),
+        })
+    }
+}

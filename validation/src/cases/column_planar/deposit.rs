@@ -1,0 +1,230 @@
+//! What is measured of a spreading heap: thickness, front, heights, centroid and energies.
+
+use bagnold_solver::snapshot::Snapshot;
+use serde::{Deserialize, Serialize};
+
+/// Width of a bin over the initial half width `[-]`: the same at every resolution.
+pub const BIN_WIDTH: f64 = 0.1;
+/// Thickness at the front over the initial half width `[-]`.
+pub const FRONT_THICKNESS: f64 = 0.02;
+
+/// Time series and final deposit; lengths over the half width r_0, times in `[s]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Collapse {
+    /// Times `[s]`.
+    pub time: Vec<f64>,
+    /// Front x_f/r_0 `[-]`.
+    pub front: Vec<f64>,
+    /// Thickness at the symmetry plane, by volume, over r_0 `[-]`.
+    pub height: Vec<f64>,
+    /// Kinetic energy `[J/m]`.
+    pub kinetic_energy: Vec<f64>,
+    /// Potential energy above the bed `[J/m]`.
+    pub potential_energy: Vec<f64>,
+    /// (x/r_0, thickness/r_0) of the deposit, bin by bin `[-]`.
+    pub deposit: Vec<(f64, f64)>,
+    /// Highest particle beside the symmetry plane, half a spacing added, over r_0 `[-]`.
+    pub top: f64,
+    /// Centroid of the deposit x/r_0 `[-]`.
+    pub centroid: f64,
+    /// 96 % and 99 % quantiles of the mass x/r_0 `[-]`.
+    pub quantiles: (f64, f64),
+    /// Particles below the bed, behind the symmetry plane, beyond the bed's end, or not a number.
+    pub lost: usize,
+}
+
+/// Measures snapshots of one column.
+#[derive(Debug, Clone)]
+pub(super) struct Surveyor {
+    /// Half width r_0 `[m]`.
+    pub half_width: f64,
+    /// Particle spacing `[m]`.
+    pub spacing: f64,
+    /// Gravity `[m/s²]`.
+    pub gravity: f64,
+    /// End of the bed `[m]`.
+    pub bed_end: f64,
+    /// What was measured so far.
+    pub collapse: Collapse,
+}
+
+impl Surveyor {
+    /// Adds a point to the time series.
+    pub(super) fn observe(&mut self, snapshot: &Snapshot<2>) {
+        let thickness = self.thickness(snapshot);
+        let (mut kinetic, mut potential) = (0.0, 0.0);
+        for ((mass, position), velocity) in snapshot.mass.iter().zip(&snapshot.position).zip(&snapshot.velocity) {
+            kinetic += 0.5 * mass * velocity.norm_squared();
+            potential += mass * self.gravity * position[1];
+        }
+        let collapse = &mut self.collapse;
+        collapse.time.push(snapshot.time);
+        collapse.front.push(front(&thickness));
+        collapse.height.push(thickness.first().map_or(0.0, |bin| bin.1));
+        collapse.kinetic_energy.push(kinetic);
+        collapse.potential_energy.push(potential);
+    }
+
+    /// Kinetic energy over the potential energy released so far `[-]`.
+    #[must_use]
+    pub(super) fn agitation(&self) -> f64 {
+        self.collapse.agitation()
+    }
+
+    /// Measures the deposit and ends the survey.
+    #[must_use]
+    pub(super) fn finish(mut self, end: &Snapshot<2>) -> Collapse {
+        let r = self.half_width;
+        self.collapse.deposit = self.thickness(end);
+        let beside = end.position.iter().filter(|x| x[0] < BIN_WIDTH * r);
+        self.collapse.top = (beside.fold(0.0_f64, |top, x| top.max(x[1])) + 0.5 * self.spacing) / r;
+        let total: f64 = end.mass.iter().sum();
+        self.collapse.centroid = end.mass.iter().zip(&end.position).map(|(m, x)| m * x[0]).sum::<f64>() / (total * r);
+        let mut order: Vec<(f64, f64)> = end.position.iter().map(|x| x[0]).zip(end.mass.iter().copied()).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let quantile = |share: f64| {
+            let mut sum = 0.0;
+            order.iter().find(|(_, mass)| {
+                sum += mass;
+                sum >= share * total
+            })
+        };
+        let place = |share| quantile(share).map_or(f64::NAN, |(x, _)| x / r);
+        self.collapse.quantiles = (place(0.96), place(0.99));
+        let inside = |x: f64, y: f64| x >= 0.0 && x <= self.bed_end && y >= 0.0 && y.is_finite();
+        self.collapse.lost = end.position.iter().filter(|x| !inside(x[0], x[1])).count();
+        self.collapse
+    }
+
+    /// (x, ΣV over the bin's width), both over r_0. A particle's volume is spread evenly over a spacing to either side,
+    /// mirrored at the symmetry plane: counted at points, bins of two spacings would jump by whole particles.
+    fn thickness(&self, snapshot: &Snapshot<2>) -> Vec<(f64, f64)> {
+        let r = self.half_width;
+        let width = BIN_WIDTH * r;
+        let bins = (self.bed_end / width).ceil() as usize;
+        let mut volume = vec![0.0; bins.max(1)];
+        let mut spread = |from: f64, to: f64, volume_per_length: f64| {
+            let first = (from / width).max(0.0) as usize;
+            for (bin, slot) in volume.iter_mut().enumerate().skip(first) {
+                let overlap = to.min((bin + 1) as f64 * width) - from.max(bin as f64 * width);
+                if overlap <= 0.0 {
+                    break;
+                }
+                *slot += overlap * volume_per_length;
+            }
+        };
+        for ((position, mass), density) in snapshot.position.iter().zip(&snapshot.mass).zip(&snapshot.density) {
+            let volume_per_length = mass / density / (2.0 * self.spacing);
+            let (from, to) = (position[0] - self.spacing, position[0] + self.spacing);
+            spread(from.max(0.0), to, volume_per_length);
+            if from < 0.0 {
+                spread(0.0, -from, volume_per_length);
+            }
+        }
+        let centre = |bin: usize| (bin as f64 + 0.5) * BIN_WIDTH;
+        volume.iter().enumerate().map(|(bin, volume)| (centre(bin), volume / (width * r))).collect()
+    }
+}
+
+/// The first place from the symmetry plane outwards at which the thickness falls below [`FRONT_THICKNESS`], linear
+/// between the centres of the bins; all over r_0.
+#[must_use]
+pub fn front(thickness: &[(f64, f64)]) -> f64 {
+    for pair in thickness.windows(2) {
+        let [(x0, h0), (x1, h1)] = [pair[0], pair[1]];
+        if h0 >= FRONT_THICKNESS && h1 < FRONT_THICKNESS {
+            return x0 + (x1 - x0) * (h0 - FRONT_THICKNESS) / (h0 - h1);
+        }
+    }
+    thickness.last().map_or(0.0, |bin| bin.0)
+}
+
+impl Collapse {
+    /// (x_f − r_0)/r_0 of the deposit `[-]`.
+    #[must_use]
+    pub fn run_out(&self) -> f64 {
+        front(&self.deposit) - 1.0
+    }
+
+    /// Thickness of the deposit at the symmetry plane, by volume, over r_0 `[-]`.
+    #[must_use]
+    pub fn final_height(&self) -> f64 {
+        self.deposit.first().map_or(f64::NAN, |bin| bin.1)
+    }
+
+    /// Kinetic energy over the potential energy released so far `[-]`.
+    #[must_use]
+    pub fn agitation(&self) -> f64 {
+        match (self.kinetic_energy.last(), self.potential_energy.first(), self.potential_energy.last()) {
+            (Some(kinetic), Some(first), Some(last)) if first > last => kinetic / (first - last),
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Time at which the front has covered 99 % of its way `[s]`.
+    #[must_use]
+    pub fn stopping_time(&self) -> f64 {
+        let (Some(&start), Some(&end)) = (self.front.first(), self.front.last()) else { return f64::NAN };
+        let arrived = self.front.iter().position(|&front| front >= start + 0.99 * (end - start));
+        arrived.map_or(f64::NAN, |index| self.time[index])
+    }
+
+    /// Inclination of the deposit's surface `[°]`: a line through the thickness over 20–80 % of the front's distance.
+    #[must_use]
+    pub fn slope_angle(&self) -> f64 {
+        let front = front(&self.deposit);
+        let middle: Vec<(f64, f64)> =
+            self.deposit.iter().copied().filter(|(x, _)| (0.2..=0.8).contains(&(x / front))).collect();
+        crate::statistics::linear_fit(&middle).map_or(f64::NAN, |fit| libm::atan(-fit.slope).to_degrees())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_block_has_its_own_thickness_and_keeps_its_volume() {
+        let spacing = 0.05;
+        let mut snapshot = Snapshot::<2> {
+            time: 0.0,
+            position: Vec::new(),
+            velocity: Vec::new(),
+            velocity_gradient: Vec::new(),
+            stress: Vec::new(),
+            density: Vec::new(),
+            pressure: Vec::new(),
+            mass: Vec::new(),
+        };
+        for k in 0..20 * 16 {
+            let place = |cell: usize| (cell as f64 + 0.5) * spacing;
+            snapshot.position.push(bagnold_solver::vector::Vector::<2>::new(place(k % 20), place(k / 20)));
+            snapshot.mass.push(2.0 * spacing * spacing);
+            snapshot.density.push(2.0);
+        }
+        let surveyor =
+            Surveyor { half_width: 1.0, spacing, gravity: 9.81, bed_end: 2.0, collapse: Collapse::default() };
+        let thickness = surveyor.thickness(&snapshot);
+        assert!(thickness[..9].iter().all(|bin| (bin.1 - 0.8).abs() < 1e-12), "{thickness:?}");
+        assert!((thickness.iter().map(|bin| bin.1 * BIN_WIDTH).sum::<f64>() - 0.8).abs() < 1e-12);
+        // a cliff is smeared over a spacing and a bin
+        assert!((front(&thickness) - 1.0).abs() < BIN_WIDTH + spacing, "{}", front(&thickness));
+    }
+
+    #[test]
+    fn a_wedge_has_the_front_that_geometry_gives() {
+        // thickness 1 − x/3, which is FRONT_THICKNESS at x = 2.94
+        let deposit: Vec<(f64, f64)> =
+            (0..60).map(|k| (k as f64 + 0.5) * BIN_WIDTH).map(|x| (x, (1.0 - x / 3.0).max(0.0))).collect();
+        assert!((front(&deposit) - 2.94).abs() < 0.05, "{}", front(&deposit));
+        let collapse = Collapse { deposit, ..Collapse::default() };
+        assert!((collapse.run_out() - 1.94).abs() < 0.05);
+        assert!((collapse.slope_angle() - libm::atan(1.0 / 3.0).to_degrees()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn grains_beyond_a_gap_do_not_move_the_front() {
+        let deposit = [(0.05, 1.0), (0.15, 0.5), (0.25, 0.0), (0.35, 0.01), (0.45, 0.3)];
+        assert!((front(&deposit) - (0.15 + 0.1 * 0.48 / 0.5)).abs() < 1e-12);
+    }
+}

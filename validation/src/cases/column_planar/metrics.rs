@@ -1,0 +1,143 @@
+//! How the columns are judged.
+
+use super::Record;
+use super::column::ColumnRun;
+use super::deposit::Collapse;
+use crate::case::Run;
+use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::reference::{CollapseLaw, PLANAR_HEIGHT, PLANAR_RUN_OUT};
+use crate::statistics::power_law;
+
+const LUBE: usize = 0;
+const LAGREE: usize = 1;
+
+pub(super) fn all(records: &[Record]) -> Vec<Metric> {
+    let mut metrics = Vec::new();
+    for (run, record) in records {
+        of_column(&mut metrics, run, &record.data);
+    }
+    for (material, smallest, gate) in
+        [("sand", 5.0, Limit::Within(2.0 / 3.0 - 0.05, 2.0 / 3.0 + 0.05)), ("lagree", 7.0, Limit::Within(0.65, 0.75))]
+    {
+        let columns: Vec<&Record> =
+            records.iter().filter(|(run, _)| run.material == material && run.aspect_ratio >= smallest).collect();
+        if columns.len() >= 4 {
+            exponents(&mut metrics, material, &columns, gate);
+        }
+    }
+    metrics
+}
+
+/// The law whose material a run has, or comes closest to.
+fn law_of<'l>(run: &ColumnRun, laws: &'l [CollapseLaw]) -> &'l CollapseLaw {
+    if run.material == "lagree" { &laws[LAGREE] } else { &laws[LUBE] }
+}
+
+fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse) {
+    let variant = run.variant();
+    let a = run.initial_height();
+    let observed = |name: &str, value: f64, unit: &str| {
+        Metric::observed(name, &variant, value, unit).of_kind(Kind::Validation).with_snapshot_tolerance(1e-3, 1e-3)
+    };
+    metrics.push(
+        Metric::observed("particles_lost", &variant, collapse.lost as f64, "-")
+            .against(Some(0.0), "no particle passes the bed, the symmetry plane or the bed's end", Confidence::Exact)
+            .gated(Limit::AtMost(0.0), "grains do not vanish"),
+    );
+    let run_out_law = law_of(run, &PLANAR_RUN_OUT);
+    metrics.push(observed("run_out", collapse.run_out(), "-").against(
+        run_out_law.value(a),
+        run_out_law.source,
+        run_out_law.confidence,
+    ));
+    let height_law = law_of(run, &PLANAR_HEIGHT);
+    let height = observed("final_height", collapse.final_height(), "-").against(
+        height_law.value(a),
+        height_law.source,
+        height_law.confidence,
+    );
+    metrics.push(match height_law.value(a) {
+        Some(expected) if run.material == "sand" && a > 1.15 => height.gated(
+            Limit::Within(0.85 * expected, 1.15 * expected),
+            "specification 2: a^0.4 within 15 % above a = 1.15",
+        ),
+        Some(expected) if run.material == "sand" && a <= 0.7 => height.gated(
+            Limit::Within(0.97 * expected, 1.03 * expected),
+            "specification 2: undisturbed within 3 % up to a = 0.7",
+        ),
+        _ => height,
+    });
+    metrics.push(observed("stopping_time", collapse.stopping_time() / run.time_scale(), "√(h0/g)").against(
+        Some(3.0),
+        "about 3 √(h_0/g), Lajeunesse et al. 2005; 99 % of the front's way here",
+        Confidence::Medium,
+    ));
+    metrics.push(
+        Metric::observed("kinetic_energy_share", &variant, collapse.agitation(), "-")
+            .against(Some(0.0), "a static deposit", Confidence::Exact)
+            .gated(Limit::AtMost(1e-6), "specification 2: at most 1e-6 of the potential energy that was released")
+            .with_snapshot_tolerance(0.0, 1e-6),
+    );
+    let friction_angle = libm::atan(run.law.static_friction).to_degrees();
+    metrics.push(observed("deposit_slope_angle", collapse.slope_angle(), "°").against(
+        Some(friction_angle),
+        "arctan μ_s, the steepest slope that can rest; line over 20–80 % of the front",
+        Confidence::Exact,
+    ));
+    let excess = 100.0 * (collapse.top / collapse.final_height() - 1.0);
+    let top = Metric::observed("height_by_top", &variant, excess, "%")
+        .against(Some(0.0), "highest particle beside the symmetry plane against the volume there", Confidence::Exact)
+        .with_snapshot_tolerance(0.01, 0.2);
+    metrics.push(if a <= 5.0 {
+        top.gated(
+            Limit::Within(-10.0, 10.0),
+            "specification 2: within 10 % up to a = 5, or particles stand above the heap",
+        )
+    } else {
+        top
+    });
+    let of_quantity = |quantity: &str| format!("quantity={quantity},{variant}");
+    let (x96, x99) = collapse.quantiles;
+    let quantities = [("centroid", collapse.centroid), ("mass_quantiles", 2.0 * x99 - x96 - 1.0)];
+    for (quantity, value) in quantities {
+        metrics.push(
+            Metric::observed("run_out", &of_quantity(quantity), value, "-")
+                .of_kind(Kind::Validation)
+                .with_snapshot_tolerance(1e-3, 1e-3),
+        );
+    }
+}
+
+fn exponents(metrics: &mut Vec<Metric>, material: &str, columns: &[&Record], gate: Limit) {
+    let ratios: Vec<String> = columns.iter().map(|(run, _)| run.aspect_ratio.to_string()).collect();
+    let variant = |quantity: &str| format!("quantity={quantity},material={material},aspect_ratio={}", ratios.join("_"));
+    let measured = |quantity: fn(&Collapse) -> f64| -> Vec<(f64, f64)> {
+        columns.iter().map(|(run, record)| (run.initial_height(), quantity(&record.data))).collect()
+    };
+    let height_gate = (material == "lagree").then_some(Limit::Within(0.3, 0.45));
+    let run_outs = ("run_out", power_law(&measured(Collapse::run_out)), Some(gate));
+    let heights = ("final_height", power_law(&measured(Collapse::final_height)), height_gate);
+    for (quantity, fit, limit) in [run_outs, heights] {
+        let Some(fit) = fit else { continue };
+        let exponent = Metric::observed("scaling_exponent", &variant(quantity), fit.value, "-")
+            .of_kind(Kind::Validation)
+            .against(
+                None,
+                "published exponents of tall planar columns: 2/3 to 0.7, height 0.33 to 0.4",
+                Confidence::High,
+            )
+            .with_snapshot_tolerance(1e-3, 2e-3);
+        metrics.push(match limit {
+            Some(limit) => exponent.gated(limit, "specification 2: exponents depend little on the material"),
+            None => exponent,
+        });
+        for (name, value) in [("scaling_standard_error", fit.standard_error), ("scaling_coefficient", fit.coefficient)]
+        {
+            metrics.push(
+                Metric::observed(name, &variant(quantity), value, "-")
+                    .of_kind(Kind::Validation)
+                    .with_snapshot_tolerance(1e-2, 5e-3),
+            );
+        }
+    }
+}
