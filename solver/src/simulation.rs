@@ -263,8 +263,14 @@ impl<const D: usize> Simulation<D> {
         let particles = &mut self.particles;
         let (flow, real) = (particles.flow_count(), particles.real_count());
         particles.keep_real();
-        for position in &mut particles.position[..flow] {
-            self.domain.wrap(position);
+        for index in 0..flow {
+            self.domain.wrap(&mut particles.position[index]);
+            self.domain.reflect(
+                &mut particles.position[index],
+                &mut particles.velocity[index],
+                &mut particles.velocity_gradient[index],
+                &mut particles.stress[index],
+            );
         }
         self.flow_grid.cover(particles.position[..flow].iter(), radius);
         self.flow_grid.sort(particles.position[..flow].iter().enumerate().map(|(index, x)| (index as u32, x)));

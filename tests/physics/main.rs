@@ -31,7 +31,7 @@ macro_rules! cases {
     };
 }
 
-cases!(hydrostatic, film, bagnold, column_planar);
+cases!(hydrostatic, film, bagnold, column_planar, column_round);
 
 #[test]
 fn every_registered_case_is_tested() {

@@ -50,6 +50,33 @@ impl<const D: usize> Domain<D> {
     }
 }
 
+impl<const D: usize> Domain<D> {
+    /// Exchanges a particle behind a mirror plane for its image in front of it: by symmetry the same flow. Without
+    /// this a particle that the pressure squeezes through the plane would be lost to the flow.
+    pub(crate) fn reflect(
+        &self,
+        position: &mut Vector<D>,
+        velocity: &mut Vector<D>,
+        velocity_gradient: &mut Tensor<D>,
+        stress: &mut Tensor<D>,
+    ) {
+        for (axis, boundary) in self.axes.iter().enumerate() {
+            let AxisBoundary::Mirror { lower, upper } = *boundary else { continue };
+            let behind = |plane: &f64, side: f64| side * (position[axis] - plane) < 0.0;
+            let lower = lower.filter(|plane| behind(plane, 1.0));
+            let Some(plane) = lower.or(upper.filter(|plane| behind(plane, -1.0))) else { continue };
+            position[axis] = 2.0 * plane - position[axis];
+            velocity[axis] = -velocity[axis];
+            for other in (0..D).filter(|&other| other != axis) {
+                for tensor in [&mut *velocity_gradient, &mut *stress] {
+                    tensor[(axis, other)] = -tensor[(axis, other)];
+                    tensor[(other, axis)] = -tensor[(other, axis)];
+                }
+            }
+        }
+    }
+}
+
 /// One image: x = sign ∘ x_source + shift.
 #[derive(Debug, Clone, Copy)]
 struct Image<const D: usize> {
@@ -179,6 +206,26 @@ mod tests {
         images.copy_tensors(&mut stress);
         assert_eq!(stress[1], Tensor::<2>::new(1.0, -2.0, -2.0, 3.0));
         assert_eq!(stress[3], Tensor::<2>::new(1.0, 2.0, 2.0, 3.0));
+    }
+
+    #[test]
+    fn a_particle_behind_a_mirror_becomes_its_image() {
+        let upper = AxisBoundary::Mirror { lower: None, upper: Some(2.0) };
+        let domain = Domain::<2> { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, upper] };
+        let (mut position, mut velocity) = (Vector::<2>::new(-0.1, 1.0), Vector::<2>::new(-3.0, 5.0));
+        let (mut gradient, mut stress) = (Tensor::<2>::new(1.0, 2.0, 3.0, 4.0), Tensor::<2>::new(1.0, 2.0, 2.0, -1.0));
+        domain.reflect(&mut position, &mut velocity, &mut gradient, &mut stress);
+        assert_eq!((position, velocity), (Vector::<2>::new(0.1, 1.0), Vector::<2>::new(3.0, 5.0)));
+        assert_eq!(
+            (gradient, stress),
+            (Tensor::<2>::new(1.0, -2.0, -3.0, 4.0), Tensor::<2>::new(1.0, -2.0, -2.0, -1.0))
+        );
+        position[1] = 2.3;
+        domain.reflect(&mut position, &mut velocity, &mut gradient, &mut stress);
+        assert!((position[1] - 1.7).abs() < 1e-15 && velocity[1] == -5.0 && stress[(0, 1)] == 2.0);
+        let before = (position, velocity);
+        domain.reflect(&mut position, &mut velocity, &mut gradient, &mut stress);
+        assert_eq!((position, velocity), before, "in front of both planes nothing happens");
     }
 
     #[test]

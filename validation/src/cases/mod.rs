@@ -1,7 +1,9 @@
 //! The canonical cases. A new case is one file or folder here and one line in [`REGISTRY`].
 
 pub mod bagnold;
+pub mod collapse;
 pub mod column_planar;
+pub mod column_round;
 pub mod film;
 pub mod hydrostatic;
 pub mod layer;
@@ -10,5 +12,10 @@ mod rules;
 use crate::case::Registry;
 
 /// All cases, in the order of `bagnold list` and of the report.
-pub static REGISTRY: Registry =
-    Registry::new(&[&hydrostatic::Hydrostatic, &film::Film, &bagnold::Bagnold, &column_planar::ColumnPlanar]);
+pub static REGISTRY: Registry = Registry::new(&[
+    &hydrostatic::Hydrostatic,
+    &film::Film,
+    &bagnold::Bagnold,
+    &column_planar::ColumnPlanar,
+    &column_round::ColumnRound,
+]);

@@ -82,6 +82,27 @@ pub const PLANAR_HEIGHT: [CollapseLaw; 3] = [
     },
 ];
 
+/// Run-out of round columns.
+pub const ROUND_RUN_OUT: [CollapseLaw; 2] = [
+    CollapseLaw {
+        source: "Lube et al. 2004, round experiment",
+        confidence: Confidence::High,
+        branches: &[branch(0.0, 1.7, 1.24, 1.0), branch(1.7, f64::INFINITY, 1.6, 0.5)],
+    },
+    CollapseLaw {
+        source: "Lajeunesse et al. 2004, round experiment (unverified)",
+        confidence: Confidence::Unverified,
+        branches: &[branch(0.74, f64::INFINITY, 2.0, 0.5)],
+    },
+];
+
+/// Final height of round columns; no document at hand quotes it.
+pub const ROUND_HEIGHT: [CollapseLaw; 1] = [CollapseLaw {
+    source: "Lube et al. 2004, round experiment (unverified)",
+    confidence: Confidence::Unverified,
+    branches: &[branch(0.0, 1.0, 1.0, 1.0), branch(1.0, f64::INFINITY, 0.88, 1.0 / 6.0)],
+}];
+
 impl CollapseLaw {
     /// The law's value at an aspect ratio; none in its gaps.
     #[must_use]
@@ -117,7 +138,7 @@ mod tests {
 
     #[test]
     fn the_branches_of_a_law_meet_within_its_scatter() {
-        for law in PLANAR_RUN_OUT.iter().chain(&PLANAR_HEIGHT) {
+        for law in PLANAR_RUN_OUT.iter().chain(&PLANAR_HEIGHT).chain(&ROUND_RUN_OUT).chain(&ROUND_HEIGHT) {
             for pair in law.branches.windows(2).filter(|pair| pair[0].to == pair[1].from) {
                 let at = |branch: &Branch| branch.coefficient * libm::pow(pair[0].to, branch.exponent);
                 let ratio = at(&pair[0]) / at(&pair[1]);

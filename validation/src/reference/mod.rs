@@ -12,7 +12,7 @@ mod measured;
 mod measured_table;
 
 pub use bagnold_profile::BagnoldProfile;
-pub use collapse_laws::{CollapseLaw, DRAWN, PLANAR_HEIGHT, PLANAR_RUN_OUT};
+pub use collapse_laws::{CollapseLaw, DRAWN, PLANAR_HEIGHT, PLANAR_RUN_OUT, ROUND_HEIGHT, ROUND_RUN_OUT};
 pub use error::ReferenceError;
 pub use film::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
 pub use layer_transient::{LayerProfile, LayerTransient, TransientHistory};

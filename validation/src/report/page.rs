@@ -146,8 +146,10 @@ fn headline(judgement: &Judgement<'_>) -> (Mark, String, String) {
         )
     } else if judgement.is_green() {
         let unchanged = judgement.drift.unchanged;
-        let detail =
-            if unchanged > 0 { format!("{} as in the baseline", plural(unchanged, "value")) } else { String::new() };
+        if unchanged > 0 {
+            details.insert(0, format!("{} as in the baseline", plural(unchanged, "value")));
+        }
+        let detail = details.join(" · ");
         (Mark::PASS, format!("All {} hold", plural(all, "gate")), detail)
     } else {
         (Mark::OBSERVED, "Nothing was judged".to_owned(), "no metric of this report has a gate".to_owned())

@@ -1,15 +1,10 @@
 //! Planar granular columns that collapse and spread on a rough horizontal bed.
 
-mod column;
-mod deposit;
-mod figures;
-mod metrics;
 mod parameters;
 
-pub use column::ColumnRun;
-pub use deposit::{BIN_WIDTH, Collapse, FRONT_THICKNESS, front};
 pub use parameters::{ColumnPlanarParameters, Columns};
 
+use super::collapse::{self, Collapse, ColumnRun, Record};
 use crate::case::{Case, Progress, Run, Tier};
 use crate::error::InputError;
 use crate::figure::Figure;
@@ -20,9 +15,6 @@ use crate::output::Table;
 /// The case.
 #[derive(Debug)]
 pub struct ColumnPlanar;
-
-/// A run with what it left behind.
-type Record = (ColumnRun, Recorded<Collapse>);
 
 impl Case for ColumnPlanar {
     type Parameters = ColumnPlanarParameters;
@@ -59,7 +51,7 @@ impl Case for ColumnPlanar {
     }
 
     fn runs(&self, parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
-        column::all(parameters)
+        parameters::runs(parameters)
     }
 
     fn simulate(&self, run: &ColumnRun, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError> {
@@ -67,41 +59,14 @@ impl Case for ColumnPlanar {
     }
 
     fn metrics(&self, _: &ColumnPlanarParameters, records: &[Record]) -> Vec<Metric> {
-        metrics::all(records)
+        collapse::metrics::all(records)
     }
 
     fn figures(&self, _: &ColumnPlanarParameters, records: &[Record]) -> Vec<Figure> {
-        figures::all(records)
+        collapse::figures::all(records)
     }
 
     fn tables(&self, _: &ColumnPlanarParameters, records: &[Record]) -> Vec<Table> {
-        records.iter().flat_map(|(run, record)| tables(&run.variant(), &record.data)).collect()
+        records.iter().flat_map(|(run, record)| collapse::tables(&run.variant(), &record.data)).collect()
     }
-}
-
-fn tables(variant: &str, collapse: &Collapse) -> Vec<Table> {
-    let stem = variant.replace(['=', ','], "-").replace('_', "-");
-    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-    let series = |k: usize| {
-        let energies = [collapse.kinetic_energy[k], collapse.potential_energy[k]];
-        [collapse.time[k], collapse.front[k], collapse.height[k]].into_iter().chain(energies).collect()
-    };
-    vec![
-        Table {
-            name: format!("deposit-{stem}"),
-            columns: names(&["x/r0 [-]", "thickness/r0 [-]"]),
-            rows: collapse.deposit.iter().map(|&(x, thickness)| vec![x, thickness]).collect(),
-        },
-        Table {
-            name: format!("series-{stem}"),
-            columns: names(&[
-                "t [s]",
-                "front/r0 [-]",
-                "height/r0 [-]",
-                "kinetic energy [J/m]",
-                "potential energy [J/m]",
-            ]),
-            rows: (0..collapse.time.len()).map(series).collect(),
-        },
-    ]
 }

@@ -1,6 +1,7 @@
 //! The case's parameters and their tiers.
 
 use crate::case::Tier;
+use crate::cases::collapse::{ColumnRun, Geometry};
 use crate::cases::rules;
 use crate::error::InputError;
 use bagnold_solver::numerics::Numerics;
@@ -74,7 +75,7 @@ const TALL: f64 = 3.0;
 const COARSE: f64 = 5.0;
 
 impl ColumnPlanarParameters {
-    pub(super) fn of_tier(tier: Tier) -> Self {
+    pub(in crate::cases) fn of_tier(tier: Tier) -> Self {
         let quick = Self {
             gravity: 9.81,
             resolution: 20,
@@ -114,7 +115,7 @@ impl ColumnPlanarParameters {
         let paper = Self {
             resolution: 40,
             sand: Columns {
-                aspect_ratios: vec![0.5, 0.7, 0.9, 1.5, 2.0, 2.75, 4.8, 7.0, 10.0, 14.0, 20.0],
+                aspect_ratios: vec![0.5, 0.7, 0.9, 1.5, 2.0, 2.75, 4.8, 5.0, 7.0, 10.0, 14.0, 20.0],
                 ..quick.sand.clone()
             },
             lagree: Columns { aspect_ratios: vec![0.5, 1.0, 2.0, 3.0, 7.0, 10.0, 14.0, 20.0], ..quick.lagree.clone() },
@@ -164,4 +165,25 @@ impl Columns {
     pub(super) fn half_width_of(&self, aspect_ratio: f64) -> f64 {
         if aspect_ratio > TALL { self.tall_half_width } else { self.half_width }
     }
+}
+
+pub(super) fn runs(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
+    let mut runs = Vec::new();
+    for (material, columns) in parameters.materials() {
+        runs.extend(columns.aspect_ratios.iter().map(|&aspect_ratio| ColumnRun {
+            geometry: Geometry::Planar,
+            material: material.to_owned(),
+            aspect_ratio,
+            resolution: parameters.resolution_of(aspect_ratio),
+            half_width: columns.half_width_of(aspect_ratio),
+            law: columns.law,
+            gravity: parameters.gravity,
+            solid_fraction: columns.solid_fraction,
+            jitter: parameters.jitter,
+            seed: parameters.seed,
+            duration: parameters.duration,
+            numerics: parameters.numerics,
+        }));
+    }
+    runs
 }

@@ -250,8 +250,8 @@ pub fn hydrostatic_pressure(bulk_modulus: f64, reference_density: f64, gravity_a
 
 impl Frame {
     /// A picture of the flow in the plane.
-    pub(in crate::cases) fn of_flow(snapshot: &bagnold_solver::snapshot::Snapshot<2>) -> Self {
-        let flat = |v: &Vector<2>| [v[0], v[1], 0.0];
+    pub(in crate::cases) fn of_flow<const D: usize>(snapshot: &bagnold_solver::snapshot::Snapshot<D>) -> Self {
+        let flat = |v: &Vector<D>| [v[0], v[1], if D == 3 { v[2] } else { 0.0 }];
         Self {
             time: snapshot.time,
             position: snapshot.position.iter().map(flat).collect(),

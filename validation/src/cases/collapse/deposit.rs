@@ -1,10 +1,13 @@
 //! What is measured of a spreading heap: thickness, front, heights, centroid and energies.
 
 use bagnold_solver::snapshot::Snapshot;
+use bagnold_solver::vector::Vector;
 use serde::{Deserialize, Serialize};
 
 /// Width of a bin over the initial half width `[-]`: the same at every resolution.
 pub const BIN_WIDTH: f64 = 0.1;
+/// Points a horizontal direction over which a particle's volume is spread.
+const SUB_POINTS: usize = 8;
 /// Thickness at the front over the initial half width `[-]`.
 pub const FRONT_THICKNESS: f64 = 0.02;
 
@@ -33,7 +36,8 @@ pub struct Collapse {
     pub lost: usize,
 }
 
-/// Measures snapshots of one column.
+/// Measures snapshots of one column: half a planar one in two dimensions, a quarter of a round one in three. The
+/// vertical axis is the second one; radii are distances from the symmetry plane or axis.
 #[derive(Debug, Clone)]
 pub(super) struct Surveyor {
     /// Half width r_0 `[m]`.
@@ -50,7 +54,7 @@ pub(super) struct Surveyor {
 
 impl Surveyor {
     /// Adds a point to the time series.
-    pub(super) fn observe(&mut self, snapshot: &Snapshot<2>) {
+    pub(super) fn observe<const D: usize>(&mut self, snapshot: &Snapshot<D>) {
         let thickness = self.thickness(snapshot);
         let (mut kinetic, mut potential) = (0.0, 0.0);
         for ((mass, position), velocity) in snapshot.mass.iter().zip(&snapshot.position).zip(&snapshot.velocity) {
@@ -73,14 +77,15 @@ impl Surveyor {
 
     /// Measures the deposit and ends the survey.
     #[must_use]
-    pub(super) fn finish(mut self, end: &Snapshot<2>) -> Collapse {
+    pub(super) fn finish<const D: usize>(mut self, end: &Snapshot<D>) -> Collapse {
         let r = self.half_width;
         self.collapse.deposit = self.thickness(end);
-        let beside = end.position.iter().filter(|x| x[0] < BIN_WIDTH * r);
+        let beside = end.position.iter().filter(|x| radius(x) < BIN_WIDTH * r);
         self.collapse.top = (beside.fold(0.0_f64, |top, x| top.max(x[1])) + 0.5 * self.spacing) / r;
         let total: f64 = end.mass.iter().sum();
-        self.collapse.centroid = end.mass.iter().zip(&end.position).map(|(m, x)| m * x[0]).sum::<f64>() / (total * r);
-        let mut order: Vec<(f64, f64)> = end.position.iter().map(|x| x[0]).zip(end.mass.iter().copied()).collect();
+        self.collapse.centroid =
+            end.mass.iter().zip(&end.position).map(|(m, x)| m * radius(x)).sum::<f64>() / (total * r);
+        let mut order: Vec<(f64, f64)> = end.position.iter().map(radius).zip(end.mass.iter().copied()).collect();
         order.sort_by(|a, b| a.0.total_cmp(&b.0));
         let quantile = |share: f64| {
             let mut sum = 0.0;
@@ -91,39 +96,52 @@ impl Surveyor {
         };
         let place = |share| quantile(share).map_or(f64::NAN, |(x, _)| x / r);
         self.collapse.quantiles = (place(0.96), place(0.99));
-        let inside = |x: f64, y: f64| x >= 0.0 && x <= self.bed_end && y >= 0.0 && y.is_finite();
-        self.collapse.lost = end.position.iter().filter(|x| !inside(x[0], x[1])).count();
+        // A particle squeezed through a symmetry plane is exchanged for its image at the next neighbour search, which
+        // comes before it has moved by half the list's skin.
+        let tolerance = 0.25 * self.spacing;
+        let inside = |x: &Vector<D>| {
+            let above = x[1] >= 0.0 && x.iter().all(|&x| x >= -tolerance && x.is_finite());
+            above && radius(x) <= self.bed_end
+        };
+        self.collapse.lost = end.position.iter().filter(|x| !inside(x)).count();
         self.collapse
     }
 
-    /// (x, ΣV over the bin's width), both over r_0. A particle's volume is spread evenly over a spacing to either side,
-    /// mirrored at the symmetry plane: counted at points, bins of two spacings would jump by whole particles.
-    fn thickness(&self, snapshot: &Snapshot<2>) -> Vec<(f64, f64)> {
+    /// (x, ΣV over the bin's width or quarter ring), both over r_0. A particle's volume is spread evenly over a spacing
+    /// to either side, mirrored at the symmetry planes: counted at points, bins of two spacings would jump by whole
+    /// particles.
+    fn thickness<const D: usize>(&self, snapshot: &Snapshot<D>) -> Vec<(f64, f64)> {
         let r = self.half_width;
         let width = BIN_WIDTH * r;
         let bins = (self.bed_end / width).ceil() as usize;
         let mut volume = vec![0.0; bins.max(1)];
-        let mut spread = |from: f64, to: f64, volume_per_length: f64| {
-            let first = (from / width).max(0.0) as usize;
-            for (bin, slot) in volume.iter_mut().enumerate().skip(first) {
-                let overlap = to.min((bin + 1) as f64 * width) - from.max(bin as f64 * width);
-                if overlap <= 0.0 {
-                    break;
-                }
-                *slot += overlap * volume_per_length;
-            }
-        };
+        let points = SUB_POINTS.pow(D as u32 - 1);
         for ((position, mass), density) in snapshot.position.iter().zip(&snapshot.mass).zip(&snapshot.density) {
-            let volume_per_length = mass / density / (2.0 * self.spacing);
-            let (from, to) = (position[0] - self.spacing, position[0] + self.spacing);
-            spread(from.max(0.0), to, volume_per_length);
-            if from < 0.0 {
-                spread(0.0, -from, volume_per_length);
+            let share = mass / density / points as f64;
+            for point in 0..points {
+                let shifted = |axis: usize, step: usize| {
+                    let offset = 2.0 * (step as f64 + 0.5) / SUB_POINTS as f64 - 1.0;
+                    (position[axis] + offset * self.spacing).abs()
+                };
+                let x = shifted(0, point % SUB_POINTS);
+                let distance = if D == 2 { x } else { x.hypot(shifted(2, point / SUB_POINTS)) };
+                if let Some(slot) = volume.get_mut((distance / width) as usize) {
+                    *slot += share;
+                }
             }
         }
+        let area = |bin: usize| {
+            let bin = bin as f64;
+            if D == 2 { width } else { std::f64::consts::FRAC_PI_4 * width * width * (2.0 * bin + 1.0) }
+        };
         let centre = |bin: usize| (bin as f64 + 0.5) * BIN_WIDTH;
-        volume.iter().enumerate().map(|(bin, volume)| (centre(bin), volume / (width * r))).collect()
+        volume.iter().enumerate().map(|(bin, volume)| (centre(bin), volume / (area(bin) * r))).collect()
     }
+}
+
+/// Distance from the symmetry plane or axis.
+fn radius<const D: usize>(position: &Vector<D>) -> f64 {
+    if D == 2 { position[0] } else { position[0].hypot(position[2]) }
 }
 
 /// The first place from the symmetry plane outwards at which the thickness falls below [`FRONT_THICKNESS`], linear
@@ -198,7 +216,7 @@ mod tests {
         };
         for k in 0..20 * 16 {
             let place = |cell: usize| (cell as f64 + 0.5) * spacing;
-            snapshot.position.push(bagnold_solver::vector::Vector::<2>::new(place(k % 20), place(k / 20)));
+            snapshot.position.push(Vector::<2>::new(place(k % 20), place(k / 20)));
             snapshot.mass.push(2.0 * spacing * spacing);
             snapshot.density.push(2.0);
         }

@@ -1,7 +1,6 @@
 //! One column: its scene and its run.
 
 use super::deposit::{Collapse, Surveyor};
-use super::parameters::ColumnPlanarParameters;
 use crate::case::{Progress, Run};
 use crate::error::InputError;
 use crate::observe::{Frame, Outcome, Recorded, state_hash};
@@ -26,9 +25,21 @@ const POINTS: f64 = 40.0;
 /// Pictures over the collapse, at these times over √(h_0/g) `[-]`; the deposit follows.
 const PICTURES: [f64; 4] = [0.0, 0.75, 1.5, 2.5];
 
+/// The column's cross-section.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Geometry {
+    /// Infinitely long; half of it is simulated, in two dimensions.
+    Planar,
+    /// A cylinder; a quarter of it is simulated, in three dimensions.
+    Round,
+}
+
 /// One simulation.
 #[derive(Debug, Clone, Serialize)]
 pub struct ColumnRun {
+    /// Cross-section.
+    pub geometry: Geometry,
     /// Name of the grains.
     pub material: String,
     /// h_0/r_0 `[-]`.
@@ -39,32 +50,12 @@ pub struct ColumnRun {
     pub half_width: f64,
     /// Constitutive law.
     pub law: MuI,
-    gravity: f64,
-    solid_fraction: f64,
-    jitter: f64,
-    seed: u64,
-    duration: f64,
-    numerics: Numerics,
-}
-
-pub(super) fn all(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
-    let mut runs = Vec::new();
-    for (material, columns) in parameters.materials() {
-        runs.extend(columns.aspect_ratios.iter().map(|&aspect_ratio| ColumnRun {
-            material: material.to_owned(),
-            aspect_ratio,
-            resolution: parameters.resolution_of(aspect_ratio),
-            half_width: columns.half_width_of(aspect_ratio),
-            law: columns.law,
-            gravity: parameters.gravity,
-            solid_fraction: columns.solid_fraction,
-            jitter: parameters.jitter,
-            seed: parameters.seed,
-            duration: parameters.duration,
-            numerics: parameters.numerics,
-        }));
-    }
-    runs
+    pub(in crate::cases) gravity: f64,
+    pub(in crate::cases) solid_fraction: f64,
+    pub(in crate::cases) jitter: f64,
+    pub(in crate::cases) seed: u64,
+    pub(in crate::cases) duration: f64,
+    pub(in crate::cases) numerics: Numerics,
 }
 
 impl Run for ColumnRun {
@@ -76,7 +67,7 @@ impl Run for ColumnRun {
         let step = self.numerics.acoustic_courant * self.numerics.smoothing_ratio * self.spacing() / self.sound_speed();
         // most columns rest well before their time is up
         let expected = 5.0_f64.min(self.duration) * self.time_scale() / step;
-        expected * (self.resolution * self.rows()) as f64
+        expected * self.particles()
     }
 }
 
@@ -99,6 +90,19 @@ impl ColumnRun {
         (self.initial_height() * self.half_width / self.gravity).sqrt()
     }
 
+    /// Whether there are enough rows over the height for a gate.
+    #[must_use]
+    pub fn is_resolved(&self) -> bool {
+        self.rows() >= 20
+    }
+
+    /// Particles, about.
+    fn particles(&self) -> f64 {
+        let n = self.resolution as f64;
+        let section = if self.geometry == Geometry::Planar { n } else { std::f64::consts::FRAC_PI_4 * n * n };
+        section * self.rows() as f64
+    }
+
     fn rows(&self) -> usize {
         (self.aspect_ratio * self.resolution as f64).round().max(1.0) as usize
     }
@@ -116,13 +120,17 @@ impl ColumnRun {
         (self.bulk_modulus() / self.bulk_density()).sqrt()
     }
 
-    /// End of the bed `[m]`: well beyond the longest published run-out, 3.7 a^0.64 or 2.7 a.
+    /// End of the bed `[m]`: well beyond the longest published run-out.
     fn bed_end(&self) -> f64 {
         let a = self.aspect_ratio;
-        self.half_width * (2.0 + 1.5 * (2.7 * a).min(3.7 * libm::pow(a, 0.7)))
+        match self.geometry {
+            Geometry::Planar => self.half_width * (2.0 + 1.5 * (2.7 * a).min(3.7 * libm::pow(a, 0.7))),
+            // in space the bed costs more than the grains
+            Geometry::Round => self.half_width * (1.5 + 1.3 * (1.35 * a).min(1.6 * a.sqrt())),
+        }
     }
 
-    fn scene(&self) -> Scene<2> {
+    fn scene<const D: usize>(&self) -> Scene<D> {
         let spacing = self.spacing();
         let height = self.rows() as f64 * spacing;
         let equation_of_state = EquationOfState {
@@ -132,35 +140,49 @@ impl ColumnRun {
         };
         let mut random = rand_pcg::Pcg64::seed_from_u64(self.seed);
         let mut flow = Flow::default();
-        for row in 0..self.rows() {
-            for column in 0..self.resolution {
-                let site = Vector::<2>::new((column as f64 + 0.5) * spacing, (row as f64 + 0.5) * spacing);
-                let shift = Vector::<2>::from_fn(|_, _| self.jitter * spacing * (2.0 * random.random::<f64>() - 1.0));
-                let pressure = crate::cases::layer::hydrostatic_pressure(
-                    self.bulk_modulus(),
-                    self.bulk_density(),
-                    self.gravity,
-                    height - site[1],
-                );
-                let density = equation_of_state.density(pressure);
-                flow.position.push(site + shift);
-                flow.velocity.push(Vector::<2>::zeros());
-                flow.density.push(density);
-                flow.mass.push(density * spacing * spacing);
-                flow.stress.push(Tensor::<2>::zeros());
+        let n = self.resolution;
+        for cell in 0..self.rows() * n.pow(D as u32 - 1) {
+            // along the first axis, then along the third, then upwards
+            let along = |axis: usize| match axis {
+                0 => cell % n,
+                1 => cell / n.pow(D as u32 - 1),
+                _ => cell / n % n,
+            };
+            let site = Vector::<D>::from_fn(|axis, _| (along(axis) as f64 + 0.5) * spacing);
+            if D == 3 && site[0].hypot(site[2]) > self.half_width {
+                continue;
             }
+            let shift = Vector::<D>::from_fn(|_, _| self.jitter * spacing * (2.0 * random.random::<f64>() - 1.0));
+            let (modulus, density) = (self.bulk_modulus(), self.bulk_density());
+            let pressure = crate::cases::layer::hydrostatic_pressure(modulus, density, self.gravity, height - site[1]);
+            let density = equation_of_state.density(pressure);
+            flow.position.push(site + shift);
+            flow.velocity.push(Vector::<D>::zeros());
+            flow.density.push(density);
+            flow.mass.push(density * spacing.powi(D as i32));
+            flow.stress.push(Tensor::<D>::zeros());
         }
         let symmetry = AxisBoundary::Mirror { lower: Some(0.0), upper: None };
-        let domain = Domain { axes: [symmetry, AxisBoundary::Open] };
-        let bed = Wall { axis: 1, surface: 0.0, side: 1.0, velocity: Vector::<2>::zeros() };
+        let mut domain = Domain { axes: [symmetry; D] };
+        domain.axes[1] = AxisBoundary::Open;
+        let bed = Wall { axis: 1, surface: 0.0, side: 1.0, velocity: Vector::<D>::zeros() };
         let layers = (2.0 * self.numerics.smoothing_ratio).ceil() as usize + 1;
-        let extent = (Vector::<2>::zeros(), Vector::<2>::new(self.bed_end(), height));
+        let mut far = Vector::<D>::repeat(self.bed_end());
+        far[1] = height;
+        let extent = (Vector::<D>::zeros(), far);
+        let mut gravity = Vector::<D>::zeros();
+        gravity[1] = -self.gravity;
+        let mut wall_particles = fill(&[bed], &domain, extent, spacing, layers);
+        if self.geometry == Geometry::Round {
+            let reach = self.bed_end();
+            wall_particles.retain(|particle| particle.position[0].hypot(particle.position[D - 1]) < reach);
+        }
         Scene {
             flow,
-            wall_particles: fill(&[bed], &domain, extent, spacing, layers),
+            wall_particles,
             walls: vec![bed],
             domain,
-            gravity: Vector::<2>::new(0.0, -self.gravity),
+            gravity,
             spacing,
             equation_of_state,
             rheology: Rheology::MuI(self.law),
@@ -168,10 +190,17 @@ impl ColumnRun {
         }
     }
 
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError> {
+    pub(in crate::cases) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError> {
+        match self.geometry {
+            Geometry::Planar => self.run::<2>(progress),
+            Geometry::Round => self.run::<3>(progress),
+        }
+    }
+
+    fn run<const D: usize>(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError> {
         let started = std::time::Instant::now();
-        let mut simulation = Simulation::new(self.scene())?;
-        let particles = self.resolution * self.rows();
+        let mut simulation = Simulation::new(self.scene::<D>())?;
+        let particles = simulation.particles().flow_count();
         let (scale, duration) = (self.time_scale(), self.duration * self.time_scale());
         let mut surveyor = Surveyor {
             half_width: self.half_width,

@@ -1,17 +1,17 @@
 //! How the columns are judged.
 
 use super::Record;
-use super::column::ColumnRun;
+use super::column::{ColumnRun, Geometry};
 use super::deposit::Collapse;
 use crate::case::Run;
 use crate::metric::{Confidence, Kind, Limit, Metric};
-use crate::reference::{CollapseLaw, PLANAR_HEIGHT, PLANAR_RUN_OUT};
+use crate::reference::{CollapseLaw, PLANAR_HEIGHT, PLANAR_RUN_OUT, ROUND_HEIGHT, ROUND_RUN_OUT};
 use crate::statistics::power_law;
 
 const LUBE: usize = 0;
 const LAGREE: usize = 1;
 
-pub(super) fn all(records: &[Record]) -> Vec<Metric> {
+pub(in crate::cases) fn all(records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (run, record) in records {
         of_column(&mut metrics, run, &record.data);
@@ -28,9 +28,13 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     metrics
 }
 
-/// The law whose material a run has, or comes closest to.
-fn law_of<'l>(run: &ColumnRun, laws: &'l [CollapseLaw]) -> &'l CollapseLaw {
-    if run.material == "lagree" { &laws[LAGREE] } else { &laws[LUBE] }
+/// The laws of run-out and height whose geometry a run has, and whose material it has or comes closest to.
+fn laws_of(run: &ColumnRun) -> (CollapseLaw, CollapseLaw) {
+    match run.geometry {
+        Geometry::Planar if run.material == "lagree" => (PLANAR_RUN_OUT[LAGREE], PLANAR_HEIGHT[LAGREE]),
+        Geometry::Planar => (PLANAR_RUN_OUT[LUBE], PLANAR_HEIGHT[LUBE]),
+        Geometry::Round => (ROUND_RUN_OUT[LUBE], ROUND_HEIGHT[LUBE]),
+    }
 }
 
 fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse) {
@@ -44,13 +48,19 @@ fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse) {
             .against(Some(0.0), "no particle passes the bed, the symmetry plane or the bed's end", Confidence::Exact)
             .gated(Limit::AtMost(0.0), "grains do not vanish"),
     );
-    let run_out_law = law_of(run, &PLANAR_RUN_OUT);
-    metrics.push(observed("run_out", collapse.run_out(), "-").against(
+    let (run_out_law, height_law) = laws_of(run);
+    let run_out = observed("run_out", collapse.run_out(), "-").against(
         run_out_law.value(a),
         run_out_law.source,
         run_out_law.confidence,
-    ));
-    let height_law = law_of(run, &PLANAR_HEIGHT);
+    );
+    metrics.push(match run_out_law.value(a) {
+        Some(expected) if run.geometry == Geometry::Round && run.is_resolved() => run_out.gated(
+            Limit::Within(0.8 * expected, 1.2 * expected),
+            "specification 2: within 20 % of Lube's law for round columns at 20 rows and more",
+        ),
+        _ => run_out,
+    });
     let height = observed("final_height", collapse.final_height(), "-").against(
         height_law.value(a),
         height_law.source,
@@ -61,7 +71,7 @@ fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse) {
             Limit::Within(0.85 * expected, 1.15 * expected),
             "specification 2: a^0.4 within 15 % above a = 1.15",
         ),
-        Some(expected) if run.material == "sand" && a <= 0.7 => height.gated(
+        Some(expected) if run.geometry == Geometry::Planar && run.material == "sand" && a <= 0.7 => height.gated(
             Limit::Within(0.97 * expected, 1.03 * expected),
             "specification 2: undisturbed within 3 % up to a = 0.7",
         ),

@@ -1,13 +1,13 @@
 //! The case's figures.
 
 use super::Record;
-use super::column::ColumnRun;
+use super::column::{ColumnRun, Geometry};
 use super::deposit::Collapse;
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
 use crate::observe::Frame;
-use crate::reference::{CollapseLaw, PLANAR_HEIGHT, PLANAR_RUN_OUT};
+use crate::reference::{CollapseLaw, PLANAR_HEIGHT, PLANAR_RUN_OUT, ROUND_HEIGHT, ROUND_RUN_OUT};
 
-pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+pub(in crate::cases) fn all(records: &[Record]) -> Vec<Figure> {
     if records.is_empty() {
         return Vec::new();
     }
@@ -22,9 +22,22 @@ fn name(material: &str) -> &'static str {
 
 /// Run-out and height over the aspect ratio, with every published law of the geometry.
 fn scaling(records: &[Record]) -> Figure {
+    let round = records.iter().any(|(run, _)| run.geometry == Geometry::Round);
+    // the laws of the geometry, and Lube's of the other one: the paper compared planar runs with the round law
+    let run_out_laws: Vec<CollapseLaw> = if round {
+        ROUND_RUN_OUT.iter().chain(&PLANAR_RUN_OUT[..1]).copied().collect()
+    } else {
+        PLANAR_RUN_OUT.iter().chain(&ROUND_RUN_OUT[..1]).copied().collect()
+    };
+    let height_laws: Vec<CollapseLaw> =
+        if round { ROUND_HEIGHT.iter().chain(&PLANAR_HEIGHT[..1]).copied().collect() } else { PLANAR_HEIGHT.to_vec() };
     let panel = |label: &str, laws: &[CollapseLaw], measure: fn(&Collapse) -> f64, legend: bool| {
         let mut panel = Panel::new("", Axis::logarithmic("h0/r0 [-]"), Axis::logarithmic(label));
-        for (slot, law) in laws.iter().enumerate() {
+        for law in laws {
+            // a source keeps its colour from panel to panel
+            let known =
+                run_out_laws.iter().position(|other| other.source.split(',').next() == law.source.split(',').next());
+            let slot = known.unwrap_or(run_out_laws.len());
             for (part, curve) in law.curves().into_iter().enumerate() {
                 let entry = if legend && part == 0 { law.source } else { "" };
                 panel.series.push(Series::new(entry, Mark::Line, slot + 2, curve));
@@ -45,12 +58,12 @@ fn scaling(records: &[Record]) -> Figure {
     };
     Figure {
         name: "scaling".to_owned(),
-        caption: "Run-out and final height of planar columns over their aspect ratio, with the published laws. The \
-                  coefficients depend on the grains: the sand is compared with Lube et al. for its exponents only."
+        caption: "Run-out and final height of the columns over their aspect ratio, with the published laws of their \
+                  geometry and Lube's run-out of the other one. Coefficients depend on the grains, exponents much less."
             .to_owned(),
         panels: vec![
-            panel("run-out (r∞ − r0)/r0 [-]", &PLANAR_RUN_OUT, Collapse::run_out, true),
-            panel("final height h∞/r0 [-]", &PLANAR_HEIGHT, Collapse::final_height, false),
+            panel("run-out (r∞ − r0)/r0 [-]", &run_out_laws, Collapse::run_out, true),
+            panel("final height h∞/r0 [-]", &height_laws, Collapse::final_height, false),
         ],
         columns: 2,
     }
@@ -101,14 +114,17 @@ fn histories(records: &[Record]) -> Figure {
     }
 }
 
-/// Speed and pressure at the pictures' times.
+/// Speed and pressure at the pictures' times; of a round column the slice beside a symmetry plane.
 fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
     let r = run.half_width;
+    let slice = |frame: &Frame| -> Vec<usize> {
+        (0..frame.position.len()).filter(|&index| frame.position[index][2] < run.spacing()).collect()
+    };
     let far = frames.iter().flat_map(|frame| &frame.position).map(|x| x[0] / r).fold(1.0, f64::max);
     let high = frames.iter().flat_map(|frame| &frame.position).map(|x| x[1] / r).fold(0.0, f64::max);
     let speed = |frame: &Frame| -> Vec<f64> {
         let velocity = frame.vectors.iter().find(|(name, _, _)| name == "velocity");
-        velocity.map_or(Vec::new(), |(_, _, v)| v.iter().map(|v| v[0].hypot(v[1])).collect())
+        velocity.map_or(Vec::new(), |(_, _, v)| v.iter().map(|v| v[0].hypot(v[1]).hypot(v[2])).collect())
     };
     let pressure = |frame: &Frame| -> Vec<f64> {
         let pressure = frame.scalars.iter().find(|(name, _, _)| name == "pressure");
@@ -125,8 +141,11 @@ fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
             let y = Axis { limits: Some((0.0, high)), ..Axis::linear("y/r0 [-]") };
             let mut panel = Panel::new(&title, x, y);
             panel.field = Some(Field {
-                points: frame.position.iter().map(|x| (x[0] / r, x[1] / r)).collect(),
-                values,
+                points: slice(frame)
+                    .into_iter()
+                    .map(|index| (frame.position[index][0] / r, frame.position[index][1] / r))
+                    .collect(),
+                values: slice(frame).into_iter().map(|index| values[index]).collect(),
                 label: label.to_owned(),
                 diameter: run.spacing() / r,
                 limits: Some((0.0, limit)),
