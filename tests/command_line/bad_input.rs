@@ -155,3 +155,18 @@ fn what_is_no_command_line_at_all() {
         place.bagnold(arguments).assert().code(2).stdout("");
     }
 }
+
+#[test]
+fn columns_that_nobody_can_wait_for_and_windows_that_do_not_fit() {
+    let place = Place::new();
+    refused(
+        &place,
+        &["column-round", "--set", "columns=[{aspect_ratio=1.0,resolution=900}]"],
+        "`columns[0].resolution` is 900, but must be such that no column has more than 5e6 particles; the column of aspect ratio 1 would have 5.7e8: choose a smaller resolution",
+    );
+    refused(
+        &place,
+        &["bagnold", "--set", "averaging_time=2", "--set", "duration_factor=0.2"],
+        "`averaging_time` is 2, but must be between 0 and 0.3; the window must fit into the shortest run: choose a shorter one or a larger `duration_factor`",
+    );
+}

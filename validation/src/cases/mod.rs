@@ -7,6 +7,7 @@ pub mod column_round;
 pub mod film;
 pub mod hydrostatic;
 pub mod layer;
+mod recording;
 mod rules;
 
 use crate::case::Registry;

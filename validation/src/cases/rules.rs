@@ -17,7 +17,12 @@ pub(super) fn between(field: &str, value: f64, lower: f64, upper: f64, remedy: &
     if value >= lower && value <= upper {
         return Ok(());
     }
-    Err(InputError::field(field, value, &format!("between {lower} and {upper}"), remedy))
+    Err(InputError::field(field, value, &format!("between {} and {}", shown(lower), shown(upper)), remedy))
+}
+
+/// A computed bound without the digits that rounding left behind.
+fn shown(bound: f64) -> f64 {
+    format!("{bound:.9e}").parse().unwrap_or(bound)
 }
 
 /// A slope angle `[°]`.

@@ -87,8 +87,15 @@ fn steady(
     let height = record.data.series.relative_height.last().copied().unwrap_or(1.0);
     metrics.push(
         Metric::observed("relative_height", variant, height, "-")
-            .against(Some(1.0), "twice the mean height of the grains over the nominal height", Confidence::Exact)
-            .gated(Limit::Within(0.98, 1.02), "an incompressible layer keeps its height; K = 50 ρ0 g h takes 0.3 %")
+            .against(
+                Some(run.exact_relative_height()),
+                "twice the mean height of the weakly compressible layer over its thickness",
+                Confidence::Exact,
+            )
+            .gated(
+                Limit::Within(run.exact_relative_height() - 0.005, run.exact_relative_height() + 0.005),
+                "the flow neither dilates nor sinks: a tenth of a row at 20 rows",
+            )
             .with_snapshot_tolerance(1e-4, 0.0),
     );
     let measured = BagnoldProfile { layer_height: exact.layer_height * height, ..exact };

@@ -162,6 +162,15 @@ impl BagnoldRun {
         profile(&self.material, self.layer_height, self.solid_fraction, self.gravity, angle)
     }
 
+    /// 2ȳ/h `[-]` of the layer with ρ = ρ0 exp(x (1 − y/h)), x = ρ0 g h cosθ/K: a little below 1.
+    #[must_use]
+    pub fn exact_relative_height(&self) -> f64 {
+        let density = self.solid_fraction * self.material.grain_density;
+        let weight = density * self.gravity * self.layer_height * libm::cos(self.slope_angle.to_radians());
+        let x = weight / self.bulk_modulus();
+        2.0 * (libm::expm1(x) - x) / (x * libm::expm1(x))
+    }
+
     /// Sound speed `[m/s]`.
     #[must_use]
     pub fn sound_speed(&self) -> f64 {

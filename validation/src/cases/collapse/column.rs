@@ -1,16 +1,17 @@
 //! One column: its scene and its run.
 
-use super::deposit::{Collapse, Surveyor};
+use super::deposit::{Collapse, Surveyor, radius};
 use crate::case::{Progress, Run};
+use crate::cases::recording::Ending;
 use crate::error::InputError;
-use crate::observe::{Frame, Outcome, Recorded, state_hash};
+use crate::observe::{Frame, Recorded};
 use bagnold_solver::boundary::wall::fill;
 use bagnold_solver::boundary::{AxisBoundary, Domain, Wall};
 use bagnold_solver::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::numerics::Numerics;
 use bagnold_solver::rheology::{MuI, Rheology};
 use bagnold_solver::scene::{Flow, Scene};
-use bagnold_solver::simulation::{Simulation, StopReason};
+use bagnold_solver::simulation::Simulation;
 use bagnold_solver::vector::{Tensor, Vector};
 use rand::{RngExt, SeedableRng};
 use serde::Serialize;
@@ -33,6 +34,17 @@ pub enum Geometry {
     Planar,
     /// A cylinder; a quarter of it is simulated, in three dimensions.
     Round,
+}
+
+impl Geometry {
+    /// Unit of an energy: of a metre of a planar column, of a quarter of a round one.
+    #[must_use]
+    pub fn energy_unit(self) -> &'static str {
+        match self {
+            Self::Planar => "J/m",
+            Self::Round => "J",
+        }
+    }
 }
 
 /// One simulation.
@@ -97,7 +109,8 @@ impl ColumnRun {
     }
 
     /// Particles, about.
-    fn particles(&self) -> f64 {
+    #[must_use]
+    pub fn particles(&self) -> f64 {
         let n = self.resolution as f64;
         let section = if self.geometry == Geometry::Planar { n } else { std::f64::consts::FRAC_PI_4 * n * n };
         section * self.rows() as f64
@@ -149,7 +162,7 @@ impl ColumnRun {
                 _ => cell / n % n,
             };
             let site = Vector::<D>::from_fn(|axis, _| (along(axis) as f64 + 0.5) * spacing);
-            if D == 3 && site[0].hypot(site[2]) > self.half_width {
+            if D == 3 && site[0] * site[0] + site[D - 1] * site[D - 1] > self.half_width * self.half_width {
                 continue;
             }
             let shift = Vector::<D>::from_fn(|_, _| self.jitter * spacing * (2.0 * random.random::<f64>() - 1.0));
@@ -175,7 +188,7 @@ impl ColumnRun {
         let mut wall_particles = fill(&[bed], &domain, extent, spacing, layers);
         if self.geometry == Geometry::Round {
             let reach = self.bed_end();
-            wall_particles.retain(|particle| particle.position[0].hypot(particle.position[D - 1]) < reach);
+            wall_particles.retain(|particle| radius(&particle.position) < reach);
         }
         Scene {
             flow,
@@ -222,25 +235,14 @@ impl ColumnRun {
             last_good = snapshot;
             if rests { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let outcome = match &reason {
-            StopReason::Finished => Outcome::Finished,
-            StopReason::Stopped => Outcome::Stopped {
-                criterion: format!("the deposit rests: kinetic energy below {AT_REST:.0e} of the energy released"),
-            },
-            StopReason::Diverged(divergence) => Outcome::Diverged { message: divergence.to_string(), expected: false },
-        };
-        let end = if matches!(reason, StopReason::Diverged(_)) { last_good } else { simulation.snapshot() };
-        frames.push(Frame::of_flow(&end));
-        Ok(Recorded {
-            outcome,
-            state_hash: state_hash(&end.to_bytes()),
-            particles,
-            steps: simulation.steps(),
-            simulated_time: simulation.time(),
-            wall_seconds: started.elapsed().as_secs_f64(),
-            threads: rayon::current_num_threads(),
+        let ending = Ending {
+            reason,
+            last_good,
+            criterion: format!("the deposit rests: kinetic energy below {AT_REST:.0e} of the energy released"),
+            may_diverge: false,
             frames,
-            data: surveyor.finish(&end),
-        })
+            started,
+        };
+        Ok(ending.record(&simulation, |end| surveyor.finish(end)))
     }
 }

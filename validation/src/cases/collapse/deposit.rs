@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 /// Width of a bin over the initial half width `[-]`: the same at every resolution.
 pub const BIN_WIDTH: f64 = 0.1;
-/// Points a horizontal direction over which a particle's volume is spread.
-const SUB_POINTS: usize = 8;
+/// Points a horizontal direction over which a particle's volume is spread, in the plane and in space.
+const SUB_POINTS: [usize; 2] = [8, 4];
 /// Thickness at the front over the initial half width `[-]`.
 pub const FRONT_THICKNESS: f64 = 0.02;
 
@@ -20,9 +20,9 @@ pub struct Collapse {
     pub front: Vec<f64>,
     /// Thickness at the symmetry plane, by volume, over r_0 `[-]`.
     pub height: Vec<f64>,
-    /// Kinetic energy `[J/m]`.
+    /// Kinetic energy `[J/m]` of a planar column, `[J]` of a quarter of a round one.
     pub kinetic_energy: Vec<f64>,
-    /// Potential energy above the bed `[J/m]`.
+    /// Potential energy above the bed, in the same unit.
     pub potential_energy: Vec<f64>,
     /// (x/r_0, thickness/r_0) of the deposit, bin by bin `[-]`.
     pub deposit: Vec<(f64, f64)>,
@@ -115,16 +115,21 @@ impl Surveyor {
         let width = BIN_WIDTH * r;
         let bins = (self.bed_end / width).ceil() as usize;
         let mut volume = vec![0.0; bins.max(1)];
-        let points = SUB_POINTS.pow(D as u32 - 1);
+        let points_along = SUB_POINTS[D - 2];
+        let points = points_along.pow(D as u32 - 1);
         for ((position, mass), density) in snapshot.position.iter().zip(&snapshot.mass).zip(&snapshot.density) {
             let share = mass / density / points as f64;
             for point in 0..points {
                 let shifted = |axis: usize, step: usize| {
-                    let offset = 2.0 * (step as f64 + 0.5) / SUB_POINTS as f64 - 1.0;
+                    let offset = 2.0 * (step as f64 + 0.5) / points_along as f64 - 1.0;
                     (position[axis] + offset * self.spacing).abs()
                 };
-                let x = shifted(0, point % SUB_POINTS);
-                let distance = if D == 2 { x } else { x.hypot(shifted(2, point / SUB_POINTS)) };
+                let mut place = Vector::<D>::zeros();
+                place[0] = shifted(0, point % points_along);
+                if D == 3 {
+                    place[2] = shifted(2, point / points_along);
+                }
+                let distance = radius(&place);
                 if let Some(slot) = volume.get_mut((distance / width) as usize) {
                     *slot += share;
                 }
@@ -140,8 +145,8 @@ impl Surveyor {
 }
 
 /// Distance from the symmetry plane or axis.
-fn radius<const D: usize>(position: &Vector<D>) -> f64 {
-    if D == 2 { position[0] } else { position[0].hypot(position[2]) }
+pub(super) fn radius<const D: usize>(position: &Vector<D>) -> f64 {
+    if D == 2 { position[0] } else { (position[0] * position[0] + position[2] * position[2]).sqrt() }
 }
 
 /// The first place from the symmetry plane outwards at which the thickness falls below [`FRONT_THICKNESS`], linear

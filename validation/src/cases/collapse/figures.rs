@@ -124,7 +124,7 @@ fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
     let high = frames.iter().flat_map(|frame| &frame.position).map(|x| x[1] / r).fold(0.0, f64::max);
     let speed = |frame: &Frame| -> Vec<f64> {
         let velocity = frame.vectors.iter().find(|(name, _, _)| name == "velocity");
-        velocity.map_or(Vec::new(), |(_, _, v)| v.iter().map(|v| v[0].hypot(v[1]).hypot(v[2])).collect())
+        velocity.map_or(Vec::new(), |(_, _, v)| v.iter().map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt()).collect())
     };
     let pressure = |frame: &Frame| -> Vec<f64> {
         let pressure = frame.scalars.iter().find(|(name, _, _)| name == "pressure");

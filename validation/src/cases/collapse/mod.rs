@@ -8,6 +8,8 @@ pub(super) mod metrics;
 pub use column::{ColumnRun, Geometry};
 pub use deposit::{BIN_WIDTH, Collapse, FRONT_THICKNESS, front};
 
+use crate::case::Run;
+use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::output::Table;
 
@@ -15,9 +17,11 @@ use crate::output::Table;
 pub(super) type Record = (ColumnRun, Recorded<Collapse>);
 
 /// Tables of one run: the deposit and the time series.
-pub(super) fn tables(variant: &str, collapse: &Collapse) -> Vec<Table> {
-    let stem = variant.replace(['=', ','], "-").replace('_', "-");
+pub(super) fn tables((run, record): &Record) -> Vec<Table> {
+    let collapse = &record.data;
+    let stem = run.variant().replace(['=', ','], "-").replace('_', "-");
     let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+    let energy = |kind: &str| format!("{kind} energy [{}]", run.geometry.energy_unit());
     let series = |k: usize| {
         let energies = [collapse.kinetic_energy[k], collapse.potential_energy[k]];
         [collapse.time[k], collapse.front[k], collapse.height[k]].into_iter().chain(energies).collect()
@@ -30,14 +34,23 @@ pub(super) fn tables(variant: &str, collapse: &Collapse) -> Vec<Table> {
         },
         Table {
             name: format!("series-{stem}"),
-            columns: names(&[
-                "t [s]",
-                "front/r0 [-]",
-                "height/r0 [-]",
-                "kinetic energy [J/m]",
-                "potential energy [J/m]",
-            ]),
+            columns: names(&["t [s]", "front/r0 [-]", "height/r0 [-]", &energy("kinetic"), &energy("potential")]),
             rows: (0..collapse.time.len()).map(series).collect(),
         },
     ]
+}
+
+/// Particles beyond which a column would take weeks or all memory.
+const MOST_PARTICLES: f64 = 5e6;
+
+/// Refuses columns that nobody can wait for; `field` names the parameter that a run's resolution comes from.
+pub(super) fn check_size(runs: &[ColumnRun], field: impl Fn(&ColumnRun) -> String) -> Result<(), InputError> {
+    let Some(run) = runs.iter().find(|run| run.particles() > MOST_PARTICLES) else { return Ok(()) };
+    let rule = format!("such that no column has more than {MOST_PARTICLES:.0e} particles");
+    let remedy = format!(
+        "the column of aspect ratio {} would have {:.1e}: choose a smaller resolution",
+        run.aspect_ratio,
+        run.particles()
+    );
+    Err(InputError::field(&field(run), run.resolution, &rule, &remedy))
 }

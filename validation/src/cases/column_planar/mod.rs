@@ -5,7 +5,7 @@ mod parameters;
 pub use parameters::{ColumnPlanarParameters, Columns};
 
 use super::collapse::{self, Collapse, ColumnRun, Record};
-use crate::case::{Case, Progress, Run, Tier};
+use crate::case::{Case, Progress, Tier};
 use crate::error::InputError;
 use crate::figure::Figure;
 use crate::metric::Metric;
@@ -47,7 +47,8 @@ impl Case for ColumnPlanar {
     }
 
     fn check(&self, parameters: &ColumnPlanarParameters) -> Result<(), InputError> {
-        parameters.check()
+        parameters.check()?;
+        collapse::check_size(&self.runs(parameters), |run| parameters.resolution_field(run.aspect_ratio).to_owned())
     }
 
     fn runs(&self, parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
@@ -67,6 +68,6 @@ impl Case for ColumnPlanar {
     }
 
     fn tables(&self, _: &ColumnPlanarParameters, records: &[Record]) -> Vec<Table> {
-        records.iter().flat_map(|(run, record)| collapse::tables(&run.variant(), &record.data)).collect()
+        records.iter().flat_map(collapse::tables).collect()
     }
 }

@@ -154,6 +154,11 @@ impl ColumnPlanarParameters {
         [("sand", &self.sand), ("lagree", &self.lagree)]
     }
 
+    /// The parameter that a column's resolution comes from.
+    pub(super) fn resolution_field(&self, aspect_ratio: f64) -> &'static str {
+        if aspect_ratio > COARSE { "tall_resolution" } else { "resolution" }
+    }
+
     /// Particles over the half width of a column.
     pub(super) fn resolution_of(&self, aspect_ratio: f64) -> usize {
         if aspect_ratio > COARSE { self.tall_resolution } else { self.resolution }

@@ -5,7 +5,7 @@ mod parameters;
 pub use parameters::{ColumnRoundParameters, RoundColumn};
 
 use super::collapse::{self, Collapse, ColumnRun, Record};
-use crate::case::{Case, Progress, Run, Tier};
+use crate::case::{Case, Progress, Tier};
 use crate::error::InputError;
 use crate::figure::Figure;
 use crate::metric::Metric;
@@ -45,7 +45,12 @@ impl Case for ColumnRound {
     }
 
     fn check(&self, parameters: &ColumnRoundParameters) -> Result<(), InputError> {
-        parameters.check()
+        parameters.check()?;
+        collapse::check_size(&self.runs(parameters), |run| {
+            let is_it =
+                |column: &RoundColumn| column.aspect_ratio == run.aspect_ratio && column.resolution == run.resolution;
+            format!("columns[{}].resolution", parameters.columns.iter().position(is_it).unwrap_or(0))
+        })
     }
 
     fn runs(&self, parameters: &ColumnRoundParameters) -> Vec<ColumnRun> {
@@ -65,6 +70,6 @@ impl Case for ColumnRound {
     }
 
     fn tables(&self, _: &ColumnRoundParameters, records: &[Record]) -> Vec<Table> {
-        records.iter().flat_map(|(run, record)| collapse::tables(&run.variant(), &record.data)).collect()
+        records.iter().flat_map(collapse::tables).collect()
     }
 }

@@ -7,8 +7,9 @@ pub use preparation::Preparation;
 pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 
 use crate::case::Progress;
+use crate::cases::recording::Ending;
 use crate::metric::{Confidence, Limit, Metric};
-use crate::observe::{Frame, Outcome, Recorded};
+use crate::observe::{Frame, Recorded};
 use crate::output::Table;
 use bagnold_solver::boundary::wall::fill;
 use bagnold_solver::boundary::{AxisBoundary, Domain, Wall};
@@ -16,7 +17,7 @@ use bagnold_solver::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::numerics::Numerics;
 use bagnold_solver::rheology::Rheology;
 use bagnold_solver::scene::{Flow, Scene, SceneError};
-use bagnold_solver::simulation::{Simulation, StopReason};
+use bagnold_solver::simulation::Simulation;
 use bagnold_solver::vector::{Tensor, Vector};
 use rand::{RngExt, SeedableRng};
 use std::ops::ControlFlow;
@@ -214,31 +215,18 @@ impl Layer<'_> {
             last_good = snapshot;
             if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let outcome = match &reason {
-            StopReason::Finished => Outcome::Finished,
-            StopReason::Stopped => Outcome::Stopped {
-                criterion: format!(
-                    "the depth mean of the velocity passed {:.3} m/s, half the sound speed",
-                    self.stop_above
-                ),
-            },
-            StopReason::Diverged(divergence) => {
-                Outcome::Diverged { message: divergence.to_string(), expected: self.may_diverge }
-            }
-        };
-        let end = if matches!(reason, StopReason::Diverged(_)) { last_good } else { simulation.snapshot() };
-        frames.push(Frame::of_flow(&end));
-        Ok(Recorded {
-            outcome,
-            state_hash: crate::observe::state_hash(&end.to_bytes()),
-            particles,
-            steps: simulation.steps(),
-            simulated_time: simulation.time(),
-            wall_seconds: started.elapsed().as_secs_f64(),
-            threads: rayon::current_num_threads(),
+        let ending = Ending {
+            reason,
+            last_good,
+            criterion: format!(
+                "the depth mean of the velocity passed {:.3} m/s, half the sound speed",
+                self.stop_above
+            ),
+            may_diverge: self.may_diverge,
             frames,
-            data: probe.finish(),
-        })
+            started,
+        };
+        Ok(ending.record(&simulation, |_| probe.finish()))
     }
 }
 
@@ -246,23 +234,6 @@ impl Layer<'_> {
 #[must_use]
 pub fn hydrostatic_pressure(bulk_modulus: f64, reference_density: f64, gravity_across: f64, depth: f64) -> f64 {
     bulk_modulus * libm::expm1(reference_density * gravity_across * depth.max(0.0) / bulk_modulus)
-}
-
-impl Frame {
-    /// A picture of the flow in the plane.
-    pub(in crate::cases) fn of_flow<const D: usize>(snapshot: &bagnold_solver::snapshot::Snapshot<D>) -> Self {
-        let flat = |v: &Vector<D>| [v[0], v[1], if D == 3 { v[2] } else { 0.0 }];
-        Self {
-            time: snapshot.time,
-            position: snapshot.position.iter().map(flat).collect(),
-            scalars: vec![
-                ("pressure".to_owned(), "Pa".to_owned(), snapshot.pressure.clone()),
-                ("density".to_owned(), "kg/m³".to_owned(), snapshot.density.clone()),
-                ("shear_stress".to_owned(), "Pa".to_owned(), snapshot.stress.iter().map(|s| s[(0, 1)]).collect()),
-            ],
-            vectors: vec![("velocity".to_owned(), "m/s".to_owned(), snapshot.velocity.iter().map(flat).collect())],
-        }
-    }
 }
 
 /// Tables of one run: depth profile and time series.
