@@ -1,6 +1,6 @@
 //! The particles as a structure of arrays: flow, walls, images and the sentinel, in this order.
 
-use crate::boundary::{Images, Wall, wall::WallParticle};
+use crate::boundary::{Images, Surface, Wall, wall::WallParticle};
 use crate::lanes::LANES;
 use crate::records::Records;
 use crate::vector::{Tensor, Vector};
@@ -43,6 +43,10 @@ pub struct Particles<const D: usize> {
     pub(crate) wall_depth: Vec<f64>,
     /// Velocities of the walls `[m/s]`.
     pub(crate) wall_velocity: Vec<Vector<D>>,
+    /// 1 on particles of smooth walls, 0 elsewhere `[-]`.
+    pub(crate) wall_smoothness: Vec<f64>,
+    /// 1 on images behind a mirror, 0 elsewhere `[-]`.
+    pub(crate) mirrored: Vec<f64>,
 
     /// Which particle this is: its place in the scene.
     pub identity: Vec<u32>,
@@ -54,6 +58,10 @@ pub struct Particles<const D: usize> {
     pub(crate) force_correction: Vec<Tensor<D>>,
     /// Accelerations `[m/s²]`.
     pub(crate) acceleration: Vec<Vector<D>>,
+    /// The part of the accelerations that walls and mirrors cause `[m/s²]`.
+    pub(crate) support: Vec<Vector<D>>,
+    /// Impulse that walls, mirrors and contacts have given each particle since the start `[kg m/s]`.
+    pub(crate) support_impulse: Vec<Vector<D>>,
 
     /// V_b F of every pair `[1/m²]`, chunk by chunk as in the neighbour list: made by the geometry pass, used by
     /// the others, so that a step takes one square root a pair.
@@ -69,8 +77,9 @@ pub struct Particles<const D: usize> {
     /// Buffer for the extrapolated velocities of the walls, shape `[wall]`.
     pub(crate) wall_velocity_fit: Vec<Vector<D>>,
 
+    /// Which wall a wall particle belongs to, shape `[wall]`.
+    wall: Vec<u32>,
     flow: usize,
-    wall: usize,
 }
 
 /// Applies a statement to every array of the first group.
@@ -132,6 +141,14 @@ macro_rules! for_each_shared_array {
             let $array = &mut $particles.wall_velocity;
             $body;
         }
+        {
+            let $array = &mut $particles.wall_smoothness;
+            $body;
+        }
+        {
+            let $array = &mut $particles.mirrored;
+            $body;
+        }
     }};
 }
 
@@ -161,19 +178,23 @@ impl<const D: usize> Particles<D> {
             wall_normal: vec![Vector::zeros(); n],
             wall_depth: vec![0.0; n],
             wall_velocity: vec![Vector::zeros(); n],
+            wall_smoothness: vec![0.0; n],
+            mirrored: vec![0.0; real],
             identity: (0..n as u32).collect(),
             mass: flow.mass.clone(),
             correction: vec![Tensor::identity(); n],
             force_correction: vec![Tensor::identity(); n],
             acceleration: vec![Vector::zeros(); n],
+            support: vec![Vector::zeros(); n],
+            support_impulse: vec![Vector::zeros(); n],
             pair_weights: Vec::new(),
             geometry_records: Records::new(crate::operators::geometry::values(D)),
             momentum_records: Records::new(crate::terms::momentum::values(D)),
             continuity_records: Records::new(crate::terms::continuity::values(D)),
             wall_stress: vec![(0.0, Tensor::zeros()); m],
             wall_velocity_fit: vec![Vector::zeros(); m],
+            wall: Vec::with_capacity(m),
             flow: n,
-            wall: m,
         };
         particles.velocity.resize(real, Vector::zeros());
         particles.stress.resize(real, Tensor::zeros());
@@ -184,8 +205,18 @@ impl<const D: usize> Particles<D> {
             particles.wall_normal.push(wall.normal());
             particles.wall_depth.push(-wall.distance(&particle.position));
             particles.wall_velocity.push(wall.velocity);
+            particles.wall_smoothness.push(if wall.roughness == Surface::Smooth { 1.0 } else { 0.0 });
+            particles.wall.push(particle.wall as u32);
         }
         particles
+    }
+
+    /// Moves the wall particles with their walls, which have been displaced `[m]` and now have these velocities.
+    pub(crate) fn move_walls(&mut self, walls: &[Wall<D>], displacements: &[Vector<D>]) {
+        for (offset, &wall) in self.wall.iter().enumerate() {
+            self.position[self.flow + offset] += displacements[wall as usize];
+            self.wall_velocity[self.flow + offset] = walls[wall as usize].velocity;
+        }
     }
 
     /// Number of flow particles.
@@ -197,13 +228,13 @@ impl<const D: usize> Particles<D> {
     /// Number of wall particles.
     #[must_use]
     pub fn wall_count(&self) -> usize {
-        self.wall
+        self.wall.len()
     }
 
     /// Number of flow and wall particles.
     #[must_use]
     pub fn real_count(&self) -> usize {
-        self.flow + self.wall
+        self.flow + self.wall.len()
     }
 
     /// Drops images and sentinel.
@@ -232,6 +263,8 @@ impl<const D: usize> Particles<D> {
         images.copy_vectors(&mut self.wall_normal);
         images.copy_scalars(&mut self.wall_depth);
         images.copy_vectors(&mut self.wall_velocity);
+        images.copy_scalars(&mut self.wall_smoothness);
+        images.mark_mirrored(&mut self.mirrored);
         let sentinel = total - 1;
         self.position[sentinel] = Vector::repeat(FAR);
         self.density[sentinel] = 1.0;
@@ -249,6 +282,7 @@ impl<const D: usize> Particles<D> {
         permute(&mut self.artificial_viscosity, order, &mut scratch.scalars);
         permute(&mut self.viscosity, order, &mut scratch.scalars);
         permute(&mut self.mass, order, &mut scratch.scalars);
+        permute(&mut self.support_impulse, order, &mut scratch.vectors);
         permute(&mut self.identity, order, &mut scratch.identities);
     }
 

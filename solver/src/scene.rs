@@ -1,8 +1,8 @@
 //! What a simulation starts from.
 
-use crate::boundary::{Domain, Wall, wall::WallParticle};
+use crate::boundary::{Domain, Surface, Wall, WallTreatment, wall::WallParticle};
 use crate::equation_of_state::EquationOfState;
-use crate::numerics::Numerics;
+use crate::numerics::{MomentumOperator, Numerics};
 use crate::rheology::Rheology;
 use crate::vector::{Tensor, Vector};
 
@@ -96,6 +96,11 @@ pub enum SceneError {
         /// The least that works.
         least: f64,
     },
+    /// A smooth wall with operators that know rough walls only.
+    #[error(
+        "a smooth wall, such as a gate, needs the single divergence and extrapolated walls; set `momentum_operator = \"single-divergence\"` and `wall_treatment = \"extrapolated\"`, or leave the gate out"
+    )]
+    SmoothWall,
     /// More particles than the neighbour list can address.
     #[error("the scene has {0} particles, more than the neighbour list can address")]
     TooLarge(usize),
@@ -147,6 +152,13 @@ impl<const D: usize> Scene<D> {
             self.numerics.parameter_problem().or_else(|| self.rheology.parameter_problem())
         {
             return Err(SceneError::Parameter { field, value, rule, remedy });
+        }
+        let one_divergence = matches!(
+            self.numerics.momentum_operator,
+            MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence
+        ) && self.numerics.wall_treatment == WallTreatment::Extrapolated;
+        if !one_divergence && self.walls.iter().any(|wall| wall.roughness == Surface::Smooth) {
+            return Err(SceneError::SmoothWall);
         }
         for (particle, position) in self.flow.position.iter().enumerate() {
             let finite = [

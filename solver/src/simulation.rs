@@ -13,6 +13,7 @@ use crate::scene::{Scene, SceneError};
 use crate::snapshot::Snapshot;
 use crate::terms::artificial_viscosity::SWITCH_LOWEST;
 use crate::time_step::TimeStepBounds;
+use crate::vector::Vector;
 use crate::weakly_compressible::Model;
 use std::ops::ControlFlow;
 
@@ -28,6 +29,8 @@ pub struct Simulation<const D: usize> {
     pub(crate) kinematic_viscosity: f64,
     /// Upper bound of any particle's displacement since the neighbour search `[m]`.
     pub(crate) displacement: f64,
+    /// Displacement of each wall in a step `[m]`.
+    pub(crate) wall_displacements: Vec<Vector<D>>,
     domain: Domain<D>,
     flow_grid: CellGrid<D>,
     wall_grid: CellGrid<D>,
@@ -63,6 +66,7 @@ impl<const D: usize> Simulation<D> {
         };
         particles.artificial_viscosity.fill(initial);
         particles.viscosity.fill(scene.rheology.viscosity(0.0, 0.0));
+        let wall_displacements = vec![Vector::zeros(); scene.walls.len()];
         let mut simulation = Self {
             particles,
             images: Images::new(),
@@ -83,6 +87,7 @@ impl<const D: usize> Simulation<D> {
             largest_speed: 0.0,
             kinematic_viscosity: 0.0,
             displacement: f64::INFINITY,
+            wall_displacements,
             domain: scene.domain,
             flow_grid: CellGrid::new(),
             wall_grid: CellGrid::new(),
@@ -265,12 +270,15 @@ impl<const D: usize> Simulation<D> {
         particles.keep_real();
         for index in 0..flow {
             self.domain.wrap(&mut particles.position[index]);
+            let before = particles.velocity[index];
             self.domain.reflect(
                 &mut particles.position[index],
                 &mut particles.velocity[index],
                 &mut particles.velocity_gradient[index],
                 &mut particles.stress[index],
             );
+            let pushed_back = (particles.velocity[index] - before) * particles.mass[index];
+            particles.support_impulse[index] += pushed_back;
         }
         self.flow_grid.cover(particles.position[..flow].iter(), radius);
         self.flow_grid.sort(particles.position[..flow].iter().enumerate().map(|(index, x)| (index as u32, x)));

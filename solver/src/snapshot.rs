@@ -22,6 +22,9 @@ pub struct Snapshot<const D: usize> {
     pub pressure: Vec<f64>,
     /// Masses `[kg]`.
     pub mass: Vec<f64>,
+    /// Impulses that walls, mirror planes and contacts have given each particle since the start `[kg m/s]`; with the
+    /// single divergence only.
+    pub support_impulse: Vec<Vector<D>>,
 }
 
 impl<const D: usize> Snapshot<D> {
@@ -41,6 +44,7 @@ impl<const D: usize> Snapshot<D> {
             pressure: density.iter().map(|&rho| simulation.equation_of_state().pressure(rho)).collect(),
             density,
             mass: pick(&particles.mass, &order),
+            support_impulse: pick(&particles.support_impulse, &order),
         }
     }
 

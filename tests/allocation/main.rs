@@ -76,7 +76,7 @@ fn column<const D: usize>(cells: [usize; D], numerics: Numerics, rheology: Rheol
     if D == 3 {
         domain.axes[1] = AxisBoundary::Periodic { lower: 0.0, upper: cells[1] as f64 * SPACING };
     }
-    let walls = vec![Wall { axis: D - 1, surface: 0.0, side: 1.0, velocity: Vector::zeros() }];
+    let walls = vec![Wall::still(D - 1, 0.0, 1.0)];
     let reach = Vector::<D>::from_fn(|axis, _| (cells[axis] as f64 + 30.0) * SPACING);
     let wall_particles = wall::fill(&walls, &domain, (Vector::zeros(), reach), SPACING, 4);
     let mut gravity = Vector::zeros();

@@ -8,5 +8,6 @@ mod neighbour_list;
 mod patches;
 mod scene_errors;
 mod stopping;
+mod supports;
 mod symmetries;
 mod walls;

@@ -172,7 +172,7 @@ fn mirror_corners_and_walls_agree_with_all_images() {
         scene.domain.axes = [AxisBoundary::Mirror { lower: Some(0.0), upper: None }; D];
         assert!(compare(scene.clone()) > 1000, "a corner of mirrors");
         scene.domain.axes[D - 1] = AxisBoundary::Open;
-        scene.walls = vec![bed(), Wall { axis: 0, surface: size[0], side: -1.0, velocity: Vector::zeros() }];
+        scene.walls = vec![bed(), Wall::still(0, size[0], -1.0)];
         scene.wall_particles = wall::fill(&scene.walls, &scene.domain, (Vector::zeros(), size), SPACING, 4);
         assert!(compare(scene.clone()) > 1000, "a bed and a side wall beside a mirror");
         scene.domain.axes[0] = AxisBoundary::Periodic { lower: 0.0, upper: size[0] };

@@ -114,7 +114,7 @@ pub(crate) fn periodic_scene<const D: usize>(cells: [usize; D], disorder: Disord
 
 /// A wall normal to the last axis, below the flow, at rest.
 pub(crate) fn bed<const D: usize>() -> Wall<D> {
-    Wall { axis: D - 1, surface: 0.0, side: 1.0, velocity: Vector::zeros() }
+    Wall::still(D - 1, 0.0, 1.0)
 }
 
 pub(crate) fn simulation<const D: usize>(scene: Scene<D>) -> Simulation<D> {

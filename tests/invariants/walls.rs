@@ -106,7 +106,7 @@ fn a_side_wall_meets_the_bed_in_a_corner() {
     let rate = 5.0;
     let mut scene = layer(cells, 0.0, 0.0);
     scene.domain.axes[0] = AxisBoundary::Open;
-    scene.walls.push(Wall { axis: 0, surface: 0.0, side: 1.0, velocity: Vector::zeros() });
+    scene.walls.push(Wall::still(0, 0.0, 1.0));
     let extent = (Vector::zeros(), Vector::<2>::repeat(height));
     scene.wall_particles = wall::fill(&scene.walls, &scene.domain, extent, SPACING, 4);
     for (position, velocity) in scene.flow.position.iter().zip(&mut scene.flow.velocity) {

@@ -75,7 +75,7 @@ pub(crate) fn dam_break(size: usize, law: Law) -> Scene<2> {
     let pressure = |place: &Vector<2>| DENSITY * GRAVITY * (HEIGHT - place[1]).max(0.0);
     let flow = lattice(cells, spacing, |place| equation_of_state.density(pressure(place)));
     let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
-    let walls = vec![Wall { axis: 1, surface: 0.0, side: 1.0, velocity: Vector::zeros() }];
+    let walls = vec![Wall::still(1, 0.0, 1.0)];
     let extent = (Vector::<2>::zeros(), Vector::<2>::new(1.5 * HEIGHT, HEIGHT));
     let wall_particles = wall::fill(&walls, &domain, extent, spacing, 4);
     Scene {

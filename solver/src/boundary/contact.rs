@@ -1,6 +1,6 @@
 //! Contact as insurance: a particle closer to a wall than half a spacing may not approach it further.
 
-use super::wall::Wall;
+use super::wall::{Surface, Wall};
 use crate::vector::Vector;
 
 /// Stops the approach of a particle to the walls and takes friction `friction` `[-]` times the normal impulse from
@@ -17,7 +17,8 @@ pub fn impulse<const D: usize>(
     let mut change = Vector::zeros();
     for wall in walls {
         let approach = wall.side * (velocity[wall.axis] + change[wall.axis] - wall.velocity[wall.axis]);
-        if wall.distance(position) < range && approach < 0.0 {
+        if wall.distance(position) < range && approach < 0.0 && wall.faces(position) {
+            let friction = if wall.roughness == Surface::Rough { friction } else { 0.0 };
             let mut tangential = velocity + change - wall.velocity;
             tangential[wall.axis] = 0.0;
             let speed = tangential.norm();
@@ -36,7 +37,7 @@ mod tests {
 
     #[test]
     fn an_approaching_particle_is_stopped_and_rubbed() {
-        let bed = Wall::<2> { axis: 1, surface: 0.0, side: 1.0, velocity: Vector::zeros() };
+        let bed = Wall::<2>::still(1, 0.0, 1.0);
         let position = Vector::<2>::new(0.0, 0.3);
         let velocity = Vector::<2>::new(2.0, -1.0);
         let after = velocity + impulse(&[bed], &position, &velocity, 0.5, 0.4);

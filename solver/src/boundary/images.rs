@@ -153,6 +153,13 @@ impl<const D: usize> Images<D> {
         }
     }
 
+    /// 1 for images with a change of sign, that is behind a mirror, 0 for others.
+    pub(crate) fn mark_mirrored(&self, field: &mut [f64]) {
+        for (slot, image) in field[self.first..].iter_mut().zip(&self.images) {
+            *slot = if image.sign.min() < 0.0 { 1.0 } else { 0.0 };
+        }
+    }
+
     pub(crate) fn copy_positions(&self, field: &mut [Vector<D>]) {
         self.copy(field, |value, image| image.sign.component_mul(value) + image.shift);
     }

@@ -1,4 +1,4 @@
-//! Solid walls: planes filled with fixed dummy particles.
+//! Solid walls: planes filled with dummy particles, which stand still or travel with their wall.
 
 use super::AxisBoundary;
 use super::Domain;
@@ -15,6 +15,16 @@ pub enum WallTreatment {
     Paper,
 }
 
+/// Whether a wall holds the flow back along its surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Surface {
+    /// The flow sticks to it.
+    Rough,
+    /// The flow slips along it without friction.
+    Smooth,
+}
+
 /// A plane wall normal to one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wall<const D: usize> {
@@ -26,9 +36,60 @@ pub struct Wall<const D: usize> {
     pub side: f64,
     /// Velocity of the wall `[m/s]`.
     pub velocity: Vector<D>,
+    /// Rough or smooth.
+    pub roughness: Surface,
+    /// How far the wall still moves at its velocity, taking its particles with it, before it stands still `[m]`. At 0
+    /// a rough wall with a velocity is a belt: it drags, and its particles stay.
+    pub travel: f64,
+    /// Lower and upper corner of the region in which a wall of finite size touches the flow `[m]`; it travels along.
+    pub region: Option<(Vector<D>, Vector<D>)>,
 }
 
 impl<const D: usize> Wall<D> {
+    /// A rough wall of unlimited size that stands still.
+    #[must_use]
+    pub fn still(axis: usize, surface: f64, side: f64) -> Self {
+        let velocity = Vector::zeros();
+        Self { axis, surface, side, velocity, roughness: Surface::Rough, travel: 0.0, region: None }
+    }
+
+    /// Moves the wall for a time `[s]`, stopping it where its way ends. Returns its displacement `[m]`.
+    pub(crate) fn advance(&mut self, time: f64) -> Vector<D> {
+        if self.travel <= 0.0 {
+            return Vector::zeros();
+        }
+        let way = self.velocity.norm() * time;
+        let share = (self.travel / way).min(1.0);
+        let displacement = self.velocity * (time * share);
+        self.surface += displacement[self.axis];
+        if let Some((lower, upper)) = &mut self.region {
+            *lower += displacement;
+            *upper += displacement;
+        }
+        self.travel -= way;
+        if self.travel <= 0.0 {
+            self.travel = 0.0;
+            self.velocity = Vector::zeros();
+        }
+        displacement
+    }
+
+    /// Whether a position is where the wall can touch it.
+    #[inline(always)]
+    #[must_use]
+    pub fn faces(&self, position: &Vector<D>) -> bool {
+        match &self.region {
+            None => true,
+            Some((lower, upper)) => {
+                let mut inside = true;
+                for axis in 0..D {
+                    inside &= position[axis] >= lower[axis] && position[axis] <= upper[axis];
+                }
+                inside
+            }
+        }
+    }
+
     /// Unit normal into the flow `[-]`.
     #[must_use]
     pub fn normal(&self) -> Vector<D> {
@@ -130,7 +191,7 @@ mod tests {
     #[test]
     fn a_periodic_bed_has_its_first_row_half_a_spacing_below() {
         let axes = [AxisBoundary::Periodic { lower: 0.0, upper: 1.0 }, AxisBoundary::Open];
-        let bed = Wall::<2> { axis: 1, surface: 0.0, side: 1.0, velocity: Vector::zeros() };
+        let bed = Wall::<2>::still(1, 0.0, 1.0);
         let extent = (Vector::<2>::new(0.0, 0.0), Vector::<2>::new(1.0, 2.0));
         let particles = fill(&[bed], &Domain { axes }, extent, 0.1, 4);
         assert_eq!(particles.len(), 40);
@@ -140,8 +201,8 @@ mod tests {
 
     #[test]
     fn a_corner_is_filled_and_belongs_to_the_nearest_surface() {
-        let bed = Wall::<2> { axis: 1, surface: 0.0, side: 1.0, velocity: Vector::zeros() };
-        let left = Wall::<2> { axis: 0, surface: 0.0, side: 1.0, velocity: Vector::zeros() };
+        let bed = Wall::<2>::still(1, 0.0, 1.0);
+        let left = Wall::<2>::still(0, 0.0, 1.0);
         let extent = (Vector::<2>::zeros(), Vector::<2>::new(1.0, 1.0));
         let particles = fill(&[bed, left], &Domain { axes: [AxisBoundary::Open; 2] }, extent, 0.1, 3);
         // 13 × 13 cells less the 10 × 10 of the flow

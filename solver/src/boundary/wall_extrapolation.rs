@@ -52,7 +52,8 @@ impl<const D: usize> WallExtrapolation<'_, D> {
     }
 
     /// Velocity `[m/s]` of every wall particle: −d_w Σ V W v_f d_f / Σ V W d_f², the line through zero at the
-    /// surface that fits the flow best, relative to the wall's own velocity.
+    /// surface that fits the flow best, relative to the wall's own velocity. A smooth wall has the flow's mean velocity
+    /// along its surface.
     pub(crate) fn velocity(&self, particles: &mut Particles<D>) {
         let (first, count) = (particles.flow_count(), particles.wall_count());
         let mut result = std::mem::take(&mut particles.wall_velocity_fit);
@@ -120,6 +121,27 @@ impl<const D: usize> LanePass for StressPass<'_, D> {
                     }
                 }
             }
+            // a smooth wall mirrors the stress: what it carries along its surface is that of the flow with the other sign
+            let smoothness: V = gather(&particles.wall_smoothness, &group.own);
+            let mut opposite = zero_tensor::<V, D>();
+            for i in 0..D {
+                for j in 0..D {
+                    let mut sum = zero;
+                    for k in 0..D {
+                        sum = sum + normal[i] * normal[k] * stresses[k][j] + stresses[i][k] * normal[k] * normal[j];
+                        for l in 0..D {
+                            let both = normal[i] * normal[k] * normal[l] * normal[j];
+                            sum = sum - V::splat(2.0) * (both * stresses[k][l]);
+                        }
+                    }
+                    opposite[i][j] = sum;
+                }
+            }
+            for i in 0..D {
+                for j in 0..D {
+                    stresses[i][j] = stresses[i][j] - V::splat(2.0) * (smoothness * opposite[i][j]);
+                }
+            }
             // a dry wall carries nothing
             let wet = V::splat(1.0).where_less(V::splat(DRY), weights) / weights.max(V::splat(DRY));
             let pressure = (wet * pressures).max(zero).to_array();
@@ -157,25 +179,37 @@ impl<const D: usize> LanePass for VelocityPass<'_, D> {
             let normal = gather_vectors::<V, D>(&particles.wall_normal, &group.own);
             let wall_velocity = gather_vectors::<V, D>(&particles.wall_velocity, &group.own);
             let depth: V = gather(&particles.wall_depth, &group.own);
-            let mut moment = V::splat(0.0);
-            let mut sums = zero_vector::<V, D>();
+            let smoothness: V = gather(&particles.wall_smoothness, &group.own);
+            let (mut moment, mut weights) = (V::splat(0.0), V::splat(0.0));
+            let (mut sums, mut means) = (zero_vector::<V, D>(), zero_vector::<V, D>());
             for f in group.flow {
                 let position = gather_vectors::<V, D>(&particles.position, &f);
                 let velocity = gather_vectors::<V, D>(&particles.velocity, &f);
                 let volume: V = gather(&particles.volume, &f);
                 let r = difference(&position, &place);
                 let distance = (dot(&r, &normal) - depth).max(nearest);
-                let weight = volume * constants.kernel.value(dot(&r, &r)) * distance;
+                let share = volume * constants.kernel.value(dot(&r, &r));
+                let weight = share * distance;
                 moment = moment + weight * distance;
+                weights = weights + share;
                 for axis in 0..D {
-                    sums[axis] = sums[axis] + weight * (velocity[axis] - wall_velocity[axis]);
+                    let slip = velocity[axis] - wall_velocity[axis];
+                    sums[axis] = sums[axis] + weight * slip;
+                    means[axis] = means[axis] + share * slip;
                 }
             }
             // a dry wall moves as it is told
             let slope = (depth / moment.max(smallest)).where_less(smallest, moment);
+            let wet = V::splat(1.0).where_less(V::splat(DRY), weights) / weights.max(V::splat(DRY));
+            let mut sliding = means;
+            for axis in 0..D {
+                sliding[axis] = wet * means[axis] + slope * sums[axis];
+            }
+            let along_normal = dot(&sliding, &normal);
             let mut velocity = wall_velocity;
             for axis in 0..D {
-                velocity[axis] = wall_velocity[axis] - slope * sums[axis];
+                let slides = smoothness * (sliding[axis] - along_normal * normal[axis]);
+                velocity[axis] = wall_velocity[axis] - slope * sums[axis] + slides;
             }
             store_vector(&velocity, out);
         }

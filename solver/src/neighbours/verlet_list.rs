@@ -22,6 +22,8 @@ pub(crate) struct Group<'a> {
     pub(crate) wall: LaneChunks<'a>,
     /// Both, in this order.
     pub(crate) pairs: LaneChunks<'a>,
+    /// Whether images are among the flow neighbours.
+    pub(crate) has_images: bool,
     /// Where the first flow chunk stands among all chunks; the wall chunks follow the flow chunks.
     pub(crate) first_pair: usize,
 }
@@ -40,6 +42,7 @@ struct Extent {
     start: u32,
     flow: u16,
     wall: u16,
+    has_images: bool,
 }
 
 /// The neighbour list of all real particles: groups of the flow, then groups of the walls.
@@ -64,7 +67,7 @@ impl VerletList {
     #[inline(always)]
     #[must_use]
     pub(crate) fn group(&self, index: usize) -> Group<'_> {
-        let Extent { start, flow, wall } = self.extents[index];
+        let Extent { start, flow, wall, has_images } = self.extents[index];
         let first_pair = start as usize + 1;
         let wall_start = first_pair + flow as usize;
         let mut own = self.indices.part(first_pair - 1..first_pair);
@@ -74,6 +77,7 @@ impl VerletList {
             flow: self.indices.part(first_pair..wall_start),
             wall: self.indices.part(wall_start..wall_start + wall as usize),
             pairs: self.indices.part(first_pair..wall_start + wall as usize),
+            has_images,
             first_pair,
         }
     }
@@ -196,6 +200,7 @@ impl<const D: usize> LanePass for BlockSearch<'_, D> {
                 *chunk = own;
             }
             let mut parts = [0; 2];
+            let mut has_images = false;
             for part in 0..2 {
                 let grid = if part == 0 { search.grids.0 } else { search.grids.1 };
                 let mut found = [0; LANES];
@@ -211,6 +216,11 @@ impl<const D: usize> LanePass for BlockSearch<'_, D> {
                         found[lane] = LARGEST_ROW;
                     }
                     longest = if found[lane] > longest { found[lane] } else { longest };
+                    if part == 0 {
+                        for &index in &rows[lane][..found[lane]] {
+                            has_images |= index as usize >= search.real;
+                        }
+                    }
                 }
                 for lane in 0..LANES {
                     rows[lane][found[lane]..longest].fill(search.sentinel);
@@ -225,7 +235,12 @@ impl<const D: usize> LanePass for BlockSearch<'_, D> {
                 parts[part] = longest;
                 used += longest;
             }
-            *extent = Extent { start: (block * region + place) as u32, flow: parts[0] as u16, wall: parts[1] as u16 };
+            *extent = Extent {
+                start: (block * region + place) as u32,
+                flow: parts[0] as u16,
+                wall: parts[1] as u16,
+                has_images,
+            };
         }
         // nothing of an older list stays behind; a block that did not fit is filled again
         let rest = if used <= chunks.len() { used } else { 0 };

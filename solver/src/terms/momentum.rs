@@ -10,7 +10,7 @@ use crate::kernel::Kernel;
 use crate::lanes::algebra::{
     accumulate, difference, dot, load_tensor, product, scaled, store_vector, sum_of, zero_vector,
 };
-use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
+use crate::lanes::{InstructionSet, LANES, LanePass, Lanes, gather};
 use crate::neighbours::VerletList;
 use crate::numerics::ViscositySwitch;
 use crate::particles::Particles;
@@ -33,14 +33,14 @@ pub(crate) struct Momentum<'a, const D: usize> {
 }
 
 /// Values of a neighbour's record: position, velocity, density, √(p/ρ0), α, flux, velocity gradient. A wall particle
-/// has its depth in the place of the density, the velocity of the wall itself, and its normal in the first places of
-/// the velocity gradient.
+/// has its depth in the place of the density, its smoothness in that of α, the velocity of the wall itself, and its
+/// normal in the first places of the velocity gradient.
 pub(crate) const fn values(dimension: usize) -> usize {
     2 * dimension + 3 + 2 * dimension * dimension
 }
 
 impl<const D: usize> Momentum<'_, D> {
-    /// Accelerations `[m/s²]` of the flow particles.
+    /// Accelerations `[m/s²]` of the flow particles, and what walls and mirrors have of it.
     pub(crate) fn run(&self, particles: &mut Particles<D>) {
         const BLOCK: usize = crate::neighbours::BLOCK;
         let mut records = std::mem::replace(&mut particles.momentum_records, Records::new(0));
@@ -52,7 +52,7 @@ impl<const D: usize> Momentum<'_, D> {
             record.vector(if wall { &shared.wall_velocity[index] } else { &shared.velocity[index] });
             record.scalar(if wall { shared.wall_depth[index] } else { shared.density[index] });
             record.scalar((shared.pressure[index].max(0.0) * inverse_density).sqrt());
-            record.scalar(shared.artificial_viscosity[index]);
+            record.scalar(if wall { shared.wall_smoothness[index] } else { shared.artificial_viscosity[index] });
             record.tensor(&shared.flux[index]);
             if wall {
                 record.vector(&shared.wall_normal[index]);
@@ -62,11 +62,17 @@ impl<const D: usize> Momentum<'_, D> {
         });
         particles.momentum_records = records;
         let mut acceleration = std::mem::take(&mut particles.acceleration);
+        let mut support = std::mem::take(&mut particles.support);
         let shared = &*particles;
-        acceleration.par_chunks_mut(BLOCK).enumerate().with_min_len(4).for_each(|(block, out)| {
-            self.instruction_set.run(Pass { constants: self, particles: shared, block, out });
-        });
+        (acceleration.par_chunks_mut(BLOCK), support.par_chunks_mut(BLOCK))
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(4)
+            .for_each(|(block, (out, support))| {
+                self.instruction_set.run(Pass { constants: self, particles: shared, block, out, support });
+            });
         particles.acceleration = acceleration;
+        particles.support = support;
     }
 }
 
@@ -75,19 +81,20 @@ struct Pass<'a, const D: usize> {
     particles: &'a Particles<D>,
     block: usize,
     out: &'a mut [Vector<D>],
+    support: &'a mut [Vector<D>],
 }
 
 impl<const D: usize> LanePass for Pass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
         const BLOCK: usize = crate::neighbours::BLOCK;
-        let Self { constants, particles, block, out } = self;
+        let Self { constants, particles, block, out, support } = self;
         let all = &particles.momentum_records;
         let smoothing_length = constants.kernel.smoothing_length();
         let singularity = V::splat(1e-4 * smoothing_length * smoothing_length);
         let speed = smoothing_length * constants.sound_speed;
         let hourglass_strength = constants.hourglass * smoothing_length;
-        for (offset, out) in out.chunks_mut(LANES).enumerate() {
+        for (offset, (out, support)) in out.chunks_mut(LANES).zip(support.chunks_mut(LANES)).enumerate() {
             let group = constants.list.group(block * (BLOCK / LANES) + offset);
             let own = all.load::<V>(const { values(D).div_ceil(4) }, &group.own);
             let place = records::vector::<V, D>(&own, 0);
@@ -99,6 +106,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             let gradient_a = records::tensor::<V, D>(&own, 2 * D + 3 + D * D);
             let mut divergence = zero_vector::<V, D>();
             let mut damping = zero_vector::<V, D>();
+            let (mut support_divergence, mut support_damping) = (divergence, damping);
             let weights = &particles.pair_weights[group.first_pair..];
             let (flow_weights, wall_weights) = weights.split_at(group.flow.len());
             for (b, weight) in group.flow.zip(flow_weights) {
@@ -128,9 +136,16 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                     * (inverse * regular);
                 let unexplained = hourglass::unexplained(&slip, &gradient_a, &gradient, &r);
                 let mass_weight = weight * density;
-                accumulate(&mut divergence, weight, &traction(&flux_a, &flux, &r));
+                let traction = traction(&flux_a, &flux, &r);
+                accumulate(&mut divergence, weight, &traction);
                 accumulate(&mut damping, mass_weight * push, &r);
                 accumulate(&mut damping, mass_weight * drag, &unexplained);
+                if group.has_images {
+                    let mirrored: V = gather(&particles.mirrored, &b);
+                    accumulate(&mut support_divergence, mirrored * weight, &traction);
+                    accumulate(&mut support_damping, mirrored * (mass_weight * push), &r);
+                    accumulate(&mut support_damping, mirrored * (mass_weight * drag), &unexplained);
+                }
             }
             let first = block * BLOCK + offset * LANES;
             let correction_a = load_tensor::<V, D>(&particles.force_correction[first..first + out.len()]);
@@ -140,6 +155,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                 let wall_velocity = records::vector::<V, D>(&record, D);
                 let depth = records::scalar(&record, 2 * D);
                 let pressure_speed = records::scalar(&record, 2 * D + 1);
+                let smoothness = records::scalar(&record, 2 * D + 2);
                 let stress = records::tensor::<V, D>(&record, 2 * D + 3);
                 let normal = records::vector::<V, D>(&record, 2 * D + 3 + D * D);
                 let r = difference(&place, &position);
@@ -152,14 +168,23 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                 let traction = sum_of(&product(&flux_a, &r), &product(&stress, &corrected));
                 accumulate(&mut divergence, weight, &traction);
                 let slip = scaled(factor, &difference(&velocity_a, &wall_velocity));
-                let unexplained = difference(&slip, &product(&gradient_a, &r));
+                let mut unexplained = difference(&slip, &product(&gradient_a, &r));
+                // a smooth wall resists along its normal only
+                let along_normal = dot(&unexplained, &normal);
+                for i in 0..D {
+                    unexplained[i] = unexplained[i] + smoothness * (along_normal * normal[i] - unexplained[i]);
+                }
                 accumulate(&mut damping, weight * drag, &unexplained);
+                accumulate(&mut support_divergence, weight, &traction);
+                accumulate(&mut support_damping, weight * drag, &unexplained);
             }
-            let mut acceleration = damping;
+            let (mut acceleration, mut supported) = (damping, damping);
             for i in 0..D {
                 acceleration[i] = divergence[i] / density_a + damping[i] + V::splat(constants.gravity[i]);
+                supported[i] = support_divergence[i] / density_a + support_damping[i];
             }
             store_vector(&acceleration, out);
+            store_vector(&supported, support);
         }
     }
 }

@@ -41,7 +41,8 @@ const fn values(dimension: usize) -> usize {
 }
 
 impl<const D: usize> Pairwise<'_, D> {
-    /// Accelerations `[m/s²]` of the flow particles.
+    /// Accelerations `[m/s²]` of the flow particles. What walls and mirrors have of it is not kept: (13) is not a sum
+    /// over pairs, so these operators have no momentum balance to close.
     pub(crate) fn run(&self, particles: &mut Particles<D>) {
         const BLOCK: usize = crate::neighbours::BLOCK;
         let mut records = std::mem::replace(&mut particles.momentum_records, Records::new(0));

@@ -80,13 +80,22 @@ impl<const D: usize> Simulation<D> {
         };
         let (walls, friction) = (&self.model.wall_planes, self.model.contact_friction);
         let particles = &mut self.particles;
-        let (largest, bad) = (&mut particles.velocity[..flow], &particles.acceleration, &particles.position[..flow])
+        let (largest, bad) = (
+            &mut particles.velocity[..flow],
+            &mut particles.support_impulse,
+            &particles.acceleration,
+            &particles.support,
+            &particles.position[..flow],
+            &particles.mass,
+        )
             .into_par_iter()
             .with_min_len(4096)
             .enumerate()
-            .map(|(index, (velocity, acceleration, position))| {
+            .map(|(index, (velocity, support_impulse, acceleration, support, position, mass))| {
                 *velocity += acceleration * time_step;
-                *velocity += contact::impulse(walls, position, velocity, range, friction);
+                let contact = contact::impulse(walls, position, velocity, range, friction);
+                *velocity += contact;
+                *support_impulse += (support * time_step + contact) * *mass;
                 let square = velocity.norm_squared();
                 // written so that a NaN is bad
                 (square, if square <= limit { usize::MAX } else { index })
@@ -114,6 +123,21 @@ impl<const D: usize> Simulation<D> {
         }
     }
 
+    /// Moves the walls that travel; returns the speed of the fastest `[m/s]`.
+    fn move_walls(&mut self, time_step: f64) -> f64 {
+        if self.model.wall_planes.iter().all(|wall| wall.travel <= 0.0) {
+            return 0.0;
+        }
+        let mut fastest = 0.0_f64;
+        for (wall, displacement) in self.model.wall_planes.iter_mut().zip(&mut self.wall_displacements) {
+            fastest = fastest.max(if wall.travel > 0.0 { wall.velocity.norm() } else { 0.0 });
+            *displacement = wall.advance(time_step);
+        }
+        self.particles.move_walls(&self.model.wall_planes, &self.wall_displacements);
+        self.images.copy_vectors(&mut self.particles.wall_velocity);
+        fastest
+    }
+
     fn update_position(&mut self, time_step: f64) {
         let flow = self.particles.flow_count();
         let particles = &mut self.particles;
@@ -121,8 +145,9 @@ impl<const D: usize> Simulation<D> {
             .into_par_iter()
             .with_min_len(4096)
             .for_each(|(position, velocity): (&mut Vector<D>, &Vector<D>)| *position += velocity * time_step);
+        let fastest_wall = self.move_walls(time_step);
         self.images.copy_positions(&mut self.particles.position);
-        self.displacement += time_step * self.largest_speed;
+        self.displacement += time_step * self.largest_speed.max(fastest_wall);
         self.time += time_step;
         self.steps += 1;
     }

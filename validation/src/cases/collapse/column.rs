@@ -178,7 +178,7 @@ impl ColumnRun {
         let symmetry = AxisBoundary::Mirror { lower: Some(0.0), upper: None };
         let mut domain = Domain { axes: [symmetry; D] };
         domain.axes[1] = AxisBoundary::Open;
-        let bed = Wall { axis: 1, surface: 0.0, side: 1.0, velocity: Vector::<D>::zeros() };
+        let bed = Wall::still(1, 0.0, 1.0);
         let layers = (2.0 * self.numerics.smoothing_ratio).ceil() as usize + 1;
         let mut far = Vector::<D>::repeat(self.bed_end());
         far[1] = height;

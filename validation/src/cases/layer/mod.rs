@@ -132,7 +132,7 @@ impl Layer<'_> {
         let spacing = self.spacing();
         let length = self.columns as f64 * spacing;
         let domain = Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: length }, AxisBoundary::Open] };
-        let bed = Wall { axis: 1, surface: 0.0, side: 1.0, velocity: Vector::<2>::zeros() };
+        let bed = Wall::still(1, 0.0, 1.0);
         let wall_rows = (2.0 * self.numerics.smoothing_ratio).ceil() as usize + 1;
         let extent = (Vector::<2>::zeros(), Vector::<2>::new(length, self.height));
         let equation_of_state = EquationOfState {
