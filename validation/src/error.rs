@@ -163,6 +163,15 @@ impl InputError {
         }
     }
 
+    /// Says that the parameter at fault is part of a group of parameters.
+    #[must_use]
+    pub fn within(mut self, group: &str) -> Self {
+        if let Self::Field { field, .. } = &mut self {
+            *field = format!("{group}.{field}");
+        }
+        self
+    }
+
     /// A file that cannot be read, with the system's reason.
     #[must_use]
     pub fn unreadable(file: &Path, error: &std::io::Error) -> Self {

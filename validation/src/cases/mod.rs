@@ -5,7 +5,9 @@ pub mod collapse;
 pub mod column_planar;
 pub mod column_round;
 pub mod film;
+pub mod flow_thickness;
 pub mod hydrostatic;
+pub mod incline_collapse;
 pub mod layer;
 mod recording;
 mod rules;
@@ -19,4 +21,6 @@ pub static REGISTRY: Registry = Registry::new(&[
     &bagnold::Bagnold,
     &column_planar::ColumnPlanar,
     &column_round::ColumnRound,
+    &incline_collapse::InclineCollapse,
+    &flow_thickness::FlowThickness,
 ]);

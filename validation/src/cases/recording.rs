@@ -3,7 +3,7 @@
 use crate::observe::{Frame, Outcome, Recorded, state_hash};
 use bagnold_solver::simulation::{Simulation, StopReason};
 use bagnold_solver::snapshot::Snapshot;
-use bagnold_solver::vector::Vector;
+use bagnold_solver::vector::{Vector, equivalent_shear_stress, shear_rate};
 use std::time::Instant;
 
 /// How a run ended, and what it left on its way.
@@ -59,8 +59,18 @@ impl Frame {
                 ("pressure".to_owned(), "Pa".to_owned(), snapshot.pressure.clone()),
                 ("density".to_owned(), "kg/m³".to_owned(), snapshot.density.clone()),
                 ("shear_stress".to_owned(), "Pa".to_owned(), snapshot.stress.iter().map(|s| s[(0, 1)]).collect()),
+                ("viscosity".to_owned(), "Pa·s".to_owned(), apparent_viscosities(snapshot)),
             ],
             vectors: vec![("velocity".to_owned(), "m/s".to_owned(), snapshot.velocity.iter().map(flat).collect())],
         }
     }
+}
+
+/// Shear rate below which an apparent viscosity is no longer told from that of a solid `[1/s]`.
+const NO_SHEAR: f64 = 1e-6;
+
+/// Apparent viscosity τ/|γ̇| `[Pa·s]` of every particle.
+fn apparent_viscosities<const D: usize>(snapshot: &Snapshot<D>) -> Vec<f64> {
+    let viscosity = |(stress, gradient)| equivalent_shear_stress(stress) / shear_rate(gradient).max(NO_SHEAR);
+    snapshot.stress.iter().zip(&snapshot.velocity_gradient).map(viscosity).collect()
 }

@@ -58,6 +58,15 @@ pub struct Recorded<O> {
     pub data: O,
 }
 
+impl<O> Recorded<O> {
+    /// The same record with other data.
+    pub fn map<P>(self, change: impl FnOnce(O) -> P) -> Recorded<P> {
+        let Self { outcome, state_hash, particles, steps, simulated_time, wall_seconds, threads, frames, data } = self;
+        let data = change(data);
+        Recorded { outcome, state_hash, particles, steps, simulated_time, wall_seconds, threads, frames, data }
+    }
+}
+
 /// Hash of a state's bytes: 32 hexadecimal digits of its SHA-256.
 #[must_use]
 pub fn state_hash(bytes: &[u8]) -> String {

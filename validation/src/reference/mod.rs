@@ -10,6 +10,7 @@ mod film;
 mod layer_transient;
 mod measured;
 mod measured_table;
+mod slope_laws;
 
 pub use bagnold_profile::BagnoldProfile;
 pub use collapse_laws::{CollapseLaw, DRAWN, PLANAR_HEIGHT, PLANAR_RUN_OUT, ROUND_HEIGHT, ROUND_RUN_OUT};
@@ -17,3 +18,4 @@ pub use error::ReferenceError;
 pub use film::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
 pub use layer_transient::{LayerProfile, LayerTransient, TransientHistory};
 pub use measured::{Column, Confidence, Kind, MeasuredData, Metadata};
+pub use slope_laws::{RoughIncline, slope_run_out};

@@ -218,7 +218,7 @@ impl ColumnRun {
         let mut surveyor = Surveyor {
             half_width: self.half_width,
             spacing: self.spacing(),
-            gravity: self.gravity,
+            gravity: [0.0, -self.gravity],
             bed_end: self.bed_end(),
             collapse: Collapse::default(),
         };

@@ -34,6 +34,12 @@ pub struct Collapse {
     pub quantiles: (f64, f64),
     /// Particles below the bed, behind the symmetry plane, beyond the bed's end, or not a number.
     pub lost: usize,
+    /// Largest momentum that neither gravity nor walls, mirrors, gate and contacts gave, over M g t `[-]`.
+    pub momentum_residual: f64,
+    /// Mass at the start `[kg]`, of a metre of a planar column.
+    pub initial_mass: f64,
+    /// Mass at the end over that at the start, less 1 `[-]`.
+    pub mass_change: f64,
 }
 
 /// Measures snapshots of one column: half a planar one in two dimensions, a quarter of a round one in three. The
@@ -44,8 +50,8 @@ pub(super) struct Surveyor {
     pub half_width: f64,
     /// Particle spacing `[m]`.
     pub spacing: f64,
-    /// Gravity `[m/s²]`.
-    pub gravity: f64,
+    /// Gravity along the bed and across it `[m/s²]`.
+    pub gravity: [f64; 2],
     /// End of the bed `[m]`.
     pub bed_end: f64,
     /// What was measured so far.
@@ -59,14 +65,32 @@ impl Surveyor {
         let (mut kinetic, mut potential) = (0.0, 0.0);
         for ((mass, position), velocity) in snapshot.mass.iter().zip(&snapshot.position).zip(&snapshot.velocity) {
             kinetic += 0.5 * mass * velocity.norm_squared();
-            potential += mass * self.gravity * position[1];
+            potential -= mass * (self.gravity[0] * position[0] + self.gravity[1] * position[1]);
         }
+        let residual = self.momentum_residual(snapshot);
         let collapse = &mut self.collapse;
+        if collapse.time.is_empty() {
+            collapse.initial_mass = snapshot.mass.iter().sum();
+        }
+        collapse.momentum_residual = collapse.momentum_residual.max(residual);
         collapse.time.push(snapshot.time);
         collapse.front.push(front(&thickness));
         collapse.height.push(thickness.first().map_or(0.0, |bin| bin.1));
         collapse.kinetic_energy.push(kinetic);
         collapse.potential_energy.push(potential);
+    }
+
+    /// |Σ m v − Σ support impulses − M g t| over M g t `[-]`: the columns start at rest.
+    fn momentum_residual<const D: usize>(&self, snapshot: &Snapshot<D>) -> f64 {
+        let mass: f64 = snapshot.mass.iter().sum();
+        let mut gravity = Vector::<D>::zeros();
+        (gravity[0], gravity[1]) = (self.gravity[0], self.gravity[1]);
+        let given = gravity * (mass * snapshot.time);
+        let mut residual = -given;
+        for ((mass, velocity), support) in snapshot.mass.iter().zip(&snapshot.velocity).zip(&snapshot.support_impulse) {
+            residual += velocity * *mass - support;
+        }
+        if snapshot.time > 0.0 { residual.norm() / given.norm() } else { 0.0 }
     }
 
     /// Kinetic energy over the potential energy released so far `[-]`.
@@ -83,6 +107,7 @@ impl Surveyor {
         let beside = end.position.iter().filter(|x| radius(x) < BIN_WIDTH * r);
         self.collapse.top = (beside.fold(0.0_f64, |top, x| top.max(x[1])) + 0.5 * self.spacing) / r;
         let total: f64 = end.mass.iter().sum();
+        self.collapse.mass_change = total / self.collapse.initial_mass - 1.0;
         self.collapse.centroid =
             end.mass.iter().zip(&end.position).map(|(m, x)| m * radius(x)).sum::<f64>() / (total * r);
         let mut order: Vec<(f64, f64)> = end.position.iter().map(radius).zip(end.mass.iter().copied()).collect();
@@ -110,7 +135,7 @@ impl Surveyor {
     /// (x, ΣV over the bin's width or quarter ring), both over r_0. A particle's volume is spread evenly over a spacing
     /// to either side, mirrored at the symmetry planes: counted at points, bins of two spacings would jump by whole
     /// particles.
-    fn thickness<const D: usize>(&self, snapshot: &Snapshot<D>) -> Vec<(f64, f64)> {
+    pub(super) fn thickness<const D: usize>(&self, snapshot: &Snapshot<D>) -> Vec<(f64, f64)> {
         let r = self.half_width;
         let width = BIN_WIDTH * r;
         let bins = (self.bed_end / width).ceil() as usize;
@@ -218,6 +243,7 @@ mod tests {
             density: Vec::new(),
             pressure: Vec::new(),
             mass: Vec::new(),
+            support_impulse: Vec::new(),
         };
         for k in 0..20 * 16 {
             let place = |cell: usize| (cell as f64 + 0.5) * spacing;
@@ -225,8 +251,13 @@ mod tests {
             snapshot.mass.push(2.0 * spacing * spacing);
             snapshot.density.push(2.0);
         }
-        let surveyor =
-            Surveyor { half_width: 1.0, spacing, gravity: 9.81, bed_end: 2.0, collapse: Collapse::default() };
+        let surveyor = Surveyor {
+            half_width: 1.0,
+            spacing,
+            gravity: [0.0, -9.81],
+            bed_end: 2.0,
+            collapse: Collapse::default(),
+        };
         let thickness = surveyor.thickness(&snapshot);
         assert!(thickness[..9].iter().all(|bin| (bin.1 - 0.8).abs() < 1e-12), "{thickness:?}");
         assert!((thickness.iter().map(|bin| bin.1 * BIN_WIDTH).sum::<f64>() - 0.8).abs() < 1e-12);

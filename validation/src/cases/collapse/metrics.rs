@@ -37,17 +37,33 @@ fn laws_of(run: &ColumnRun) -> (CollapseLaw, CollapseLaw) {
     }
 }
 
+/// Nothing is lost: no particle, no mass, no momentum.
+pub(in crate::cases) fn conservation(variant: &str, collapse: &Collapse) -> [Metric; 3] {
+    [
+        Metric::observed("particles_lost", variant, collapse.lost as f64, "-")
+            .against(Some(0.0), "no particle passes the bed, the symmetry plane or the bed's end", Confidence::Exact)
+            .gated(Limit::AtMost(0.0), "grains do not vanish"),
+        Metric::observed("mass_change", variant, collapse.mass_change, "-")
+            .against(Some(0.0), "the mass of a particle never changes", Confidence::Exact)
+            .gated(Limit::Within(0.0, 0.0), "exact by construction"),
+        Metric::observed("momentum_residual", variant, collapse.momentum_residual, "-")
+            .against(
+                Some(0.0),
+                "momentum against gravity and what bed, planes, gate and contacts gave, over M g t",
+                Confidence::Exact,
+            )
+            .gated(Limit::AtMost(1e-6), "specification 2: forces between grains cancel in pairs")
+            .with_snapshot_tolerance(0.0, 1e-6),
+    ]
+}
+
 fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse) {
     let variant = run.variant();
     let a = run.initial_height();
     let observed = |name: &str, value: f64, unit: &str| {
         Metric::observed(name, &variant, value, unit).of_kind(Kind::Validation).with_snapshot_tolerance(1e-3, 1e-3)
     };
-    metrics.push(
-        Metric::observed("particles_lost", &variant, collapse.lost as f64, "-")
-            .against(Some(0.0), "no particle passes the bed, the symmetry plane or the bed's end", Confidence::Exact)
-            .gated(Limit::AtMost(0.0), "grains do not vanish"),
-    );
+    metrics.extend(conservation(&variant, collapse));
     let (run_out_law, height_law) = laws_of(run);
     let run_out = observed("run_out", collapse.run_out(), "-").against(
         run_out_law.value(a),

@@ -4,9 +4,11 @@ mod column;
 mod deposit;
 pub(super) mod figures;
 pub(super) mod metrics;
+mod slope;
 
 pub use column::{ColumnRun, Geometry};
 pub use deposit::{BIN_WIDTH, Collapse, FRONT_THICKNESS, front};
+pub use slope::{SlopeCollapse, SlopeRun};
 
 use crate::case::Run;
 use crate::error::InputError;

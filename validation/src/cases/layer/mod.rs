@@ -115,6 +115,17 @@ impl Layer<'_> {
         self.duration / acoustic.min(viscous)
     }
 
+    /// The scene as a run starts from it: settled, with its velocities and shear stresses.
+    ///
+    /// # Errors
+    /// A scene that breaks a rule of the solver.
+    pub fn prepared_scene(&self) -> Result<Scene<2>, SceneError> {
+        Ok(self.started(match self.preparation {
+            Preparation::Settled => preparation::settled(self.scene())?,
+            Preparation::None => self.scene(),
+        }))
+    }
+
     /// The scene with the initial velocities and shear stresses.
     fn started(&self, mut scene: Scene<2>) -> Scene<2> {
         let flow = &mut scene.flow;
@@ -176,11 +187,7 @@ impl Layer<'_> {
     /// A scene that breaks a rule of the solver.
     pub fn run(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, SceneError> {
         let started = std::time::Instant::now();
-        let scene = match self.preparation {
-            Preparation::Settled => preparation::settled(self.scene())?,
-            Preparation::None => self.scene(),
-        };
-        let mut simulation = Simulation::new(self.started(scene))?;
+        let mut simulation = Simulation::new(self.prepared_scene()?)?;
         if simulation.estimated_steps(self.duration) * simulation.time_step_bounds().acoustic > self.duration {
             let (steps, acoustic) =
                 (simulation.estimated_steps(self.duration), self.duration / simulation.time_step_bounds().acoustic);

@@ -1,0 +1,266 @@
+//! A reservoir of grains behind a gate on an incline: its scene and its run.
+
+use super::deposit::{Collapse, Surveyor};
+use crate::case::{Progress, Run};
+use crate::cases::recording::Ending;
+use crate::error::InputError;
+use crate::observe::{Frame, Recorded};
+use bagnold_solver::boundary::gate::Gate;
+use bagnold_solver::boundary::wall::fill;
+use bagnold_solver::boundary::{AxisBoundary, Domain, Wall};
+use bagnold_solver::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::numerics::Numerics;
+use bagnold_solver::rheology::{MuI, Rheology};
+use bagnold_solver::scene::{Flow, Scene};
+use bagnold_solver::simulation::Simulation;
+use bagnold_solver::vector::{Tensor, Vector};
+use rand::{RngExt, SeedableRng};
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+
+/// Kinetic over released potential energy below which the deposit rests and the run ends `[-]`.
+const AT_REST: f64 = 1e-7;
+/// Time before which no reservoir has emptied `[s]`.
+const EARLIEST_REST: f64 = 0.4;
+/// Interval of the time series `[s]`.
+const INTERVAL: f64 = 0.02;
+/// Times of the pictures `[s]`; the last state follows.
+const PICTURES: [f64; 4] = [0.0, 0.2, 0.4, 0.8];
+/// Friction that side walls add, over the ratio of height to width `[-]`.
+const SIDE_WALL_FRICTION: f64 = 0.18;
+/// Rows of particles through the gate: its two sides must not see each other.
+const GATE_ROWS: usize = 4;
+
+/// One simulation.
+#[derive(Debug, Clone, Serialize)]
+pub struct SlopeRun {
+    /// Slope θ `[°]`.
+    pub slope_angle: f64,
+    /// Speed at which the gate is pulled up, normal to the slope `[m/s]`; 0 for no gate.
+    pub gate_speed: f64,
+    /// Particles over the length of the reservoir.
+    pub resolution: usize,
+    /// Height h_0 of the reservoir `[m]`.
+    pub initial_height: f64,
+    /// Its length r_0 `[m]`.
+    pub reservoir_length: f64,
+    /// Constitutive law of the grains, side walls not counted.
+    pub law: MuI,
+    /// Width of the channel `[m]`; 0 for no side walls.
+    pub channel_width: f64,
+    pub(in crate::cases) channel_length: f64,
+    pub(in crate::cases) gravity: f64,
+    pub(in crate::cases) solid_fraction: f64,
+    pub(in crate::cases) jitter: f64,
+    pub(in crate::cases) seed: u64,
+    pub(in crate::cases) duration: f64,
+    pub(in crate::cases) numerics: Numerics,
+}
+
+/// What a collapse on a slope leaves behind; lengths over the reservoir's length, times in `[s]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct SlopeCollapse {
+    /// Front, energies, deposit and balances.
+    pub collapse: Collapse,
+    /// Thickness over r_0 in every bin of the channel at each time of the series, shape `[times][bins]` `[-]`.
+    pub thickness: Vec<Vec<f64>>,
+}
+
+impl Run for SlopeRun {
+    fn variant(&self) -> String {
+        let gate = if self.gate_speed > 0.0 { self.gate_speed.to_string() } else { "none".to_owned() };
+        format!("slope_angle={},gate={gate},resolution={}", self.slope_angle, self.resolution)
+    }
+
+    fn particle_steps(&self) -> f64 {
+        let step = self.numerics.acoustic_courant * self.numerics.smoothing_ratio * self.spacing() / self.sound_speed();
+        self.duration / step * self.particles()
+    }
+}
+
+impl SlopeRun {
+    /// Particle spacing `[m]`.
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.reservoir_length / self.resolution as f64
+    }
+
+    /// Particles.
+    #[must_use]
+    pub fn particles(&self) -> f64 {
+        (self.resolution * self.rows()) as f64
+    }
+
+    /// Whether there are enough rows over the height for a gate.
+    #[must_use]
+    pub fn is_resolved(&self) -> bool {
+        self.rows() >= 20
+    }
+
+    /// Static friction that the flow feels, side walls included `[-]`: μ_s + 0.18 h_0/W.
+    #[must_use]
+    pub fn static_friction(&self) -> f64 {
+        self.law.static_friction + self.side_wall_friction()
+    }
+
+    fn side_wall_friction(&self) -> f64 {
+        if self.channel_width > 0.0 { SIDE_WALL_FRICTION * self.initial_height / self.channel_width } else { 0.0 }
+    }
+
+    fn rows(&self) -> usize {
+        (self.initial_height / self.spacing()).round().max(1.0) as usize
+    }
+
+    fn bulk_density(&self) -> f64 {
+        self.solid_fraction * self.law.grain_density
+    }
+
+    fn bulk_modulus(&self) -> f64 {
+        50.0 * self.bulk_density() * self.gravity * self.initial_height
+    }
+
+    fn sound_speed(&self) -> f64 {
+        (self.bulk_modulus() / self.bulk_density()).sqrt()
+    }
+
+    /// Gravity along the slope and across it `[m/s²]`.
+    fn gravity(&self) -> [f64; 2] {
+        let angle = self.slope_angle.to_radians();
+        [self.gravity * libm::sin(angle), -self.gravity * libm::cos(angle)]
+    }
+
+    fn scene(&self) -> Scene<2> {
+        let spacing = self.spacing();
+        let height = self.rows() as f64 * spacing;
+        let (modulus, density) = (self.bulk_modulus(), self.bulk_density());
+        let equation_of_state =
+            EquationOfState { reference_density: density, bulk_modulus: modulus, tension: Tension::Cut };
+        let gravity = self.gravity();
+        let mut random = rand_pcg::Pcg64::seed_from_u64(self.seed);
+        let mut flow = Flow::default();
+        for cell in 0..self.rows() * self.resolution {
+            let (column, row) = (cell % self.resolution, cell / self.resolution);
+            let site = Vector::<2>::new((column as f64 + 0.5) * spacing, (row as f64 + 0.5) * spacing);
+            let shift = Vector::<2>::from_fn(|_, _| self.jitter * spacing * (2.0 * random.random::<f64>() - 1.0));
+            let pressure = crate::cases::layer::hydrostatic_pressure(modulus, density, -gravity[1], height - site[1]);
+            let density = equation_of_state.density(pressure);
+            flow.position.push(site + shift);
+            flow.velocity.push(Vector::zeros());
+            flow.density.push(density);
+            flow.mass.push(density * spacing * spacing);
+            flow.stress.push(Tensor::zeros());
+        }
+        // the back of the reservoir is smooth
+        let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
+        let mut walls = vec![Wall::still(1, 0.0, 1.0)];
+        let layers = (2.0 * self.numerics.smoothing_ratio).ceil() as usize + 1;
+        let extent = (Vector::<2>::zeros(), Vector::<2>::new(self.channel_length, height));
+        let mut wall_particles = fill(&walls, &domain, extent, spacing, layers);
+        if self.gate_speed > 0.0 {
+            let gate = Gate {
+                position: self.reservoir_length,
+                edge: 0.0,
+                height: height + GATE_ROWS as f64 * spacing,
+                speed: self.gate_speed,
+                lift: height + 2.0 * GATE_ROWS as f64 * spacing,
+                rows: GATE_ROWS,
+            };
+            let (faces, particles) = gate.build(spacing, walls.len());
+            walls.extend(faces);
+            wall_particles.extend(particles);
+        }
+        let friction = self.side_wall_friction();
+        let law = MuI {
+            static_friction: self.law.static_friction + friction,
+            limiting_friction: self.law.limiting_friction + friction,
+            ..self.law
+        };
+        Scene {
+            flow,
+            wall_particles,
+            walls,
+            domain,
+            gravity: Vector::<2>::from(gravity),
+            spacing,
+            equation_of_state,
+            rheology: Rheology::MuI(law),
+            numerics: self.numerics,
+        }
+    }
+
+    pub(in crate::cases) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, InputError> {
+        let started = std::time::Instant::now();
+        let mut simulation = Simulation::new(self.scene())?;
+        let particles = simulation.particles().flow_count();
+        let mut surveyor = Surveyor {
+            half_width: self.reservoir_length,
+            spacing: self.spacing(),
+            gravity: self.gravity(),
+            bed_end: self.channel_length,
+            collapse: Collapse::default(),
+        };
+        let mut thickness = Vec::new();
+        let mut frames = Vec::new();
+        let mut last_good = simulation.snapshot();
+        let end_of_channel = self.channel_length - 0.5 * self.reservoir_length;
+        let reason = simulation.run(self.duration, INTERVAL, |simulation| {
+            let snapshot = simulation.snapshot();
+            surveyor.observe(&snapshot);
+            thickness.push(surveyor.thickness(&snapshot).iter().map(|bin| bin.1).collect());
+            if PICTURES.get(frames.len()).is_some_and(|&time| snapshot.time >= time) {
+                frames.push(Frame::of_flow(&snapshot));
+            }
+            progress.advance(snapshot.time, self.duration, simulation.steps() as f64 * particles as f64);
+            let rests = snapshot.time > EARLIEST_REST && surveyor.agitation() < AT_REST;
+            let arrived = snapshot.position.iter().any(|x| x[0] > end_of_channel);
+            last_good = snapshot;
+            if rests || arrived { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let ending = Ending {
+            reason,
+            last_good,
+            criterion: format!(
+                "the deposit rests (kinetic energy below {AT_REST:.0e} of the energy released), or a grain nears the end \
+                 of the channel"
+            ),
+            may_diverge: false,
+            frames,
+            started,
+        };
+        Ok(ending.record(&simulation, |end| SlopeCollapse { collapse: surveyor.finish(end), thickness }))
+    }
+}
+
+impl SlopeCollapse {
+    /// Thickness over r_0 at a place x/r_0 over time `[-]`, linear between the centres of two bins.
+    #[must_use]
+    pub fn thickness_at(&self, place: f64) -> Vec<f64> {
+        let position = place / super::BIN_WIDTH - 0.5;
+        let bin = position.max(0.0) as usize;
+        let share = position - bin as f64;
+        let value = |profile: &Vec<f64>| {
+            let [Some(here), Some(next)] = [profile.get(bin), profile.get(bin + 1)] else { return 0.0 };
+            here + share * (next - here)
+        };
+        self.thickness.iter().map(value).collect()
+    }
+
+    /// Whether the grains came to rest before the end of the channel.
+    #[must_use]
+    pub fn came_to_rest(&self) -> bool {
+        self.collapse.agitation() < 1e-6
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thickness_is_read_between_the_bins() {
+        let collapse = SlopeCollapse { thickness: vec![vec![1.0, 0.5, 0.0], vec![0.2; 3]], ..SlopeCollapse::default() };
+        let at = collapse.thickness_at(0.10);
+        assert!((at[0] - 0.75).abs() < 1e-12 && (at[1] - 0.2).abs() < 1e-12, "{at:?}");
+        assert_eq!(collapse.thickness_at(5.0), [0.0, 0.0]);
+    }
+}

@@ -1,0 +1,98 @@
+//! The case's figures.
+
+use super::metrics::{froude_number, incline, relative_thickness};
+use super::{FlowThicknessParameters, Record, collapses, flows, searches};
+use crate::figure::{Axis, Figure, Mark, Panel, Series};
+
+pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Figure> {
+    let drawn = [
+        (collapses(records).next().is_some(), histories as fn(_, _) -> _),
+        (searches(records).next().is_some(), stopping as fn(_, _) -> _),
+        (flows(records).next().is_some(), flow_rule as fn(_, _) -> _),
+    ];
+    drawn.into_iter().filter(|(present, _)| *present).map(|(_, draw)| draw(parameters, records)).collect()
+}
+
+/// Thickness at the stations over time, one panel a slope.
+fn histories(parameters: &FlowThicknessParameters, records: &[Record]) -> Figure {
+    let incline = incline(parameters);
+    let panels = collapses(records).enumerate().map(|(place, (run, data))| {
+        let y = Axis { limits: Some((0.0, 6.0)), ..Axis::linear("thickness [cm]") };
+        let mut panel = Panel::new(&format!("{}°", run.slope_angle), Axis::linear("t [s]"), y);
+        let time = &data.collapse.time;
+        for (slot, &station) in parameters.stations.iter().enumerate() {
+            let thickness = data.thickness_at(station / run.reservoir_length);
+            let points = time.iter().zip(thickness).map(|(t, h)| (*t, 100.0 * h * run.reservoir_length)).collect();
+            let entry = if place == 0 { format!("x = {station} m") } else { String::new() };
+            panel.series.push(Series::new(&entry, Mark::Line, slot, points));
+        }
+        if let (Some(law), Some(&end)) =
+            (incline.flow_thickness(run.initial_height, run.slope_angle.to_radians()), time.last())
+        {
+            let entry = if place == 0 { "h_s of (44)" } else { "" };
+            let points = vec![(0.0, 100.0 * law), (end, 100.0 * law)];
+            panel.series.push(Series::new(entry, Mark::Reference, 0, points));
+        }
+        panel
+    });
+    Figure {
+        name: "thickness-in-time".to_owned(),
+        caption: "Thickness of the flow of a collapse at three places of the slope (volume in a bin of 2 cm over its \
+                  width), with the paper's h_s (44). The flow passes as a wave: no plateau is reached before the grains \
+                  have gone by, so that (44) is an order of magnitude and not a law of this flow."
+            .to_owned(),
+        panels: panels.collect(),
+        columns: 2,
+    }
+}
+
+/// Which layers stop: the local law and the experiments.
+fn stopping(parameters: &FlowThicknessParameters, records: &[Record]) -> Figure {
+    let incline = incline(parameters);
+    let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("layer thickness [mm]"));
+    let thickness = |step: i32| 1.0e-3 * libm::pow(40.0, f64::from(step) / 60.0);
+    let experiment =
+        (0..=60).map(thickness).map(|h| (incline.stopping_angle(h).to_degrees(), 1e3 * h)).collect::<Vec<_>>();
+    let local = libm::atan(incline.static_friction).to_degrees();
+    panel.series.push(Series::new("experiments: h_stop(θ)", Mark::Line, 2, experiment));
+    panel.series.push(Series::new("local law: tanθ = μ_s", Mark::Reference, 0, vec![(local, 1.0), (local, 40.0)]));
+    let (mut stopped, mut flowed) = (Vec::new(), Vec::new());
+    for (run, found) in searches(records) {
+        for trial in &found.trials {
+            let side = if trial.stops { &mut stopped } else { &mut flowed };
+            side.push((trial.slope_angle, 1e3 * run.layer.thickness));
+        }
+    }
+    panel.series.push(Series::new("stopped", Mark::Points, 0, stopped));
+    panel.series.push(Series::new("kept flowing", Mark::Points, 1, flowed));
+    Figure {
+        name: "start-stop".to_owned(),
+        caption: "Layers that stopped and layers that kept flowing, over slope and thickness. The local μ(I) law stops them \
+                  all at one slope; in experiments thin layers stop on steeper slopes. Left of the curve of h_stop the \
+                  experiments have no flow, right of the dashed line the law has no deposit."
+            .to_owned(),
+        panels: vec![panel],
+        columns: 1,
+    }
+}
+
+/// The flow rule (42).
+fn flow_rule(parameters: &FlowThicknessParameters, records: &[Record]) -> Figure {
+    let incline = incline(parameters);
+    let mut panel = Panel::new("", Axis::linear("h/h_stop(θ) [-]"), Axis::linear("Ū/√(gh) [-]"));
+    let points: Vec<(f64, f64)> = flows(records)
+        .filter_map(|(run, data)| Some((relative_thickness(&incline, run)?, froude_number(run, data))))
+        .collect();
+    let far = points.iter().fold(1.0_f64, |most, point| most.max(point.0));
+    let line = vec![(0.0, 0.0), (1.05 * far, 1.05 * far * parameters.flow_coefficient)];
+    panel.series.push(Series::new("β of Table 1", Mark::Reference, 0, line));
+    panel.series.push(Series::new("steady flows", Mark::Points, 0, points));
+    Figure {
+        name: "flow-rule".to_owned(),
+        caption: "Depth mean of the velocity of steady flows over √(gh) against the thickness over h_stop(θ), with (42). \
+                  That the points lie on the line follows from (41): it verifies the solver."
+            .to_owned(),
+        panels: vec![panel],
+        columns: 1,
+    }
+}

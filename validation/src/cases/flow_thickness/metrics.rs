@@ -1,0 +1,135 @@
+//! How the case is judged.
+
+use super::{FlowThicknessParameters, FlowThicknessRun, Record, SteadyRun, collapses, flows, searches};
+use crate::case::Run;
+use crate::cases::collapse::metrics::conservation;
+use crate::cases::layer::LayerObservation;
+use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::reference::RoughIncline;
+
+/// Part of a steady flow's time series that its mean velocity is taken over, the last `[-]`.
+const WINDOW: f64 = 0.3;
+
+pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Metric> {
+    let mut metrics = Vec::new();
+    let incline = incline(parameters);
+    thicknesses(&mut metrics, parameters, records);
+    for (run, found) in searches(records) {
+        let variant = FlowThicknessRun::StartStop(run.clone()).variant();
+        let lost = found.trials.iter().map(|trial| trial.lost).sum::<usize>();
+        metrics.push(
+            Metric::observed("particles_lost", &variant, lost as f64, "-")
+                .against(Some(0.0), "no particle passes the bed", Confidence::Exact)
+                .gated(Limit::AtMost(0.0), "grains do not vanish"),
+        );
+        let local = libm::atan(run.layer.material.static_friction).to_degrees();
+        let measured = found.bracket().map_or(f64::NAN, |(stops, flows)| 0.5 * (stops + flows));
+        let angle = |name: &str, value: f64| {
+            Metric::observed(name, &variant, value, "°").with_snapshot_tolerance(0.0, 1e-6)
+        };
+        metrics.push(
+            angle("stopping_angle", measured)
+                .against(Some(local), "arctan μ_s: the local μ(I) law, whatever the thickness", Confidence::Exact)
+                .gated(
+                    Limit::Within(local - run.tolerance, local + run.tolerance),
+                    "the width of the bracket: its middle lies within half of it of the true angle, the rest is the \
+                     solver's",
+                ),
+        );
+        let experiment = incline.stopping_angle(run.layer.thickness).to_degrees();
+        metrics.push(angle("experimental_excess", experiment - measured).of_kind(Kind::Validation).against(
+            None,
+            "slope at which h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s) equals the thickness, less the angle found: what a \
+             local law does not know",
+            Confidence::High,
+        ));
+    }
+    flow_rule(&mut metrics, parameters, records);
+    metrics
+}
+
+pub(super) fn incline(parameters: &FlowThicknessParameters) -> RoughIncline {
+    let grains = &parameters.collapse.material;
+    RoughIncline {
+        length_scale: parameters.deposit_length * grains.grain_diameter,
+        static_friction: grains.static_friction,
+        limiting_friction: grains.limiting_friction,
+    }
+}
+
+/// Part (i): the thickness of the flow at the stations.
+fn thicknesses(metrics: &mut Vec<Metric>, parameters: &FlowThicknessParameters, records: &[Record]) {
+    let incline = incline(parameters);
+    for (run, data) in collapses(records) {
+        metrics.extend(conservation(&run.variant(), &data.collapse));
+        let law = incline.flow_thickness(run.initial_height, run.slope_angle.to_radians());
+        for &station in &parameters.stations {
+            let variant = format!("station={station},{}", run.variant());
+            let history = data.thickness_at(station / run.reservoir_length);
+            let largest = history.iter().fold(0.0_f64, |most, &h| most.max(h)) * run.reservoir_length;
+            if largest == 0.0 {
+                // the front did not come so far
+                continue;
+            }
+            metrics.push(
+                Metric::observed("largest_thickness", &variant, 100.0 * largest, "cm")
+                    .of_kind(Kind::Validation)
+                    .against(
+                        law.map(|law| 100.0 * law),
+                        "h_s of (44) as reconstructed: the paper's estimate of the flow's thickness",
+                        Confidence::Medium,
+                    )
+                    .with_snapshot_tolerance(5e-3, 5e-3),
+            );
+        }
+    }
+}
+
+/// Depth mean of the velocity over √(gh) of a steady flow, over its last part `[-]`.
+pub(super) fn froude_number(run: &SteadyRun, data: &LayerObservation) -> f64 {
+    let means = &data.series.mean_velocity;
+    let window = &means[means.len() - ((WINDOW * means.len() as f64) as usize).clamp(1, means.len())..];
+    let mean = window.iter().sum::<f64>() / window.len() as f64;
+    mean / (run.layer.gravity * run.layer.thickness).sqrt()
+}
+
+/// h/h_stop(θ) of a steady flow `[-]`.
+pub(super) fn relative_thickness(incline: &RoughIncline, run: &SteadyRun) -> Option<f64> {
+    incline.deposit_thickness(run.slope_angle.to_radians()).map(|h| run.layer.thickness / h)
+}
+
+/// Part (iii): β of (42) from the steady flows.
+fn flow_rule(metrics: &mut Vec<Metric>, parameters: &FlowThicknessParameters, records: &[Record]) {
+    let incline = incline(parameters);
+    let (mut xx, mut xy, mut count) = (0.0, 0.0, 0);
+    let mut expected = 0.0;
+    for (run, data) in flows(records) {
+        let Some(relative) = relative_thickness(&incline, run) else { continue };
+        let froude = froude_number(run, data);
+        // relative residuals: every flow counts the same
+        (xx, xy, count) = (xx + 1.0, xy + froude / relative, count + 1);
+        let grains = &run.layer.material;
+        // (41) solved for β at this slope
+        expected += 0.4 * grains.reference_inertia * incline.length_scale / grains.grain_diameter
+            * (parameters.collapse.solid_fraction * libm::cos(run.slope_angle.to_radians())).sqrt();
+    }
+    if count == 0 {
+        return;
+    }
+    let (measured, expected) = (xy / xx, expected / f64::from(count));
+    metrics.push(
+        Metric::observed("flow_coefficient", "", measured, "-")
+            .against(Some(expected), "(41) solved for β at the slopes of the flows: an identity of the law", Confidence::Exact)
+            .gated(
+                Limit::Within(0.97 * expected, 1.03 * expected),
+                "3 %: an error of 0.1 % of the friction coefficient is one of 0.8 % (25°) to 2 % (22°) of the velocity",
+            )
+            .with_snapshot_tolerance(2e-3, 0.0),
+    );
+    metrics.push(
+        Metric::observed("flow_coefficient_published", "", measured, "-")
+            .of_kind(Kind::Validation)
+            .against(Some(parameters.flow_coefficient), "Table 1, β of glass beads", Confidence::High)
+            .with_snapshot_tolerance(2e-3, 0.0),
+    );
+}

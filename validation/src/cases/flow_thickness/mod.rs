@@ -1,0 +1,185 @@
+//! How thick granular flow on a slope is, and at which slope it stops.
+
+mod figures;
+mod metrics;
+mod parameters;
+mod start_stop;
+
+pub use parameters::FlowThicknessParameters;
+pub use start_stop::{LayerAtSlope, StartStop, StartStopRun, Trial};
+
+use super::collapse::{SlopeCollapse, SlopeRun};
+use super::layer::LayerObservation;
+use crate::case::{Case, Progress, Run, Tier};
+use crate::error::InputError;
+use crate::figure::Figure;
+use crate::metric::Metric;
+use crate::observe::Recorded;
+use crate::output::Table;
+use serde::{Deserialize, Serialize};
+
+/// The case.
+#[derive(Debug)]
+pub struct FlowThickness;
+
+/// A steady flow, from its exact profile.
+#[derive(Debug, Clone, Serialize)]
+pub struct SteadyRun {
+    /// The layer.
+    pub layer: LayerAtSlope,
+    /// Slope `[°]`.
+    pub slope_angle: f64,
+}
+
+/// One simulation, or one search.
+#[derive(Debug, Clone, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FlowThicknessRun {
+    /// A collapse on a slope.
+    Collapse(SlopeRun),
+    /// The slope at which a layer stops.
+    StartStop(StartStopRun),
+    /// A steady flow.
+    Steady(SteadyRun),
+}
+
+/// What it leaves behind.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FlowThicknessObservation {
+    /// Thickness in time, and all balances.
+    Collapse(SlopeCollapse),
+    /// The trials.
+    StartStop(StartStop),
+    /// Profile and time series.
+    Steady(LayerObservation),
+}
+
+type Record = (FlowThicknessRun, Recorded<FlowThicknessObservation>);
+
+impl Run for FlowThicknessRun {
+    fn variant(&self) -> String {
+        match self {
+            Self::Collapse(run) => run.variant(),
+            Self::StartStop(run) => format!("thickness={},rows={}", run.layer.thickness, run.layer.rows),
+            Self::Steady(run) => {
+                format!("thickness={},slope_angle={},rows={}", run.layer.thickness, run.slope_angle, run.layer.rows)
+            }
+        }
+    }
+
+    fn particle_steps(&self) -> f64 {
+        match self {
+            Self::Collapse(run) => run.particle_steps(),
+            // about six trials, most of which end early
+            Self::StartStop(run) => 2.0 * run.layer.particle_steps(),
+            Self::Steady(run) => run.layer.particle_steps(),
+        }
+    }
+}
+
+impl Case for FlowThickness {
+    type Parameters = FlowThicknessParameters;
+    type Run = FlowThicknessRun;
+    type Observation = FlowThicknessObservation;
+
+    fn name(&self) -> &'static str {
+        "flow-thickness"
+    }
+
+    fn summary(&self) -> &'static str {
+        "thickness of flow on a slope, the slope at which a layer stops, and the flow rule"
+    }
+
+    fn description(&self) -> &'static str {
+        "Three questions about thickness. (i) How thick is the flow of a collapse half a metre and more down the slope? \
+         Thickness is the volume of the grains in a bin of 2 cm over the bin's width, as in incline-collapse; the paper's \
+         h_s (44), reconstructed from (40), (41) and (43), is drawn beside. (ii) At which slope does a layer of given \
+         thickness stop? Layers start with the steady profile of a steeper slope, and the slope is bisected. The local \
+         μ(I) law stops every layer at tanθ = μ_s whatever its thickness; in experiments thin layers stop on steeper \
+         slopes, h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s). The difference is the known limit of a local law, not an error \
+         of the solver. (iii) Does the mean velocity of steady flows follow (42), Ū/√(gh) = β h/h_stop? With (41) this is \
+         an identity of the law, so it verifies the solver and says nothing about grains."
+    }
+
+    fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
+        parameters::FIELD_NOTES
+    }
+
+    fn parameters(&self, tier: Tier) -> FlowThicknessParameters {
+        FlowThicknessParameters::of_tier(tier)
+    }
+
+    fn check(&self, parameters: &FlowThicknessParameters) -> Result<(), InputError> {
+        parameters.check()
+    }
+
+    fn runs(&self, parameters: &FlowThicknessParameters) -> Vec<FlowThicknessRun> {
+        parameters::runs(parameters)
+    }
+
+    fn simulate(
+        &self,
+        run: &FlowThicknessRun,
+        progress: &dyn Progress,
+    ) -> Result<Recorded<FlowThicknessObservation>, InputError> {
+        Ok(match run {
+            FlowThicknessRun::Collapse(run) => run.simulate(progress)?.map(FlowThicknessObservation::Collapse),
+            FlowThicknessRun::StartStop(run) => run.simulate(progress)?.map(FlowThicknessObservation::StartStop),
+            FlowThicknessRun::Steady(run) => {
+                let start = start_stop::Motion::of(run.layer.profile(run.slope_angle));
+                run.layer.layer(run.slope_angle, &start).run(progress)?.map(FlowThicknessObservation::Steady)
+            }
+        })
+    }
+
+    fn metrics(&self, parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Metric> {
+        metrics::all(parameters, records)
+    }
+
+    fn figures(&self, parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Figure> {
+        figures::all(parameters, records)
+    }
+
+    fn tables(&self, _: &FlowThicknessParameters, records: &[Record]) -> Vec<Table> {
+        records.iter().filter_map(trials).collect()
+    }
+}
+
+/// The trials of a search.
+fn trials((run, record): &Record) -> Option<Table> {
+    let FlowThicknessObservation::StartStop(found) = &record.data else { return None };
+    let columns = ["slope [°]", "stops [-]", "t [s]", "mean u [m/s]"];
+    let row = |trial: &Trial| {
+        vec![trial.slope_angle, if trial.stops { 1.0 } else { 0.0 }, trial.time, trial.mean_velocity]
+    };
+    Some(Table {
+        name: format!("trials-{}", run.variant().replace(['=', ','], "-").replace('_', "-")),
+        columns: columns.map(str::to_owned).to_vec(),
+        rows: found.trials.iter().map(row).collect(),
+    })
+}
+
+/// The collapses among the records.
+fn collapses(records: &[Record]) -> impl Iterator<Item = (&SlopeRun, &SlopeCollapse)> {
+    records.iter().filter_map(|(run, record)| match (run, &record.data) {
+        (FlowThicknessRun::Collapse(run), FlowThicknessObservation::Collapse(data)) => Some((run, data)),
+        _ => None,
+    })
+}
+
+/// The searches among the records.
+fn searches(records: &[Record]) -> impl Iterator<Item = (&StartStopRun, &StartStop)> {
+    records.iter().filter_map(|(run, record)| match (run, &record.data) {
+        (FlowThicknessRun::StartStop(run), FlowThicknessObservation::StartStop(data)) => Some((run, data)),
+        _ => None,
+    })
+}
+
+/// The steady flows among the records.
+fn flows(records: &[Record]) -> impl Iterator<Item = (&SteadyRun, &LayerObservation)> {
+    records.iter().filter_map(|(run, record)| match (run, &record.data) {
+        (FlowThicknessRun::Steady(run), FlowThicknessObservation::Steady(data)) => Some((run, data)),
+        _ => None,
+    })
+}

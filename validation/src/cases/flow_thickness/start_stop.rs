@@ -1,0 +1,248 @@
+//! The slope at which a layer of given thickness stops flowing, bisected.
+
+use crate::case::Progress;
+use crate::cases::layer::{Layer, Preparation, bulk_modulus};
+use crate::cases::recording::Ending;
+use crate::error::InputError;
+use crate::observe::Recorded;
+use crate::reference::BagnoldProfile;
+use bagnold_solver::numerics::Numerics;
+use bagnold_solver::rheology::{MuI, Rheology};
+use bagnold_solver::simulation::{Simulation, StopReason};
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+
+/// Depth mean of the velocity over √(gh) below which a layer has stopped `[-]`.
+const STOPPED: f64 = 1e-4;
+/// A flow is steady when its depth mean changes by less than this over [`STEADY_TIME`] `[-]`.
+const STEADY: f64 = 5e-3;
+/// `[s]`
+const STEADY_TIME: f64 = 1.0;
+/// Interval of the observations `[s]`.
+const INTERVAL: f64 = 0.02;
+
+/// A layer that is set in motion at a slope, and what is asked of it.
+#[derive(Debug, Clone, Serialize)]
+pub struct LayerAtSlope {
+    /// Thickness `[m]`.
+    pub thickness: f64,
+    /// Rows of particles over it.
+    pub rows: usize,
+    pub(super) columns: usize,
+    pub(super) gravity: f64,
+    pub(super) solid_fraction: f64,
+    /// Grains.
+    pub material: MuI,
+    pub(super) jitter: f64,
+    pub(super) seed: u64,
+    /// Simulated time `[s]`.
+    pub duration: f64,
+    pub(super) numerics: Numerics,
+}
+
+/// The bracket of slopes in which a layer stops.
+#[derive(Debug, Clone, Serialize)]
+pub struct StartStopRun {
+    /// The layer.
+    pub layer: LayerAtSlope,
+    /// Slopes between which it is sought `[°]`: it must stop at the first and flow at the second.
+    pub bracket: (f64, f64),
+    /// Width of the bracket that ends the search `[°]`.
+    pub tolerance: f64,
+    /// Slope whose steady profile every layer starts with `[°]`.
+    pub start_angle: f64,
+}
+
+/// One layer of the search.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// Slope `[°]`.
+    pub slope_angle: f64,
+    /// Whether the layer stopped.
+    pub stops: bool,
+    /// When it stopped or was found steady `[s]`.
+    pub time: f64,
+    /// Depth mean of its velocity at that time `[m/s]`.
+    pub mean_velocity: f64,
+    /// Particles below the bed or far above the layer.
+    pub lost: usize,
+}
+
+/// What the search leaves behind.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StartStop {
+    /// All trials in their order.
+    pub trials: Vec<Trial>,
+}
+
+impl StartStop {
+    /// Steepest slope at which the layer stopped and gentlest at which it flowed `[°]`; none where the ends of the
+    /// search do not bracket the change.
+    #[must_use]
+    pub fn bracket(&self) -> Option<(f64, f64)> {
+        let angles = |stops: bool| self.trials.iter().filter(move |t| t.stops == stops).map(|t| t.slope_angle);
+        let (steepest, gentlest) = (angles(true).reduce(f64::max)?, angles(false).reduce(f64::min)?);
+        (steepest < gentlest).then_some((steepest, gentlest))
+    }
+}
+
+impl LayerAtSlope {
+    /// Steady profile at a slope `[°]`.
+    #[must_use]
+    pub fn profile(&self, angle: f64) -> BagnoldProfile {
+        BagnoldProfile {
+            layer_height: self.thickness,
+            slope_angle: angle.to_radians(),
+            gravity: self.gravity,
+            grain_diameter: self.material.grain_diameter,
+            grain_density: self.material.grain_density,
+            solid_fraction: self.solid_fraction,
+            static_friction: self.material.static_friction,
+            limiting_friction: self.material.limiting_friction,
+            reference_inertia: self.material.reference_inertia,
+        }
+    }
+
+    /// The layer at a slope `[°]`, from the steady profile of another.
+    pub(super) fn layer<'a>(&self, angle: f64, start: &'a Motion) -> Layer<'a> {
+        let density = self.solid_fraction * self.material.grain_density;
+        Layer {
+            height: self.thickness,
+            rows: self.rows,
+            columns: self.columns,
+            slope_angle: angle.to_radians(),
+            gravity: self.gravity,
+            reference_density: density,
+            bulk_modulus: bulk_modulus(density, self.gravity, self.thickness, start.depth_mean),
+            rheology: Rheology::MuI(self.material),
+            numerics: self.numerics,
+            jitter: self.jitter,
+            seed: self.seed,
+            preparation: Preparation::Settled,
+            velocity: &*start.velocity,
+            shear_stress: &*start.shear_stress,
+            duration: self.duration,
+            window: 0.3 * self.duration,
+            interval: INTERVAL,
+            stop_above: f64::INFINITY,
+            frames: 2,
+            may_diverge: false,
+        }
+    }
+
+    /// Expected particle-steps of one layer.
+    pub(super) fn particle_steps(&self) -> f64 {
+        let step = self.numerics.acoustic_courant * self.numerics.smoothing_ratio * self.thickness
+            / (self.rows as f64 * (50.0 * self.gravity * self.thickness).sqrt());
+        self.duration / step * (self.rows * self.columns) as f64
+    }
+}
+
+/// How a layer moves at the start.
+pub(super) struct Motion {
+    velocity: Box<dyn Fn(f64) -> f64 + Sync>,
+    shear_stress: Box<dyn Fn(f64) -> f64 + Sync>,
+    depth_mean: f64,
+}
+
+impl Motion {
+    /// The motion of a steady profile.
+    pub(super) fn of(profile: BagnoldProfile) -> Self {
+        Self {
+            velocity: Box::new(move |y| profile.velocity(y).unwrap_or(0.0)),
+            shear_stress: Box::new(move |y| profile.shear_stress(y)),
+            depth_mean: profile.depth_mean().unwrap_or(0.0),
+        }
+    }
+}
+
+impl StartStopRun {
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<StartStop>, InputError> {
+        let started = std::time::Instant::now();
+        let (mut stopping, mut flowing) = self.bracket;
+        let rounds = 2.0 + ((flowing - stopping) / self.tolerance).log2().ceil().max(0.0);
+        let mut trials = Vec::new();
+        loop {
+            let angle = match trials.len() {
+                0 => stopping,
+                1 => flowing,
+                _ => 0.5 * (stopping + flowing),
+            };
+            let (trial, simulation, ending) = self.attempt(angle, progress, (trials.len() as f64, rounds), started)?;
+            let diverged = matches!(ending.reason, StopReason::Diverged(_));
+            trials.push(trial);
+            let bracketed = match trials.len() {
+                1 => trial.stops,
+                2 => !trial.stops,
+                _ => {
+                    if trial.stops {
+                        stopping = angle;
+                    } else {
+                        flowing = angle;
+                    }
+                    true
+                }
+            };
+            if diverged || !bracketed || (trials.len() > 1 && flowing - stopping <= self.tolerance * (1.0 + 1e-9)) {
+                return Ok(ending.record(&simulation, |_| StartStop { trials }));
+            }
+        }
+    }
+
+    /// Runs one layer until it has stopped, is steady or its time is up.
+    fn attempt(
+        &self,
+        angle: f64,
+        progress: &dyn Progress,
+        (round, rounds): (f64, f64),
+        started: std::time::Instant,
+    ) -> Result<(Trial, Simulation<2>, Ending<2>), InputError> {
+        let start = Motion::of(self.layer.profile(self.start_angle));
+        let layer = self.layer.layer(angle, &start);
+        let mut simulation = Simulation::new(layer.prepared_scene()?)?;
+        let particles = simulation.particles().flow_count() as f64;
+        let (h, duration) = (self.layer.thickness, self.layer.duration);
+        let threshold = STOPPED * (self.layer.gravity * h).sqrt();
+        let lag = (STEADY_TIME / INTERVAL) as usize;
+        let mut means: Vec<f64> = Vec::new();
+        let mut trial = Trial { slope_angle: angle, stops: false, time: 0.0, mean_velocity: f64::NAN, lost: 0 };
+        let mut last_good = simulation.snapshot();
+        let reason = simulation.run(duration, INTERVAL, |simulation| {
+            let snapshot = simulation.snapshot();
+            let mass: f64 = snapshot.mass.iter().sum();
+            let mean = snapshot.mass.iter().zip(&snapshot.velocity).map(|(m, v)| m * v[0]).sum::<f64>() / mass;
+            means.push(mean);
+            let stops = mean < threshold;
+            let steady = means.len() > lag && (mean / means[means.len() - 1 - lag] - 1.0).abs() < STEADY;
+            let lost = snapshot.position.iter().filter(|x| !(x[1] > 0.0 && x[1] < 2.0 * h)).count();
+            trial = Trial { slope_angle: angle, stops, time: snapshot.time, mean_velocity: mean, lost };
+            progress.advance(round * duration + snapshot.time, rounds * duration, simulation.steps() as f64 * particles);
+            last_good = snapshot;
+            if stops || steady { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let ending = Ending {
+            reason,
+            last_good,
+            criterion: "the slope at which the layer stops is bracketed".to_owned(),
+            may_diverge: false,
+            frames: Vec::new(),
+            started,
+        };
+        Ok((trial, simulation, ending))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bracket_is_that_of_the_trials() {
+        let trial =
+            |slope_angle: f64, stops: bool| Trial { slope_angle, stops, time: 1.0, mean_velocity: 0.0, lost: 0 };
+        let found = StartStop { trials: vec![trial(19.0, true), trial(25.0, false), trial(22.0, false), trial(20.5, true)] };
+        assert_eq!(found.bracket(), Some((20.5, 22.0)));
+        assert_eq!(StartStop { trials: vec![trial(19.0, false)] }.bracket(), None);
+        assert_eq!(StartStop { trials: vec![trial(22.0, true), trial(21.0, false)] }.bracket(), None);
+    }
+}

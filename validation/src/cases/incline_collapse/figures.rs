@@ -1,0 +1,159 @@
+//! The case's figures.
+
+use super::Record;
+use super::metrics::COEFFICIENTS;
+use crate::cases::collapse::{BIN_WIDTH, SlopeRun};
+use crate::figure::{Axis, Band, Field, Figure, Mark, Panel, Series};
+use crate::observe::Frame;
+use crate::reference::slope_run_out;
+
+/// Times at which thickness profiles are drawn `[s]`.
+const PROFILES: [f64; 6] = [0.0, 0.2, 0.4, 0.6, 0.8, 1.2];
+/// Friction of the experiment: beads with a repose angle of 23.5°.
+const EXPERIMENT: f64 = 23.5;
+/// The paper's scale of viscosities `[Pa·s]`.
+const PAPER_SCALE: (f64, f64) = (0.0, 1.5);
+
+pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+    if records.is_empty() {
+        return Vec::new();
+    }
+    let mut figures = vec![fronts(records), thickness(records), run_outs(records)];
+    figures.extend(records.iter().filter(|(run, _)| run.slope_angle > 15.0).map(fields));
+    figures
+}
+
+fn label(run: &SlopeRun) -> String {
+    let gate = if run.gate_speed > 0.0 { format!("gate {} m/s", run.gate_speed) } else { "no gate".to_owned() };
+    format!("{}°, {gate}", run.slope_angle)
+}
+
+fn fronts(records: &[Record]) -> Figure {
+    let mut front = Panel::new("", Axis::linear("t [s]"), Axis::linear("front − gate [m]"));
+    let mut energy = Panel::new("", Axis::linear("t [s]"), Axis::linear("kinetic energy [J/m]"));
+    for (slot, (run, record)) in records.iter().enumerate() {
+        let data = &record.data.collapse;
+        let way = |front: &f64| (front - 1.0) * run.reservoir_length;
+        let points = data.time.iter().copied().zip(data.front.iter().map(way)).collect();
+        front.series.push(Series::new(&label(run), Mark::Line, slot, points));
+        let points = data.time.iter().copied().zip(data.kinetic_energy.iter().copied()).collect();
+        energy.series.push(Series::new("", Mark::Line, slot, points));
+    }
+    Figure {
+        name: "fronts".to_owned(),
+        caption: "The front's way from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come \
+                  to rest; above it they run until the channel ends."
+            .to_owned(),
+        panels: vec![front, energy],
+        columns: 2,
+    }
+}
+
+fn thickness(records: &[Record]) -> Figure {
+    let high = records.first().map_or(0.14, |(run, _)| run.initial_height);
+    let panels = records.iter().enumerate().map(|(place, (run, record))| {
+        let y = Axis { limits: Some((0.0, 100.0 * high)), ..Axis::linear("thickness [cm]") };
+        let mut panel = Panel::new(&label(run), Axis::linear("x [m]"), y);
+        for (slot, time) in PROFILES.iter().enumerate() {
+            let Some(index) = record.data.collapse.time.iter().position(|t| *t >= time - 1e-9) else { continue };
+            let r = run.reservoir_length;
+            let profile = &record.data.thickness[index];
+            let end = profile.iter().rposition(|&thickness| thickness > 0.0).map_or(0, |last| last + 1);
+            let place_of = |bin: usize| (bin as f64 + 0.5) * BIN_WIDTH * r;
+            let points = profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r)).collect();
+            let entry = if place == 0 { format!("{time} s") } else { String::new() };
+            panel.series.push(Series::new(&entry, Mark::Line, slot, points));
+        }
+        panel
+    });
+    Figure {
+        name: "thickness".to_owned(),
+        caption: "Thickness along the slope in time: volume per bin of 2 cm. The gate stands at 0.2 m.".to_owned(),
+        panels: panels.collect(),
+        columns: 2,
+    }
+}
+
+/// Final run-out over the slope, with the band of the experiments' fit.
+fn run_outs(records: &[Record]) -> Figure {
+    let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("run-out from the gate [m]"));
+    let Some((first, _)) = records.first() else { unreachable!("figures are drawn of records") };
+    let friction = first.static_friction();
+    let curve = |friction: f64, k: f64| -> Vec<(f64, f64)> {
+        let angles = (0..=110).map(|step| 0.2 * f64::from(step));
+        let value = |angle: f64| slope_run_out(first.initial_height, angle.to_radians(), friction, k);
+        angles.filter_map(|angle| Some((angle, value(angle)?))).filter(|(_, way)| *way < 6.0).collect()
+    };
+    let (short, long) = (curve(friction, COEFFICIENTS.0), curve(friction, COEFFICIENTS.1));
+    panel.bands.push(Band {
+        label: "k = 0.4 to 0.5, tanδ = μ_s of the run".to_owned(),
+        points: short.iter().zip(&long).map(|(a, b)| (a.0, a.1, b.1)).collect(),
+    });
+    let experiment = libm::tan(EXPERIMENT.to_radians());
+    for (k, entry) in [(COEFFICIENTS.0, "k = 0.4 and 0.5, δ = 23.5° of the experiment"), (COEFFICIENTS.1, "")] {
+        panel.series.push(Series::new(entry, Mark::Reference, 0, curve(experiment, k)));
+    }
+    let points: Vec<(f64, f64)> = records
+        .iter()
+        .filter(|(_, record)| record.data.came_to_rest())
+        .map(|(run, record)| (run.slope_angle, record.data.collapse.run_out() * run.reservoir_length))
+        .collect();
+    panel.series.push(Series::new("at rest", Mark::Points, 0, points));
+    Figure {
+        name: "run-out".to_owned(),
+        caption: "Final run-out from the gate of the grains that came to rest, over the slope, with the fit to experiments \
+                  h_0 2k/(tanδ − tanθ)."
+            .to_owned(),
+        panels: vec![panel],
+        columns: 1,
+    }
+}
+
+/// Speed and viscosity in time: the paper's figures 4 to 6.
+fn fields((run, record): &Record) -> Figure {
+    let scalar = |frame: &Frame, wanted: &str| -> Vec<f64> {
+        frame.scalars.iter().find(|(name, _, _)| name == wanted).map_or(Vec::new(), |(_, _, values)| values.clone())
+    };
+    let speed = |frame: &Frame| -> Vec<f64> {
+        let velocity = frame.vectors.iter().find(|(name, _, _)| name == "velocity");
+        velocity.map_or(Vec::new(), |(_, _, v)| v.iter().map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt()).collect())
+    };
+    let moving: Vec<&Frame> = record.frames.iter().filter(|frame| frame.time > 0.3).collect();
+    let fastest = moving.iter().flat_map(|frame| speed(frame)).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let far = moving.iter().flat_map(|frame| &frame.position).map(|x| x[0]).fold(0.0, f64::max);
+    let mut panels = Vec::new();
+    for frame in moving {
+        let title = format!("t = {:.2} s", frame.time);
+        let viscosity = scalar(frame, "viscosity");
+        let decades = viscosity.iter().map(|v| libm::log10(v.max(1e-3))).collect();
+        let columns = [
+            (speed(frame), "|v| [m/s]", (0.0, fastest)),
+            (viscosity, "η [Pa·s]", PAPER_SCALE),
+            (decades, "log10 η [Pa·s]", (-1.0, 4.0)),
+        ];
+        for (values, label, limits) in columns {
+            let x = Axis { limits: Some((0.0, far)), ..Axis::linear("x [m]") };
+            let y = Axis { limits: Some((0.0, run.initial_height)), ..Axis::linear("y [m]") };
+            let mut panel = Panel::new(&title, x, y);
+            panel.field = Some(Field {
+                points: frame.position.iter().map(|x| (x[0], x[1])).collect(),
+                values,
+                label: label.to_owned(),
+                diameter: run.spacing(),
+                limits: Some(limits),
+            });
+            panels.push(panel);
+        }
+    }
+    let name = label(run).replace('°', "").replace([',', ' ', '/', '.'], "-").replace("--", "-");
+    Figure {
+        name: format!("fields-{name}"),
+        caption: format!(
+            "{}: speed, and apparent viscosity on the paper's scale of 0 to 1.5 Pa·s and on a logarithmic one. The \
+             viscosity of grains that hardly move has no upper bound.",
+            label(run)
+        ),
+        panels,
+        columns: 1,
+    }
+}

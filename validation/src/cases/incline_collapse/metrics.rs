@@ -1,0 +1,60 @@
+//! How a collapse on a slope is judged.
+
+use super::Record;
+use crate::case::Run;
+use crate::cases::collapse::metrics::conservation;
+use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::reference::slope_run_out;
+
+/// Coefficients k that the two quotations of the run-out law give `[-]`.
+pub(super) const COEFFICIENTS: (f64, f64) = (0.4, 0.5);
+/// What the gate allows beyond them `[-]`.
+const MARGIN: f64 = 0.15;
+/// Times at which the front is told `[s]`.
+const FRONT_TIMES: [f64; 2] = [0.3, 0.4];
+
+pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
+    let variant = run.variant();
+    let data = &record.data.collapse;
+    let mut metrics = conservation(&variant, data).to_vec();
+    let observed = |name: &str, variant: &str, value: f64, unit: &str| {
+        Metric::observed(name, variant, value, unit).of_kind(Kind::Validation).with_snapshot_tolerance(2e-3, 2e-3)
+    };
+    let angle = run.slope_angle.to_radians();
+    // the front's way from the gate
+    let way = (data.run_out()) * run.reservoir_length;
+    let law = |k: f64| slope_run_out(run.initial_height, angle, run.static_friction(), k);
+    if let (Some(short), Some(long)) = (law(COEFFICIENTS.0), law(COEFFICIENTS.1)) {
+        let front = observed("front_displacement", &variant, way, "m").against(
+            Some(0.5 * (short + long)),
+            "h_0 2k/(tanδ − tanθ), k = 0.4 to 0.5, tanδ = μ_s: Mangeney et al. 2010 as quoted",
+            Confidence::Medium,
+        );
+        // on a horizontal bed the fit was not made for the paper's case
+        metrics.push(if run.slope_angle > 0.0 && run.is_resolved() {
+            let limit = Limit::Within((1.0 - MARGIN) * short, (1.0 + MARGIN) * long);
+            front.gated(limit, "specification 2: the band of k = 0.4 to 0.5, 15 % to either side; at 20 rows and more")
+        } else {
+            front
+        });
+        metrics.push(
+            Metric::observed("kinetic_energy_share", &variant, data.agitation(), "-")
+                .against(Some(0.0), "a static deposit", Confidence::Exact)
+                .gated(Limit::AtMost(1e-6), "specification 2: at most 1e-6 of the potential energy that was released")
+                .with_snapshot_tolerance(0.0, 1e-6),
+        );
+        let friction_angle = libm::atan(run.static_friction()).to_degrees() - run.slope_angle;
+        metrics.push(observed("deposit_slope_angle", &variant, data.slope_angle(), "°").against(
+            Some(friction_angle),
+            "arctan μ_s − θ, the steepest surface that can rest, from the bed; line over 20–80 % of the front",
+            Confidence::Exact,
+        ));
+    }
+    for time in FRONT_TIMES {
+        if let Some(index) = data.time.iter().position(|&t| t >= time) {
+            let variant = format!("time={time},{variant}");
+            metrics.push(observed("front", &variant, data.front[index], "-"));
+        }
+    }
+    metrics
+}

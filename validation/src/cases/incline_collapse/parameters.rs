@@ -1,0 +1,170 @@
+//! The case's parameters and their tiers.
+
+use crate::case::Tier;
+use crate::cases::collapse::SlopeRun;
+use crate::cases::rules;
+use crate::error::InputError;
+use bagnold_solver::numerics::Numerics;
+use bagnold_solver::rheology::{MuI, Rheology};
+use serde::{Deserialize, Serialize};
+
+/// Parameters of the case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InclineCollapseParameters {
+    /// Gravity `[m/s²]`.
+    pub gravity: f64,
+    /// Height of the reservoir h_0 `[m]`.
+    pub initial_height: f64,
+    /// Length of the reservoir r_0 `[m]`.
+    pub reservoir_length: f64,
+    /// Length of the channel from the back of the reservoir `[m]`.
+    pub channel_length: f64,
+    /// Width of the channel `[m]`; 0 for no side walls.
+    pub channel_width: f64,
+    /// Slopes `[°]`.
+    pub slope_angles: Vec<f64>,
+    /// Speed of the gate `[m/s]`; 0 for no gate.
+    pub gate_speed: f64,
+    /// Slope at which other gates are tried `[°]`.
+    pub gate_slope_angle: f64,
+    /// Speeds of the other gates `[m/s]`; 0 for no gate.
+    pub other_gate_speeds: Vec<f64>,
+    /// Particles over the length of the reservoir.
+    pub resolution: usize,
+    /// Largest random displacement of a particle in spacings `[-]`.
+    pub jitter: f64,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// Longest simulated time `[s]`; a deposit at rest ends a run before.
+    pub duration: f64,
+    /// Solid fraction φ `[-]`.
+    pub solid_fraction: f64,
+    /// Grains.
+    pub material: MuI,
+    /// Numerics.
+    pub numerics: Numerics,
+}
+
+pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
+    ("gravity", "[m/s²]"),
+    ("initial_height", "h_0 [m]"),
+    ("reservoir_length", "r_0 [m]"),
+    ("channel_length", "[m], from the back of the reservoir"),
+    ("channel_width", "[m], adds the friction 0.18 h_0/W of the side walls; 0 for none"),
+    ("slope_angles", "[°]"),
+    ("gate_speed", "[m/s], pulled up normal to the slope; 0 for no gate. 1.3 in the paper, 2.3 in Ionescu et al. 2015"),
+    ("gate_slope_angle", "[°], slope at which other gates are tried"),
+    ("other_gate_speeds", "[m/s]; empty for none"),
+    ("resolution", "particles over the length of the reservoir"),
+    ("jitter", "[-], largest random displacement in spacings"),
+    ("duration", "[s], longest simulated time"),
+    ("solid_fraction", "[-], bulk density over grain density"),
+    ("material.static_friction", "μ_s [-]"),
+    ("material.limiting_friction", "μ_2 [-]"),
+    ("material.reference_inertia", "I_0 [-]"),
+    ("material.grain_diameter", "D [m]"),
+    ("material.grain_density", "ρ_s [kg/m³]"),
+];
+
+impl InclineCollapseParameters {
+    pub(in crate::cases) fn of_tier(tier: Tier) -> Self {
+        let quick = Self {
+            gravity: 9.81,
+            initial_height: 0.14,
+            reservoir_length: 0.20,
+            channel_length: 3.0,
+            channel_width: 0.0,
+            slope_angles: vec![10.0, 16.0, 22.0],
+            gate_speed: 1.3,
+            gate_slope_angle: 22.0,
+            other_gate_speeds: Vec::new(),
+            resolution: 30,
+            jitter: 0.05,
+            seed: 1,
+            duration: 4.0,
+            solid_fraction: 0.6,
+            // Table 1, glass beads
+            material: MuI {
+                static_friction: 0.382,
+                limiting_friction: 0.643,
+                reference_inertia: 0.279,
+                grain_diameter: 0.5e-3,
+                grain_density: 2500.0,
+            },
+            numerics: Numerics::default(),
+        };
+        let paper = Self {
+            slope_angles: vec![0.0, 10.0, 16.0, 22.0, 23.0, 24.0, 25.0],
+            other_gate_speeds: vec![2.3, 0.0],
+            resolution: 60,
+            ..quick.clone()
+        };
+        match tier {
+            Tier::Quick => quick,
+            Tier::Paper => paper,
+            Tier::Fine => Self { resolution: 120, ..paper },
+        }
+    }
+
+    pub(in crate::cases) fn check(&self) -> Result<(), InputError> {
+        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
+        let lengths = [
+            ("initial_height", self.initial_height, "give it in metres, such as 0.14"),
+            ("reservoir_length", self.reservoir_length, "give it in metres, such as 0.2"),
+        ];
+        for (field, value, remedy) in lengths {
+            rules::positive(field, value, remedy)?;
+        }
+        let (least, most) = (3.0 * self.reservoir_length, 1000.0 * self.reservoir_length);
+        let remedy = "the channel must hold the reservoir, the gate and the run-out";
+        rules::between("channel_length", self.channel_length, least, most, remedy)?;
+        if self.channel_width != 0.0 {
+            rules::positive("channel_width", self.channel_width, "give it in metres, such as 0.1, or 0 for no side walls")?;
+        }
+        for (index, &angle) in self.slope_angles.iter().enumerate() {
+            rules::slope_angle(&format!("slope_angles[{index}]"), angle)?;
+        }
+        rules::slope_angle("gate_slope_angle", self.gate_slope_angle)?;
+        rules::between("gate_speed", self.gate_speed, 0.0, 100.0, "the paper pulls it at 1.3 m/s; 0 is no gate")?;
+        for (index, &speed) in self.other_gate_speeds.iter().enumerate() {
+            let field = format!("other_gate_speeds[{index}]");
+            rules::between(&field, speed, 0.0, 100.0, "the experiment pulls it at 2.3 m/s; 0 is no gate")?;
+        }
+        rules::rows("resolution", self.resolution)?;
+        let rows = (self.initial_height / self.reservoir_length * self.resolution as f64).round();
+        let remedy = "choose a resolution that gives the height 4 rows or more";
+        rules::between("initial_height over the particle spacing", rows, 4.0, 1000.0, remedy)?;
+        rules::between("jitter", self.jitter, 0.0, 0.5, "0.05 breaks the lattice without overlaps")?;
+        rules::between("duration", self.duration, 0.01, 1000.0, "deposits on mild slopes rest after about 1.5 s")?;
+        rules::between("solid_fraction", self.solid_fraction, 0.01, 0.74, "grains fill 0.5 to 0.64 of the space")?;
+        rules::material("material", &Rheology::MuI(self.material))?;
+        rules::numerics("numerics", &self.numerics)
+    }
+
+    /// A run at a slope `[°]` with a gate `[m/s]`.
+    pub(in crate::cases) fn run(&self, slope_angle: f64, gate_speed: f64) -> SlopeRun {
+        SlopeRun {
+            slope_angle,
+            gate_speed,
+            resolution: self.resolution,
+            initial_height: self.initial_height,
+            reservoir_length: self.reservoir_length,
+            law: self.material,
+            channel_width: self.channel_width,
+            channel_length: self.channel_length,
+            gravity: self.gravity,
+            solid_fraction: self.solid_fraction,
+            jitter: self.jitter,
+            seed: self.seed,
+            duration: self.duration,
+            numerics: self.numerics,
+        }
+    }
+}
+
+pub(super) fn runs(parameters: &InclineCollapseParameters) -> Vec<SlopeRun> {
+    let slopes = parameters.slope_angles.iter().map(|&angle| parameters.run(angle, parameters.gate_speed));
+    let gates = parameters.other_gate_speeds.iter().filter(|&&speed| speed != parameters.gate_speed);
+    slopes.chain(gates.map(|&speed| parameters.run(parameters.gate_slope_angle, speed))).collect()
+}
