@@ -162,6 +162,7 @@ impl StartStopRun {
         let (mut stopping, mut flowing) = self.bracket;
         let rounds = 2.0 + ((flowing - stopping) / self.tolerance).log2().ceil().max(0.0);
         let mut trials = Vec::new();
+        let (mut steps, mut simulated_time) = (0, 0.0);
         loop {
             let angle = match trials.len() {
                 0 => stopping,
@@ -171,6 +172,8 @@ impl StartStopRun {
             let (trial, simulation, ending) = self.attempt(angle, progress, (trials.len() as f64, rounds), started)?;
             let diverged = matches!(ending.reason, StopReason::Diverged(_));
             trials.push(trial);
+            steps += simulation.steps();
+            simulated_time += simulation.time();
             let bracketed = match trials.len() {
                 1 => trial.stops,
                 2 => !trial.stops,
@@ -184,7 +187,8 @@ impl StartStopRun {
                 }
             };
             if diverged || !bracketed || (trials.len() > 1 && flowing - stopping <= self.tolerance * (1.0 + 1e-9)) {
-                return Ok(ending.record(&simulation, |_| StartStop { trials }));
+                let record = ending.record(&simulation, |_| StartStop { trials });
+                return Ok(Recorded { steps, simulated_time, ..record });
             }
         }
     }
