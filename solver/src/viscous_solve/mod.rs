@@ -1,16 +1,20 @@
 //! The implicit viscous step: (M + Δt K) vⁿ⁺¹ = M (vⁿ + Δt a*), a* the acceleration by all that is not viscous.
 //!
 //! K = Gᵀ (2 η V) G with G the deviatoric symmetric part of the velocity gradient. For v_ab = v_a − v_b, the weight
-//! w_ab = V_b F of a pair and the force correction E,
+//! w_ab = V_b F of a pair and the correction L of (9),
 //!
-//! (∇v)_a = −[Σ_b w_ab v_ab ⊗ r + Σ_w w_aw β (v_a − v_wall) ⊗ r] E_a, s = 2 η dev sym ∇v,
-//! (−K v)_a = V_a [Σ_b w_ab (s_a E_a + s_b E_b) r + Σ_w w_aw β s_a E_a r].
+//! (∇v)_a = −[Σ_b w_ab v_ab ⊗ r + Σ_w w_aw β (v_a − v_wall) ⊗ r] L_a, s = 2 η dev sym ∇v,
+//! (−K v)_a = V_a [Σ_b w_ab (s_a L_a + s_b L_b) r + Σ_w w_aw β s_a L_a r].
 //!
-//! The second line is the exact transpose of the first, because V_a w_ab and E are symmetric; images keep that, since
-//! their velocities and stresses are the source's by the same signs. So K is symmetric and not negative, and the sum
-//! over the flow is the divergence that the explicit step takes. A wall partner's velocity is that of (18)–(20),
-//! v_a − v_w = β (v_a − v_wall) with β = 1 + d_w/d_a up to a limit: linear in v_a alone, so that the walls join the
-//! sums that are made once a step. η is taken from ∇vⁿ and pⁿ.
+//! The second line is the exact transpose of the first, because V_a w_ab and L are symmetric; images keep that, since
+//! their velocities and stresses are the source's by the same signs. So K is symmetric and not negative, and a free
+//! surface without traction is its natural boundary condition. Inside the flow L is the correction E of the forces,
+//! and the sum over the flow is the divergence that the explicit step takes; E on both sides, the identity near a
+//! surface, halves the shear rate there, and a column runs 2–3 % farther.
+//!
+//! A wall partner's velocity is that of (18)–(20), v_a − v_w = β (v_a − v_wall) with β = 1 + d_w/d_a up to a limit:
+//! linear in v_a alone, so that the walls join the sums that are made once a step. η is that of pⁿ and of ∇vⁿ by this
+//! same gradient.
 //!
 //! The system is solved for the increment δ = vⁿ⁺¹ − vⁿ by conjugate gradients, preconditioned with the diagonal. It
 //! ends when the root mean square of the residual acceleration is below a share of that of the forces,

@@ -159,7 +159,7 @@ impl<const D: usize> LanePass for GradientPass<'_, D> {
             }
             let first = block * BLOCK + offset * LANES;
             let last = (first + LANES).min(particles.flow_count());
-            let correction = load_tensor::<V, D>(&particles.force_correction[first..last]);
+            let correction = load_tensor::<V, D>(&particles.correction[first..last]);
             let density = load::<V>(&particles.density[first..last]);
             let rate = deviatoric_rate(&matrix_product(&gradient, &correction));
             let twice_viscosity = constants.twice_viscosity(invariant(2.0, &rate), pressure, density);

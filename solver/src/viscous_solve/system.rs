@@ -20,7 +20,7 @@ pub(super) type LaneVector<const D: usize> = [[f64; LANES]; D];
 pub(super) struct Coefficients<const D: usize> {
     /// Σ_b w r + Σ_w w β r `[1/m]`, the factor of the particle's own velocity in its gradient.
     pub(super) closure: LaneVector<D>,
-    /// E `[-]`.
+    /// L `[-]`.
     pub(super) correction: [LaneVector<D>; D],
     /// 2 η `[Pa·s]`.
     pub(super) twice_viscosity: [f64; LANES],
@@ -70,9 +70,9 @@ pub(crate) struct ViscousSystem<const D: usize> {
     pub(super) pair_vectors: Vec<LaneVector<D>>,
     /// Velocity, or search direction, of every particle.
     pub(super) velocities: Records,
-    /// s E of every flow particle and image.
+    /// s L of every flow particle and image.
     pub(super) fluxes: Records,
-    /// √(η/V) E of every flow particle and image.
+    /// √(η/V) L of every flow particle and image.
     pub(super) stiffnesses: Records,
     pub(super) sums: Vec<Sums>,
     iterations: u64,

@@ -24,7 +24,7 @@ impl<const D: usize> ViscousSolve<'_, D> {
             });
     }
 
-    /// s E of the direction.
+    /// s L of the direction.
     pub(super) fn fluxes(&self, system: &mut ViscousSystem<D>, flow: usize) {
         let ViscousSystem { coefficients, velocities, pair_vectors, fluxes, .. } = system;
         fluxes.blocks_mut(flow, BLOCK).enumerate().with_min_len(4).for_each(|(block, fluxes)| {
@@ -122,7 +122,7 @@ pub(super) fn flux_of<V: Lanes, const D: usize>(fluxes: &Records, group: &Group<
     records::tensor(&fluxes.load::<V>(const { (D * D).div_ceil(4) }, &group.own), 0)
 }
 
-/// s_a E_a (Σ w r + Σ_w w β r).
+/// s_a L_a (Σ w r + Σ_w w β r).
 #[inline(always)]
 pub(super) fn own_part<V: Lanes, const D: usize>(flux: &[[V; D]; D], closure: &LaneVector<D>) -> [V; D] {
     product(flux, &load_columns(closure))

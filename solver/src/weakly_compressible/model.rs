@@ -54,6 +54,7 @@ impl<const D: usize> Model<D> {
             density_coupling: self.numerics.density_coupling,
             viscosity_switch: self.numerics.viscosity_switch,
             time_step,
+            viscous_step: self.numerics.viscous_step,
             gradient: self.gradient_use(),
         }
     }
