@@ -25,4 +25,5 @@ pub mod scene;
 pub mod simulation;
 pub mod snapshot;
 pub mod time_step;
+mod viscous_solve;
 mod weakly_compressible;

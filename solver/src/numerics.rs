@@ -38,6 +38,16 @@ pub enum Contact {
     None,
 }
 
+/// How a viscous law's stress enters the momentum equation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ViscousStep {
+    /// At the old velocity, with the bound ρh²/η of (29) on the time step. Laws by return mapping know no other.
+    Explicit,
+    /// At the new velocity, by a linear solve in every step and without that bound.
+    Implicit,
+}
+
 /// Numerical parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -72,6 +82,11 @@ pub struct Numerics {
     pub advective_courant: f64,
     /// Coefficient of the explicit viscous bound ρh²/η `[-]`.
     pub viscous_courant: f64,
+    /// Explicit or implicit viscous stress.
+    pub viscous_step: ViscousStep,
+    /// Residual acceleration that an implicit viscous step leaves, over the forces that it balances `[-]`, both as root
+    /// mean squares.
+    pub viscous_tolerance: f64,
     /// Skin of the neighbour list over the kernel's support `[-]`.
     pub verlet_skin: f64,
 }
@@ -94,6 +109,8 @@ impl Default for Numerics {
             acoustic_courant: 0.4,
             advective_courant: 0.25,
             viscous_courant: 0.2,
+            viscous_step: ViscousStep::Explicit,
+            viscous_tolerance: 1e-2,
             verlet_skin: 0.1,
         }
     }
@@ -154,6 +171,12 @@ impl Numerics {
                 "above 0 and at most 1",
             ),
             ("viscous_courant", self.viscous_courant, positive(self.viscous_courant, 1.0), "above 0 and at most 1"),
+            (
+                "viscous_tolerance",
+                self.viscous_tolerance,
+                within(self.viscous_tolerance, 1e-10, 0.5),
+                "between 1e-10 and 0.5",
+            ),
             ("verlet_skin", self.verlet_skin, positive(self.verlet_skin, 1.0), "above 0 and at most 1"),
         ];
         rules

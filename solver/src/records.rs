@@ -47,6 +47,31 @@ impl Records {
         });
     }
 
+    /// Room for one record a particle, of the values that they had, without any in new ones; the sentinel's is zero.
+    pub(crate) fn resize(&mut self, particles: usize) {
+        let needed = particles * self.quads;
+        if self.data.capacity() < needed {
+            self.data.reserve_exact(needed + needed / 8 + 64 - self.data.len());
+        }
+        self.data.resize(needed, [0.0; 4]);
+        self.data[needed - self.quads..].fill([0.0; 4]);
+    }
+
+    /// The records of the first `particles`, in parts of `block` records.
+    pub(crate) fn blocks_mut(&mut self, particles: usize, block: usize) -> rayon::slice::ChunksMut<'_, [f64; 4]> {
+        let quads = self.quads;
+        self.data[..particles * quads].par_chunks_mut(block * quads)
+    }
+
+    /// Makes the record at `slot` a copy of that at `source`, each of its values times a sign.
+    pub(crate) fn copy_signed(&mut self, slot: usize, source: usize, signs: &[f64]) {
+        for (place, sign) in signs.iter().enumerate() {
+            let (quad, component) = (place / 4, place % 4);
+            let value = self.data[source * self.quads + quad][component];
+            self.data[slot * self.quads + quad][component] = value * sign;
+        }
+    }
+
     /// Loads the records of eight particles; `quads` is their length in quads.
     #[inline(always)]
     pub(crate) fn load<V: Lanes>(&self, quads: usize, indices: &LaneIndices<'_>) -> LaneRecord<V> {

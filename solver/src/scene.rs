@@ -2,7 +2,7 @@
 
 use crate::boundary::{Domain, Surface, Wall, WallTreatment, wall::WallParticle};
 use crate::equation_of_state::EquationOfState;
-use crate::numerics::{MomentumOperator, Numerics};
+use crate::numerics::{MomentumOperator, Numerics, ViscousStep};
 use crate::rheology::Rheology;
 use crate::vector::{Tensor, Vector};
 
@@ -84,6 +84,18 @@ pub enum SceneError {
         /// What to do.
         remedy: &'static str,
     },
+    /// Two choices that exclude each other.
+    #[error("`{field}` is {value}, but must be {rule}; {remedy}")]
+    Choice {
+        /// Which field.
+        field: &'static str,
+        /// The choice.
+        value: &'static str,
+        /// The rule.
+        rule: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
     /// A periodic axis shorter than the neighbour search radius.
     #[error(
         "the period along axis {axis} is {length} m, but must be at least {least} m, the reach of the kernel; make the domain longer or the particles smaller"
@@ -159,6 +171,26 @@ impl<const D: usize> Scene<D> {
         ) && self.numerics.wall_treatment == WallTreatment::Extrapolated;
         if !one_divergence && self.walls.iter().any(|wall| wall.roughness == Surface::Smooth) {
             return Err(SceneError::SmoothWall);
+        }
+        if self.numerics.viscous_step == ViscousStep::Implicit {
+            let refused = |rule, remedy| {
+                Err(SceneError::Choice { field: "viscous_step", value: "implicit", rule, remedy })
+            };
+            if self.rheology.is_plastic() {
+                return refused(
+                    "explicit with a law by return mapping",
+                    "its stress bounds no time step; regularise the law, or choose \"explicit\"",
+                );
+            }
+            match self.numerics.momentum_operator {
+                MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence => {}
+                MomentumOperator::Pairwise | MomentumOperator::PairwiseCorrected => {
+                    return refused(
+                        "explicit with the pairwise momentum operators",
+                        "choose the operator \"single-divergence\", or \"explicit\"",
+                    );
+                }
+            }
         }
         for (particle, position) in self.flow.position.iter().enumerate() {
             let finite = [

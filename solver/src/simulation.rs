@@ -14,6 +14,7 @@ use crate::snapshot::Snapshot;
 use crate::terms::artificial_viscosity::SWITCH_LOWEST;
 use crate::time_step::TimeStepBounds;
 use crate::vector::Vector;
+use crate::viscous_solve::ViscousSystem;
 use crate::weakly_compressible::Model;
 use std::ops::ControlFlow;
 
@@ -36,6 +37,7 @@ pub struct Simulation<const D: usize> {
     wall_grid: CellGrid<D>,
     scratch: SortScratch<D>,
     searches: u64,
+    pub(crate) viscous: ViscousSystem<D>,
 }
 
 /// How a run ended.
@@ -93,12 +95,14 @@ impl<const D: usize> Simulation<D> {
             wall_grid: CellGrid::new(),
             scratch: SortScratch::new(),
             searches: 0,
+            viscous: ViscousSystem::new(),
         };
         let crowded = |divergence: Divergence<D>| SceneError::Value {
             quantity: match divergence.quantity {
                 Quantity::Neighbours => "number of neighbours",
                 Quantity::Density => "density",
                 Quantity::Speed => "speed",
+                Quantity::ViscousResidual => "viscous step",
             },
             particle: divergence.particle as usize,
             value: divergence.value,
@@ -202,6 +206,12 @@ impl<const D: usize> Simulation<D> {
         self.searches
     }
 
+    /// Iterations of all implicit viscous steps: what they have cost.
+    #[must_use]
+    pub fn viscous_iterations(&self) -> u64 {
+        self.viscous.iterations()
+    }
+
     /// The particles.
     #[must_use]
     pub fn particles(&self) -> &Particles<D> {
@@ -250,6 +260,7 @@ impl<const D: usize> Simulation<D> {
             }
             Quantity::Density => (self.particles.density[index], (0.02 * density, 2.0 * density)),
             Quantity::Neighbours => (1024.0, (0.0, 1024.0)),
+            Quantity::ViscousResidual => (self.viscous.residual(), (0.0, self.model.numerics.viscous_tolerance)),
         };
         Divergence {
             time: self.time,

@@ -1,6 +1,6 @@
 //! The explicit time step (29): acoustic, advective and viscous bounds.
 
-use crate::numerics::Numerics;
+use crate::numerics::{Numerics, ViscousStep};
 
 /// The three bounds of a step and which of them binds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +28,12 @@ impl TimeStepBounds {
         Self {
             acoustic: numerics.acoustic_courant * smoothing_length / sound_speed,
             advective: bound(numerics.advective_courant * smoothing_length, largest_speed),
-            viscous: bound(numerics.viscous_courant * smoothing_length * smoothing_length, kinematic_viscosity),
+            viscous: match numerics.viscous_step {
+                ViscousStep::Explicit => {
+                    bound(numerics.viscous_courant * smoothing_length * smoothing_length, kinematic_viscosity)
+                }
+                ViscousStep::Implicit => f64::INFINITY,
+            },
         }
     }
 
@@ -51,6 +56,9 @@ mod tests {
             (bounds.step(), bounds.advective, bounds.viscous),
             (0.4 * 0.01 / 20.0, f64::INFINITY, f64::INFINITY)
         );
+        // an implicit viscous step has no bound
+        let implicit = Numerics { viscous_step: ViscousStep::Implicit, ..numerics };
+        assert_eq!(TimeStepBounds::new(&implicit, 0.01, 20.0, 0.0, 38e3).step(), bounds.step());
         // the figures of the model notes: η = 38 kPa·s at h = 3 mm needs a step below 1e-7 s
         let bounds = TimeStepBounds::new(&numerics, 0.003, 8.0, 1.0, 38e3 / 1500.0);
         assert!(bounds.step() == bounds.viscous && bounds.step() < 1e-7);

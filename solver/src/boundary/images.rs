@@ -184,6 +184,12 @@ impl<const D: usize> Images<D> {
         });
     }
 
+    /// Place, source and sign of every image.
+    pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, usize, &Vector<D>)> {
+        let first = self.first;
+        self.images.iter().enumerate().map(move |(k, image)| (first + k, image.source as usize, &image.sign))
+    }
+
     fn copy<T: Copy>(&self, field: &mut [T], map: impl Fn(&T, &Image<D>) -> T) {
         let (real, images) = field.split_at_mut(self.first);
         for (slot, image) in images.iter_mut().zip(&self.images) {

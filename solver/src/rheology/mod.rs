@@ -37,6 +37,11 @@ pub trait ViscousLaw {
 
     /// Upper bound `[Pa·s]` of the viscosity over all shear rates at a pressure `[Pa]`: what limits an explicit time step.
     fn largest_viscosity(&self, pressure: f64) -> f64;
+
+    /// Friction coefficient `[-]` of a contact with a rough wall: none of a liquid.
+    fn contact_friction(&self) -> f64 {
+        0.0
+    }
 }
 
 /// A law that carries the stress along: elastic up to a yield stress, then a plastic shear rate.
@@ -173,12 +178,12 @@ macro_rules! laws {
                 }
             }
 
-            /// Friction coefficient `[-]` of a contact with a rough wall: the yield stress at unit pressure;
-            /// 0 for viscous laws.
+            /// Friction coefficient `[-]` of a contact with a rough wall: the yield stress at unit pressure of grains,
+            /// 0 for liquids.
             #[must_use]
             pub fn contact_friction(&self) -> f64 {
                 match self {
-                    $(Self::$viscous(_) => 0.0,)*
+                    $(Self::$viscous(law) => law.contact_friction(),)*
                     $(Self::$plastic(law) => law.yield_stress(1.0),)*
                 }
             }

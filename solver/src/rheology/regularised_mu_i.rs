@@ -62,6 +62,11 @@ impl ViscousLaw for RegularisedMuI {
         // Both terms of (35) fall with the shear rate.
         self.viscosity(0.0, pressure)
     }
+
+    /// μ_s: a grain without neighbours has no pressure and so no viscosity, and would slide along a wall for ever.
+    fn contact_friction(&self) -> f64 {
+        self.static_friction
+    }
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ use crate::rheology::Rheology;
 use crate::terms::continuity::{Continuity, GradientUse};
 use crate::terms::{momentum::Momentum, pairwise::Pairwise};
 use crate::vector::Vector;
+use crate::viscous_solve::ViscousSolve;
 
 /// Material, numerics and neighbour list: all that a pass needs beside the particles.
 #[derive(Debug)]
@@ -53,6 +54,7 @@ impl<const D: usize> Model<D> {
             density_coupling: self.numerics.density_coupling,
             viscosity_switch: self.numerics.viscosity_switch,
             time_step,
+            viscous_step: self.numerics.viscous_step,
             gradient: self.gradient_use(),
         }
     }
@@ -66,6 +68,7 @@ impl<const D: usize> Model<D> {
             spacing: self.spacing,
             reference_density: self.equation_of_state.reference_density,
             treatment: self.numerics.wall_treatment,
+            viscous_step: self.numerics.viscous_step,
         }
     }
 
@@ -75,13 +78,31 @@ impl<const D: usize> Model<D> {
             list: &self.list,
             instruction_set: self.instruction_set,
             momentum_operator: self.numerics.momentum_operator,
+            viscous_step: self.numerics.viscous_step,
             rheology: &self.rheology,
             elastic_viscosity: self.numerics.elastic_damping
                 * self.equation_of_state.reference_density
                 * self.equation_of_state.sound_speed()
                 * self.numerics.shear_modulus_ratio.sqrt()
                 * self.kernel.smoothing_length(),
-            mixing_area: (self.numerics.smagorinsky_constant * self.spacing).powi(2),
+            mixing_area: self.mixing_area(),
+        }
+    }
+
+    /// (C_s Δ)² `[m²]` of the eddy viscosity (5).
+    fn mixing_area(&self) -> f64 {
+        (self.numerics.smagorinsky_constant * self.spacing).powi(2)
+    }
+
+    pub(crate) fn viscous_solve(&self, time_step: f64) -> ViscousSolve<'_, D> {
+        ViscousSolve {
+            list: &self.list,
+            instruction_set: self.instruction_set,
+            rheology: &self.rheology,
+            mixing_area: self.mixing_area(),
+            smoothing_length: self.kernel.smoothing_length(),
+            tolerance: self.numerics.viscous_tolerance,
+            time_step,
         }
     }
 

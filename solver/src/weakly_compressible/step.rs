@@ -2,10 +2,11 @@
 
 use crate::boundary::contact;
 use crate::divergence::{Divergence, Quantity};
-use crate::numerics::{Contact, MomentumOperator};
+use crate::numerics::{Contact, MomentumOperator, ViscousStep};
 use crate::simulation::Simulation;
 use crate::terms::continuity::GradientUse;
 use crate::vector::Vector;
+use crate::viscous_solve::NotConverged;
 use rayon::prelude::*;
 
 /// A speed beyond this many sound speeds is a divergence `[-]`: weak compressibility has long been lost.
@@ -29,6 +30,9 @@ impl<const D: usize> Simulation<D> {
                 self.images.copy_tensors(&mut self.particles.velocity_gradient);
                 self.images.copy_scalars(&mut self.particles.artificial_viscosity);
                 self.model.momentum().run(&mut self.particles);
+                if self.model.numerics.viscous_step == ViscousStep::Implicit {
+                    self.accelerate_by_viscosity(time_step)?;
+                }
             }
             MomentumOperator::Pairwise | MomentumOperator::PairwiseCorrected => {
                 if self.model.gradient_use() != GradientUse::None {
@@ -69,6 +73,15 @@ impl<const D: usize> Simulation<D> {
                 *pressure = equation_of_state.pressure(*density);
                 *volume = mass / density;
             });
+    }
+
+    /// Adds the viscous forces of the new velocity to the accelerations.
+    fn accelerate_by_viscosity(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
+        let solve = self.model.viscous_solve(time_step);
+        match solve.run(&mut self.particles, &self.images, &mut self.viscous) {
+            Ok(()) => Ok(()),
+            Err(NotConverged { worst }) => Err(self.divergence(worst, Quantity::ViscousResidual)),
+        }
     }
 
     fn update_velocity(&mut self, time_step: f64) -> Result<(), Divergence<D>> {

@@ -69,7 +69,8 @@ pub struct BagnoldParameters {
     pub runaway_slope_angles: Vec<f64>,
     /// Material.
     pub material: MuI,
-    /// Rate α_r `[1/s]` of the regularised viscosity (35), which is then taken explicitly; 0 for the return mapping.
+    /// Rate α_r `[1/s]` of the regularised viscosity (35), taken as `numerics.viscous_step` says; 0 for the return
+    /// mapping.
     pub regularisation_rate: f64,
     /// Numerics.
     pub numerics: Numerics,
@@ -95,7 +96,7 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("arrest_slope_angles", "[°], below the band of steady flow"),
     ("arrest_start_angle", "[°], whose profile the arresting layers start with"),
     ("runaway_slope_angles", "[°], above the band"),
-    ("regularisation_rate", "[1/s], of the viscosity (35), taken explicitly; 0 for the return mapping"),
+    ("regularisation_rate", "[1/s], of the viscosity (35), see numerics.viscous_step; 0 for the return mapping"),
     ("material.static_friction", "μ_s [-]"),
     ("material.limiting_friction", "μ_2 [-]"),
     ("material.reference_inertia", "I_0 [-]"),

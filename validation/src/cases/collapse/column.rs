@@ -62,6 +62,8 @@ pub struct ColumnRun {
     pub half_width: f64,
     /// Constitutive law.
     pub law: MuI,
+    /// Rate α_r `[1/s]` of the law's regularised viscosity (35); none for the return mapping.
+    pub regularisation_rate: Option<f64>,
     pub(in crate::cases) gravity: f64,
     pub(in crate::cases) solid_fraction: f64,
     pub(in crate::cases) jitter: f64,
@@ -198,7 +200,10 @@ impl ColumnRun {
             gravity,
             spacing,
             equation_of_state,
-            rheology: Rheology::MuI(self.law),
+            rheology: match self.regularisation_rate {
+                Some(rate) => Rheology::RegularisedMuI(self.law.regularised(rate)),
+                None => Rheology::MuI(self.law),
+            },
             numerics: self.numerics,
         }
     }

@@ -182,6 +182,7 @@ pub(super) fn runs(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
             resolution: parameters.resolution_of(aspect_ratio),
             half_width: columns.half_width_of(aspect_ratio),
             law: columns.law,
+            regularisation_rate: None,
             gravity: parameters.gravity,
             solid_fraction: columns.solid_fraction,
             jitter: parameters.jitter,

@@ -107,6 +107,7 @@ pub(super) fn runs(parameters: &ColumnRoundParameters) -> Vec<ColumnRun> {
         resolution: column.resolution,
         half_width: parameters.radius,
         law: parameters.sand,
+        regularisation_rate: None,
         gravity: parameters.gravity,
         solid_fraction: parameters.solid_fraction,
         jitter: parameters.jitter,

@@ -14,7 +14,7 @@ use crate::output::Table;
 use bagnold_solver::boundary::wall::fill;
 use bagnold_solver::boundary::{AxisBoundary, Domain, Wall};
 use bagnold_solver::equation_of_state::{EquationOfState, Tension};
-use bagnold_solver::numerics::Numerics;
+use bagnold_solver::numerics::{Numerics, ViscousStep};
 use bagnold_solver::rheology::Rheology;
 use bagnold_solver::scene::{Flow, Scene, SceneError};
 use bagnold_solver::simulation::Simulation;
@@ -107,7 +107,7 @@ impl Layer<'_> {
         let smoothing_length = self.numerics.smoothing_ratio * self.spacing();
         let acoustic = self.numerics.acoustic_courant * smoothing_length / sound_speed;
         let viscosity = self.rheology.largest_viscosity(self.reference_density * self.gravity * self.height);
-        let viscous = if viscosity > 0.0 {
+        let viscous = if viscosity > 0.0 && self.numerics.viscous_step == ViscousStep::Explicit {
             self.numerics.viscous_courant * smoothing_length * smoothing_length * self.reference_density / viscosity
         } else {
             f64::INFINITY

@@ -1,0 +1,114 @@
+//! The implicit viscous step: (M + Δt K) vⁿ⁺¹ = M (vⁿ + Δt a*), a* the acceleration by all that is not viscous.
+//!
+//! K = Gᵀ (2 η V) G with G the deviatoric symmetric part of the velocity gradient. For v_ab = v_a − v_b, the weight
+//! w_ab = V_b F of a pair and the correction L of (9),
+//!
+//! (∇v)_a = −[Σ_b w_ab v_ab ⊗ r + Σ_w w_aw β (v_a − v_wall) ⊗ r] L_a, s = 2 η dev sym ∇v,
+//! (−K v)_a = V_a [Σ_b w_ab (s_a L_a + s_b L_b) r + Σ_w w_aw β s_a L_a r].
+//!
+//! The second line is the exact transpose of the first, because V_a w_ab and L are symmetric; images keep that, since
+//! their velocities and stresses are the source's by the same signs. So K is symmetric and not negative, and a free
+//! surface without traction is its natural boundary condition. Inside the flow L is the correction E of the forces,
+//! and the sum over the flow is the divergence that the explicit step takes; E on both sides, the identity near a
+//! surface, halves the shear rate there, and a column runs 2–3 % farther.
+//!
+//! A wall partner's velocity is that of (18)–(20), v_a − v_w = β (v_a − v_wall) with β = 1 + d_w/d_a up to a limit:
+//! linear in v_a alone, so that the walls join the sums that are made once a step. η is that of pⁿ and of ∇vⁿ by this
+//! same gradient.
+//!
+//! The system is solved for the increment δ = vⁿ⁺¹ − vⁿ by conjugate gradients, preconditioned with the diagonal. It
+//! ends when the root mean square of the residual acceleration is below a share of that of the forces,
+//! ‖r‖ ≤ ε (‖M a*‖ + ‖K vⁿ‖) with ‖x‖² = Σ x_a²/m_a.
+
+mod start;
+mod system;
+mod update;
+
+pub(crate) use system::ViscousSystem;
+
+use crate::boundary::Images;
+use crate::lanes::InstructionSet;
+use crate::neighbours::VerletList;
+use crate::particles::Particles;
+use crate::rheology::Rheology;
+use crate::vector::Vector;
+
+/// Iterations after which a solve is given up.
+pub(crate) const MOST_ITERATIONS: usize = 1000;
+
+/// A solve that did not reach its tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct NotConverged {
+    /// Storage index of the particle with the largest residual acceleration, or the first whose is not a number.
+    pub(crate) worst: usize,
+}
+
+/// The constants of a step's solve.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ViscousSolve<'a, const D: usize> {
+    pub(crate) list: &'a VerletList,
+    pub(crate) instruction_set: InstructionSet,
+    pub(crate) rheology: &'a Rheology,
+    /// (C_s Δ)² `[m²]` of the eddy viscosity (5).
+    pub(crate) mixing_area: f64,
+    pub(crate) smoothing_length: f64,
+    pub(crate) tolerance: f64,
+    pub(crate) time_step: f64,
+}
+
+impl<const D: usize> ViscousSolve<'_, D> {
+    /// Replaces the accelerations a* of the flow by (vⁿ⁺¹ − vⁿ)/Δt.
+    ///
+    /// # Errors
+    /// A solve that did not reach its tolerance.
+    pub(crate) fn run(
+        &self,
+        particles: &mut Particles<D>,
+        images: &Images<D>,
+        system: &mut ViscousSystem<D>,
+    ) -> Result<(), NotConverged> {
+        system.resize(particles, self.list.region());
+        system.take_velocities(particles, images);
+        self.gradient_of_start(particles, system);
+        system.copy_fluxes(images);
+        system.copy_stiffnesses(images);
+        let start = self.residual_of_start(particles, system);
+        let scale = start.explicit.sqrt() + start.viscous.sqrt();
+        let mut residual = start.residual;
+        let mut descent = start.descent;
+        let mut growth = 0.0;
+        let mut iterations = 0;
+        // written so that a NaN goes on to the bound
+        while !(residual.sqrt() <= self.tolerance * scale) {
+            if iterations == MOST_ITERATIONS || !residual.is_finite() {
+                system.set_residual(residual.sqrt() / scale);
+                return Err(NotConverged { worst: system.worst(particles.flow_count()) });
+            }
+            self.next_direction(system, particles.flow_count(), growth);
+            self.product(system, particles.flow_count(), images);
+            let curvature = system.sum(|sums| sums.curvature);
+            self.descend(system, descent / curvature);
+            let next = system.sum(|sums| sums.descent);
+            residual = system.sum(|sums| sums.residual);
+            growth = next / descent;
+            descent = next;
+            iterations += 1;
+        }
+        system.count(iterations);
+        system.write_accelerations(&mut particles.acceleration, self.time_step);
+        Ok(())
+    }
+
+    /// (M + Δt K) times the direction.
+    fn product(&self, system: &mut ViscousSystem<D>, flow: usize, images: &Images<D>) {
+        system.copy_velocities(images);
+        self.fluxes(system, flow);
+        system.copy_fluxes(images);
+        self.divergence(system);
+    }
+}
+
+/// Accelerations of a group of eight particles to and from vectors.
+fn lane<const D: usize>(group: &[[f64; crate::lanes::LANES]; D], lane: usize) -> Vector<D> {
+    Vector::from_fn(|i, _| group[i][lane])
+}
