@@ -1,5 +1,6 @@
 //! Figures as plain data: cases describe what to draw, this module draws it.
 
+mod animation;
 mod axes;
 mod canvas;
 mod clip;
@@ -8,6 +9,7 @@ mod curves;
 mod error;
 mod field;
 mod font;
+mod gif;
 mod legend;
 mod palette;
 mod panel;
@@ -19,6 +21,7 @@ mod ticks;
 #[cfg(test)]
 mod tests;
 
+pub use animation::{Animation, AnimationFrame, write_animation};
 pub use error::FigureError;
 pub(crate) use ticks::superscript;
 

@@ -20,6 +20,7 @@ fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {
         command: format!("bagnold run {name}"),
         metrics,
         figures: Vec::new(),
+        animations: Vec::new(),
         runs: Vec::new(),
         metrics_json: "{}\n".to_owned(),
     }
