@@ -3,7 +3,7 @@
 
 use super::animation::Animation;
 use super::error::FigureError;
-use super::palette::colour_map;
+use super::palette::FIRST;
 use super::render;
 use plotters::style::RGBColor;
 use rayon::prelude::*;
@@ -64,10 +64,10 @@ fn palette() -> Vec<RGBColor> {
         let grey = (255.0 * share(step, GREYS)).round() as u8;
         RGBColor(grey, grey, grey)
     });
-    let full = (0..COLOURS).map(|step| colour_map(share(step, COLOURS)));
+    let full = (0..COLOURS).map(|step| FIRST.at(share(step, COLOURS)));
     let pale = [1.0 / 3.0, 2.0 / 3.0].into_iter().flat_map(|white| {
         (0..PALE).map(move |step| {
-            let RGBColor(red, green, blue) = colour_map(share(step, PALE));
+            let RGBColor(red, green, blue) = FIRST.at(share(step, PALE));
             let mix = |channel: u8| (f64::from(channel) + white * (255.0 - f64::from(channel))).round() as u8;
             RGBColor(mix(red), mix(green), mix(blue))
         })
@@ -225,7 +225,7 @@ mod tests {
         assert!(palette.len() <= usize::from(UNCHANGED));
         assert_eq!(palette[usize::from(nearest([255; 3], &palette))], RGBColor(255, 255, 255));
         assert_eq!(palette[usize::from(nearest([0; 3], &palette))], RGBColor(0, 0, 0));
-        let RGBColor(red, green, blue) = colour_map(1.0);
-        assert_eq!(palette[usize::from(nearest([red, green, blue], &palette))], colour_map(1.0));
+        let RGBColor(red, green, blue) = FIRST.at(1.0);
+        assert_eq!(palette[usize::from(nearest([red, green, blue], &palette))], FIRST.at(1.0));
     }
 }

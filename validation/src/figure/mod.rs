@@ -92,7 +92,7 @@ pub struct Field {
     pub points: Vec<(f64, f64)>,
     /// The scalar of each point.
     pub values: Vec<f64>,
-    /// Label of the colour bar with unit.
+    /// Label of the colour bar with unit; empty for no bar.
     pub label: String,
     /// Particle diameter in axis units.
     pub diameter: f64,
@@ -115,6 +115,9 @@ pub struct Panel {
     pub series: Vec<Series>,
     /// A particle field, drawn between bands and series.
     pub field: Option<Field>,
+    /// A second field that leaves the first one's particles free, with a colour map and bar of its own; only beside a
+    /// first one.
+    pub opposite: Option<Field>,
 }
 
 /// A figure: one or more panels on one sheet.

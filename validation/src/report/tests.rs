@@ -67,6 +67,7 @@ fn drawing(name: &str) -> Figure {
         bands: Vec::new(),
         series: Vec::new(),
         field: None,
+        opposite: None,
     };
     Figure { name: name.to_owned(), caption: "a caption".to_owned(), panels: vec![panel], columns: 1 }
 }

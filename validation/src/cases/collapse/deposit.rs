@@ -1,5 +1,6 @@
 //! What is measured of a spreading heap: thickness, front, heights, centroid and energies.
 
+use crate::observe::Motion;
 use bagnold_solver::snapshot::Snapshot;
 use bagnold_solver::vector::Vector;
 use serde::{Deserialize, Serialize};
@@ -34,6 +35,8 @@ pub struct Collapse {
     pub quantiles: (f64, f64),
     /// Particles below the bed, behind the symmetry plane, beyond the bed's end, or not a number.
     pub lost: usize,
+    /// Positions and speeds for the moving picture.
+    pub motion: Motion,
 }
 
 /// Measures snapshots of one column: half a planar one in two dimensions, a quarter of a round one in three. The
@@ -53,8 +56,8 @@ pub(super) struct Surveyor {
 }
 
 impl Surveyor {
-    /// Adds a point to the time series.
-    pub(super) fn observe<const D: usize>(&mut self, snapshot: &Snapshot<D>) {
+    /// Adds a point to the time series and gives the thickness, both over r_0.
+    pub(super) fn observe<const D: usize>(&mut self, snapshot: &Snapshot<D>) -> Vec<(f64, f64)> {
         let thickness = self.thickness(snapshot);
         let (mut kinetic, mut potential) = (0.0, 0.0);
         for ((mass, position), velocity) in snapshot.mass.iter().zip(&snapshot.position).zip(&snapshot.velocity) {
@@ -67,6 +70,7 @@ impl Surveyor {
         collapse.height.push(thickness.first().map_or(0.0, |bin| bin.1));
         collapse.kinetic_energy.push(kinetic);
         collapse.potential_energy.push(potential);
+        thickness
     }
 
     /// Kinetic energy over the potential energy released so far `[-]`.
