@@ -54,9 +54,12 @@ fn residual<const D: usize>(scene: Scene<D>, steps: usize) -> (f64, f64) {
 
 #[test]
 fn gravity_and_the_supports_give_all_the_momentum() {
-    for (missing, support) in
-        [residual(heap([14, 12]), 300), residual(heap([6, 7, 8]), 200), residual(gated(0.0), 300), residual(gated(2.0), 300)]
-    {
+    for (missing, support) in [
+        residual(heap([14, 12]), 300),
+        residual(heap([6, 7, 8]), 200),
+        residual(gated(0.0), 300),
+        residual(gated(2.0), 300),
+    ] {
         assert!(missing < 1e-11, "{missing:e} of the weight's impulse has no cause");
         assert!(support > 0.1, "the supports must matter for this test: {support}");
     }

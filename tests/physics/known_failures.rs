@@ -81,6 +81,7 @@ fn result(value: f64, outcome: Outcome) -> CaseResult {
         command: String::new(),
         metrics: vec![metric],
         figures: Vec::new(),
+        animations: Vec::new(),
         tables: Vec::new(),
         runs: vec![RunSummary {
             variant: variant.to_owned(),

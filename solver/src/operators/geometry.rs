@@ -175,12 +175,7 @@ impl<const D: usize> Geometry<'_, D> {
     }
 
     #[inline(always)]
-    fn deviatoric_stress<V: Lanes>(
-        &self,
-        particles: &Particles<D>,
-        places: Range<usize>,
-        pressure: V,
-    ) -> [[V; D]; D] {
+    fn deviatoric_stress<V: Lanes>(&self, particles: &Particles<D>, places: Range<usize>, pressure: V) -> [[V; D]; D] {
         let mut stress = load_tensor::<V, D>(&particles.stress[places.clone()]);
         let damped = self.elastic_viscosity > 0.0 && self.rheology.is_plastic();
         if damped || self.mixing_area > 0.0 {

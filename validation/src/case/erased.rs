@@ -137,6 +137,7 @@ impl<C: Case> Prepared for Plan<C> {
         let case = plan.case;
         let metrics = case.metrics(&plan.parameters, &records);
         let figures = case.figures(&plan.parameters, &records);
+        let animations = case.animations(&plan.parameters, &records);
         let tables = case.tables(&plan.parameters, &records);
         CaseResult {
             name: Case::name(case).to_owned(),
@@ -147,6 +148,7 @@ impl<C: Case> Prepared for Plan<C> {
             command: plan.command,
             metrics,
             figures,
+            animations,
             tables,
             state_hash: hash_of_states(&summaries),
             runs: summaries,

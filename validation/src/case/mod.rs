@@ -18,7 +18,7 @@ pub use result::{CaseResult, RunSummary};
 pub use schedule::{Monitor, Silent, execute};
 
 use crate::error::InputError;
-use crate::figure::Figure;
+use crate::figure::{Animation, Figure};
 use crate::metric::Metric;
 use crate::observe::Recorded;
 use serde::{Serialize, de::DeserializeOwned};
@@ -116,6 +116,14 @@ pub trait Case: Sync + 'static {
         parameters: &Self::Parameters,
         records: &[(Self::Run, Recorded<Self::Observation>)],
     ) -> Vec<Figure>;
+    /// Moving pictures of the observations; few cases have any.
+    fn animations(
+        &self,
+        _parameters: &Self::Parameters,
+        _records: &[(Self::Run, Recorded<Self::Observation>)],
+    ) -> Vec<Animation> {
+        Vec::new()
+    }
     /// Tables for `run`'s output folder: profiles and time series.
     fn tables(
         &self,

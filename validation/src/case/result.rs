@@ -1,7 +1,7 @@
 //! What a finished case hands to reports, files and tests: plain data, whatever the case's types were.
 
 use super::Tier;
-use crate::figure::Figure;
+use crate::figure::{Animation, Figure};
 use crate::metric::{Metric, Verdict};
 use crate::observe::{Frame, Outcome};
 use crate::output::Table;
@@ -65,6 +65,8 @@ pub struct CaseResult {
     pub metrics: Vec<Metric>,
     /// Pictures.
     pub figures: Vec<Figure>,
+    /// Moving pictures.
+    pub animations: Vec<Animation>,
     /// Profiles and time series.
     pub tables: Vec<Table>,
     /// The runs in the case's order.

@@ -98,6 +98,7 @@ fn case_report(result: &CaseResult) -> CaseReport {
         command: result.command.clone(),
         metrics: result.metrics.clone(),
         figures: result.figures.clone(),
+        animations: result.animations.clone(),
         runs: result.runs.clone(),
         metrics_json: MetricsDocument::of(result, rayon::current_num_threads()).text(),
     }

@@ -20,7 +20,7 @@ impl Panel {
     /// An empty panel.
     #[must_use]
     pub fn new(title: &str, x: Axis, y: Axis) -> Self {
-        Self { title: title.to_owned(), x, y, bands: Vec::new(), series: Vec::new(), field: None }
+        Self { title: title.to_owned(), x, y, bands: Vec::new(), series: Vec::new(), field: None, opposite: None }
     }
 }
 

@@ -20,6 +20,9 @@ pub enum FigureError {
     /// The picture could not be rasterised or encoded.
     #[error("rasterise the figure: {0}")]
     Raster(String),
+    /// Pictures could not be put together to an animation.
+    #[error("encode the animation: {0}")]
+    Animation(String),
     /// A name that would not stay inside its folder.
     #[error(
         "write the figure {name:?}: a name consists of letters, digits, '-', '_' and '.', and starts with a letter or digit"

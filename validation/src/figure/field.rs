@@ -6,7 +6,7 @@ use super::canvas::{Canvas, Direction, Ink, Rectangle, TextSpec};
 use super::curves::Plot;
 use super::error::FigureError;
 use super::font::{Weight, width};
-use super::palette::{AXIS, BLACK, GREY, colour_map};
+use super::palette::{AXIS, BLACK, ColourMap, FIRST, GREY, SECOND};
 use super::range::{Mapping, Range};
 use super::ticks::{Ticks, ticks};
 use super::{Axis, Scale};
@@ -22,6 +22,21 @@ const BAR_GAP: f64 = 26.0;
 pub(super) enum BarPlace {
     Beside,
     Above,
+    /// Above the left half of a plot with two fields: the first one's.
+    AboveLeft,
+    /// Above the right half: the opposite one's.
+    AboveRight,
+}
+
+impl BarPlace {
+    /// Ends of a bar above the plot over the plot's width; its label stands before it.
+    fn span(self) -> (f64, f64) {
+        match self {
+            Self::Beside | Self::Above => (0.55, 1.0),
+            Self::AboveLeft => (0.13, 0.47),
+            Self::AboveRight => (0.66, 1.0),
+        }
+    }
 }
 
 /// The scale of a field's colours with its bar.
@@ -29,7 +44,9 @@ pub(super) enum BarPlace {
 pub(super) struct ColourScale {
     range: Range,
     ticks: Ticks,
-    pub(super) place: BarPlace,
+    map: ColourMap,
+    has_bar: bool,
+    place: BarPlace,
 }
 
 impl ColourScale {
@@ -37,9 +54,11 @@ impl ColourScale {
         let range = Range::of_colours(field.limits, &field.values);
         let wanted = match place {
             BarPlace::Beside => 6,
-            BarPlace::Above => 5,
+            BarPlace::Above | BarPlace::AboveLeft | BarPlace::AboveRight => 5,
         };
-        Self { range, ticks: ticks(range, Scale::Linear, wanted), place }
+        let map = if place == BarPlace::AboveRight { SECOND } else { FIRST };
+        let ticks = ticks(range, Scale::Linear, wanted);
+        Self { range, ticks, map, has_bar: !field.label.is_empty(), place }
     }
 
     fn fraction(&self, value: f64) -> f64 {
@@ -57,11 +76,16 @@ impl ColourScale {
 
     /// Space that the bar takes from the panel: (right of the plot, above it) `[px]`.
     pub(super) fn space(&self, sizes: Sizes) -> (f64, f64) {
+        if !self.has_bar {
+            return (0.0, 0.0);
+        }
         match self.place {
             BarPlace::Beside => {
                 (BAR_GAP + BAR + TICK_GAP + widest_label(&self.ticks, sizes.tick) + 1.9 * sizes.label, 0.0)
             }
-            BarPlace::Above => (0.0, 14.0 + BAR + TICK_GAP + 1.6 * sizes.tick),
+            BarPlace::Above | BarPlace::AboveLeft | BarPlace::AboveRight => {
+                (0.0, 14.0 + BAR + TICK_GAP + 1.6 * sizes.tick)
+            }
         }
     }
 
@@ -74,8 +98,11 @@ impl ColourScale {
         sizes: Sizes,
     ) -> Result<(), FigureError> {
         match self.place {
+            _ if !self.has_bar => Ok(()),
             BarPlace::Beside => self.draw_beside(canvas, field, window, sizes),
-            BarPlace::Above => self.draw_above(canvas, field, window, sizes),
+            BarPlace::Above | BarPlace::AboveLeft | BarPlace::AboveRight => {
+                self.draw_above(canvas, field, window, sizes)
+            }
         }
     }
 
@@ -93,7 +120,7 @@ impl ColourScale {
             // Each strip reaches to the end, so that no seam shows between strips.
             let bottom = bar.bottom - bar.height() * f64::from(step) / f64::from(steps);
             let strip = Rectangle { bottom, ..bar };
-            canvas.fill_rectangle(&strip, strip_ink(step, steps))?;
+            canvas.fill_rectangle(&strip, self.strip_ink(step, steps))?;
         }
         canvas.frame(&bar, Ink::solid(AXIS, 2.0))?;
         let mapping = Mapping { range: self.range, scale: Scale::Linear, start: bar.bottom, end: bar.top };
@@ -118,12 +145,13 @@ impl ColourScale {
         sizes: Sizes,
     ) -> Result<(), FigureError> {
         let bottom = window.top - 14.0;
-        let left = window.left + 0.55 * window.width();
-        let bar = Rectangle { left, top: bottom - BAR, right: window.right, bottom };
+        let (start, end) = self.place.span();
+        let place = |share: f64| window.left + share * window.width();
+        let bar = Rectangle { left: place(start), top: bottom - BAR, right: place(end), bottom };
         let steps = COLOUR_STEPS;
         for step in 0..steps {
             let left = bar.left + bar.width() * f64::from(step) / f64::from(steps);
-            canvas.fill_rectangle(&Rectangle { left, ..bar }, strip_ink(step, steps))?;
+            canvas.fill_rectangle(&Rectangle { left, ..bar }, self.strip_ink(step, steps))?;
         }
         canvas.frame(&bar, Ink::solid(AXIS, 2.0))?;
         let mapping = Mapping { range: self.range, scale: Scale::Linear, start: bar.left, end: bar.right };
@@ -141,15 +169,17 @@ impl ColourScale {
     /// Whether the bar is above the plot and leaves room for a title left of it.
     pub(super) fn leaves_room_for(&self, title: &str, field: &Field, plot_width: f64, sizes: Sizes) -> bool {
         let taken = width(&self.label(field), sizes.label, Weight::Regular) + 2.0 * sizes.label;
-        self.place == BarPlace::Above && width(title, sizes.title, Weight::Bold) < 0.55 * plot_width - taken
+        self.has_bar
+            && self.place == BarPlace::Above
+            && width(title, sizes.title, Weight::Bold) < 0.55 * plot_width - taken
+    }
+
+    fn strip_ink(&self, step: u32, steps: u32) -> Ink {
+        Ink::solid(self.map.at((f64::from(step) + 0.5) / f64::from(steps)), 0.0)
     }
 }
 
 const COLOUR_STEPS: u32 = 128;
-
-fn strip_ink(step: u32, steps: u32) -> Ink {
-    Ink::solid(colour_map((f64::from(step) + 0.5) / f64::from(steps)), 0.0)
-}
 
 /// Draws every particle at its true size, those without a value in grey.
 pub(super) fn draw_field(
@@ -164,7 +194,7 @@ pub(super) fn draw_field(
     for (index, &point) in field.points.iter().enumerate() {
         let Some(centre) = plot.place(point).filter(|&centre| plot.window.contains(centre)) else { continue };
         let value = field.values.get(index).copied().unwrap_or(f64::NAN);
-        let colour = if value.is_nan() { GREY } else { colour_map(colours.fraction(value)) };
+        let colour = if value.is_nan() { GREY } else { colours.map.at(colours.fraction(value)) };
         canvas.disc(centre, radius, Ink::solid(colour, 0.0))?;
     }
     Ok(())
@@ -175,9 +205,11 @@ fn diameter(field: &Field) -> f64 {
     if field.diameter.is_finite() { field.diameter.max(0.0) } else { 0.0 }
 }
 
-/// The part of the plane that a field's axis shows: its own limits, else all particles with their radii.
-pub(super) fn extent(axis: &Axis, field: &Field, coordinate: fn(&(f64, f64)) -> f64) -> (Range, bool) {
-    let radius = 0.5 * diameter(field);
-    let edges = field.points.iter().map(coordinate).flat_map(|centre| [centre - radius, centre + radius]);
+/// The part of the plane that an axis with fields shows: its own limits, else all particles with their radii.
+pub(super) fn extent(axis: &Axis, fields: &[&Field], coordinate: fn(&(f64, f64)) -> f64) -> (Range, bool) {
+    let edges = fields.iter().flat_map(|field| {
+        let radius = 0.5 * diameter(field);
+        field.points.iter().map(coordinate).flat_map(move |centre| [centre - radius, centre + radius])
+    });
     Range::fit(axis, Scale::Linear, edges)
 }

@@ -208,7 +208,7 @@ fn inked_points(panel: &Panel, plot: &Plot) -> Vec<Point> {
             sample_segment(&mut inked, from, outline[(index + 1) % outline.len()]);
         }
     }
-    if let Some(field) = &panel.field {
+    for field in panel.field.iter().chain(&panel.opposite) {
         inked.extend(field.points.iter().filter_map(|&point| plot.place(point)));
     }
     inked

@@ -1,5 +1,6 @@
 //! Figures as plain data: cases describe what to draw, this module draws it.
 
+mod animation;
 mod axes;
 mod canvas;
 mod clip;
@@ -8,6 +9,7 @@ mod curves;
 mod error;
 mod field;
 mod font;
+mod gif;
 mod legend;
 mod palette;
 mod panel;
@@ -19,6 +21,7 @@ mod ticks;
 #[cfg(test)]
 mod tests;
 
+pub use animation::{Animation, AnimationFrame, write_animation};
 pub use error::FigureError;
 pub(crate) use ticks::superscript;
 
@@ -89,7 +92,7 @@ pub struct Field {
     pub points: Vec<(f64, f64)>,
     /// The scalar of each point.
     pub values: Vec<f64>,
-    /// Label of the colour bar with unit.
+    /// Label of the colour bar with unit; empty for no bar.
     pub label: String,
     /// Particle diameter in axis units.
     pub diameter: f64,
@@ -112,6 +115,9 @@ pub struct Panel {
     pub series: Vec<Series>,
     /// A particle field, drawn between bands and series.
     pub field: Option<Field>,
+    /// A second field that leaves the first one's particles free, with a colour map and bar of its own; only beside a
+    /// first one.
+    pub opposite: Option<Field>,
 }
 
 /// A figure: one or more panels on one sheet.

@@ -46,7 +46,15 @@ pub(super) fn shape(slot: usize) -> Shape {
     SHAPES[slot % SHAPES.len()]
 }
 
-/// Ten equidistant samples of viridis (van der Walt and Smith 2015), perceptually uniform.
+/// A colour map: ten equidistant samples, perceptually uniform.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct ColourMap(&'static [RGBColor; 10]);
+
+/// Viridis (van der Walt and Smith 2015), the map of all fields that stand alone.
+pub(super) const FIRST: ColourMap = ColourMap(&VIRIDIS);
+/// Inferno (the same authors), for a second field beside it: no hue is in both but for the yellow end.
+pub(super) const SECOND: ColourMap = ColourMap(&INFERNO);
+
 const VIRIDIS: [RGBColor; 10] = [
     RGBColor(0x44, 0x01, 0x54),
     RGBColor(0x48, 0x28, 0x78),
@@ -60,19 +68,35 @@ const VIRIDIS: [RGBColor; 10] = [
     RGBColor(0xfd, 0xe7, 0x25),
 ];
 
-/// The colour at `fraction` of the colour map; outside 0 … 1 its ends, grey for NaN.
-pub(super) fn colour_map(fraction: f64) -> RGBColor {
-    if fraction.is_nan() {
-        return GREY;
+const INFERNO: [RGBColor; 10] = [
+    RGBColor(0x00, 0x00, 0x04),
+    RGBColor(0x1b, 0x0c, 0x42),
+    RGBColor(0x4b, 0x0c, 0x6b),
+    RGBColor(0x78, 0x1c, 0x6d),
+    RGBColor(0xa5, 0x2c, 0x60),
+    RGBColor(0xcf, 0x44, 0x46),
+    RGBColor(0xed, 0x69, 0x25),
+    RGBColor(0xfb, 0x9a, 0x06),
+    RGBColor(0xf7, 0xd0, 0x3c),
+    RGBColor(0xfc, 0xff, 0xa4),
+];
+
+impl ColourMap {
+    /// The colour at `fraction` of the map; outside 0 … 1 its ends, grey for NaN.
+    pub(super) fn at(self, fraction: f64) -> RGBColor {
+        if fraction.is_nan() {
+            return GREY;
+        }
+        let samples = self.0;
+        let last = samples.len() - 1;
+        let place = fraction.clamp(0.0, 1.0) * last as f64;
+        let below = (place.floor() as usize).min(last - 1);
+        let weight = place - below as f64;
+        let RGBColor(red, green, blue) = samples[below];
+        let RGBColor(next_red, next_green, next_blue) = samples[below + 1];
+        let mix = |a: u8, b: u8| (f64::from(a) + weight * (f64::from(b) - f64::from(a))).round() as u8;
+        RGBColor(mix(red, next_red), mix(green, next_green), mix(blue, next_blue))
     }
-    let last = VIRIDIS.len() - 1;
-    let place = fraction.clamp(0.0, 1.0) * last as f64;
-    let below = (place.floor() as usize).min(last - 1);
-    let weight = place - below as f64;
-    let RGBColor(red, green, blue) = VIRIDIS[below];
-    let RGBColor(next_red, next_green, next_blue) = VIRIDIS[below + 1];
-    let mix = |a: u8, b: u8| (f64::from(a) + weight * (f64::from(b) - f64::from(a))).round() as u8;
-    RGBColor(mix(red, next_red), mix(green, next_green), mix(blue, next_blue))
 }
 
 #[cfg(test)]
@@ -80,18 +104,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colour_map_brightens_monotonically_and_survives_anything() {
+    fn colour_maps_brighten_monotonically_and_survive_anything() {
         let brightness =
             |RGBColor(r, g, b): RGBColor| 0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b);
-        let mut previous = -1.0;
-        for step in 0..=100 {
-            let now = brightness(colour_map(f64::from(step) / 100.0));
-            assert!(now >= previous - 0.6, "step {step}");
-            previous = now;
+        for (map, samples) in [(FIRST, VIRIDIS), (SECOND, INFERNO)] {
+            let mut previous = -1.0;
+            for step in 0..=100 {
+                let now = brightness(map.at(f64::from(step) / 100.0));
+                assert!(now >= previous - 0.6, "step {step}");
+                previous = now;
+            }
+            assert_eq!(map.at(f64::NAN), GREY);
+            assert_eq!(map.at(f64::INFINITY), samples[9]);
+            assert_eq!(map.at(-3.0), samples[0]);
         }
-        assert_eq!(colour_map(f64::NAN), GREY);
-        assert_eq!(colour_map(f64::INFINITY), VIRIDIS[9]);
-        assert_eq!(colour_map(-3.0), VIRIDIS[0]);
     }
 
     #[test]

@@ -42,6 +42,7 @@ pub(super) struct Prepared<'p> {
     x: (Range, Scale, Ticks),
     y: (Range, Scale, Ticks),
     colours: Option<ColourScale>,
+    opposite: Option<ColourScale>,
     legend: Legend,
     legend_place: Place,
     has_data: bool,
@@ -53,8 +54,10 @@ impl<'p> Prepared<'p> {
         let (x, y, has_data) = ranges(panel);
         let colours = panel.field.as_ref().map(|field| {
             let flat = (x.0.upper - x.0.lower) > 2.6 * (y.0.upper - y.0.lower);
-            ColourScale::of(field, if flat { BarPlace::Above } else { BarPlace::Beside })
+            let alone = if flat { BarPlace::Above } else { BarPlace::Beside };
+            ColourScale::of(field, if panel.opposite.is_some() { BarPlace::AboveLeft } else { alone })
         });
+        let opposite = panel.opposite.as_ref().map(|field| ColourScale::of(field, BarPlace::AboveRight));
         // Equal scales: the narrower direction decides.
         let aspect = (y.0.upper - y.0.lower) / (x.0.upper - x.0.lower);
         let (plot_wide, plot_high) = match colours {
@@ -70,6 +73,7 @@ impl<'p> Prepared<'p> {
             x: (x.0, x.1, x_ticks),
             y: (y.0, y.1, ticks(y.0, y.1, y_wanted)),
             colours,
+            opposite,
             legend: Legend::of(panel, sizes.legend),
             legend_place: Place::Inside,
             has_data,
@@ -133,9 +137,11 @@ impl<'p> Prepared<'p> {
         let sizes = self.sizes;
         draw_grid(canvas, &plot, &self.x.2, &self.y.2)?;
         draw_bands(canvas, &plot, &self.panel.bands)?;
-        if let (Some(field), Some(colours)) = (&self.panel.field, &self.colours) {
-            draw_field(canvas, &plot, field, colours)?;
-            colours.draw_bar(canvas, field, &window, sizes)?;
+        for (field, colours) in [(&self.panel.field, &self.colours), (&self.panel.opposite, &self.opposite)] {
+            if let (Some(field), Some(colours)) = (field, colours) {
+                draw_field(canvas, &plot, field, colours)?;
+                colours.draw_bar(canvas, field, &window, sizes)?;
+            }
         }
         draw_series(canvas, &plot, self.panel)?;
         let labels = (self.panel.x.label.as_str(), self.panel.y.label.as_str());
@@ -228,9 +234,10 @@ type Span = (Range, Scale);
 
 /// What both axes show, and whether there is anything to show.
 fn ranges(panel: &Panel) -> (Span, Span, bool) {
-    if let Some(field) = &panel.field {
-        let (x, has_x) = extent(&panel.x, field, |point| point.0);
-        let (y, has_y) = extent(&panel.y, field, |point| point.1);
+    let fields: Vec<_> = panel.field.iter().chain(&panel.opposite).collect();
+    if !fields.is_empty() {
+        let (x, has_x) = extent(&panel.x, &fields, |point| point.0);
+        let (y, has_y) = extent(&panel.y, &fields, |point| point.1);
         return ((x, Scale::Linear), (y, Scale::Linear), has_x && has_y);
     }
     let points = || panel.series.iter().flat_map(|series| &series.points);

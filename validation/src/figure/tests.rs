@@ -19,6 +19,7 @@ fn panel(series: Vec<Series>) -> Panel {
         bands: Vec::new(),
         series,
         field: None,
+        opposite: None,
     }
 }
 

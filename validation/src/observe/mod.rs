@@ -1,5 +1,9 @@
 //! What a run leaves behind: plain data that knows nothing of the simulation it came from.
 
+mod motion;
+
+pub use motion::{Motion, MotionFrame};
+
 use serde::{Deserialize, Serialize};
 
 /// How a run ended.

@@ -33,16 +33,19 @@ pub fn write_case(folder: &Path, result: &CaseResult, document: &MetricsDocument
     write_figures(&folder.join("figures"), result)
 }
 
-/// Writes a case's figures. One that cannot be drawn is no reason to lose the numbers: it is logged.
+/// Writes a case's figures and animations. One that cannot be drawn is no reason to lose the numbers: it is logged.
 ///
 /// # Errors
 /// Files that cannot be written.
 pub fn write_figures(folder: &Path, result: &CaseResult) -> io::Result<()> {
-    for drawn in &result.figures {
-        match figure::write(drawn, folder) {
-            Ok(_) => {}
-            Err(FigureError::Write { source, .. }) => return Err(source),
-            Err(error) => tracing::error!("{}, figure {}: failed to {error}", result.name, drawn.name),
+    let figures = result.figures.iter().map(|drawn| (&drawn.name, figure::write(drawn, folder).err()));
+    let animations =
+        result.animations.iter().map(|moving| (&moving.name, figure::write_animation(moving, folder).err()));
+    for (name, error) in figures.chain(animations) {
+        match error {
+            None => {}
+            Some(FigureError::Write { source, .. }) => return Err(source),
+            Some(error) => tracing::error!("{}, figure {name}: failed to {error}", result.name),
         }
     }
     Ok(())

@@ -19,7 +19,7 @@ pub use judgement::{Judgement, judge};
 pub use known_failures::{KnownFailure, KnownFailures, Standing};
 
 use crate::case::Tier;
-use crate::figure::{self, Figure, FigureError};
+use crate::figure::{self, Animation, Figure, FigureError};
 use crate::metric::Metric;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -75,22 +75,26 @@ pub struct CaseReport {
     pub metrics: Vec<Metric>,
     /// Figures in reading order.
     pub figures: Vec<Figure>,
+    /// Moving pictures, shown after the figures.
+    pub animations: Vec<Animation>,
     /// The simulations behind the metrics.
     pub runs: Vec<crate::case::RunSummary>,
     /// The text of `metrics.json`, written as it is.
     pub metrics_json: String,
 }
 
-/// A figure as the page refers to it.
+/// A figure or animation as the page refers to it.
 #[derive(Debug, Clone)]
 struct Drawn {
     caption: String,
     name: String,
+    /// A GIF, instead of an SVG with a PNG.
+    moves: bool,
     /// Why there is no picture, or nothing.
     failure: Option<String>,
 }
 
-/// Writes the report into `folder`: `index.html`, `figures/CASE/NAME.{svg,png}`, `cases/CASE/metrics.json` and
+/// Writes the report into `folder`: `index.html`, `figures/CASE/NAME.{svg,png,gif}`, `cases/CASE/metrics.json` and
 /// `cases/CASE/case.toml`. Files of the same names are replaced, others are left alone.
 ///
 /// A figure that cannot be drawn does not spoil the report: the page says so in its place.
@@ -118,17 +122,24 @@ pub fn write(report: &Report, folder: &Path) -> Result<(), ReportError> {
 }
 
 fn draw(case: &CaseReport, folder: &Path) -> Result<Vec<Drawn>, ReportError> {
-    case.figures
-        .par_iter()
-        .map(|figure| {
-            let failure = match figure::write(figure, folder) {
-                Ok(_) => None,
-                Err(error @ FigureError::Write { .. }) => return Err(error.into()),
-                Err(error) => Some(error.to_string()),
-            };
-            Ok(Drawn { caption: figure.caption.clone(), name: figure.name.clone(), failure })
-        })
-        .collect()
+    let figures = case.figures.par_iter().map(|figure| {
+        let failure = failure_of(figure::write(figure, folder))?;
+        Ok(Drawn { caption: figure.caption.clone(), name: figure.name.clone(), moves: false, failure })
+    });
+    let animations = case.animations.par_iter().map(|animation| {
+        let failure = failure_of(figure::write_animation(animation, folder))?;
+        Ok(Drawn { caption: animation.caption.clone(), name: animation.name.clone(), moves: true, failure })
+    });
+    figures.chain(animations).collect()
+}
+
+/// Why something was not drawn; a file that cannot be written is an error of the whole report.
+fn failure_of<W>(written: Result<W, FigureError>) -> Result<Option<String>, ReportError> {
+    match written {
+        Ok(_) => Ok(None),
+        Err(error @ FigureError::Write { .. }) => Err(error.into()),
+        Err(error) => Ok(Some(error.to_string())),
+    }
 }
 
 fn make(folder: &Path) -> Result<(), ReportError> {

@@ -250,7 +250,12 @@ fn case_statement(judged: &JudgedCase<'_>) -> String {
 }
 
 fn picture(drawn: &Drawn) -> Picture {
-    Picture { name: drawn.name.clone(), caption: drawn.caption.clone(), failure: drawn.failure.clone() }
+    Picture {
+        name: drawn.name.clone(),
+        caption: drawn.caption.clone(),
+        moves: drawn.moves,
+        failure: drawn.failure.clone(),
+    }
 }
 
 fn run(run: &RunSummary) -> Run {

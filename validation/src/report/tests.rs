@@ -20,6 +20,7 @@ fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {
         command: format!("bagnold run {name}"),
         metrics,
         figures: Vec::new(),
+        animations: Vec::new(),
         runs: Vec::new(),
         metrics_json: "{}\n".to_owned(),
     }
@@ -66,6 +67,7 @@ fn drawing(name: &str) -> Figure {
         bands: Vec::new(),
         series: Vec::new(),
         field: None,
+        opposite: None,
     };
     Figure { name: name.to_owned(), caption: "a caption".to_owned(), panels: vec![panel], columns: 1 }
 }

@@ -107,6 +107,8 @@ pub(super) struct Row {
 pub(super) struct Picture {
     pub(super) name: String,
     pub(super) caption: String,
+    /// A GIF, instead of an SVG with a PNG.
+    pub(super) moves: bool,
     pub(super) failure: Option<String>,
 }
 

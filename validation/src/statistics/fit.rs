@@ -24,6 +24,57 @@ pub fn linear_fit(points: &[(f64, f64)]) -> Option<LinearFit> {
     slope.is_finite().then_some(LinearFit { slope, intercept: y - slope * x })
 }
 
+/// A least-squares line with the errors of a regression.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Regression {
+    /// Slope, unit of y over unit of x.
+    pub slope: f64,
+    /// Intercept, unit of y.
+    pub intercept: f64,
+    /// Share of the variance of y that the line explains `[-]`.
+    pub r_squared: f64,
+}
+
+/// The regression line through points (x, y); none for fewer than two distinct x.
+#[must_use]
+pub fn linear_regression(points: &[(f64, f64)]) -> Option<Regression> {
+    let fit = linear_fit(points)?;
+    let mean = points.iter().map(|p| p.1).sum::<f64>() / points.len() as f64;
+    let spread: f64 = points.iter().map(|p| (p.1 - mean) * (p.1 - mean)).sum();
+    let residual: f64 = points.iter().map(|p| (p.1 - fit.intercept - fit.slope * p.0).powi(2)).sum();
+    Some(Regression { slope: fit.slope, intercept: fit.intercept, r_squared: 1.0 - residual / spread })
+}
+
+/// A fitted value with its standard error, both in the value's unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// The value.
+    pub value: f64,
+    /// Its standard error from the scatter about the fit.
+    pub standard_error: f64,
+}
+
+/// The slope that groups of points (x, y) share, each group with an intercept of its own; none without two distinct x in
+/// a group and one point more than there are intercepts and slope.
+#[must_use]
+pub fn common_slope(groups: &[Vec<(f64, f64)>]) -> Option<Estimate> {
+    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+    for points in groups {
+        let mean = |pick: fn(&(f64, f64)) -> f64| points.iter().map(pick).sum::<f64>() / points.len() as f64;
+        let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+        for point in points {
+            xx += (point.0 - x) * (point.0 - x);
+            xy += (point.0 - x) * (point.1 - y);
+            yy += (point.1 - y) * (point.1 - y);
+        }
+    }
+    let freedom = groups.iter().map(Vec::len).sum::<usize>().checked_sub(groups.len() + 1)?;
+    let value = xy / xx;
+    let residual = (yy - value * xy).max(0.0);
+    (freedom > 0 && value.is_finite())
+        .then(|| Estimate { value, standard_error: (residual / freedom as f64 / xx).sqrt() })
+}
+
 /// Exponent of a power law with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exponent {
@@ -74,6 +125,34 @@ mod tests {
         assert!((fit.slope - 2.0).abs() < 1e-14 && (fit.intercept - 1.0).abs() < 1e-14);
         assert_eq!(linear_fit(&[(1.0, 1.0), (1.0, 2.0)]), None);
         assert_eq!(linear_fit(&[]), None);
+    }
+
+    #[test]
+    fn a_regression_knows_what_its_line_explains() {
+        // mean 1, slope 1/2: residuals (−1/6, 1/3, −1/6), so 1 − (1/6)/(2/3) of the variance is explained
+        let fit = linear_regression(&[(0.0, 0.0), (1.0, 1.0), (2.0, 1.0)]).unwrap();
+        assert!((fit.slope - 0.5).abs() < 1e-14 && (fit.r_squared - 0.75).abs() < 1e-14);
+        assert_eq!(linear_regression(&[(1.0, 1.0)]), None);
+    }
+
+    #[test]
+    fn groups_share_a_slope_whatever_their_intercepts() {
+        let group = |intercept: f64, wobble: f64| {
+            (0..4)
+                .map(|k| (f64::from(k), intercept + 2.0 * f64::from(k) + wobble * [1.0, -1.0, -1.0, 1.0][k as usize]))
+                .collect()
+        };
+        let exact = common_slope(&[group(0.0, 0.0), group(7.0, 0.0)]).unwrap();
+        assert!((exact.value - 2.0).abs() < 1e-14 && exact.standard_error < 1e-7);
+        // a wobble without a slope: residual 8 w² on 8 − 3 degrees of freedom, Σ(x − x̄)² = 10
+        let wobbling = common_slope(&[group(0.0, 0.1), group(7.0, 0.1)]).unwrap();
+        assert!((wobbling.value - 2.0).abs() < 1e-13);
+        assert!((wobbling.standard_error - (0.08f64 / 5.0 / 10.0).sqrt()).abs() < 1e-12);
+        // one group of three points is an ordinary regression: error √(1/12), as for an exponent below
+        let one = common_slope(&[vec![(0.0, 0.0), (1.0, 1.0), (2.0, 1.0)]]).unwrap();
+        assert!((one.standard_error - (1.0f64 / 12.0).sqrt()).abs() < 1e-14);
+        assert_eq!(common_slope(&[]), None);
+        assert_eq!(common_slope(&[vec![(0.0, 0.0), (1.0, 1.0)]]), None);
     }
 
     #[test]

@@ -2,4 +2,6 @@
 
 mod fit;
 
-pub use fit::{Exponent, LinearFit, linear_fit, log_log_slope, power_law};
+pub use fit::{
+    Estimate, Exponent, LinearFit, Regression, common_slope, linear_fit, linear_regression, log_log_slope, power_law,
+};

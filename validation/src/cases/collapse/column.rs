@@ -1,6 +1,7 @@
 //! One column: its scene and its run.
 
-use super::deposit::{Collapse, Surveyor, radius};
+use super::camera::Camera;
+use super::deposit::{Collapse, Surveyor, front, radius};
 use crate::case::{Progress, Run};
 use crate::cases::recording::Ending;
 use crate::error::InputError;
@@ -21,10 +22,14 @@ use std::ops::ControlFlow;
 const AT_REST: f64 = 1e-7;
 /// Time over √(h_0/g) before which no column has fallen `[-]`.
 const EARLIEST_REST: f64 = 2.0;
+/// Bulk modulus over ρ0 g h_0 `[-]`.
+const STIFFNESS: f64 = 50.0;
 /// Points of the time series over √(h_0/g).
 const POINTS: f64 = 40.0;
 /// Pictures over the collapse, at these times over √(h_0/g) `[-]`; the deposit follows.
-const PICTURES: [f64; 4] = [0.0, 0.75, 1.5, 2.5];
+pub(super) const PICTURES: [f64; 4] = [0.0, 0.75, 1.5, 2.5];
+/// Time between the frames of the moving picture over √(h_0/g) `[-]`.
+const FRAME_INTERVAL: f64 = 0.1;
 
 /// The column's cross-section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -69,6 +74,8 @@ pub struct ColumnRun {
     pub(in crate::cases) jitter: f64,
     pub(in crate::cases) seed: u64,
     pub(in crate::cases) duration: f64,
+    /// Times of further pictures `[s]`, as a paper shows them.
+    pub(in crate::cases) shown_times: Vec<f64>,
     pub(in crate::cases) numerics: Numerics,
 }
 
@@ -118,6 +125,14 @@ impl ColumnRun {
         section * self.rows() as f64
     }
 
+    /// Times of all pictures but the deposit's `[s]`.
+    fn picture_times(&self) -> Vec<f64> {
+        let mut times: Vec<f64> = PICTURES.iter().map(|time| time * self.time_scale()).collect();
+        times.extend(&self.shown_times);
+        times.sort_by(f64::total_cmp);
+        times
+    }
+
     fn rows(&self) -> usize {
         (self.aspect_ratio * self.resolution as f64).round().max(1.0) as usize
     }
@@ -126,9 +141,16 @@ impl ColumnRun {
         self.solid_fraction * self.law.grain_density
     }
 
+    /// Elastic over potential energy of the start `[-]`: under hydrostatic pressure p²/(2K) has the mean ρ0 g h_0/(6·50),
+    /// the potential energy above the bed ρ0 g h_0/2.
+    #[must_use]
+    pub fn elastic_share(&self) -> f64 {
+        1.0 / (3.0 * STIFFNESS)
+    }
+
     /// K = 50 ρ0 g h_0 `[Pa]`.
     fn bulk_modulus(&self) -> f64 {
-        50.0 * self.bulk_density() * self.gravity * self.initial_height() * self.half_width
+        STIFFNESS * self.bulk_density() * self.gravity * self.initial_height() * self.half_width
     }
 
     fn sound_speed(&self) -> f64 {
@@ -227,12 +249,19 @@ impl ColumnRun {
             bed_end: self.bed_end(),
             collapse: Collapse::default(),
         };
+        let r = self.half_width;
+        let mut camera = Camera::new(FRAME_INTERVAL * scale, self.spacing());
         let mut frames = Vec::new();
+        let times = self.picture_times();
+        let mut pictured = 0;
         let mut last_good = simulation.snapshot();
         let reason = simulation.run(duration, scale / POINTS, |simulation| {
             let snapshot = simulation.snapshot();
-            surveyor.observe(&snapshot);
-            if PICTURES.get(frames.len()).is_some_and(|time| snapshot.time >= time * scale) {
+            let thickness = surveyor.observe(&snapshot);
+            camera.watch(&snapshot, thickness.iter().map(|(x, h)| (x * r, h * r)), front(&thickness) * r);
+            let due = times.iter().filter(|&&time| snapshot.time >= time).count();
+            if due > pictured {
+                pictured = due;
                 frames.push(Frame::of_flow(&snapshot));
             }
             progress.advance(snapshot.time, duration, simulation.steps() as f64 * particles as f64);
@@ -248,6 +277,12 @@ impl ColumnRun {
             frames,
             started,
         };
-        Ok(ending.record(&simulation, |end| surveyor.finish(end)))
+        Ok(ending.record(&simulation, |end| {
+            let mut collapse = surveyor.finish(end);
+            let deposit = &collapse.deposit;
+            camera.take(end, deposit.iter().map(|(x, h)| (x * r, h * r)), front(deposit) * r);
+            collapse.motion = camera.motion;
+            collapse
+        }))
     }
 }

@@ -1,5 +1,6 @@
 //! What is measured of a spreading heap: thickness, front, heights, centroid and energies.
 
+use crate::observe::Motion;
 use bagnold_solver::snapshot::Snapshot;
 use bagnold_solver::vector::Vector;
 use serde::{Deserialize, Serialize};
@@ -40,6 +41,8 @@ pub struct Collapse {
     pub initial_mass: f64,
     /// Mass at the end over that at the start, less 1 `[-]`.
     pub mass_change: f64,
+    /// Positions and speeds for the moving picture.
+    pub motion: Motion,
 }
 
 /// Measures snapshots of one column: half a planar one in two dimensions, a quarter of a round one in three. The
@@ -59,8 +62,8 @@ pub(super) struct Surveyor {
 }
 
 impl Surveyor {
-    /// Adds a point to the time series.
-    pub(super) fn observe<const D: usize>(&mut self, snapshot: &Snapshot<D>) {
+    /// Adds a point to the time series and gives the thickness, both over r_0.
+    pub(super) fn observe<const D: usize>(&mut self, snapshot: &Snapshot<D>) -> Vec<(f64, f64)> {
         let thickness = self.thickness(snapshot);
         let (mut kinetic, mut potential) = (0.0, 0.0);
         for ((mass, position), velocity) in snapshot.mass.iter().zip(&snapshot.position).zip(&snapshot.velocity) {
@@ -78,6 +81,7 @@ impl Surveyor {
         collapse.height.push(thickness.first().map_or(0.0, |bin| bin.1));
         collapse.kinetic_energy.push(kinetic);
         collapse.potential_energy.push(potential);
+        thickness
     }
 
     /// |Σ m v − Σ support impulses − M g t| over M g t `[-]`: the columns start at rest.
@@ -251,13 +255,8 @@ mod tests {
             snapshot.mass.push(2.0 * spacing * spacing);
             snapshot.density.push(2.0);
         }
-        let surveyor = Surveyor {
-            half_width: 1.0,
-            spacing,
-            gravity: [0.0, -9.81],
-            bed_end: 2.0,
-            collapse: Collapse::default(),
-        };
+        let surveyor =
+            Surveyor { half_width: 1.0, spacing, gravity: [0.0, -9.81], bed_end: 2.0, collapse: Collapse::default() };
         let thickness = surveyor.thickness(&snapshot);
         assert!(thickness[..9].iter().all(|bin| (bin.1 - 0.8).abs() < 1e-12), "{thickness:?}");
         assert!((thickness.iter().map(|bin| bin.1 * BIN_WIDTH).sum::<f64>() - 0.8).abs() < 1e-12);

@@ -1,23 +1,37 @@
 //! The case's figures.
 
 use super::Record;
-use super::column::{ColumnRun, Geometry};
+use super::column::{ColumnRun, Geometry, PICTURES};
 use super::deposit::Collapse;
-use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
-use crate::observe::Frame;
+use super::flow_metrics::{self, energies, stations};
+use super::pictures::{View, animation, halves, nearest, pressures, speeds};
+use super::wedge::{self, Deposit};
+use super::{energy, velocity_profile};
+use crate::case::Run;
+use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel, Series};
+use crate::observe::{Frame, Recorded};
 use crate::reference::{CollapseLaw, PLANAR_HEIGHT, PLANAR_RUN_OUT, ROUND_HEIGHT, ROUND_RUN_OUT};
 
 pub(in crate::cases) fn all(records: &[Record]) -> Vec<Figure> {
     if records.is_empty() {
         return Vec::new();
     }
-    let mut figures = vec![scaling(records), deposits(records), histories(records)];
-    figures.extend(records.iter().map(|(run, record)| pictures(run, &record.frames)));
+    let mut figures =
+        vec![scaling(records), deposits(records), histories(records), energy_budget(records), wedges(records)];
+    for (run, record) in records {
+        figures.push(pictures(run, &record.frames));
+        figures.extend(shown(run, &record.frames));
+        figures.extend(velocity_profiles(run, record));
+    }
     figures
 }
 
 fn name(material: &str) -> &'static str {
-    if material == "lagree" { "grains of Lagrée et al." } else { "sand of Table 2" }
+    match material {
+        "lagree" => "grains of Lagrée et al.",
+        "glass" => "glass beads of Table 1",
+        _ => "sand of Table 2",
+    }
 }
 
 /// Run-out and height over the aspect ratio, with every published law of the geometry.
@@ -40,10 +54,10 @@ fn scaling(records: &[Record]) -> Figure {
             let slot = known.unwrap_or(run_out_laws.len());
             for (part, curve) in law.curves().into_iter().enumerate() {
                 let entry = if legend && part == 0 { law.source } else { "" };
-                panel.series.push(Series::new(entry, Mark::Line, slot + 2, curve));
+                panel.series.push(Series::new(entry, Mark::Line, slot + 3, curve));
             }
         }
-        for (slot, material) in ["sand", "lagree"].into_iter().enumerate() {
+        for (slot, material) in ["sand", "lagree", "glass"].into_iter().enumerate() {
             let points: Vec<(f64, f64)> = records
                 .iter()
                 .filter(|(run, _)| run.material == material)
@@ -70,7 +84,7 @@ fn scaling(records: &[Record]) -> Figure {
 }
 
 fn label(run: &ColumnRun) -> String {
-    let material = if run.material == "lagree" { "Lagrée" } else { "sand" };
+    let material = if run.material == "lagree" { "Lagrée" } else { &run.material };
     format!("{material}, a = {}", run.aspect_ratio)
 }
 
@@ -114,29 +128,119 @@ fn histories(records: &[Record]) -> Figure {
     }
 }
 
+/// The values of a run's variant as a file name: `sand-0.9-20`.
+fn stem(run: &ColumnRun) -> String {
+    let variant = run.variant();
+    let values: Vec<&str> = variant.split(',').filter_map(|part| part.split('=').nth(1)).collect();
+    values.join("-").replace('_', "-")
+}
+
+fn view(run: &ColumnRun) -> View {
+    View {
+        unit_length: run.half_width,
+        unit: "r0",
+        time_scale: run.time_scale(),
+        spacing: run.spacing(),
+        mirrored: true,
+    }
+}
+
+/// The moving picture of every run.
+pub(in crate::cases) fn animations(records: &[Record]) -> Vec<Animation> {
+    let moving = |(run, record): &Record| {
+        let section =
+            if run.geometry == Geometry::Round { " The section beside a symmetry plane is shown." } else { "" };
+        let caption = format!(
+            "{}: the collapse in the colours of the speed. Dashed are the thickness (volume per bin of 0.1 r0) and the \
+             front, where it falls below 0.02 r0. The left half is the mirror image of the simulated right one.{section}",
+            label(run)
+        );
+        animation(&format!("collapse-{}", stem(run)), &caption, &record.data.motion, &view(run))
+    };
+    records.iter().map(moving).collect()
+}
+
+/// The paper's pictures: speed and pressure at absolute times.
+fn shown(run: &ColumnRun, frames: &[Frame]) -> Option<Figure> {
+    let shown: Vec<&Frame> = run.shown_times.iter().filter_map(|&time| nearest(frames, time)).collect();
+    let caption = format!(
+        "{}: speed on the left and pressure on the right of the symmetry plane, at the times of the collapse paper's \
+         figures 7–9; the left half is the mirror image of the simulated right one.",
+        label(run)
+    );
+    (!shown.is_empty()).then(|| halves(&format!("halves-{}", stem(run)), &caption, &shown, &view(run)))
+}
+
+fn energy_budget(records: &[Record]) -> Figure {
+    let runs: Vec<_> =
+        records.iter().map(|(run, record)| (label(run), run.time_scale(), energies(&record.data))).collect();
+    energy::figure(
+        "energy-budget",
+        "Potential energy released since the start, kinetic energy, and the rest, which friction has dissipated but for \
+         elastic energy of less than a hundredth; all over the potential energy released by the end.",
+        &runs,
+    )
+}
+
+fn velocity_profiles(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<Figure> {
+    let stations = stations(run, record);
+    let caption = format!(
+        "{}: horizontal velocity over depth at t = 1.5 √(h0/g), means over 0.1 r0 and a spacing. Left, a line through the \
+         flowing layer (faster than 0.35 of the largest velocity); right, one exponential for all stations below it, \
+         down to 0.02 of the largest velocity, where at least three points make a tail.",
+        label(run)
+    );
+    let name = format!("velocity-{}", stem(run));
+    (!stations.is_empty()).then(|| velocity_profile::figure(&name, &caption, &stations, (run.half_width, "r0")))
+}
+
+fn wedges(records: &[Record]) -> Figure {
+    let deposit = |(run, record): &'_ Record| -> Option<(String, wedge::Wedge)> {
+        Some((label(run), flow_metrics::wedge(run, &record.frames)?))
+    };
+    let deposits: Vec<Deposit<'_>> = records
+        .iter()
+        .filter_map(|record| {
+            let (title, wedge) = deposit(record)?;
+            let (run, recorded) = record;
+            Some(Deposit {
+                title,
+                end: recorded.frames.last()?,
+                wedge,
+                half_width: run.half_width,
+                height: run.initial_height() * run.half_width,
+                spacing: run.spacing(),
+            })
+        })
+        .collect();
+    wedge::figure(
+        "wedges",
+        "Deposits in the colours of the way from the start; particles that moved by less than a spacing are grey. Dashed \
+         is the initial column, solid the line through the surface of the undisturbed part.",
+        &deposits,
+    )
+}
+
 /// Speed and pressure at the pictures' times; of a round column the slice beside a symmetry plane.
 fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
     let r = run.half_width;
+    let times = PICTURES.iter().map(|time| time * run.time_scale());
+    let mut frames: Vec<&Frame> = times.filter_map(|time| nearest(frames, time)).chain(frames.last()).collect();
+    // a run that ended early has no more than its deposit to show
+    frames.dedup_by(|a, b| a.time == b.time);
     let slice = |frame: &Frame| -> Vec<usize> {
         (0..frame.position.len()).filter(|&index| frame.position[index][2] < run.spacing()).collect()
     };
     let far = frames.iter().flat_map(|frame| &frame.position).map(|x| x[0] / r).fold(1.0, f64::max);
     let high = frames.iter().flat_map(|frame| &frame.position).map(|x| x[1] / r).fold(0.0, f64::max);
-    let speed = |frame: &Frame| -> Vec<f64> {
-        let velocity = frame.vectors.iter().find(|(name, _, _)| name == "velocity");
-        velocity.map_or(Vec::new(), |(_, _, v)| v.iter().map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt()).collect())
+    let largest = |values: fn(&Frame) -> Vec<f64>| {
+        frames.iter().flat_map(|frame| values(frame)).fold(0.0, f64::max).max(f64::MIN_POSITIVE)
     };
-    let pressure = |frame: &Frame| -> Vec<f64> {
-        let pressure = frame.scalars.iter().find(|(name, _, _)| name == "pressure");
-        pressure.map_or(Vec::new(), |(_, _, p)| p.iter().map(|p| p * 1e-3).collect())
-    };
-    let largest =
-        |values: &dyn Fn(&Frame) -> Vec<f64>| frames.iter().flat_map(values).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
-    let (fastest, deepest) = (largest(&speed), largest(&pressure));
+    let (fastest, deepest) = (largest(speeds), largest(pressures));
     let mut panels = Vec::new();
     for frame in frames {
         let title = format!("t = {:.2} √(h0/g)", frame.time / run.time_scale());
-        for (values, label, limit) in [(speed(frame), "|v| [m/s]", fastest), (pressure(frame), "p [kPa]", deepest)] {
+        for (values, label, limit) in [(speeds(frame), "|v| [m/s]", fastest), (pressures(frame), "p [kPa]", deepest)] {
             let x = Axis { limits: Some((0.0, far)), ..Axis::linear("x/r0 [-]") };
             let y = Axis { limits: Some((0.0, high)), ..Axis::linear("y/r0 [-]") };
             let mut panel = Panel::new(&title, x, y);
@@ -154,7 +258,7 @@ fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
         }
     }
     Figure {
-        name: format!("pictures-{}-{}", run.material, run.aspect_ratio.to_string().replace('.', "-")),
+        name: format!("pictures-{}", stem(run)),
         caption: format!("{}: speed (left) and pressure (right) through the collapse and in the deposit.", label(run)),
         panels,
         columns: 2,

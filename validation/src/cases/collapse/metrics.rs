@@ -15,6 +15,7 @@ pub(in crate::cases) fn all(records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (run, record) in records {
         of_column(&mut metrics, run, &record.data);
+        metrics.extend(super::flow_metrics::of_run(run, record));
     }
     for (material, smallest, gate) in
         [("sand", 5.0, Limit::Within(2.0 / 3.0 - 0.05, 2.0 / 3.0 + 0.05)), ("lagree", 7.0, Limit::Within(0.65, 0.75))]

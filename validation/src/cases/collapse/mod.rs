@@ -1,10 +1,16 @@
 //! A column of dry grains that collapses on a rough horizontal bed: what the planar and the round case share.
 
+mod camera;
 mod column;
 mod deposit;
+mod energy;
 pub(super) mod figures;
+mod flow_metrics;
 pub(super) mod metrics;
+mod pictures;
 mod slope;
+mod velocity_profile;
+mod wedge;
 
 pub use column::{ColumnRun, Geometry};
 pub use deposit::{BIN_WIDTH, Collapse, FRONT_THICKNESS, front};

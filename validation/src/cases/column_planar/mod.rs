@@ -7,7 +7,7 @@ pub use parameters::{ColumnPlanarParameters, Columns};
 use super::collapse::{self, Collapse, ColumnRun, Record};
 use crate::case::{Case, Progress, Tier};
 use crate::error::InputError;
-use crate::figure::Figure;
+use crate::figure::{Animation, Figure};
 use crate::metric::Metric;
 use crate::observe::Recorded;
 use crate::output::Table;
@@ -65,6 +65,10 @@ impl Case for ColumnPlanar {
 
     fn figures(&self, _: &ColumnPlanarParameters, records: &[Record]) -> Vec<Figure> {
         collapse::figures::all(records)
+    }
+
+    fn animations(&self, _: &ColumnPlanarParameters, records: &[Record]) -> Vec<Animation> {
+        collapse::figures::animations(records)
     }
 
     fn tables(&self, _: &ColumnPlanarParameters, records: &[Record]) -> Vec<Table> {

@@ -42,6 +42,8 @@ pub struct ColumnPlanarParameters {
     pub duration: f64,
     /// The paper's sand.
     pub sand: Columns,
+    /// The paper's glass beads, for figures 7–9.
+    pub glass: Columns,
     /// Grains of Lagrée, Staron & Popinet (2011).
     pub lagree: Columns,
     /// Numerics.
@@ -63,6 +65,7 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("sand.law.reference_inertia", "I_0 [-]; 2.65 as printed, 0.279 in other tables of the paper"),
     ("sand.law.grain_diameter", "D [m]"),
     ("sand.law.grain_density", "ρ_s [kg/m³]"),
+    ("glass.aspect_ratios", "h_0/r_0 [-]; other fields as of the sand"),
     ("lagree.aspect_ratios", "h_0/r_0 [-]"),
     ("lagree.half_width", "r_0 [m]"),
     ("lagree.tall_half_width", "r_0 [m], the same at every aspect ratio"),
@@ -73,6 +76,13 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
 const TALL: f64 = 3.0;
 /// Aspect ratio above which `tall_resolution` holds.
 const COARSE: f64 = 5.0;
+/// The paper's figures 7–9: aspect ratio and times `[s]`.
+const SHOWN: [(f64, &[f64]); 3] = [(0.9, &[0.07, 0.3]), (2.75, &[0.04, 0.12, 0.34, 0.53]), (4.8, &[0.04, 0.2, 0.4])];
+
+/// Times at which the paper shows a column of this aspect ratio `[s]`.
+fn shown_times(aspect_ratio: f64) -> Vec<f64> {
+    SHOWN.iter().find(|shown| shown.0 == aspect_ratio).map_or(Vec::new(), |shown| shown.1.to_vec())
+}
 
 impl ColumnPlanarParameters {
     pub(in crate::cases) fn of_tier(tier: Tier) -> Self {
@@ -85,7 +95,7 @@ impl ColumnPlanarParameters {
             duration: 10.0,
             // Table 2; figures 7–10
             sand: Columns {
-                aspect_ratios: vec![0.7, 1.5, 3.0],
+                aspect_ratios: vec![0.7, 0.9, 1.5, 3.0],
                 half_width: 0.0972,
                 tall_half_width: 0.0292,
                 solid_fraction: 0.62,
@@ -95,6 +105,20 @@ impl ColumnPlanarParameters {
                     reference_inertia: 2.65,
                     grain_diameter: 0.32e-3,
                     grain_density: 2600.0,
+                },
+            },
+            // Table 1; figures 7–9 are captioned glass beads
+            glass: Columns {
+                aspect_ratios: Vec::new(),
+                half_width: 0.0972,
+                tall_half_width: 0.0292,
+                solid_fraction: 0.6,
+                law: MuI {
+                    static_friction: 0.382,
+                    limiting_friction: 0.643,
+                    reference_inertia: 0.279,
+                    grain_diameter: 0.5e-3,
+                    grain_density: 2500.0,
                 },
             },
             lagree: Columns {
@@ -118,6 +142,7 @@ impl ColumnPlanarParameters {
                 aspect_ratios: vec![0.5, 0.7, 0.9, 1.5, 2.0, 2.75, 4.8, 5.0, 7.0, 10.0, 14.0, 20.0],
                 ..quick.sand.clone()
             },
+            glass: Columns { aspect_ratios: SHOWN.iter().map(|shown| shown.0).collect(), ..quick.glass.clone() },
             lagree: Columns { aspect_ratios: vec![0.5, 1.0, 2.0, 3.0, 7.0, 10.0, 14.0, 20.0], ..quick.lagree.clone() },
             ..quick.clone()
         };
@@ -150,8 +175,8 @@ impl ColumnPlanarParameters {
     }
 
     /// The materials with their names.
-    pub(super) fn materials(&self) -> [(&'static str, &Columns); 2] {
-        [("sand", &self.sand), ("lagree", &self.lagree)]
+    pub(super) fn materials(&self) -> [(&'static str, &Columns); 3] {
+        [("sand", &self.sand), ("glass", &self.glass), ("lagree", &self.lagree)]
     }
 
     /// The parameter that a column's resolution comes from.
@@ -188,6 +213,7 @@ pub(super) fn runs(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
             jitter: parameters.jitter,
             seed: parameters.seed,
             duration: parameters.duration,
+            shown_times: if material == "lagree" { Vec::new() } else { shown_times(aspect_ratio) },
             numerics: parameters.numerics,
         }));
     }

@@ -7,7 +7,7 @@ pub use parameters::{ColumnRoundParameters, RoundColumn};
 use super::collapse::{self, Collapse, ColumnRun, Record};
 use crate::case::{Case, Progress, Tier};
 use crate::error::InputError;
-use crate::figure::Figure;
+use crate::figure::{Animation, Figure};
 use crate::metric::Metric;
 use crate::observe::Recorded;
 use crate::output::Table;
@@ -67,6 +67,10 @@ impl Case for ColumnRound {
 
     fn figures(&self, _: &ColumnRoundParameters, records: &[Record]) -> Vec<Figure> {
         collapse::figures::all(records)
+    }
+
+    fn animations(&self, _: &ColumnRoundParameters, records: &[Record]) -> Vec<Animation> {
+        collapse::figures::animations(records)
     }
 
     fn tables(&self, _: &ColumnRoundParameters, records: &[Record]) -> Vec<Table> {

@@ -113,6 +113,7 @@ pub(super) fn runs(parameters: &ColumnRoundParameters) -> Vec<ColumnRun> {
         jitter: parameters.jitter,
         seed: parameters.seed,
         duration: parameters.duration,
+        shown_times: Vec::new(),
         numerics: parameters.numerics,
     };
     parameters.columns.iter().map(run).collect()

@@ -67,10 +67,11 @@ fn stopping(parameters: &FlowThicknessParameters, records: &[Record]) -> Figure 
     panel.series.push(Series::new("kept flowing", Mark::Points, 1, flowed));
     Figure {
         name: "start-stop".to_owned(),
-        caption: "Layers that stopped and layers that kept flowing, over slope and thickness. The local μ(I) law stops them \
+        caption:
+            "Layers that stopped and layers that kept flowing, over slope and thickness. The local μ(I) law stops them \
                   all at one slope; in experiments thin layers stop on steeper slopes. Left of the curve of h_stop the \
                   experiments have no flow, right of the dashed line the law has no deposit."
-            .to_owned(),
+                .to_owned(),
         panels: vec![panel],
         columns: 1,
     }
@@ -89,9 +90,10 @@ fn flow_rule(parameters: &FlowThicknessParameters, records: &[Record]) -> Figure
     panel.series.push(Series::new("steady flows", Mark::Points, 0, points));
     Figure {
         name: "flow-rule".to_owned(),
-        caption: "Depth mean of the velocity of steady flows over √(gh) against the thickness over h_stop(θ), with (42). \
+        caption:
+            "Depth mean of the velocity of steady flows over √(gh) against the thickness over h_stop(θ), with (42). \
                   That the points lie on the line follows from (41): it verifies the solver."
-            .to_owned(),
+                .to_owned(),
         panels: vec![panel],
         columns: 1,
     }

@@ -24,9 +24,8 @@ pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> V
         );
         let local = libm::atan(run.layer.material.static_friction).to_degrees();
         let measured = found.bracket().map_or(f64::NAN, |(stops, flows)| 0.5 * (stops + flows));
-        let angle = |name: &str, value: f64| {
-            Metric::observed(name, &variant, value, "°").with_snapshot_tolerance(0.0, 1e-6)
-        };
+        let angle =
+            |name: &str, value: f64| Metric::observed(name, &variant, value, "°").with_snapshot_tolerance(0.0, 1e-6);
         metrics.push(
             angle("stopping_angle", measured)
                 .against(Some(local), "arctan μ_s: the local μ(I) law, whatever the thickness", Confidence::Exact)
@@ -119,7 +118,11 @@ fn flow_rule(metrics: &mut Vec<Metric>, parameters: &FlowThicknessParameters, re
     let (measured, expected) = (xy / xx, expected / f64::from(count));
     metrics.push(
         Metric::observed("flow_coefficient", "", measured, "-")
-            .against(Some(expected), "(41) solved for β at the slopes of the flows: an identity of the law", Confidence::Exact)
+            .against(
+                Some(expected),
+                "(41) solved for β at the slopes of the flows: an identity of the law",
+                Confidence::Exact,
+            )
             .gated(
                 Limit::Within(0.97 * expected, 1.03 * expected),
                 "3 %: an error of 0.1 % of the friction coefficient is one of 0.8 % (25°) to 2 % (22°) of the velocity",

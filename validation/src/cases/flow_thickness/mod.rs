@@ -150,9 +150,8 @@ impl Case for FlowThickness {
 fn trials((run, record): &Record) -> Option<Table> {
     let FlowThicknessObservation::StartStop(found) = &record.data else { return None };
     let columns = ["slope [°]", "stops [-]", "t [s]", "mean u [m/s]"];
-    let row = |trial: &Trial| {
-        vec![trial.slope_angle, if trial.stops { 1.0 } else { 0.0 }, trial.time, trial.mean_velocity]
-    };
+    let row =
+        |trial: &Trial| vec![trial.slope_angle, if trial.stops { 1.0 } else { 0.0 }, trial.time, trial.mean_velocity];
     Some(Table {
         name: format!("trials-{}", run.variant().replace(['=', ','], "-").replace('_', "-")),
         columns: columns.map(str::to_owned).to_vec(),

@@ -147,10 +147,8 @@ impl FlowThicknessParameters {
 
 pub(super) fn runs(parameters: &FlowThicknessParameters) -> Vec<FlowThicknessRun> {
     let collapse = &parameters.collapse;
-    let collapses = collapse
-        .slope_angles
-        .iter()
-        .map(|&angle| FlowThicknessRun::Collapse(collapse.run(angle, collapse.gate_speed)));
+    let collapses =
+        collapse.slope_angles.iter().map(|&angle| FlowThicknessRun::Collapse(collapse.run(angle, collapse.gate_speed)));
     let searches = parameters.stopping_thicknesses.iter().map(|&thickness| {
         FlowThicknessRun::StartStop(StartStopRun {
             layer: parameters.layer(thickness, parameters.stopping_duration),

@@ -220,7 +220,11 @@ impl StartStopRun {
             let steady = means.len() > lag && (mean / means[means.len() - 1 - lag] - 1.0).abs() < STEADY;
             let lost = snapshot.position.iter().filter(|x| !(x[1] > 0.0 && x[1] < 2.0 * h)).count();
             trial = Trial { slope_angle: angle, stops, time: snapshot.time, mean_velocity: mean, lost };
-            progress.advance(round * duration + snapshot.time, rounds * duration, simulation.steps() as f64 * particles);
+            progress.advance(
+                round * duration + snapshot.time,
+                rounds * duration,
+                simulation.steps() as f64 * particles,
+            );
             last_good = snapshot;
             if stops || steady { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
@@ -244,7 +248,8 @@ mod tests {
     fn the_bracket_is_that_of_the_trials() {
         let trial =
             |slope_angle: f64, stops: bool| Trial { slope_angle, stops, time: 1.0, mean_velocity: 0.0, lost: 0 };
-        let found = StartStop { trials: vec![trial(19.0, true), trial(25.0, false), trial(22.0, false), trial(20.5, true)] };
+        let found =
+            StartStop { trials: vec![trial(19.0, true), trial(25.0, false), trial(22.0, false), trial(20.5, true)] };
         assert_eq!(found.bracket(), Some((20.5, 22.0)));
         assert_eq!(StartStop { trials: vec![trial(19.0, false)] }.bracket(), None);
         assert_eq!(StartStop { trials: vec![trial(22.0, true), trial(21.0, false)] }.bracket(), None);

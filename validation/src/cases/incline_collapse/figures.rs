@@ -41,9 +41,10 @@ fn fronts(records: &[Record]) -> Figure {
     }
     Figure {
         name: "fronts".to_owned(),
-        caption: "The front's way from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come \
+        caption:
+            "The front's way from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come \
                   to rest; above it they run until the channel ends."
-            .to_owned(),
+                .to_owned(),
         panels: vec![front, energy],
         columns: 2,
     }
@@ -101,9 +102,10 @@ fn run_outs(records: &[Record]) -> Figure {
     panel.series.push(Series::new("at rest", Mark::Points, 0, points));
     Figure {
         name: "run-out".to_owned(),
-        caption: "Final run-out from the gate of the grains that came to rest, over the slope, with the fit to experiments \
+        caption:
+            "Final run-out from the gate of the grains that came to rest, over the slope, with the fit to experiments \
                   h_0 2k/(tanδ − tanθ)."
-            .to_owned(),
+                .to_owned(),
         panels: vec![panel],
         columns: 1,
     }

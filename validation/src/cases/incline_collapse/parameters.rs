@@ -120,7 +120,11 @@ impl InclineCollapseParameters {
         let remedy = "the channel must hold the reservoir, the gate and the run-out";
         rules::between("channel_length", self.channel_length, least, most, remedy)?;
         if self.channel_width != 0.0 {
-            rules::positive("channel_width", self.channel_width, "give it in metres, such as 0.1, or 0 for no side walls")?;
+            rules::positive(
+                "channel_width",
+                self.channel_width,
+                "give it in metres, such as 0.1, or 0 for no side walls",
+            )?;
         }
         for (index, &angle) in self.slope_angles.iter().enumerate() {
             rules::slope_angle(&format!("slope_angles[{index}]"), angle)?;

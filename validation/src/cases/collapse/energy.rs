@@ -1,0 +1,68 @@
+//! Where the potential energy of a collapse goes.
+
+use crate::figure::{Axis, Figure, Mark, Panel, Series};
+
+/// Kinetic and potential energy over time, in any one unit.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::cases) struct Energies<'a> {
+    /// Times `[s]`.
+    pub(in crate::cases) time: &'a [f64],
+    /// Kinetic energy.
+    pub(in crate::cases) kinetic: &'a [f64],
+    /// Potential energy above the bed.
+    pub(in crate::cases) potential: &'a [f64],
+}
+
+impl Energies<'_> {
+    /// Potential energy released between start and end.
+    fn released(&self) -> Option<f64> {
+        let released = self.potential.first()? - self.potential.last()?;
+        (released > 0.0).then_some(released)
+    }
+
+    /// Largest excess of kinetic plus potential energy over that of the start, over the initial potential energy `[-]`;
+    /// never negative, since the start counts.
+    pub(in crate::cases) fn largest_gain(&self) -> f64 {
+        let total = self.kinetic.iter().zip(self.potential).map(|(kinetic, potential)| kinetic + potential);
+        let largest = total.fold(f64::NEG_INFINITY, f64::max);
+        match (self.kinetic.first(), self.potential.first()) {
+            (Some(kinetic), Some(potential)) => (largest - kinetic - potential) / potential,
+            _ => f64::NAN,
+        }
+    }
+}
+
+/// One panel a run: energy released, kinetic, and the rest, over the energy released at the end.
+pub(in crate::cases) fn figure(name: &str, caption: &str, runs: &[(String, f64, Energies<'_>)]) -> Figure {
+    let panels = runs.iter().filter_map(|(title, time_scale, energies)| {
+        let (whole, start) = (energies.released()?, energies.potential.first()?);
+        let axis = Axis { limits: Some((-0.05, 1.1)), ..Axis::linear("energy/released [-]") };
+        let mut panel = Panel::new(title, Axis::linear("t/√(h0/g) [-]"), axis);
+        let curve = |pick: &dyn Fn(usize) -> f64| {
+            (0..energies.time.len()).map(|k| (energies.time[k] / time_scale, pick(k) / whole)).collect()
+        };
+        let released = |k: usize| start - energies.potential[k];
+        panel.series.push(Series::new("released", Mark::Line, 0, curve(&released)));
+        panel.series.push(Series::new("kinetic", Mark::Line, 1, curve(&|k| energies.kinetic[k])));
+        panel.series.push(Series::new("dissipated", Mark::Line, 2, curve(&|k| released(k) - energies.kinetic[k])));
+        Some(panel)
+    });
+    Figure { name: name.to_owned(), caption: caption.to_owned(), panels: panels.collect(), columns: 2 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gain_is_the_excess_over_the_start_and_a_loss_is_none() {
+        let time = [0.0, 1.0, 2.0];
+        let gaining = Energies { time: &time, kinetic: &[0.0, 3.0, 0.0], potential: &[10.0, 8.0, 5.0] };
+        assert!((gaining.largest_gain() - 0.1).abs() < 1e-15);
+        let losing = Energies { kinetic: &[0.0, 1.0, 0.0], ..gaining };
+        assert_eq!(losing.largest_gain(), 0.0);
+        assert_eq!(figure("e", "", &[("run".to_owned(), 1.0, losing)]).panels[0].series.len(), 3);
+        let rising = Energies { potential: &[1.0, 2.0, 3.0], ..gaining };
+        assert!(figure("e", "", &[("run".to_owned(), 1.0, rising)]).panels.is_empty());
+    }
+}

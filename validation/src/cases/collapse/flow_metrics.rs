@@ -1,0 +1,80 @@
+//! Inside a collapse: energies, velocity over depth, and what stays in its place.
+
+use super::column::{ColumnRun, Geometry};
+use super::deposit::{BIN_WIDTH, Collapse};
+use super::energy::Energies;
+use super::pictures::nearest;
+use super::velocity_profile::{Station, decay_length};
+use super::wedge::Wedge;
+use crate::case::Run;
+use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::observe::{Frame, Recorded};
+
+/// Time of the velocity profiles over √(h_0/g) `[-]`: in mid-collapse.
+const PROFILE_TIME: f64 = 1.5;
+
+/// Energies of a run.
+pub(super) fn energies(collapse: &Collapse) -> Energies<'_> {
+    Energies { time: &collapse.time, kinetic: &collapse.kinetic_energy, potential: &collapse.potential_energy }
+}
+
+/// Velocity profiles in mid-collapse: inside the initial column, at its edge, and halfway from there to the front.
+pub(super) fn stations(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Station> {
+    // a ring is no bin along x
+    let time = PROFILE_TIME * run.time_scale();
+    let Some(frame) = nearest(&record.frames, time).filter(|_| run.geometry == Geometry::Planar) else {
+        return Vec::new();
+    };
+    let data = &record.data;
+    let at = (0..data.time.len()).min_by(|&a, &b| (data.time[a] - time).abs().total_cmp(&(data.time[b] - time).abs()));
+    let front = at.map_or(1.0, |index| data.front[index]);
+    let r = run.half_width;
+    let station = |x: f64| Station::of(frame, x * r, BIN_WIDTH * r, run.spacing());
+    [0.75, 1.0, 0.5 * (1.0 + front)].map(station).to_vec()
+}
+
+/// The undisturbed part of a deposit.
+pub(super) fn wedge(run: &ColumnRun, frames: &[Frame]) -> Option<Wedge> {
+    let (start, end) = (frames.first()?, frames.last()?);
+    Some(Wedge::between(start, end, run.half_width, run.spacing()))
+}
+
+/// All metrics of one run.
+pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric> {
+    let variant = run.variant();
+    let observed = |name: &str, value: f64, unit: &str| {
+        Metric::observed(name, &variant, value, unit).of_kind(Kind::Validation).with_snapshot_tolerance(1e-2, 1e-3)
+    };
+    let mut metrics = vec![
+        Metric::observed("energy_gain", &variant, 100.0 * energies(&record.data).largest_gain(), "%")
+            .against(Some(0.0), "kinetic and potential energy never exceed those of the start", Confidence::Exact)
+            .gated(
+                Limit::AtMost(100.0 * run.elastic_share()),
+                "of the initial potential energy: no more than the elastic energy of the hydrostatic start is there to be given back",
+            )
+            .with_snapshot_tolerance(1e-2, 1e-3),
+    ];
+    let stations = stations(run, record);
+    if let Some(shear) = stations.get(1).and_then(|edge| edge.shear) {
+        metrics.push(observed("flowing_layer_shear_rate", shear.slope, "1/s"));
+        metrics.push(observed("flowing_layer_r_squared", shear.r_squared, "-"));
+    }
+    if let Some(decay) = decay_length(&stations) {
+        let spacing = run.spacing();
+        metrics.push(observed("tail_decay_length_over_diameter", decay.value / run.law.grain_diameter, "-"));
+        metrics.push(observed("tail_decay_length_over_spacing", decay.value / spacing, "-"));
+        metrics.push(observed("tail_decay_length_standard_error", decay.standard_error / spacing, "spacings"));
+    }
+    if let Some(wedge) = wedge(run, &record.frames) {
+        metrics.push(observed("undisturbed_share", 100.0 * wedge.undisturbed, "%"));
+        if let Some(angle) = wedge.angle() {
+            let active = 45.0 + 0.5 * libm::atan(run.law.static_friction).to_degrees();
+            metrics.push(observed("failure_surface_angle", angle, "°").against(
+                Some(active),
+                "Coulomb's active failure plane, 45° + ½ arctan μ_s",
+                Confidence::Unverified,
+            ));
+        }
+    }
+    metrics
+}

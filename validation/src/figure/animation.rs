@@ -1,0 +1,75 @@
+//! Moving pictures: particles coloured by a scalar over time on fixed axes, as plain data.
+
+use super::error::FigureError;
+use super::{Axis, Field, Figure, Panel, Series, gif, is_file_name};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// A moving picture. Axes and colours are fixed, so that only what moves moves.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Animation {
+    /// File name without ending, kebab-case, unique within the case's figures and animations.
+    pub name: String,
+    /// Caption for the report: what is seen and what it means.
+    pub caption: String,
+    /// Horizontal axis with limits.
+    pub x: Axis,
+    /// Vertical axis with limits.
+    pub y: Axis,
+    /// Label of the colour bar with unit.
+    pub label: String,
+    /// Colour limits, in the unit of the values.
+    pub limits: (f64, f64),
+    /// Time that a picture is shown `[s]`; the last one is shown longer.
+    pub seconds_per_frame: f64,
+    /// The pictures in time order.
+    pub frames: Vec<AnimationFrame>,
+}
+
+/// One picture of an animation. Single precision is finer than a pixel and halves what a long animation holds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AnimationFrame {
+    /// Title with the time.
+    pub title: String,
+    /// Positions (x, y) in axis units.
+    pub points: Vec<[f32; 2]>,
+    /// The scalar of each point.
+    pub values: Vec<f32>,
+    /// Particle diameter in axis units.
+    pub diameter: f64,
+    /// Lines over the particles; unlabelled, since a legend would move with the data.
+    pub lines: Vec<Series>,
+}
+
+impl Animation {
+    /// The figure of one picture.
+    #[must_use]
+    pub fn figure(&self, frame: &AnimationFrame) -> Figure {
+        let mut panel = Panel::new(&frame.title, self.x.clone(), self.y.clone());
+        panel.field = Some(Field {
+            points: frame.points.iter().map(|&[x, y]| (f64::from(x), f64::from(y))).collect(),
+            values: frame.values.iter().copied().map(f64::from).collect(),
+            label: self.label.clone(),
+            diameter: frame.diameter,
+            limits: Some(self.limits),
+        });
+        panel.series.clone_from(&frame.lines);
+        Figure { name: self.name.clone(), caption: String::new(), panels: vec![panel], columns: 1 }
+    }
+}
+
+/// Draws `animation` into `folder` as `NAME.gif`; the folder is made if it is missing.
+///
+/// # Errors
+/// If the name is no file name, there is no picture, drawing fails, or the file cannot be written.
+pub fn write_animation(animation: &Animation, folder: &Path) -> Result<PathBuf, FigureError> {
+    if !is_file_name(&animation.name) {
+        return Err(FigureError::Name { name: animation.name.clone() });
+    }
+    let bytes = gif::encode(animation)?;
+    let write_error = |path: &Path, source| FigureError::Write { path: path.to_owned(), source };
+    std::fs::create_dir_all(folder).map_err(|source| write_error(folder, source))?;
+    let path = folder.join(format!("{}.gif", animation.name));
+    std::fs::write(&path, bytes).map_err(|source| write_error(&path, source))?;
+    Ok(path)
+}
