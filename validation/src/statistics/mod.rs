@@ -1,7 +1,9 @@
 //! Fits and their uncertainty.
 
 mod fit;
+mod grid_convergence;
 
 pub use fit::{
     Estimate, Exponent, LinearFit, Regression, common_slope, linear_fit, linear_regression, log_log_slope, power_law,
 };
+pub use grid_convergence::{GridConvergence, Mean, grid_convergence};

@@ -52,9 +52,25 @@ impl Geometry {
     }
 }
 
+/// What a column is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Purpose {
+    /// To be compared with the published laws.
+    Law,
+    /// One of several resolutions and seeds.
+    Convergence,
+    /// One of several hourglass coefficients.
+    Hourglass,
+    /// The regularised law with an implicit viscous step, beside the return mapping.
+    Regularised,
+}
+
 /// One simulation.
 #[derive(Debug, Clone, Serialize)]
 pub struct ColumnRun {
+    /// What it is for.
+    pub purpose: Purpose,
     /// Cross-section.
     pub geometry: Geometry,
     /// Name of the grains.
@@ -81,7 +97,16 @@ pub struct ColumnRun {
 
 impl Run for ColumnRun {
     fn variant(&self) -> String {
-        format!("material={},aspect_ratio={},resolution={}", self.material, self.aspect_ratio, self.resolution)
+        let column =
+            format!("material={},aspect_ratio={},resolution={}", self.material, self.aspect_ratio, self.resolution);
+        match self.purpose {
+            Purpose::Law => column,
+            Purpose::Convergence => format!("{column},seed={}", self.seed),
+            Purpose::Hourglass => format!("{column},hourglass={}", self.numerics.hourglass),
+            Purpose::Regularised => {
+                format!("{column},regularisation_rate={}", self.regularisation_rate.unwrap_or(0.0))
+            }
+        }
     }
 
     fn particle_steps(&self) -> f64 {
@@ -93,6 +118,12 @@ impl Run for ColumnRun {
 }
 
 impl ColumnRun {
+    /// The grains that its material is a variant of: `lagree` for `lagree_diameter_0.001`.
+    #[must_use]
+    pub fn family(&self) -> &str {
+        self.material.split('_').next().unwrap_or_default()
+    }
+
     /// Particle spacing `[m]`.
     #[must_use]
     pub fn spacing(&self) -> f64 {

@@ -1,24 +1,32 @@
 //! The case's figures.
 
 use super::Record;
-use super::column::{ColumnRun, Geometry, PICTURES};
+use super::column::{ColumnRun, Geometry, PICTURES, Purpose};
 use super::deposit::Collapse;
 use super::flow_metrics::{self, energies, stations};
 use super::pictures::{View, animation, halves, nearest, pressures, speeds};
 use super::wedge::{self, Deposit};
-use super::{energy, velocity_profile};
+use super::{convergence, energy, stress_updates, velocity_profile};
 use crate::case::Run;
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel, Series};
 use crate::observe::{Frame, Recorded};
 use crate::reference::{CollapseLaw, PLANAR_HEIGHT, PLANAR_RUN_OUT, ROUND_HEIGHT, ROUND_RUN_OUT};
 
 pub(in crate::cases) fn all(records: &[Record]) -> Vec<Figure> {
-    if records.is_empty() {
-        return Vec::new();
+    let laws: Vec<&Record> = records.iter().filter(|(run, _)| run.purpose == Purpose::Law).collect();
+    let mut figures = Vec::new();
+    if !laws.is_empty() {
+        figures.push(scaling(&laws));
     }
-    let mut figures =
-        vec![scaling(records), deposits(records), histories(records), energy_budget(records), wedges(records)];
-    for (run, record) in records {
+    for material in materials(&laws) {
+        let own: Vec<&Record> = laws.iter().copied().filter(|(run, _)| run.material == material).collect();
+        if is_shown(&own[0].0) {
+            figures.extend([deposits(&own), histories(&own), energy_budget(&own), wedges(&own)]);
+        }
+    }
+    figures.extend(convergence::figures(records));
+    figures.extend(stress_updates::figure(records));
+    for (run, record) in laws.iter().filter(|(run, _)| is_shown(run)).map(|record| (&record.0, &record.1)) {
         figures.push(pictures(run, &record.frames));
         figures.extend(shown(run, &record.frames));
         figures.extend(velocity_profiles(run, record));
@@ -26,16 +34,39 @@ pub(in crate::cases) fn all(records: &[Record]) -> Vec<Figure> {
     figures
 }
 
-fn name(material: &str) -> &'static str {
-    match material {
-        "lagree" => "grains of Lagrée et al.",
-        "glass" => "glass beads of Table 1",
-        _ => "sand of Table 2",
+/// The materials in their order.
+fn materials<'a>(records: &[&'a Record]) -> Vec<&'a str> {
+    let mut found: Vec<&str> = Vec::new();
+    for (run, _) in records {
+        if !found.contains(&run.material.as_str()) {
+            found.push(&run.material);
+        }
+    }
+    found
+}
+
+/// A name with the material of its columns.
+fn of_material(name: &str, records: &[&Record]) -> String {
+    records.first().map_or(name.to_owned(), |(run, _)| format!("{name}-{}", run.material))
+}
+
+/// Whether a column gets pictures of its own: variants of the grains look like their originals.
+fn is_shown(run: &ColumnRun) -> bool {
+    run.purpose == Purpose::Law && run.family() == run.material
+}
+
+fn name(material: &str) -> String {
+    match material.split_once('_') {
+        Some(("lagree", variant)) => format!("Lagrée et al., {}", variant.replace("diameter_", "D = ")),
+        Some((grains, variant)) => format!("{grains}, {}", variant.replace("inertia_", "I_0 = ")),
+        None if material == "lagree" => "grains of Lagrée et al.".to_owned(),
+        None if material == "glass" => "glass beads of Table 1".to_owned(),
+        None => "sand of Table 2".to_owned(),
     }
 }
 
 /// Run-out and height over the aspect ratio, with every published law of the geometry.
-fn scaling(records: &[Record]) -> Figure {
+fn scaling(records: &[&Record]) -> Figure {
     let round = records.iter().any(|(run, _)| run.geometry == Geometry::Round);
     // the laws of the geometry, and Lube's of the other one: the paper compared planar runs with the round law
     let run_out_laws: Vec<CollapseLaw> = if round {
@@ -57,15 +88,15 @@ fn scaling(records: &[Record]) -> Figure {
                 panel.series.push(Series::new(entry, Mark::Line, slot + 3, curve));
             }
         }
-        for (slot, material) in ["sand", "lagree", "glass"].into_iter().enumerate() {
+        for (slot, material) in materials(records).into_iter().enumerate() {
             let points: Vec<(f64, f64)> = records
                 .iter()
                 .filter(|(run, _)| run.material == material)
                 .map(|(run, record)| (run.initial_height(), measure(&record.data)))
                 .collect();
             if !points.is_empty() {
-                let entry = if legend { name(material) } else { "" };
-                panel.series.push(Series::new(entry, Mark::Points, slot, points));
+                let entry = if legend { name(material) } else { String::new() };
+                panel.series.push(Series::new(&entry, Mark::Points, slot, points));
             }
         }
         panel
@@ -84,18 +115,22 @@ fn scaling(records: &[Record]) -> Figure {
 }
 
 fn label(run: &ColumnRun) -> String {
-    let material = if run.material == "lagree" { "Lagrée" } else { &run.material };
+    let material = match (run.family(), run.material == run.family()) {
+        ("lagree", true) => "Lagrée".to_owned(),
+        (_, true) => run.material.clone(),
+        (_, false) => name(&run.material),
+    };
     format!("{material}, a = {}", run.aspect_ratio)
 }
 
-fn deposits(records: &[Record]) -> Figure {
+fn deposits(records: &[&Record]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("x/r0 [-]"), Axis::linear("thickness/r0 [-]"));
     for (slot, (run, record)) in records.iter().enumerate() {
         let end = record.data.deposit.iter().rposition(|bin| bin.1 > 0.0).map_or(0, |last| last + 1);
         panel.series.push(Series::new(&label(run), Mark::Line, slot, record.data.deposit[..end].to_vec()));
     }
     Figure {
-        name: "deposits".to_owned(),
+        name: of_material("deposits", records),
         caption:
             "Thickness of the deposits, volume per bin of 0.1 r0. Run-out is read where the thickness first falls \
                   below 0.02 r0."
@@ -105,7 +140,7 @@ fn deposits(records: &[Record]) -> Figure {
     }
 }
 
-fn histories(records: &[Record]) -> Figure {
+fn histories(records: &[&Record]) -> Figure {
     let mut front = Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("(front − r0)/r0 over a [-]"));
     let mut energy =
         Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("kinetic/initial potential energy [-]"));
@@ -119,7 +154,7 @@ fn histories(records: &[Record]) -> Figure {
         energy.series.push(Series::new("", Mark::Line, slot, share));
     }
     Figure {
-        name: "histories".to_owned(),
+        name: of_material("histories", records),
         caption: "The front's way over the aspect ratio and the kinetic energy over the initial potential energy, in \
                   times of free fall √(h0/g). Deposits come to rest."
             .to_owned(),
@@ -157,7 +192,7 @@ pub(in crate::cases) fn animations(records: &[Record]) -> Vec<Animation> {
         );
         animation(&format!("collapse-{}", stem(run)), &caption, &record.data.motion, &view(run))
     };
-    records.iter().map(moving).collect()
+    records.iter().filter(|(run, _)| is_shown(run)).map(moving).collect()
 }
 
 /// The paper's pictures: speed and pressure at absolute times.
@@ -171,11 +206,11 @@ fn shown(run: &ColumnRun, frames: &[Frame]) -> Option<Figure> {
     (!shown.is_empty()).then(|| halves(&format!("halves-{}", stem(run)), &caption, &shown, &view(run)))
 }
 
-fn energy_budget(records: &[Record]) -> Figure {
+fn energy_budget(records: &[&Record]) -> Figure {
     let runs: Vec<_> =
         records.iter().map(|(run, record)| (label(run), run.time_scale(), energies(&record.data))).collect();
     energy::figure(
-        "energy-budget",
+        &of_material("energy-budget", records),
         "Potential energy released since the start, kinetic energy, and the rest, which friction has dissipated but for \
          elastic energy of less than a hundredth; all over the potential energy released by the end.",
         &runs,
@@ -194,7 +229,7 @@ fn velocity_profiles(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<Fig
     (!stations.is_empty()).then(|| velocity_profile::figure(&name, &caption, &stations, (run.half_width, "r0")))
 }
 
-fn wedges(records: &[Record]) -> Figure {
+fn wedges(records: &[&Record]) -> Figure {
     let deposit = |(run, record): &'_ Record| -> Option<(String, wedge::Wedge)> {
         Some((label(run), flow_metrics::wedge(run, &record.frames)?))
     };
@@ -214,7 +249,7 @@ fn wedges(records: &[Record]) -> Figure {
         })
         .collect();
     wedge::figure(
-        "wedges",
+        &of_material("wedges", records),
         "Deposits in the colours of the way from the start; particles that moved by less than a spacing are grey. Dashed \
          is the initial column, solid the line through the surface of the undisturbed part.",
         &deposits,

@@ -2,17 +2,19 @@
 
 mod camera;
 mod column;
+mod convergence;
 mod deposit;
 mod energy;
 pub(super) mod figures;
 mod flow_metrics;
 pub(super) mod metrics;
-mod pictures;
+pub(super) mod pictures;
 mod slope;
+mod stress_updates;
 mod velocity_profile;
 mod wedge;
 
-pub use column::{ColumnRun, Geometry};
+pub use column::{ColumnRun, Geometry, Purpose};
 pub use deposit::{BIN_WIDTH, Collapse, FRONT_THICKNESS, front};
 pub use slope::{SlopeCollapse, SlopeRun};
 

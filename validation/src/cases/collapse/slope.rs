@@ -1,6 +1,7 @@
 //! A reservoir of grains behind a gate on an incline: its scene and its run.
 
-use super::deposit::{Collapse, Surveyor};
+use super::camera::Camera;
+use super::deposit::{Collapse, Surveyor, front};
 use crate::case::{Progress, Run};
 use crate::cases::recording::Ending;
 use crate::error::InputError;
@@ -26,6 +27,8 @@ const EARLIEST_REST: f64 = 0.4;
 const INTERVAL: f64 = 0.02;
 /// Times of the pictures `[s]`; the last state follows.
 const PICTURES: [f64; 4] = [0.0, 0.2, 0.4, 0.8];
+/// Time between the frames of the moving picture `[s]`.
+const FRAME_INTERVAL: f64 = 0.04;
 /// Friction that side walls add, over the ratio of height to width `[-]`.
 const SIDE_WALL_FRICTION: f64 = 0.18;
 /// Rows of particles through the gate: its two sides must not see each other.
@@ -199,14 +202,17 @@ impl SlopeRun {
             bed_end: self.channel_length,
             collapse: Collapse::default(),
         };
+        let r = self.reservoir_length;
+        let mut camera = Camera::new(FRAME_INTERVAL, self.spacing());
         let mut thickness = Vec::new();
         let mut frames = Vec::new();
         let mut last_good = simulation.snapshot();
         let end_of_channel = self.channel_length - 0.5 * self.reservoir_length;
         let reason = simulation.run(self.duration, INTERVAL, |simulation| {
             let snapshot = simulation.snapshot();
-            surveyor.observe(&snapshot);
-            thickness.push(surveyor.thickness(&snapshot).iter().map(|bin| bin.1).collect());
+            let profile = surveyor.observe(&snapshot);
+            camera.watch(&snapshot, profile.iter().map(|(x, h)| (x * r, h * r)), front(&profile) * r);
+            thickness.push(profile.iter().map(|bin| bin.1).collect());
             if PICTURES.get(frames.len()).is_some_and(|&time| snapshot.time >= time) {
                 frames.push(Frame::of_flow(&snapshot));
             }
@@ -227,7 +233,11 @@ impl SlopeRun {
             frames,
             started,
         };
-        Ok(ending.record(&simulation, |end| SlopeCollapse { collapse: surveyor.finish(end), thickness }))
+        Ok(ending.record(&simulation, |end| {
+            let mut collapse = surveyor.finish(end);
+            collapse.motion = camera.motion;
+            SlopeCollapse { collapse, thickness }
+        }))
     }
 }
 

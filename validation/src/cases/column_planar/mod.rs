@@ -2,9 +2,9 @@
 
 mod parameters;
 
-pub use parameters::{ColumnPlanarParameters, Columns};
+pub use parameters::{ColumnPlanarParameters, Columns, Regularised, Sensitivity, Variants};
 
-use super::collapse::{self, Collapse, ColumnRun, Record};
+use super::collapse::{self, Collapse, ColumnRun, Purpose, Record};
 use crate::case::{Case, Progress, Tier};
 use crate::error::InputError;
 use crate::figure::{Animation, Figure};
@@ -48,7 +48,11 @@ impl Case for ColumnPlanar {
 
     fn check(&self, parameters: &ColumnPlanarParameters) -> Result<(), InputError> {
         parameters.check()?;
-        collapse::check_size(&self.runs(parameters), |run| parameters.resolution_field(run.aspect_ratio).to_owned())
+        collapse::check_size(&self.runs(parameters), |run| match run.purpose {
+            Purpose::Convergence => "sensitivity.resolutions".to_owned(),
+            Purpose::Hourglass => "sensitivity.hourglass_resolutions".to_owned(),
+            Purpose::Law | Purpose::Regularised => parameters.resolution_field(run.aspect_ratio).to_owned(),
+        })
     }
 
     fn runs(&self, parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {

@@ -1,10 +1,10 @@
 //! The case's parameters and their tiers.
 
 use crate::case::Tier;
-use crate::cases::collapse::{ColumnRun, Geometry};
+use crate::cases::collapse::{ColumnRun, Geometry, Purpose};
 use crate::cases::rules;
 use crate::error::InputError;
-use bagnold_solver::numerics::Numerics;
+use bagnold_solver::numerics::{Numerics, ViscousStep};
 use bagnold_solver::rheology::{MuI, Rheology};
 use serde::{Deserialize, Serialize};
 
@@ -22,6 +22,42 @@ pub struct Columns {
     pub solid_fraction: f64,
     /// Constitutive law.
     pub law: MuI,
+}
+
+/// Columns of grains that differ from others in one number.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Variants {
+    /// What that number is instead; empty for none.
+    pub values: Vec<f64>,
+    /// Aspect ratios of their columns `[-]`.
+    pub aspect_ratios: Vec<f64>,
+}
+
+/// How far results depend on what should not matter, for the grains of Lagrée et al.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sensitivity {
+    /// Aspect ratios `[-]`; empty for none.
+    pub aspect_ratios: Vec<f64>,
+    /// Particles over the half width.
+    pub resolutions: Vec<usize>,
+    /// Seeds of each resolution; the first is the case's own.
+    pub seeds: Vec<u64>,
+    /// Hourglass coefficients at which the first aspect ratio is repeated `[-]`; empty for none.
+    pub hourglass: Vec<f64>,
+    /// Particles over the half width of these.
+    pub hourglass_resolutions: Vec<usize>,
+}
+
+/// The regularised law with an implicit viscous step, beside the return mapping.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Regularised {
+    /// Aspect ratios of columns of the sand that are repeated with it `[-]`; empty for none.
+    pub aspect_ratios: Vec<f64>,
+    /// Rate α_r of (35) `[1/s]`.
+    pub rate: f64,
 }
 
 /// Parameters of the case.
@@ -46,6 +82,14 @@ pub struct ColumnPlanarParameters {
     pub glass: Columns,
     /// Grains of Lagrée, Staron & Popinet (2011).
     pub lagree: Columns,
+    /// Sand with other values of I_0 `[-]`.
+    pub sand_inertias: Variants,
+    /// Grains of Lagrée et al. with other diameters `[m]`.
+    pub lagree_diameters: Variants,
+    /// Grid convergence and hourglass control.
+    pub sensitivity: Sensitivity,
+    /// The paper's stress update.
+    pub regularised: Regularised,
     /// Numerics.
     pub numerics: Numerics,
 }
@@ -69,6 +113,13 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("lagree.aspect_ratios", "h_0/r_0 [-]"),
     ("lagree.half_width", "r_0 [m]"),
     ("lagree.tall_half_width", "r_0 [m], the same at every aspect ratio"),
+    ("sand_inertias.values", "I_0 [-] of further columns of sand; empty for none"),
+    ("lagree_diameters.values", "D [m] of further columns of Lagrée's grains; empty for none"),
+    ("sensitivity.resolutions", "particles over r_0, for the grid convergence of Lagrée's grains"),
+    ("sensitivity.seeds", "of each resolution; three at the finest"),
+    ("sensitivity.hourglass", "[-], coefficients at which the first of these columns is repeated"),
+    ("regularised.aspect_ratios", "h_0/r_0 [-] of columns of sand that are repeated with (35), implicitly"),
+    ("regularised.rate", "α_r [1/s]"),
     ("lagree.law.grain_diameter", "D [m]; the source does not say, here D/r_0 = 0.02"),
 ];
 
@@ -76,6 +127,10 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
 const TALL: f64 = 3.0;
 /// Aspect ratio above which `tall_resolution` holds.
 const COARSE: f64 = 5.0;
+/// Seeds at the finest resolution of a study.
+const FINEST_SEEDS: usize = 3;
+/// Longest time of a regularised column over √(h_0/g) `[-]`: it never rests.
+const REGULARISED_DURATION: f64 = 5.0;
 /// The paper's figures 7–9: aspect ratio and times `[s]`.
 const SHOWN: [(f64, &[f64]); 3] = [(0.9, &[0.07, 0.3]), (2.75, &[0.04, 0.12, 0.34, 0.53]), (4.8, &[0.04, 0.2, 0.4])];
 
@@ -134,12 +189,33 @@ impl ColumnPlanarParameters {
                     grain_density: 2500.0,
                 },
             },
+            sand_inertias: Variants { values: Vec::new(), aspect_ratios: Vec::new() },
+            lagree_diameters: Variants { values: Vec::new(), aspect_ratios: Vec::new() },
+            sensitivity: Sensitivity {
+                aspect_ratios: Vec::new(),
+                resolutions: Vec::new(),
+                seeds: Vec::new(),
+                hourglass: Vec::new(),
+                hourglass_resolutions: Vec::new(),
+            },
+            regularised: Regularised { aspect_ratios: Vec::new(), rate: 0.01 },
             numerics: Numerics::default(),
         };
         let paper = Self {
+            sand_inertias: Variants { values: vec![0.279], aspect_ratios: vec![5.0, 7.0, 10.0, 14.0, 20.0] },
+            // D/r_0 = 0.01 and 0.04: the source does not say which
+            lagree_diameters: Variants { values: vec![1e-3, 4e-3], aspect_ratios: vec![0.5, 1.0, 2.0, 3.0, 7.0] },
+            sensitivity: Sensitivity {
+                aspect_ratios: vec![1.0, 3.0],
+                resolutions: vec![40, 60, 90],
+                seeds: vec![1, 2, 3, 4, 5],
+                hourglass: vec![0.0, 0.05, 0.2, 0.5],
+                hourglass_resolutions: vec![20, 40],
+            },
+            regularised: Regularised { aspect_ratios: vec![1.0, 3.0], rate: 0.01 },
             resolution: 40,
             sand: Columns {
-                aspect_ratios: vec![0.5, 0.7, 0.9, 1.5, 2.0, 2.75, 4.8, 5.0, 7.0, 10.0, 14.0, 20.0],
+                aspect_ratios: vec![0.5, 0.7, 0.9, 1.0, 1.5, 2.0, 2.75, 3.0, 4.8, 5.0, 7.0, 10.0, 14.0, 20.0],
                 ..quick.sand.clone()
             },
             glass: Columns { aspect_ratios: SHOWN.iter().map(|shown| shown.0).collect(), ..quick.glass.clone() },
@@ -171,7 +247,43 @@ impl ColumnPlanarParameters {
             rules::between(&field, columns.solid_fraction, 0.01, 0.74, "grains fill 0.5 to 0.64 of the space")?;
             rules::material(&format!("{name}.law"), &Rheology::MuI(columns.law))?;
         }
+        self.check_variants()?;
         rules::numerics("numerics", &self.numerics)
+    }
+
+    fn check_variants(&self) -> Result<(), InputError> {
+        let ratios = [
+            ("sand_inertias", &self.sand_inertias.aspect_ratios),
+            ("lagree_diameters", &self.lagree_diameters.aspect_ratios),
+            ("sensitivity", &self.sensitivity.aspect_ratios),
+            ("regularised", &self.regularised.aspect_ratios),
+        ];
+        for (name, ratios) in ratios {
+            for (index, &ratio) in ratios.iter().enumerate() {
+                let field = format!("{name}.aspect_ratios[{index}]");
+                rules::between(&field, ratio, 0.1, 100.0, "the published laws reach from 0.3 to 20")?;
+            }
+        }
+        for (index, &value) in self.sand_inertias.values.iter().enumerate() {
+            rules::positive(&format!("sand_inertias.values[{index}]"), value, "0.279 in other tables of the paper")?;
+        }
+        for (index, &value) in self.lagree_diameters.values.iter().enumerate() {
+            let field = format!("lagree_diameters.values[{index}]");
+            rules::positive(&field, value, "give it in metres, such as 0.001")?;
+        }
+        let study = &self.sensitivity;
+        for (name, resolutions) in
+            [("resolutions", &study.resolutions), ("hourglass_resolutions", &study.hourglass_resolutions)]
+        {
+            for (index, &resolution) in resolutions.iter().enumerate() {
+                rules::rows(&format!("sensitivity.{name}[{index}]"), resolution)?;
+            }
+        }
+        for (index, &coefficient) in study.hourglass.iter().enumerate() {
+            let remedy = "the recipe has 0.2";
+            rules::between(&format!("sensitivity.hourglass[{index}]"), coefficient, 0.0, 2.0, remedy)?;
+        }
+        rules::positive("regularised.rate", self.regularised.rate, "0.01 1/s in the paper")
     }
 
     /// The materials with their names.
@@ -198,24 +310,68 @@ impl Columns {
 }
 
 pub(super) fn runs(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
+    let column = |material: &str, columns: &Columns, aspect_ratio: f64| ColumnRun {
+        purpose: Purpose::Law,
+        geometry: Geometry::Planar,
+        material: material.to_owned(),
+        aspect_ratio,
+        resolution: parameters.resolution_of(aspect_ratio),
+        half_width: columns.half_width_of(aspect_ratio),
+        law: columns.law,
+        regularisation_rate: None,
+        gravity: parameters.gravity,
+        solid_fraction: columns.solid_fraction,
+        jitter: parameters.jitter,
+        seed: parameters.seed,
+        duration: parameters.duration,
+        shown_times: if material == "sand" || material == "glass" { shown_times(aspect_ratio) } else { Vec::new() },
+        numerics: parameters.numerics,
+    };
     let mut runs = Vec::new();
     for (material, columns) in parameters.materials() {
-        runs.extend(columns.aspect_ratios.iter().map(|&aspect_ratio| ColumnRun {
-            geometry: Geometry::Planar,
-            material: material.to_owned(),
-            aspect_ratio,
-            resolution: parameters.resolution_of(aspect_ratio),
-            half_width: columns.half_width_of(aspect_ratio),
-            law: columns.law,
-            regularisation_rate: None,
-            gravity: parameters.gravity,
-            solid_fraction: columns.solid_fraction,
-            jitter: parameters.jitter,
-            seed: parameters.seed,
-            duration: parameters.duration,
-            shown_times: if material == "lagree" { Vec::new() } else { shown_times(aspect_ratio) },
-            numerics: parameters.numerics,
-        }));
+        runs.extend(columns.aspect_ratios.iter().map(|&aspect_ratio| column(material, columns, aspect_ratio)));
     }
+    let (sand, lagree) = (&parameters.sand, &parameters.lagree);
+    for &reference_inertia in &parameters.sand_inertias.values {
+        let columns = Columns { law: MuI { reference_inertia, ..sand.law }, ..sand.clone() };
+        let material = format!("sand_inertia_{reference_inertia}");
+        runs.extend(parameters.sand_inertias.aspect_ratios.iter().map(|&ratio| column(&material, &columns, ratio)));
+    }
+    for &grain_diameter in &parameters.lagree_diameters.values {
+        let columns = Columns { law: MuI { grain_diameter, ..lagree.law }, ..lagree.clone() };
+        let material = format!("lagree_diameter_{grain_diameter}");
+        runs.extend(parameters.lagree_diameters.aspect_ratios.iter().map(|&ratio| column(&material, &columns, ratio)));
+    }
+    let study = &parameters.sensitivity;
+    let finest = study.resolutions.iter().copied().max().unwrap_or(0);
+    for &ratio in &study.aspect_ratios {
+        for &resolution in &study.resolutions {
+            let seeds = study.seeds.iter().take(if resolution == finest { FINEST_SEEDS } else { usize::MAX });
+            for &seed in seeds {
+                let own = column("lagree", lagree, ratio);
+                // the column that is there for the laws is one of its ensemble
+                let known = resolution == own.resolution && seed == own.seed && lagree.aspect_ratios.contains(&ratio);
+                if !known {
+                    runs.push(ColumnRun { purpose: Purpose::Convergence, resolution, seed, ..own });
+                }
+            }
+        }
+    }
+    for &ratio in study.aspect_ratios.iter().take(1) {
+        for &resolution in &study.hourglass_resolutions {
+            runs.extend(study.hourglass.iter().map(|&hourglass| {
+                let numerics = Numerics { hourglass, ..parameters.numerics };
+                ColumnRun { purpose: Purpose::Hourglass, resolution, numerics, ..column("lagree", lagree, ratio) }
+            }));
+        }
+    }
+    runs.extend(parameters.regularised.aspect_ratios.iter().map(|&ratio| ColumnRun {
+        purpose: Purpose::Regularised,
+        regularisation_rate: Some(parameters.regularised.rate),
+        duration: REGULARISED_DURATION.min(parameters.duration),
+        numerics: Numerics { viscous_step: ViscousStep::Implicit, ..parameters.numerics },
+        shown_times: Vec::new(),
+        ..column("sand", sand, ratio)
+    }));
     runs
 }

@@ -1,7 +1,7 @@
 //! The case's parameters and their tiers.
 
 use crate::case::Tier;
-use crate::cases::collapse::{ColumnRun, Geometry};
+use crate::cases::collapse::{ColumnRun, Geometry, Purpose};
 use crate::cases::column_planar::ColumnPlanarParameters;
 use crate::cases::rules;
 use crate::error::InputError;
@@ -101,6 +101,7 @@ impl ColumnRoundParameters {
 
 pub(super) fn runs(parameters: &ColumnRoundParameters) -> Vec<ColumnRun> {
     let run = |column: &RoundColumn| ColumnRun {
+        purpose: Purpose::Law,
         geometry: Geometry::Round,
         material: "sand".to_owned(),
         aspect_ratio: column.aspect_ratio,

@@ -2,8 +2,9 @@
 
 use super::Record;
 use super::metrics::COEFFICIENTS;
+use crate::cases::collapse::pictures::{View, animation, speeds};
 use crate::cases::collapse::{BIN_WIDTH, SlopeRun};
-use crate::figure::{Axis, Band, Field, Figure, Mark, Panel, Series};
+use crate::figure::{Animation, Axis, Band, Field, Figure, Mark, Panel, Series};
 use crate::observe::Frame;
 use crate::reference::slope_run_out;
 
@@ -21,6 +22,31 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let mut figures = vec![fronts(records), thickness(records), run_outs(records)];
     figures.extend(records.iter().filter(|(run, _)| run.slope_angle > 15.0).map(fields));
     figures
+}
+
+/// The collapses in motion.
+pub(super) fn animations(records: &[Record]) -> Vec<Animation> {
+    let moving = |(run, record): &Record| {
+        let caption = format!(
+            "{}: the collapse in the colours of the speed. Dashed are the thickness (volume per bin of 0.1 r0) and the \
+             front, where it falls below 0.02 r0. The gate at 0.2 m is not drawn.",
+            label(run)
+        );
+        let view = View {
+            unit_length: 1.0,
+            unit: "m",
+            time_scale: (run.initial_height / run.gravity).sqrt(),
+            spacing: run.spacing(),
+            mirrored: false,
+        };
+        animation(&format!("collapse-{}", stem(run)), &caption, &record.data.collapse.motion, &view)
+    };
+    records.iter().map(moving).collect()
+}
+
+/// The label as a file name.
+fn stem(run: &SlopeRun) -> String {
+    label(run).replace('°', "").replace([',', ' ', '/', '.'], "-").replace("--", "-")
 }
 
 fn label(run: &SlopeRun) -> String {
@@ -116,12 +142,8 @@ fn fields((run, record): &Record) -> Figure {
     let scalar = |frame: &Frame, wanted: &str| -> Vec<f64> {
         frame.scalars.iter().find(|(name, _, _)| name == wanted).map_or(Vec::new(), |(_, _, values)| values.clone())
     };
-    let speed = |frame: &Frame| -> Vec<f64> {
-        let velocity = frame.vectors.iter().find(|(name, _, _)| name == "velocity");
-        velocity.map_or(Vec::new(), |(_, _, v)| v.iter().map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt()).collect())
-    };
     let moving: Vec<&Frame> = record.frames.iter().filter(|frame| frame.time > 0.3).collect();
-    let fastest = moving.iter().flat_map(|frame| speed(frame)).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let fastest = moving.iter().flat_map(|frame| speeds(frame)).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let far = moving.iter().flat_map(|frame| &frame.position).map(|x| x[0]).fold(0.0, f64::max);
     let mut panels = Vec::new();
     for frame in moving {
@@ -129,7 +151,7 @@ fn fields((run, record): &Record) -> Figure {
         let viscosity = scalar(frame, "viscosity");
         let decades = viscosity.iter().map(|v| libm::log10(v.max(1e-3))).collect();
         let columns = [
-            (speed(frame), "|v| [m/s]", (0.0, fastest)),
+            (speeds(frame), "|v| [m/s]", (0.0, fastest)),
             (viscosity, "η [Pa·s]", PAPER_SCALE),
             (decades, "log10 η [Pa·s]", (-1.0, 4.0)),
         ];
@@ -147,9 +169,8 @@ fn fields((run, record): &Record) -> Figure {
             panels.push(panel);
         }
     }
-    let name = label(run).replace('°', "").replace([',', ' ', '/', '.'], "-").replace("--", "-");
     Figure {
-        name: format!("fields-{name}"),
+        name: format!("fields-{}", stem(run)),
         caption: format!(
             "{}: speed, and apparent viscosity on the paper's scale of 0 to 1.5 Pa·s and on a logarithmic one. The \
              viscosity of grains that hardly move has no upper bound.",

@@ -9,7 +9,7 @@ pub use parameters::InclineCollapseParameters;
 use super::collapse::{SlopeCollapse, SlopeRun};
 use crate::case::{Case, Progress, Run, Tier};
 use crate::error::InputError;
-use crate::figure::Figure;
+use crate::figure::{Animation, Figure};
 use crate::metric::Metric;
 use crate::observe::Recorded;
 use crate::output::Table;
@@ -69,6 +69,10 @@ impl Case for InclineCollapse {
 
     fn figures(&self, _: &InclineCollapseParameters, records: &[Record]) -> Vec<Figure> {
         figures::all(records)
+    }
+
+    fn animations(&self, _: &InclineCollapseParameters, records: &[Record]) -> Vec<Animation> {
+        figures::animations(records)
     }
 
     fn tables(&self, _: &InclineCollapseParameters, records: &[Record]) -> Vec<Table> {

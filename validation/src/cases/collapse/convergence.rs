@@ -1,0 +1,184 @@
+//! How far a column's result depends on the resolution, on the seed and on the hourglass coefficient.
+
+use super::Record;
+use super::column::{ColumnRun, Purpose};
+use super::deposit::Collapse;
+use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::metric::{Confidence, Limit, Metric};
+use crate::statistics::{Mean, grid_convergence};
+
+/// Name, label, measure and largest index `[-]` of what must converge.
+type Quantity = (&'static str, &'static str, fn(&Collapse) -> f64, f64);
+
+const QUANTITIES: [Quantity; 2] = [
+    ("centroid", "centroid x/r0 [-]", |collapse| collapse.centroid, 0.03),
+    ("run_out", "run-out (r∞ − r0)/r0 [-]", Collapse::run_out, 0.08),
+];
+
+pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
+    let mut metrics = Vec::new();
+    for (material, aspect_ratio) in studied(records, Purpose::Convergence) {
+        for (quantity, _, measure, largest) in QUANTITIES {
+            let means = means(records, &material, aspect_ratio, measure);
+            let variant = format!("quantity={quantity},material={material},aspect_ratio={aspect_ratio}");
+            for mean in &means {
+                let at = format!("{variant},resolution={}", mean.resolution);
+                let values = [("ensemble_mean", mean.value), ("ensemble_standard_error", mean.standard_error)];
+                metrics.extend(
+                    values.map(|(name, value)| {
+                        Metric::observed(name, &at, value, "-").with_snapshot_tolerance(2e-3, 2e-3)
+                    }),
+                );
+            }
+            let Some(found) = means.last_chunk::<3>().and_then(grid_convergence) else { continue };
+            let index = |name: &str, value: f64| {
+                Metric::observed(name, &variant, 100.0 * value, "%").with_snapshot_tolerance(0.05, 0.2)
+            };
+            metrics.push(
+                Metric::observed("observed_order", &variant, found.order, "-").with_snapshot_tolerance(0.05, 0.05),
+            );
+            metrics.push(
+                index("grid_convergence_index", found.index)
+                    .against(Some(0.0), "1.25 |f_3 − f_2|/(r^p − 1)/f_3 of the three finest means", Confidence::Exact)
+                    .gated(
+                        Limit::AtMost(100.0 * (largest + found.scatter)),
+                        "specification 2: 3 % for the centroid, 8 % for the run-out, plus the standard error of the \
+                         finest mean",
+                    ),
+            );
+        }
+    }
+    for (material, aspect_ratio) in studied(records, Purpose::Hourglass) {
+        for resolution in resolutions(records, &material, aspect_ratio) {
+            let values: Vec<f64> =
+                hourglass(records, &material, aspect_ratio, resolution).iter().map(|point| point.1).collect();
+            let (least, most) = values.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &v| (a.min(v), b.max(v)));
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            let variant = format!("material={material},aspect_ratio={aspect_ratio},resolution={resolution}");
+            metrics.push(
+                Metric::observed("hourglass_spread", &variant, 100.0 * (most - least) / mean, "%")
+                    .against(
+                        None,
+                        "run-out, largest less smallest over the mean: its modelling uncertainty",
+                        Confidence::Exact,
+                    )
+                    .with_snapshot_tolerance(0.02, 0.2),
+            );
+        }
+    }
+    metrics
+}
+
+/// Figures of the studies that were made.
+pub(super) fn figures(records: &[Record]) -> Vec<Figure> {
+    let resolution = studied(records, Purpose::Convergence);
+    let coefficient = studied(records, Purpose::Hourglass);
+    let mut figures = Vec::new();
+    if !resolution.is_empty() {
+        let panels = QUANTITIES.map(|(_, label, measure, _)| {
+            let mut panel = Panel::new("", Axis::linear("particles over r0 [-]"), Axis::linear(label));
+            for (slot, (material, aspect_ratio)) in resolution.iter().enumerate() {
+                let means = means(records, material, *aspect_ratio, measure);
+                let mut series = Series::new(
+                    &format!("{material}, a = {aspect_ratio}"),
+                    Mark::LinePoints,
+                    slot,
+                    means.iter().map(|mean| (mean.resolution as f64, mean.value)).collect(),
+                );
+                series.error = means
+                    .iter()
+                    .map(|mean| if mean.standard_error.is_nan() { 0.0 } else { mean.standard_error })
+                    .collect();
+                panel.series.push(series);
+            }
+            panel
+        });
+        figures.push(Figure {
+            name: "grid-convergence".to_owned(),
+            caption:
+                "Centroid and run-out of the deposit over the resolution: means over several seeds of the initial \
+                      displacements, with the standard error of the mean."
+                    .to_owned(),
+            panels: panels.to_vec(),
+            columns: 2,
+        });
+    }
+    if !coefficient.is_empty() {
+        let mut panel =
+            Panel::new("", Axis::linear("hourglass coefficient [-]"), Axis::linear("run-out (r∞ − r0)/r0 [-]"));
+        let mut slot = 0;
+        for (material, aspect_ratio) in coefficient {
+            for resolution in resolutions(records, &material, aspect_ratio) {
+                let points = hourglass(records, &material, aspect_ratio, resolution);
+                let label = format!("{material}, a = {aspect_ratio}, {resolution} over r0");
+                panel.series.push(Series::new(&label, Mark::LinePoints, slot, points));
+                slot += 1;
+            }
+        }
+        figures.push(Figure {
+            name: "hourglass".to_owned(),
+            caption:
+                "Run-out over the coefficient of the hourglass control: what the choice of a numerical parameter does \
+                      to the result, at two resolutions."
+                    .to_owned(),
+            panels: vec![panel],
+            columns: 1,
+        });
+    }
+    figures
+}
+
+/// Materials and aspect ratios that have runs of a purpose, in their order.
+fn studied(records: &[Record], purpose: Purpose) -> Vec<(String, f64)> {
+    let mut found: Vec<(String, f64)> = Vec::new();
+    for (run, _) in records.iter().filter(|(run, _)| run.purpose == purpose) {
+        let key = (run.material.clone(), run.aspect_ratio);
+        if !found.contains(&key) {
+            found.push(key);
+        }
+    }
+    found
+}
+
+fn is_of(run: &ColumnRun, material: &str, aspect_ratio: f64) -> bool {
+    run.material == material && run.aspect_ratio == aspect_ratio && run.regularisation_rate.is_none()
+}
+
+/// Means over the seeds, resolution by resolution. A run that stands for itself is one of its ensemble.
+fn means(records: &[Record], material: &str, aspect_ratio: f64, measure: fn(&Collapse) -> f64) -> Vec<Mean> {
+    let runs = || {
+        records.iter().filter(|(run, _)| {
+            is_of(run, material, aspect_ratio) && matches!(run.purpose, Purpose::Law | Purpose::Convergence)
+        })
+    };
+    let mut resolutions: Vec<usize> = runs().map(|(run, _)| run.resolution).collect();
+    resolutions.sort_unstable();
+    resolutions.dedup();
+    let mean = |&resolution: &usize| {
+        let of_resolution = runs().filter(|(run, _)| run.resolution == resolution);
+        Mean::of(resolution, &of_resolution.map(|(_, record)| measure(&record.data)).collect::<Vec<_>>())
+    };
+    resolutions.iter().filter_map(mean).collect()
+}
+
+/// Resolutions at which the hourglass coefficient was varied.
+fn resolutions(records: &[Record], material: &str, aspect_ratio: f64) -> Vec<usize> {
+    let varied = records.iter().map(|(run, _)| run);
+    let varied = varied.filter(|run| run.purpose == Purpose::Hourglass && is_of(run, material, aspect_ratio));
+    let mut found: Vec<usize> = varied.map(|run| run.resolution).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// (coefficient, run-out) of a resolution, in ascending order.
+fn hourglass(records: &[Record], material: &str, aspect_ratio: f64, resolution: usize) -> Vec<(f64, f64)> {
+    let mut points: Vec<(f64, f64)> = records
+        .iter()
+        .filter(|(run, _)| run.purpose == Purpose::Hourglass && run.resolution == resolution)
+        .filter(|(run, _)| is_of(run, material, aspect_ratio))
+        .map(|(run, record)| (run.numerics.hourglass, record.data.run_out()))
+        .collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    points
+}
