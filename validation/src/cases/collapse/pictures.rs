@@ -163,7 +163,7 @@ mod tests {
     fn motion() -> Motion {
         let frame = |(index, speed): (usize, f32)| MotionFrame {
             time: 0.01 * index as f64,
-            position: vec![[0.05 * index as f32, 0.005]],
+            position: vec![[0.05 * index as f32, 0.0]],
             speed: vec![speed],
             surface: vec![[0.0, 0.01], [0.1, 0.0], [0.2, 0.0]],
             front: 0.1,
@@ -176,7 +176,7 @@ mod tests {
         let moving = animation("a", "", &motion(), &VIEW);
         // what stands still at the start belongs to it, of the rest at the end only the last picture is left
         assert_eq!(moving.frames.len(), 4);
-        assert_eq!(moving.frames[1].points, [[0.5, 0.05], [-0.5, 0.05]]);
+        assert_eq!(moving.frames[1].points, [[0.5, 0.0], [-0.5, 0.0]]);
         assert_eq!(moving.frames[1].title, "t = 0.010 s = 0.10 √(h0/g), front at x = 1.00 r0");
         // a quarter of the particles with twice the diameter
         assert!((moving.frames[0].diameter - 0.2).abs() < 1e-12);
