@@ -6,13 +6,16 @@
 mod scenes;
 
 use bagnold_solver::simulation::Simulation;
-use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use scenes::Law;
 use std::time::{Duration, Instant};
 
 /// Particles of the step benches `[-]`.
 const SIZES: [usize; 3] = [5_000, 50_000, 500_000];
+/// Particles of the step bench in three dimensions `[-]`.
+const SIZE_IN_SPACE: usize = 100_000;
 /// Steps before a measurement starts, so that caches, lists and buffers are warm.
 const WARM_UP: usize = 4;
 
@@ -20,9 +23,29 @@ fn pool(threads: usize) -> ThreadPool {
     ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool")
 }
 
-fn advance(simulation: &mut Simulation<2>) {
+fn advance<const D: usize>(simulation: &mut Simulation<D>) {
     if let Err(divergence) = simulation.step() {
         panic!("{divergence}");
+    }
+}
+
+/// One bench of a step on 1 and on 2 threads.
+fn step<const D: usize>(group: &mut BenchmarkGroup<'_, WallTime>, law: Law, size: usize, name: &str) {
+    let scene = scenes::dam_break::<D>(size, law);
+    group.throughput(Throughput::Elements(scene.flow.position.len() as u64));
+    for threads in [1, 2] {
+        // set up when the bench is first run: a bench that is filtered out costs nothing
+        let mut prepared = None;
+        let id = BenchmarkId::new(name, format!("{size}_particles_{threads}_threads"));
+        group.bench_function(id, |bencher| {
+            let (pool, simulation) = prepared.get_or_insert_with(|| {
+                let pool = pool(threads);
+                let mut simulation = pool.install(|| Simulation::new(scene.clone()).expect("a valid scene"));
+                pool.install(|| (0..WARM_UP).for_each(|_| advance(&mut simulation)));
+                (pool, simulation)
+            });
+            bencher.iter(|| pool.install(|| advance(simulation)));
+        });
     }
 }
 
@@ -32,24 +55,11 @@ fn steps(criterion: &mut Criterion) {
     group.warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_millis(1500));
     for law in [Law::Newtonian, Law::MuI { smoothing_ratio: 1.3 }, Law::MuI { smoothing_ratio: 1.5 }] {
         for size in SIZES {
-            let scene = scenes::dam_break(size, law);
-            group.throughput(Throughput::Elements(scene.flow.position.len() as u64));
-            for threads in [1, 2] {
-                // set up when the bench is first run: a bench that is filtered out costs nothing
-                let mut prepared = None;
-                let name = BenchmarkId::new(law.name(), format!("{size}_particles_{threads}_threads"));
-                group.bench_function(name, |bencher| {
-                    let (pool, simulation) = prepared.get_or_insert_with(|| {
-                        let pool = pool(threads);
-                        let mut simulation = pool.install(|| Simulation::new(scene.clone()).expect("a valid scene"));
-                        pool.install(|| (0..WARM_UP).for_each(|_| advance(&mut simulation)));
-                        (pool, simulation)
-                    });
-                    bencher.iter(|| pool.install(|| advance(simulation)));
-                });
-            }
+            step::<2>(&mut group, law, size, &law.name());
         }
     }
+    let law = Law::MuI { smoothing_ratio: 1.3 };
+    step::<3>(&mut group, law, SIZE_IN_SPACE, &format!("in_space_{}", law.name()));
     group.finish();
 }
 

@@ -62,28 +62,31 @@ impl Law {
     }
 }
 
-/// A square block of about `size` particles on a bed, hydrostatic and at rest beside a symmetry plane, free to
-/// collapse on its other side.
-pub(crate) fn dam_break(size: usize, law: Law) -> Scene<2> {
-    let cells = (size as f64).sqrt().round() as usize;
+/// A square block or a cube of about `size` particles on a bed, hydrostatic and at rest beside its symmetry planes, free to
+/// collapse on its other sides.
+pub(crate) fn dam_break<const D: usize>(size: usize, law: Law) -> Scene<D> {
+    let cells = (size as f64).powf(1.0 / D as f64).round() as usize;
     let spacing = HEIGHT / cells as f64;
     let equation_of_state = EquationOfState {
         reference_density: DENSITY,
         bulk_modulus: 50.0 * DENSITY * GRAVITY * HEIGHT,
         tension: Tension::Cut,
     };
-    let pressure = |place: &Vector<2>| DENSITY * GRAVITY * (HEIGHT - place[1]).max(0.0);
+    let pressure = |place: &Vector<D>| DENSITY * GRAVITY * (HEIGHT - place[1]).max(0.0);
     let flow = lattice(cells, spacing, |place| equation_of_state.density(pressure(place)));
-    let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
+    let mut domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }; D] };
+    domain.axes[1] = AxisBoundary::Open;
     let walls = vec![Wall::still(1, 0.0, 1.0)];
-    let extent = (Vector::<2>::zeros(), Vector::<2>::new(1.5 * HEIGHT, HEIGHT));
+    let mut gravity = Vector::zeros();
+    gravity[1] = -GRAVITY;
+    let extent = (Vector::zeros(), Vector::repeat(1.5 * HEIGHT));
     let wall_particles = wall::fill(&walls, &domain, extent, spacing, 4);
     Scene {
         flow,
         walls,
         wall_particles,
         domain,
-        gravity: Vector::<2>::new(0.0, -GRAVITY),
+        gravity,
         spacing,
         equation_of_state,
         rheology: law.rheology(),
@@ -95,7 +98,7 @@ pub(crate) fn dam_break(size: usize, law: Law) -> Scene<2> {
 /// block at rest.
 pub(crate) fn drifting_and_resting(size: usize, smoothing_ratio: f64) -> [Scene<2>; 2] {
     let cells = (size as f64).sqrt().round() as usize;
-    let mut resting = dam_break(cells * cells, Law::MuI { smoothing_ratio });
+    let mut resting = dam_break::<2>(cells * cells, Law::MuI { smoothing_ratio });
     resting.flow = lattice(cells, resting.spacing, |_| DENSITY);
     resting.domain = Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: HEIGHT }; 2] };
     (resting.walls, resting.wall_particles) = (Vec::new(), Vec::new());
@@ -106,17 +109,21 @@ pub(crate) fn drifting_and_resting(size: usize, smoothing_ratio: f64) -> [Scene<
     [drifting, resting]
 }
 
-/// A slightly jittered square lattice of `cells` × `cells` particles at rest.
-fn lattice(cells: usize, spacing: f64, density: impl Fn(&Vector<2>) -> f64) -> Flow<2> {
+/// A slightly jittered lattice of `cells` particles along each axis, at rest.
+fn lattice<const D: usize>(cells: usize, spacing: f64, density: impl Fn(&Vector<D>) -> f64) -> Flow<D> {
     let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(7);
     let mut flow = Flow::default();
-    for index in 0..cells * cells {
-        let mut place = |cell: usize| (cell as f64 + 0.5 + 0.1 * (random.random::<f64>() - 0.5)) * spacing;
-        let position = Vector::<2>::new(place(index % cells), place(index / cells));
+    for index in 0..cells.pow(D as u32) {
+        let mut rest = index;
+        let position = Vector::<D>::from_fn(|_, _| {
+            let cell = rest % cells;
+            rest /= cells;
+            (cell as f64 + 0.5 + 0.1 * (random.random::<f64>() - 0.5)) * spacing
+        });
         flow.density.push(density(&position));
         flow.position.push(position);
         flow.velocity.push(Vector::zeros());
-        flow.mass.push(DENSITY * spacing * spacing);
+        flow.mass.push(DENSITY * spacing.powi(D as i32));
         flow.stress.push(Tensor::zeros());
     }
     flow

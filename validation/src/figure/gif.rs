@@ -9,7 +9,7 @@ use plotters::style::RGBColor;
 use rayon::prelude::*;
 use resvg::tiny_skia::Pixmap;
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::sync::LazyLock;
 
 /// Pixels of the animation over those of a figure's sheet: 800 px wide, what a page shows.
 const SCALE: f32 = 0.5;
@@ -23,18 +23,31 @@ const GREYS: u32 = 32;
 const COLOURS: u32 = 110;
 const PALE: u32 = 50;
 
+/// Bits a channel by which the palette's nearest colour is looked up: a search for every pixel takes as long as drawing.
+const BITS: u32 = 6;
+
+static PALETTE: LazyLock<Vec<RGBColor>> = LazyLock::new(palette);
+
+/// Index of the nearest colour, by the leading bits of red, green and blue.
+static NEAREST: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let last = (1 << BITS) - 1;
+    let channel = |place: u32, shift: u32| (((place >> (shift * BITS)) & last) * 255 / last) as u8;
+    (0..1 << (3 * BITS))
+        .map(|place| nearest([channel(place, 2), channel(place, 1), channel(place, 0)], &PALETTE))
+        .collect()
+});
+
 /// The animation as the bytes of a GIF that repeats for ever; the same data give the same bytes.
 ///
 /// # Errors
 /// No picture, pictures of different sizes, or a picture that cannot be drawn.
 pub(super) fn encode(animation: &Animation) -> Result<Vec<u8>, FigureError> {
-    let palette = palette();
     let pictures: Vec<Picture> = animation
         .frames
         .par_iter()
         .map(|frame| {
             let pixels = render::raster(&render::svg(&animation.figure(frame))?, SCALE)?;
-            Ok(Picture::of(&pixels, &palette))
+            Ok(Picture::of(&pixels))
         })
         .collect::<Result<_, FigureError>>()?;
     let Some(first) = pictures.first() else { return Err(FigureError::Animation("it has no picture".to_owned())) };
@@ -42,7 +55,7 @@ pub(super) fn encode(animation: &Animation) -> Result<Vec<u8>, FigureError> {
         return Err(FigureError::Animation("its pictures have different sizes".to_owned()));
     }
     let refused = |error: gif::EncodingError| FigureError::Animation(error.to_string());
-    let colours: Vec<u8> = palette.iter().flat_map(|&RGBColor(red, green, blue)| [red, green, blue]).collect();
+    let colours: Vec<u8> = PALETTE.iter().flat_map(|&RGBColor(red, green, blue)| [red, green, blue]).collect();
     let (width, height) = (first.width as u16, first.height as u16);
     let mut encoder = gif::Encoder::new(Vec::new(), width, height, &colours).map_err(refused)?;
     encoder.set_repeat(gif::Repeat::Infinite).map_err(refused)?;
@@ -83,15 +96,15 @@ struct Picture {
 }
 
 impl Picture {
-    fn of(pixels: &Pixmap, palette: &[RGBColor]) -> Self {
-        let mut known: HashMap<[u8; 3], u8> = HashMap::new();
+    fn of(pixels: &Pixmap) -> Self {
         // the sheet is white and opaque, so that premultiplied colours are the colours
         let indices = pixels
             .pixels()
             .iter()
             .map(|pixel| {
-                let colour = [pixel.red(), pixel.green(), pixel.blue()];
-                *known.entry(colour).or_insert_with(|| nearest(colour, palette))
+                let leading = |channel: u8| usize::from(channel >> (8 - BITS));
+                let [red, green, blue] = [pixel.red(), pixel.green(), pixel.blue()].map(leading);
+                NEAREST[(red << (2 * BITS)) | (green << BITS) | blue]
             })
             .collect();
         Self { width: pixels.width() as usize, height: pixels.height() as usize, indices }
@@ -145,8 +158,10 @@ fn nearest([red, green, blue]: [u8; 3], palette: &[RGBColor]) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::super::animation::AnimationFrame;
+    use super::super::palette::BLACK;
     use super::super::{Axis, Mark, Series};
     use super::*;
+    use plotters::style::WHITE;
 
     /// Two particles, of which one moves to the right and slows down.
     fn animation(frames: usize) -> Animation {
@@ -205,7 +220,7 @@ mod tests {
             }
         }
         let last = render::svg(&animation.figure(&animation.frames[2])).expect("SVG");
-        let expected = Picture::of(&render::raster(&last, SCALE).expect("raster"), &palette());
+        let expected = Picture::of(&render::raster(&last, SCALE).expect("raster"));
         assert!(canvas == expected.indices);
     }
 
@@ -221,11 +236,15 @@ mod tests {
 
     #[test]
     fn the_palette_leaves_an_index_free_and_has_white_black_and_the_colour_map() {
-        let palette = palette();
+        let palette = &PALETTE;
         assert!(palette.len() <= usize::from(UNCHANGED));
-        assert_eq!(palette[usize::from(nearest([255; 3], &palette))], RGBColor(255, 255, 255));
-        assert_eq!(palette[usize::from(nearest([0; 3], &palette))], RGBColor(0, 0, 0));
-        let RGBColor(red, green, blue) = FIRST.at(1.0);
-        assert_eq!(palette[usize::from(nearest([red, green, blue], &palette))], FIRST.at(1.0));
+        for RGBColor(red, green, blue) in [WHITE, BLACK, FIRST.at(1.0)] {
+            let index = nearest([red, green, blue], palette);
+            assert_eq!(palette[usize::from(index)], RGBColor(red, green, blue));
+            let leading = |channel: u8| usize::from(channel >> (8 - BITS));
+            let found =
+                palette[usize::from(NEAREST[(leading(red) << (2 * BITS)) | (leading(green) << BITS) | leading(blue)])];
+            assert!(red.abs_diff(found.0).max(green.abs_diff(found.1)).max(blue.abs_diff(found.2)) <= 8, "{found:?}");
+        }
     }
 }

@@ -107,6 +107,21 @@ fn particles_are_circles_of_their_true_diameter_that_touch() {
 }
 
 #[test]
+fn two_fields_have_a_bar_each_and_a_field_without_a_label_none() {
+    let mut both = field_panel(20);
+    let mut pressure = both.field.clone().expect("a field");
+    pressure.label = "|v| [m/s]".to_owned();
+    both.opposite = Some(pressure);
+    let drawn = render::svg(&figure(vec![both.clone()])).expect("SVG");
+    assert!(drawn.contains("p [Pa]") && drawn.contains("|v| [m/s]"));
+    for field in both.field.iter_mut().chain(&mut both.opposite) {
+        field.label.clear();
+    }
+    let plain = render::svg(&figure(vec![both])).expect("SVG");
+    assert!(!plain.contains("p [Pa]") && plain.matches("<rect").count() < drawn.matches("<rect").count());
+}
+
+#[test]
 fn degenerate_data_draw_something() {
     let odd: [&[(f64, f64)]; 7] = [
         &[],

@@ -1,7 +1,7 @@
 //! The page as a whole: what a reader sees first, escaping, and reports with nothing in them.
 
 use super::*;
-use crate::figure::{Axis, Panel, Scale};
+use crate::figure::{AnimationFrame, Axis, Panel, Scale};
 use crate::metric::{Confidence, Kind, Limit, Metric};
 
 fn gated(name: &str, value: f64) -> Metric {
@@ -70,6 +70,27 @@ fn drawing(name: &str) -> Figure {
         opposite: None,
     };
     Figure { name: name.to_owned(), caption: "a caption".to_owned(), panels: vec![panel], columns: 1 }
+}
+
+fn moving(name: &str, frames: usize) -> Animation {
+    let axis = Axis { label: "x [m]".to_owned(), scale: Scale::Linear, limits: Some((0.0, 1.0)) };
+    let frame = AnimationFrame {
+        title: "t = 0 s".to_owned(),
+        points: vec![[0.5, 0.5]],
+        values: vec![1.0],
+        diameter: 0.1,
+        lines: Vec::new(),
+    };
+    Animation {
+        name: name.to_owned(),
+        caption: "a moving caption".to_owned(),
+        x: axis.clone(),
+        y: axis,
+        label: "|v| [m/s]".to_owned(),
+        limits: (0.0, 1.0),
+        seconds_per_frame: 0.1,
+        frames: vec![frame; frames],
+    }
 }
 
 #[test]
@@ -190,6 +211,7 @@ fn the_folder_is_self_contained_and_reproducible() {
     let folder = tempfile::tempdir().expect("folder");
     let mut film = case("film", vec![gated("velocity_l2", 0.5)]);
     film.figures = vec![drawing("velocity-profile"), drawing("not a name")];
+    film.animations = vec![moving("collapse", 2), moving("without-pictures", 0)];
     let report = report(vec![film]);
     write(&report, folder.path()).expect("written");
     let read = |path: &str| std::fs::read_to_string(folder.path().join(path)).expect(path);
@@ -198,6 +220,9 @@ fn the_folder_is_self_contained_and_reproducible() {
     assert_eq!(read("cases/film/case.toml"), "depth = 0.01\n");
     assert!(folder.path().join("figures/film/velocity-profile.png").exists());
     assert!(page.contains("figures/film/velocity-profile.svg"));
+    assert!(folder.path().join("figures/film/collapse.gif").exists());
+    assert!(page.contains("<img src=\"figures/film/collapse.gif\"") && page.contains("a moving caption"));
+    assert!(!page.contains("collapse.svg") && page.contains("without-pictures could not be drawn"));
     assert!(page.contains("could not be drawn"), "a figure that fails is named on the page");
     assert!(!page.contains("http"), "nothing is loaded from elsewhere");
     write(&report, folder.path()).expect("written again");

@@ -2,6 +2,9 @@
 
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 
+/// End of the time axis over √(h_0/g) `[-]`: the deposits rest by then.
+const LONGEST: f64 = 6.0;
+
 /// Kinetic and potential energy over time, in any one unit.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::cases) struct Energies<'a> {
@@ -37,7 +40,8 @@ pub(in crate::cases) fn figure(name: &str, caption: &str, runs: &[(String, f64, 
     let panels = runs.iter().filter_map(|(title, time_scale, energies)| {
         let (whole, start) = (energies.released()?, energies.potential.first()?);
         let axis = Axis { limits: Some((-0.05, 1.1)), ..Axis::linear("energy/released [-]") };
-        let mut panel = Panel::new(title, Axis::linear("t/√(h0/g) [-]"), axis);
+        let time = Axis { limits: Some((0.0, LONGEST)), ..Axis::linear("t/√(h0/g) [-]") };
+        let mut panel = Panel::new(title, time, axis);
         let curve = |pick: &dyn Fn(usize) -> f64| {
             (0..energies.time.len()).map(|k| (energies.time[k] / time_scale, pick(k) / whole)).collect()
         };
@@ -47,7 +51,7 @@ pub(in crate::cases) fn figure(name: &str, caption: &str, runs: &[(String, f64, 
         panel.series.push(Series::new("dissipated", Mark::Line, 2, curve(&|k| released(k) - energies.kinetic[k])));
         Some(panel)
     });
-    Figure { name: name.to_owned(), caption: caption.to_owned(), panels: panels.collect(), columns: 2 }
+    Figure { name: name.to_owned(), caption: caption.to_owned(), panels: panels.collect(), columns: 3 }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! How a heap is shown: moving pictures, and pictures with speed on one side and pressure on the other.
 
 use crate::figure::{Animation, AnimationFrame, Axis, Field, Figure, Mark, Panel, Series};
-use crate::observe::{Frame, Motion};
+use crate::observe::{Frame, Motion, MotionFrame};
 
 /// Share of all speeds that the colours span: single grains of spray would leave no colour to the heap.
 const SPANNED: f64 = 0.998;
@@ -38,15 +38,15 @@ impl View {
             y = (y.0.min(place.1), y.1.max(place.1));
         }
         let margin = self.spacing / self.unit_length;
-        x.1 += margin;
-        y.1 += margin;
+        x.1 += 0.02 * (x.1 - x.0) + margin;
+        y.1 += 0.05 * (y.1 - y.0) + margin;
         x.0 = if self.mirrored { -x.1 } else { x.0 - margin };
         (self.axis("x", x), self.axis("y", y))
     }
 
-    /// The time in seconds and in times of free fall.
-    fn clock(&self, time: f64) -> String {
-        format!("t = {time:.3} s = {:.2} √(h0/g)", time / self.time_scale)
+    /// The time in seconds, with so many decimals, and in times of free fall.
+    fn clock(&self, time: f64, decimals: usize) -> String {
+        format!("t = {time:.decimals$} s = {:.2} √(h0/g)", time / self.time_scale)
     }
 }
 
@@ -59,9 +59,9 @@ pub(in crate::cases) fn animation(name: &str, caption: &str, motion: &Motion, vi
     let mast = 0.25 * y.limits.map_or(0.0, |(_, upper)| upper);
     let sides: &[f64] = if view.mirrored { &[1.0, -1.0] } else { &[1.0] };
     let line = |points: Vec<(f64, f64)>| Series::new("", Mark::Reference, 0, points);
-    let frames = motion.frames.iter().map(|frame| {
+    let frames = moving(motion).map(|frame| {
         let mut picture = AnimationFrame {
-            title: format!("{},  front at x = {:.2} {}", view.clock(frame.time), frame.front / unit, view.unit),
+            title: format!("{}, front at x = {:.2} {}", view.clock(frame.time, 3), frame.front / unit, view.unit),
             points: Vec::new(),
             values: Vec::new(),
             // what was left out is made up for by the area of what was kept
@@ -92,6 +92,15 @@ pub(in crate::cases) fn animation(name: &str, caption: &str, motion: &Motion, vi
     }
 }
 
+/// The frames while anything moves at more than a fiftieth of the largest speed, and the last one.
+fn moving(motion: &Motion) -> impl Iterator<Item = &MotionFrame> {
+    let fastest = |frame: &MotionFrame| frame.speed.iter().copied().fold(0.0, f32::max);
+    let limit = 0.02 * motion.frames.iter().map(fastest).fold(0.0, f32::max);
+    let end = motion.frames.iter().rposition(|frame| fastest(frame) > limit).map_or(0, |last| last + 1);
+    let last = motion.frames.len().saturating_sub(1);
+    motion.frames.iter().take(end.min(last)).chain(motion.frames.last())
+}
+
 /// Speed on the left and pressure on the right of the plane of symmetry, one panel a frame, on the same scales.
 pub(in crate::cases) fn halves(name: &str, caption: &str, frames: &[&Frame], view: &View) -> Figure {
     let unit = view.unit_length;
@@ -103,7 +112,7 @@ pub(in crate::cases) fn halves(name: &str, caption: &str, frames: &[&Frame], vie
     let deepest = upper_end(frames.iter().flat_map(|frame| pressures(frame)).collect());
     let mut panels: Vec<Panel> = Vec::new();
     for frame in frames {
-        let mut panel = Panel::new(&view.clock(frame.time), x.clone(), y.clone());
+        let mut panel = Panel::new(&view.clock(frame.time, 2), x.clone(), y.clone());
         let field = |points, values, label: &str, limit| Field {
             points,
             values,
@@ -142,4 +151,62 @@ fn upper_end(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let place = (SPANNED * values.len() as f64) as usize;
     values.get(place.min(values.len().saturating_sub(1))).copied().unwrap_or(1.0).max(f64::MIN_POSITIVE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const VIEW: View = View { unit_length: 0.1, unit: "r0", time_scale: 0.1, spacing: 0.01, mirrored: true };
+
+    /// One particle that runs 0.05 m a frame and stops.
+    fn motion() -> Motion {
+        let frame = |(index, speed): (usize, f32)| MotionFrame {
+            time: 0.01 * index as f64,
+            position: vec![[0.05 * index as f32, 0.0]],
+            speed: vec![speed],
+            surface: vec![[0.0, 0.01], [0.1, 0.0], [0.2, 0.0]],
+            front: 0.1,
+        };
+        Motion { frames: [0.0, 1.0, 2.0, 0.01, 0.01].into_iter().enumerate().map(frame).collect(), share: 0.25 }
+    }
+
+    #[test]
+    fn an_animation_has_both_halves_fixed_axes_and_ends_with_the_motion() {
+        let moving = animation("a", "", &motion(), &VIEW);
+        // what stands still at the start belongs to it, of the rest at the end only the last picture is left
+        assert_eq!(moving.frames.len(), 4);
+        assert_eq!(moving.frames[1].points, [[0.5, 0.0], [-0.5, 0.0]]);
+        assert_eq!(moving.frames[1].title, "t = 0.010 s = 0.10 √(h0/g), front at x = 1.00 r0");
+        // a quarter of the particles with twice the diameter
+        assert!((moving.frames[0].diameter - 0.2).abs() < 1e-12);
+        let (left, right) = moving.x.limits.expect("fixed");
+        assert!(left == -right && right > 2.0 && moving.limits == (0.0, 2.0));
+        // surface and front on both sides; the surface ends where it meets the bed
+        assert_eq!(moving.frames[0].lines.len(), 4);
+        assert_eq!(moving.frames[0].lines[0].points.len(), 2);
+        let one_sided = animation("a", "", &motion(), &View { mirrored: false, unit: "m", unit_length: 1.0, ..VIEW });
+        assert_eq!((one_sided.frames[0].points.len(), one_sided.x.label.as_str()), (1, "x [m]"));
+        assert!(animation("a", "", &Motion::default(), &VIEW).frames.is_empty());
+    }
+
+    #[test]
+    fn halves_show_speed_left_and_pressure_right_on_shared_scales() {
+        let frame = |time: f64, u: f64| Frame {
+            time,
+            position: vec![[0.05, 0.02, 0.0]],
+            scalars: vec![("pressure".to_owned(), "Pa".to_owned(), vec![2000.0])],
+            vectors: vec![("velocity".to_owned(), "m/s".to_owned(), vec![[u, 0.0, 0.0]])],
+        };
+        let frames = [frame(0.0, 0.5), frame(0.1, 1.5)];
+        assert_eq!(nearest(&frames, 0.08), Some(&frames[1]));
+        let figure = halves("h", "", &[&frames[0], &frames[1]], &VIEW);
+        assert_eq!(figure.panels.len(), 2);
+        for panel in &figure.panels {
+            let (speed, pressure) = (panel.field.as_ref().expect("speed"), panel.opposite.as_ref().expect("pressure"));
+            assert_eq!((speed.points[0].0, pressure.points[0].0), (-0.5, 0.5));
+            assert_eq!((speed.limits, pressure.limits), (Some((0.0, 1.5)), Some((0.0, 2.0))));
+        }
+        assert_eq!(figure.panels[1].field.as_ref().map(|field| field.label.as_str()), Some(""));
+    }
 }

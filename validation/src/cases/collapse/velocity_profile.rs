@@ -6,7 +6,8 @@ use crate::statistics::{Regression, common_slope, linear_regression};
 
 /// The flowing layer moves faster than this share of the profile's largest velocity `[-]`; what is slower is the tail.
 const FLOWING: f64 = 0.35;
-/// The tail ends at this share `[-]`: what is slower is the creep of the elastic core.
+/// The tail ends at this share `[-]`, or where the velocity no longer falls with depth: below is the creep of the
+/// elastic core.
 const CREEPING: f64 = 0.02;
 /// Fewest points of a fit.
 const FEWEST: usize = 3;
@@ -62,8 +63,13 @@ impl Station {
         // from the surface downwards: a core that creeps faster further down belongs to neither
         let flowing: Vec<(f64, f64)> =
             profile.iter().rev().take_while(|point| point.1 > FLOWING * fastest).copied().collect();
-        let below = profile.iter().rev().skip(flowing.len());
-        let tail = below.take_while(|point| point.1 > CREEPING * fastest).copied().collect();
+        let mut tail: Vec<(f64, f64)> = Vec::new();
+        for &point in profile.iter().rev().skip(flowing.len()) {
+            if point.1 <= CREEPING * fastest || tail.last().is_some_and(|above| point.1 >= above.1) {
+                break;
+            }
+            tail.push(point);
+        }
         let shear = if flowing.len() >= FEWEST { linear_regression(&flowing) } else { None };
         Self { x, profile, flowing, tail, shear }
     }
@@ -164,9 +170,11 @@ mod tests {
 
     #[test]
     fn creep_that_turns_round_ends_the_tail() {
-        let station =
-            Station::fitted(0.0, vec![(0.5, 0.3), (1.5, -0.01), (2.5, 0.2), (3.5, 0.6), (4.5, 0.9), (5.5, 1.0)]);
-        assert_eq!(station.tail, [(2.5, 0.2)]);
+        for creep in [-0.01, 0.25] {
+            let profile = vec![(0.5, 0.3), (1.5, creep), (2.5, 0.2), (3.5, 0.6), (4.5, 0.9), (5.5, 1.0)];
+            assert_eq!(Station::fitted(0.0, profile).tail, [(2.5, 0.2)]);
+        }
+        let station = Station::fitted(0.0, vec![(1.5, -0.01), (2.5, 0.2), (3.5, 0.6), (4.5, 0.9), (5.5, 1.0)]);
         assert_eq!(station.flowing.len(), 3);
         assert_eq!(decay_length(&[station]), None);
     }
