@@ -30,7 +30,6 @@ use crate::boundary::Images;
 use crate::lanes::InstructionSet;
 use crate::neighbours::VerletList;
 use crate::particles::Particles;
-use crate::rheology::Rheology;
 use crate::vector::Vector;
 
 /// Iterations after which a solve is given up.
@@ -48,7 +47,6 @@ pub(crate) struct NotConverged {
 pub(crate) struct ViscousSolve<'a, const D: usize> {
     pub(crate) list: &'a VerletList,
     pub(crate) instruction_set: InstructionSet,
-    pub(crate) rheology: &'a Rheology,
     /// (C_s Δ)² `[m²]` of the eddy viscosity (5).
     pub(crate) mixing_area: f64,
     pub(crate) smoothing_length: f64,
@@ -68,20 +66,19 @@ impl<const D: usize> ViscousSolve<'_, D> {
         system: &mut ViscousSystem<D>,
     ) -> Result<(), NotConverged> {
         system.resize(particles, self.list.region());
-        system.take_velocities(particles, images);
-        self.gradient_of_start(particles, system);
+        self.prepare(particles, system);
         system.copy_fluxes(images);
-        system.copy_stiffnesses(images);
-        let start = self.residual_of_start(particles, system);
-        let scale = start.explicit.sqrt() + start.viscous.sqrt();
-        let mut residual = start.residual;
-        let mut descent = start.descent;
+        self.residual_of_start(particles, system);
+        let start = system.sum(|sums| sums.residual);
+        let goal = self.tolerance * self.tolerance * start;
+        let mut residual = start;
+        let mut descent = system.sum(|sums| sums.descent);
         let mut growth = 0.0;
         let mut iterations = 0;
         // written so that a NaN goes on to the bound
-        while !(residual.sqrt() <= self.tolerance * scale) {
+        while !(residual <= goal) {
             if iterations == MOST_ITERATIONS || !residual.is_finite() {
-                system.set_residual(residual.sqrt() / scale);
+                system.set_residual((residual / start).sqrt());
                 return Err(NotConverged { worst: system.worst(particles.flow_count()) });
             }
             self.next_direction(system, particles.flow_count(), growth);
