@@ -11,7 +11,7 @@ pub enum Quantity {
     Density,
     /// More neighbours than a list row can hold.
     Neighbours,
-    /// What an implicit viscous step could not balance, over its forces; the particle is the one with the most of it.
+    /// Residual of an implicit viscous step over its start; the particle is the one with the largest.
     ViscousResidual,
 }
 
@@ -59,7 +59,7 @@ impl<const D: usize> Divergence<D> {
             Quantity::Speed => format!("m/s, above the {upper:.4e} m/s (three sound speeds) that the model allows"),
             Quantity::Density => format!("kg/m³, outside the {lower:.4e} to {upper:.4e} kg/m³ that the model allows"),
             Quantity::ViscousResidual => format!(
-                "(residual over forces) after {} iterations, above the {upper:.1e} of `viscous_tolerance`",
+                "(residual over its start) after at most {} iterations, above the {upper:.1e} of `viscous_tolerance`",
                 crate::viscous_solve::MOST_ITERATIONS
             ),
             Quantity::Neighbours => format!("or more, above the {upper:.0} that a neighbour list row can hold"),

@@ -84,8 +84,8 @@ pub struct Numerics {
     pub viscous_courant: f64,
     /// Explicit or implicit viscous stress.
     pub viscous_step: ViscousStep,
-    /// Residual acceleration that an implicit viscous step leaves, over the forces that it balances `[-]`, both as root
-    /// mean squares.
+    /// Share of the net acceleration that an implicit viscous step may leave without its viscous answer `[-]`, both as
+    /// root mean squares.
     pub viscous_tolerance: f64,
     /// Skin of the neighbour list over the kernel's support `[-]`.
     pub verlet_skin: f64,
@@ -110,7 +110,7 @@ impl Default for Numerics {
             advective_courant: 0.25,
             viscous_courant: 0.2,
             viscous_step: ViscousStep::Explicit,
-            viscous_tolerance: 1e-2,
+            viscous_tolerance: 0.1,
             verlet_skin: 0.1,
         }
     }

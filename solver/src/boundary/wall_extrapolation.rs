@@ -8,7 +8,6 @@ use crate::kernel::Kernel;
 use crate::lanes::algebra::{difference, dot, splat_vector, store_vector, zero_tensor, zero_vector};
 use crate::lanes::{InstructionSet, LANES, LanePass, Lanes, gather, gather_tensors, gather_vectors};
 use crate::neighbours::VerletList;
-use crate::numerics::ViscousStep;
 use crate::particles::Particles;
 use crate::vector::{Tensor, Vector};
 use rayon::prelude::*;
@@ -29,8 +28,6 @@ pub(crate) struct WallExtrapolation<'a, const D: usize> {
     pub(crate) spacing: f64,
     pub(crate) reference_density: f64,
     pub(crate) treatment: WallTreatment,
-    /// Whether the flux of a wall holds the whole stress or, for an implicit viscous step, the pressure alone.
-    pub(crate) viscous_step: ViscousStep,
 }
 
 impl<const D: usize> WallExtrapolation<'_, D> {
@@ -49,10 +46,7 @@ impl<const D: usize> WallExtrapolation<'_, D> {
             let wall = first + offset;
             particles.pressure[wall] = *pressure;
             particles.stress[wall] = *stress;
-            particles.flux[wall] = match self.viscous_step {
-                ViscousStep::Explicit => stress - Tensor::identity() * *pressure,
-                ViscousStep::Implicit => -Tensor::identity() * *pressure,
-            };
+            particles.flux[wall] = stress - Tensor::identity() * *pressure;
         }
         particles.wall_stress = result;
     }

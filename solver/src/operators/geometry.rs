@@ -9,7 +9,7 @@ use crate::lanes::algebra::{
 };
 use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::neighbours::VerletList;
-use crate::numerics::{MomentumOperator, ViscousStep};
+use crate::numerics::MomentumOperator;
 use crate::particles::Particles;
 use crate::records::{self, Records};
 use crate::rheology::Rheology;
@@ -24,8 +24,6 @@ pub(crate) struct Geometry<'a, const D: usize> {
     pub(crate) list: &'a VerletList,
     pub(crate) instruction_set: InstructionSet,
     pub(crate) momentum_operator: MomentumOperator,
-    /// Whether the flux holds the whole stress or, for an implicit viscous step, the pressure alone.
-    pub(crate) viscous_step: ViscousStep,
     pub(crate) rheology: &'a Rheology,
     /// ζ ρ0 c_s h `[Pa·s]`: viscosity that damps elastic waves below the yield. Without it an arrested layer
     /// swings for ever; a flowing one does not feel it.
@@ -164,18 +162,6 @@ impl<const D: usize> Geometry<'_, D> {
     /// σ = s − pI `[Pa]` of eight particles with the stresses that their law does not carry.
     #[inline(always)]
     fn stress<V: Lanes>(&self, particles: &Particles<D>, places: Range<usize>, pressure: V) -> [[V; D]; D] {
-        let mut stress = match self.viscous_step {
-            ViscousStep::Explicit => self.deviatoric_stress(particles, places, pressure),
-            ViscousStep::Implicit => zero_tensor(),
-        };
-        for axis in 0..D {
-            stress[axis][axis] = stress[axis][axis] - pressure;
-        }
-        stress
-    }
-
-    #[inline(always)]
-    fn deviatoric_stress<V: Lanes>(&self, particles: &Particles<D>, places: Range<usize>, pressure: V) -> [[V; D]; D] {
         let mut stress = load_tensor::<V, D>(&particles.stress[places.clone()]);
         let damped = self.elastic_viscosity > 0.0 && self.rheology.is_plastic();
         if damped || self.mixing_area > 0.0 {
@@ -193,6 +179,9 @@ impl<const D: usize> Geometry<'_, D> {
             for i in 0..D {
                 accumulate(&mut stress[i], V::splat(2.0) * viscosity, &rate[i]);
             }
+        }
+        for axis in 0..D {
+            stress[axis][axis] = stress[axis][axis] - pressure;
         }
         stress
     }

@@ -11,7 +11,7 @@ use crate::lanes::algebra::{
 };
 use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::neighbours::{Group, VerletList};
-use crate::numerics::{ViscositySwitch, ViscousStep};
+use crate::numerics::ViscositySwitch;
 use crate::particles::Particles;
 use crate::records::{self, Records};
 use crate::rheology::Rheology;
@@ -31,8 +31,6 @@ pub(crate) struct Continuity<'a, const D: usize> {
     pub(crate) density_coupling: f64,
     pub(crate) viscosity_switch: ViscositySwitch,
     pub(crate) time_step: f64,
-    /// An explicit viscous step asks for the largest viscosity.
-    pub(crate) viscous_step: ViscousStep,
     /// Whether anything needs the velocity gradient.
     pub(crate) gradient: GradientUse,
 }
@@ -290,13 +288,12 @@ impl<const D: usize> Continuity<'_, D> {
             let stress = law.updated_stresses(&stress, &gradient, pressure, self.shear_modulus, dt);
             store_tensor(&stress, &mut out.stress[places.clone()]);
         }
-        let bounds_the_step = !law.is_plastic() && self.viscous_step == ViscousStep::Explicit;
-        if self.gradient == GradientUse::Viscosity || bounds_the_step {
+        if self.gradient == GradientUse::Viscosity || !law.is_plastic() {
             let pressure = pressure.to_array();
             for (lane, place) in places.enumerate() {
                 let viscosity = law.viscosity(shear_rate(&out.velocity_gradient[place]), pressure[lane]);
                 out.viscosity[place] = viscosity;
-                if bounds_the_step {
+                if !law.is_plastic() {
                     extremes.kinematic_viscosity = extremes.kinematic_viscosity.max(viscosity / out.density[place]);
                 }
             }

@@ -49,11 +49,7 @@ pub(super) struct Unknowns<const D: usize> {
 /// last the blocks, so that the bits depend neither on the threads nor on the instruction set.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Sums {
-    /// Σ m (Δt a*)² `[kg m²/s²]`.
-    pub(super) explicit: f64,
-    /// Σ (Δt K v)²/m.
-    pub(super) viscous: f64,
-    /// Σ r²/m.
+    /// Σ r²/m `[kg m²/s²]`.
     pub(super) residual: f64,
     /// r·D⁻¹r.
     pub(super) descent: f64,
@@ -70,10 +66,8 @@ pub(crate) struct ViscousSystem<const D: usize> {
     pub(super) pair_vectors: Vec<LaneVector<D>>,
     /// Velocity, or search direction, of every particle.
     pub(super) velocities: Records,
-    /// s L of every flow particle and image.
+    /// s L of every flow particle and image; before the iteration √(η/V) L, for the diagonal.
     pub(super) fluxes: Records,
-    /// √(η/V) L of every flow particle and image.
-    pub(super) stiffnesses: Records,
     pub(super) sums: Vec<Sums>,
     iterations: u64,
     residual: f64,
@@ -87,7 +81,6 @@ impl<const D: usize> ViscousSystem<D> {
             pair_vectors: Vec::new(),
             velocities: Records::new(D),
             fluxes: Records::new(D * D),
-            stiffnesses: Records::new(D * D),
             sums: Vec::new(),
             iterations: 0,
             residual: 0.0,
@@ -129,20 +122,9 @@ impl<const D: usize> ViscousSystem<D> {
         self.unknowns.resize(flow.div_ceil(LANES), unknowns);
         self.sums.resize(flow.div_ceil(BLOCK), Sums::default());
         self.pair_vectors.resize(flow.div_ceil(BLOCK) * region, zero);
-        for records in [&mut self.velocities, &mut self.fluxes, &mut self.stiffnesses] {
+        for records in [&mut self.velocities, &mut self.fluxes] {
             records.resize(all);
         }
-    }
-
-    /// Takes the velocities of the flow and its images.
-    pub(super) fn take_velocities(&mut self, particles: &Particles<D>, images: &Images<D>) {
-        let flow = particles.flow_count();
-        self.velocities.fill(particles.position.len(), |index, record| {
-            if index < flow {
-                record.vector(&particles.velocity[index]);
-            }
-        });
-        self.copy_velocities(images);
     }
 
     /// Copies velocities to the images.
@@ -155,11 +137,6 @@ impl<const D: usize> ViscousSystem<D> {
     /// Copies fluxes to the images.
     pub(super) fn copy_fluxes(&mut self, images: &Images<D>) {
         copy_tensors(&mut self.fluxes, images);
-    }
-
-    /// Copies stiffnesses to the images.
-    pub(super) fn copy_stiffnesses(&mut self, images: &Images<D>) {
-        copy_tensors(&mut self.stiffnesses, images);
     }
 
     /// A sum over all blocks, in order.

@@ -92,7 +92,7 @@ pub(super) fn store_columns<V: Lanes, const D: usize>(vector: &[V; D]) -> LaneVe
 }
 
 #[inline(always)]
-fn load_columns<V: Lanes, const D: usize>(columns: &LaneVector<D>) -> [V; D] {
+pub(super) fn load_columns<V: Lanes, const D: usize>(columns: &LaneVector<D>) -> [V; D] {
     let mut vector = zero_vector::<V, D>();
     for i in 0..D {
         vector[i] = V::load(&columns[i]);
@@ -118,13 +118,13 @@ pub(super) fn store_record<V: Lanes, const D: usize>(tensor: &[[V; D]; D], out: 
 
 /// Fluxes of a group's own particles.
 #[inline(always)]
-pub(super) fn flux_of<V: Lanes, const D: usize>(fluxes: &Records, group: &Group<'_>) -> [[V; D]; D] {
+fn flux_of<V: Lanes, const D: usize>(fluxes: &Records, group: &Group<'_>) -> [[V; D]; D] {
     records::tensor(&fluxes.load::<V>(const { (D * D).div_ceil(4) }, &group.own), 0)
 }
 
 /// s_a L_a (Σ w r + Σ_w w β r).
 #[inline(always)]
-pub(super) fn own_part<V: Lanes, const D: usize>(flux: &[[V; D]; D], closure: &LaneVector<D>) -> [V; D] {
+fn own_part<V: Lanes, const D: usize>(flux: &[[V; D]; D], closure: &LaneVector<D>) -> [V; D] {
     product(flux, &load_columns(closure))
 }
 

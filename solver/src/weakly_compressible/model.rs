@@ -54,7 +54,6 @@ impl<const D: usize> Model<D> {
             density_coupling: self.numerics.density_coupling,
             viscosity_switch: self.numerics.viscosity_switch,
             time_step,
-            viscous_step: self.numerics.viscous_step,
             gradient: self.gradient_use(),
         }
     }
@@ -68,7 +67,6 @@ impl<const D: usize> Model<D> {
             spacing: self.spacing,
             reference_density: self.equation_of_state.reference_density,
             treatment: self.numerics.wall_treatment,
-            viscous_step: self.numerics.viscous_step,
         }
     }
 
@@ -78,7 +76,6 @@ impl<const D: usize> Model<D> {
             list: &self.list,
             instruction_set: self.instruction_set,
             momentum_operator: self.numerics.momentum_operator,
-            viscous_step: self.numerics.viscous_step,
             rheology: &self.rheology,
             elastic_viscosity: self.numerics.elastic_damping
                 * self.equation_of_state.reference_density
@@ -98,7 +95,6 @@ impl<const D: usize> Model<D> {
         ViscousSolve {
             list: &self.list,
             instruction_set: self.instruction_set,
-            rheology: &self.rheology,
             mixing_area: self.mixing_area(),
             smoothing_length: self.kernel.smoothing_length(),
             tolerance: self.numerics.viscous_tolerance,

@@ -75,7 +75,7 @@ impl<const D: usize> Simulation<D> {
             });
     }
 
-    /// Adds the viscous forces of the new velocity to the accelerations.
+    /// Accelerations that answer to the viscosity at the new velocity.
     fn accelerate_by_viscosity(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
         let solve = self.model.viscous_solve(time_step);
         match solve.run(&mut self.particles, &self.images, &mut self.viscous) {
