@@ -3,6 +3,7 @@
 //! The runs come from the store that the report uses too, so that none is simulated twice.
 
 mod known_failures;
+mod perturbation;
 mod verdict;
 
 use bagnold_validation::cases::REGISTRY;
@@ -31,7 +32,7 @@ macro_rules! cases {
     };
 }
 
-cases!(hydrostatic, film, bagnold, column_planar, column_round);
+cases!(hydrostatic, film, bagnold, column_planar, column_round, incline_collapse, flow_thickness);
 
 #[test]
 fn every_registered_case_is_tested() {

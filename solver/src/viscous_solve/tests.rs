@@ -47,7 +47,7 @@ fn patch<const D: usize>(
     }
     let domain = Domain { axes };
     let walls: Vec<_> = bed
-        .then_some(Wall { axis: D - 1, surface: 0.0, side: 1.0, velocity: Vector::zeros() })
+        .then_some(Wall::still(D - 1, 0.0, 1.0))
         .into_iter()
         .collect();
     let reach = Vector::<D>::from_fn(|axis, _| cells[axis] as f64 * SPACING);

@@ -1,0 +1,44 @@
+//! The deterministic path of a collapse is not a matter of chance: a displacement of 1e-10 spacings changes nothing
+//! that is measured.
+
+use bagnold_validation::case::{Case, Progress, Tier};
+use bagnold_validation::cases::collapse::Collapse;
+use bagnold_validation::cases::column_planar::ColumnPlanar;
+
+/// Relative change that the drift snapshots allow `[-]`.
+const TOLERANCE: f64 = 1e-3;
+
+/// Tells nobody.
+struct Unseen;
+
+impl Progress for Unseen {
+    fn advance(&self, _: f64, _: f64, _: f64) {}
+}
+
+/// The column a = 1 of Lagrée's grains from a lattice with displacements of this many spacings.
+fn collapse(jitter: f64) -> Collapse {
+    let mut parameters = ColumnPlanar.parameters(Tier::Quick);
+    parameters.jitter = jitter;
+    parameters.sand.aspect_ratios.clear();
+    parameters.lagree.aspect_ratios = vec![1.0];
+    let runs = ColumnPlanar.runs(&parameters);
+    assert_eq!(runs.len(), 1);
+    ColumnPlanar.simulate(&runs[0], &Unseen).expect("a valid scene").data
+}
+
+#[test]
+fn a_displacement_of_a_ten_billionth_spacing_changes_no_metric() {
+    let (lattice, displaced) = (collapse(0.0), collapse(1e-10));
+    assert_ne!(lattice.centroid, displaced.centroid, "the displacement must be there");
+    let measures: [(&str, fn(&Collapse) -> f64); 5] = [
+        ("run-out", Collapse::run_out),
+        ("final height", Collapse::final_height),
+        ("stopping time", Collapse::stopping_time),
+        ("centroid", |collapse| collapse.centroid),
+        ("mass quantile", |collapse| collapse.quantiles.1),
+    ];
+    for (name, measure) in measures {
+        let (a, b) = (measure(&lattice), measure(&displaced));
+        assert!((a / b - 1.0).abs() < TOLERANCE, "{name}: {a} and {b}");
+    }
+}
