@@ -30,15 +30,17 @@ fn collapse(jitter: f64) -> Collapse {
 fn a_displacement_of_a_ten_billionth_spacing_changes_no_metric() {
     let (lattice, displaced) = (collapse(0.0), collapse(1e-10));
     assert_ne!(lattice.centroid, displaced.centroid, "the displacement must be there");
-    let measures: [(&str, fn(&Collapse) -> f64); 5] = [
-        ("run-out", Collapse::run_out),
-        ("final height", Collapse::final_height),
-        ("stopping time", Collapse::stopping_time),
-        ("centroid", |collapse| collapse.centroid),
-        ("mass quantile", |collapse| collapse.quantiles.1),
+    let measures: [(&str, fn(&Collapse) -> f64, f64); 5] = [
+        ("run-out", Collapse::run_out, TOLERANCE),
+        ("final height", Collapse::final_height, TOLERANCE),
+        ("centroid", |collapse| collapse.centroid, TOLERANCE),
+        ("mass quantile", |collapse| collapse.quantiles.1, TOLERANCE),
+        // the front creeps over its last percent: a thousandth of its way is a hundredth of its time
+        ("stopping time", Collapse::stopping_time, 10.0 * TOLERANCE),
     ];
-    for (name, measure) in measures {
+    for (name, measure, tolerance) in measures {
         let (a, b) = (measure(&lattice), measure(&displaced));
-        assert!((a / b - 1.0).abs() < TOLERANCE, "{name}: {a} and {b}");
+        println!("{name}: {a} and {b}, relative difference {:.1e}", a / b - 1.0);
+        assert!((a / b - 1.0).abs() < tolerance, "{name}: {a} and {b}");
     }
 }

@@ -213,12 +213,20 @@ impl Collapse {
         }
     }
 
-    /// Time at which the front has covered 99 % of its way `[s]`.
+    /// Time at which the front has covered 99 % of its way `[s]`, linear between two observations.
     #[must_use]
     pub fn stopping_time(&self) -> f64 {
         let (Some(&start), Some(&end)) = (self.front.first(), self.front.last()) else { return f64::NAN };
-        let arrived = self.front.iter().position(|&front| front >= start + 0.99 * (end - start));
-        arrived.map_or(f64::NAN, |index| self.time[index])
+        let mark = start + 0.99 * (end - start);
+        match self.front.iter().position(|&front| front >= mark) {
+            None => f64::NAN,
+            Some(0) => self.time[0],
+            Some(after) => {
+                let (x0, x1) = (self.front[after - 1], self.front[after]);
+                let (t0, t1) = (self.time[after - 1], self.time[after]);
+                t0 + (t1 - t0) * (mark - x0) / (x1 - x0)
+            }
+        }
     }
 
     /// Inclination of the deposit's surface `[°]`: a line through the thickness over 20–80 % of the front's distance.
