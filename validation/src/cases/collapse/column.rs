@@ -19,7 +19,7 @@ use serde::Serialize;
 use std::ops::ControlFlow;
 
 /// Agitation (kinetic over released potential energy) below which the deposit rests and the run ends `[-]`.
-const AT_REST: f64 = 1e-7;
+const AT_REST: f64 = 5e-7;
 /// Time over √(h_0/g) before which no column has fallen `[-]`.
 const EARLIEST_REST: f64 = 2.0;
 /// Bulk modulus over ρ0 g h_0 `[-]`.

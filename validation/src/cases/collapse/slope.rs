@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
 /// Kinetic over released potential energy below which the deposit rests and the run ends `[-]`.
-const AT_REST: f64 = 1e-7;
+const AT_REST: f64 = 5e-7;
 /// Time before which no reservoir has emptied `[s]`.
 const EARLIEST_REST: f64 = 0.4;
 /// Interval of the time series `[s]`.
