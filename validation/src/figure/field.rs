@@ -189,8 +189,11 @@ pub(super) fn draw_field(
     colours: &ColourScale,
 ) -> Result<(), FigureError> {
     let scale = plot.window.width() / (plot.x.range.upper - plot.x.range.lower);
+    let drawn = 0.5 * diameter(field) * scale;
+    // Gaps between discs of a few pixels only make the colours pale: small discs grow until their squares are full.
+    let full = 1.0 + (std::f64::consts::SQRT_2 - 1.0) * (0.5 * (4.0 - drawn)).clamp(0.0, 1.0);
     // A particle below a pixel would vanish from the sheet.
-    let radius = (0.5 * diameter(field) * scale).clamp(0.6, 400.0);
+    let radius = (full * drawn).clamp(0.6, 400.0);
     for (index, &point) in field.points.iter().enumerate() {
         let Some(centre) = plot.place(point).filter(|&centre| plot.window.contains(centre)) else { continue };
         let value = field.values.get(index).copied().unwrap_or(f64::NAN);

@@ -222,7 +222,7 @@ fn velocity_profiles(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<Fig
     let caption = format!(
         "{}: horizontal velocity over depth at t = 1.5 √(h0/g), means over 0.1 r0 and a spacing. Left, a line through the \
          flowing layer (faster than 0.35 of the largest velocity); right, one exponential for all stations below it, \
-         down to 0.02 of the largest velocity or where the velocity no longer falls with depth, where at least three points make a tail.",
+         down to 0.05 of the largest velocity, where at least three points make a tail.",
         label(run)
     );
     let name = format!("velocity-{}", stem(run));
@@ -245,7 +245,7 @@ fn wedges(records: &[&Record]) -> Figure {
         .collect();
     wedge::figure(
         &of_material("wedges", records),
-        "Deposits in the colours of the displacement since the start; particles that moved by less than a spacing are grey. Dashed \
+        "Deposits in the colours of the displacement d since the start; particles that moved by less than a spacing are grey. Dashed \
          is the initial column, solid the line through the surface of the undisturbed part.",
         &deposits,
     )

@@ -6,9 +6,11 @@ use crate::statistics::{Regression, common_slope, linear_regression};
 
 /// The flowing layer moves faster than this share of the profile's largest velocity `[-]`; what is slower is the tail.
 const FLOWING: f64 = 0.35;
-/// The tail ends at this share `[-]`, or where the velocity no longer falls with depth: below is the creep of the
-/// elastic core.
-const CREEPING: f64 = 0.02;
+/// The tail ends at this share `[-]`: what is slower is the creep of the elastic core.
+const CREEPING: f64 = 0.05;
+/// It also ends where the velocity grows downwards by more than this factor from bin to bin `[-]`: what is less is the
+/// scatter of bins with four particles.
+const SCATTER: f64 = 1.1;
 /// Fewest points of a fit.
 const FEWEST: usize = 3;
 
@@ -65,7 +67,7 @@ impl Station {
             profile.iter().rev().take_while(|point| point.1 > FLOWING * fastest).copied().collect();
         let mut tail: Vec<(f64, f64)> = Vec::new();
         for &point in profile.iter().rev().skip(flowing.len()) {
-            if point.1 <= CREEPING * fastest || tail.last().is_some_and(|above| point.1 >= above.1) {
+            if point.1 <= CREEPING * fastest || tail.last().is_some_and(|above| point.1 > SCATTER * above.1) {
                 break;
             }
             tail.push(point);

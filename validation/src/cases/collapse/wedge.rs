@@ -105,7 +105,7 @@ fn panel(deposit: &Deposit<'_>) -> Panel {
     panel.field = Some(Field {
         points: seen.iter().map(place).collect(),
         values: seen.iter().map(way).collect(),
-        label: "displacement/r0 [-]".to_owned(),
+        label: "d/r0 [-]".to_owned(),
         diameter: deposit.spacing / unit,
         limits: Some((0.0, deposit.wedge.displacement.iter().copied().fold(0.0, f64::max) / unit)),
     });
