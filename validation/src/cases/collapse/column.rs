@@ -148,6 +148,16 @@ impl ColumnRun {
         self.rows() >= 20
     }
 
+    /// Steps that the regularised law would need for a time `[s]` with an explicit viscous step (29); 0 without it.
+    #[must_use]
+    pub fn explicit_viscous_steps(&self, time: f64) -> f64 {
+        let Some(rate) = self.regularisation_rate else { return 0.0 };
+        let pressure = self.bulk_density() * self.gravity * self.initial_height() * self.half_width;
+        let viscosity = Rheology::RegularisedMuI(self.law.regularised(rate)).largest_viscosity(pressure);
+        let smoothing_length = self.numerics.smoothing_ratio * self.spacing();
+        time * viscosity / (self.numerics.viscous_courant * smoothing_length * smoothing_length * self.bulk_density())
+    }
+
     /// Particles, about.
     #[must_use]
     pub fn particles(&self) -> f64 {
@@ -270,6 +280,13 @@ impl ColumnRun {
 
     fn run<const D: usize>(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError> {
         let started = std::time::Instant::now();
+        if self.regularisation_rate.is_some() {
+            tracing::info!(
+                "{}: implicit viscous step; an explicit one would need about {:.1e} steps",
+                self.variant(),
+                self.explicit_viscous_steps(self.duration * self.time_scale())
+            );
+        }
         let mut simulation = Simulation::new(self.scene::<D>())?;
         let particles = simulation.particles().flow_count();
         let (scale, duration) = (self.time_scale(), self.duration * self.time_scale());

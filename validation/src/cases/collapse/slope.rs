@@ -49,6 +49,8 @@ pub struct SlopeRun {
     pub reservoir_length: f64,
     /// Constitutive law of the grains, side walls not counted.
     pub law: MuI,
+    /// Rate α_r `[1/s]` of the law's regularised viscosity (35), with an implicit step; none for the return mapping.
+    pub regularisation_rate: Option<f64>,
     /// Width of the channel `[m]`; 0 for no side walls.
     pub channel_width: f64,
     pub(in crate::cases) channel_length: f64,
@@ -72,7 +74,11 @@ pub struct SlopeCollapse {
 impl Run for SlopeRun {
     fn variant(&self) -> String {
         let gate = if self.gate_speed > 0.0 { self.gate_speed.to_string() } else { "none".to_owned() };
-        format!("slope_angle={},gate={gate},resolution={}", self.slope_angle, self.resolution)
+        let collapse = format!("slope_angle={},gate={gate},resolution={}", self.slope_angle, self.resolution);
+        match self.regularisation_rate {
+            None => collapse,
+            Some(rate) => format!("{collapse},regularisation_rate={rate}"),
+        }
     }
 
     fn particle_steps(&self) -> f64 {
@@ -186,7 +192,10 @@ impl SlopeRun {
             gravity: Vector::<2>::from(gravity),
             spacing,
             equation_of_state,
-            rheology: Rheology::MuI(law),
+            rheology: match self.regularisation_rate {
+                None => Rheology::MuI(law),
+                Some(rate) => Rheology::RegularisedMuI(law.regularised(rate)),
+            },
             numerics: self.numerics,
         }
     }

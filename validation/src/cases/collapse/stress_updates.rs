@@ -25,6 +25,21 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     for (regularised, mapped) in pairs(records) {
         let variant = regularised.0.variant();
         let (other, own) = (&regularised.1.data, &mapped.1.data);
+        // what (29) would ask for with the viscosity of (35) at rest under the whole column
+        metrics.push(
+            Metric::observed(
+                "explicit_steps",
+                &variant,
+                regularised.0.explicit_viscous_steps(regularised.1.simulated_time),
+                "-",
+            )
+            .against(
+                Some(regularised.1.steps as f64),
+                "the steps that the implicit run took; an explicit one was not made",
+                Confidence::Exact,
+            )
+            .with_snapshot_tolerance(0.02, 1.0),
+        );
         let difference = |of: fn(&super::Collapse) -> f64| 100.0 * (of(other) / of(own) - 1.0);
         for (quantity, value) in [
             ("run_out", difference(super::Collapse::run_out)),

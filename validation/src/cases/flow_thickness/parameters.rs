@@ -60,6 +60,7 @@ impl FlowThicknessParameters {
         let collapse = InclineCollapseParameters {
             slope_angles: if tier == Tier::Quick { vec![24.0] } else { vec![22.0, 23.0, 24.0, 25.0] },
             other_gate_speeds: Vec::new(),
+            regularised_slope_angles: Vec::new(),
             ..InclineCollapseParameters::of_tier(tier)
         };
         let quick = Self {

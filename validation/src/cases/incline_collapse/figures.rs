@@ -51,7 +51,8 @@ fn stem(run: &SlopeRun) -> String {
 
 fn label(run: &SlopeRun) -> String {
     let gate = if run.gate_speed > 0.0 { format!("gate {} m/s", run.gate_speed) } else { "no gate".to_owned() };
-    format!("{}°, {gate}", run.slope_angle)
+    let law = if run.regularisation_rate.is_some() { ", regularised" } else { "" };
+    format!("{}°, {gate}{law}", run.slope_angle)
 }
 
 fn fronts(records: &[Record]) -> Figure {
@@ -122,7 +123,7 @@ fn run_outs(records: &[Record]) -> Figure {
     }
     let points: Vec<(f64, f64)> = records
         .iter()
-        .filter(|(_, record)| record.data.came_to_rest())
+        .filter(|(run, record)| run.regularisation_rate.is_none() && record.data.came_to_rest())
         .map(|(run, record)| (run.slope_angle, record.data.collapse.run_out() * run.reservoir_length))
         .collect();
     panel.series.push(Series::new("at rest", Mark::Points, 0, points));

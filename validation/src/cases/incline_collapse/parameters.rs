@@ -4,7 +4,7 @@ use crate::case::Tier;
 use crate::cases::collapse::SlopeRun;
 use crate::cases::rules;
 use crate::error::InputError;
-use bagnold_solver::numerics::Numerics;
+use bagnold_solver::numerics::{Numerics, ViscousStep};
 use bagnold_solver::rheology::{MuI, Rheology};
 use serde::{Deserialize, Serialize};
 
@@ -30,6 +30,10 @@ pub struct InclineCollapseParameters {
     pub gate_slope_angle: f64,
     /// Speeds of the other gates `[m/s]`; 0 for no gate.
     pub other_gate_speeds: Vec<f64>,
+    /// Slopes at which the collapse is repeated with the regularised viscosity (35), implicitly `[°]`.
+    pub regularised_slope_angles: Vec<f64>,
+    /// Its rate α_r `[1/s]`.
+    pub regularisation_rate: f64,
     /// Particles over the length of the reservoir.
     pub resolution: usize,
     /// Largest random displacement of a particle in spacings `[-]`.
@@ -46,6 +50,9 @@ pub struct InclineCollapseParameters {
     pub numerics: Numerics,
 }
 
+/// Longest time of a regularised collapse `[s]`: it never rests.
+const REGULARISED_DURATION: f64 = 2.0;
+
 pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("gravity", "[m/s²]"),
     ("initial_height", "h_0 [m]"),
@@ -56,6 +63,11 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("gate_speed", "[m/s], pulled up normal to the slope; 0 for no gate. 1.3 in the paper, 2.3 in Ionescu et al. 2015"),
     ("gate_slope_angle", "[°], slope at which other gates are tried"),
     ("other_gate_speeds", "[m/s]; empty for none"),
+    (
+        "regularised_slope_angles",
+        "[°], repeated with the regularised viscosity (35) and an implicit step; empty for none",
+    ),
+    ("regularisation_rate", "α_r [1/s] of these"),
     ("resolution", "particles over the length of the reservoir"),
     ("jitter", "[-], largest random displacement in spacings"),
     ("duration", "[s], longest simulated time"),
@@ -79,6 +91,8 @@ impl InclineCollapseParameters {
             gate_speed: 1.3,
             gate_slope_angle: 22.0,
             other_gate_speeds: Vec::new(),
+            regularised_slope_angles: Vec::new(),
+            regularisation_rate: 0.01,
             resolution: 30,
             jitter: 0.05,
             seed: 1,
@@ -97,6 +111,7 @@ impl InclineCollapseParameters {
         let paper = Self {
             slope_angles: vec![0.0, 10.0, 16.0, 22.0, 23.0, 24.0, 25.0],
             other_gate_speeds: vec![2.3, 0.0],
+            regularised_slope_angles: vec![16.0, 22.0],
             resolution: 60,
             ..quick.clone()
         };
@@ -135,6 +150,10 @@ impl InclineCollapseParameters {
             let field = format!("other_gate_speeds[{index}]");
             rules::between(&field, speed, 0.0, 100.0, "the experiment pulls it at 2.3 m/s; 0 is no gate")?;
         }
+        for (index, &angle) in self.regularised_slope_angles.iter().enumerate() {
+            rules::slope_angle(&format!("regularised_slope_angles[{index}]"), angle)?;
+        }
+        rules::positive("regularisation_rate", self.regularisation_rate, "0.01 1/s in the paper")?;
         rules::rows("resolution", self.resolution)?;
         let rows = (self.initial_height / self.reservoir_length * self.resolution as f64).round();
         let remedy = "choose a resolution that gives the height 4 rows or more";
@@ -155,6 +174,7 @@ impl InclineCollapseParameters {
             initial_height: self.initial_height,
             reservoir_length: self.reservoir_length,
             law: self.material,
+            regularisation_rate: None,
             channel_width: self.channel_width,
             channel_length: self.channel_length,
             gravity: self.gravity,
@@ -170,5 +190,12 @@ impl InclineCollapseParameters {
 pub(super) fn runs(parameters: &InclineCollapseParameters) -> Vec<SlopeRun> {
     let slopes = parameters.slope_angles.iter().map(|&angle| parameters.run(angle, parameters.gate_speed));
     let gates = parameters.other_gate_speeds.iter().filter(|&&speed| speed != parameters.gate_speed);
-    slopes.chain(gates.map(|&speed| parameters.run(parameters.gate_slope_angle, speed))).collect()
+    let gates = gates.map(|&speed| parameters.run(parameters.gate_slope_angle, speed));
+    let regularised = parameters.regularised_slope_angles.iter().map(|&angle| SlopeRun {
+        regularisation_rate: Some(parameters.regularisation_rate),
+        duration: REGULARISED_DURATION.min(parameters.duration),
+        numerics: Numerics { viscous_step: ViscousStep::Implicit, ..parameters.numerics },
+        ..parameters.run(angle, parameters.gate_speed)
+    });
+    slopes.chain(gates).chain(regularised).collect()
 }
