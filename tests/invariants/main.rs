@@ -9,4 +9,5 @@ mod patches;
 mod scene_errors;
 mod stopping;
 mod symmetries;
+mod viscous_step;
 mod walls;
