@@ -161,9 +161,8 @@ impl<const D: usize> Scene<D> {
             return Err(SceneError::Parameter { field, value, rule, remedy });
         }
         if self.numerics.viscous_step == ViscousStep::Implicit {
-            let refused = |rule, remedy| {
-                Err(SceneError::Choice { field: "viscous_step", value: "implicit", rule, remedy })
-            };
+            let refused =
+                |rule, remedy| Err(SceneError::Choice { field: "viscous_step", value: "implicit", rule, remedy });
             if self.rheology.is_plastic() {
                 return refused(
                     "explicit with a law by return mapping",

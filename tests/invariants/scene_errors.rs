@@ -158,8 +158,7 @@ fn an_implicit_viscous_step_without_a_viscous_divergence() {
     assert_eq!(
         message(|scene| {
             scene.rheology = Rheology::Newtonian(Newtonian { viscosity: 1.0 });
-            scene.numerics =
-                Numerics { viscous_step: ViscousStep::Implicit, ..Numerics::paper() };
+            scene.numerics = Numerics { viscous_step: ViscousStep::Implicit, ..Numerics::paper() };
         }),
         "`viscous_step` is implicit, but must be explicit with the pairwise momentum operators; choose the operator \
          \"single-divergence\", or \"explicit\""

@@ -1,9 +1,9 @@
 //! The implicit viscous step against the explicit one, beyond its bound, and at walls.
 
-use crate::patches::{Disorder, SPACING, SYRUP, bed, block, open_scene, periodic_scene, simulation};
+use crate::patches::{Disorder, GRAINS, SPACING, SYRUP, bed, block, open_scene, periodic_scene, simulation};
 use bagnold_solver::boundary::{AxisBoundary, wall};
 use bagnold_solver::numerics::{Numerics, ViscousStep};
-use bagnold_solver::rheology::{Newtonian, Rheology};
+use bagnold_solver::rheology::Rheology;
 use bagnold_solver::scene::Scene;
 use bagnold_solver::simulation::Simulation;
 use bagnold_solver::vector::Vector;
@@ -50,19 +50,22 @@ fn both_steps_agree_as_the_time_step_falls() {
 }
 
 #[test]
-fn tar_a_thousand_times_beyond_the_explicit_bound_stands_still_and_stays_there() {
-    let tar = Rheology::Newtonian(Newtonian { viscosity: 2e5 });
-    for tolerance in [0.3, 0.1, 1e-4] {
-        let mut simulation = heap(numerics(ViscousStep::Implicit, tolerance), tar);
-        let bounds = simulation.time_step_bounds();
-        let explicit = 0.2 * (1.5 * SPACING).powi(2) * 1500.0 / 2e5;
-        assert!(bounds.viscous.is_infinite() && bounds.step() > 500.0 * explicit, "{bounds:?}");
+fn grains_come_to_rest_hundreds_of_times_beyond_the_explicit_bound() {
+    let Rheology::MuI(law) = GRAINS else { unreachable!("grains") };
+    let rheology = Rheology::RegularisedMuI(law.regularised(0.01));
+    for tolerance in [0.3, 0.1, 1e-3] {
+        let chosen =
+            Numerics { hourglass: 0.2, artificial_viscosity: 0.02, ..numerics(ViscousStep::Implicit, tolerance) };
+        let mut simulation = heap(chosen, rheology);
         let start = largest_speed(&simulation);
-        crate::patches::advance(&mut simulation, 300);
+        crate::patches::advance(&mut simulation, 3000);
         let end = largest_speed(&simulation);
-        // Stokes: ρ g H²/η = 5e-4 m/s
+        let viscosity = rheology.largest_viscosity(1500.0 * 9.81 * 0.05);
+        let explicit = 0.2 * (1.5 * SPACING).powi(2) * 1500.0 / viscosity;
+        let bounds = simulation.time_step_bounds();
+        assert!(bounds.viscous.is_infinite() && bounds.step() > 100.0 * explicit, "{bounds:?}, {explicit}");
         println!("tolerance {tolerance}: {start} → {end} m/s, {} iterations", simulation.viscous_iterations());
-        assert!(start > 0.3 && end < 1e-3, "tolerance {tolerance}: {end} m/s");
+        assert!(start > 0.3 && end < 0.02, "tolerance {tolerance}: {end} m/s");
     }
 }
 
@@ -70,7 +73,8 @@ fn tar_a_thousand_times_beyond_the_explicit_bound_stands_still_and_stays_there()
 fn an_implicit_step_keeps_the_momentum_of_a_periodic_block() {
     let scene = periodic_scene([17, 14], Disorder::FULL, 11);
     for (name, smagorinsky_constant) in [("Newtonian", 0.0), ("eddy viscosity", 0.5)] {
-        let numerics = Numerics { smagorinsky_constant, ..numerics(ViscousStep::Implicit, 0.1) };
+        // what the tolerance leaves of the residual has a sum: the momentum is exact when the solve is
+        let numerics = Numerics { smagorinsky_constant, ..numerics(ViscousStep::Implicit, 1e-10) };
         let mut simulation = simulation(Scene { numerics, rheology: SYRUP, ..scene.clone() });
         for _ in 0..24 {
             let before = simulation.snapshot();
@@ -81,7 +85,7 @@ fn an_implicit_step_keeps_the_momentum_of_a_periodic_block() {
                 sum += (new - old) * *mass;
                 scale += (new - old).norm() * mass;
             }
-            assert!(scale > 0.0 && sum.norm() < 1e-12 * scale, "{name}: {sum} of {scale}");
+            assert!(scale > 0.0 && sum.norm() < 1e-11 * scale, "{name}: {sum} of {scale}");
         }
         assert!(simulation.viscous_iterations() >= 24);
     }

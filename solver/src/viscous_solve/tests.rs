@@ -46,14 +46,11 @@ fn patch<const D: usize>(
         flow.stress.push(Tensor::zeros());
     }
     let domain = Domain { axes };
-    let walls: Vec<_> = bed
-        .then_some(Wall { axis: D - 1, surface: 0.0, side: 1.0, velocity: Vector::zeros() })
-        .into_iter()
-        .collect();
+    let walls: Vec<_> =
+        bed.then_some(Wall { axis: D - 1, surface: 0.0, side: 1.0, velocity: Vector::zeros() }).into_iter().collect();
     let reach = Vector::<D>::from_fn(|axis, _| cells[axis] as f64 * SPACING);
     let wall_particles = wall::fill(&walls, &domain, (Vector::zeros(), reach), SPACING, 4);
-    let equation_of_state =
-        EquationOfState { reference_density: DENSITY, bulk_modulus: 6e5, tension: Tension::Cut };
+    let equation_of_state = EquationOfState { reference_density: DENSITY, bulk_modulus: 6e5, tension: Tension::Cut };
     Simulation::new(Scene {
         flow,
         walls,
@@ -63,11 +60,7 @@ fn patch<const D: usize>(
         spacing: SPACING,
         equation_of_state,
         rheology: LAW,
-        numerics: Numerics {
-            viscous_step: ViscousStep::Implicit,
-            viscous_tolerance: tolerance,
-            ..Numerics::default()
-        },
+        numerics: Numerics { viscous_step: ViscousStep::Implicit, viscous_tolerance: tolerance, ..Numerics::default() },
     })
     .expect("a valid scene")
 }
