@@ -4,7 +4,7 @@
 
 use bagnold_solver::boundary::{AxisBoundary, Domain, Wall, wall};
 use bagnold_solver::equation_of_state::{EquationOfState, Tension};
-use bagnold_solver::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::numerics::{MomentumOperator, Numerics, ViscousStep};
 use bagnold_solver::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::scene::{Flow, Scene};
 use bagnold_solver::simulation::Simulation;
@@ -117,16 +117,19 @@ fn allocations<const D: usize>(
 
 #[test]
 fn a_step_after_warm_up_does_not_allocate() {
-    let grains = Rheology::MuI(MuI {
+    let law = MuI {
         static_friction: 0.382,
         limiting_friction: 0.643,
         reference_inertia: 0.279,
         grain_diameter: 0.5e-3,
         grain_density: 2500.0,
-    });
+    };
+    let grains = Rheology::MuI(law);
     let syrup = Rheology::Newtonian(Newtonian { viscosity: 5.0 });
     let pairwise =
         Numerics { momentum_operator: MomentumOperator::Pairwise, viscous_courant: 0.125, ..Numerics::paper() };
+    let implicit = Numerics { viscous_step: ViscousStep::Implicit, ..Numerics::default() };
+    let paste = Rheology::RegularisedMuI(law.regularised(0.1));
     let before = ALLOCATIONS.load(Ordering::SeqCst);
     drop(std::hint::black_box(vec![0_u8; 100]));
     assert!(ALLOCATIONS.load(Ordering::SeqCst) > before, "the counter counts");
@@ -136,6 +139,8 @@ fn a_step_after_warm_up_does_not_allocate() {
         assert_eq!(plane, 0, "allocations in 2-D on {threads} threads");
         let paper = allocations([40, 60], pairwise, syrup, threads, (500, 200));
         assert_eq!(paper, 0, "allocations of the pairwise operators on {threads} threads");
+        let solved = allocations([95, 90], implicit, paste, threads, (250, 100));
+        assert_eq!(solved, 0, "allocations of the implicit viscous step on {threads} threads");
         let space = allocations([12, 8, 24], Numerics::default(), grains, threads, (150, 50));
         assert_eq!(space, 0, "allocations in 3-D on {threads} threads");
     }

@@ -1,5 +1,6 @@
 //! Observed orders of convergence of the discrete operators, on fields whose derivatives are known.
 
+mod implicit_viscosity;
 mod taylor_green;
 mod velocity_gradient;
 

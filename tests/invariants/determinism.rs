@@ -1,9 +1,10 @@
 //! The same bits for every number of threads and every instruction set.
 
-use crate::patches::{Disorder, EQUATION_OF_STATE, SPACING, advance, bed, block, open_scene, simulation};
+use crate::patches::{Disorder, EQUATION_OF_STATE, GRAINS, SPACING, advance, bed, block, open_scene, simulation};
 use bagnold_solver::boundary::{AxisBoundary, wall};
 use bagnold_solver::lanes::InstructionSet;
-use bagnold_solver::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::numerics::{MomentumOperator, Numerics, ViscousStep};
+use bagnold_solver::rheology::Rheology;
 use bagnold_solver::scene::Scene;
 use bagnold_solver::vector::Vector;
 use rayon::ThreadPoolBuilder;
@@ -66,6 +67,20 @@ fn the_papers_numerics_are_the_same_to_the_last_bit() {
     scene.numerics = Numerics { momentum_operator: MomentumOperator::Pairwise, ..Numerics::paper() };
     scene.rheology = crate::patches::SYRUP;
     check(&scene);
+}
+
+#[test]
+fn an_implicit_viscous_step_is_the_same_to_the_last_bit() {
+    let Rheology::MuI(law) = GRAINS else { unreachable!("grains") };
+    fn run<const D: usize>(mut scene: Scene<D>, rheology: Rheology) {
+        scene.numerics.viscous_step = ViscousStep::Implicit;
+        scene.rheology = rheology;
+        check(&scene);
+    }
+    let regularised = Rheology::RegularisedMuI(law.regularised(0.01));
+    // 22 blocks of partial sums
+    run(column([80, 70]), regularised);
+    run(column([13, 12, 14]), regularised);
 }
 
 #[test]

@@ -10,4 +10,5 @@ mod scene_errors;
 mod stopping;
 mod supports;
 mod symmetries;
+mod viscous_step;
 mod walls;

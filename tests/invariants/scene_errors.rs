@@ -2,6 +2,7 @@
 
 use crate::patches::{Disorder, block, open_scene};
 use bagnold_solver::boundary::AxisBoundary;
+use bagnold_solver::numerics::{Numerics, ViscousStep};
 use bagnold_solver::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::scene::{Flow, Scene, SceneError};
 use bagnold_solver::simulation::Simulation;
@@ -136,11 +137,32 @@ fn numerics_out_of_range() {
             message(|scene| scene.numerics.viscous_courant = -0.1),
             expected("viscous_courant", -0.1, "above 0 and at most 1"),
         ),
+        (
+            message(|scene| scene.numerics.viscous_tolerance = 0.9),
+            expected("viscous_tolerance", 0.9, "between 1e-10 and 0.5"),
+        ),
         (message(|scene| scene.numerics.verlet_skin = 0.0), expected("verlet_skin", 0.0, "above 0 and at most 1")),
     ];
     for (found, expected) in remedied {
         assert_eq!(found, expected);
     }
+}
+
+#[test]
+fn an_implicit_viscous_step_without_a_viscous_divergence() {
+    assert_eq!(
+        message(|scene| scene.numerics.viscous_step = ViscousStep::Implicit),
+        "`viscous_step` is implicit, but must be explicit with a law by return mapping; its stress bounds no time step; \
+         regularise the law, or choose \"explicit\""
+    );
+    assert_eq!(
+        message(|scene| {
+            scene.rheology = Rheology::Newtonian(Newtonian { viscosity: 1.0 });
+            scene.numerics = Numerics { viscous_step: ViscousStep::Implicit, ..Numerics::paper() };
+        }),
+        "`viscous_step` is implicit, but must be explicit with the pairwise momentum operators; choose the operator \
+         \"single-divergence\", or \"explicit\""
+    );
 }
 
 #[test]
