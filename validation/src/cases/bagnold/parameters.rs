@@ -72,6 +72,10 @@ pub struct BagnoldParameters {
     /// Rate α_r `[1/s]` of the regularised viscosity (35), taken as `numerics.viscous_step` says; 0 for the return
     /// mapping.
     pub regularisation_rate: f64,
+    /// Slopes repeated with (35) and an implicit step, from the profile `[°]`; empty for none.
+    pub regularised_slope_angles: Vec<f64>,
+    /// Its rate α_r `[1/s]`.
+    pub regularised_rate: f64,
     /// Numerics.
     pub numerics: Numerics,
 }
@@ -96,6 +100,8 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("arrest_slope_angles", "[°], below the band of steady flow"),
     ("arrest_start_angle", "[°], whose profile the arresting layers start with"),
     ("runaway_slope_angles", "[°], above the band"),
+    ("regularised_slope_angles", "[°], repeated with the viscosity (35) and an implicit step; empty for none"),
+    ("regularised_rate", "[1/s], of these"),
     ("regularisation_rate", "[1/s], of the viscosity (35), see numerics.viscous_step; 0 for the return mapping"),
     ("material.static_friction", "μ_s [-]"),
     ("material.limiting_friction", "μ_2 [-]"),
@@ -134,6 +140,8 @@ impl BagnoldParameters {
                 grain_density: 2500.0,
             },
             regularisation_rate: 0.0,
+            regularised_slope_angles: Vec::new(),
+            regularised_rate: 0.01,
             // Twice the recipe's hourglass control. Near the static friction the law is convex in the stress, so that
             // the particles' agitation speeds the layer up: at 22° and 40 rows by 0.7 %, with this by 0.3 %.
             numerics: Numerics { hourglass: 0.4, ..Numerics::default() },
@@ -145,6 +153,7 @@ impl BagnoldParameters {
             starts: vec![Start::Rest, Start::Profile],
             convergence_resolutions: vec![10, 20, 40],
             runaway_slope_angles: vec![34.0],
+            regularised_slope_angles: vec![24.0],
             ..quick.clone()
         };
         match tier {
@@ -167,6 +176,7 @@ impl BagnoldParameters {
         let remedy = "the window must fit into the shortest run: choose a shorter one or a larger `duration_factor`";
         rules::between("averaging_time", self.averaging_time, 0.0, shortest, remedy)?;
         rules::between("regularisation_rate", self.regularisation_rate, 0.0, 1e6, "0 takes the return mapping")?;
+        rules::positive("regularised_rate", self.regularised_rate, "0.01 1/s in the paper")?;
         let angles = [
             ("slope_angles", &self.slope_angles),
             ("arrest_slope_angles", &self.arrest_slope_angles),
@@ -201,6 +211,9 @@ impl BagnoldParameters {
         };
         for (index, &angle) in self.slope_angles.iter().enumerate() {
             steady(&format!("slope_angles[{index}]"), angle)?;
+        }
+        for (index, &angle) in self.regularised_slope_angles.iter().enumerate() {
+            steady(&format!("regularised_slope_angles[{index}]"), angle)?;
         }
         if !self.convergence_resolutions.is_empty() {
             steady("convergence_slope_angle", self.convergence_slope_angle)?;

@@ -6,7 +6,7 @@ use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::BagnoldProfile;
-use bagnold_solver::numerics::Numerics;
+use bagnold_solver::numerics::{Numerics, ViscousStep};
 use bagnold_solver::rheology::{MuI, Rheology};
 use serde::Serialize;
 
@@ -22,6 +22,8 @@ pub enum Purpose {
     Arrest,
     /// Slope above the limiting friction angle.
     Runaway,
+    /// Bagnold's steady profile with the regularised viscosity (35) and an implicit step.
+    Regularised,
 }
 
 /// One simulation.
@@ -89,6 +91,20 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
             runs.push(new(Purpose::Steady, angle, start, Arrangement::Jittered, parameters.resolution, duration));
         }
     }
+    for &angle in &parameters.regularised_slope_angles {
+        runs.push(BagnoldRun {
+            regularisation_rate: parameters.regularised_rate,
+            numerics: Numerics { viscous_step: ViscousStep::Implicit, ..parameters.numerics },
+            ..new(
+                Purpose::Regularised,
+                angle,
+                Start::Profile,
+                Arrangement::Jittered,
+                parameters.resolution,
+                from_profile,
+            )
+        });
+    }
     let angle = parameters.convergence_slope_angle;
     for &rows in &parameters.convergence_resolutions {
         runs.push(new(Purpose::Convergence, angle, Start::Profile, Arrangement::Lattice, rows, from_profile));
@@ -133,7 +149,14 @@ impl Run for BagnoldRun {
             Arrangement::Lattice => "lattice",
             Arrangement::Jittered => "jittered",
         };
-        format!("slope_angle={},start={start},particles={particles},resolution={}", self.slope_angle, self.resolution)
+        let run = format!(
+            "slope_angle={},start={start},particles={particles},resolution={}",
+            self.slope_angle, self.resolution
+        );
+        match self.purpose {
+            Purpose::Regularised => format!("{run},regularisation_rate={}", self.regularisation_rate),
+            _ => run,
+        }
     }
 
     fn particle_steps(&self) -> f64 {

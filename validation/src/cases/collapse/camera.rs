@@ -89,6 +89,7 @@ mod tests {
             density: Vec::new(),
             pressure: Vec::new(),
             mass: Vec::new(),
+            support_impulse: Vec::new(),
         }
     }
 

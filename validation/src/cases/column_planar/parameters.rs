@@ -198,7 +198,7 @@ impl ColumnPlanarParameters {
                 hourglass: Vec::new(),
                 hourglass_resolutions: Vec::new(),
             },
-            regularised: Regularised { aspect_ratios: Vec::new(), rate: 0.01 },
+            regularised: Regularised { aspect_ratios: vec![0.9], rate: 0.01 },
             numerics: Numerics::default(),
         };
         let paper = Self {
