@@ -84,8 +84,7 @@ impl<const D: usize> ViscousSolve<'_, D> {
         let mut descent = system.sum(|sums| sums.descent);
         let mut growth = 0.0;
         let mut iterations = 0;
-        // written so that a NaN goes on to the bound
-        while !(residual <= goal) {
+        while residual > goal || residual.is_nan() {
             if iterations == MOST_ITERATIONS || !residual.is_finite() {
                 system.set_residual((residual / start).sqrt());
                 return Err(NotConverged { worst: system.worst(particles.flow_count()) });
