@@ -4,8 +4,8 @@
 //! velocities at the viscosity of the old state: implicit Euler with η lagged, written in increments. So a steady
 //! state is that of the explicit step, whatever K and the tolerance are, with its wall stresses and its force
 //! correction; K decides how a step answers to forces that are out of balance. (Solved for vⁿ⁺¹ with −K v as the only
-//! viscous force, the symmetric wall below makes Bagnold's layer slip by 3 % of its velocity at 20 rows, and what the
-//! tolerance leaves adds up from step to step: 1 % of the forces are 1 % of the slope's stress.)
+//! viscous force, the symmetric wall below makes Bagnold's layer at 24° slip by 3 % of its velocity at 20 rows, and what
+//! the tolerance leaves does not average out: 3 % of the forces were 0.4 % of the stress and 2 % of the velocity.)
 //!
 //! K = Gᵀ (2 η V) G with G the deviatoric symmetric part of the velocity gradient. For v_ab = v_a − v_b, the weight
 //! w_ab = V_b F of a pair and the correction L of (9),
@@ -24,7 +24,7 @@
 //!
 //! Conjugate gradients, preconditioned with the diagonal, end when the residual has fallen to a share of its start,
 //! ‖r‖ ≤ ε ‖M Δt a‖ with ‖x‖² = Σ x_a²/m_a: the net force, not the forces that balance each other, is the scale. The
-//! sum of what is left is missing in the momentum, about ε 1e-4 of the impulses.
+//! sum of what is left is missing in the momentum: at ε = 0.1 it was 3e-5 of the impulses of a disordered block's step.
 
 mod start;
 mod system;
