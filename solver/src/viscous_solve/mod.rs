@@ -19,8 +19,10 @@
 //! walls K is only near to it. Grains do not feel the difference, because their viscosity falls where they move. A
 //! liquid does: of Δt η/(ρh²) near 20 and more, a rough start with such surfaces can diverge. With s L in the place of
 //! s E in the forces a block without walls is stable whatever its viscosity, but a column's centroid then differs from
-//! that by return mapping by 1.3 % and not 0.1 %, because the pressure keeps E. A wall partner's velocity is that of (18)–(20), v_a − v_w = β (v_a − v_wall) with β = 1 + d_w/d_a
-//! up to a limit: linear in v_a alone, so that the walls join the sums that are made once a step.
+//! that by return mapping by 1.3 % and not 0.1 %, because the pressure keeps E.
+//!
+//! A wall partner's velocity is that of (18)–(20), v_a − v_w = β (v_a − v_wall) with β = 1 + d_w/d_a up to a limit:
+//! linear in v_a alone, so that the walls join the sums that are made once a step.
 //!
 //! Conjugate gradients, preconditioned with the diagonal, end when the residual has fallen to a share of its start,
 //! ‖r‖ ≤ ε ‖M Δt a‖ with ‖x‖² = Σ x_a²/m_a: the net force, not the forces that balance each other, is the scale. The
