@@ -30,7 +30,8 @@ fn collapse(jitter: f64) -> Collapse {
 fn a_displacement_of_a_ten_billionth_spacing_changes_no_metric() {
     let (lattice, displaced) = (collapse(0.0), collapse(1e-10));
     assert_ne!(lattice.centroid, displaced.centroid, "the displacement must be there");
-    let measures: [(&str, fn(&Collapse) -> f64, f64); 5] = [
+    type Measure = (&'static str, fn(&Collapse) -> f64, f64);
+    let measures: [Measure; 5] = [
         ("run-out", Collapse::run_out, TOLERANCE),
         ("final height", Collapse::final_height, TOLERANCE),
         ("centroid", |collapse| collapse.centroid, TOLERANCE),

@@ -1,5 +1,6 @@
 //! One column: its scene and its run.
 
+use super::block::Block;
 use super::camera::Camera;
 use super::deposit::{Collapse, Surveyor, front, radius};
 use crate::case::{Progress, Run};
@@ -11,10 +12,9 @@ use bagnold_solver::boundary::{AxisBoundary, Domain, Wall};
 use bagnold_solver::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::numerics::Numerics;
 use bagnold_solver::rheology::{MuI, Rheology};
-use bagnold_solver::scene::{Flow, Scene};
+use bagnold_solver::scene::Scene;
 use bagnold_solver::simulation::Simulation;
-use bagnold_solver::vector::{Tensor, Vector};
-use rand::{RngExt, SeedableRng};
+use bagnold_solver::vector::Vector;
 use serde::Serialize;
 use std::ops::ControlFlow;
 
@@ -216,30 +216,28 @@ impl ColumnRun {
             bulk_modulus: self.bulk_modulus(),
             tension: Tension::Cut,
         };
-        let mut random = rand_pcg::Pcg64::seed_from_u64(self.seed);
-        let mut flow = Flow::default();
         let n = self.resolution;
-        for cell in 0..self.rows() * n.pow(D as u32 - 1) {
+        let site = |cell: usize| {
             // along the first axis, then along the third, then upwards
             let along = |axis: usize| match axis {
                 0 => cell % n,
                 1 => cell / n.pow(D as u32 - 1),
                 _ => cell / n % n,
             };
-            let site = Vector::<D>::from_fn(|axis, _| (along(axis) as f64 + 0.5) * spacing);
-            if D == 3 && site[0] * site[0] + site[D - 1] * site[D - 1] > self.half_width * self.half_width {
-                continue;
-            }
-            let shift = Vector::<D>::from_fn(|_, _| self.jitter * spacing * (2.0 * random.random::<f64>() - 1.0));
-            let (modulus, density) = (self.bulk_modulus(), self.bulk_density());
-            let pressure = crate::cases::layer::hydrostatic_pressure(modulus, density, self.gravity, height - site[1]);
-            let density = equation_of_state.density(pressure);
-            flow.position.push(site + shift);
-            flow.velocity.push(Vector::<D>::zeros());
-            flow.density.push(density);
-            flow.mass.push(density * spacing.powi(D as i32));
-            flow.stress.push(Tensor::<D>::zeros());
-        }
+            Vector::<D>::from_fn(|axis, _| (along(axis) as f64 + 0.5) * spacing)
+        };
+        let inside = |site: &Vector<D>| {
+            D == 2 || site[0] * site[0] + site[D - 1] * site[D - 1] <= self.half_width * self.half_width
+        };
+        let block = Block {
+            spacing,
+            height,
+            gravity_across: self.gravity,
+            equation_of_state,
+            jitter: self.jitter,
+            seed: self.seed,
+        };
+        let flow = block.fill((0..self.rows() * n.pow(D as u32 - 1)).map(site).filter(inside));
         let symmetry = AxisBoundary::Mirror { lower: Some(0.0), upper: None };
         let mut domain = Domain { axes: [symmetry; D] };
         domain.axes[1] = AxisBoundary::Open;

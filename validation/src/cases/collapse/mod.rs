@@ -1,5 +1,6 @@
 //! A column of dry grains that collapses on a rough horizontal bed: what the planar and the round case share.
 
+mod block;
 mod camera;
 mod column;
 mod convergence;

@@ -1,5 +1,6 @@
 //! A reservoir of grains behind a gate on an incline: its scene and its run.
 
+use super::block::Block;
 use super::camera::Camera;
 use super::deposit::{Collapse, Surveyor, front};
 use crate::case::{Progress, Run};
@@ -12,10 +13,9 @@ use bagnold_solver::boundary::{AxisBoundary, Domain, Wall};
 use bagnold_solver::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::numerics::Numerics;
 use bagnold_solver::rheology::{MuI, Rheology};
-use bagnold_solver::scene::{Flow, Scene};
+use bagnold_solver::scene::Scene;
 use bagnold_solver::simulation::Simulation;
-use bagnold_solver::vector::{Tensor, Vector};
-use rand::{RngExt, SeedableRng};
+use bagnold_solver::vector::Vector;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -145,20 +145,19 @@ impl SlopeRun {
         let equation_of_state =
             EquationOfState { reference_density: density, bulk_modulus: modulus, tension: Tension::Cut };
         let gravity = self.gravity();
-        let mut random = rand_pcg::Pcg64::seed_from_u64(self.seed);
-        let mut flow = Flow::default();
-        for cell in 0..self.rows() * self.resolution {
+        let site = |cell: usize| {
             let (column, row) = (cell % self.resolution, cell / self.resolution);
-            let site = Vector::<2>::new((column as f64 + 0.5) * spacing, (row as f64 + 0.5) * spacing);
-            let shift = Vector::<2>::from_fn(|_, _| self.jitter * spacing * (2.0 * random.random::<f64>() - 1.0));
-            let pressure = crate::cases::layer::hydrostatic_pressure(modulus, density, -gravity[1], height - site[1]);
-            let density = equation_of_state.density(pressure);
-            flow.position.push(site + shift);
-            flow.velocity.push(Vector::zeros());
-            flow.density.push(density);
-            flow.mass.push(density * spacing * spacing);
-            flow.stress.push(Tensor::zeros());
-        }
+            Vector::<2>::new((column as f64 + 0.5) * spacing, (row as f64 + 0.5) * spacing)
+        };
+        let block = Block {
+            spacing,
+            height,
+            gravity_across: -gravity[1],
+            equation_of_state,
+            jitter: self.jitter,
+            seed: self.seed,
+        };
+        let flow = block.fill((0..self.rows() * self.resolution).map(site));
         // the back of the reservoir is smooth
         let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
         let mut walls = vec![Wall::still(1, 0.0, 1.0)];
