@@ -2,8 +2,10 @@
 
 mod fit;
 mod grid_convergence;
+mod student;
 
 pub use fit::{
     Estimate, Exponent, LinearFit, Regression, common_slope, linear_fit, linear_regression, log_log_slope, power_law,
 };
 pub use grid_convergence::{GridConvergence, Mean, grid_convergence};
+pub use student::student_quantile;

@@ -7,18 +7,16 @@ use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::metric::{Confidence, Limit, Metric};
 use crate::statistics::{Mean, grid_convergence};
 
-/// Name, label, measure and largest index `[-]` of what must converge.
-type Quantity = (&'static str, &'static str, fn(&Collapse) -> f64, f64);
+/// Name, measure and largest index `[-]` of what must converge.
+type Quantity = (&'static str, fn(&Collapse) -> f64, f64);
 
-const QUANTITIES: [Quantity; 2] = [
-    ("centroid", "centroid x/r0 [-]", |collapse| collapse.centroid, 0.03),
-    ("run_out", "run-out (r∞ − r0)/r0 [-]", Collapse::run_out, 0.08),
-];
+const QUANTITIES: [Quantity; 2] =
+    [("centroid", |collapse| collapse.centroid, 0.03), ("run_out", Collapse::run_out, 0.08)];
 
 pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (material, aspect_ratio) in studied(records, Purpose::Convergence) {
-        for (quantity, _, measure, largest) in QUANTITIES {
+        for (quantity, measure, largest) in QUANTITIES {
             let means = means(records, &material, aspect_ratio, measure);
             let variant = format!("quantity={quantity},material={material},aspect_ratio={aspect_ratio}");
             for mean in &means {
@@ -75,20 +73,18 @@ pub(super) fn figures(records: &[Record]) -> Vec<Figure> {
     let coefficient = studied(records, Purpose::Hourglass);
     let mut figures = Vec::new();
     if !resolution.is_empty() {
-        let panels = QUANTITIES.map(|(_, label, measure, _)| {
-            let mut panel = Panel::new("", Axis::linear("particles over r0 [-]"), Axis::linear(label));
+        let panels = QUANTITIES.map(|(name, measure, _)| {
+            let y = format!("{} over the finest − 1 [%]", name.replace('_', "-"));
+            let mut panel = Panel::new("", Axis::linear("particles over r0 [-]"), Axis::linear(&y));
             for (slot, (material, aspect_ratio)) in resolution.iter().enumerate() {
                 let means = means(records, material, *aspect_ratio, measure);
-                let mut series = Series::new(
-                    &format!("{material}, a = {aspect_ratio}"),
-                    Mark::LinePoints,
-                    slot,
-                    means.iter().map(|mean| (mean.resolution as f64, mean.value)).collect(),
-                );
-                series.error = means
-                    .iter()
-                    .map(|mean| if mean.standard_error.is_nan() { 0.0 } else { mean.standard_error })
-                    .collect();
+                let finest = means.last().map_or(1.0, |mean| mean.value);
+                let percent = |value: f64| 100.0 * value / finest;
+                let label = format!("{material}, a = {aspect_ratio}");
+                let points = means.iter().map(|mean| (mean.resolution as f64, percent(mean.value) - 100.0)).collect();
+                let mut series = Series::new(&label, Mark::LinePoints, slot, points);
+                let error = |mean: &Mean| if mean.standard_error.is_nan() { 0.0 } else { percent(mean.standard_error) };
+                series.error = means.iter().map(error).collect();
                 panel.series.push(series);
             }
             panel
@@ -96,8 +92,8 @@ pub(super) fn figures(records: &[Record]) -> Vec<Figure> {
         figures.push(Figure {
             name: "grid-convergence".to_owned(),
             caption:
-                "Centroid and run-out of the deposit over the resolution: means over several seeds of the initial \
-                      displacements, with the standard error of the mean."
+                "Centroid and run-out of the deposit over the resolution, relative to the finest: means over several seeds \
+                      of the initial displacements, with the standard error of the mean."
                     .to_owned(),
             panels: panels.to_vec(),
             columns: 2,

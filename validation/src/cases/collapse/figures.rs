@@ -6,7 +6,7 @@ use super::deposit::Collapse;
 use super::flow_metrics::{self, energies, stations};
 use super::pictures::{View, animation, halves, nearest, pressures, speeds};
 use super::wedge::{self, Deposit};
-use super::{convergence, energy, stress_updates, velocity_profile};
+use super::{convergence, energy, scaling, stress_updates, velocity_profile};
 use crate::case::Run;
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel, Series};
 use crate::observe::{Frame, Recorded};
@@ -16,7 +16,7 @@ pub(in crate::cases) fn all(records: &[Record]) -> Vec<Figure> {
     let laws: Vec<&Record> = records.iter().filter(|(run, _)| run.purpose == Purpose::Law).collect();
     let mut figures = Vec::new();
     if !laws.is_empty() {
-        figures.push(scaling(&laws));
+        figures.push(scaling_figure(&laws));
     }
     for material in materials(&laws) {
         let own: Vec<&Record> = laws.iter().copied().filter(|(run, _)| run.material == material).collect();
@@ -66,7 +66,7 @@ fn name(material: &str) -> String {
 }
 
 /// Run-out and height over the aspect ratio, with every published law of the geometry.
-fn scaling(records: &[&Record]) -> Figure {
+fn scaling_figure(records: &[&Record]) -> Figure {
     let round = records.iter().any(|(run, _)| run.geometry == Geometry::Round);
     // the laws of the geometry, and Lube's of the other one: the paper compared planar runs with the round law
     let run_out_laws: Vec<CollapseLaw> = if round {
@@ -98,13 +98,20 @@ fn scaling(records: &[&Record]) -> Figure {
                 let entry = if legend { name(material) } else { String::new() };
                 panel.series.push(Series::new(&entry, Mark::Points, slot, points));
             }
+            if let Some(found) = scaling::fit(records, material, measure) {
+                let ends = [found.range.0, found.range.1];
+                let curve = ends.map(|a| (a, found.law.coefficient * libm::pow(a, found.law.value)));
+                let exponent = format!("fit: {:.2} ± {:.2}", found.law.value, found.half_width);
+                panel.series.push(Series::new(&exponent, Mark::Reference, slot, curve.to_vec()));
+            }
         }
         panel
     };
     Figure {
         name: "scaling".to_owned(),
         caption: "Run-out and final height of the columns over their aspect ratio, with the published laws of their \
-                  geometry and Lube's run-out of the other one. Coefficients depend on the grains, exponents much less."
+                  geometry and Lube's run-out of the other one. Fits are power laws through the tall columns, with the 95 % \
+                  interval of the exponent. Coefficients depend on the grains, exponents much less."
             .to_owned(),
         panels: vec![
             panel("run-out (r∞ − r0)/r0 [-]", &run_out_laws, Collapse::run_out, true),

@@ -6,7 +6,6 @@ use super::deposit::Collapse;
 use crate::case::Run;
 use crate::metric::{Confidence, Kind, Limit, Metric};
 use crate::reference::{CollapseLaw, PLANAR_HEIGHT, PLANAR_RUN_OUT, ROUND_HEIGHT, ROUND_RUN_OUT};
-use crate::statistics::power_law;
 
 const LUBE: usize = 0;
 const LAGREE: usize = 1;
@@ -26,21 +25,8 @@ pub(in crate::cases) fn all(records: &[Record]) -> Vec<Metric> {
     }
     metrics.extend(super::convergence::metrics(records));
     metrics.extend(super::stress_updates::metrics(records));
-    for (material, smallest, gate) in
-        [("sand", 5.0, Limit::Within(2.0 / 3.0 - 0.05, 2.0 / 3.0 + 0.05)), ("lagree", 7.0, Limit::Within(0.65, 0.75))]
-    {
-        let columns: Vec<&Record> =
-            laws(records).filter(|(run, _)| run.material == material && run.aspect_ratio >= smallest).collect();
-        if columns.len() >= 4 {
-            exponents(&mut metrics, material, &columns, gate);
-        }
-    }
+    metrics.extend(super::scaling::metrics(records));
     metrics
-}
-
-/// The columns that are compared with the laws.
-fn laws(records: &[Record]) -> impl Iterator<Item = &Record> {
-    records.iter().filter(|(run, _)| run.purpose == Purpose::Law)
 }
 
 /// The laws of run-out and height whose geometry a run has, and whose material it has or comes closest to.
@@ -150,39 +136,5 @@ fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse) {
                 .of_kind(Kind::Validation)
                 .with_snapshot_tolerance(1e-3, 1e-3),
         );
-    }
-}
-
-fn exponents(metrics: &mut Vec<Metric>, material: &str, columns: &[&Record], gate: Limit) {
-    let ratios: Vec<String> = columns.iter().map(|(run, _)| run.aspect_ratio.to_string()).collect();
-    let variant = |quantity: &str| format!("quantity={quantity},material={material},aspect_ratio={}", ratios.join("_"));
-    let measured = |quantity: fn(&Collapse) -> f64| -> Vec<(f64, f64)> {
-        columns.iter().map(|(run, record)| (run.initial_height(), quantity(&record.data))).collect()
-    };
-    let height_gate = (material == "lagree").then_some(Limit::Within(0.3, 0.45));
-    let run_outs = ("run_out", power_law(&measured(Collapse::run_out)), Some(gate));
-    let heights = ("final_height", power_law(&measured(Collapse::final_height)), height_gate);
-    for (quantity, fit, limit) in [run_outs, heights] {
-        let Some(fit) = fit else { continue };
-        let exponent = Metric::observed("scaling_exponent", &variant(quantity), fit.value, "-")
-            .of_kind(Kind::Validation)
-            .against(
-                None,
-                "published exponents of tall planar columns: 2/3 to 0.7, height 0.33 to 0.4",
-                Confidence::High,
-            )
-            .with_snapshot_tolerance(1e-3, 2e-3);
-        metrics.push(match limit {
-            Some(limit) => exponent.gated(limit, "specification 2: exponents depend little on the material"),
-            None => exponent,
-        });
-        for (name, value) in [("scaling_standard_error", fit.standard_error), ("scaling_coefficient", fit.coefficient)]
-        {
-            metrics.push(
-                Metric::observed(name, &variant(quantity), value, "-")
-                    .of_kind(Kind::Validation)
-                    .with_snapshot_tolerance(1e-2, 5e-3),
-            );
-        }
     }
 }

@@ -10,6 +10,7 @@ pub(super) mod figures;
 mod flow_metrics;
 pub(super) mod metrics;
 pub(super) mod pictures;
+mod scaling;
 mod slope;
 mod stress_updates;
 mod velocity_profile;

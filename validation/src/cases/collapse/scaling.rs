@@ -1,0 +1,126 @@
+//! How run-out and height of tall columns grow with the aspect ratio: fitted power laws and where they begin.
+
+use super::Record;
+use super::column::{Geometry, Purpose};
+use super::deposit::Collapse;
+use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::statistics::{Exponent, power_law, student_quantile};
+
+/// Fewest tall columns that a power law is fitted to.
+const FEWEST: usize = 4;
+/// Aspect ratio up to which run-out is taken for proportional to it `[-]`.
+const SHALLOW: f64 = 2.0;
+/// Confidence of the intervals `[-]`.
+const CONFIDENCE: f64 = 0.95;
+
+/// Material, smallest aspect ratio of a tall column, gates of the exponents of run-out and height.
+type Family = (&'static str, f64, Option<Limit>, Option<Limit>);
+
+const FAMILIES: [Family; 3] = [
+    ("sand", 5.0, Some(Limit::Within(2.0 / 3.0 - 0.05, 2.0 / 3.0 + 0.05)), None),
+    ("lagree", 7.0, Some(Limit::Within(0.65, 0.75)), Some(Limit::Within(0.3, 0.45))),
+    ("sand_inertia_0.279", 5.0, None, None),
+];
+
+/// A power law through the tall columns of a material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Scaling {
+    /// The fit.
+    pub(super) law: Exponent,
+    /// Half width of the exponent's 95 % interval `[-]`.
+    pub(super) half_width: f64,
+    /// Aspect ratios between which it was fitted `[-]`.
+    pub(super) range: (f64, f64),
+}
+
+/// The planar columns of a material that the laws are compared with, between two aspect ratios.
+fn columns<'a>(records: &[&'a Record], material: &str, from: f64, to: f64) -> Vec<&'a Record> {
+    let own = |(run, _): &&Record| {
+        let planar = run.geometry == Geometry::Planar && run.purpose == Purpose::Law;
+        planar && run.material == material && (from..=to).contains(&run.aspect_ratio)
+    };
+    records.iter().copied().filter(|record| own(record)).collect()
+}
+
+/// The fit of a quantity; none for fewer than four tall columns.
+pub(super) fn fit(records: &[&Record], material: &str, quantity: fn(&Collapse) -> f64) -> Option<Scaling> {
+    let smallest = FAMILIES.iter().find(|family| family.0 == material)?.1;
+    let tall = columns(records, material, smallest, f64::INFINITY);
+    let points: Vec<(f64, f64)> =
+        tall.iter().map(|(run, record)| (run.initial_height(), quantity(&record.data))).collect();
+    let law = power_law(&points).filter(|_| points.len() >= FEWEST)?;
+    let half_width = law.standard_error * student_quantile(CONFIDENCE, points.len() - 2);
+    let ends = points.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), (a, _)| (low.min(*a), high.max(*a)));
+    Some(Scaling { law, half_width, range: ends })
+}
+
+/// Mean of the run-out over the aspect ratio of shallow columns `[-]`; none without any.
+fn shallow_coefficient(records: &[&Record], material: &str) -> Option<f64> {
+    let shallow = columns(records, material, 0.0, SHALLOW);
+    let sum: f64 = shallow.iter().map(|(run, record)| record.data.run_out() / run.initial_height()).sum();
+    (!shallow.is_empty()).then(|| sum / shallow.len() as f64)
+}
+
+/// Aspect ratio at which c a meets C aⁿ `[-]`.
+fn break_point(shallow: f64, tall: &Exponent) -> f64 {
+    libm::pow(tall.coefficient / shallow, 1.0 / (1.0 - tall.value))
+}
+
+pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
+    let records: Vec<&Record> = records.iter().collect();
+    let mut metrics = Vec::new();
+    for (material, smallest, run_out_gate, height_gate) in FAMILIES {
+        let ratios: Vec<String> = columns(&records, material, smallest, f64::INFINITY)
+            .iter()
+            .map(|(run, _)| run.aspect_ratio.to_string())
+            .collect();
+        let quantities: [(&str, fn(&Collapse) -> f64, Option<Limit>); 2] =
+            [("run_out", Collapse::run_out, run_out_gate), ("final_height", Collapse::final_height, height_gate)];
+        for (quantity, measure, gate) in quantities {
+            let Some(scaling) = fit(&records, material, measure) else { continue };
+            let variant = format!("quantity={quantity},material={material},aspect_ratio={}", ratios.join("_"));
+            let observed = |name: &str, value: f64| {
+                Metric::observed(name, &variant, value, "-")
+                    .of_kind(Kind::Validation)
+                    .with_snapshot_tolerance(1e-2, 5e-3)
+            };
+            let exponent = observed("scaling_exponent", scaling.law.value).against(
+                None,
+                "published exponents of tall planar columns: 2/3 to 0.7, height 0.33 to 0.4",
+                Confidence::High,
+            );
+            metrics.push(match gate {
+                Some(limit) => exponent.gated(limit, "specification 2: exponents depend little on the material"),
+                None => exponent,
+            });
+            metrics.push(observed("scaling_confidence", scaling.half_width).against(
+                None,
+                "half width of the exponent's 95 % interval, from the scatter about the fit",
+                Confidence::Exact,
+            ));
+            metrics.push(observed("scaling_coefficient", scaling.law.coefficient));
+            if quantity == "run_out"
+                && let Some(shallow) = shallow_coefficient(&records, material)
+            {
+                metrics.push(observed("break_point", break_point(shallow, &scaling.law)).against(
+                    Some(2.3),
+                    "between the branches of Lube et al. 2005, which end at 1.8 and begin at 2.8",
+                    Confidence::High,
+                ));
+            }
+        }
+    }
+    metrics
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_branches_meet_at_the_break_point() {
+        let tall = Exponent { value: 0.7, standard_error: 0.0, coefficient: 3.9 };
+        let a = break_point(2.2, &tall);
+        assert!((2.2 * a - 3.9 * libm::pow(a, 0.7)).abs() < 1e-9, "{a}");
+    }
+}
