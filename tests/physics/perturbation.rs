@@ -22,6 +22,7 @@ fn collapse(jitter: f64) -> Collapse {
     parameters.sand.aspect_ratios.clear();
     parameters.lagree.aspect_ratios = vec![1.0];
     parameters.regularised.aspect_ratios.clear();
+    parameters.sensitivity.aspect_ratios.clear();
     let runs = ColumnPlanar.runs(&parameters);
     assert_eq!(runs.len(), 1);
     ColumnPlanar.simulate(&runs[0], &Unseen).expect("a valid scene").data

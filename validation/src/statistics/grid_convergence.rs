@@ -9,6 +9,8 @@ pub struct Mean {
     pub value: f64,
     /// Standard error of the mean; not a number for a single run.
     pub standard_error: f64,
+    /// Number of runs.
+    pub runs: usize,
 }
 
 impl Mean {
@@ -18,7 +20,12 @@ impl Mean {
         let n = values.len() as f64;
         let value = values.iter().sum::<f64>() / n;
         let variance = values.iter().map(|v| (v - value) * (v - value)).sum::<f64>() / (n - 1.0);
-        (!values.is_empty()).then_some(Self { resolution, value, standard_error: (variance / n).sqrt() })
+        (!values.is_empty()).then_some(Self {
+            resolution,
+            value,
+            standard_error: (variance / n).sqrt(),
+            runs: values.len(),
+        })
     }
 }
 
@@ -78,7 +85,7 @@ mod tests {
     use super::*;
 
     fn means(value: impl Fn(f64) -> f64, error: f64) -> [Mean; 3] {
-        [40, 60, 90].map(|n| Mean { resolution: n, value: value(1.0 / n as f64), standard_error: error })
+        [40, 60, 90].map(|n| Mean { resolution: n, value: value(1.0 / n as f64), standard_error: error, runs: 5 })
     }
 
     #[test]
@@ -102,6 +109,7 @@ mod tests {
             resolution,
             value,
             standard_error: f64::NAN,
+            runs: 1,
         });
         let found = grid_convergence(&turning).expect("ascending");
         assert!(found.order == 1.0 && (found.index - 1.25 * 0.1 / 0.5 / 1.1).abs() < 1e-12);

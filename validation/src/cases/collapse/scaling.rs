@@ -74,7 +74,8 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
             .iter()
             .map(|(run, _)| run.aspect_ratio.to_string())
             .collect();
-        let quantities: [(&str, fn(&Collapse) -> f64, Option<Limit>); 2] =
+        type Quantity = (&'static str, fn(&Collapse) -> f64, Option<Limit>);
+        let quantities: [Quantity; 2] =
             [("run_out", Collapse::run_out, run_out_gate), ("final_height", Collapse::final_height, height_gate)];
         for (quantity, measure, gate) in quantities {
             let Some(scaling) = fit(&records, material, measure) else { continue };

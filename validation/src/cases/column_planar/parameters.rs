@@ -116,7 +116,7 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("sand_inertias.values", "I_0 [-] of further columns of sand; empty for none"),
     ("lagree_diameters.values", "D [m] of further columns of Lagrée's grains; empty for none"),
     ("sensitivity.resolutions", "particles over r_0, for the grid convergence of Lagrée's grains"),
-    ("sensitivity.seeds", "of each resolution; three at the finest"),
+    ("sensitivity.seeds", "of each resolution; three at the finest of several"),
     ("sensitivity.hourglass", "[-], coefficients at which the first of these columns is repeated"),
     ("regularised.aspect_ratios", "h_0/r_0 [-] of columns of sand that are repeated with (35), implicitly"),
     ("regularised.rate", "α_r [1/s]"),
@@ -191,10 +191,11 @@ impl ColumnPlanarParameters {
             },
             sand_inertias: Variants { values: Vec::new(), aspect_ratios: Vec::new() },
             lagree_diameters: Variants { values: Vec::new(), aspect_ratios: Vec::new() },
+            // the spread over five seeds, which the gates of run-out and height take into account
             sensitivity: Sensitivity {
-                aspect_ratios: Vec::new(),
-                resolutions: Vec::new(),
-                seeds: Vec::new(),
+                aspect_ratios: vec![1.0],
+                resolutions: vec![20],
+                seeds: vec![1, 2, 3, 4, 5],
                 hourglass: Vec::new(),
                 hourglass_resolutions: Vec::new(),
             },
@@ -346,7 +347,11 @@ pub(super) fn runs(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
     let finest = study.resolutions.iter().copied().max().unwrap_or(0);
     for &ratio in &study.aspect_ratios {
         for &resolution in &study.resolutions {
-            let seeds = study.seeds.iter().take(if resolution == finest { FINEST_SEEDS } else { usize::MAX });
+            let seeds = study.seeds.iter().take(if resolution == finest && study.resolutions.len() > 1 {
+                FINEST_SEEDS
+            } else {
+                usize::MAX
+            });
             for &seed in seeds {
                 let own = column("lagree", lagree, ratio);
                 // the column that is there for the laws is one of its ensemble
