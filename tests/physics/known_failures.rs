@@ -20,19 +20,31 @@ pub(crate) fn owing_tier(entry: &KnownFailure) -> Option<Tier> {
     [Tier::Quick, Tier::Paper, Tier::Fine].into_iter().find(|&tier| {
         case.prepare(tier, &Changes::default()).is_ok_and(|prepared| {
             let runs: Vec<String> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
-            runs_of(&entry.variant).iter().all(|variant| runs.contains(variant))
+            runs_of(&entry.variant).iter().all(|wanted| runs.iter().any(|run| has_all(run, wanted)))
         })
     })
 }
 
-/// The runs behind a metric: an order of convergence joins several resolutions as `resolution=10_20_40`.
-fn runs_of(variant: &str) -> Vec<String> {
-    match variant.split_once("resolution=") {
-        Some((before, resolutions)) if resolutions.contains('_') => {
-            resolutions.split('_').map(|rows| format!("{before}resolution={rows}")).collect()
-        }
-        _ => vec![variant.to_owned()],
+/// What tells the runs behind a metric: a metric may join several, as in `resolution=10_20_40`, and may say which
+/// `quantity` of them it is about.
+fn runs_of(variant: &str) -> Vec<Vec<String>> {
+    let mut runs = vec![Vec::new()];
+    for part in variant.split(',').filter(|part| !part.starts_with("quantity=")) {
+        let (key, value) = part.split_once('=').unwrap_or((part, ""));
+        let joined = value.split('_').all(|piece| piece.parse::<f64>().is_ok());
+        let values: Vec<&str> = if joined { value.split('_').collect() } else { vec![value] };
+        let with = |run: &Vec<String>, value: &&str| -> Vec<String> {
+            run.iter().cloned().chain([format!("{key}={value}")]).collect()
+        };
+        runs = runs.iter().flat_map(|run| values.iter().map(move |value| with(run, value))).collect();
     }
+    runs
+}
+
+/// Whether a run's variant has all these parts.
+fn has_all(run: &str, wanted: &[String]) -> bool {
+    let parts: Vec<&str> = run.split(',').collect();
+    wanted.iter().all(|part| parts.contains(&part.as_str()))
 }
 
 #[test]
@@ -64,6 +76,8 @@ fn an_entry_is_owed_by_the_cheapest_tier_that_has_its_runs() {
     assert_eq!(tier("fluid=newtonian,particles=lattice,resolution=10_20_40"), Some(Tier::Paper));
     assert_eq!(tier("fluid=bingham,particles=jittered,resolution=80"), Some(Tier::Fine));
     assert_eq!(tier("fluid=honey,particles=jittered,resolution=20"), None);
+    assert_eq!(tier("quantity=flux,fluid=newtonian,particles=lattice,resolution=10_20_40"), Some(Tier::Paper));
+    assert_eq!(tier("quantity=flux,fluid=newtonian,particles=lattice,resolution=10_21"), None);
 }
 
 /// A result of `film` with one gate at 1.
