@@ -1,11 +1,12 @@
 //! A compact SPH kernel for granular and sediment flows: no I/O, knows no case, SI units throughout.
 //!
-//! Reading order: [`vector`], the leaves ([`kernel`], [`rheology`], [`equation_of_state`], [`turbulence`]), then
-//! [`neighbours`], [`operators`], [`terms`] and [`boundary`], and last the step in `weakly_compressible` and the
+//! Reading order: [`vector`], the leaves ([`kernel`], [`rheology`], [`equation_of_state`], [`turbulence`], [`drag`]),
+//! then [`neighbours`], [`operators`], [`terms`] and [`boundary`], and last the step in `weakly_compressible` and the
 //! loop in [`simulation`]. Equation numbers are those of Salehizadeh & Shafiei (2018).
 
 pub mod vector;
 
+pub mod drag;
 pub mod equation_of_state;
 pub mod kernel;
 pub mod lanes;
