@@ -11,6 +11,8 @@ pub mod incline_collapse;
 pub mod layer;
 mod recording;
 mod rules;
+#[cfg_attr(not(test), expect(dead_code, reason = "its figures wait for the case's runs"))]
+mod settling;
 
 use crate::case::Registry;
 

@@ -1,0 +1,266 @@
+//! Settling of grains in a fluid at rest: a grain alone from each drag law, and a uniform suspension.
+//!
+//! A grain alone sinks at the velocity u at which its submerged weight is its drag, |ρ_s − ρ_f| g = c C_d ρ_f u²/d: c = ¾
+//! for a sphere, ½ for the planar form (30) of the bed-load paper, in which a particle stands for the area d² and drags by
+//! its width d. With the Reynolds number R = u d/ν this is c (C_d R) R = |ρ_s/ρ_f − 1| g d³/ν², the Archimedes number.
+//!
+//! In a suspension that shares the pressure gradient by volume the slip |u_r| obeys φ (1 − φ) |ρ_s − ρ_f| g = K |u_r|.
+//! Without a net flux, φ u_s + (1 − φ) u_f = 0, its grains sink at (1 − φ) |u_r|.
+//!
+//! The drag laws are the solver's; its tests compare them with values computed by hand, and so do those here.
+
+use crate::metric::Confidence;
+use bagnold_solver::drag::DragLaw;
+
+/// How sure the project is of [`richardson_zaki_exponent`]: observed beside a run, never a gate.
+pub const RICHARDSON_ZAKI_CONFIDENCE: Confidence = Confidence::Unverified;
+
+/// What a grain's submerged weight is compared with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GrainForm {
+    /// A sphere of diameter d: c = ¾.
+    Sphere,
+    /// A particle of the planar form (30), of the area d² and the width d: c = ½.
+    Planar,
+}
+
+impl GrainForm {
+    /// c `[-]` of |ρ_s − ρ_f| g = c C_d ρ_f u²/d.
+    #[must_use]
+    pub fn drag_factor(self) -> f64 {
+        match self {
+            Self::Sphere => 0.75,
+            Self::Planar => 0.5,
+        }
+    }
+}
+
+/// Grains in a fluid under gravity. They sink, or rise if they are the lighter ones: velocities are magnitudes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SettlingGrains {
+    /// Grain diameter d `[m]`.
+    pub grain_diameter: f64,
+    /// Grain density ρ_s `[kg/m³]`.
+    pub grain_density: f64,
+    /// Fluid density ρ_f `[kg/m³]`.
+    pub fluid_density: f64,
+    /// Kinematic viscosity ν `[m²/s]` of the fluid.
+    pub kinematic_viscosity: f64,
+    /// Gravity g `[m/s²]`.
+    pub gravity: f64,
+}
+
+impl SettlingGrains {
+    /// Submerged weight per volume |ρ_s − ρ_f| g `[N/m³]`.
+    #[must_use]
+    pub fn submerged_weight(&self) -> f64 {
+        (self.grain_density - self.fluid_density).abs() * self.gravity
+    }
+
+    /// Archimedes number |ρ_s/ρ_f − 1| g d³/ν² `[-]`.
+    #[must_use]
+    pub fn archimedes_number(&self) -> f64 {
+        let (d, nu) = (self.grain_diameter, self.kinematic_viscosity);
+        self.submerged_weight() / self.fluid_density * d * d * d / (nu * nu)
+    }
+
+    /// Reynolds number u d/ν `[-]` of a velocity `[m/s]`.
+    #[must_use]
+    pub fn reynolds(&self, velocity: f64) -> f64 {
+        velocity * self.grain_diameter / self.kinematic_viscosity
+    }
+
+    /// Velocity `[m/s]` of Stokes' drag, C_d R = 24.
+    #[must_use]
+    pub fn stokes_velocity(&self, form: GrainForm) -> f64 {
+        self.archimedes_number() / (24.0 * form.drag_factor()) * self.kinematic_viscosity / self.grain_diameter
+    }
+
+    /// Terminal velocity `[m/s]` of a grain alone; none where the law has no drag of one, or beyond the law's range.
+    #[must_use]
+    pub fn terminal_velocity(&self, law: DragLaw, form: GrainForm) -> Option<f64> {
+        law.drag_times_reynolds(0.0)?;
+        let drag = |r: f64| form.drag_factor() * law.drag_times_reynolds(r).unwrap_or(f64::INFINITY) * r;
+        let stokes = self.reynolds(self.stokes_velocity(form));
+        let reynolds = root_of_increasing(self.archimedes_number(), stokes, drag);
+        let velocity = reynolds * self.kinematic_viscosity / self.grain_diameter;
+        law.reynolds_range().contains(&reynolds).then_some(velocity)
+    }
+
+    /// Slip |u_f − u_s| `[m/s]` of a uniform suspension of a solid fraction φ `[-]` in (0, 1), none outside of it or
+    /// beyond the law's range. Spheres: K has no planar form.
+    #[must_use]
+    pub fn hindered_slip(&self, law: DragLaw, solid_fraction: f64) -> Option<f64> {
+        if !(solid_fraction > 0.0 && solid_fraction < 1.0) {
+            return None;
+        }
+        let drag = |slip: f64| {
+            let (d, rho, nu) = (self.grain_diameter, self.fluid_density, self.kinematic_viscosity);
+            law.exchange_coefficient(solid_fraction, slip, d, rho, nu) * slip
+        };
+        let weight = solid_fraction * (1.0 - solid_fraction) * self.submerged_weight();
+        let slip = root_of_increasing(weight, self.stokes_velocity(GrainForm::Sphere), drag);
+        law.reynolds_range().contains(&self.reynolds(slip)).then_some(slip)
+    }
+
+    /// Velocity (1 − φ) |u_r| `[m/s]` at which the grains of a suspension sink in a vessel; none as for the slip.
+    #[must_use]
+    pub fn hindered_velocity(&self, law: DragLaw, solid_fraction: f64) -> Option<f64> {
+        Some((1.0 - solid_fraction) * self.hindered_slip(law, solid_fraction)?)
+    }
+}
+
+/// Exponent n `[-]` of Richardson & Zaki (1954), u/u_t = (1 − φ)ⁿ, at the Reynolds number u_t d/ν `[-]` of a grain alone,
+/// in a vessel much wider than a grain. Confidence: [`RICHARDSON_ZAKI_CONFIDENCE`].
+#[must_use]
+pub fn richardson_zaki_exponent(terminal_reynolds: f64) -> f64 {
+    match terminal_reynolds {
+        r if r < 0.2 => 4.65,
+        r if r < 1.0 => 4.35 * libm::pow(r, -0.03),
+        r if r < 500.0 => 4.45 * libm::pow(r, -0.1),
+        _ => 2.39,
+    }
+}
+
+/// x ≥ 0 with f(x) = target ≥ 0 for an f that grows from f(0) = 0, to the last bit, by doubling an upper bound from
+/// `start` on and bisecting. Where f steps down, as a table may, the root is one of its crossings, always the same.
+fn root_of_increasing(target: f64, start: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let (mut low, mut high) = (0.0, start);
+    while f(high) < target {
+        (low, high) = (high, 2.0 * high);
+    }
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return middle;
+        }
+        if f(middle) < target { low = middle } else { high = middle }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sand or gravel in water, ρ_s − ρ_f = 1600 kg/m³: the weight is 15 696 N/m³.
+    fn sand(grain_diameter: f64) -> SettlingGrains {
+        SettlingGrains {
+            grain_diameter,
+            grain_density: 2600.0,
+            fluid_density: 1000.0,
+            kinematic_viscosity: 1e-6,
+            gravity: 9.81,
+        }
+    }
+
+    fn assert_close(found: Option<f64>, expected: f64, tolerance: f64) {
+        let Some(found) = found else { panic!("none instead of {expected}") };
+        assert!((found / expected - 1.0).abs() < tolerance, "{found} instead of {expected}");
+    }
+
+    #[test]
+    fn silt_sinks_after_stokes() {
+        // 15 696 · 1e-10/(18 · 1e-3) = 8.72e-5 m/s at R = 8.7e-4; planar 3/2 of it
+        let silt = sand(1e-5);
+        assert_close(silt.terminal_velocity(DragLaw::MorsiAlexander, GrainForm::Sphere), 8.72e-5, 1e-14);
+        assert_close(silt.terminal_velocity(DragLaw::MorsiAlexander, GrainForm::Planar), 1.308e-4, 1e-14);
+        assert_close(silt.terminal_velocity(DragLaw::SchillerNaumann, GrainForm::Sphere), 8.72e-5, 2e-3);
+    }
+
+    #[test]
+    fn gravel_sinks_after_newton() {
+        // u² = 15 696 · 5e-3/(c · 0.44 · 1000) = 0.237818 and 0.356727 m²/s², R = 2438 and 2986
+        let gravel = sand(5e-3);
+        for law in [DragLaw::SchillerNaumann, DragLaw::WenYu, DragLaw::Gidaspow] {
+            assert_close(gravel.terminal_velocity(law, GrainForm::Sphere), 0.487_666, 1e-6);
+            assert_close(gravel.terminal_velocity(law, GrainForm::Planar), 0.597_267, 1e-6);
+        }
+    }
+
+    #[test]
+    fn gravel_sinks_after_a_row_of_the_table() {
+        // K3 R² + K1 R + K2 = Ar/c with Ar = 1.962e6 and the row of 1000 to 5000, solved for R
+        for (form, c) in [(GrainForm::Sphere, 0.75), (GrainForm::Planar, 0.5)] {
+            let (k1, k2, k3) = (148.62f64, -4.75e4 - 1.962e6 / c, 0.357);
+            let reynolds = ((k1 * k1 - 4.0 * k3 * k2).sqrt() - k1) / (2.0 * k3);
+            assert!((1000.0..5000.0).contains(&reynolds));
+            assert_close(sand(5e-3).terminal_velocity(DragLaw::MorsiAlexander, form), reynolds * 2e-4, 1e-12);
+        }
+    }
+
+    #[test]
+    fn dallavalles_drag_has_a_closed_form() {
+        // (0.63 √R + 4.8) √R = √(Ar/c), a quadratic in √R
+        let target = (4.0 / 3.0 * 1.962e6f64).sqrt();
+        let root = ((4.8f64 * 4.8 + 4.0 * 0.63 * target).sqrt() - 4.8) / (2.0 * 0.63);
+        assert_close(sand(5e-3).terminal_velocity(DragLaw::DiFelice, GrainForm::Sphere), root * root * 2e-4, 1e-12);
+    }
+
+    #[test]
+    fn there_is_no_velocity_without_a_law_for_it() {
+        assert_eq!(sand(1e-3).terminal_velocity(DragLaw::Ergun, GrainForm::Sphere), None);
+        // 5 cm cobbles: √(15 696 · 0.05/330) = 1.54 m/s, R = 77 000
+        assert_eq!(sand(5e-2).terminal_velocity(DragLaw::MorsiAlexander, GrainForm::Sphere), None);
+        assert!(sand(5e-2).terminal_velocity(DragLaw::SchillerNaumann, GrainForm::Sphere).is_some());
+        assert_eq!(sand(1e-3).hindered_slip(DragLaw::WenYu, 0.0), None);
+        assert_eq!(sand(1e-3).hindered_slip(DragLaw::WenYu, 1.0), None);
+    }
+
+    #[test]
+    fn light_grains_rise_as_fast_as_heavy_ones_sink() {
+        let light = SettlingGrains { grain_density: 500.0, ..sand(1e-3) };
+        let heavy = SettlingGrains { grain_density: 1500.0, ..light };
+        let velocity = |grains: SettlingGrains| grains.terminal_velocity(DragLaw::WenYu, GrainForm::Sphere);
+        assert_eq!(velocity(light), velocity(heavy));
+        let neutral = SettlingGrains { grain_density: 1000.0, ..light };
+        assert_eq!(velocity(neutral), Some(0.0));
+    }
+
+    #[test]
+    fn a_few_grains_sink_like_one() {
+        for law in DragLaw::ALL.into_iter().filter(|&law| law != DragLaw::Ergun) {
+            for diameter in [1e-5, 2e-4, 5e-3] {
+                let alone = sand(diameter).terminal_velocity(law, GrainForm::Sphere).unwrap();
+                assert_close(sand(diameter).hindered_slip(law, 1e-8), alone, 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn silt_is_hindered_as_richardson_and_zaki_found() {
+        // Wen–Yu in Stokes' regime: ε |u_r| = u_t ε^4.65; the fit's R^0.687 leaves 0.2 % at R = 1e-3
+        for solid_fraction in [0.05f64, 0.2, 0.5] {
+            let expected = 8.72e-5 * (1.0 - solid_fraction).powf(richardson_zaki_exponent(1e-3));
+            assert_close(sand(1e-5).hindered_velocity(DragLaw::WenYu, solid_fraction), expected, 2e-3);
+        }
+    }
+
+    #[test]
+    fn a_bed_is_fluidised_as_ergun_says() {
+        // φ = 0.6, d = 1 mm: 1.05e6 u² + 1.35e5 u = 0.24 · 15 696 = 3767.04, u = 23.0 mm/s
+        let slip = (135_000f64.powi(2) + 4.0 * 1.05e6 * 3767.04).sqrt() - 135_000.0;
+        assert_close(sand(1e-3).hindered_slip(DragLaw::Ergun, 0.6), slip / 2.1e6, 1e-12);
+        assert_close(sand(1e-3).hindered_slip(DragLaw::Gidaspow, 0.6), slip / 2.1e6, 1e-12);
+    }
+
+    #[test]
+    fn slip_balances_weight_and_drag() {
+        for law in DragLaw::ALL.into_iter().filter(|&law| law != DragLaw::MorsiAlexander) {
+            for solid_fraction in [0.02, 0.3, 0.55] {
+                let slip = sand(1e-3).hindered_slip(law, solid_fraction).unwrap();
+                let drag = law.exchange_coefficient(solid_fraction, slip, 1e-3, 1000.0, 1e-6) * slip;
+                assert_close(Some(drag), solid_fraction * (1.0 - solid_fraction) * 15_696.0, 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn exponents_meet_where_their_ranges_do() {
+        for joint in [0.2f64, 1.0, 500.0] {
+            let jump = richardson_zaki_exponent(joint) / richardson_zaki_exponent(joint.next_down());
+            assert!((jump - 1.0).abs() < 0.025, "{joint}: {jump}");
+        }
+        // 4.45 · 100^−0.1 = 4.45/1.584893
+        assert!((richardson_zaki_exponent(100.0) - 2.807_761).abs() < 1e-6);
+    }
+}
