@@ -13,6 +13,14 @@ pub enum Quantity {
     Neighbours,
     /// Residual of an implicit viscous step over its start; the particle is the one with the largest.
     ViscousResidual,
+    /// Residual of the implicit velocities of an incompressible step over its right-hand side.
+    VelocityResidual,
+    /// Residual of the pressure Poisson equation over its right-hand side.
+    PressureResidual,
+    /// Way of a particle in one incompressible step, in spacings, or not a number.
+    Displacement,
+    /// Reynolds number of a grain outside the range of its drag law.
+    Reynolds,
 }
 
 /// A run that has left the range in which its model makes sense.
@@ -45,6 +53,10 @@ impl<const D: usize> Divergence<D> {
             Quantity::Density => "density",
             Quantity::Neighbours => "number of neighbours",
             Quantity::ViscousResidual => "viscous step",
+            Quantity::VelocityResidual => "implicit velocity",
+            Quantity::PressureResidual => "pressure Poisson equation",
+            Quantity::Displacement => "way in one step",
+            Quantity::Reynolds => "Reynolds number",
         }
     }
 
@@ -62,6 +74,16 @@ impl<const D: usize> Divergence<D> {
                 "(residual over its start) after at most {} iterations, above the {upper:.1e} of `viscous_tolerance`",
                 crate::viscous_solve::MOST_ITERATIONS
             ),
+            Quantity::VelocityResidual | Quantity::PressureResidual => format!(
+                "(residual over its right-hand side) after at most {} iterations, above the tolerance of {upper:.1e}",
+                crate::incompressible::MOST_ITERATIONS
+            ),
+            Quantity::Displacement => {
+                "spacings, above the 1 that the model allows; the run needs a smaller time step, or \
+                                       its choice of operators is unstable"
+                    .to_owned()
+            }
+            Quantity::Reynolds => format!("of a grain, above the {upper:.4e} at which its drag law ends"),
             Quantity::Neighbours => format!("or more, above the {upper:.0} that a neighbour list row can hold"),
         }
     }

@@ -22,6 +22,8 @@ mod records;
 pub mod terms;
 
 pub mod divergence;
+pub mod incompressible;
+mod linear;
 pub mod scene;
 pub mod simulation;
 pub mod snapshot;

@@ -103,6 +103,10 @@ impl<const D: usize> Simulation<D> {
                 Quantity::Density => "density",
                 Quantity::Speed => "speed",
                 Quantity::ViscousResidual => "viscous step",
+                Quantity::VelocityResidual
+                | Quantity::PressureResidual
+                | Quantity::Displacement
+                | Quantity::Reynolds => "incompressible step",
             },
             particle: divergence.particle as usize,
             value: divergence.value,
@@ -261,6 +265,9 @@ impl<const D: usize> Simulation<D> {
             Quantity::Density => (self.particles.density[index], (0.02 * density, 2.0 * density)),
             Quantity::Neighbours => (1024.0, (0.0, 1024.0)),
             Quantity::ViscousResidual => (self.viscous.residual(), (0.0, self.model.numerics.viscous_tolerance)),
+            Quantity::VelocityResidual | Quantity::PressureResidual | Quantity::Displacement | Quantity::Reynolds => {
+                (f64::NAN, (0.0, 0.0))
+            }
         };
         Divergence {
             time: self.time,

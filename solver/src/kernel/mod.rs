@@ -5,7 +5,7 @@
 mod cubic_spline;
 mod wendland;
 
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Real};
 use serde::{Deserialize, Serialize};
 
 /// Which kernel.
@@ -64,7 +64,7 @@ impl<const D: usize> Kernel<D> {
     /// W `[1/m^D]` at the squared distance r² `[m²]`; exactly zero from 2h on.
     #[inline(always)]
     #[must_use]
-    pub fn value<V: Lanes>(&self, distance_squared: V) -> V {
+    pub fn value<V: Real>(&self, distance_squared: V) -> V {
         let q = distance_squared.sqrt() * V::splat(self.inverse_smoothing_length);
         let shape = match self.shape {
             KernelShape::CubicSpline => cubic_spline::value(q),
@@ -77,7 +77,7 @@ impl<const D: usize> Kernel<D> {
     /// never positive, exactly zero from 2h on.
     #[inline(always)]
     #[must_use]
-    pub fn gradient_weight<V: Lanes>(&self, distance_squared: V, volume: V) -> V {
+    pub fn gradient_weight<V: Real>(&self, distance_squared: V, volume: V) -> V {
         // the scale goes to the volume, which does not wait for the square root
         let scaled = volume * V::splat(self.gradient_scale);
         let distance = distance_squared.sqrt();

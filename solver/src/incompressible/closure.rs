@@ -1,0 +1,221 @@
+//! Coefficients of the implicit velocities: viscous pairs of each phase, the bed's friction, the drag.
+
+use super::numerics::PairLaw;
+use super::pairs::LEAST_TASK;
+use super::phase::height_axis;
+use super::scene::{Bed, SedimentYield, Turbulence};
+use super::simulation::IncompressibleSimulation;
+use crate::vector::{Vector, shear_rate};
+use rayon::prelude::*;
+
+/// 1/γ̇, bounded as (1 − exp(−γ̇/γ_r))/γ̇.
+fn inverse_rate(rate: f64, regularisation: f64) -> f64 {
+    let ratio = rate / regularisation;
+    if ratio < 1e-6 { 1.0 / regularisation } else { -libm::expm1(-ratio) / rate }
+}
+
+impl SedimentYield {
+    /// Yield stress `[Pa]` at a height `[m]`.
+    pub(super) fn at(&self, height: f64) -> f64 {
+        let overburden = self.buoyant_weight * (self.overburden_level - height).max(0.0);
+        self.yield_stress + self.overburden_friction * overburden
+    }
+
+    /// Viscosity `[Pa·s]` at a yield stress `[Pa]` and a shear rate `[1/s]`.
+    fn viscosity_at(&self, yield_stress: f64, rate: f64) -> f64 {
+        (yield_stress * inverse_rate(rate, self.regularisation_rate)).min(self.largest_viscosity) + self.viscosity
+    }
+}
+
+impl<const D: usize> IncompressibleSimulation<D> {
+    /// Dynamic viscosity of every fluid particle `[Pa·s]`, and yield stress and viscosity of every sediment particle.
+    pub(super) fn find_viscosities(&mut self) {
+        let scene = &self.scene;
+        let fluid = &self.fluid;
+        let normal = height_axis(D);
+        self.fluid_viscosity.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, viscosity)| {
+            let eddy = match scene.fluid.turbulence {
+                Turbulence::Laminar => 0.0,
+                Turbulence::MixingLength { level, depth, law } => {
+                    let rate = shear_rate(&fluid.velocity_gradient[a]);
+                    law.eddy_viscosity(fluid.position[a][normal] - level, depth, rate)
+                }
+            };
+            *viscosity = scene.fluid.density * (scene.fluid.kinematic_viscosity + eddy);
+        });
+        if let (Some(sediment), Some(material)) = (&self.sediment, &scene.sediment) {
+            let strength = &material.strength;
+            for a in 0..sediment.len() {
+                self.yield_stress[a] = strength.at(sediment.position[a][normal]);
+                self.sediment_viscosity[a] =
+                    strength.viscosity_at(self.yield_stress[a], shear_rate(&sediment.velocity_gradient[a]));
+            }
+        }
+    }
+
+    /// Fills the rows of M + Δt K and the momenta before the solve.
+    pub(super) fn assemble_velocities(&mut self, time_step: f64) {
+        let Self {
+            scene, fluid, sediment, exchange, system, fluid_viscosity, sediment_viscosity, yield_stress, ..
+        } = self;
+        let numerics = scene.numerics;
+        let free_fluid = fluid.len();
+        let free_sediment = sediment.as_ref().map_or(0, |s| s.len());
+        let stride = fluid.free_pairs.stride() + exchange.of_fluid.stride();
+        let sediment_stride = sediment.as_ref().map_or(0, |s| s.free_pairs.stride() + exchange.of_sediment.stride());
+        system.resize(free_fluid + free_sediment, stride.max(sediment_stride));
+        let stride = system.stride;
+        let normal = height_axis(D);
+        let (fluid_links, sediment_links) = system.link.split_at_mut(free_fluid * stride);
+        let (fluid_counts, sediment_counts) = system.count.split_at_mut(free_fluid);
+        let (fluid_diagonals, sediment_diagonals) = system.diagonal.split_at_mut(free_fluid);
+        let (fluid_sums, sediment_sums) = system.of_constant.split_at_mut(free_fluid);
+
+        // the fluid's rows
+        let material = scene.sediment.as_ref();
+        let scale = -2.0 * time_step;
+        let wall_scale = 2.0 * fluid.lattice_volume / fluid.lattice.gradient;
+        let sediment_velocity = sediment.as_ref().map(|s| &s.velocity);
+        let exchange = &*exchange;
+        (fluid_links.par_chunks_mut(stride), fluid_counts, fluid_diagonals, fluid_sums)
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(LEAST_TASK)
+            .for_each(|(a, (links, count, diagonal, sum))| {
+                let mut filled = 0;
+                let mut total = 0.0;
+                for pair in fluid.free_pairs.of(a) {
+                    let b = pair.source as usize;
+                    let moment = fluid.moment[a] + fluid.moment[b];
+                    let area = fluid.volume[a] * fluid.volume[b] * pair.gradient / moment;
+                    let coefficient = scale * area * (fluid_viscosity[a] + fluid_viscosity[b]);
+                    links[filled] = (pair.source, coefficient);
+                    filled += 1;
+                    total += coefficient;
+                }
+                let mut held = 0.0;
+                match scene.fluid.bed {
+                    Bed::Slip => {}
+                    Bed::NoSlip(level) => {
+                        // the wall particle moves against the partner, so that the velocity is 0 at the wall
+                        let height = (fluid.position[a][normal] - level).max(0.1 * fluid.spacing);
+                        for pair in fluid.wall_pairs.of(a) {
+                            let area = fluid.volume[a] * fluid.lattice_volume * pair.gradient / (2.0 * fluid.moment[a]);
+                            let depth = (pair.separation[normal] - height).max(0.0);
+                            held += scale * area * 2.0 * fluid_viscosity[a] * (1.0 + depth / height).min(6.0);
+                        }
+                    }
+                    Bed::Rough { level, origin_offset, law } => {
+                        let mut share = 0.0;
+                        for pair in fluid.wall_pairs.of(a) {
+                            share -= wall_scale * pair.gradient * pair.separation[normal];
+                        }
+                        if share > 0.0 {
+                            let mut along = fluid.velocity[a];
+                            along[normal] = 0.0;
+                            let distance = fluid.position[a][normal] - level + origin_offset;
+                            held += time_step
+                                * fluid.volume[a]
+                                * share
+                                * law.stress_coefficient(along.norm(), distance, fluid.density);
+                        }
+                    }
+                }
+                if let (Some(material), Some(velocity)) = (material, sediment_velocity) {
+                    for pair in exchange.of_fluid.of(a) {
+                        let b = pair.source as usize;
+                        let slip = |b: usize| {
+                            (velocity.get(b).copied().unwrap_or_else(Vector::zeros) - fluid.velocity[a]).norm()
+                        };
+                        let coefficient =
+                            time_step * fluid.mass[a] * pair.value * exchange.factor(b, material, || slip(b), scene);
+                        if b < free_sediment {
+                            links[filled] = ((free_fluid + b) as u32, coefficient);
+                            filled += 1;
+                            total += coefficient;
+                        } else {
+                            held += coefficient;
+                        }
+                    }
+                }
+                *count = filled as u32;
+                *sum = fluid.mass[a] + held;
+                *diagonal = *sum + total;
+            });
+
+        // the sediment's rows
+        if let (Some(sediment), Some(material)) = (sediment.as_ref(), material) {
+            let scale = -2.0 * time_step;
+            let strength = &material.strength;
+            (sediment_links.par_chunks_mut(stride), sediment_counts, sediment_diagonals, sediment_sums)
+                .into_par_iter()
+                .enumerate()
+                .with_min_len(LEAST_TASK)
+                .for_each(|(a, (links, count, diagonal, sum))| {
+                    let mut filled = 0;
+                    let (mut total, mut held) = (0.0, 0.0);
+                    let pair_viscosity = |b: Option<usize>, distance_squared: f64, height: f64| {
+                        let (other_yield, other_velocity) = match b {
+                            Some(b) => (yield_stress[b], sediment.velocity[b]),
+                            None => (strength.at(height), Vector::zeros()),
+                        };
+                        match numerics.pair_law {
+                            PairLaw::PairRate => {
+                                let rate =
+                                    ((sediment.velocity[a] - other_velocity).norm_squared() / distance_squared).sqrt();
+                                2.0 * strength.viscosity_at(yield_stress[a].min(other_yield), rate)
+                            }
+                            PairLaw::ArithmeticMean => {
+                                sediment_viscosity[a] + b.map_or(sediment_viscosity[a], |b| sediment_viscosity[b])
+                            }
+                            PairLaw::HarmonicMean => {
+                                let (one, other) =
+                                    (sediment_viscosity[a], b.map_or(sediment_viscosity[a], |b| sediment_viscosity[b]));
+                                4.0 * one * other / (one + other)
+                            }
+                        }
+                    };
+                    for pair in sediment.free_pairs.of(a) {
+                        let b = pair.source as usize;
+                        let square = pair.distance_squared;
+                        let moment = sediment.moment[a] + sediment.moment[b];
+                        let area = sediment.volume[a] * sediment.volume[b] * pair.gradient / moment;
+                        let coefficient = scale * area * pair_viscosity(Some(b), square, 0.0);
+                        links[filled] = ((free_fluid + b) as u32, coefficient);
+                        filled += 1;
+                        total += coefficient;
+                    }
+                    for pair in sediment.wall_pairs.of(a) {
+                        let square = pair.distance_squared;
+                        let area =
+                            sediment.volume[a] * sediment.lattice_volume * pair.gradient / (2.0 * sediment.moment[a]);
+                        let height = sediment.wall[pair.source as usize][normal];
+                        held += scale * area * pair_viscosity(None, square, height);
+                    }
+                    for pair in exchange.of_sediment.of(a) {
+                        let b = pair.source as usize;
+                        let slip = || (fluid.velocity[b] - sediment.velocity[a]).norm();
+                        let coefficient =
+                            time_step * fluid.mass[b] * pair.value * exchange.factor(a, material, slip, scene);
+                        links[filled] = (pair.source, coefficient);
+                        filled += 1;
+                        total += coefficient;
+                    }
+                    *count = filled as u32;
+                    *sum = sediment.mass[a] + held;
+                    *diagonal = *sum + total;
+                });
+        }
+        for a in 0..free_fluid {
+            system.momentum[a] = (fluid.velocity[a] + scene.fluid.gravity * time_step) * fluid.mass[a];
+            system.velocity[a] = fluid.velocity[a];
+        }
+        if let (Some(sediment), Some(material)) = (sediment.as_ref(), material) {
+            for a in 0..free_sediment {
+                let row = free_fluid + a;
+                system.momentum[row] = (sediment.velocity[a] + material.gravity * time_step) * sediment.mass[a];
+                system.velocity[row] = sediment.velocity[a];
+            }
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! The drag between the phases as pairs: equal and opposite forces β_ab (u_b − u_a).
+//!
+//! The printed form (30) gives the force on grain a as Σ_b ½ m_b C_d d |u_ba| W u_ba over the fluid's particles b, hence
+//! β_ab = ½ m_b C_d d |u_ab| W with C_d d |u_ab| = (C_d R) ν. The slip is the pair's own, as printed, or that of the
+//! grain against the mean of the fluid around it, which the shear within the kernel does not enlarge.
+
+use super::grid::Grid;
+use super::numerics::DragSlip;
+use super::pairs::{LEAST_TASK, Pairs, Periods, Sources};
+use super::phase::Phase;
+use super::scene::{IncompressibleScene, Sediment};
+use crate::boundary::Domain;
+use crate::kernel::{Kernel, KernelShape};
+use crate::vector::Vector;
+use rayon::prelude::*;
+
+/// Pairs between the phases, and what a step needs of them.
+#[derive(Debug)]
+pub(super) struct DragExchange<const D: usize> {
+    /// Sediment particles, the free ones first and then the fixed, with the fluid around them.
+    pub(super) of_sediment: Pairs<D>,
+    /// Fluid particles with the sediment around them, indexed as above.
+    pub(super) of_fluid: Pairs<D>,
+    /// Positions of the sediment, free and fixed `[m]`.
+    sediment: Vec<Vector<D>>,
+    /// β_ab/(m_b W) of every sediment particle, from its mean slip `[m²/s]` in 2-D.
+    mean_factor: Vec<f64>,
+    /// Largest Reynolds number of a grain in this step, and which.
+    pub(super) largest_reynolds: (f64, usize),
+    kernel: Kernel<D>,
+    grid: Grid<D>,
+}
+
+impl<const D: usize> DragExchange<D> {
+    pub(super) fn new(smoothing_length: f64) -> Self {
+        Self {
+            of_sediment: Pairs::default(),
+            of_fluid: Pairs::default(),
+            sediment: Vec::new(),
+            mean_factor: Vec::new(),
+            largest_reynolds: (0.0, 0),
+            kernel: Kernel::new(KernelShape::CubicSpline, smoothing_length),
+            grid: Grid::new(),
+        }
+    }
+
+    /// Largest distance of a pair `[m]`.
+    pub(super) fn reach(&self) -> f64 {
+        self.kernel.support()
+    }
+
+    /// Finds the candidates of the pairs between the phases.
+    pub(super) fn search(
+        &mut self,
+        fluid: &Phase<D>,
+        sediment: &Phase<D>,
+        domain: &Domain<D>,
+        periods: &Periods<D>,
+        skin: f64,
+    ) {
+        let radius = self.reach() + skin;
+        self.copy_positions(sediment);
+        self.grid.sort(&fluid.position, domain, radius);
+        self.of_sediment.search(&self.sediment, &fluid.position, Sources::Other, &self.grid, periods, radius);
+        self.grid.sort(&self.sediment, domain, radius);
+        self.of_fluid.search(&fluid.position, &self.sediment, Sources::Other, &self.grid, periods, radius);
+    }
+
+    /// Measures the pairs between the phases.
+    pub(super) fn measure(&mut self, fluid: &Phase<D>, sediment: &Phase<D>, periods: &Periods<D>) {
+        self.copy_positions(sediment);
+        self.of_sediment.measure(&self.sediment, &fluid.position, periods, &self.kernel);
+        self.of_fluid.measure(&fluid.position, &self.sediment, periods, &self.kernel);
+    }
+
+    fn copy_positions(&mut self, sediment: &Phase<D>) {
+        self.sediment.clear();
+        self.sediment.extend(sediment.position.iter().chain(&sediment.wall));
+    }
+
+    /// β_ab/(m_b W) of a pair of a sediment particle whose own slip would be `slip` `[m/s]`.
+    #[inline(always)]
+    pub(super) fn factor(
+        &self,
+        particle: usize,
+        material: &Sediment<D>,
+        slip: impl FnOnce() -> f64,
+        scene: &IncompressibleScene<D>,
+    ) -> f64 {
+        match scene.numerics.drag_slip {
+            DragSlip::Mean => self.mean_factor[particle],
+            DragSlip::Pair => printed_factor(material, slip(), scene.fluid.kinematic_viscosity),
+        }
+    }
+
+    /// Finds the slip of every grain against the mean of the fluid around it, its Reynolds number and its factor.
+    pub(super) fn find_mean_factors(
+        &mut self,
+        fluid: &Phase<D>,
+        sediment: &Phase<D>,
+        scene: &IncompressibleScene<D>,
+        material: &Sediment<D>,
+    ) {
+        self.mean_factor.resize(self.sediment.len(), 0.0);
+        let of_sediment = &self.of_sediment;
+        let viscosity = scene.fluid.kinematic_viscosity;
+        self.mean_factor.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, slip)| {
+            let (mut sum, mut weight) = (Vector::zeros(), 0.0);
+            for pair in of_sediment.of(a) {
+                sum += fluid.velocity[pair.source as usize] * pair.value;
+                weight += pair.value;
+            }
+            let own = sediment.velocity.get(a).copied().unwrap_or_else(Vector::zeros);
+            *slip = if weight > 0.0 { (sum / weight - own).norm() } else { 0.0 };
+        });
+        self.largest_reynolds = (0.0, 0);
+        for (particle, factor) in self.mean_factor.iter_mut().enumerate() {
+            let reynolds = *factor * material.grain_diameter / viscosity;
+            if reynolds > self.largest_reynolds.0 || reynolds.is_nan() {
+                self.largest_reynolds = (reynolds, particle);
+            }
+            *factor = printed_factor(material, *factor, viscosity);
+        }
+    }
+}
+
+/// ½ C_d d |u| of (30) `[m²/s]`; Ergun's law, which has no single grain, gives none.
+fn printed_factor<const D: usize>(material: &Sediment<D>, slip: f64, kinematic_viscosity: f64) -> f64 {
+    let reynolds = slip * material.grain_diameter / kinematic_viscosity;
+    let product = material.drag.drag_times_reynolds(reynolds).unwrap_or(0.0);
+    0.5 * material.drag_factor * product * kinematic_viscosity
+}

@@ -1,0 +1,114 @@
+//! Cells for the search of candidate pairs, with periods that are wrapped instead of copied.
+
+use crate::boundary::{AxisBoundary, Domain};
+use crate::vector::Vector;
+
+/// Particles sorted by cell; the sort is stable, so the order is a function of the input alone.
+#[derive(Debug)]
+pub(super) struct Grid<const D: usize> {
+    lower: Vector<D>,
+    inverse_size: Vector<D>,
+    cells: [usize; D],
+    periodic: [bool; D],
+    start: Vec<u32>,
+    cell_of: Vec<u32>,
+    index: Vec<u32>,
+}
+
+/// Most cells along an axis: a stray particle far away must not buy a huge grid.
+const MOST_CELLS: usize = 4096;
+
+impl<const D: usize> Grid<D> {
+    pub(super) fn new() -> Self {
+        Self {
+            lower: Vector::zeros(),
+            inverse_size: Vector::zeros(),
+            cells: [1; D],
+            periodic: [false; D],
+            start: Vec::new(),
+            cell_of: Vec::new(),
+            index: Vec::new(),
+        }
+    }
+
+    /// Sorts the particles into cells of at least `size` `[m]`.
+    pub(super) fn sort(&mut self, positions: &[Vector<D>], domain: &Domain<D>, size: f64) {
+        for axis in 0..D {
+            let (lower, upper) = match domain.axes[axis] {
+                AxisBoundary::Periodic { lower, upper } => (lower, upper),
+                AxisBoundary::Open | AxisBoundary::Mirror { .. } => positions
+                    .iter()
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x[axis]), high.max(x[axis]))),
+            };
+            self.periodic[axis] = matches!(domain.axes[axis], AxisBoundary::Periodic { .. });
+            let length = (upper - lower).max(size);
+            self.cells[axis] = ((length / size).floor() as usize).clamp(1, MOST_CELLS);
+            self.lower[axis] = lower;
+            self.inverse_size[axis] = self.cells[axis] as f64 / length;
+        }
+        let total: usize = self.cells.iter().product();
+        self.start.clear();
+        self.start.resize(total + 1, 0);
+        self.cell_of.clear();
+        for position in positions {
+            let cell = self.cell(&self.coordinates(position));
+            self.cell_of.push(cell as u32);
+            self.start[cell + 1] += 1;
+        }
+        for cell in 0..total {
+            self.start[cell + 1] += self.start[cell];
+        }
+        self.index.resize(positions.len(), 0);
+        for (index, &cell) in self.cell_of.iter().enumerate() {
+            let place = &mut self.start[cell as usize];
+            self.index[*place as usize] = index as u32;
+            *place += 1;
+        }
+        // every start has moved to its cell's end, which is the next cell's start
+        self.start.copy_within(0..total, 1);
+        self.start[0] = 0;
+    }
+
+    /// Calls `visit` for every particle in the cells around a position, each once.
+    pub(super) fn visit_near(&self, position: &Vector<D>, mut visit: impl FnMut(u32)) {
+        let centre = self.coordinates(position);
+        'offsets: for code in 0..3usize.pow(D as u32) {
+            let mut rest = code;
+            let mut cell = [0; D];
+            for axis in 0..D {
+                let offset = rest % 3;
+                rest /= 3;
+                let cells = self.cells[axis];
+                // with one or two cells along a period, both sides lead to the same one
+                if self.periodic[axis] {
+                    if offset >= cells {
+                        continue 'offsets;
+                    }
+                    cell[axis] = (centre[axis] + offset + cells - 1) % cells;
+                } else {
+                    let shifted = centre[axis] + offset;
+                    if shifted == 0 || shifted > cells {
+                        continue 'offsets;
+                    }
+                    cell[axis] = shifted - 1;
+                }
+            }
+            let cell = self.cell(&cell);
+            for &index in &self.index[self.start[cell] as usize..self.start[cell + 1] as usize] {
+                visit(index);
+            }
+        }
+    }
+
+    fn coordinates(&self, position: &Vector<D>) -> [usize; D] {
+        std::array::from_fn(|axis| {
+            // truncated and clamped, which keeps neighbours in neighbouring cells; a NaN goes to cell 0
+            let cell = (position[axis] - self.lower[axis]) * self.inverse_size[axis];
+            (cell.max(0.0) as usize).min(self.cells[axis] - 1)
+        })
+    }
+
+    fn cell(&self, coordinates: &[usize; D]) -> usize {
+        coordinates.iter().zip(&self.cells).rev().fold(0, |cell, (&coordinate, &cells)| cell * cells + coordinate)
+    }
+}

@@ -1,0 +1,140 @@
+//! The numerical choices of an incompressible run; the default is the recipe, [`ProjectionNumerics::paper`] the
+//! bed-load paper's own set.
+
+use crate::rheology::ParameterProblem;
+use serde::{Deserialize, Serialize};
+
+/// What the pressure Poisson equation drives to zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PressureSource {
+    /// Divergence of the predicted velocity, with a weak correction of the density.
+    Divergence,
+    /// Deviation of the predicted density (5) from the reference, equation (11).
+    Density,
+}
+
+/// What holds at the free surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SurfaceTreatment {
+    /// Particles at the surface are unknowns; what is missing of their neighbours has P = 0.
+    Completed,
+    /// Particles at the surface have P = 0, (31).
+    Eliminated,
+}
+
+/// How a pair of sediment particles gets its viscosity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PairLaw {
+    /// From the pair's own shear rate |u_ab|/r and the smaller yield stress of the two.
+    PairRate,
+    /// Arithmetic mean of the particles' viscosities, as (18) has it.
+    ArithmeticMean,
+    /// Harmonic mean of the particles' viscosities.
+    HarmonicMean,
+}
+
+/// Which slip between the phases a pair's drag is taken from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DragSlip {
+    /// The velocity difference of the pair, as in (30).
+    Pair,
+    /// The grain's velocity against the mean of the fluid around it.
+    Mean,
+}
+
+/// Numerical parameters of the projection step.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ProjectionNumerics {
+    /// Smoothing length over particle spacing h/l_0 `[-]`, cubic spline.
+    pub smoothing_ratio: f64,
+    /// Largest time step `[s]`.
+    pub time_step: f64,
+    /// Courant number of the largest speed `[-]`.
+    pub courant: f64,
+    /// Share s of D G that is added to the compact Laplacian A of (12) `[-]`; 0 is the paper's operator.
+    pub stabilisation: f64,
+    /// Right-hand side of the pressure Poisson equation.
+    pub pressure_source: PressureSource,
+    /// Share γ of the density error that a step corrects beside the divergence `[-]`.
+    pub density_correction: f64,
+    /// Σ V W of relaxed particles at their reference density over that of the lattice `[-]`.
+    pub reference_concentration: f64,
+    /// β of the surface criterion (31) `[-]`.
+    pub surface_threshold: f64,
+    /// Treatment of the surface.
+    pub surface: SurfaceTreatment,
+    /// Coefficient of particle shifting in the fluid `[-]`; 0 switches it off.
+    pub shifting: f64,
+    /// Sediment pairs.
+    pub pair_law: PairLaw,
+    /// Slip of the drag.
+    pub drag_slip: DragSlip,
+    /// Relative residual of the pressure Poisson equation `[-]`.
+    pub pressure_tolerance: f64,
+    /// Relative residual of the implicit velocities `[-]`.
+    pub velocity_tolerance: f64,
+}
+
+impl Default for ProjectionNumerics {
+    fn default() -> Self {
+        Self {
+            smoothing_ratio: 1.2,
+            time_step: 2.5e-4,
+            courant: 0.3,
+            stabilisation: 0.5,
+            pressure_source: PressureSource::Divergence,
+            density_correction: 0.01,
+            reference_concentration: 0.997,
+            surface_threshold: 0.95,
+            surface: SurfaceTreatment::Completed,
+            shifting: 0.5,
+            pair_law: PairLaw::PairRate,
+            drag_slip: DragSlip::Mean,
+            pressure_tolerance: 1e-2,
+            velocity_tolerance: 1e-6,
+        }
+    }
+}
+
+impl ProjectionNumerics {
+    /// The paper's own set: operators (12) and (13) alone, the density source (11), no shifting.
+    #[must_use]
+    pub fn paper() -> Self {
+        Self {
+            stabilisation: 0.0,
+            pressure_source: PressureSource::Density,
+            density_correction: 1.0,
+            shifting: 0.0,
+            surface: SurfaceTreatment::Eliminated,
+            pair_law: PairLaw::ArithmeticMean,
+            drag_slip: DragSlip::Pair,
+            courant: 0.1,
+            ..Self::default()
+        }
+    }
+
+    /// The first field that breaks its rule, as (field, value, rule, remedy).
+    #[must_use]
+    pub fn parameter_problem(&self) -> Option<ParameterProblem> {
+        let rules = [
+            ("smoothing_ratio", self.smoothing_ratio, 1.0..=2.0, "between 1 and 2"),
+            ("time_step", self.time_step, 1e-9..=1.0, "between 1e-9 and 1"),
+            ("courant", self.courant, 1e-3..=0.5, "between 0.001 and 0.5"),
+            ("stabilisation", self.stabilisation, 0.0..=10.0, "between 0 and 10"),
+            ("density_correction", self.density_correction, 0.0..=1.0, "between 0 and 1"),
+            ("reference_concentration", self.reference_concentration, 0.9..=1.1, "between 0.9 and 1.1"),
+            ("surface_threshold", self.surface_threshold, 0.5..=0.99, "between 0.5 and 0.99"),
+            ("shifting", self.shifting, 0.0..=10.0, "between 0 and 10"),
+            ("pressure_tolerance", self.pressure_tolerance, 1e-12..=0.5, "between 1e-12 and 0.5"),
+            ("velocity_tolerance", self.velocity_tolerance, 1e-14..=0.1, "between 1e-14 and 0.1"),
+        ];
+        let broken = rules.into_iter().find(|(_, value, range, _)| !range.contains(value))?;
+        let (field, value, _, rule) = broken;
+        Some((field, value, rule, "see the default numerics with `bagnold show`"))
+    }
+}

@@ -1,0 +1,257 @@
+//! The pressure Poisson equation (A + s D G) P = −ρ (∇·u*/Δt + γ (1 − δ)/Δt²).
+//!
+//! With g_ab = V F r_ab, divided by its sum over a lattice, and n the normal of a wall:
+//!
+//! - G, the symmetric gradient (13): (G P)_a = Σ_b (P_a + P_b) g_ab + 2 P_a (Σ_w g_aw·n) n
+//! - D, its adjoint: (D u)_a = Σ_b (u_b − u_a)·g_ab − 2 u_a·n (Σ_w g_aw·n)
+//! - A, the compact Laplacian (12), negative: (A P)_a = Σ_b 2 V (−F) (P_a − P_b)
+//!
+//! A wall particle has the pressure of its partner and the opposite normal velocity. G is −Dᵀ, so −D G is positive,
+//! and pair forces are equal and opposite whatever P is. On disordered particles −D G exceeds A for smooth P, because
+//! Σ_b g_ab is not zero: with A alone a step corrects too much, with alternating sign. A + s D G does not.
+//! All weights of a pair are divided by ½ (M_a + M_b), M = Σ V (−F) r²/D, which is 1 in a continuum and not on
+//! disordered particles: without it the hydrostatic pressure is 2.6 % low.
+//! At the surface, missing neighbours count as mirrored ones with the opposite pressure (32)–(34); where particles at
+//! the surface are eliminated (31), they have P = 0 and are no unknowns.
+
+use super::numerics::{PressureSource, ProjectionNumerics, SurfaceTreatment};
+use super::pairs::LEAST_TASK;
+use super::phase::{Phase, height_axis};
+use super::step::MOST_ITERATIONS;
+use crate::linear::{ConjugateGradient, Criterion, NotConverged};
+use crate::vector::Vector;
+use rayon::prelude::*;
+
+/// Coefficients, reused from step to step.
+#[derive(Debug)]
+pub(super) struct PressurePoisson<const D: usize> {
+    stride: usize,
+    /// g_ab and the coefficient of A for every pair.
+    link: Vec<Link<D>>,
+    /// Links of every row.
+    count: Vec<u32>,
+    /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
+    own: Vec<Vector<D>>,
+    diagonal: Vec<f64>,
+    inverse_diagonal: Vec<f64>,
+    right_side: Vec<f64>,
+    gradient: Vec<Vector<D>>,
+    solver: ConjugateGradient<f64>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Link<const D: usize> {
+    source: u32,
+    /// g_ab `[1/m]`.
+    gradient: Vector<D>,
+    /// 2 V (−F) `[1/m²]`.
+    laplacian: f64,
+}
+
+impl<const D: usize> PressurePoisson<D> {
+    pub(super) fn new() -> Self {
+        Self {
+            stride: 1,
+            link: Vec::new(),
+            count: Vec::new(),
+            own: Vec::new(),
+            diagonal: Vec::new(),
+            inverse_diagonal: Vec::new(),
+            right_side: Vec::new(),
+            gradient: Vec::new(),
+            solver: ConjugateGradient::new(),
+        }
+    }
+
+    /// Iterations of all solves.
+    pub(super) fn iterations(&self) -> u64 {
+        self.solver.iterations()
+    }
+
+    /// Prepares the operators at the present positions.
+    pub(super) fn assemble(&mut self, phase: &Phase<D>, numerics: &ProjectionNumerics) {
+        let stabilisation = numerics.stabilisation;
+        let eliminated = numerics.surface == SurfaceTreatment::Eliminated;
+        let count = phase.len();
+        self.stride = phase.free_pairs.stride();
+        self.link.resize(count * self.stride, Link { source: 0, gradient: Vector::zeros(), laplacian: 0.0 });
+        self.count.resize(count, 0);
+        for array in [&mut self.diagonal, &mut self.inverse_diagonal, &mut self.right_side] {
+            array.resize(count, 0.0);
+        }
+        self.own.resize(count, Vector::zeros());
+        self.gradient.resize(count, Vector::zeros());
+        let gradient_scale = phase.lattice_volume;
+        let laplacian_scale = -2.0 * phase.lattice_volume;
+        let normal = height_axis(D);
+        (self.link.par_chunks_mut(self.stride), &mut self.count, &mut self.own, &mut self.diagonal)
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(LEAST_TASK)
+            .for_each(|(a, (links, count, own, diagonal))| {
+                let mut sum = Vector::zeros();
+                let mut total = 0.0;
+                let mut beside_surface = false;
+                let pairs = phase.free_pairs.of(a);
+                for (link, pair) in links.iter_mut().zip(pairs) {
+                    let moment = 2.0 / (phase.moment[a] + phase.moment[pair.source as usize]);
+                    let weight = pair.gradient * moment;
+                    let gradient = pair.separation * (gradient_scale * weight);
+                    let laplacian = laplacian_scale * weight;
+                    *link = Link { source: pair.source, gradient, laplacian };
+                    sum += gradient;
+                    total += laplacian;
+                    beside_surface |= phase.at_surface[pair.source as usize];
+                }
+                let mut wall = 0.0;
+                let mut wall_total = 0.0;
+                for pair in phase.wall_pairs.of(a) {
+                    wall += gradient_scale / phase.moment[a] * pair.gradient * pair.separation[normal];
+                    wall_total += laplacian_scale * pair.gradient;
+                }
+                sum[normal] += 2.0 * wall;
+                *count = pairs.len() as u32;
+                *own = sum;
+                // what is missing counts as mirrored neighbours with −P_b: from half a spacing below the surface twice
+                // P_a away, from one and a half 4/3
+                let complete = phase.lattice.diagonal * laplacian_scale.abs() - wall_total;
+                let missing = (complete - total).max(0.0);
+                let mirror = if eliminated {
+                    f64::from(beside_surface)
+                } else {
+                    phase.nearness[a] * (4.0 / 3.0 + 2.0 / 3.0 * phase.deficit[a])
+                };
+                *diagonal = total + mirror * missing;
+            });
+        self.inverse_diagonal.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, inverse)| {
+            if eliminated && phase.at_surface[a] {
+                *inverse = 0.0;
+                return;
+            }
+            let links = &self.link[a * self.stride..a * self.stride + self.count[a] as usize];
+            // the diagonal of −D G: every neighbour's gradient sees P_a, and so does the own one
+            let mut squares = self.own[a].norm_squared();
+            for link in links {
+                squares += link.gradient.norm_squared();
+            }
+            let diagonal = self.diagonal[a] + stabilisation * squares;
+            *inverse = if diagonal > 0.0 { 1.0 / diagonal } else { 0.0 };
+        });
+    }
+
+    /// (D u)_a `[1/s]` of a velocity field.
+    pub(super) fn divergence(&self, a: usize, velocity: &[Vector<D>]) -> f64 {
+        let mut sum = -self.own[a].dot(&velocity[a]);
+        for link in self.links(a) {
+            sum += link.gradient.dot(&velocity[link.source as usize]);
+        }
+        sum
+    }
+
+    /// (G P)_a `[Pa/m]`.
+    pub(super) fn gradient(&self, a: usize, pressure: &[f64]) -> Vector<D> {
+        let mut sum = self.own[a] * pressure[a];
+        for link in self.links(a) {
+            sum += link.gradient * pressure[link.source as usize];
+        }
+        sum
+    }
+
+    /// Solves for the pressures `[Pa]`, starting from the present ones.
+    ///
+    /// # Errors
+    /// A solve that did not reach its tolerance.
+    pub(super) fn solve(
+        &mut self,
+        phase: &mut Phase<D>,
+        numerics: &ProjectionNumerics,
+        predicted: &[Vector<D>],
+        correction: Correction,
+        time_step: f64,
+    ) -> Result<(), NotConverged> {
+        let density = phase.density;
+        let eliminated = numerics.surface == SurfaceTreatment::Eliminated;
+        let mut right_side = std::mem::take(&mut self.right_side);
+        right_side.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, right)| {
+            if eliminated && phase.at_surface[a] {
+                *right = 0.0;
+                return;
+            }
+            let missing = match correction {
+                Correction::Both => {
+                    let missing = 1.0 - phase.concentration[a];
+                    if missing > 0.0 { missing * (1.0 - phase.nearness[a]) } else { missing }
+                }
+                Correction::CompressionOnly => (1.0 - phase.concentration[a]).min(0.0),
+            };
+            let missing = numerics.density_correction * missing / (time_step * time_step);
+            *right = -density
+                * match numerics.pressure_source {
+                    PressureSource::Divergence => self.divergence(a, predicted) / time_step + missing,
+                    PressureSource::Density => missing,
+                };
+        });
+        for (pressure, at_surface) in phase.pressure.iter_mut().zip(&phase.at_surface) {
+            if eliminated && *at_surface {
+                *pressure = 0.0;
+            }
+        }
+        let criterion = Criterion { tolerance: numerics.pressure_tolerance, most_iterations: MOST_ITERATIONS };
+        let stabilisation = numerics.stabilisation;
+        let mut solver = std::mem::replace(&mut self.solver, ConjugateGradient::new());
+        let mut gradient = std::mem::take(&mut self.gradient);
+        let inverse = std::mem::take(&mut self.inverse_diagonal);
+        let outcome = solver.solve(&mut phase.pressure, &right_side, &inverse, None, criterion, |p, product| {
+            self.apply(p, product, &mut gradient, &phase.at_surface, eliminated, stabilisation);
+        });
+        (self.solver, self.gradient, self.inverse_diagonal, self.right_side) = (solver, gradient, inverse, right_side);
+        outcome
+    }
+
+    fn apply(
+        &self,
+        p: &[f64],
+        product: &mut [f64],
+        gradient: &mut [Vector<D>],
+        surface: &[bool],
+        eliminated: bool,
+        stabilisation: f64,
+    ) {
+        if stabilisation == 0.0 {
+            product.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, out)| {
+                let mut sum = self.diagonal[a] * p[a];
+                for link in self.links(a) {
+                    sum -= link.laplacian * p[link.source as usize];
+                }
+                *out = if eliminated && surface[a] { 0.0 } else { sum };
+            });
+            return;
+        }
+        gradient.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, out)| *out = self.gradient(a, p));
+        let gradient = &*gradient;
+        product.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, out)| {
+            let mut compact = self.diagonal[a] * p[a];
+            let mut wide = self.own[a].dot(&gradient[a]);
+            for link in self.links(a) {
+                compact -= link.laplacian * p[link.source as usize];
+                wide -= link.gradient.dot(&gradient[link.source as usize]);
+            }
+            *out = if eliminated && surface[a] { 0.0 } else { compact + stabilisation * wide };
+        });
+    }
+
+    #[inline(always)]
+    fn links(&self, a: usize) -> &[Link<D>] {
+        let start = a * self.stride;
+        &self.link[start..start + self.count[a] as usize]
+    }
+}
+
+/// Which density errors are corrected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Correction {
+    /// Too dense and too thin alike.
+    Both,
+    /// Too dense only: what may come apart.
+    CompressionOnly,
+}

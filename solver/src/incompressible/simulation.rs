@@ -1,0 +1,315 @@
+//! An incompressible simulation: state, candidate search, and the loop with its stop reasons.
+
+use super::drag_exchange::DragExchange;
+use super::pairs::Periods;
+use super::phase::{Phase, height_axis};
+use super::pressure_poisson::PressurePoisson;
+use super::scene::IncompressibleScene;
+use super::snapshot::{IncompressibleSnapshot, PhaseSnapshot};
+use super::velocity_solve::VelocitySystem;
+use crate::divergence::{Divergence, Quantity};
+use crate::scene::SceneError;
+use crate::simulation::StopReason;
+use crate::vector::Vector;
+use std::ops::ControlFlow;
+
+/// A running simulation of a fluid, alone or with sediment.
+#[derive(Debug)]
+pub struct IncompressibleSimulation<const D: usize> {
+    pub(super) scene: IncompressibleScene<D>,
+    pub(super) fluid: Phase<D>,
+    pub(super) sediment: Option<Phase<D>>,
+    pub(super) exchange: DragExchange<D>,
+    pub(super) system: VelocitySystem<D>,
+    pub(super) fluid_poisson: PressurePoisson<D>,
+    pub(super) sediment_poisson: PressurePoisson<D>,
+    /// Dynamic viscosity of every fluid particle `[Pa·s]`.
+    pub(super) fluid_viscosity: Vec<f64>,
+    /// Apparent viscosity `[Pa·s]` and yield stress `[Pa]` of every sediment particle.
+    pub(super) sediment_viscosity: Vec<f64>,
+    pub(super) yield_stress: Vec<f64>,
+    pub(super) shifts: Vec<Vector<D>>,
+    pub(super) periods: Periods<D>,
+    pub(super) time: f64,
+    pub(super) steps: u64,
+    pub(super) last_step: f64,
+    searches: u64,
+    layers: Vec<Option<(Vector<D>, Vector<D>)>>,
+}
+
+/// What the linear solves and the searches of a run have cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SolverCost {
+    /// Iterations of the implicit velocities.
+    pub velocity_iterations: u64,
+    /// Iterations of the fluid's pressure Poisson equation.
+    pub fluid_pressure_iterations: u64,
+    /// Iterations of the sediment's pressure Poisson equation.
+    pub sediment_pressure_iterations: u64,
+    /// Searches of candidate pairs.
+    pub searches: u64,
+}
+
+/// Skin of the candidate search over the fluid kernel's reach `[-]`.
+const SKIN: f64 = 0.2;
+
+impl<const D: usize> IncompressibleSimulation<D> {
+    /// Sets up a simulation.
+    ///
+    /// # Errors
+    /// A scene that breaks a rule.
+    pub fn new(scene: IncompressibleScene<D>) -> Result<Self, SceneError> {
+        scene.check()?;
+        let ratio = scene.numerics.smoothing_ratio;
+        let fluid =
+            Phase::new(&scene.fluid.particles, &scene.fluid.wall, scene.fluid.spacing, scene.fluid.density, ratio);
+        let sediment = scene
+            .sediment
+            .as_ref()
+            .map(|material| Phase::new(&material.particles, &material.wall, material.spacing, material.density, ratio));
+        let (free_fluid, free_sediment) = (fluid.len(), sediment.as_ref().map_or(0, Phase::len));
+        let drag_length =
+            scene.sediment.as_ref().map_or(scene.fluid.spacing, |material| material.drag_smoothing_length);
+        let mut simulation = Self {
+            exchange: DragExchange::new(drag_length),
+            periods: Periods::of(&scene.domain),
+            fluid_viscosity: vec![0.0; free_fluid],
+            sediment_viscosity: vec![0.0; free_sediment],
+            yield_stress: vec![0.0; free_sediment],
+            system: VelocitySystem::new(),
+            fluid_poisson: PressurePoisson::new(),
+            sediment_poisson: PressurePoisson::new(),
+            shifts: Vec::new(),
+            time: 0.0,
+            steps: 0,
+            last_step: scene.numerics.time_step,
+            searches: 0,
+            layers: Vec::new(),
+            scene,
+            fluid,
+            sediment,
+        };
+        simulation.search();
+        Ok(simulation)
+    }
+
+    /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
+    /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
+    pub fn run(&mut self, end: f64, interval: f64, mut observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<D> {
+        let origin = self.time;
+        let mut observed = 0u64;
+        let mut observed_step = self.steps;
+        if observe(self).is_break() {
+            return StopReason::Stopped;
+        }
+        while self.time < end - 0.5 * self.last_step {
+            if let Err(divergence) = self.step() {
+                return StopReason::Diverged(divergence);
+            }
+            let due = ((self.time - origin) / interval + 1e-9).floor() as u64;
+            if due > observed {
+                observed = due;
+                observed_step = self.steps;
+                if observe(self).is_break() {
+                    return StopReason::Stopped;
+                }
+            }
+        }
+        if observed_step < self.steps && observe(self).is_break() {
+            return StopReason::Stopped;
+        }
+        StopReason::Finished
+    }
+
+    /// Time `[s]`.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Steps taken.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// What the run has cost.
+    #[must_use]
+    pub fn cost(&self) -> SolverCost {
+        SolverCost {
+            velocity_iterations: self.system.iterations(),
+            fluid_pressure_iterations: self.fluid_poisson.iterations(),
+            sediment_pressure_iterations: self.sediment_poisson.iterations(),
+            searches: self.searches,
+        }
+    }
+
+    /// Free particles of both phases.
+    #[must_use]
+    pub fn free_particles(&self) -> usize {
+        self.fluid.len() + self.sediment.as_ref().map_or(0, Phase::len)
+    }
+
+    /// The scene.
+    #[must_use]
+    pub fn scene(&self) -> &IncompressibleScene<D> {
+        &self.scene
+    }
+
+    /// Positions `[m]` and velocities `[m/s]` of the fluid, shape `[particles]`.
+    #[must_use]
+    pub fn fluid(&self) -> (&[Vector<D>], &[Vector<D>]) {
+        (&self.fluid.position, &self.fluid.velocity)
+    }
+
+    /// Pressures of the fluid `[Pa]`.
+    #[must_use]
+    pub fn fluid_pressure(&self) -> &[f64] {
+        &self.fluid.pressure
+    }
+
+    /// Positions `[m]` and velocities `[m/s]` of the free sediment, shape `[particles]`; empty without sediment.
+    #[must_use]
+    pub fn sediment(&self) -> (&[Vector<D>], &[Vector<D>]) {
+        self.sediment.as_ref().map_or((&[], &[]), |sediment| (&sediment.position, &sediment.velocity))
+    }
+
+    /// Force of walls and fixed grains on the fluid and the sediment in the last step `[N]`, per metre of width in 2-D:
+    /// friction and drag, without what the walls' pressure gives.
+    #[must_use]
+    pub fn holding_force(&self) -> Vector<D> {
+        let masses = self.fluid.mass.iter().chain(self.sediment.iter().flat_map(|sediment| &sediment.mass));
+        let mut impulse = Vector::zeros();
+        for (row, mass) in masses.enumerate().take(self.system.of_constant.len()) {
+            impulse -= self.system.velocity[row] * (self.system.of_constant[row] - mass);
+        }
+        impulse / self.last_step
+    }
+
+    /// Force of the fluid on every free sediment particle in the last step `[N]`, per metre of width in 2-D.
+    #[must_use]
+    pub fn drag(&self) -> Vec<Vector<D>> {
+        let free_fluid = self.fluid.len();
+        let rows = free_fluid..self.system.count.len();
+        let of_row = |row: usize| {
+            let links = &self.system.link[row * self.system.stride..][..self.system.count[row] as usize];
+            let from_fluid = links.iter().filter(|(partner, _)| (*partner as usize) < free_fluid);
+            let force = |sum, &(partner, coefficient): &(u32, f64)| {
+                sum + (self.system.velocity[partner as usize] - self.system.velocity[row]) * coefficient
+            };
+            from_fluid.fold(Vector::zeros(), force) / self.last_step
+        };
+        rows.map(of_row).collect()
+    }
+
+    /// A copy of the state in the order of the scene.
+    #[must_use]
+    pub fn snapshot(&self) -> IncompressibleSnapshot<D> {
+        IncompressibleSnapshot {
+            time: self.time,
+            fluid: PhaseSnapshot::of(&self.fluid),
+            sediment: self.sediment.as_ref().map(PhaseSnapshot::of).unwrap_or_default(),
+            drag: self.drag(),
+        }
+    }
+
+    /// Largest speed of any particle `[m/s]`.
+    pub(super) fn largest_speed(&self) -> f64 {
+        let largest = |velocities: &[Vector<D>]| velocities.iter().fold(0.0_f64, |most, v| most.max(v.norm_squared()));
+        let sediment = self.sediment.as_ref().map_or(0.0, |sediment| largest(&sediment.velocity));
+        largest(&self.fluid.velocity).max(sediment).sqrt()
+    }
+
+    /// A divergence at a row of the velocity system: the fluid's particles first, then the sediment's.
+    pub(super) fn divergence(&self, row: usize, quantity: Quantity, value: f64, limits: (f64, f64)) -> Divergence<D> {
+        let free_fluid = self.fluid.len();
+        let position = match &self.sediment {
+            Some(sediment) if row >= free_fluid => sediment.position[row - free_fluid],
+            _ => self.fluid.position[row.min(free_fluid - 1)],
+        };
+        Divergence { time: self.time, step: self.steps, particle: row as u32, position, quantity, value, limits }
+    }
+
+    /// Measures all pairs, after a search if one may be missing.
+    pub(super) fn measure(&mut self) {
+        if self.search_is_due() {
+            self.search();
+        }
+        self.fluid.measure(&self.periods);
+        if let Some(sediment) = &mut self.sediment {
+            sediment.measure(&self.periods);
+            self.exchange.measure(&self.fluid, sediment, &self.periods);
+        }
+    }
+
+    fn skin(&self) -> f64 {
+        SKIN * self.fluid.kernel.support()
+    }
+
+    fn search(&mut self) {
+        let skin = self.skin();
+        self.fluid.search(&self.scene.domain, &self.periods, skin);
+        if let Some(sediment) = &mut self.sediment {
+            sediment.search(&self.scene.domain, &self.periods, skin);
+            self.exchange.search(&self.fluid, sediment, &self.scene.domain, &self.periods, skin);
+        }
+        self.searches += 1;
+    }
+
+    /// Whether particles of the same or of adjacent layers have moved by the skin against each other since the search.
+    ///
+    /// Layers are as thick as the longest reach, so that a pair lies in adjacent ones; what a layer moves as a whole
+    /// does not count, which saves most searches of a shear flow.
+    fn search_is_due(&mut self) -> bool {
+        let skin = self.skin();
+        let mut reach = self.fluid.kernel.support();
+        if let Some(sediment) = &self.sediment {
+            reach = reach.max(sediment.kernel.support()).max(self.exchange.reach());
+        }
+        let (thickness, normal) = (reach + skin, height_axis(D));
+        let mut lowest = f64::INFINITY;
+        let phases = || std::iter::once(&self.fluid).chain(&self.sediment);
+        for phase in phases() {
+            for position in phase.position.iter().chain(&phase.wall) {
+                lowest = lowest.min(position[normal]);
+            }
+        }
+        lowest -= reach;
+        let mut layers = std::mem::take(&mut self.layers);
+        layers.fill(None);
+        let mut extend = |height: f64, travel: Vector<D>| {
+            let layer = (((height - lowest) / thickness).max(0.0) as usize).min(MOST_LAYERS);
+            if layer >= layers.len() {
+                layers.resize(layer + 1, None);
+            }
+            let (low, high) = layers[layer].unwrap_or((travel, travel));
+            layers[layer] = Some((low.inf(&travel), high.sup(&travel)));
+        };
+        for phase in phases() {
+            for (position, travel) in phase.position.iter().zip(&phase.travel) {
+                // where it was at the search
+                extend(position[normal] - travel[normal], *travel);
+            }
+            for position in &phase.wall {
+                extend(position[normal], Vector::zeros());
+            }
+        }
+        let mut due = false;
+        let mut below: Option<(Vector<D>, Vector<D>)> = None;
+        for layer in &layers {
+            if let Some((mut low, mut high)) = *layer {
+                if let Some(below) = below {
+                    (low, high) = (low.inf(&below.0), high.sup(&below.1));
+                }
+                let moved = (high - low).norm();
+                due |= moved.is_nan() || moved >= skin;
+            }
+            below = *layer;
+        }
+        self.layers = layers;
+        due
+    }
+}
+
+/// More layers than this are one: a stray particle far away must not buy memory.
+const MOST_LAYERS: usize = 65_536;

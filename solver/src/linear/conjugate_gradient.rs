@@ -1,0 +1,144 @@
+//! Conjugate gradients, preconditioned with the diagonal and, if asked, with the constant vector deflated.
+//!
+//! Deflation (Nicolaides 1987) splits off the one vector that a diagonal handles worst: the whole set moving as one.
+//! Every residual is then orthogonal to the constant. If the unknowns are velocities and the rows forces, that is the
+//! total momentum: it closes to rounding, whatever the tolerance.
+
+use super::reductions::{Unknown, dot};
+
+/// When a solve ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Criterion {
+    /// Norm of the residual over that of the right-hand side `[-]`, both weighted with the inverse diagonal.
+    pub(crate) tolerance: f64,
+    /// Iterations after which the solve is given up.
+    pub(crate) most_iterations: usize,
+}
+
+/// A solve that did not reach its tolerance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct NotConverged {
+    /// Row with the largest residual, or the first that is not a number.
+    pub(crate) row: usize,
+    /// Norm of the residual over that of the right-hand side `[-]`.
+    pub(crate) residual: f64,
+}
+
+/// Buffers, reused from solve to solve.
+#[derive(Debug)]
+pub(crate) struct ConjugateGradient<T> {
+    residual: Vec<T>,
+    direction: Vec<T>,
+    product: Vec<T>,
+    preconditioned: Vec<T>,
+    iterations: u64,
+}
+
+impl<T: Unknown> ConjugateGradient<T> {
+    pub(crate) fn new() -> Self {
+        Self {
+            residual: Vec::new(),
+            direction: Vec::new(),
+            product: Vec::new(),
+            preconditioned: Vec::new(),
+            iterations: 0,
+        }
+    }
+
+    /// Iterations of all solves.
+    pub(crate) fn iterations(&self) -> u64 {
+        self.iterations
+    }
+
+    /// Improves `unknown` until `apply(unknown) = right_side`. `of_constant` is the operator times the constant vector
+    /// of ones where that is to be deflated.
+    ///
+    /// # Errors
+    /// A solve that did not reach its tolerance.
+    pub(crate) fn solve(
+        &mut self,
+        unknown: &mut [T],
+        right_side: &[T],
+        inverse_diagonal: &[f64],
+        of_constant: Option<&[f64]>,
+        criterion: Criterion,
+        mut apply: impl FnMut(&[T], &mut [T]),
+    ) -> Result<(), NotConverged> {
+        let rows = unknown.len();
+        for buffer in [&mut self.residual, &mut self.direction, &mut self.product, &mut self.preconditioned] {
+            buffer.clear();
+            buffer.resize(rows, T::ZERO);
+        }
+        apply(unknown, &mut self.product);
+        for (residual, (right, product)) in self.residual.iter_mut().zip(right_side.iter().zip(&self.product)) {
+            *residual = *right - *product;
+        }
+        let deflation = of_constant.map(|image| (image, 1.0 / image.iter().fold(0.0, |sum, value| sum + value)));
+        if let Some((image, inverse)) = deflation {
+            let shift = sum(&self.residual) * inverse;
+            for (row, value) in unknown.iter_mut().enumerate() {
+                *value = *value + shift;
+                self.residual[row] = self.residual[row] - shift * image[row];
+            }
+        }
+        self.precondition(inverse_diagonal);
+        let scale = weighted_square(right_side, inverse_diagonal);
+        let goal = criterion.tolerance * criterion.tolerance * scale;
+        let mut descent = dot(&self.residual, &self.preconditioned);
+        let mut iterations = 0;
+        let mut growth = 0.0;
+        while descent > goal || descent.is_nan() {
+            if iterations == criterion.most_iterations || !descent.is_finite() {
+                return Err(NotConverged { row: worst(&self.residual), residual: (descent / scale).sqrt() });
+            }
+            let lift = deflation.map_or(T::ZERO, |(image, inverse)| {
+                let overlap = self.preconditioned.iter().zip(image).fold(T::ZERO, |sum, (z, a)| sum + *z * *a);
+                overlap * inverse
+            });
+            for (direction, z) in self.direction.iter_mut().zip(&self.preconditioned) {
+                *direction = (*z - lift) + *direction * growth;
+            }
+            apply(&self.direction, &mut self.product);
+            let step = descent / dot(&self.direction, &self.product);
+            for row in 0..rows {
+                unknown[row] = unknown[row] + self.direction[row] * step;
+                self.residual[row] = self.residual[row] - self.product[row] * step;
+            }
+            self.precondition(inverse_diagonal);
+            let next = dot(&self.residual, &self.preconditioned);
+            growth = next / descent;
+            descent = next;
+            iterations += 1;
+        }
+        self.iterations += iterations as u64;
+        Ok(())
+    }
+
+    fn precondition(&mut self, inverse_diagonal: &[f64]) {
+        for ((z, r), d) in self.preconditioned.iter_mut().zip(&self.residual).zip(inverse_diagonal) {
+            *z = *r * *d;
+        }
+    }
+}
+
+fn sum<T: Unknown>(values: &[T]) -> T {
+    values.iter().fold(T::ZERO, |sum, value| sum + *value)
+}
+
+fn weighted_square<T: Unknown>(values: &[T], weights: &[f64]) -> f64 {
+    values.iter().zip(weights).fold(0.0, |sum, (value, weight)| sum + value.product(value) * weight)
+}
+
+fn worst<T: Unknown>(residual: &[T]) -> usize {
+    let mut worst = (0, 0.0);
+    for (row, value) in residual.iter().enumerate() {
+        let square = value.product(value);
+        if square.is_nan() {
+            return row;
+        }
+        if square > worst.1 {
+            worst = (row, square);
+        }
+    }
+    worst.0
+}
