@@ -3,8 +3,9 @@
 use super::numerics::PairLaw;
 use super::pairs::LEAST_TASK;
 use super::phase::height_axis;
-use super::scene::{Bed, SedimentYield, Turbulence};
+use super::scene::{Bed, Sediment, SedimentLaw, Turbulence};
 use super::simulation::IncompressibleSimulation;
+use super::stratification::Stratification;
 use crate::vector::{Vector, shear_rate};
 use rayon::prelude::*;
 
@@ -14,41 +15,69 @@ fn inverse_rate(rate: f64, regularisation: f64) -> f64 {
     if ratio < 1e-6 { 1.0 / regularisation } else { -libm::expm1(-ratio) / rate }
 }
 
-impl SedimentYield {
-    /// Yield stress `[Pa]` at a height `[m]`.
-    pub(super) fn at(&self, height: f64) -> f64 {
-        let overburden = self.buoyant_weight * (self.overburden_level - height).max(0.0);
-        self.yield_stress + self.overburden_friction * overburden
+impl<const D: usize> Sediment<D> {
+    /// What the law's strength depends on at a height `[m]`: the yield stress, or the overburden `[Pa]`.
+    fn load(&self, height: f64, stratification: Option<&Stratification>) -> f64 {
+        match self.law {
+            SedimentLaw::Bingham(law) => {
+                let overburden = law.buoyant_weight * (law.overburden_level - height).max(0.0);
+                law.yield_stress + law.overburden_friction * overburden
+            }
+            SedimentLaw::MuI(_) => stratification.map_or(0.0, |layer| layer.at(height).overburden),
+        }
     }
 
-    /// Viscosity `[Pa·s]` at a yield stress `[Pa]` and a shear rate `[1/s]`.
-    fn viscosity_at(&self, yield_stress: f64, rate: f64) -> f64 {
-        (yield_stress * inverse_rate(rate, self.regularisation_rate)).min(self.largest_viscosity) + self.viscosity
+    /// Apparent viscosity `[Pa·s]` at a load `[Pa]` and a shear rate `[1/s]`.
+    fn viscosity(&self, load: f64, rate: f64) -> f64 {
+        match self.law {
+            SedimentLaw::Bingham(law) => {
+                (load * inverse_rate(rate, law.regularisation_rate)).min(law.largest_viscosity) + law.viscosity
+            }
+            SedimentLaw::MuI(law) => {
+                let reference = law.reference_inertia * (load / self.density).sqrt() / self.grain_diameter;
+                let span = law.limiting_friction - law.static_friction;
+                let friction = law.static_friction + span * rate / (rate + reference).max(f64::MIN_POSITIVE);
+                friction * load / (rate * rate + law.regularisation_rate * law.regularisation_rate).sqrt()
+            }
+        }
     }
 }
 
+/// Viscosity of water between grains over that of clear water `[-]`, as two-phase Eulerian codes take it.
+fn suspension_factor(solid_fraction: f64) -> f64 {
+    1.0 + 2.5 * solid_fraction / (1.0 - solid_fraction.min(0.59) / 0.62)
+}
+
 impl<const D: usize> IncompressibleSimulation<D> {
-    /// Dynamic viscosity of every fluid particle `[Pa·s]`, and yield stress and viscosity of every sediment particle.
+    /// Share of the space and dynamic viscosity of every fluid particle, load and viscosity of every sediment particle.
     pub(super) fn find_viscosities(&mut self) {
         let scene = &self.scene;
         let fluid = &self.fluid;
         let normal = height_axis(D);
-        self.fluid_viscosity.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, viscosity)| {
-            let eddy = match scene.fluid.turbulence {
-                Turbulence::Laminar => 0.0,
-                Turbulence::MixingLength { level, depth, law } => {
-                    let rate = shear_rate(&fluid.velocity_gradient[a]);
-                    law.eddy_viscosity(fluid.position[a][normal] - level, depth, rate)
-                }
-            };
-            *viscosity = scene.fluid.density * (scene.fluid.kinematic_viscosity + eddy);
-        });
+        let layer = scene.solid_fraction.stratification();
+        (&mut self.fluid_viscosity, &mut self.fluid_share)
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(LEAST_TASK)
+            .for_each(|(a, (viscosity, share))| {
+                let height = fluid.position[a][normal];
+                let rate = shear_rate(&fluid.velocity_gradient[a]);
+                let stratum = layer.map(|layer| layer.at(height));
+                let eddy = match scene.fluid.turbulence {
+                    Turbulence::Laminar => 0.0,
+                    Turbulence::MixingLength { level, depth, law } => law.eddy_viscosity(height - level, depth, rate),
+                    Turbulence::Stratified => stratum.map_or(0.0, |s| s.mixing_length * s.mixing_length * rate),
+                };
+                let solid_fraction = stratum.map_or(0.0, |stratum| stratum.solid_fraction);
+                let molecular = scene.fluid.kinematic_viscosity * suspension_factor(solid_fraction);
+                *share = 1.0 - solid_fraction;
+                *viscosity = *share * scene.fluid.density * (molecular + eddy);
+            });
         if let (Some(sediment), Some(material)) = (&self.sediment, &scene.sediment) {
-            let strength = &material.strength;
             for a in 0..sediment.len() {
-                self.yield_stress[a] = strength.at(sediment.position[a][normal]);
-                self.sediment_viscosity[a] =
-                    strength.viscosity_at(self.yield_stress[a], shear_rate(&sediment.velocity_gradient[a]));
+                self.load[a] = material.load(sediment.position[a][normal], layer);
+                let rate = shear_rate(&sediment.velocity_gradient[a]);
+                self.sediment_viscosity[a] = material.viscosity(self.load[a], rate);
             }
         }
     }
@@ -56,7 +85,16 @@ impl<const D: usize> IncompressibleSimulation<D> {
     /// Fills the rows of M + Δt K and the momenta before the solve.
     pub(super) fn assemble_velocities(&mut self, time_step: f64) {
         let Self {
-            scene, fluid, sediment, exchange, system, fluid_viscosity, sediment_viscosity, yield_stress, ..
+            scene,
+            fluid,
+            sediment,
+            exchange,
+            system,
+            fluid_viscosity,
+            sediment_viscosity,
+            fluid_share,
+            load,
+            ..
         } = self;
         let numerics = scene.numerics;
         let free_fluid = fluid.len();
@@ -139,14 +177,14 @@ impl<const D: usize> IncompressibleSimulation<D> {
                     }
                 }
                 *count = filled as u32;
-                *sum = fluid.mass[a] + held;
+                *sum = fluid.mass[a] * fluid_share[a] + held;
                 *diagonal = *sum + total;
             });
 
         // the sediment's rows
         if let (Some(sediment), Some(material)) = (sediment.as_ref(), material) {
             let scale = -2.0 * time_step;
-            let strength = &material.strength;
+            let layer = scene.solid_fraction.stratification();
             (sediment_links.par_chunks_mut(stride), sediment_counts, sediment_diagonals, sediment_sums)
                 .into_par_iter()
                 .enumerate()
@@ -155,15 +193,15 @@ impl<const D: usize> IncompressibleSimulation<D> {
                     let mut filled = 0;
                     let (mut total, mut held) = (0.0, 0.0);
                     let pair_viscosity = |b: Option<usize>, distance_squared: f64, height: f64| {
-                        let (other_yield, other_velocity) = match b {
-                            Some(b) => (yield_stress[b], sediment.velocity[b]),
-                            None => (strength.at(height), Vector::zeros()),
+                        let (other_load, other_velocity) = match b {
+                            Some(b) => (load[b], sediment.velocity[b]),
+                            None => (material.load(height, layer), Vector::zeros()),
                         };
                         match numerics.pair_law {
                             PairLaw::PairRate => {
                                 let rate =
                                     ((sediment.velocity[a] - other_velocity).norm_squared() / distance_squared).sqrt();
-                                2.0 * strength.viscosity_at(yield_stress[a].min(other_yield), rate)
+                                2.0 * material.viscosity(load[a].min(other_load), rate)
                             }
                             PairLaw::ArithmeticMean => {
                                 sediment_viscosity[a] + b.map_or(sediment_viscosity[a], |b| sediment_viscosity[b])
@@ -207,12 +245,14 @@ impl<const D: usize> IncompressibleSimulation<D> {
                 });
         }
         for a in 0..free_fluid {
-            system.momentum[a] = (fluid.velocity[a] + scene.fluid.gravity * time_step) * fluid.mass[a];
+            system.inertia[a] = fluid.mass[a] * fluid_share[a];
+            system.momentum[a] = (fluid.velocity[a] + scene.fluid.gravity * time_step) * system.inertia[a];
             system.velocity[a] = fluid.velocity[a];
         }
         if let (Some(sediment), Some(material)) = (sediment.as_ref(), material) {
             for a in 0..free_sediment {
                 let row = free_fluid + a;
+                system.inertia[row] = sediment.mass[a];
                 system.momentum[row] = (sediment.velocity[a] + material.gravity * time_step) * sediment.mass[a];
                 system.velocity[row] = sediment.velocity[a];
             }

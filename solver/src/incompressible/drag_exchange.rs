@@ -2,13 +2,14 @@
 //!
 //! The printed form (30) gives the force on grain a as Σ_b ½ m_b C_d d |u_ba| W u_ba over the fluid's particles b, hence
 //! β_ab = ½ m_b C_d d |u_ab| W with C_d d |u_ab| = (C_d R) ν. The slip is the pair's own, as printed, or that of the
-//! grain against the mean of the fluid around it, which the shear within the kernel does not enlarge.
+//! grain against the mean of the fluid around it, which the shear within the kernel does not enlarge. In the
+//! volume-fraction form a particle of volume V_a feels V_a K (u_f − u_a), shared by W over the fluid around it.
 
 use super::grid::Grid;
 use super::numerics::DragSlip;
 use super::pairs::{LEAST_TASK, Pairs, Periods, Sources};
-use super::phase::Phase;
-use super::scene::{IncompressibleScene, Sediment};
+use super::phase::{Phase, height_axis};
+use super::scene::{DragForm, IncompressibleScene, Sediment};
 use crate::boundary::Domain;
 use crate::kernel::{Kernel, KernelShape};
 use crate::vector::Vector;
@@ -25,6 +26,8 @@ pub(super) struct DragExchange<const D: usize> {
     sediment: Vec<Vector<D>>,
     /// β_ab/(m_b W) of every sediment particle, from its mean slip `[m²/s]` in 2-D.
     mean_factor: Vec<f64>,
+    /// |u_f − u_s| of every sediment particle `[m/s]`.
+    slip: Vec<f64>,
     /// Largest Reynolds number of a grain in this step, and which.
     pub(super) largest_reynolds: (f64, usize),
     kernel: Kernel<D>,
@@ -38,6 +41,7 @@ impl<const D: usize> DragExchange<D> {
             of_fluid: Pairs::default(),
             sediment: Vec::new(),
             mean_factor: Vec::new(),
+            slip: Vec::new(),
             largest_reynolds: (0.0, 0),
             kernel: Kernel::new(KernelShape::CubicSpline, smoothing_length),
             grid: Grid::new(),
@@ -102,31 +106,56 @@ impl<const D: usize> DragExchange<D> {
         material: &Sediment<D>,
     ) {
         self.mean_factor.resize(self.sediment.len(), 0.0);
-        let of_sediment = &self.of_sediment;
+        self.slip.resize(self.sediment.len(), 0.0);
+        let (of_sediment, positions) = (&self.of_sediment, &self.sediment);
+        let layer = scene.solid_fraction.stratification();
         let viscosity = scene.fluid.kinematic_viscosity;
-        self.mean_factor.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, slip)| {
-            let (mut sum, mut weight) = (Vector::zeros(), 0.0);
-            for pair in of_sediment.of(a) {
-                sum += fluid.velocity[pair.source as usize] * pair.value;
-                weight += pair.value;
-            }
-            let own = sediment.velocity.get(a).copied().unwrap_or_else(Vector::zeros);
-            *slip = if weight > 0.0 { (sum / weight - own).norm() } else { 0.0 };
-        });
+        let normal = height_axis(D);
+        (&mut self.mean_factor, &mut self.slip).into_par_iter().enumerate().with_min_len(LEAST_TASK).for_each(
+            |(a, (factor, slip))| {
+                let (mut sum, mut weight) = (Vector::zeros(), 0.0);
+                for pair in of_sediment.of(a) {
+                    sum += fluid.velocity[pair.source as usize] * pair.value;
+                    weight += pair.value;
+                }
+                let own = sediment.velocity.get(a).copied().unwrap_or_else(Vector::zeros);
+                *slip = if weight > 0.0 { (sum / weight - own).norm() } else { 0.0 };
+                *factor = match material.drag_form {
+                    DragForm::Grain(_) => printed_factor(material, *slip, viscosity),
+                    DragForm::Exchange => {
+                        let fraction = layer.map_or(0.0, |layer| layer.at(positions[a][normal]).solid_fraction);
+                        let diameter = material.grain_diameter;
+                        let density = scene.fluid.density;
+                        let exchange =
+                            material.drag.exchange_coefficient(fraction, *slip, diameter, density, viscosity);
+                        let volume = sediment.volume.get(a).copied().unwrap_or(sediment.lattice_volume);
+                        // shared by the fluid around: Σ_b m_b W is the fluid's density where its particles are all there
+                        volume * exchange / (density * (weight * fluid.lattice_volume).max(LEAST_FLUID))
+                    }
+                };
+            },
+        );
         self.largest_reynolds = (0.0, 0);
-        for (particle, factor) in self.mean_factor.iter_mut().enumerate() {
-            let reynolds = *factor * material.grain_diameter / viscosity;
+        for (particle, slip) in self.slip.iter().enumerate() {
+            let reynolds = slip * material.grain_diameter / viscosity;
             if reynolds > self.largest_reynolds.0 || reynolds.is_nan() {
                 self.largest_reynolds = (reynolds, particle);
             }
-            *factor = printed_factor(material, *factor, viscosity);
         }
     }
 }
+
+/// Σ V W of the fluid around a sediment particle below which its drag is not shared out in full `[-]`: where a particle
+/// leaves the water, the force must fall with the water that there is.
+const LEAST_FLUID: f64 = 0.3;
 
 /// ½ C_d d |u| of (30) `[m²/s]`; Ergun's law, which has no single grain, gives none.
 fn printed_factor<const D: usize>(material: &Sediment<D>, slip: f64, kinematic_viscosity: f64) -> f64 {
     let reynolds = slip * material.grain_diameter / kinematic_viscosity;
     let product = material.drag.drag_times_reynolds(reynolds).unwrap_or(0.0);
-    0.5 * material.drag_factor * product * kinematic_viscosity
+    let factor = match material.drag_form {
+        DragForm::Grain(factor) => factor,
+        DragForm::Exchange => 1.0,
+    };
+    0.5 * factor * product * kinematic_viscosity
 }

@@ -20,10 +20,15 @@ mod shifting;
 mod simulation;
 mod snapshot;
 mod step;
+mod stratification;
 mod velocity_solve;
 
 pub use numerics::{DragSlip, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment};
-pub use scene::{Bed, Fluid, IncompressibleScene, ParticleSet, Sediment, SedimentYield, Turbulence};
+pub use scene::{
+    Bed, DragForm, Fluid, GranularFriction, IncompressibleScene, ParticleSet, Sediment, SedimentLaw, SedimentPressure,
+    SedimentYield, SolidFraction, Turbulence,
+};
 pub use simulation::{IncompressibleSimulation, SolverCost};
 pub use snapshot::{IncompressibleSnapshot, PhaseSnapshot};
 pub(crate) use step::MOST_ITERATIONS;
+pub use stratification::Stratification;

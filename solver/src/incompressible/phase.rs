@@ -130,6 +130,14 @@ impl<const D: usize> Phase<D> {
         }
     }
 
+    /// The same phase with masses of a given filling of each particle `[-]`.
+    pub(super) fn filled(mut self, filling: &[f64]) -> Self {
+        for (mass, filling) in self.mass.iter_mut().zip(filling) {
+            *mass *= filling;
+        }
+        self
+    }
+
     pub(super) fn len(&self) -> usize {
         self.position.len()
     }

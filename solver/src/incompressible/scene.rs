@@ -1,6 +1,7 @@
 //! What an incompressible simulation starts from.
 
 use super::numerics::ProjectionNumerics;
+use super::stratification::Stratification;
 use crate::boundary::{AxisBoundary, Domain};
 use crate::drag::DragLaw;
 use crate::scene::SceneError;
@@ -48,6 +49,8 @@ pub enum Turbulence {
         /// The law.
         law: MixingLength,
     },
+    /// The mixing length of the [`Stratification`].
+    Stratified,
 }
 
 /// The fluid.
@@ -73,21 +76,68 @@ pub struct Fluid<const D: usize> {
 
 /// How the sediment yields.
 #[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SedimentLaw {
+    /// Bingham, with a yield stress that may grow with the grains' overburden.
+    Bingham(SedimentYield),
+    /// μ(I) on the overburden of a [`Stratification`].
+    MuI(GranularFriction),
+}
+
+/// Bingham's law (21) in the norm |γ̇| = √(2 ε:ε), with Coulomb friction on the overburden.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SedimentYield {
-    /// τ_Y `[Pa]`.
+    /// Yield stress τ_y `[Pa]`.
     pub yield_stress: f64,
-    /// μ_s `[Pa·s]`.
+    /// Plastic viscosity `[Pa·s]`.
     pub viscosity: f64,
-    /// Friction on the overburden `[-]`; 0 is the paper's Bingham law.
+    /// Friction on the overburden `[-]`; 0 is the paper's law.
     pub overburden_friction: f64,
     /// Level above which there is no overburden `[m]`.
     pub overburden_level: f64,
-    /// Buoyant weight that loads it `[Pa/m]`.
+    /// Buoyant weight of the grains `[Pa/m]`.
     pub buoyant_weight: f64,
-    /// Regularisation rate `[1/s]`.
+    /// Shear rate below which the material creeps instead of standing still `[1/s]`.
     pub regularisation_rate: f64,
     /// Largest viscosity `[Pa·s]`.
     pub largest_viscosity: f64,
+}
+
+/// τ = μ(I) p′ γ̇/√(γ̇² + γ_r²) with μ = μ_s + (μ_2 − μ_s) I/(I + I_0), I = γ̇ d √(ρ_s/p′).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GranularFriction {
+    /// Static friction μ_s `[-]`.
+    pub static_friction: f64,
+    /// Limiting friction μ_2 `[-]`.
+    pub limiting_friction: f64,
+    /// Reference inertia I_0 `[-]`.
+    pub reference_inertia: f64,
+    /// Regularisation rate γ_r `[1/s]`.
+    pub regularisation_rate: f64,
+}
+
+/// What keeps the sediment apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SedimentPressure {
+    /// A pressure Poisson equation of its own, (11): each grain is incompressible.
+    Incompressible,
+    /// Nothing: the particles move along the bed only, and keep the solid fraction that is given.
+    AlongBed,
+    /// The pressure of sheared grains, p = ρ_s (d γ̇ B φ/(φ_max − φ))², the inverse of φ = φ_max/(1 + B I).
+    Dilatant {
+        /// B `[-]`.
+        dilation: f64,
+        /// φ_max `[-]`.
+        packing: f64,
+    },
+}
+
+/// Which force a sediment particle feels from the fluid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DragForm {
+    /// (30): one grain a particle, ½ C_d d |u_r| per mass of the fluid around it, times a factor `[-]`.
+    Grain(f64),
+    /// K of the law at the particle's solid fraction, per volume.
+    Exchange,
 }
 
 /// The sediment.
@@ -95,6 +145,9 @@ pub struct SedimentYield {
 pub struct Sediment<const D: usize> {
     /// Free particles.
     pub particles: ParticleSet<D>,
+    /// Volume of grains in each free particle over its lattice volume `[-]`, shape `[free particles]`; 1 is a grain that
+    /// fills its place.
+    pub filling: Vec<f64>,
     /// Fixed grains `[m]`.
     pub wall: Vec<Vector<D>>,
     /// Particle spacing `[m]`.
@@ -103,16 +156,40 @@ pub struct Sediment<const D: usize> {
     pub density: f64,
     /// Grain diameter `[m]`.
     pub grain_diameter: f64,
-    /// Yield.
-    pub strength: SedimentYield,
+    /// Law.
+    pub law: SedimentLaw,
+    /// Pressure.
+    pub pressure: SedimentPressure,
     /// Drag law.
     pub drag: DragLaw,
+    /// Its form.
+    pub drag_form: DragForm,
     /// Smoothing length of the drag `[m]`.
     pub drag_smoothing_length: f64,
-    /// Factor of the drag `[-]`.
-    pub drag_factor: f64,
-    /// Body force per mass `[m/s²]`.
+    /// Body force per mass, with buoyancy across the bed `[m/s²]`.
     pub gravity: Vector<D>,
+}
+
+/// How the phases share the space.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SolidFraction {
+    /// They overlap: grains displace no fluid.
+    Overlapping,
+    /// A given φ(z).
+    Given(Stratification),
+    /// φ(z) is the mean along the bed of the sediment particles, renewed at every step.
+    Averaged(Stratification),
+}
+
+impl SolidFraction {
+    /// The stratification, if there is one.
+    #[must_use]
+    pub fn stratification(&self) -> Option<&Stratification> {
+        match self {
+            Self::Overlapping => None,
+            Self::Given(stratification) | Self::Averaged(stratification) => Some(stratification),
+        }
+    }
 }
 
 /// Both phases and the numerics.
@@ -122,6 +199,8 @@ pub struct IncompressibleScene<const D: usize> {
     pub fluid: Fluid<D>,
     /// The sediment.
     pub sediment: Option<Sediment<D>>,
+    /// How the phases share the space.
+    pub solid_fraction: SolidFraction,
     /// Boundaries: periodic or open.
     pub domain: Domain<D>,
     /// Numerics.
@@ -145,23 +224,45 @@ impl<const D: usize> IncompressibleScene<D> {
         values.push(("kinematic_viscosity", fluid.kinematic_viscosity));
         let mut least = 2.0 * self.reach(fluid.spacing);
         if let Some(sediment) = &self.sediment {
-            check_set(&sediment.particles)?;
+            if sediment.wall.is_empty() || !sediment.particles.position.is_empty() {
+                check_set(&sediment.particles)?;
+            }
             values.extend([
                 ("sediment spacing", sediment.spacing),
                 ("sediment density", sediment.density),
                 ("grain_diameter", sediment.grain_diameter),
                 ("drag_smoothing_length", sediment.drag_smoothing_length),
-                ("regularisation_rate", sediment.strength.regularisation_rate),
-                ("largest_viscosity", sediment.strength.largest_viscosity),
             ]);
-            let strength = &sediment.strength;
-            let signless = [("yield_stress", strength.yield_stress), ("viscosity", strength.viscosity)];
+            let signless = match sediment.law {
+                SedimentLaw::Bingham(law) => {
+                    values.push(("regularisation_rate", law.regularisation_rate));
+                    values.push(("largest_viscosity", law.largest_viscosity));
+                    [("yield_stress", law.yield_stress), ("viscosity", law.viscosity)]
+                }
+                SedimentLaw::MuI(law) => {
+                    values.push(("regularisation_rate", law.regularisation_rate));
+                    values.push(("reference_inertia", law.reference_inertia));
+                    [("static_friction", law.static_friction), ("limiting_friction", law.limiting_friction)]
+                }
+            };
             for (field, value) in signless {
                 if !(value >= 0.0 && value.is_finite()) {
                     return parameter((field, value, "0 or positive, and finite", "give it in SI units"));
                 }
             }
+            let (expected, found) = (sediment.particles.position.len(), sediment.filling.len());
+            if found != expected {
+                return Err(SceneError::Length { array: "filling", found, expected });
+            }
             least = least.max(2.0 * self.reach(sediment.spacing)).max(4.0 * sediment.drag_smoothing_length);
+        }
+        if let Some(layer) = self.solid_fraction.stratification() {
+            for &value in &layer.solid_fraction {
+                if !(0.0..1.0).contains(&value) {
+                    return parameter(("solid_fraction", value, "in [0, 1)", "grains fill 0 to 0.64 of the space"));
+                }
+            }
+            values.extend([("packing", layer.packing), ("interval", layer.interval), ("depth", layer.depth)]);
         }
         for (field, value) in values {
             if !positive(value) {

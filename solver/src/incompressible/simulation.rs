@@ -25,9 +25,12 @@ pub struct IncompressibleSimulation<const D: usize> {
     pub(super) sediment_poisson: PressurePoisson<D>,
     /// Dynamic viscosity of every fluid particle `[Pa·s]`.
     pub(super) fluid_viscosity: Vec<f64>,
-    /// Apparent viscosity `[Pa·s]` and yield stress `[Pa]` of every sediment particle.
+    /// Share of the space that the fluid has at every fluid particle `[-]`.
+    pub(super) fluid_share: Vec<f64>,
+    /// Apparent viscosity of every sediment particle `[Pa·s]`.
     pub(super) sediment_viscosity: Vec<f64>,
-    pub(super) yield_stress: Vec<f64>,
+    /// Yield stress or overburden of every sediment particle `[Pa]`.
+    pub(super) load: Vec<f64>,
     pub(super) shifts: Vec<Vector<D>>,
     pub(super) periods: Periods<D>,
     pub(super) time: f64,
@@ -67,6 +70,10 @@ impl<const D: usize> IncompressibleSimulation<D> {
             .sediment
             .as_ref()
             .map(|material| Phase::new(&material.particles, &material.wall, material.spacing, material.density, ratio));
+        let sediment = sediment.map(|phase| match &scene.sediment {
+            Some(material) => phase.filled(&material.filling),
+            None => phase,
+        });
         let (free_fluid, free_sediment) = (fluid.len(), sediment.as_ref().map_or(0, Phase::len));
         let drag_length =
             scene.sediment.as_ref().map_or(scene.fluid.spacing, |material| material.drag_smoothing_length);
@@ -75,7 +82,8 @@ impl<const D: usize> IncompressibleSimulation<D> {
             periods: Periods::of(&scene.domain),
             fluid_viscosity: vec![0.0; free_fluid],
             sediment_viscosity: vec![0.0; free_sediment],
-            yield_stress: vec![0.0; free_sediment],
+            fluid_share: vec![1.0; free_fluid],
+            load: vec![0.0; free_sediment],
             system: VelocitySystem::new(),
             fluid_poisson: PressurePoisson::new(),
             sediment_poisson: PressurePoisson::new(),
@@ -178,10 +186,10 @@ impl<const D: usize> IncompressibleSimulation<D> {
     /// friction and drag, without what the walls' pressure gives.
     #[must_use]
     pub fn holding_force(&self) -> Vector<D> {
-        let masses = self.fluid.mass.iter().chain(self.sediment.iter().flat_map(|sediment| &sediment.mass));
+        let system = &self.system;
         let mut impulse = Vector::zeros();
-        for (row, mass) in masses.enumerate().take(self.system.of_constant.len()) {
-            impulse -= self.system.velocity[row] * (self.system.of_constant[row] - mass);
+        for ((velocity, sum), inertia) in system.velocity.iter().zip(&system.of_constant).zip(&system.inertia) {
+            impulse -= velocity * (sum - inertia);
         }
         impulse / self.last_step
     }

@@ -1,8 +1,9 @@
 //! One step: implicit velocities of both phases, a pressure Poisson equation for each, correction, motion, shifting.
 
 use super::numerics::PressureSource;
-use super::phase::Phase;
+use super::phase::{Phase, height_axis};
 use super::pressure_poisson::{Correction, PressurePoisson};
+use super::scene::SedimentPressure;
 use super::shifting::find_shifts;
 use super::simulation::IncompressibleSimulation;
 use crate::divergence::{Divergence, Quantity};
@@ -73,7 +74,18 @@ impl<const D: usize> IncompressibleSimulation<D> {
             let (phase, poisson, correction) = if is_fluid {
                 (&mut self.fluid, &mut self.fluid_poisson, Correction::Both)
             } else {
-                let Some(sediment) = &mut self.sediment else { continue };
+                let (Some(sediment), Some(material)) = (&mut self.sediment, &self.scene.sediment) else { continue };
+                match material.pressure {
+                    SedimentPressure::Incompressible => {}
+                    SedimentPressure::AlongBed => {
+                        slide(sediment, &self.system.velocity[first..], time_step);
+                        continue;
+                    }
+                    SedimentPressure::Dilatant { .. } => {
+                        slide(sediment, &self.system.velocity[first..], time_step);
+                        continue;
+                    }
+                }
                 (sediment, &mut self.sediment_poisson, Correction::CompressionOnly)
             };
             let predicted = &self.system.velocity[first..first + phase.len()];
@@ -97,6 +109,15 @@ impl<const D: usize> IncompressibleSimulation<D> {
             }
         }
         Ok(())
+    }
+}
+
+/// Moves particles along the bed only.
+fn slide<const D: usize>(phase: &mut Phase<D>, predicted: &[Vector<D>], time_step: f64) {
+    for (particle, &velocity) in predicted.iter().enumerate() {
+        phase.velocity[particle] = velocity;
+        phase.velocity[particle][height_axis(D)] = 0.0;
+        phase.displace(particle, phase.velocity[particle] * time_step);
     }
 }
 

@@ -20,6 +20,8 @@ pub(super) struct VelocitySystem<const D: usize> {
     pub(super) diagonal: Vec<f64>,
     /// m_a, and what walls and the fixed bed hold, Δt Σ_w k_aw `[kg]`: the rows' sums.
     pub(super) of_constant: Vec<f64>,
+    /// m_a `[kg]`; of the fluid only its share of the space.
+    pub(super) inertia: Vec<f64>,
     /// Momentum before the solve `[kg m/s]`.
     pub(super) momentum: Vec<Vector<D>>,
     /// u* `[m/s]`.
@@ -36,6 +38,7 @@ impl<const D: usize> VelocitySystem<D> {
             count: Vec::new(),
             diagonal: Vec::new(),
             of_constant: Vec::new(),
+            inertia: Vec::new(),
             momentum: Vec::new(),
             velocity: Vec::new(),
             inverse_diagonal: Vec::new(),
@@ -48,7 +51,7 @@ impl<const D: usize> VelocitySystem<D> {
         self.stride = stride;
         self.link.resize(rows * stride, (0, 0.0));
         self.count.resize(rows, 0);
-        for array in [&mut self.diagonal, &mut self.of_constant, &mut self.inverse_diagonal] {
+        for array in [&mut self.diagonal, &mut self.of_constant, &mut self.inertia, &mut self.inverse_diagonal] {
             array.resize(rows, 0.0);
         }
         self.momentum.resize(rows, Vector::zeros());
