@@ -43,6 +43,14 @@ impl<const D: usize> Sediment<D> {
     }
 }
 
+/// Rate of a shear over that of its pairs, |u_ab|/r, as a mean over directions `[-]`.
+///
+/// A pair along the flow sees nothing of γ̇, one across it all: |u_ab|/r = γ̇ |cosα|. For a stress τ that does not depend on
+/// the rate the pairs' viscosities τ π/(4 γ̇ |cosα|) then carry just τ: ⟨|cosα|⟩/⟨cos²α⟩ is 4/π in the plane, 3/2 in space.
+const fn mean_rate(dimensions: usize) -> f64 {
+    if dimensions == 2 { 4.0 / std::f64::consts::PI } else { 1.5 }
+}
+
 /// Viscosity of water between grains over that of clear water `[-]`, as two-phase Eulerian codes take it.
 fn suspension_factor(solid_fraction: f64) -> f64 {
     1.0 + 2.5 * solid_fraction / (1.0 - solid_fraction.min(0.59) / 0.62)
@@ -197,12 +205,11 @@ impl<const D: usize> IncompressibleSimulation<D> {
                             Some(b) => (load[b], sediment.velocity[b]),
                             None => (material.load(height, layer), Vector::zeros()),
                         };
+                        let rate =
+                            || ((sediment.velocity[a] - other_velocity).norm_squared() / distance_squared).sqrt();
                         match numerics.pair_law {
-                            PairLaw::PairRate => {
-                                let rate =
-                                    ((sediment.velocity[a] - other_velocity).norm_squared() / distance_squared).sqrt();
-                                2.0 * material.viscosity(load[a].min(other_load), rate)
-                            }
+                            PairLaw::PairRate => 2.0 * material.viscosity(load[a].min(other_load), rate()),
+                            PairLaw::PairRateMeanLoad => 2.0 * material.viscosity(0.5 * (load[a] + other_load), rate()),
                             PairLaw::ArithmeticMean => {
                                 sediment_viscosity[a] + b.map_or(sediment_viscosity[a], |b| sediment_viscosity[b])
                             }

@@ -28,8 +28,10 @@ pub enum SurfaceTreatment {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PairLaw {
-    /// From the pair's own shear rate |u_ab|/r and the smaller yield stress of the two.
+    /// From the pair's own shear rate |u_ab|/r and the smaller load of the two: what lies on a weaker particle slides.
     PairRate,
+    /// From the pair's own shear rate and the mean load of the two: that of the plane between them.
+    PairRateMeanLoad,
     /// Arithmetic mean of the particles' viscosities, as (18) has it.
     ArithmeticMean,
     /// Harmonic mean of the particles' viscosities.
