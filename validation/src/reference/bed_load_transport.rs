@@ -98,9 +98,9 @@ mod tests {
         };
         assert_eq!(names.len(), 15);
         for ((name, shields), printed) in names.iter().zip(shields).zip(transport) {
-            // half a unit of the last digit of 0.094 is 0.5 %
+            // three digits after the point
             let computed = of(name).transport(*shields);
-            assert!((computed / printed - 1.0).abs() < 6e-3, "{name} at {shields}: {computed} for {printed}");
+            assert!((computed - printed).abs() < 5.5e-4, "{name} at {shields}: {computed} for {printed}");
         }
     }
 
