@@ -170,3 +170,51 @@ fn columns_that_nobody_can_wait_for_and_windows_that_do_not_fit() {
         "`averaging_time` is 2, but must be between 0 and 0.3; the window must fit into the shortest run: choose a shorter one or a larger `duration_factor`",
     );
 }
+
+#[test]
+fn a_layer_of_water_and_grains_that_cannot_be() {
+    let place = Place::new();
+    let cases = [
+        (
+            "slopes=[0.0]",
+            "`slopes[0]` is 0, but must be positive and finite; give tanθ, such as 0.03; without a slope nothing flows",
+        ),
+        (
+            "slopes=[0.02, -0.03]",
+            "`slopes[1]` is -0.03, but must be positive and finite; give tanθ, such as 0.03; without a slope nothing flows",
+        ),
+        (
+            "slopes=[0.5]",
+            "`slopes[0]` is 0.5, but must be between 0 and 0.2; on steeper slopes the bed itself would slide",
+        ),
+        (
+            "closures.largest_fraction=1.0",
+            "`closures.largest_fraction` is 1, but must be between 0.1 and 0.74; grains at rest fill 0.5 to 0.64 of the space",
+        ),
+        (
+            "closures.limiting_friction=0.3",
+            "`closures.limiting_friction` is 0.3, but must be greater than the static friction; friction grows from μ_s at rest to μ_2 in fast shear",
+        ),
+        (
+            "closures.dilation=-0.31",
+            "`closures.dilation` is -0.31, but must be between 0 and 100; grains loosen in shear: give B, such as 0.31, or 0 for grains that do not",
+        ),
+        ("closures.karman=nan", "`closures.karman` is NaN, but must be positive and finite; give κ, 0.41"),
+        ("water.depth=0.0", "`water.depth` is 0, but must be positive and finite; give it in metres, such as 0.046"),
+        (
+            "grains.bed_depth=-0.04",
+            "`grains.bed_depth` is -0.04, but must be positive and finite; give it in metres, such as 0.04",
+        ),
+        (
+            "grains.density=900.0",
+            "`grains.density` is 900, but must be greater than the density of the water; grains that float are no bed load",
+        ),
+        (
+            "cell_height=3e-4",
+            "`cell_height` is 0.0003, but must be such that the depths of water, bed and held grains are whole multiples of it, at most 1e5 in all; 2.5e-4 divides all depths that are given in quarters of a millimetre",
+        ),
+    ];
+    for (setting, message) in cases {
+        refused(&place, &["bed-load-1d", "--set", setting], message);
+    }
+}

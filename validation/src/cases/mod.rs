@@ -1,6 +1,7 @@
 //! The canonical cases. A new case is one file or folder here and one line in [`REGISTRY`].
 
 pub mod bagnold;
+pub mod bed_load_1d;
 pub mod collapse;
 pub mod column_planar;
 pub mod column_round;
@@ -25,4 +26,5 @@ pub static REGISTRY: Registry = Registry::new(&[
     &column_round::ColumnRound,
     &incline_collapse::InclineCollapse,
     &flow_thickness::FlowThickness,
+    &bed_load_1d::BedLoad1d,
 ]);

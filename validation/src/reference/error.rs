@@ -92,4 +92,12 @@ pub enum ReferenceError {
         /// Largest residual `[m/s]`.
         residual: f64,
     },
+    /// Time steps did not lead to a steady state.
+    #[error("compute the steady layer: {reason} after {steps} time steps; use other cells or milder closures")]
+    NotSteady {
+        /// What stands against it.
+        reason: String,
+        /// Time steps taken.
+        steps: usize,
+    },
 }

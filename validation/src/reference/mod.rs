@@ -5,6 +5,8 @@
 //! laws are used, which have tests against values computed by hand.
 
 mod bagnold_profile;
+pub mod bed_load_layer;
+mod bed_load_transport;
 mod collapse_laws;
 mod error;
 mod film;
@@ -15,6 +17,7 @@ mod settling;
 mod slope_laws;
 
 pub use bagnold_profile::BagnoldProfile;
+pub use bed_load_transport::{HONEST_BAND, TransportFormula};
 pub use collapse_laws::{CollapseLaw, DRAWN, PLANAR_HEIGHT, PLANAR_RUN_OUT, ROUND_HEIGHT, ROUND_RUN_OUT};
 pub use error::ReferenceError;
 pub use film::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};

@@ -1,0 +1,170 @@
+//! The case's figures.
+
+use super::Record;
+use super::metrics::{difference, literature, log_law, of};
+use super::runs::{BedLoad1dRun, Purpose};
+use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
+use crate::reference::bed_load_layer::LayerState;
+use crate::reference::{HONEST_BAND, TransportFormula};
+
+type Layer<'a> = (&'a BedLoad1dRun, &'a LayerState);
+
+pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+    let layers: Vec<Layer<'_>> = literature(records).collect();
+    if layers.is_empty() {
+        return Vec::new();
+    }
+    let mut figures = vec![profiles(&layers), transport(&layers)];
+    figures.extend(convergence(records, &layers));
+    figures.extend(super::sensitivities::figure(records, &layers));
+    figures
+}
+
+/// Name of a slope.
+pub(super) fn percent(run: &BedLoad1dRun) -> String {
+    format!("{} %", (1e4 * run.stream.slope).round() / 100.0)
+}
+
+fn profiles(layers: &[Layer<'_>]) -> Figure {
+    let near = |layer: &LayerState| 1.6e3 * layer.top_of_grains();
+    let top = layers.iter().map(|(_, state)| near(state)).fold(0.0, f64::max);
+    let depth = layers.iter().map(|(run, _)| 1e3 * run.stream.bed_depth).fold(0.0, f64::max).min(10.0);
+    let height = || Axis { limits: Some((-depth, top)), ..Axis::linear("z [mm]") };
+    let mut panels = [
+        Panel::new("water", Axis::linear("u_f/u_* [-]"), Axis::logarithmic("z [mm]")),
+        Panel::new("grains", Axis::linear("u_s [m/s]"), height()),
+        Panel::new(
+            "tail of the grains",
+            Axis { limits: Some((1e-4, 2.0)), ..Axis::logarithmic("u_s [m/s]") },
+            height(),
+        ),
+        Panel::new("solid fraction", Axis::linear("φ [-]"), height()),
+        Panel::new("drag on the grains", Axis::linear("K (u_f − u_s) [N/m³]"), height()),
+        Panel::new("stresses", Axis { limits: Some((0.0, 1.6)), ..Axis::linear("τ/(ρ_f g h tanθ) [-]") }, height()),
+    ];
+    for (slot, &(run, state)) in layers.iter().enumerate() {
+        let label = percent(run);
+        let stream = &run.stream;
+        let cells = |values: &[f64], keep: &dyn Fn(usize) -> bool| -> Vec<(f64, f64)> {
+            (0..state.height.len()).filter(|k| keep(*k)).map(|k| (values[k], 1e3 * state.height[k])).collect()
+        };
+        let with_grains = |k: usize| state.solid_fraction[k] > 0.0;
+        let relative: Vec<f64> = state.fluid_velocity.iter().map(|u| u / stream.shear_velocity()).collect();
+        let drag = state.drag();
+        let curves = [
+            cells(&relative, &|k| state.height[k] > 0.0),
+            cells(&state.grain_velocity, &with_grains),
+            cells(&state.grain_velocity, &with_grains),
+            cells(&state.solid_fraction, &|_| true),
+            cells(&drag, &|_| true),
+        ];
+        for (place, (panel, curve)) in panels.iter_mut().zip(curves).enumerate() {
+            panel.series.push(Series::new(if place == 0 { &label } else { "" }, Mark::Line, slot, curve));
+        }
+        let faces = |values: &[f64]| -> Vec<(f64, f64)> {
+            values.iter().zip(&state.face).map(|(tau, z)| (tau / stream.bed_stress(), 1e3 * z)).collect()
+        };
+        let name = |text: &str| if slot == 0 { text.to_owned() } else { String::new() };
+        panels[5].series.push(Series::new(&name("τ_f"), Mark::Line, slot, faces(&state.fluid_stress)));
+        panels[5].series.push(Series::new(&name("τ_s"), Mark::LinePoints, slot, faces(&state.grain_stress)));
+        let weight = carried(state);
+        panels[5].series.push(Series::new(&name("g sinθ ∫ ρ dz"), Mark::Reference, slot, faces(&weight)));
+    }
+    let (run, state) = layers[0];
+    let law =
+        state.height.iter().filter(|z| **z > run.stream.grain_diameter / 20.0).map(|&z| (log_law(run, z), 1e3 * z));
+    panels[0].series.push(Series::new("clear water, z_0 = d/30", Mark::Reference, 0, law.collect()));
+    Figure {
+        name: "profiles".to_owned(),
+        caption: "Steady layers on the slopes. The water's velocity in half-logarithmic axes bends where grains move and \
+                  has the slope of clear water above; the grains' velocity decays exponentially in the bed; the drag peaks \
+                  where the moving grains are dense; the stresses of both phases together carry the weight above."
+            .to_owned(),
+        panels: panels.into(),
+        columns: 2,
+    }
+}
+
+/// g sinθ ∫_z ρ dz at the faces `[Pa]`.
+fn carried(state: &LayerState) -> Vec<f64> {
+    let stream = &state.stream;
+    let mut carried = vec![0.0; state.face.len()];
+    for k in (0..state.height.len()).rev() {
+        let fraction = state.solid_fraction[k];
+        let density = fraction * stream.grain_density + (1.0 - fraction) * stream.fluid_density;
+        carried[k] = carried[k + 1] + density * stream.driving() * state.cell_height;
+    }
+    carried
+}
+
+fn transport(layers: &[Layer<'_>]) -> Figure {
+    let mut panel = Panel::new("", Axis::logarithmic("τ* [-]"), Axis::logarithmic("q* [-]"));
+    let shields = |k: i32| 0.07 * libm::pow(0.5 / 0.07, f64::from(k) / 120.0);
+    let curve = |formula: TransportFormula| (0..=120).map(shields).map(|tau| (tau, formula.transport(tau))).collect();
+    let own = TransportFormula::WongParker;
+    panel.bands.push(Band {
+        label: format!("factor {} … {}", HONEST_BAND.0, HONEST_BAND.1),
+        points: (0..=120)
+            .map(shields)
+            .map(|tau| (tau, HONEST_BAND.0 * own.transport(tau), HONEST_BAND.1 * own.transport(tau)))
+            .collect(),
+    });
+    panel.series.push(Series::new(own.name(), Mark::Reference, 0, curve(own)));
+    for (slot, formula) in TransportFormula::ALL.into_iter().filter(|formula| *formula != own).enumerate() {
+        panel.series.push(Series::new(formula.name(), Mark::Line, slot + 1, curve(formula)));
+    }
+    let points = layers.iter().map(|(run, state)| (run.stream.shields_number(), state.transport())).collect();
+    panel.series.push(Series::new("layer, nothing fitted", Mark::Points, 0, points));
+    Figure {
+        name: "transport".to_owned(),
+        caption: "Bed-load transport over the Shields number: the layers with the literature's closures and published \
+                  formulas. The band about Wong & Parker's formula is the scatter of the experiments behind it."
+            .to_owned(),
+        panels: vec![panel],
+        columns: 1,
+    }
+}
+
+/// Differences between neighbouring cell heights.
+fn convergence(records: &[Record], layers: &[Layer<'_>]) -> Option<Figure> {
+    let studies = [
+        (Purpose::DilatingOrder, "dilating", "with dilation: q*", "relative difference of q* [-]"),
+        (Purpose::FrozenOrder, "frozen", "given fraction: profiles", "relative L2 difference [-]"),
+    ];
+    let mut panels = Vec::new();
+    for (purpose, grains, title, label) in studies {
+        let mut panel = Panel::new(title, Axis::logarithmic("height of a cell [mm]"), Axis::logarithmic(label));
+        for (slot, (run, _)) in layers.iter().enumerate() {
+            let study: Vec<&LayerState> = of(records, |other| *other == purpose)
+                .filter(|(other, _)| other.stream.slope == run.stream.slope)
+                .map(|(_, state)| state)
+                .collect();
+            let points: Vec<(f64, f64)> = study
+                .windows(2)
+                .map(|pair| (1e3 * pair[0].cell_height, difference(pair[0], pair[1], grains)))
+                .collect();
+            if slot == 0
+                && let (Some(first), Some(last)) = (points.first(), points.last())
+            {
+                let end = first.1 * (last.0 / first.0) * (last.0 / first.0);
+                let guide = vec![*first, (last.0, end)];
+                panel.series.push(Series::new("second order", Mark::Reference, 0, guide));
+            }
+            if !points.is_empty() {
+                panel.series.push(Series::new(&percent(run), Mark::LinePoints, slot, points));
+            }
+        }
+        if !panel.series.is_empty() {
+            panels.push(panel);
+        }
+    }
+    (!panels.is_empty()).then(|| Figure {
+        name: "convergence".to_owned(),
+        caption:
+            "Difference between each height of cells and half of it, over that height, for the transport of dilating layers \
+                  and for the profiles of layers with a given smooth fraction."
+                .to_owned(),
+        panels,
+        columns: 2,
+    })
+}

@@ -1,0 +1,233 @@
+//! How the layers are judged.
+
+use super::Record;
+use super::runs::{BedLoad1dRun, Purpose};
+use crate::case::Run;
+use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::observe::Outcome;
+use crate::reference::TransportFormula;
+use crate::reference::bed_load_layer::LayerState;
+
+/// Speed above which a grain counts as moving `[m/s]`.
+pub(super) const MOVING: f64 = 0.01;
+
+/// Part of u_s at z = 0 down to which its decay is fitted `[-]`.
+const TAIL: f64 = 0.01;
+
+/// Part of the largest drag that bounds its range `[-]`.
+const DRAG_RANGE: f64 = 0.1;
+
+/// Ranges of height over which the slope of u_f against ln z is fitted `[mm]`.
+const LOGARITHMIC_RANGES: [(f64, f64); 4] = [(0.5, 3.0), (3.0, 8.0), (8.0, 18.0), (15.0, 43.0)];
+
+/// Height below which studies of the order do not look `[m]`: nothing moves there.
+const STUDIED_ABOVE: f64 = -0.01;
+
+const MODEL: &str = "the layer's own equations";
+
+/// Layers from rest with the case's closures, that became steady.
+pub(super) fn literature(records: &[Record]) -> impl Iterator<Item = (&BedLoad1dRun, &LayerState)> {
+    of(records, |purpose| *purpose == Purpose::Literature)
+}
+
+/// Steady layers of a purpose.
+pub(super) fn of(
+    records: &[Record],
+    wanted: impl Fn(&Purpose) -> bool,
+) -> impl Iterator<Item = (&BedLoad1dRun, &LayerState)> {
+    records
+        .iter()
+        .filter(move |(run, record)| wanted(&run.purpose) && !matches!(record.outcome, Outcome::Diverged { .. }))
+        .map(|(run, record)| (run, &record.data.state))
+}
+
+pub(super) fn all(records: &[Record]) -> Vec<Metric> {
+    let mut metrics = Vec::new();
+    for (run, state) in literature(records) {
+        transport(&mut metrics, run, state);
+        balances(&mut metrics, run, state);
+        let on_slope = |other: &BedLoad1dRun| other.stream.slope == run.stream.slope;
+        for (_, other) in
+            of(records, |purpose| matches!(purpose, Purpose::FastStart(_))).filter(|(run, _)| on_slope(run))
+        {
+            start(&mut metrics, run, state, other);
+        }
+        for (purpose, name, limit) in [(Purpose::DilatingOrder, "dilating", 1.0), (Purpose::FrozenOrder, "frozen", 1.8)]
+        {
+            let study: Vec<&LayerState> = of(records, |other| *other == purpose)
+                .filter(|(run, _)| on_slope(run))
+                .map(|(_, state)| state)
+                .collect();
+            order(&mut metrics, run, &study, name, limit);
+        }
+        profiles(&mut metrics, run, state);
+    }
+    with_slope(&mut metrics, &literature(records).collect::<Vec<_>>());
+    for (run, state) in of(records, |purpose| matches!(purpose, Purpose::Sensitivity(_))) {
+        if let Some((_, own)) = literature(records).find(|(other, _)| other.stream.slope == run.stream.slope) {
+            let ratio = state.transport() / own.transport();
+            metrics.push(
+                Metric::observed("transport_sensitivity", &run.variant(), ratio, "-")
+                    .against(Some(1.0), "the layer with the literature's closures", Confidence::Exact)
+                    .with_snapshot_tolerance(1e-3, 0.0),
+            );
+        }
+    }
+    metrics
+}
+
+/// Transport against the formula.
+fn transport(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
+    let formula = TransportFormula::WongParker;
+    let expected = formula.transport(run.stream.shields_number());
+    let variant = run.variant();
+    if expected > 0.0 {
+        metrics.push(
+            Metric::observed("transport_ratio", &variant, state.transport() / expected, "-")
+                .of_kind(Kind::Validation)
+                .against(Some(1.0), formula.name(), formula.confidence())
+                .gated(
+                    Limit::Within(0.8, 1.25),
+                    "nothing is fitted; the formula's own data scatter by more, within a factor of 2",
+                )
+                .with_snapshot_tolerance(1e-3, 0.0),
+        );
+    }
+    metrics.push(
+        Metric::observed("transport", &variant, state.transport(), "-")
+            .of_kind(Kind::Validation)
+            .against(Some(expected), formula.name(), formula.confidence())
+            .with_snapshot_tolerance(1e-3, 0.0),
+    );
+    metrics.push(
+        Metric::observed("mean_fluid_velocity", &variant, state.mean_fluid_velocity(), "m/s")
+            .with_snapshot_tolerance(1e-3, 0.0),
+    );
+}
+
+/// Both balances of momentum.
+fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
+    let errors = [
+        ("stress_balance_error", state.stress_balance_error(), "τ_f + τ_s = g sinθ ∫ ρ dz, error over ρ_f g h tanθ"),
+        (
+            "drag_balance_error",
+            state.drag_balance_error(),
+            "K (u_f − u_s) = −∂τ_s/∂z − φ ρ_s g sinθ, error over the largest drag",
+        ),
+    ];
+    for (name, error, identity) in errors {
+        metrics.push(
+            Metric::observed(name, &run.variant(), error, "-")
+                .against(Some(0.0), identity, Confidence::Exact)
+                .gated(Limit::AtMost(1e-5), "holds in any steady state whatever the closures are")
+                .with_snapshot_tolerance(1.0, 1e-5),
+        );
+    }
+}
+
+/// Two starts, one state.
+fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast: &LayerState) {
+    let transport = (fast.transport() / rest.transport() - 1.0).abs();
+    let difference = transport.max(rest.difference(fast, f64::NEG_INFINITY));
+    metrics.push(
+        Metric::observed("start_difference", &format!("slope={},start=rest_fast", run.stream.slope), difference, "-")
+            .against(Some(0.0), "the layer from rest: q*, u_f and φ u_s", Confidence::Exact)
+            .gated(Limit::AtMost(1e-3), "a steady state does not remember its start")
+            .with_snapshot_tolerance(1.0, 1e-5),
+    );
+}
+
+/// The order of convergence: from the profiles where the fraction is given, from q* where it is not. The topmost grains
+/// end inside a cell, so that profiles of a dilating layer converge everywhere but there.
+fn order(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, study: &[&LayerState], grains: &str, least: f64) {
+    let differences: Vec<f64> = study.windows(2).map(|pair| difference(pair[0], pair[1], grains)).collect();
+    let [.., coarse, fine] = differences[..] else { return };
+    let heights: Vec<String> = study.iter().map(|state| state.cell_height.to_string()).collect();
+    let variant = format!("slope={},grains={grains},cell_height={}", run.stream.slope, heights.join("_"));
+    metrics.push(
+        Metric::observed("observed_order", &variant, libm::log2(coarse / fine), "-")
+            .against(Some(2.0), MODEL, Confidence::Exact)
+            .gated(Limit::AtLeast(least), "second order with a given fraction, at least first with dilation")
+            .with_snapshot_tolerance(0.02, 0.0),
+    );
+}
+
+/// What is taken for the error of the coarser of two layers `[-]`.
+pub(super) fn difference(coarse: &LayerState, fine: &LayerState, grains: &str) -> f64 {
+    match grains {
+        "frozen" => coarse.difference(fine, STUDIED_ABOVE),
+        _ => (coarse.transport() / fine.transport() - 1.0).abs(),
+    }
+}
+
+/// What the profiles look like: observed, for there is no table to gate them by.
+fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
+    let variant = run.variant();
+    let millimetres = |name: &str, value: Option<f64>| {
+        Metric::observed(name, &variant, 1e3 * value.unwrap_or(f64::NAN), "mm").with_snapshot_tolerance(0.01, 0.01)
+    };
+    let drag = state.drag_peak(DRAG_RANGE);
+    metrics.extend([
+        millimetres("moves_above", state.moves_above(MOVING)),
+        millimetres("top_of_grains", Some(state.top_of_grains())),
+        millimetres("decay_length", state.decay_length(TAIL)),
+        millimetres("drag_peak_height", Some(drag.height)),
+        millimetres("drag_from", Some(drag.from)),
+        millimetres("drag_to", Some(drag.to)),
+    ]);
+    for (from, to) in LOGARITHMIC_RANGES {
+        if let Some(slope) = state.logarithmic_slope(1e-3 * from, 1e-3 * to, run.closures.karman) {
+            metrics.push(
+                Metric::observed("logarithmic_slope", &format!("{variant},height={from}_{to}"), slope, "-")
+                    .against(Some(1.0), "clear water, du_f/d ln z = u_*/κ", Confidence::High)
+                    .with_snapshot_tolerance(0.01, 0.0),
+            );
+        }
+    }
+    for height in [2.5e-3, 0.025] {
+        let deficit = state.at(height).fluid_velocity / run.stream.shear_velocity() - log_law(run, height);
+        metrics.push(
+            Metric::observed("velocity_deficit", &format!("{variant},height={}", 1e3 * height), deficit, "u_*")
+                .against(Some(0.0), "rough-wall log law of clear water, z_0 = d/30", Confidence::High)
+                .with_snapshot_tolerance(0.01, 0.01),
+        );
+    }
+}
+
+/// u/u_* of clear water over the resting bed, k_s = d.
+pub(super) fn log_law(run: &BedLoad1dRun, height: f64) -> f64 {
+    libm::log(30.0 * height / run.stream.grain_diameter) / run.closures.karman
+}
+
+/// What must grow from slope to slope: the smallest ratio of two neighbours.
+fn with_slope(metrics: &mut Vec<Metric>, layers: &[(&BedLoad1dRun, &LayerState)]) {
+    let mut layers = layers.to_vec();
+    layers.sort_by(|a, b| a.0.stream.slope.total_cmp(&b.0.stream.slope));
+    if layers.len() < 2 {
+        return;
+    }
+    let slopes: Vec<String> = layers.iter().map(|(run, _)| run.stream.slope.to_string()).collect();
+    let variant = format!("slope={}", slopes.join("_"));
+    let growth = |value: fn(&LayerState) -> Option<f64>| {
+        let values: Vec<f64> = layers.iter().map(|(_, state)| value(state).unwrap_or(f64::NAN)).collect();
+        values
+            .windows(2)
+            .map(|pair| pair[1] / pair[0])
+            .fold(f64::INFINITY, |least, ratio| if ratio >= least { least } else { ratio })
+    };
+    let depth = growth(|state| state.moves_above(MOVING).map(|z| -z));
+    let decay = growth(|state| state.decay_length(TAIL));
+    for (name, value) in [("motion_depth_growth", depth), ("decay_length_growth", decay)] {
+        metrics.push(
+            Metric::observed(name, &variant, value, "-")
+                .of_kind(Kind::Validation)
+                .against(
+                    None,
+                    "the bed-load paper's figures 10 and 11: motion reaches deeper on the steeper slope",
+                    Confidence::Medium,
+                )
+                .gated(Limit::AtLeast(1.05), "grows from each slope to the next; 5 % is above any error of the cells")
+                .with_snapshot_tolerance(0.01, 0.0),
+        );
+    }
+}

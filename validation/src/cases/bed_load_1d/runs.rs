@@ -1,0 +1,169 @@
+//! The runs: layers and what each of them is computed for.
+
+use super::parameters::BedLoad1dParameters;
+use super::sensitivities::Replaced;
+use crate::case::{Progress, Run};
+use crate::error::InputError;
+use crate::observe::{Outcome, Recorded, state_hash};
+use crate::reference::ReferenceError;
+use crate::reference::bed_load_layer::{
+    BedLoadLayer, Closures, Grains, LayerState, STEADY, SolidFraction, Start, Stream,
+};
+use serde::{Deserialize, Serialize};
+use std::time::Instant;
+
+/// Half the height over which the given fraction falls from φ_max to 0 in studies of the order, in grain diameters.
+const TRANSITION: f64 = 1.2;
+
+/// Steps that a layer takes, for estimates.
+const USUAL_STEPS: f64 = 350.0;
+
+/// What a layer is computed for.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Purpose {
+    /// The layer with the case's closures, from rest.
+    Literature,
+    /// The same from a fast start at this speed `[m/s]`.
+    FastStart(f64),
+    /// The order of convergence with dilation.
+    DilatingOrder,
+    /// The order of convergence with a given fraction.
+    FrozenOrder,
+    /// A replaced closure.
+    Sensitivity(Replaced),
+}
+
+/// One layer.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BedLoad1dRun {
+    /// What for.
+    pub purpose: Purpose,
+    /// The stream.
+    pub stream: Stream,
+    /// Closures.
+    pub closures: Closures,
+    /// Height of a cell `[m]`.
+    pub cell_height: f64,
+}
+
+/// What a run leaves behind.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LayerObservation {
+    /// The profiles.
+    pub state: LayerState,
+    /// Largest change of a velocity in the last step, over u_* `[-]`.
+    pub velocity_change: f64,
+    /// Largest change of φ in the last step `[-]`.
+    pub fraction_change: f64,
+}
+
+pub(super) fn all(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
+    let mut runs = Vec::new();
+    for &slope in &parameters.slopes {
+        let new = |purpose, closures, cell_height| BedLoad1dRun {
+            purpose,
+            stream: parameters.stream(slope),
+            closures,
+            cell_height,
+        };
+        let own = parameters.closures;
+        runs.push(new(Purpose::Literature, own, parameters.cell_height));
+        if parameters.fast_start > 0.0 {
+            runs.push(new(Purpose::FastStart(parameters.fast_start), own, parameters.cell_height));
+        }
+        runs.extend(parameters.dilating_cell_heights.iter().map(|&height| new(Purpose::DilatingOrder, own, height)));
+        runs.extend(parameters.frozen_cell_heights.iter().map(|&height| new(Purpose::FrozenOrder, own, height)));
+        runs.extend(parameters.sensitivities.all().into_iter().map(|replaced| {
+            let (closures, cell_height) = replaced.apply(own, parameters.cell_height);
+            new(Purpose::Sensitivity(replaced), closures, cell_height)
+        }));
+    }
+    runs
+}
+
+impl Run for BedLoad1dRun {
+    fn variant(&self) -> String {
+        let purpose = match self.purpose {
+            Purpose::Literature => "start=rest".to_owned(),
+            Purpose::FastStart(_) => "start=fast".to_owned(),
+            Purpose::DilatingOrder => format!("grains=dilating,cell_height={}", self.cell_height),
+            Purpose::FrozenOrder => format!("grains=frozen,cell_height={}", self.cell_height),
+            Purpose::Sensitivity(replaced) => format!("{}={}", replaced.closure(), replaced.value_text()),
+        };
+        format!("slope={},{purpose}", self.stream.slope)
+    }
+
+    fn particle_steps(&self) -> f64 {
+        USUAL_STEPS * (self.stream.flow_depth + self.stream.bed_depth) / self.cell_height
+    }
+}
+
+impl BedLoad1dRun {
+    /// The layer.
+    fn layer(&self) -> Result<BedLoadLayer, ReferenceError> {
+        let grains = match self.purpose {
+            Purpose::FrozenOrder => Grains::Frozen(smooth_bed(&self.stream, self.closures.largest_fraction)?),
+            _ => Grains::Dilating,
+        };
+        Ok(BedLoadLayer { stream: self.stream, closures: self.closures, grains, cell_height: self.cell_height })
+    }
+
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+        let started = Instant::now();
+        let start = match self.purpose {
+            Purpose::FastStart(speed) => Start::Moving(speed),
+            _ => Start::Rest,
+        };
+        let approach = self.layer().and_then(|layer| layer.approach(start)).map_err(refused)?;
+        let cells = approach.state.height.len();
+        let simulated_time = approach.steps as f64 * approach.time_step;
+        progress.advance(simulated_time, simulated_time, (cells * approach.steps) as f64);
+        let outcome = match approach.unsteady {
+            None => Outcome::Stopped { criterion: format!("a step changes u/u_* and φ by less than {STEADY:e}") },
+            Some(reason) => Outcome::Diverged {
+                message: format!("no steady state after {} steps: {reason}", approach.steps),
+                expected: false,
+            },
+        };
+        Ok(Recorded {
+            outcome,
+            state_hash: state_hash(&approach.state.to_bytes()),
+            particles: cells,
+            steps: approach.steps as u64,
+            simulated_time,
+            wall_seconds: started.elapsed().as_secs_f64(),
+            threads: 1,
+            frames: Vec::new(),
+            data: LayerObservation {
+                state: approach.state,
+                velocity_change: approach.velocity_change,
+                fraction_change: approach.fraction_change,
+            },
+        })
+    }
+}
+
+/// A bed whose fraction falls smoothly (with two continuous derivatives) across z = 0.
+fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFraction, ReferenceError> {
+    let half = TRANSITION * stream.grain_diameter;
+    SolidFraction::sampled(-half, half, 4096, |z| {
+        let x = (0.5 * (z / half + 1.0)).clamp(0.0, 1.0);
+        largest_fraction * (1.0 - x * x * x * (10.0 - x * (15.0 - 6.0 * x)))
+    })
+}
+
+/// What the solver refuses although each parameter is in its range.
+fn refused(error: ReferenceError) -> InputError {
+    match error {
+        ReferenceError::Parameter { field, value, rule } => {
+            InputError::field(field, value, rule, "`bagnold show bed-load-1d` prints a valid value")
+        }
+        other => InputError::field(
+            "closures",
+            "given",
+            &format!("such that a layer can be computed ({other})"),
+            "change them",
+        ),
+    }
+}

@@ -1,0 +1,155 @@
+//! What closes the equations: friction and dilation of the grains, viscosity and mixing length of the water, drag.
+
+use bagnold_solver::drag::DragLaw;
+use serde::{Deserialize, Serialize};
+
+/// How far an eddy reaches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MixingLength {
+    /// No turbulence.
+    None,
+    /// l = κ √(1 − z/h) ∫ (1 − φ/φ_max) dz from the base up to z: an eddy grows where grains leave it room. Without
+    /// grains the root makes the log law exact.
+    Integral,
+    /// l = κ √(1 − z/h) z above z = 0 and 0 below, whatever the grains do.
+    Root,
+    /// l = κ z above z = 0 and 0 below: bends below the log law towards the surface.
+    Linear,
+}
+
+impl MixingLength {
+    /// Its name in parameters and results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Integral => "integral",
+            Self::Root => "root",
+            Self::Linear => "linear",
+        }
+    }
+}
+
+/// All closures; the default is the literature's set for bed load (Maurin et al. 2016, as used in sedFoam's tutorial).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Closures {
+    /// Static friction μ_s `[-]`.
+    pub static_friction: f64,
+    /// Limiting friction μ_2 `[-]`.
+    pub limiting_friction: f64,
+    /// Reference inertia I_0 `[-]`.
+    pub reference_inertia: f64,
+    /// Rate γ_r `[1/s]` below which friction falls to zero.
+    pub regularisation_rate: f64,
+    /// Solid fraction φ_max of grains without shear `[-]`.
+    pub largest_fraction: f64,
+    /// Dilation B in φ = φ_max/(1 + B I) `[-]`; 0 for none.
+    pub dilation: f64,
+    /// Drag law.
+    pub drag: DragLaw,
+    /// Mixing length.
+    pub mixing_length: MixingLength,
+    /// Kármán's κ `[-]`.
+    pub karman: f64,
+}
+
+impl Default for Closures {
+    fn default() -> Self {
+        Self {
+            static_friction: 0.35,
+            limiting_friction: 0.97,
+            reference_inertia: 0.69,
+            regularisation_rate: 5e-3,
+            largest_fraction: 0.6,
+            dilation: 0.31,
+            drag: DragLaw::DiFelice,
+            mixing_length: MixingLength::Integral,
+            karman: 0.41,
+        }
+    }
+}
+
+/// A stress at a shear rate γ, and how it changes with it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Stress {
+    /// τ `[Pa]`.
+    pub(super) value: f64,
+    /// dτ/dγ `[Pa·s]`.
+    pub(super) tangent: f64,
+    /// τ/γ `[Pa·s]`.
+    pub(super) secant: f64,
+}
+
+impl Closures {
+    /// Stress of the grains, μ(I) p′ γ/√(γ² + γ_r²), at a shear rate `[1/s]` and a pressure p′ `[Pa]`.
+    pub(super) fn grain_stress(&self, rate: f64, pressure: f64, inertia_unit: f64) -> Stress {
+        if pressure <= 0.0 {
+            return Stress::default();
+        }
+        let speed = rate.abs();
+        let span = self.limiting_friction - self.static_friction;
+        // the rate at which I = I_0
+        let reference = self.reference_inertia * pressure.sqrt() / inertia_unit;
+        let friction = self.static_friction + span * speed / (speed + reference);
+        let slope = span * reference / ((speed + reference) * (speed + reference));
+        let regularised = (rate * rate + self.regularisation_rate * self.regularisation_rate).sqrt();
+        let secant = friction * pressure / regularised;
+        let ratio = self.regularisation_rate / regularised;
+        let tangent = secant * ratio * ratio + pressure * slope * speed / regularised;
+        Stress { value: secant * rate, tangent, secant }
+    }
+
+    /// Stress of the water, (1 − φ) ρ_f [ν_φ + l² |γ|] γ with the viscosity ν_φ between grains.
+    pub(super) fn fluid_stress(rate: f64, density: f64, viscosity: f64, fraction: f64, length: f64) -> Stress {
+        let suspension = viscosity * (1.0 + 2.5 * fraction / (1.0 - fraction.min(0.59) / 0.62));
+        let inertia = (1.0 - fraction) * density;
+        let eddy = length * length * rate.abs();
+        let secant = inertia * (suspension + eddy);
+        Stress { value: secant * rate, tangent: inertia * (suspension + 2.0 * eddy), secant }
+    }
+
+    /// Mixing length `[m]` at a height, given the room ∫ (1 − φ/φ_max) dz below it `[m]`.
+    pub(super) fn mixing_length(&self, height: f64, flow_depth: f64, room: f64) -> f64 {
+        let root = (1.0 - height / flow_depth).max(0.0).sqrt();
+        self.karman
+            * match self.mixing_length {
+                MixingLength::None => 0.0,
+                MixingLength::Integral => root * room,
+                MixingLength::Root => root * height.max(0.0),
+                MixingLength::Linear => height.max(0.0),
+            }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tangents_are_derivatives() {
+        let closures = Closures::default();
+        let (pressure, inertia_unit) = (20.0, 5e-3 * 2600f64.sqrt());
+        let step = 1e-6;
+        for rate in [-30.0, -1e-3, 4e-3, 0.7, 55.0] {
+            let at = |rate| closures.grain_stress(rate, pressure, inertia_unit);
+            let difference = (at(rate + step * rate).value - at(rate - step * rate).value) / (2.0 * step * rate);
+            assert!((at(rate).tangent / difference - 1.0).abs() < 1e-6, "grains at {rate}");
+            let at = |rate| Closures::fluid_stress(rate, 1000.0, 1e-6, 0.2, 2e-3);
+            let difference = (at(rate + step * rate).value - at(rate - step * rate).value) / (2.0 * step * rate);
+            assert!((at(rate).tangent / difference - 1.0).abs() < 1e-6, "water at {rate}");
+        }
+    }
+
+    #[test]
+    fn friction_has_its_limits_and_its_reference() {
+        let closures = Closures::default();
+        // p′ = 26 Pa and d √ρ_s = 0.255 √(kg/m): I = γ 0.255/5.1 = 0.69 at γ = 13.8 1/s
+        let friction = |rate: f64| closures.grain_stress(rate, 26.01, 0.255).value / 26.01;
+        assert!((friction(13.8) - 0.66).abs() < 1e-6, "{}", friction(13.8));
+        assert!((friction(1e9) - 0.97).abs() < 1e-6);
+        assert!((friction(0.1) - 0.3545).abs() < 1e-3);
+        assert!(friction(1e-5) < 1e-3);
+    }
+}

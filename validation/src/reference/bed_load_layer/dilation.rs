@@ -1,0 +1,105 @@
+//! Where the grains are if they dilate with their inertial number: φ = φ_max/(1 + B I), I = γ d √ρ_s/√p′.
+//!
+//! The pressure at the base is the weight of all grains. From there the march goes up, cell by cell: p′ in the middle of
+//! a cell and γ give φ, whose weight leads to the next cell, until nothing is left. The last cell takes what remains, so
+//! that no grain is lost.
+
+/// What the march needs besides the shear.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Dilation {
+    /// Height of a cell `[m]`.
+    pub(super) cell_height: f64,
+    /// Weight of all grains in the water `[Pa]`.
+    pub(super) weight: f64,
+    /// What a solid fraction of 1 weighs `[N/m³]`.
+    pub(super) submerged_weight: f64,
+    /// φ_max `[-]`.
+    pub(super) largest_fraction: f64,
+}
+
+/// Part of the weight that is no cell of its own, but the rounding of those below.
+const ROUNDING: f64 = 1e-13;
+
+impl Dilation {
+    /// Solid fractions from B γ d √ρ_s `[√Pa]` of each cell, and the weight `[Pa]` for which there was no room.
+    pub(super) fn march(&self, looseness: impl Iterator<Item = f64>, fraction: &mut [f64]) -> f64 {
+        let weight_of_cell = self.cell_height * self.submerged_weight;
+        let mut below = self.weight;
+        for (looseness, fraction) in looseness.zip(fraction) {
+            let share = share(below, looseness, 0.5 * weight_of_cell * self.largest_fraction);
+            *fraction = (share * self.largest_fraction).min(below / weight_of_cell);
+            below = (below - *fraction * weight_of_cell).max(0.0);
+            if below < ROUNDING * self.weight {
+                *fraction += below / weight_of_cell;
+                below = 0.0;
+            }
+        }
+        below
+    }
+}
+
+/// x = φ/φ_max of a cell over a pressure: the root of x (r + a) = r with r² = p − c x, the pressure in its middle.
+fn share(below: f64, looseness: f64, half_weight: f64) -> f64 {
+    if looseness <= 0.0 {
+        return 1.0;
+    }
+    // the left side rises with x and the right one falls
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..56 {
+        let middle = 0.5 * (low + high);
+        let root = (below - half_weight * middle).max(0.0).sqrt();
+        if middle * (root + looseness) < root {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BED: Dilation =
+        Dilation { cell_height: 2.5e-4, weight: 376.0, submerged_weight: 15_696.0, largest_fraction: 0.6 };
+
+    fn marched(looseness: f64) -> (Vec<f64>, f64) {
+        let mut fraction = vec![f64::NAN; 344];
+        let left = BED.march(std::iter::repeat(looseness), &mut fraction);
+        (fraction, left)
+    }
+
+    #[test]
+    fn no_grain_is_lost() {
+        for looseness in [0.0, 0.3, 5.0, 40.0] {
+            let (fraction, left) = marched(looseness);
+            let weight: f64 = fraction.iter().map(|fraction| fraction * 15_696.0 * 2.5e-4).sum();
+            assert!(((weight + left) / 376.0 - 1.0).abs() < 1e-13, "{looseness}: {weight} and {left} Pa");
+        }
+    }
+
+    #[test]
+    fn grains_at_rest_keep_their_bed() {
+        let (fraction, left) = marched(0.0);
+        assert_eq!(left, 0.0);
+        // 376 Pa/(0.6 · 15 696 N/m³) = 39.925 mm: 159.7 cells
+        assert!(fraction[..159].iter().all(|fraction| *fraction == 0.6));
+        assert!((fraction[159] / 0.6 - 0.7).abs() < 0.01, "{}", fraction[159]);
+        assert!(fraction[160..].iter().all(|fraction| *fraction == 0.0));
+    }
+
+    #[test]
+    fn uniform_shear_has_its_exact_profile() {
+        // dp/dz = −c r/(r + a) with r² = p: 2 (r + a) dr = −c dz, (r + a)² falls linearly
+        let (fraction, left) = marched(5.0);
+        assert_eq!(left, 0.0);
+        let root = 376f64.sqrt();
+        for cell in [0, 40, 100, 150] {
+            let z = (f64::from(cell) + 0.5) * 2.5e-4;
+            let looser = ((root + 5.0) * (root + 5.0) - 0.6 * 15_696.0 * z).sqrt();
+            let exact = 0.6 * (looser - 5.0) / looser;
+            assert!((fraction[cell as usize] - exact).abs() < 1e-4, "{z}: {} {exact}", fraction[cell as usize]);
+        }
+    }
+}

@@ -1,0 +1,240 @@
+//! Steady flow of water and grains over a bed in one dimension: an independent check of two-phase particles.
+//!
+//! z is normal to the bed, 0 at its top before anything moves; φ is the solid fraction, θ the slope's angle.
+//!
+//! - water: 0 = (1 − φ) ρ_f g sinθ + ∂_z τ_f − f, τ_f = (1 − φ) ρ_f [ν (1 + 2.5 φ/(1 − φ/0.62)) + l² |∂_z u_f|] ∂_z u_f;
+//! - grains: 0 = φ ρ_s g sinθ + ∂_z τ_s + f, τ_s = μ(I) p′ γ/√(γ² + γ_r²), γ = ∂_z u_s, I = |γ| d √(ρ_s/p′);
+//! - drag on the grains f = K (u_f − u_s); p′ = ∫_z φ (ρ_s − ρ_f) g cosθ dz;
+//! - μ = μ_s + (μ_2 − μ_s) I/(I + I_0) and φ = φ_max/(1 + B I): the grains dilate where they are sheared;
+//! - l = κ √(1 − z/h) ∫ (1 − φ/φ_max) dz: eddies grow where grains leave them room.
+//!
+//! Both velocities vanish at the base, both stresses at z = h. Three ways to treat the grains ([`Grains`]) isolate what a
+//! two-phase program does: the flow over and through grains that rest (drag and turbulence), grains that move with a
+//! given fraction (friction and both momenta), and all of it. Finite volumes of second order, no particles; only the drag
+//! laws are shared with the solver. Agreement verifies discretisations; that the model is right needs experiments.
+//!
+//! ```text
+//! let layer = BedLoadLayer { stream, closures: Closures::default(), grains: Grains::Dilating, cell_height: 2.5e-4 };
+//! let state = layer.steady(Start::Rest)?;
+//! let there = state.at(-1e-3);    // φ, both velocities, p′, both stresses, l and K at z = −1 mm
+//! let frozen = BedLoadLayer { grains: Grains::Frozen(SolidFraction::of_cells(&state)), ..layer };
+//! ```
+
+mod block_tridiagonal;
+mod closures;
+mod column;
+mod dilation;
+mod measures;
+mod profile;
+mod solid_fraction;
+mod stream;
+#[cfg(test)]
+mod tests;
+
+pub use closures::{Closures, MixingLength};
+pub use measures::DragPeak;
+pub use profile::{LayerPoint, LayerState};
+pub use solid_fraction::SolidFraction;
+pub use stream::Stream;
+
+use super::ReferenceError;
+use column::{Column, Stride};
+
+/// A layer and how it is computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BedLoadLayer {
+    /// The stream.
+    pub stream: Stream,
+    /// Closures.
+    pub closures: Closures,
+    /// What the grains do.
+    pub grains: Grains,
+    /// Height of a cell `[m]`; both depths and the held depth are whole multiples of it.
+    pub cell_height: f64,
+}
+
+/// What the grains do.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Grains {
+    /// They rest at a given φ(z): flow over and through a porous bed, or clear water.
+    Resting(SolidFraction),
+    /// They move, but their fraction stays as it is given.
+    Frozen(SolidFraction),
+    /// They move and dilate. At the start they lie at φ_max below z = 0, and none is lost.
+    Dilating,
+}
+
+/// The velocities from which the steady state is sought; it must not depend on them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Start {
+    /// Nothing moves.
+    Rest,
+    /// Water and upper grains have a speed `[m/s]` from 15 mm upwards, and in proportion less down to 5 mm below the bed's
+    /// top (for grains of 5 mm: 3 d and −d).
+    Moving(f64),
+}
+
+impl Start {
+    fn velocity(self, z: f64, stream: &Stream) -> f64 {
+        match self {
+            Self::Rest => 0.0,
+            Self::Moving(speed) => speed * (0.25 * (z / stream.grain_diameter + 1.0)).clamp(0.0, 1.0),
+        }
+    }
+}
+
+/// Where the steps have led.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Approach {
+    /// The last state.
+    pub state: LayerState,
+    /// Time steps taken.
+    pub steps: usize,
+    /// Length of a time step `[s]`.
+    pub time_step: f64,
+    /// Largest change of a velocity in the last step, over u_* `[-]`.
+    pub velocity_change: f64,
+    /// Largest change of φ in the last step `[-]`.
+    pub fraction_change: f64,
+    /// Why it is not steady, if it is not.
+    pub unsteady: Option<String>,
+}
+
+/// Largest number of time steps; a few hundred are usual.
+pub const LARGEST_STEPS: usize = 4000;
+
+/// Change of a step, of velocities over u_* and of fractions, below which a state is steady `[-]`.
+pub const STEADY: f64 = 1e-11;
+
+/// Time step over h/u_*: only a means to the steady state.
+const TIME_STEP: f64 = 0.75;
+
+/// Share of the secant in the derivative of the grains' stress `[-]`: fast, and from a step on sure, for the few layers
+/// that swing under the first.
+const TOWARDS_SECANT: (f64, f64) = (0.3, 1.0);
+
+/// The step from which on it is sure.
+const SURE_FROM: usize = 1000;
+
+impl BedLoadLayer {
+    /// The steady state.
+    ///
+    /// # Errors
+    /// Parameters out of range, or no steady state within [`LARGEST_STEPS`].
+    pub fn steady(&self, start: Start) -> Result<LayerState, ReferenceError> {
+        let approach = self.approach(start)?;
+        match approach.unsteady {
+            None => Ok(approach.state),
+            Some(reason) => Err(ReferenceError::NotSteady { reason, steps: approach.steps }),
+        }
+    }
+
+    /// Steps until nothing changes any more or the steps are used up, and says which.
+    ///
+    /// # Errors
+    /// Parameters out of range.
+    pub fn approach(&self, start: Start) -> Result<Approach, ReferenceError> {
+        self.check()?;
+        let shear_velocity = self.stream.shear_velocity();
+        let time_step = TIME_STEP * self.stream.flow_depth / shear_velocity;
+        let mut column = Column::new(self, start);
+        let mut steps = 0;
+        loop {
+            let last_good = column.clone();
+            let towards_secant = if steps < SURE_FROM { TOWARDS_SECANT.0 } else { TOWARDS_SECANT.1 };
+            let change = column.step(Stride { time_step, towards_secant });
+            steps += 1;
+            let (velocity_change, fraction_change) = (change.velocity / shear_velocity, change.fraction);
+            let steady = velocity_change < STEADY && fraction_change < STEADY;
+            let unsteady = if !change.velocity.is_finite() {
+                column = last_good;
+                Some("a velocity is no longer a finite number".to_owned())
+            } else if change.left_over > 1e-9 * self.stream.bed_stress() && (steady || steps == LARGEST_STEPS) {
+                Some(format!("the grains need {:.2e} Pa of room above the water's surface", change.left_over))
+            } else if steps == LARGEST_STEPS {
+                Some(format!("a step still changes u/u_* by {velocity_change:.1e} and φ by {fraction_change:.1e}"))
+            } else if steady {
+                None
+            } else {
+                continue;
+            };
+            let state = column.state();
+            return Ok(Approach { state, steps, time_step, velocity_change, fraction_change, unsteady });
+        }
+    }
+
+    /// Number of cells.
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        ((self.stream.bed_depth + self.stream.flow_depth) / self.cell_height).round() as usize
+    }
+
+    /// z of a face `[m]`, counted from the base.
+    fn face(&self, face: usize) -> f64 {
+        let below = (self.stream.bed_depth / self.cell_height).round();
+        (face as f64 - below) * self.cell_height
+    }
+
+    /// Checks every parameter.
+    ///
+    /// # Errors
+    /// The first that is out of its range.
+    pub fn check(&self) -> Result<(), ReferenceError> {
+        let Self { stream, closures, .. } = self;
+        let refuse = |field, value, rule| Err(ReferenceError::Parameter { field, value, rule });
+        let positive = [
+            ("slope", stream.slope),
+            ("flow_depth", stream.flow_depth),
+            ("gravity", stream.gravity),
+            ("fluid_density", stream.fluid_density),
+            ("kinematic_viscosity", stream.kinematic_viscosity),
+            ("grain_diameter", stream.grain_diameter),
+            ("cell_height", self.cell_height),
+            ("static_friction", closures.static_friction),
+            ("reference_inertia", closures.reference_inertia),
+            ("regularisation_rate", closures.regularisation_rate),
+            ("largest_fraction", closures.largest_fraction),
+            ("karman", closures.karman),
+        ];
+        for (field, value) in positive {
+            if !(value > 0.0 && value.is_finite()) {
+                return refuse(field, value, "finite and greater than 0");
+            }
+        }
+        for (field, value) in
+            [("dilation", closures.dilation), ("bed_depth", stream.bed_depth), ("held_depth", stream.held_depth)]
+        {
+            if !(value >= 0.0 && value.is_finite()) {
+                return refuse(field, value, "finite and not negative");
+            }
+        }
+        if !(stream.grain_density > stream.fluid_density && stream.grain_density.is_finite()) {
+            return refuse("grain_density", stream.grain_density, "finite and greater than the water's");
+        }
+        if closures.largest_fraction >= 1.0 {
+            return refuse("largest_fraction", closures.largest_fraction, "less than 1");
+        }
+        if !(closures.limiting_friction > closures.static_friction && closures.limiting_friction.is_finite()) {
+            return refuse(
+                "limiting_friction",
+                closures.limiting_friction,
+                "finite and greater than the static friction",
+            );
+        }
+        for (field, depth) in
+            [("flow_depth", stream.flow_depth), ("bed_depth", stream.bed_depth), ("held_depth", stream.held_depth)]
+        {
+            let cells = depth / self.cell_height;
+            if (cells - cells.round()).abs() > 1e-6 || cells > 1e6 {
+                return refuse(field, depth, "a whole multiple of the cell's height");
+            }
+        }
+        if self.grains == Grains::Dilating && stream.bed_depth <= 0.0 {
+            return refuse("bed_depth", stream.bed_depth, "greater than 0 if the grains dilate: they come from there");
+        }
+        if stream.held_depth > stream.bed_depth {
+            return refuse("held_depth", stream.held_depth, "at most the depth of the bed");
+        }
+        Ok(())
+    }
+}
