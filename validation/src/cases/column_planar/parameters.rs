@@ -249,7 +249,11 @@ impl ColumnPlanarParameters {
             rules::material(&format!("{name}.law"), &Rheology::MuI(columns.law))?;
         }
         self.check_variants()?;
-        rules::numerics("numerics", &self.numerics)
+        rules::numerics("numerics", &self.numerics)?;
+        if !self.regularised.aspect_ratios.is_empty() {
+            rules::implicit_runs("numerics", &self.numerics, "regularised.aspect_ratios")?;
+        }
+        rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.sand.law))
     }
 
     fn check_variants(&self) -> Result<(), InputError> {
