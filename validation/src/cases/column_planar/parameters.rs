@@ -118,7 +118,10 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("sensitivity.resolutions", "particles over r_0, for the grid convergence of Lagrée's grains"),
     ("sensitivity.seeds", "of each resolution; three at the finest of several"),
     ("sensitivity.hourglass", "[-], coefficients at which the first of these columns is repeated"),
-    ("regularised.aspect_ratios", "h_0/r_0 [-] of columns of sand that are repeated with (35), implicitly"),
+    (
+        "regularised.aspect_ratios",
+        "h_0/r_0 [-] of columns of sand with (35), implicitly; compared with those of sand.aspect_ratios",
+    ),
     ("regularised.rate", "α_r [1/s]"),
     ("lagree.law.grain_diameter", "D [m]; the source does not say, here D/r_0 = 0.02"),
 ];
