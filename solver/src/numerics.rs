@@ -1,7 +1,8 @@
 //! The numerical choices of a run; the default is the recipe, [`Numerics::paper`] the paper's own set.
 
-use crate::boundary::WallTreatment;
+use crate::boundary::{Surface, WallTreatment};
 use crate::kernel::KernelShape;
+use crate::rheology::Rheology;
 use serde::{Deserialize, Serialize};
 
 /// Which discrete momentum equation.
@@ -91,6 +92,9 @@ pub struct Numerics {
     pub verlet_skin: f64,
 }
 
+/// A choice that another one excludes: the field's name, its value, the rule it breaks, and what to do about it.
+pub type ChoiceProblem = (&'static str, &'static str, &'static str, &'static str);
+
 impl Default for Numerics {
     fn default() -> Self {
         Self {
@@ -133,6 +137,64 @@ impl Numerics {
             advective_courant: 0.2,
             ..Self::default()
         }
+    }
+
+    /// The name of the momentum operator, where it is one of the pairwise ones.
+    #[must_use]
+    pub fn pairwise_operator(&self) -> Option<&'static str> {
+        match self.momentum_operator {
+            MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence => None,
+            MomentumOperator::Pairwise => Some("pairwise"),
+            MomentumOperator::PairwiseCorrected => Some("pairwise-corrected"),
+        }
+    }
+
+    /// The choice that a wall with this surface excludes: only the single divergence with extrapolated walls knows
+    /// smooth ones.
+    #[must_use]
+    pub fn wall_problem(&self, roughness: Surface) -> Option<ChoiceProblem> {
+        if roughness == Surface::Rough {
+            return None;
+        }
+        if let Some(operator) = self.pairwise_operator() {
+            return Some((
+                "momentum_operator",
+                operator,
+                "\"single-divergence\" or \"uncorrected-divergence\" with a smooth wall, such as a gate",
+                "the pairwise operators know rough walls only; choose one of these, or leave the gate out",
+            ));
+        }
+        (self.wall_treatment == WallTreatment::Paper).then_some((
+            "wall_treatment",
+            "paper",
+            "\"extrapolated\" with a smooth wall, such as a gate",
+            "the paper's walls are rough; choose this, or leave the gate out",
+        ))
+    }
+
+    /// The choice that goes neither with the law nor with the momentum operator: an implicit step needs a viscosity and
+    /// the divergence whose transpose it is solved with.
+    #[must_use]
+    pub fn step_problem(&self, law: &Rheology) -> Option<ChoiceProblem> {
+        if self.viscous_step == ViscousStep::Explicit {
+            return None;
+        }
+        if law.is_plastic() {
+            return Some((
+                "viscous_step",
+                "implicit",
+                "explicit with a law by return mapping",
+                "its stress bounds no time step; regularise the law, or choose \"explicit\"",
+            ));
+        }
+        self.pairwise_operator().map(|_| {
+            (
+                "viscous_step",
+                "implicit",
+                "explicit with the pairwise momentum operators",
+                "choose the operator \"single-divergence\", or \"explicit\"",
+            )
+        })
     }
 
     /// The first field that breaks its rule, as (field, value, rule, remedy).

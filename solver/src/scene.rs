@@ -1,8 +1,8 @@
 //! What a simulation starts from.
 
-use crate::boundary::{Domain, Surface, Wall, WallTreatment, wall::WallParticle};
+use crate::boundary::{Domain, Wall, wall::WallParticle};
 use crate::equation_of_state::EquationOfState;
-use crate::numerics::{MomentumOperator, Numerics, ViscousStep};
+use crate::numerics::Numerics;
 use crate::rheology::Rheology;
 use crate::vector::{Tensor, Vector};
 
@@ -108,11 +108,6 @@ pub enum SceneError {
         /// The least that works.
         least: f64,
     },
-    /// A smooth wall with operators that know rough walls only.
-    #[error(
-        "a smooth wall, such as a gate, needs the single divergence and extrapolated walls; set `momentum_operator = \"single-divergence\"` and `wall_treatment = \"extrapolated\"`, or leave the gate out"
-    )]
-    SmoothWall,
     /// More particles than the neighbour list can address.
     #[error("the scene has {0} particles, more than the neighbour list can address")]
     TooLarge(usize),
@@ -165,31 +160,12 @@ impl<const D: usize> Scene<D> {
         {
             return Err(SceneError::Parameter { field, value, rule, remedy });
         }
-        let one_divergence = matches!(
-            self.numerics.momentum_operator,
-            MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence
-        ) && self.numerics.wall_treatment == WallTreatment::Extrapolated;
-        if !one_divergence && self.walls.iter().any(|wall| wall.roughness == Surface::Smooth) {
-            return Err(SceneError::SmoothWall);
-        }
-        if self.numerics.viscous_step == ViscousStep::Implicit {
-            let refused =
-                |rule, remedy| Err(SceneError::Choice { field: "viscous_step", value: "implicit", rule, remedy });
-            if self.rheology.is_plastic() {
-                return refused(
-                    "explicit with a law by return mapping",
-                    "its stress bounds no time step; regularise the law, or choose \"explicit\"",
-                );
-            }
-            match self.numerics.momentum_operator {
-                MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence => {}
-                MomentumOperator::Pairwise | MomentumOperator::PairwiseCorrected => {
-                    return refused(
-                        "explicit with the pairwise momentum operators",
-                        "choose the operator \"single-divergence\", or \"explicit\"",
-                    );
-                }
-            }
+        let mut surfaces = self.walls.iter().map(|wall| wall.roughness);
+        if let Some((field, value, rule, remedy)) = surfaces
+            .find_map(|roughness| self.numerics.wall_problem(roughness))
+            .or_else(|| self.numerics.step_problem(&self.rheology))
+        {
+            return Err(SceneError::Choice { field, value, rule, remedy });
         }
         for (particle, position) in self.flow.position.iter().enumerate() {
             let finite = [

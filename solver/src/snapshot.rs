@@ -4,7 +4,7 @@ use crate::simulation::Simulation;
 use crate::vector::{Tensor, Vector};
 
 /// Plain state; every array has the shape `[flow particles]`, ordered by identity.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Snapshot<const D: usize> {
     /// Time `[s]`.
     pub time: f64,

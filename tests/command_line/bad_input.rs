@@ -218,3 +218,85 @@ fn a_layer_of_water_and_grains_that_cannot_be() {
         refused(&place, &["bed-load-1d", "--set", setting], message);
     }
 }
+
+#[test]
+fn a_start_angle_without_a_steady_flow() {
+    let place = Place::new();
+    for angle in ["20", "33"] {
+        refused(
+            &place,
+            &["flow-thickness", "--set", &format!("start_angle={angle}")],
+            &format!(
+                "`start_angle` is {angle}, but must be between 20.90685689 and 32.74101753; trials start with a steady flow, which is between arctan μ_s and arctan μ_2 only"
+            ),
+        );
+    }
+}
+
+#[test]
+fn a_reservoir_of_too_few_or_too_many_rows() {
+    let place = Place::new();
+    let message = |resolution: usize, rows: usize, choice: &str| {
+        format!(
+            "`resolution` is {resolution}, but must be such that the reservoir is 4 to 1000 rows of particles high; its height, `initial_height` over `reservoir_length` times this, is {rows}: choose a {choice} resolution"
+        )
+    };
+    refused(&place, &["incline-collapse", "--set", "initial_height=0.01"], &message(30, 1, "larger"));
+    refused(
+        &place,
+        &["incline-collapse", "--set", "initial_height=2.0", "--set", "resolution=900"],
+        &message(900, 9000, "smaller"),
+    );
+}
+
+#[test]
+fn a_gate_with_operators_or_walls_that_know_no_smooth_ones() {
+    let place = Place::new();
+    let operator = |path: &str, value: &str| {
+        format!(
+            "`{path}numerics.momentum_operator` is {value}, but must be \"single-divergence\" or \"uncorrected-divergence\" with a smooth wall, such as a gate; the pairwise operators know rough walls only; choose one of these, or leave the gate out"
+        )
+    };
+    refused(
+        &place,
+        &["incline-collapse", "--set", "numerics.momentum_operator=\"pairwise\""],
+        &operator("", "pairwise"),
+    );
+    refused(
+        &place,
+        &["flow-thickness", "--set", "collapse.numerics.momentum_operator=\"pairwise-corrected\""],
+        &operator("collapse.", "pairwise-corrected"),
+    );
+    let walls = |path: &str| {
+        format!(
+            "`{path}numerics.wall_treatment` is paper, but must be \"extrapolated\" with a smooth wall, such as a gate; the paper's walls are rough; choose this, or leave the gate out"
+        )
+    };
+    refused(&place, &["incline-collapse", "--set", "numerics.wall_treatment=\"paper\""], &walls(""));
+    refused(&place, &["flow-thickness", "--set", "collapse.numerics.wall_treatment=\"paper\""], &walls("collapse."));
+}
+
+#[test]
+fn an_implicit_step_without_a_viscous_law_or_its_divergence() {
+    let place = Place::new();
+    let plastic = |path: &str| {
+        format!(
+            "`{path}numerics.viscous_step` is implicit, but must be explicit with a law by return mapping; its stress bounds no time step; regularise the law, or choose \"explicit\""
+        )
+    };
+    for case in ["hydrostatic", "bagnold", "column-planar", "column-round", "incline-collapse"] {
+        refused(&place, &[case, "--set", "numerics.viscous_step=\"implicit\""], &plastic(""));
+    }
+    refused(&place, &["flow-thickness", "--set", "collapse.numerics.viscous_step=\"implicit\""], &plastic("collapse."));
+    refused(
+        &place,
+        &["film", "--set", "numerics.viscous_step=\"implicit\"", "--set", "numerics.momentum_operator=\"pairwise\""],
+        "`numerics.viscous_step` is implicit, but must be explicit with the pairwise momentum operators; choose the operator \"single-divergence\", or \"explicit\"",
+    );
+    // the implicit runs that a list asks for
+    refused(
+        &place,
+        &["column-planar", "--set", "numerics.momentum_operator=\"pairwise\""],
+        "`numerics.momentum_operator` is pairwise, but must be \"single-divergence\" or \"uncorrected-divergence\" with the implicit runs of `regularised.aspect_ratios`; choose one of these, or empty that list",
+    );
+}

@@ -2,8 +2,9 @@
 
 use crate::patches::{Disorder, SPACING, SYRUP, bed, block, open_scene, simulation};
 use bagnold_solver::boundary::gate::Gate;
-use bagnold_solver::boundary::{AxisBoundary, Domain, Surface, wall};
-use bagnold_solver::scene::{Scene, SceneError};
+use bagnold_solver::boundary::{AxisBoundary, Domain, Surface, WallTreatment, wall};
+use bagnold_solver::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::scene::Scene;
 use bagnold_solver::simulation::Simulation;
 use bagnold_solver::vector::Vector;
 
@@ -105,9 +106,21 @@ fn a_closed_gate_holds_a_liquid_as_a_mirror_does() {
 
 #[test]
 fn a_smooth_wall_is_refused_where_the_operators_know_rough_ones_only() {
-    let mut scene = gated(1.0);
-    scene.numerics.momentum_operator = bagnold_solver::numerics::MomentumOperator::Pairwise;
-    let Err(error) = Simulation::new(scene) else { panic!("must be refused") };
-    assert_eq!(error, SceneError::SmoothWall);
-    assert!(error.to_string().contains("leave the gate out"), "{error}");
+    let refused = |numerics: Numerics| {
+        let mut scene = gated(1.0);
+        scene.numerics = numerics;
+        let Err(error) = Simulation::new(scene) else { panic!("must be refused") };
+        error.to_string()
+    };
+    let default = gated(1.0).numerics;
+    assert_eq!(
+        refused(Numerics { momentum_operator: MomentumOperator::Pairwise, ..default }),
+        "`momentum_operator` is pairwise, but must be \"single-divergence\" or \"uncorrected-divergence\" with a smooth \
+         wall, such as a gate; the pairwise operators know rough walls only; choose one of these, or leave the gate out"
+    );
+    assert_eq!(
+        refused(Numerics { wall_treatment: WallTreatment::Paper, ..default }),
+        "`wall_treatment` is paper, but must be \"extrapolated\" with a smooth wall, such as a gate; the paper's walls are \
+         rough; choose this, or leave the gate out"
+    );
 }

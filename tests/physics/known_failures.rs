@@ -20,16 +20,22 @@ pub(crate) fn owing_tier(entry: &KnownFailure) -> Option<Tier> {
     [Tier::Quick, Tier::Paper, Tier::Fine].into_iter().find(|&tier| {
         case.prepare(tier, &Changes::default()).is_ok_and(|prepared| {
             let runs: Vec<String> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
-            runs_of(&entry.variant).iter().all(|wanted| runs.iter().any(|run| has_all(run, wanted)))
+            let matches = if entry.variant.split(',').any(names_a_quantity) { has_all } else { is_made_of };
+            runs_of(&entry.variant).iter().all(|wanted| runs.iter().any(|run| matches(run, wanted)))
         })
     })
+}
+
+/// Whether a part of a variant is of the metric and not of its runs.
+fn names_a_quantity(part: &str) -> bool {
+    part.starts_with("quantity=")
 }
 
 /// What tells the runs behind a metric: a metric may join several, as in `resolution=10_20_40`, and may say which
 /// `quantity` of them it is about.
 fn runs_of(variant: &str) -> Vec<Vec<String>> {
     let mut runs = vec![Vec::new()];
-    for part in variant.split(',').filter(|part| !part.starts_with("quantity=")) {
+    for part in variant.split(',').filter(|part| !names_a_quantity(part)) {
         let (key, value) = part.split_once('=').unwrap_or((part, ""));
         let joined = value.split('_').all(|piece| piece.parse::<f64>().is_ok());
         let values: Vec<&str> = if joined { value.split('_').collect() } else { vec![value] };
@@ -41,7 +47,13 @@ fn runs_of(variant: &str) -> Vec<Vec<String>> {
     runs
 }
 
-/// Whether a run's variant has all these parts.
+/// Whether a run's variant is these parts and no more: a metric of a single run repeats its whole variant.
+fn is_made_of(run: &str, wanted: &[String]) -> bool {
+    run == wanted.join(",")
+}
+
+/// Whether a run's variant has all these parts: a metric over many runs, which names a quantity, says only what they
+/// have in common.
 fn has_all(run: &str, wanted: &[String]) -> bool {
     let parts: Vec<&str> = run.split(',').collect();
     wanted.iter().all(|part| parts.contains(&part.as_str()))
@@ -78,6 +90,9 @@ fn an_entry_is_owed_by_the_cheapest_tier_that_has_its_runs() {
     assert_eq!(tier("fluid=honey,particles=jittered,resolution=20"), None);
     assert_eq!(tier("quantity=flux,fluid=newtonian,particles=lattice,resolution=10_20_40"), Some(Tier::Paper));
     assert_eq!(tier("quantity=flux,fluid=newtonian,particles=lattice,resolution=10_21"), None);
+    // what a run does not say in full is stale, but for a quantity over several runs
+    assert_eq!(tier("fluid=newtonian,resolution=20"), None);
+    assert_eq!(tier("quantity=flux,fluid=newtonian,resolution=20"), Some(Tier::Quick));
 }
 
 /// A result of `film` with one gate at 1.

@@ -7,6 +7,9 @@ use bagnold_validation::cases::column_planar::ColumnPlanar;
 
 /// Relative change that the drift snapshots allow `[-]`.
 const TOLERANCE: f64 = 1e-3;
+/// What the stopping time may change here `[-]`: the front creeps over its last percent, so that a thousandth of its way
+/// is a hundredth of its time. The drift snapshots repeat to the bit and need no such allowance.
+const STOPPING_TIME_TOLERANCE: f64 = 1e-2;
 
 /// Tells nobody.
 struct Unseen;
@@ -38,8 +41,7 @@ fn a_displacement_of_a_ten_billionth_spacing_changes_no_metric() {
         ("final height", Collapse::final_height, TOLERANCE),
         ("centroid", |collapse| collapse.centroid, TOLERANCE),
         ("mass quantile", |collapse| collapse.quantiles.1, TOLERANCE),
-        // the front creeps over its last percent: a thousandth of its way is a hundredth of its time
-        ("stopping time", Collapse::stopping_time, 10.0 * TOLERANCE),
+        ("stopping time", Collapse::stopping_time, STOPPING_TIME_TOLERANCE),
     ];
     for (name, measure, tolerance) in measures {
         let (a, b) = (measure(&lattice), measure(&displaced));

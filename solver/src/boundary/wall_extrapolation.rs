@@ -5,8 +5,10 @@
 
 use super::WallTreatment;
 use crate::kernel::Kernel;
-use crate::lanes::algebra::{difference, dot, splat_vector, store_vector, zero_tensor, zero_vector};
-use crate::lanes::{InstructionSet, LANES, LanePass, Lanes, gather, gather_tensors, gather_vectors};
+use crate::lanes::algebra::{
+    accumulate_outer, difference, dot, matrix_product, splat_vector, store_vector, zero_tensor, zero_vector,
+};
+use crate::lanes::{InstructionSet, LANES, LanePass, Lanes, Real, gather, gather_tensors, gather_vectors};
 use crate::neighbours::VerletList;
 use crate::particles::Particles;
 use crate::vector::{Tensor, Vector};
@@ -123,25 +125,8 @@ impl<const D: usize> LanePass for StressPass<'_, D> {
             }
             // a smooth wall mirrors the stress: what it carries along its surface is that of the flow with the other sign
             let smoothness: V = gather(&particles.wall_smoothness, &group.own);
-            let mut opposite = zero_tensor::<V, D>();
-            for i in 0..D {
-                for j in 0..D {
-                    let mut sum = zero;
-                    for k in 0..D {
-                        sum = sum + normal[i] * normal[k] * stresses[k][j] + stresses[i][k] * normal[k] * normal[j];
-                        for l in 0..D {
-                            let both = normal[i] * normal[k] * normal[l] * normal[j];
-                            sum = sum - V::splat(2.0) * (both * stresses[k][l]);
-                        }
-                    }
-                    opposite[i][j] = sum;
-                }
-            }
-            for i in 0..D {
-                for j in 0..D {
-                    stresses[i][j] = stresses[i][j] - V::splat(2.0) * (smoothness * opposite[i][j]);
-                }
-            }
+            let reflection = reflection(smoothness, &normal);
+            let stresses = matrix_product(&matrix_product(&reflection, &stresses), &reflection);
             // a dry wall carries nothing
             let wet = V::splat(1.0).where_less(V::splat(DRY), weights) / weights.max(V::splat(DRY));
             let pressure = (wet * pressures).max(zero).to_array();
@@ -158,6 +143,18 @@ impl<const D: usize> LanePass for StressPass<'_, D> {
             }
         }
     }
+}
+
+/// R = I − 2 k n nᵀ, which mirrors at the plane with the normal n for k = 1; for k = 0 it is the identity to the last
+/// bit, and so R s R is s.
+#[inline(always)]
+fn reflection<V: Real, const D: usize>(k: V, normal: &[V; D]) -> [[V; D]; D] {
+    let mut reflection = zero_tensor::<V, D>();
+    for i in 0..D {
+        reflection[i][i] = V::splat(1.0);
+    }
+    accumulate_outer(&mut reflection, V::splat(-2.0) * k, normal, normal);
+    reflection
 }
 
 struct VelocityPass<'a, const D: usize> {
@@ -213,5 +210,36 @@ impl<const D: usize> LanePass for VelocityPass<'_, D> {
             }
             store_vector(&velocity, out);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STRESS: [[f64; 3]; 3] = [[0.3, -1.7, 0.9], [-1.7, 2.1, 0.1], [0.9, 0.1, -2.4]];
+    const NORMAL: [f64; 3] = [2.0 / 3.0, 1.0 / 3.0, -2.0 / 3.0];
+    /// Across the normal.
+    const ALONG: [f64; 3] = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
+
+    fn mirrored(smoothness: f64) -> [[f64; 3]; 3] {
+        let reflection = reflection(smoothness, &NORMAL);
+        matrix_product(&matrix_product(&reflection, &STRESS), &reflection)
+    }
+
+    #[test]
+    fn a_smooth_wall_turns_the_traction_along_its_surface_around_and_nothing_else() {
+        let traction = |stress: &[[f64; 3]; 3], direction: &[f64; 3]| -> f64 {
+            (0..3).map(|i| direction[i] * (0..3).map(|j| stress[i][j] * NORMAL[j]).sum::<f64>()).sum()
+        };
+        let smooth = mirrored(1.0);
+        assert!(traction(&STRESS, &ALONG).abs() > 0.1);
+        assert!((traction(&smooth, &ALONG) + traction(&STRESS, &ALONG)).abs() < 1e-14);
+        assert!((traction(&smooth, &NORMAL) - traction(&STRESS, &NORMAL)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_rough_wall_has_the_stress_of_the_flow_to_the_last_bit() {
+        assert_eq!(mirrored(0.0).map(|row| row.map(f64::to_bits)), STRESS.map(|row| row.map(f64::to_bits)));
     }
 }

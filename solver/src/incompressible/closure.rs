@@ -205,8 +205,10 @@ impl<const D: usize> IncompressibleSimulation<D> {
                             Some(b) => (load[b], sediment.velocity[b]),
                             None => (material.load(height, layer), Vector::zeros()),
                         };
-                        let rate =
-                            || ((sediment.velocity[a] - other_velocity).norm_squared() / distance_squared).sqrt();
+                        let rate = || {
+                            let squared = (sediment.velocity[a] - other_velocity).norm_squared();
+                            mean_rate(D) * (squared / distance_squared).sqrt()
+                        };
                         match numerics.pair_law {
                             PairLaw::PairRate => 2.0 * material.viscosity(load[a].min(other_load), rate()),
                             PairLaw::PairRateMeanLoad => 2.0 * material.viscosity(0.5 * (load[a] + other_load), rate()),

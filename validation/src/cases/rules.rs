@@ -1,7 +1,8 @@
 //! Rules that the parameters of several cases share.
 
 use crate::error::InputError;
-use bagnold_solver::numerics::Numerics;
+use bagnold_solver::boundary::Surface;
+use bagnold_solver::numerics::{ChoiceProblem, Numerics};
 use bagnold_solver::rheology::Rheology;
 
 /// A positive, finite value.
@@ -66,6 +67,34 @@ pub(super) fn material(path: &str, law: &Rheology) -> Result<(), InputError> {
 /// The ranges of the numerics.
 pub(super) fn numerics(path: &str, numerics: &Numerics) -> Result<(), InputError> {
     numerics.parameter_problem().map_or(Ok(()), |(field, value, rule, remedy)| {
+        Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
+    })
+}
+
+/// The viscous step that a law allows.
+pub(super) fn viscous_step(path: &str, numerics: &Numerics, law: &Rheology) -> Result<(), InputError> {
+    choice(path, numerics.step_problem(law))
+}
+
+/// The operators and walls that a gate allows.
+pub(super) fn gate(path: &str, numerics: &Numerics) -> Result<(), InputError> {
+    choice(path, numerics.wall_problem(Surface::Smooth))
+}
+
+/// The operators that the implicit runs allow which a list of the parameters asks for.
+pub(super) fn implicit_runs(path: &str, numerics: &Numerics, list: &str) -> Result<(), InputError> {
+    let Some(operator) = numerics.pairwise_operator() else { return Ok(()) };
+    let rule = format!("\"single-divergence\" or \"uncorrected-divergence\" with the implicit runs of `{list}`");
+    Err(InputError::field(
+        &format!("{path}.momentum_operator"),
+        operator,
+        &rule,
+        "choose one of these, or empty that list",
+    ))
+}
+
+fn choice(path: &str, problem: Option<ChoiceProblem>) -> Result<(), InputError> {
+    problem.map_or(Ok(()), |(field, value, rule, remedy)| {
         Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
     })
 }

@@ -6,7 +6,7 @@ use crate::cases::rules;
 use crate::error::InputError;
 use crate::reference::BagnoldProfile;
 use bagnold_solver::numerics::Numerics;
-use bagnold_solver::rheology::MuI;
+use bagnold_solver::rheology::{MuI, Rheology};
 use serde::{Deserialize, Serialize};
 
 /// How the layer starts.
@@ -194,8 +194,12 @@ impl BagnoldParameters {
         }
         rules::rows("resolution", self.resolution)?;
         rules::columns("columns", self.columns, &self.numerics)?;
-        rules::material("material", &bagnold_solver::rheology::Rheology::MuI(self.material))?;
+        rules::material("material", &Rheology::MuI(self.material))?;
         rules::numerics("numerics", &self.numerics)?;
+        rules::viscous_step("numerics", &self.numerics, &law(&self.material, self.regularisation_rate))?;
+        if !self.regularised_slope_angles.is_empty() {
+            rules::implicit_runs("numerics", &self.numerics, "regularised_slope_angles")?;
+        }
         let steady = |field: &str, angle: f64| {
             if self.profile(angle).inertial_number().is_some() {
                 return Ok(());
@@ -233,6 +237,15 @@ impl BagnoldParameters {
     #[must_use]
     pub fn profile(&self, slope_angle: f64) -> BagnoldProfile {
         profile(&self.material, self.layer_height, self.solid_fraction, self.gravity, slope_angle)
+    }
+}
+
+/// The material's law: regularised with the rate `[1/s]`, or by return mapping where that is 0.
+pub(super) fn law(material: &MuI, regularisation_rate: f64) -> Rheology {
+    if regularisation_rate > 0.0 {
+        Rheology::RegularisedMuI(material.regularised(regularisation_rate))
+    } else {
+        Rheology::MuI(*material)
     }
 }
 

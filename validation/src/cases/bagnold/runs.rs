@@ -1,13 +1,13 @@
 //! The simulations that the case asks for.
 
-use super::parameters::{ARREST_DURATION, Arrangement, BagnoldParameters, Start, profile};
+use super::parameters::{ARREST_DURATION, Arrangement, BagnoldParameters, Start, law, profile};
 use crate::case::{Progress, Run};
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::BagnoldProfile;
 use bagnold_solver::numerics::{Numerics, ViscousStep};
-use bagnold_solver::rheology::{MuI, Rheology};
+use bagnold_solver::rheology::MuI;
 use serde::Serialize;
 
 /// What a run is for.
@@ -226,11 +226,7 @@ impl BagnoldRun {
             gravity: self.gravity,
             reference_density: self.solid_fraction * self.material.grain_density,
             bulk_modulus: self.bulk_modulus(),
-            rheology: if self.regularisation_rate > 0.0 {
-                Rheology::RegularisedMuI(self.material.regularised(self.regularisation_rate))
-            } else {
-                Rheology::MuI(self.material)
-            },
+            rheology: law(&self.material, self.regularisation_rate),
             numerics: self.numerics,
             jitter: self.jitter,
             seed: self.seed,

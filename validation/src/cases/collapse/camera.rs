@@ -84,12 +84,7 @@ mod tests {
             time,
             position: (0..count).map(place).collect(),
             velocity: (0..count).map(place).collect(),
-            velocity_gradient: Vec::new(),
-            stress: Vec::new(),
-            density: Vec::new(),
-            pressure: Vec::new(),
-            mass: Vec::new(),
-            support_impulse: Vec::new(),
+            ..Snapshot::default()
         }
     }
 

@@ -27,7 +27,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
                 let values = [("ensemble_mean", mean.value), ("ensemble_standard_error", mean.standard_error)];
                 metrics.extend(
                     values.map(|(name, value)| {
-                        Metric::observed(name, &at, value, "-").with_snapshot_tolerance(2e-3, 2e-3)
+                        Metric::observed(name, &at, value, "-").with_snapshot_tolerance(1e-3, 1e-3)
                     }),
                 );
             }

@@ -246,23 +246,14 @@ mod tests {
     #[test]
     fn a_block_has_its_own_thickness_and_keeps_its_volume() {
         let spacing = 0.05;
-        let mut snapshot = Snapshot::<2> {
-            time: 0.0,
-            position: Vec::new(),
-            velocity: Vec::new(),
-            velocity_gradient: Vec::new(),
-            stress: Vec::new(),
-            density: Vec::new(),
-            pressure: Vec::new(),
-            mass: Vec::new(),
-            support_impulse: Vec::new(),
+        let place = |cell: usize| (cell as f64 + 0.5) * spacing;
+        let particles = 20 * 16;
+        let snapshot = Snapshot {
+            position: (0..particles).map(|k| Vector::<2>::new(place(k % 20), place(k / 20))).collect(),
+            mass: vec![2.0 * spacing * spacing; particles],
+            density: vec![2.0; particles],
+            ..Snapshot::default()
         };
-        for k in 0..20 * 16 {
-            let place = |cell: usize| (cell as f64 + 0.5) * spacing;
-            snapshot.position.push(Vector::<2>::new(place(k % 20), place(k / 20)));
-            snapshot.mass.push(2.0 * spacing * spacing);
-            snapshot.density.push(2.0);
-        }
         let surveyor =
             Surveyor { half_width: 1.0, spacing, gravity: [0.0, -9.81], bed_end: 2.0, collapse: Collapse::default() };
         let thickness = surveyor.thickness(&snapshot);

@@ -43,7 +43,7 @@ pub(super) fn wedge(run: &ColumnRun, frames: &[Frame]) -> Option<Wedge> {
 pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric> {
     let variant = run.variant();
     let observed = |name: &str, value: f64, unit: &str| {
-        Metric::observed(name, &variant, value, unit).of_kind(Kind::Validation).with_snapshot_tolerance(1e-2, 1e-3)
+        Metric::observed(name, &variant, value, unit).of_kind(Kind::Validation).with_snapshot_tolerance(1e-3, 1e-3)
     };
     let mut metrics = vec![
         Metric::observed("energy_gain", &variant, 100.0 * energies(&record.data).largest_gain(), "%")
@@ -52,7 +52,7 @@ pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric
                 Limit::AtMost(100.0 * run.elastic_share()),
                 "of the initial potential energy: no more than the elastic energy of the hydrostatic start is there to be given back",
             )
-            .with_snapshot_tolerance(1e-2, 1e-3),
+            .with_snapshot_tolerance(1e-3, 1e-3),
     ];
     let stations = stations(run, record);
     if let Some(shear) = stations.get(1).and_then(|edge| edge.shear) {

@@ -59,7 +59,7 @@ pub(in crate::cases) fn conservation(variant: &str, collapse: &Collapse) -> [Met
                 Confidence::Exact,
             )
             .gated(Limit::AtMost(1e-6), "specification 2: forces between grains cancel in pairs")
-            .with_snapshot_tolerance(0.0, 1e-6),
+            .with_snapshot_tolerance(0.0, 1e-10),
     ]
 }
 
@@ -117,10 +117,6 @@ fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse, sp
         "about 3 √(h_0/g), Lajeunesse et al. 2005; 99 % of the front's way here",
         Confidence::Medium,
     ));
-    if let Some(time) = metrics.last_mut() {
-        // the front creeps over its last percent: a thousandth of its way is a hundredth of its time
-        time.snapshot_tolerance = 1e-2;
-    }
     metrics.push(
         Metric::observed("kinetic_energy_share", &variant, collapse.agitation(), "-")
             .against(Some(0.0), "a static deposit", Confidence::Exact)

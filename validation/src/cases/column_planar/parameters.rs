@@ -118,7 +118,10 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("sensitivity.resolutions", "particles over r_0, for the grid convergence of Lagrée's grains"),
     ("sensitivity.seeds", "of each resolution; three at the finest of several"),
     ("sensitivity.hourglass", "[-], coefficients at which the first of these columns is repeated"),
-    ("regularised.aspect_ratios", "h_0/r_0 [-] of columns of sand that are repeated with (35), implicitly"),
+    (
+        "regularised.aspect_ratios",
+        "h_0/r_0 [-] of columns of sand with (35), implicitly; compared with those of sand.aspect_ratios",
+    ),
     ("regularised.rate", "α_r [1/s]"),
     ("lagree.law.grain_diameter", "D [m]; the source does not say, here D/r_0 = 0.02"),
 ];
@@ -249,7 +252,11 @@ impl ColumnPlanarParameters {
             rules::material(&format!("{name}.law"), &Rheology::MuI(columns.law))?;
         }
         self.check_variants()?;
-        rules::numerics("numerics", &self.numerics)
+        rules::numerics("numerics", &self.numerics)?;
+        if !self.regularised.aspect_ratios.is_empty() {
+            rules::implicit_runs("numerics", &self.numerics, "regularised.aspect_ratios")?;
+        }
+        rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.sand.law))
     }
 
     fn check_variants(&self) -> Result<(), InputError> {

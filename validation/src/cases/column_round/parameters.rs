@@ -95,7 +95,8 @@ impl ColumnRoundParameters {
             rules::rows(&field("resolution"), column.resolution)?;
         }
         rules::material("sand", &Rheology::MuI(self.sand))?;
-        rules::numerics("numerics", &self.numerics)
+        rules::numerics("numerics", &self.numerics)?;
+        rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.sand))
     }
 }
 

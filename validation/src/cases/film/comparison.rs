@@ -1,7 +1,7 @@
 //! Other operators and walls, run beside the default so that a report can show what each of them costs.
 
 use bagnold_solver::boundary::WallTreatment;
-use bagnold_solver::numerics::{Contact, MomentumOperator, Numerics};
+use bagnold_solver::numerics::{Contact, MomentumOperator, Numerics, ViscousStep};
 use serde::{Deserialize, Serialize};
 
 /// A set of numerics to be compared.
@@ -32,6 +32,8 @@ impl NumericsSet {
             hourglass: 0.0,
             // the explicit pairwise viscosity is stable up to about half the bound of the single divergence
             viscous_courant: of_case.viscous_courant.min(0.1),
+            // and knows no other step
+            viscous_step: ViscousStep::Explicit,
             ..of_case
         };
         match self {

@@ -148,7 +148,8 @@ impl FilmParameters {
             let remedy = format!("the shear stress at the bed is {base:.3} Pa: above it nothing flows");
             rules::between(field, yield_stress, 0.0, 0.95 * base, &remedy)?;
         }
-        rules::numerics("numerics", &self.numerics)
+        rules::numerics("numerics", &self.numerics)?;
+        rules::viscous_step("numerics", &self.numerics, &Rheology::Newtonian(self.newtonian))
     }
 
     fn incline(&self) -> Incline {

@@ -1,7 +1,7 @@
 //! The case's figures.
 
 use super::metrics::{froude_number, incline, relative_thickness};
-use super::{FlowThicknessParameters, Record, collapses, flows, searches};
+use super::{Fate, FlowThicknessParameters, Record, StartStop, StartStopRun, collapses, flows, searches};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 
 pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Figure> {
@@ -56,15 +56,18 @@ fn stopping(parameters: &FlowThicknessParameters, records: &[Record]) -> Figure 
     let local = libm::atan(incline.static_friction).to_degrees();
     panel.series.push(Series::new("experiments: h_stop(θ)", Mark::Line, 2, experiment));
     panel.series.push(Series::new("local law: tanθ = μ_s", Mark::Reference, 0, vec![(local, 1.0), (local, 40.0)]));
-    let (mut stopped, mut flowed) = (Vec::new(), Vec::new());
-    for (run, found) in searches(records) {
-        for trial in &found.trials {
-            let side = if trial.stops { &mut stopped } else { &mut flowed };
-            side.push((trial.slope_angle, 1e3 * run.layer.thickness));
+    let ends = [("stopped", Fate::Stops), ("kept flowing", Fate::Flows), ("undecided", Fate::Undecided)];
+    for (slot, (label, fate)) in ends.into_iter().enumerate() {
+        let of_search = |(run, found): (&StartStopRun, &StartStop)| -> Vec<(f64, f64)> {
+            let ended = found.trials.iter().filter(|trial| trial.fate == fate);
+            ended.map(|trial| (trial.slope_angle, 1e3 * run.layer.thickness)).collect()
+        };
+        let points: Vec<(f64, f64)> = searches(records).flat_map(of_search).collect();
+        // most searches leave nothing open, and then the legend need not speak of it
+        if fate != Fate::Undecided || !points.is_empty() {
+            panel.series.push(Series::new(label, Mark::Points, slot, points));
         }
     }
-    panel.series.push(Series::new("stopped", Mark::Points, 0, stopped));
-    panel.series.push(Series::new("kept flowing", Mark::Points, 1, flowed));
     Figure {
         name: "start-stop".to_owned(),
         caption:

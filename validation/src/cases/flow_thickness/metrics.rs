@@ -78,7 +78,7 @@ fn thicknesses(metrics: &mut Vec<Metric>, parameters: &FlowThicknessParameters, 
                         "h_s of (44) as reconstructed: the paper's estimate of the flow's thickness",
                         Confidence::Medium,
                     )
-                    .with_snapshot_tolerance(5e-3, 5e-3),
+                    .with_snapshot_tolerance(1e-3, 1e-3),
             );
         }
     }

@@ -6,7 +6,7 @@ mod parameters;
 mod start_stop;
 
 pub use parameters::FlowThicknessParameters;
-pub use start_stop::{LayerAtSlope, StartStop, StartStopRun, Trial};
+pub use start_stop::{Fate, LayerAtSlope, StartStop, StartStopRun, Trial};
 
 use super::collapse::{SlopeCollapse, SlopeRun};
 use super::layer::LayerObservation;
@@ -150,8 +150,12 @@ impl Case for FlowThickness {
 fn trials((run, record): &Record) -> Option<Table> {
     let FlowThicknessObservation::StartStop(found) = &record.data else { return None };
     let columns = ["slope [°]", "stops [-]", "t [s]", "mean u [m/s]"];
-    let row =
-        |trial: &Trial| vec![trial.slope_angle, if trial.stops { 1.0 } else { 0.0 }, trial.time, trial.mean_velocity];
+    let stops = |trial: &Trial| match trial.fate {
+        Fate::Stops => 1.0,
+        Fate::Flows => 0.0,
+        Fate::Undecided => f64::NAN,
+    };
+    let row = |trial: &Trial| vec![trial.slope_angle, stops(trial), trial.time, trial.mean_velocity];
     Some(Table {
         name: format!("trials-{}", run.variant().replace(['=', ','], "-").replace('_', "-")),
         columns: columns.map(str::to_owned).to_vec(),

@@ -118,11 +118,15 @@ impl FlowThicknessParameters {
         rules::between("stopping_tolerance", self.stopping_tolerance, 1e-3, 90.0, "0.25° takes about six trials")?;
         rules::between("stopping_duration", self.stopping_duration, 0.01, 1000.0, "10 s is enough for thin layers")?;
         rules::slope_angle("start_angle", self.start_angle)?;
+        let friction_angle = |friction: f64| libm::atan(friction).to_degrees();
+        let grains = &self.collapse.material;
+        let (gentlest, steepest) = (friction_angle(grains.static_friction), friction_angle(grains.limiting_friction));
+        if !self.stopping_thicknesses.is_empty() {
+            let remedy = "trials start with a steady flow, which is between arctan μ_s and arctan μ_2 only";
+            rules::between("start_angle", self.start_angle, gentlest, steepest, remedy)?;
+        }
         for (index, &(thickness, angle)) in self.steady_flows.iter().enumerate() {
             rules::positive(&format!("steady_flows[{index}][0]"), thickness, "give it in metres, such as 0.01")?;
-            let grains = &self.collapse.material;
-            let steepest = libm::atan(grains.limiting_friction).to_degrees();
-            let gentlest = libm::atan(grains.static_friction).to_degrees();
             let remedy = "a flow is steady between the friction angles arctan μ_s and arctan μ_2 only";
             rules::between(&format!("steady_flows[{index}][1]"), angle, gentlest, steepest, remedy)?;
         }

@@ -8,7 +8,7 @@ use crate::observe::Recorded;
 use crate::reference::BagnoldProfile;
 use bagnold_solver::numerics::Numerics;
 use bagnold_solver::rheology::{MuI, Rheology};
-use bagnold_solver::simulation::{Simulation, StopReason};
+use bagnold_solver::simulation::Simulation;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -53,14 +53,26 @@ pub struct StartStopRun {
     pub start_angle: f64,
 }
 
+/// What became of a layer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fate {
+    /// It came to rest.
+    Stops,
+    /// It reached a steady flow.
+    Flows,
+    /// Neither, when its time was up or it diverged.
+    Undecided,
+}
+
 /// One layer of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
     /// Slope `[°]`.
     pub slope_angle: f64,
-    /// Whether the layer stopped.
-    pub stops: bool,
-    /// When it stopped or was found steady `[s]`.
+    /// What became of the layer.
+    pub fate: Fate,
+    /// When it stopped, was found steady or was given up `[s]`.
     pub time: f64,
     /// Depth mean of its velocity at that time `[m/s]`.
     pub mean_velocity: f64,
@@ -77,12 +89,13 @@ pub struct StartStop {
 
 impl StartStop {
     /// Steepest slope at which the layer stopped and gentlest at which it flowed `[°]`; none where the ends of the
-    /// search do not bracket the change.
+    /// search do not bracket the change, or where a trial left open which it is.
     #[must_use]
     pub fn bracket(&self) -> Option<(f64, f64)> {
-        let angles = |stops: bool| self.trials.iter().filter(move |t| t.stops == stops).map(|t| t.slope_angle);
-        let (steepest, gentlest) = (angles(true).reduce(f64::max)?, angles(false).reduce(f64::min)?);
-        (steepest < gentlest).then_some((steepest, gentlest))
+        let angles = |fate: Fate| self.trials.iter().filter(move |t| t.fate == fate).map(|t| t.slope_angle);
+        let (steepest, gentlest) = (angles(Fate::Stops).reduce(f64::max)?, angles(Fate::Flows).reduce(f64::min)?);
+        let decided = angles(Fate::Undecided).next().is_none();
+        (decided && steepest < gentlest).then_some((steepest, gentlest))
     }
 }
 
@@ -170,23 +183,23 @@ impl StartStopRun {
                 _ => 0.5 * (stopping + flowing),
             };
             let (trial, simulation, ending) = self.attempt(angle, progress, (trials.len() as f64, rounds), started)?;
-            let diverged = matches!(ending.reason, StopReason::Diverged(_));
             trials.push(trial);
             steps += simulation.steps();
             simulated_time += simulation.time();
-            let bracketed = match trials.len() {
-                1 => trial.stops,
-                2 => !trial.stops,
-                _ => {
-                    if trial.stops {
-                        stopping = angle;
-                    } else {
-                        flowing = angle;
-                    }
+            let bracketed = match (trials.len(), trial.fate) {
+                (_, Fate::Undecided) => false,
+                (1, fate) => fate == Fate::Stops,
+                (2, fate) => fate == Fate::Flows,
+                (_, Fate::Stops) => {
+                    stopping = angle;
+                    true
+                }
+                (_, Fate::Flows) => {
+                    flowing = angle;
                     true
                 }
             };
-            if diverged || !bracketed || (trials.len() > 1 && flowing - stopping <= self.tolerance * (1.0 + 1e-9)) {
+            if !bracketed || (trials.len() > 1 && flowing - stopping <= self.tolerance * (1.0 + 1e-9)) {
                 let record = ending.record(&simulation, |_| StartStop { trials });
                 return Ok(Recorded { steps, simulated_time, ..record });
             }
@@ -209,24 +222,29 @@ impl StartStopRun {
         let threshold = STOPPED * (self.layer.gravity * h).sqrt();
         let lag = (STEADY_TIME / INTERVAL) as usize;
         let mut means: Vec<f64> = Vec::new();
-        let mut trial = Trial { slope_angle: angle, stops: false, time: 0.0, mean_velocity: f64::NAN, lost: 0 };
+        let mut trial =
+            Trial { slope_angle: angle, fate: Fate::Undecided, time: 0.0, mean_velocity: f64::NAN, lost: 0 };
         let mut last_good = simulation.snapshot();
         let reason = simulation.run(duration, INTERVAL, |simulation| {
             let snapshot = simulation.snapshot();
             let mass: f64 = snapshot.mass.iter().sum();
             let mean = snapshot.mass.iter().zip(&snapshot.velocity).map(|(m, v)| m * v[0]).sum::<f64>() / mass;
             means.push(mean);
-            let stops = mean < threshold;
             let steady = means.len() > lag && (mean / means[means.len() - 1 - lag] - 1.0).abs() < STEADY;
+            let fate = match (mean < threshold, steady) {
+                (true, _) => Fate::Stops,
+                (false, true) => Fate::Flows,
+                (false, false) => Fate::Undecided,
+            };
             let lost = snapshot.position.iter().filter(|x| !(x[1] > 0.0 && x[1] < 2.0 * h)).count();
-            trial = Trial { slope_angle: angle, stops, time: snapshot.time, mean_velocity: mean, lost };
+            trial = Trial { slope_angle: angle, fate, time: snapshot.time, mean_velocity: mean, lost };
             progress.advance(
                 round * duration + snapshot.time,
                 rounds * duration,
                 simulation.steps() as f64 * particles,
             );
             last_good = snapshot;
-            if stops || steady { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if fate == Fate::Undecided { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
         let ending = Ending {
             reason,
@@ -246,12 +264,14 @@ mod tests {
 
     #[test]
     fn the_bracket_is_that_of_the_trials() {
-        let trial =
-            |slope_angle: f64, stops: bool| Trial { slope_angle, stops, time: 1.0, mean_velocity: 0.0, lost: 0 };
-        let found =
-            StartStop { trials: vec![trial(19.0, true), trial(25.0, false), trial(22.0, false), trial(20.5, true)] };
-        assert_eq!(found.bracket(), Some((20.5, 22.0)));
-        assert_eq!(StartStop { trials: vec![trial(19.0, false)] }.bracket(), None);
-        assert_eq!(StartStop { trials: vec![trial(22.0, true), trial(21.0, false)] }.bracket(), None);
+        let trial = |slope_angle: f64, fate: Fate| Trial { slope_angle, fate, time: 1.0, mean_velocity: 0.0, lost: 0 };
+        let search = |trials: &[(f64, Fate)]| StartStop { trials: trials.iter().map(|t| trial(t.0, t.1)).collect() };
+        let found = [(19.0, Fate::Stops), (25.0, Fate::Flows), (22.0, Fate::Flows), (20.5, Fate::Stops)];
+        assert_eq!(search(&found).bracket(), Some((20.5, 22.0)));
+        assert_eq!(search(&[(19.0, Fate::Flows)]).bracket(), None);
+        assert_eq!(search(&[(22.0, Fate::Stops), (21.0, Fate::Flows)]).bracket(), None);
+        // a layer that is still slowing down when its time is up does not flow
+        let undecided = [(19.0, Fate::Stops), (25.0, Fate::Flows), (22.0, Fate::Undecided)];
+        assert_eq!(search(&undecided).bracket(), None);
     }
 }

@@ -100,7 +100,8 @@ impl HydrostaticParameters {
         rules::positive("liquid_density", self.liquid_density, "give it in kg/m³, such as 1000")?;
         rules::material("liquid", &Rheology::Newtonian(self.liquid))?;
         rules::material("grains", &Rheology::MuI(self.grains))?;
-        rules::numerics("numerics", &self.numerics)
+        rules::numerics("numerics", &self.numerics)?;
+        rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.grains))
     }
 }
 

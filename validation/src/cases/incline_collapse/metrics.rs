@@ -22,7 +22,7 @@ pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
         metrics.retain(|metric| metric.name != "momentum_residual");
     }
     let observed = |name: &str, variant: &str, value: f64, unit: &str| {
-        Metric::observed(name, variant, value, unit).of_kind(Kind::Validation).with_snapshot_tolerance(2e-3, 2e-3)
+        Metric::observed(name, variant, value, unit).of_kind(Kind::Validation).with_snapshot_tolerance(1e-3, 1e-3)
     };
     let angle = run.slope_angle.to_radians();
     // the front's way from the gate

@@ -156,13 +156,26 @@ impl InclineCollapseParameters {
         rules::positive("regularisation_rate", self.regularisation_rate, "0.01 1/s in the paper")?;
         rules::rows("resolution", self.resolution)?;
         let rows = (self.initial_height / self.reservoir_length * self.resolution as f64).round();
-        let remedy = "choose a resolution that gives the height 4 rows or more";
-        rules::between("initial_height over the particle spacing", rows, 4.0, 1000.0, remedy)?;
+        if !(4.0..=1000.0).contains(&rows) {
+            let rule = "such that the reservoir is 4 to 1000 rows of particles high";
+            let remedy = format!(
+                "its height, `initial_height` over `reservoir_length` times this, is {rows}: choose a {} resolution",
+                if rows < 4.0 { "larger" } else { "smaller" }
+            );
+            return Err(InputError::field("resolution", self.resolution, rule, &remedy));
+        }
         rules::between("jitter", self.jitter, 0.0, 0.5, "0.05 breaks the lattice without overlaps")?;
         rules::between("duration", self.duration, 0.01, 1000.0, "deposits on mild slopes rest after about 1.5 s")?;
         rules::between("solid_fraction", self.solid_fraction, 0.01, 0.74, "grains fill 0.5 to 0.64 of the space")?;
         rules::material("material", &Rheology::MuI(self.material))?;
-        rules::numerics("numerics", &self.numerics)
+        rules::numerics("numerics", &self.numerics)?;
+        if runs(self).iter().any(|run| run.gate_speed > 0.0) {
+            rules::gate("numerics", &self.numerics)?;
+        }
+        if !self.regularised_slope_angles.is_empty() {
+            rules::implicit_runs("numerics", &self.numerics, "regularised_slope_angles")?;
+        }
+        rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.material))
     }
 
     /// A run at a slope `[°]` with a gate `[m/s]`.
