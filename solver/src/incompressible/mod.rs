@@ -10,6 +10,7 @@
 
 mod closure;
 mod drag_exchange;
+mod granular_pressure;
 mod grid;
 mod numerics;
 mod pairs;

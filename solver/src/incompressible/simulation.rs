@@ -1,6 +1,7 @@
 //! An incompressible simulation: state, candidate search, and the loop with its stop reasons.
 
 use super::drag_exchange::DragExchange;
+use super::granular_pressure::GranularPressure;
 use super::pairs::Periods;
 use super::phase::{Phase, height_axis};
 use super::pressure_poisson::PressurePoisson;
@@ -31,6 +32,7 @@ pub struct IncompressibleSimulation<const D: usize> {
     pub(super) sediment_viscosity: Vec<f64>,
     /// Yield stress or overburden of every sediment particle `[Pa]`.
     pub(super) load: Vec<f64>,
+    pub(super) granular: GranularPressure<D>,
     pub(super) shifts: Vec<Vector<D>>,
     pub(super) periods: Periods<D>,
     pub(super) time: f64,
@@ -66,10 +68,15 @@ impl<const D: usize> IncompressibleSimulation<D> {
         let ratio = scene.numerics.smoothing_ratio;
         let fluid =
             Phase::new(&scene.fluid.particles, &scene.fluid.wall, scene.fluid.spacing, scene.fluid.density, ratio);
-        let sediment = scene
-            .sediment
-            .as_ref()
-            .map(|material| Phase::new(&material.particles, &material.wall, material.spacing, material.density, ratio));
+        let sediment = scene.sediment.as_ref().map(|material| {
+            Phase::new(
+                &material.particles,
+                &material.wall,
+                material.spacing,
+                material.density,
+                material.smoothing_ratio,
+            )
+        });
         let sediment = sediment.map(|phase| match &scene.sediment {
             Some(material) => phase.filled(&material.filling),
             None => phase,
@@ -87,6 +94,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
             system: VelocitySystem::new(),
             fluid_poisson: PressurePoisson::new(),
             sediment_poisson: PressurePoisson::new(),
+            granular: GranularPressure::default(),
             shifts: Vec::new(),
             time: 0.0,
             steps: 0,
