@@ -4,4 +4,3 @@ mod conjugate_gradient;
 mod reductions;
 
 pub(crate) use conjugate_gradient::{ConjugateGradient, Criterion, NotConverged};
-

@@ -1,6 +1,7 @@
 //! The canonical cases. A new case is one file or folder here and one line in [`REGISTRY`].
 
 pub mod bagnold;
+pub mod channel;
 pub mod collapse;
 pub mod column_planar;
 pub mod column_round;
