@@ -32,7 +32,18 @@ macro_rules! cases {
     };
 }
 
-cases!(hydrostatic, film, bagnold, column_planar, column_round, incline_collapse, flow_thickness);
+cases!(
+    hydrostatic,
+    film,
+    bagnold,
+    column_planar,
+    column_round,
+    incline_collapse,
+    flow_thickness,
+    still_water,
+    water_film,
+    clear_water,
+);
 
 #[test]
 fn every_registered_case_is_tested() {
