@@ -32,7 +32,19 @@ macro_rules! cases {
     };
 }
 
-cases!(hydrostatic, film, bagnold, column_planar, column_round, incline_collapse, flow_thickness, bed_load_1d);
+cases!(
+    hydrostatic,
+    film,
+    bagnold,
+    column_planar,
+    column_round,
+    incline_collapse,
+    flow_thickness,
+    still_water,
+    water_film,
+    clear_water,
+    bed_load_1d,
+);
 
 #[test]
 fn every_registered_case_is_tested() {

@@ -2,6 +2,8 @@
 
 pub mod bagnold;
 pub mod bed_load_1d;
+pub mod channel;
+pub mod clear_water;
 pub mod collapse;
 pub mod column_planar;
 pub mod column_round;
@@ -14,6 +16,8 @@ mod recording;
 mod rules;
 #[cfg_attr(not(test), expect(dead_code, reason = "its figures wait for the case's runs"))]
 mod settling;
+pub mod still_water;
+pub mod water_film;
 
 use crate::case::Registry;
 
@@ -26,5 +30,8 @@ pub static REGISTRY: Registry = Registry::new(&[
     &column_round::ColumnRound,
     &incline_collapse::InclineCollapse,
     &flow_thickness::FlowThickness,
+    &still_water::StillWater,
+    &water_film::WaterFilm,
+    &clear_water::ClearWater,
     &bed_load_1d::BedLoad1d,
 ]);

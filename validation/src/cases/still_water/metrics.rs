@@ -1,0 +1,91 @@
+//! How the runs are judged.
+
+use super::Record;
+use super::parameters::StillWaterRun;
+use crate::case::Run;
+use crate::cases::channel::{self, ChannelObservation};
+use crate::metric::{Confidence, Limit, Metric};
+use crate::observe::Recorded;
+use crate::statistics::{Estimate, block_average};
+
+/// Time after which the water is expected to be at rest `[s]`.
+const AT_REST_AFTER: f64 = 15.0;
+
+/// Standard errors that a value may move before a change is reported `[-]`.
+const SNAPSHOT_ERRORS: f64 = 2.0;
+
+pub(super) fn all(records: &[Record]) -> Vec<Metric> {
+    let mut metrics = Vec::new();
+    for (run, record) in records.iter().filter(|(run, _)| !run.unstabilised) {
+        stabilised(&mut metrics, run, record);
+    }
+    for (run, record) in records.iter().filter(|(run, _)| run.unstabilised) {
+        let twin = records.iter().find(|(other, _)| !other.unstabilised && other.jitter == run.jitter);
+        unstabilised(&mut metrics, run, record, twin);
+    }
+    metrics
+}
+
+fn stabilised(metrics: &mut Vec<Metric>, run: &StillWaterRun, record: &Recorded<ChannelObservation>) {
+    let variant = run.variant();
+    let data = &record.data;
+    metrics.push(channel::particles_lost(&variant, record));
+    let average = |array: &[f64]| {
+        block_average(&data.series.within(array, data.window))
+            .unwrap_or(Estimate { value: f64::NAN, standard_error: 0.0 })
+    };
+    let observed = |name: &str, estimate: Estimate, factor: f64, unit: &str, floor: f64| {
+        Metric::observed(name, &variant, factor * estimate.value, unit)
+            .with_snapshot_tolerance(0.0, (SNAPSHOT_ERRORS * factor * estimate.standard_error).max(floor))
+    };
+    let height = average(&data.series.relative_height);
+    metrics.push(
+        observed("height_change", Estimate { value: height.value - 1.0, ..height }, 100.0, "%", 1e-3)
+            .against(Some(0.0), "mean height h/2: water keeps its volume", Confidence::Exact)
+            .gated(Limit::Within(-0.1, 0.1), "0.1 % of the mean height, averaged over the last window"),
+    );
+    let velocity = observed("rms_vertical_velocity", average(&data.series.rms_vertical_velocity), 1.0, "m/s", 1e-5)
+        .against(Some(0.0), "rest", Confidence::Exact);
+    metrics.push(if run.duration >= AT_REST_AFTER {
+        velocity.gated(Limit::AtMost(5e-4), "a thousandth of √(g h), averaged over the last window")
+    } else {
+        // the displaced start still dies away
+        Metric { snapshot_tolerance: 0.3, ..velocity }
+    });
+    metrics.push(
+        observed("pressure_l2", average(&data.series.pressure_error), 100.0, "%", 0.01)
+            .against(Some(0.0), "hydrostatic pressure ρ g (h − z) at every particle", Confidence::Exact)
+            .gated(Limit::AtMost(1.0), "1 % of the hydrostatic profile, averaged over the last window"),
+    );
+}
+
+fn unstabilised(
+    metrics: &mut Vec<Metric>,
+    run: &StillWaterRun,
+    record: &Recorded<ChannelObservation>,
+    twin: Option<&Record>,
+) {
+    let variant = run.variant();
+    let series = &record.data.series;
+    let most = |values: &[f64]| values.iter().copied().fold(f64::NAN, f64::max);
+    metrics.push(
+        Metric::observed("largest_height", &variant, most(&series.highest), "-")
+            .against(Some(1.0), "highest particle over the depth; the surface of still water", Confidence::Exact)
+            .gated(Limit::AtLeast(1.2), "without stabilisation the column sprays: shows that the test can fail")
+            // what sprays is chaotic
+            .with_snapshot_tolerance(0.5, 0.0),
+    );
+    if let Some((_, twin)) = twin {
+        let times = (0.0, record.simulated_time);
+        let stabilised = most(&twin.data.series.within(&twin.data.series.rms_vertical_velocity, times));
+        metrics.push(
+            Metric::observed("agitation", &variant, most(&series.rms_vertical_velocity) / stabilised, "-")
+                .against(
+                    None,
+                    "largest rms vertical velocity, over that of the stabilised run in the same time",
+                    Confidence::Exact,
+                )
+                .with_snapshot_tolerance(0.5, 0.0),
+        );
+    }
+}
