@@ -44,6 +44,7 @@ cases!(
     water_film,
     clear_water,
     bed_load_1d,
+    bed_load,
 );
 
 #[test]

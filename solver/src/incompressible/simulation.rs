@@ -190,6 +190,12 @@ impl<const D: usize> IncompressibleSimulation<D> {
         self.sediment.as_ref().map_or((&[], &[]), |sediment| (&sediment.position, &sediment.velocity))
     }
 
+    /// Masses of the free sediment `[kg]`, per metre of width in 2-D.
+    #[must_use]
+    pub fn sediment_masses(&self) -> &[f64] {
+        self.sediment.as_ref().map_or(&[], |sediment| &sediment.mass)
+    }
+
     /// Force of walls and fixed grains on the fluid and the sediment in the last step `[N]`, per metre of width in 2-D:
     /// friction and drag, without what the walls' pressure gives.
     #[must_use]

@@ -1,6 +1,7 @@
 //! The canonical cases. A new case is one file or folder here and one line in [`REGISTRY`].
 
 pub mod bagnold;
+pub mod bed_load;
 pub mod bed_load_1d;
 pub mod channel;
 pub mod clear_water;
@@ -34,4 +35,5 @@ pub static REGISTRY: Registry = Registry::new(&[
     &water_film::WaterFilm,
     &clear_water::ClearWater,
     &bed_load_1d::BedLoad1d,
+    &bed_load::BedLoad,
 ]);
