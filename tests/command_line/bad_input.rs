@@ -300,3 +300,41 @@ fn an_implicit_step_without_a_viscous_law_or_its_divergence() {
         "`numerics.momentum_operator` is pairwise, but must be \"single-divergence\" or \"uncorrected-divergence\" with the implicit runs of `regularised.aspect_ratios`; choose one of these, or empty that list",
     );
 }
+
+#[test]
+fn a_moving_bed_that_cannot_be() {
+    let place = Place::new();
+    let cases = [
+        (
+            "stabilised.slopes=[0.0]",
+            "`stabilised.slopes[0]` is 0, but must be positive and at most 0.2; without a slope there is no friction velocity √(g h i); give its tangent, such as 0.03 for 3 %",
+        ),
+        (
+            "stabilised.material.yield_stress=-5.0",
+            "`stabilised.material.yield_stress` is -5, but must be between 0 and 1000000; give it in Pa, or 0 for none",
+        ),
+        (
+            "continuum.closures.largest_fraction=1.0",
+            "`continuum.closures.largest_fraction` is 1, but must be between 0.1 and 0.74; grains at rest fill 0.5 to 0.64",
+        ),
+        (
+            "materials.grain_density=900.0",
+            "`materials.grain_density` is 900, but must be between 1010 and 100000; grains that float are no bed load",
+        ),
+        (
+            "stabilised.bed_depth=0.032",
+            "`stabilised.bed_depth` is 0.032, but must be a whole multiple of the grain diameter, 0.005 m; choose lengths that divide each other",
+        ),
+        (
+            "fit.yield_stresses=[9.0]",
+            "`fit.yield_stresses` is [9.0], but must be empty or two or more rising values; the fits interpolate between them",
+        ),
+        (
+            "stabilised.averaging_time=3.0",
+            "`stabilised.averaging_time` is 3, but must be between 0.05 and 1.5; the window lies within the run",
+        ),
+    ];
+    for (setting, message) in cases {
+        refused(&place, &["bed-load", "--set", setting], message);
+    }
+}
