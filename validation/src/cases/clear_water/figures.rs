@@ -14,7 +14,9 @@ fn label(slope: f64) -> String {
 fn profiles(records: &[Record]) -> Figure {
     let mut profile = Panel::new("", Axis::logarithmic("z′/z₀ [-]"), Axis::linear("u/u_* [-]"));
     let mut residual = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("(u − u_log)/u_* [-]"));
-    residual.bands.push(Band { label: "limit of the rms".to_owned(), points: vec![(0.1, -0.25, 0.25), (0.9, -0.25, 0.25)] });
+    residual
+        .bands
+        .push(Band { label: "limit of the rms".to_owned(), points: vec![(0.1, -0.25, 0.25), (0.9, -0.25, 0.25)] });
     residual.series.push(Series::new("", Mark::Reference, 0, vec![(0.0, 0.0), (1.0, 0.0)]));
     for (slot, (run, record)) in records.iter().enumerate() {
         let law = run.reference();
@@ -33,10 +35,9 @@ fn profiles(records: &[Record]) -> Figure {
             .iter()
             .map(|point| (point.height / law.depth, (point.velocity - law.velocity(point.height)) / scale))
             .collect();
-        profile.series.push(Series {
-            error: error.clone(),
-            ..Series::new(&label(run.slope), Mark::Points, slot, values)
-        });
+        profile
+            .series
+            .push(Series { error: error.clone(), ..Series::new(&label(run.slope), Mark::Points, slot, values) });
         residual.series.push(Series { error, ..Series::new("", Mark::LinePoints, slot, deviations) });
     }
     Figure {
@@ -75,10 +76,11 @@ fn over_time(records: &[Record]) -> Figure {
     }
     Figure {
         name: "stationarity".to_owned(),
-        caption: "Depth mean of the velocity over that of the logarithmic law, and the friction of the bed over ρ g h i. \
+        caption:
+            "Depth mean of the velocity over that of the logarithmic law, and the friction of the bed over ρ g h i. \
                   Points are the ends of the intervals U/(2 g i) of the criterion; the last of them is where the flow \
                   counts as stationary and the averaging window begins."
-            .to_owned(),
+                .to_owned(),
         panels: vec![velocity, shear],
         columns: 2,
     }

@@ -34,7 +34,11 @@ fn of_run(metrics: &mut Vec<Metric>, run: &ClearWaterRun, record: &Recorded<Chan
         let since = data.stationary_since.unwrap_or(f64::NAN);
         metrics.push(
             Metric::observed("stationary_after", &variant, since, "s")
-                .against(None, "depth mean changes by less than the tolerance over U/(2 g i), times in a row", Confidence::Exact)
+                .against(
+                    None,
+                    "depth mean changes by less than the tolerance over U/(2 g i), times in a row",
+                    Confidence::Exact,
+                )
                 .gated(
                     Limit::AtMost(at_most * law.adjustment_time()),
                     "averages are those of a stationary flow, or the criterion is not met",
@@ -47,39 +51,58 @@ fn of_run(metrics: &mut Vec<Metric>, run: &ClearWaterRun, record: &Recorded<Chan
             .with_snapshot_tolerance(1e-3, SNAPSHOT_ERRORS * factor * estimate.standard_error)
     };
     // only a stationary flow is judged by the logarithmic law
-    let gated = |metric: Metric, limit: Limit, reason: &str| if stationary { metric.gated(limit, reason) } else { metric };
+    let gated =
+        |metric: Metric, limit: Limit, reason: &str| if stationary { metric.gated(limit, reason) } else { metric };
 
-    let rms = observed("velocity_rms", data.profile.estimate(|points| rms(&law, points)), 1.0, "u_*")
-        .against(Some(0.0), "logarithmic law, over 0.1 h … 0.9 h", Confidence::Exact);
+    let rms = observed("velocity_rms", data.profile.estimate(|points| rms(&law, points)), 1.0, "u_*").against(
+        Some(0.0),
+        "logarithmic law, over 0.1 h … 0.9 h",
+        Confidence::Exact,
+    );
     metrics.push(gated(rms, Limit::AtMost(0.25), "a quarter of u_*, 2 % of the depth mean"));
-    let slope = observed("semi_log_slope", data.profile.estimate(|points| slope(&law, points)), 1.0, "-")
-        .against(Some(1.0), "u_*/κ, fitted to u over ln z′ in 0.1 h … 0.9 h", Confidence::Exact);
+    let slope = observed("semi_log_slope", data.profile.estimate(|points| slope(&law, points)), 1.0, "-").against(
+        Some(1.0),
+        "u_*/κ, fitted to u over ln z′ in 0.1 h … 0.9 h",
+        Confidence::Exact,
+    );
     metrics.push(gated(slope, Limit::Within(0.97, 1.03), "3 % of the slope of the logarithmic law"));
     let average = |array: &[f64]| {
         block_average(&data.series.within(array, data.window))
             .unwrap_or(Estimate { value: f64::NAN, standard_error: 0.0 })
     };
-    let shear = observed("bed_shear", average(&data.series.bed_shear), 1.0 / law.bed_shear_stress(), "-")
-        .against(Some(1.0), "ρ g h i", Confidence::Exact);
+    let shear = observed("bed_shear", average(&data.series.bed_shear), 1.0 / law.bed_shear_stress(), "-").against(
+        Some(1.0),
+        "ρ g h i",
+        Confidence::Exact,
+    );
     metrics.push(gated(shear, Limit::Within(0.97, 1.03), "3 %: the bed carries the weight along the slope"));
     metrics.push(
-        observed("mean_velocity", average(&data.series.mean_velocity), 1.0 / law.mean_velocity(), "-")
-            .against(Some(1.0), "depth mean of the logarithmic law", Confidence::Exact),
+        observed("mean_velocity", average(&data.series.mean_velocity), 1.0 / law.mean_velocity(), "-").against(
+            Some(1.0),
+            "depth mean of the logarithmic law",
+            Confidence::Exact,
+        ),
     );
     metrics.push(
         Metric::observed("velocity_drift", &variant, 100.0 * drift(&law, data), "%")
-            .against(Some(0.0), "change of the depth mean over U/(2 g i), by a line through the window", Confidence::Exact)
+            .against(
+                Some(0.0),
+                "change of the depth mean over U/(2 g i), by a line through the window",
+                Confidence::Exact,
+            )
             .with_snapshot_tolerance(0.2, 0.1),
     );
     let height = average(&data.series.relative_height);
-    metrics.push(
-        observed("height_change", Estimate { value: height.value - 1.0, ..height }, 100.0, "%")
-            .against(Some(0.0), "mean height h/2: water keeps its volume", Confidence::Exact),
-    );
-    metrics.push(
-        observed("pressure_l2", average(&data.series.pressure_error), 100.0, "%")
-            .against(Some(0.0), "hydrostatic pressure ρ g (h − z) at every particle", Confidence::Exact),
-    );
+    metrics.push(observed("height_change", Estimate { value: height.value - 1.0, ..height }, 100.0, "%").against(
+        Some(0.0),
+        "mean height h/2: water keeps its volume",
+        Confidence::Exact,
+    ));
+    metrics.push(observed("pressure_l2", average(&data.series.pressure_error), 100.0, "%").against(
+        Some(0.0),
+        "hydrostatic pressure ρ g (h − z) at every particle",
+        Confidence::Exact,
+    ));
 }
 
 /// The points that are compared.

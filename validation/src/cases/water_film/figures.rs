@@ -48,7 +48,8 @@ fn profiles(records: &[Record]) -> Figure {
         let film = run.film(run.depth);
         let (depth, scale) = (run.depth, run.surface_velocity);
         if slot == 0 {
-            let exact = (0..=100).map(|k| f64::from(k) / 100.0).map(|z| (z, film.velocity(z * depth) / scale)).collect();
+            let exact =
+                (0..=100).map(|k| f64::from(k) / 100.0).map(|z| (z, film.velocity(z * depth) / scale)).collect();
             velocity.series.push(Series::new("exact", Mark::Reference, 0, exact));
             error.series.push(Series::new("", Mark::Reference, 0, vec![(0.0, 0.0), (1.0, 0.0)]));
         }
@@ -92,7 +93,12 @@ fn over_time(records: &[Record]) -> Figure {
         let own = depth_of(run, &record.data, Depth::Own) / run.depth;
         let window = record.data.window;
         let at = |time: f64| time / run.relaxation_time();
-        height.series.push(Series::new("mean over the window", Mark::Reference, 0, vec![(at(window.0), own), (at(window.1), own)]));
+        height.series.push(Series::new(
+            "mean over the window",
+            Mark::Reference,
+            0,
+            vec![(at(window.0), own), (at(window.1), own)],
+        ));
     }
     mean.series.push(Series::new("exact", Mark::Reference, 0, vec![(0.0, 1.0), (longest, 1.0)]));
     Figure {
