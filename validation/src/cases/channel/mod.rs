@@ -19,6 +19,8 @@ mod profile;
 mod scene;
 mod stationarity;
 mod tables;
+#[cfg(test)]
+mod tests;
 
 pub use probe::{ChannelObservation, ChannelSeries, MomentumBalance};
 pub use profile::{BlockProfile, BlockSums, ProfilePoint};

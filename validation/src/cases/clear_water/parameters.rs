@@ -105,7 +105,7 @@ impl ClearWaterParameters {
             origin_offset: 6e-4,
             mixing_length: MixingLengthShape::Parabolic,
             resolution: 23,
-            columns: 20,
+            columns: 12,
             jitter: 0.1,
             seed: 1,
             start_share: 1.0,
@@ -114,6 +114,7 @@ impl ClearWaterParameters {
         };
         let paper = Self {
             slopes: vec![0.02, 0.03, 0.05],
+            columns: 20,
             start_share: 0.8,
             period: Period::Stationary { tolerance: 0.005, checks: 3, at_most: 25.0, averaging_times: 8.0 },
             ..quick.clone()

@@ -49,7 +49,7 @@ fn pressure(records: &[Record]) -> Figure {
 
 fn rest(records: &[Record]) -> Figure {
     let mut height = Panel::new("", Axis::linear("t [s]"), Axis::linear("mean height/(h/2) [-]"));
-    let mut speed = Panel::new("", Axis::linear("t [s]"), Axis::logarithmic("rms vertical velocity [m/s]"));
+    let mut speed = Panel::new("", Axis::logarithmic("t [s]"), Axis::logarithmic("rms vertical velocity [m/s]"));
     let longest = records.iter().map(|(run, _)| run.duration).fold(0.0, f64::max);
     for (slot, (run, record)) in records.iter().enumerate() {
         let series = &record.data.series;
@@ -65,11 +65,12 @@ fn rest(records: &[Record]) -> Figure {
         let name = if bound < 1.0 { "limits" } else { "" };
         height.series.push(Series::new(name, Mark::Reference, 0, vec![(0.0, bound), (longest, bound)]));
     }
-    speed.series.push(Series::new("limit at the end", Mark::Reference, 0, vec![(0.0, 5e-4), (longest, 5e-4)]));
+    speed.series.push(Series::new("limit at the end", Mark::Reference, 0, vec![(1e-3, 5e-4), (longest, 5e-4)]));
     Figure {
         name: "rest".to_owned(),
         caption: "Mean height and root mean square vertical velocity over time. The displaced column first shakes itself \
-                  into place and then comes to rest; without the stabilisation it blows up within a fraction of a second."
+                  into place and then comes to rest. Without the stabilisation a strongly displaced one blows up within \
+                  milliseconds."
             .to_owned(),
         panels: vec![height, speed],
         columns: 2,

@@ -36,9 +36,10 @@ impl Case for StillWater {
 
     fn description(&self) -> &'static str {
         "Water of displaced particles over a closed floor must come to rest with its height and with the hydrostatic \
-         pressure. The operators of the bed-load paper alone, a compact Laplacian against a symmetric gradient, correct \
-         too much with alternating sign on displaced particles: the same column without the stabilisation blows up, \
-         which shows that the test can fail. A profile alone would not show it; height and vertical velocity do."
+         pressure. On strongly displaced particles the compact Laplacian of the bed-load paper alone corrects too much, \
+         with alternating sign: the same column without the stabilisation of the pressure Poisson equation blows up at \
+         once, which shows that the test can fail. A profile alone would not show it early; height and vertical velocity \
+         do."
     }
 
     fn field_notes(&self) -> &'static [(&'static str, &'static str)] {

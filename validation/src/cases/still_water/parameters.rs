@@ -64,18 +64,18 @@ impl StillWaterParameters {
             density: 1000.0,
             kinematic_viscosity: 1e-6,
             resolution: 23,
-            columns: 20,
-            jitters: vec![0.1],
-            unstabilised_jitters: vec![0.1],
+            columns: 12,
+            jitters: vec![0.1, 0.4],
+            unstabilised_jitters: vec![0.4],
             seed: 1,
             duration: 5.0,
             averaging_time: 1.0,
-            unstabilised_duration: 1.0,
+            unstabilised_duration: 0.5,
             numerics: ProjectionNumerics::default(),
         };
         let paper = Self {
-            jitters: vec![0.02, 0.1, 0.2],
-            unstabilised_jitters: vec![0.02, 0.1],
+            columns: 20,
+            jitters: vec![0.02, 0.1, 0.2, 0.4],
             duration: 20.0,
             averaging_time: 4.0,
             ..quick.clone()
@@ -115,7 +115,13 @@ impl StillWaterParameters {
         rules::between("duration", self.duration, 0.5, 1e4, "20 s bring the water to rest")?;
         let longest = 0.5 * self.duration;
         rules::between("averaging_time", self.averaging_time, 0.2, longest, "the window lies in the second half")?;
-        rules::between("unstabilised_duration", self.unstabilised_duration, 0.1, 1e3, "1 s is enough to blow up")?;
+        rules::between(
+            "unstabilised_duration",
+            self.unstabilised_duration,
+            0.1,
+            1e3,
+            "half a second is enough to blow up",
+        )?;
         rules::projection("numerics", &self.numerics)
     }
 }
@@ -205,7 +211,8 @@ impl StillWaterRun {
             numerics: self.numerics,
             until: Until::Time(self.duration),
             window: self.averaging_time,
-            interval: 5e-3,
+            // a column that blows up does so within a few steps
+            interval: if self.unstabilised { self.numerics.time_step } else { 5e-3 },
             frames: 2,
             may_diverge: self.unstabilised,
         }
