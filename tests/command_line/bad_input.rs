@@ -331,7 +331,7 @@ fn a_moving_bed_that_cannot_be() {
         ),
         (
             "stabilised.averaging_time=3.0",
-            "`stabilised.averaging_time` is 3, but must be between 0.05 and 1.5; the window lies within the run",
+            "`stabilised.averaging_time` is 3, but must be between 0.05 and 1; the window lies within the run",
         ),
     ];
     for (setting, message) in cases {

@@ -16,6 +16,7 @@ mod numerics;
 mod pairs;
 mod phase;
 mod pressure_poisson;
+mod rows;
 mod scene;
 mod shifting;
 mod simulation;

@@ -197,8 +197,8 @@ impl BedLoadParameters {
             drag: DragLaw::MorsiAlexander,
             drag_factor: 1.0,
             drag_smoothing_length: 3e-3,
-            duration: 1.5,
-            averaging_time: 1.0,
+            duration: 1.0,
+            averaging_time: 0.6,
             numerics: ProjectionNumerics::default(),
         };
         let paper = Grains {
@@ -235,7 +235,7 @@ impl BedLoadParameters {
             paper,
             stabilised,
             continuum: Continuum {
-                runs: vec![runs(Stage::Porous, &[0.03], &best, &[1.0], 0.6)],
+                runs: vec![runs(Stage::Porous, &[0.03], &best, &[1.0], 0.5)],
                 bed_depth: 0.016,
                 held_depth: 0.004,
                 length: 0.01,
