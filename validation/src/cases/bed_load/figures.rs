@@ -186,8 +186,8 @@ fn transport(records: &[Record]) -> Figure {
             .collect(),
     });
     panel.series.push(Series::new(own.name(), Mark::Reference, 0, curve(own)));
-    for formula in TransportFormula::ALL.into_iter().filter(|formula| *formula != own) {
-        panel.series.push(Series::new(formula.name(), Mark::Line, 7, curve(formula)));
+    for (slot, formula) in TransportFormula::ALL.into_iter().filter(|formula| *formula != own).enumerate() {
+        panel.series.push(Series::new(formula.name(), Mark::Line, slot + 1, curve(formula)));
     }
     let kinds: [(&str, Choice); 3] = [
         ("stabilised", |run| matches!(run.formulation, Formulation::Stabilised(_))),
@@ -205,7 +205,7 @@ fn transport(records: &[Record]) -> Figure {
             .filter(|(_, value)| *value > 0.0)
             .collect();
         if !points.is_empty() {
-            panel.series.push(Series::new(name, Mark::Points, slot, points));
+            panel.series.push(Series::new(name, Mark::Points, if slot == 0 { 0 } else { slot + 4 }, points));
         }
     }
     let held: Vec<(f64, f64)> = held_out(records)
@@ -213,7 +213,7 @@ fn transport(records: &[Record]) -> Figure {
         .map(|fit| (fit.shields_number, fit.ratio * own.transport(fit.shields_number)))
         .collect();
     if !held.is_empty() {
-        panel.series.push(Series::new("stabilised, slope held out", Mark::Points, 3, held));
+        panel.series.push(Series::new("stabilised, slope held out", Mark::Points, 7, held));
     }
     Figure {
         name: "transport".to_owned(),
