@@ -250,6 +250,44 @@ fn a_reservoir_of_too_few_or_too_many_rows() {
 }
 
 #[test]
+fn a_channel_without_a_slope() {
+    let place = Place::new();
+    let rule = "must be positive and at most 0.2; without a slope there is no friction velocity √(g h i); give its tangent, such as 0.03 for 3 %";
+    refused(&place, &["clear-water", "--set", "slopes=[0.03, 0]"], &format!("`slopes[1]` is 0, but {rule}"));
+    refused(&place, &["clear-water", "--set", "slopes=[nan]"], &format!("`slopes[0]` is NaN, but {rule}"));
+    refused(&place, &["water-film", "--set", "slope=-0.03"], &format!("`slope` is -0.03, but {rule}"));
+    refused(
+        &place,
+        &["clear-water", "--set", "slopes=[]"],
+        "`slopes` is [], but must be at least one slope; 3 % is 0.03",
+    );
+    refused(
+        &place,
+        &["clear-water", "--set", "slopes=[0.03, 0.03]"],
+        "`slopes[1]` is 0.03, but must be unlike the others; name every slope once",
+    );
+}
+
+#[test]
+fn a_roughness_that_no_wall_has() {
+    let place = Place::new();
+    for (value, shown) in [("-5e-3", "-0.005"), ("0", "0"), ("inf", "inf"), ("nan", "NaN")] {
+        refused(
+            &place,
+            &["clear-water", "--set", &format!("sand_roughness={value}")],
+            &format!(
+                "`sand_roughness` is {shown}, but must be positive and finite; give it in metres; about the grain diameter"
+            ),
+        );
+    }
+    refused(
+        &place,
+        &["clear-water", "--set", "sand_roughness=0.1"],
+        "`sand_roughness` is 0.1, but must be between 0 and 0.048; the logarithmic law begins at k_s/30, which must lie below the first row of particles",
+    );
+}
+
+#[test]
 fn a_gate_with_operators_or_walls_that_know_no_smooth_ones() {
     let place = Place::new();
     let operator = |path: &str, value: &str| {
@@ -337,4 +375,35 @@ fn a_moving_bed_that_cannot_be() {
     for (setting, message) in cases {
         refused(&place, &["bed-load", "--set", setting], message);
     }
+}
+
+#[test]
+fn a_channel_that_is_too_short_and_times_that_do_not_fit() {
+    let place = Place::new();
+    for case in ["still-water", "water-film", "clear-water"] {
+        for columns in ["0", "4"] {
+            refused(
+                &place,
+                &[case, "--set", &format!("columns={columns}")],
+                &format!(
+                    "`columns` is {columns}, but must be between 5 and 1000; the period must hold twice the reach of the kernel; 12 is quick"
+                ),
+            );
+        }
+    }
+    refused(
+        &place,
+        &["clear-water", "--set", "period.fixed.averaging_time=2"],
+        "`period.fixed.averaging_time` is 2, but must be between 0.2 and 1.5; the window lies in the second half",
+    );
+    refused(
+        &place,
+        &["still-water", "--set", "averaging_time=inf"],
+        "`averaging_time` is inf, but must be between 0.2 and 2.5; the window lies in the second half",
+    );
+    refused(
+        &place,
+        &["still-water", "--set", "numerics.time_step=0"],
+        "`numerics.time_step` is 0, but must be between 1e-9 and 1; see the default numerics with `bagnold show`",
+    );
 }
