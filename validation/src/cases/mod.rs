@@ -2,6 +2,7 @@
 
 pub mod bagnold;
 pub mod bed_load_1d;
+pub mod channel;
 pub mod collapse;
 pub mod column_planar;
 pub mod column_round;
