@@ -32,7 +32,17 @@ macro_rules! cases {
     };
 }
 
-cases!(hydrostatic, film, bagnold, column_planar, column_round, incline_collapse, flow_thickness, bed_load_1d);
+cases!(
+    hydrostatic,
+    film,
+    bagnold,
+    column_planar,
+    column_round,
+    incline_collapse,
+    flow_thickness,
+    bed_load_1d,
+    settling
+);
 
 #[test]
 fn every_registered_case_is_tested() {

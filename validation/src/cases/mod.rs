@@ -13,8 +13,7 @@ pub mod incline_collapse;
 pub mod layer;
 mod recording;
 mod rules;
-#[cfg_attr(not(test), expect(dead_code, reason = "its figures wait for the case's runs"))]
-mod settling;
+pub mod settling;
 
 use crate::case::Registry;
 
@@ -28,4 +27,5 @@ pub static REGISTRY: Registry = Registry::new(&[
     &incline_collapse::InclineCollapse,
     &flow_thickness::FlowThickness,
     &bed_load_1d::BedLoad1d,
+    &settling::Settling,
 ]);

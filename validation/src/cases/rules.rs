@@ -2,6 +2,7 @@
 
 use crate::error::InputError;
 use bagnold_solver::boundary::Surface;
+use bagnold_solver::incompressible::ProjectionNumerics;
 use bagnold_solver::numerics::{ChoiceProblem, Numerics};
 use bagnold_solver::rheology::Rheology;
 
@@ -66,6 +67,13 @@ pub(super) fn material(path: &str, law: &Rheology) -> Result<(), InputError> {
 
 /// The ranges of the numerics.
 pub(super) fn numerics(path: &str, numerics: &Numerics) -> Result<(), InputError> {
+    numerics.parameter_problem().map_or(Ok(()), |(field, value, rule, remedy)| {
+        Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
+    })
+}
+
+/// The ranges of the numerics of the incompressible solver.
+pub(super) fn projection(path: &str, numerics: &ProjectionNumerics) -> Result<(), InputError> {
     numerics.parameter_problem().map_or(Ok(()), |(field, value, rule, remedy)| {
         Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
     })
