@@ -43,6 +43,7 @@ cases!(
     still_water,
     water_film,
     clear_water,
+    settling,
     bed_load_1d,
     bed_load,
 );

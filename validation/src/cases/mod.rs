@@ -15,8 +15,7 @@ pub mod incline_collapse;
 pub mod layer;
 mod recording;
 mod rules;
-#[cfg_attr(not(test), expect(dead_code, reason = "its figures wait for the case's runs"))]
-mod settling;
+pub mod settling;
 pub mod still_water;
 pub mod water_film;
 
@@ -34,6 +33,7 @@ pub static REGISTRY: Registry = Registry::new(&[
     &still_water::StillWater,
     &water_film::WaterFilm,
     &clear_water::ClearWater,
+    &settling::Settling,
     &bed_load_1d::BedLoad1d,
     &bed_load::BedLoad,
 ]);

@@ -72,6 +72,13 @@ pub(super) fn numerics(path: &str, numerics: &Numerics) -> Result<(), InputError
     })
 }
 
+/// The ranges of the numerics of the incompressible solver.
+pub(super) fn projection(path: &str, numerics: &ProjectionNumerics) -> Result<(), InputError> {
+    numerics.parameter_problem().map_or(Ok(()), |(field, value, rule, remedy)| {
+        Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
+    })
+}
+
 /// The viscous step that a law allows.
 pub(super) fn viscous_step(path: &str, numerics: &Numerics, law: &Rheology) -> Result<(), InputError> {
     choice(path, numerics.step_problem(law))
@@ -94,18 +101,6 @@ pub(super) fn implicit_runs(path: &str, numerics: &Numerics, list: &str) -> Resu
     ))
 }
 
-fn choice(path: &str, problem: Option<ChoiceProblem>) -> Result<(), InputError> {
-    problem.map_or(Ok(()), |(field, value, rule, remedy)| {
-        Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
-    })
-}
-/// The numerics of the projection step.
-pub(super) fn projection(path: &str, numerics: &ProjectionNumerics) -> Result<(), InputError> {
-    numerics.parameter_problem().map_or(Ok(()), |(field, value, rule, remedy)| {
-        Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
-    })
-}
-
 /// Columns of fluid particles along the period of a channel: no particle may see another one twice.
 pub(super) fn channel_columns(field: &str, value: usize, numerics: &ProjectionNumerics) -> Result<(), InputError> {
     let least = (4.0 * numerics.smoothing_ratio).ceil() as usize;
@@ -123,4 +118,10 @@ pub(super) fn driving_slope(field: &str, value: f64) -> Result<(), InputError> {
     }
     let remedy = "without a slope there is no friction velocity √(g h i); give its tangent, such as 0.03 for 3 %";
     Err(InputError::field(field, value, "positive and at most 0.2", remedy))
+}
+
+fn choice(path: &str, problem: Option<ChoiceProblem>) -> Result<(), InputError> {
+    problem.map_or(Ok(()), |(field, value, rule, remedy)| {
+        Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
+    })
 }

@@ -31,6 +31,7 @@ fn film(until: Until, window: f64) -> Channel<'static> {
         seed: 3,
         velocity: &exact,
         sediment: None,
+        solid_fraction: SolidFraction::Overlapping,
         numerics: ProjectionNumerics::default(),
         until,
         window,
