@@ -58,12 +58,56 @@ pub struct SolverCost {
 /// Skin of the candidate search over the fluid kernel's reach `[-]`.
 const SKIN: f64 = 0.2;
 
-impl<const D: usize> IncompressibleSimulation<D> {
+/// The plane: not generic, so that the loops are compiled here and not in every crate that takes a step.
+impl IncompressibleSimulation<2> {
     /// Sets up a simulation.
     ///
     /// # Errors
     /// A scene that breaks a rule.
-    pub fn new(scene: IncompressibleScene<D>) -> Result<Self, SceneError> {
+    pub fn new(scene: IncompressibleScene<2>) -> Result<Self, SceneError> {
+        Self::set_up(scene)
+    }
+
+    /// Takes one step of at most the time step of the numerics.
+    ///
+    /// # Errors
+    /// The divergence: a particle that would move by more than its spacing, a solve that does not converge, a Reynolds
+    /// number that the drag law does not cover.
+    pub fn step(&mut self) -> Result<(), Divergence<2>> {
+        self.take_step()
+    }
+
+    /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
+    /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
+    pub fn run(&mut self, end: f64, interval: f64, mut observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<2> {
+        let origin = self.time;
+        let mut observed = 0u64;
+        let mut observed_step = self.steps;
+        if observe(self).is_break() {
+            return StopReason::Stopped;
+        }
+        while self.time < end - 0.5 * self.last_step {
+            if let Err(divergence) = self.step() {
+                return StopReason::Diverged(divergence);
+            }
+            let due = ((self.time - origin) / interval + 1e-9).floor() as u64;
+            if due > observed {
+                observed = due;
+                observed_step = self.steps;
+                if observe(self).is_break() {
+                    return StopReason::Stopped;
+                }
+            }
+        }
+        if observed_step < self.steps && observe(self).is_break() {
+            return StopReason::Stopped;
+        }
+        StopReason::Finished
+    }
+}
+
+impl<const D: usize> IncompressibleSimulation<D> {
+    fn set_up(scene: IncompressibleScene<D>) -> Result<Self, SceneError> {
         scene.check()?;
         let ratio = scene.numerics.smoothing_ratio;
         let fluid =
@@ -107,34 +151,6 @@ impl<const D: usize> IncompressibleSimulation<D> {
         };
         simulation.search();
         Ok(simulation)
-    }
-
-    /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
-    /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
-    pub fn run(&mut self, end: f64, interval: f64, mut observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<D> {
-        let origin = self.time;
-        let mut observed = 0u64;
-        let mut observed_step = self.steps;
-        if observe(self).is_break() {
-            return StopReason::Stopped;
-        }
-        while self.time < end - 0.5 * self.last_step {
-            if let Err(divergence) = self.step() {
-                return StopReason::Diverged(divergence);
-            }
-            let due = ((self.time - origin) / interval + 1e-9).floor() as u64;
-            if due > observed {
-                observed = due;
-                observed_step = self.steps;
-                if observe(self).is_break() {
-                    return StopReason::Stopped;
-                }
-            }
-        }
-        if observed_step < self.steps && observe(self).is_break() {
-            return StopReason::Stopped;
-        }
-        StopReason::Finished
     }
 
     /// Time `[s]`.

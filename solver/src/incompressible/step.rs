@@ -15,12 +15,7 @@ use crate::vector::Vector;
 pub(crate) const MOST_ITERATIONS: usize = 2000;
 
 impl<const D: usize> IncompressibleSimulation<D> {
-    /// Takes one step of at most the time step of the numerics.
-    ///
-    /// # Errors
-    /// The divergence: a particle that would move by more than its spacing, a solve that does not converge, a Reynolds
-    /// number that the drag law does not cover.
-    pub fn step(&mut self) -> Result<(), Divergence<D>> {
+    pub(super) fn take_step(&mut self) -> Result<(), Divergence<D>> {
         let numerics = self.scene.numerics;
         let courant_step = numerics.courant * self.scene.fluid.spacing / self.largest_speed();
         let time_step = numerics.time_step.min(courant_step);
