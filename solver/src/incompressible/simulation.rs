@@ -1,5 +1,6 @@
 //! An incompressible simulation: state, candidate search, and the loop with its stop reasons.
 
+use super::averaged_gradient::AveragedGradient;
 use super::drag_exchange::DragExchange;
 use super::granular_pressure::GranularPressure;
 use super::pairs::Periods;
@@ -32,7 +33,8 @@ pub struct IncompressibleSimulation<const D: usize> {
     pub(super) sediment_viscosity: Vec<f64>,
     /// Yield stress or overburden of every sediment particle `[Pa]`.
     pub(super) load: Vec<f64>,
-    pub(super) granular: GranularPressure<D>,
+    pub(super) granular: GranularPressure,
+    pub(super) sediment_rates: AveragedGradient<D>,
     pub(super) shifts: Vec<Vector<D>>,
     pub(super) periods: Periods<D>,
     pub(super) time: f64,
@@ -139,6 +141,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
             fluid_poisson: PressurePoisson::new(),
             sediment_poisson: PressurePoisson::new(),
             granular: GranularPressure::default(),
+            sediment_rates: AveragedGradient::default(),
             shifts: Vec::new(),
             time: 0.0,
             steps: 0,

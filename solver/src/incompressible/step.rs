@@ -1,7 +1,7 @@
 //! One step: implicit velocities of both phases, a pressure Poisson equation for each, correction, motion, shifting.
 
 use super::granular_pressure::{Dilatancy, GranularPressure};
-use super::numerics::PressureSource;
+use super::numerics::{PairLaw, PressureSource};
 use super::phase::{Phase, height_axis};
 use super::pressure_poisson::{Correction, PressurePoisson};
 use super::scene::{SedimentPressure, SolidFraction};
@@ -25,7 +25,8 @@ impl<const D: usize> IncompressibleSimulation<D> {
             phase.find_surface(&numerics);
             phase.find_velocity_gradients();
         }
-        self.find_granular_pressure(time_step);
+        self.average_sediment_gradients(time_step);
+        self.find_granular_pressure();
         self.find_viscosities();
         self.find_drag()?;
         self.assemble_velocities(time_step);
@@ -65,18 +66,25 @@ impl<const D: usize> IncompressibleSimulation<D> {
         Err(self.divergence(self.fluid.len() + grain, Quantity::Reynolds, reynolds, (*range.start(), *range.end())))
     }
 
+    /// Averaged velocity gradients of the sediment, for what depends on them.
+    fn average_sediment_gradients(&mut self, time_step: f64) {
+        let wanted = self.scene.numerics.pair_law == PairLaw::AveragedPairRate || self.dilatancy().is_some();
+        if let (true, Some(sediment)) = (wanted, &self.sediment) {
+            self.sediment_rates.update(sediment, time_step);
+        }
+    }
+
     /// Solid fraction, its mean along the bed, and the pressure of grains that dilate.
-    fn find_granular_pressure(&mut self, time_step: f64) {
+    fn find_granular_pressure(&mut self) {
         let Some(dilatancy) = self.dilatancy() else { return };
         let area = self.scene.bed_area();
         let Some(sediment) = &mut self.sediment else { return };
         self.granular.find_solid_fraction(sediment, &dilatancy);
-        self.granular.find_rates(sediment, time_step);
         if let SolidFraction::Averaged(layer) = &mut self.scene.solid_fraction {
             GranularPressure::average(sediment, area, layer);
         }
         if let Some(layer) = self.scene.solid_fraction.stratification() {
-            self.granular.find_pressures(sediment, &dilatancy, layer);
+            self.granular.find_pressures(sediment, &self.sediment_rates, &dilatancy, layer);
         }
     }
 
