@@ -90,7 +90,7 @@ impl BedLoadParameters {
                     runs(Stage::Frozen, &all, &best(Stage::Frozen), &[1.0], 4.0),
                     runs(Stage::Frozen, &[0.03], &[PairLaw::PairRate, PairLaw::HarmonicMean], &[1.0], 4.0),
                     runs(Stage::Dilating, &all, &best(Stage::Dilating), &[1.0], 4.0),
-                    runs(Stage::Dilating, &[0.03], &best(Stage::Dilating), &[0.3], 4.0),
+                    runs(Stage::Dilating, &[0.03], &best(Stage::Dilating), &[0.3], 12.0),
                     runs(Stage::Dilating, &[0.03], &[PairLaw::PairRateMeanLoad, PairLaw::HarmonicMean], &[1.0], 4.0),
                 ],
                 ..quick.continuum.clone()
