@@ -1,6 +1,6 @@
 //! What an incompressible simulation starts from.
 
-use super::numerics::ProjectionNumerics;
+use super::numerics::{Continuity, MeanFlux, PressureSource, ProjectionNumerics, SurfaceTreatment};
 use super::stratification::Stratification;
 use crate::boundary::{AxisBoundary, Domain};
 use crate::drag::DragLaw;
@@ -120,6 +120,8 @@ pub struct GranularFriction {
 pub enum SedimentPressure {
     /// A pressure Poisson equation of its own, (11): each grain is incompressible.
     Incompressible,
+    /// Nothing: the particles move as fluid and gravity make them.
+    None,
     /// Nothing: the particles move along the bed only, and keep the solid fraction that is given.
     AlongBed,
     /// The pressure of sheared grains, p = ρ_s (d γ̇ B φ/(φ_max − φ))², the inverse of φ = φ_max/(1 + B I).
@@ -256,6 +258,7 @@ impl<const D: usize> IncompressibleScene<D> {
             }
             least = least.max(2.0 * self.reach(sediment.spacing)).max(4.0 * sediment.drag_smoothing_length);
         }
+        self.check_mixture()?;
         if let Some(layer) = self.solid_fraction.stratification() {
             for &value in &layer.solid_fraction {
                 if !(0.0..1.0).contains(&value) {
@@ -278,6 +281,36 @@ impl<const D: usize> IncompressibleScene<D> {
             }
         }
         Ok(())
+    }
+
+    /// What the mixture's continuity asks of the other choices.
+    fn check_mixture(&self) -> Result<(), SceneError> {
+        let numerics = &self.numerics;
+        let choice = |field, value, rule, remedy| Err(SceneError::Choice { field, value, rule, remedy });
+        if numerics.continuity == Continuity::Fluid {
+            return match numerics.mean_flux {
+                MeanFlux::Free => Ok(()),
+                MeanFlux::Zero => choice(
+                    "mean_flux",
+                    "zero",
+                    "\"free\" unless the continuity is that of the mixture",
+                    "choose one of both",
+                ),
+            };
+        }
+        let without_pressure = self.sediment.as_ref().is_some_and(|s| s.pressure == SedimentPressure::None);
+        let problem = if self.solid_fraction.stratification().is_none() {
+            Some("\"fluid\" where grains displace no fluid")
+        } else if !without_pressure {
+            Some("\"fluid\" unless there is a sediment without a pressure of its own")
+        } else if numerics.pressure_source != PressureSource::Divergence {
+            Some("\"fluid\" with the density source")
+        } else if numerics.surface != SurfaceTreatment::Completed {
+            Some("\"fluid\" where particles at the surface are eliminated")
+        } else {
+            None
+        };
+        problem.map_or(Ok(()), |rule| choice("continuity", "mixture", rule, "change one of both"))
     }
 
     fn reach(&self, spacing: f64) -> f64 {

@@ -1,6 +1,6 @@
 //! One step: implicit velocities of both phases, a pressure Poisson equation for each, correction, motion, shifting.
 
-use super::numerics::PressureSource;
+use super::numerics::{Continuity, PressureSource};
 use super::phase::{Phase, height_axis};
 use super::pressure_poisson::{Correction, PressurePoisson};
 use super::scene::SedimentPressure;
@@ -32,12 +32,18 @@ impl<const D: usize> IncompressibleSimulation<D> {
         self.find_viscosities();
         self.find_drag()?;
         self.assemble_velocities(time_step);
+        if numerics.continuity == Continuity::Mixture {
+            self.push_by_last_pressure(time_step);
+        }
         let criterion = Criterion { tolerance: numerics.velocity_tolerance, most_iterations: MOST_ITERATIONS };
         self.system.solve(criterion).map_err(|failed| {
             let NotConverged { row, residual } = failed;
             self.divergence(row, Quantity::VelocityResidual, residual, (0.0, numerics.velocity_tolerance))
         })?;
-        self.project(time_step)?;
+        match numerics.continuity {
+            Continuity::Fluid => self.project(time_step)?,
+            Continuity::Mixture => self.project_mixture(time_step)?,
+        }
         if numerics.shifting > 0.0 {
             self.fluid.measure(&self.periods);
             find_shifts(&self.fluid, numerics.shifting, time_step, &mut self.shifts);
@@ -77,6 +83,10 @@ impl<const D: usize> IncompressibleSimulation<D> {
                 let (Some(sediment), Some(material)) = (&mut self.sediment, &self.scene.sediment) else { continue };
                 match material.pressure {
                     SedimentPressure::Incompressible => {}
+                    SedimentPressure::None => {
+                        drift(sediment, &self.system.velocity[first..], time_step);
+                        continue;
+                    }
                     SedimentPressure::AlongBed => {
                         slide(sediment, &self.system.velocity[first..], time_step);
                         continue;
@@ -109,6 +119,14 @@ impl<const D: usize> IncompressibleSimulation<D> {
             }
         }
         Ok(())
+    }
+}
+
+/// Moves particles as they are.
+fn drift<const D: usize>(phase: &mut Phase<D>, predicted: &[Vector<D>], time_step: f64) {
+    for (particle, &velocity) in predicted.iter().enumerate() {
+        phase.velocity[particle] = velocity;
+        phase.displace(particle, velocity * time_step);
     }
 }
 
