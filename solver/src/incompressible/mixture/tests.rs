@@ -201,3 +201,17 @@ fn a_uniform_suspension_has_no_mean_flux_and_the_floor_carries_it() {
     let weight = -9.81 * (1000.0 * (1.0 - FRACTION) + 2600.0 * FRACTION);
     assert!((simulation.mean_pressure_gradient()[1] / weight - 1.0).abs() < 1e-3);
 }
+
+#[test]
+fn a_mixture_needs_a_solid_fraction_and_grains_without_a_pressure() {
+    let scene = || suspension(at_rest, at_rest, (MeanFlux::Zero, 9.81)).scene().clone();
+    let overlapping = IncompressibleScene { solid_fraction: SolidFraction::Overlapping, ..scene() };
+    let message = "`continuity` is mixture, but must be \"fluid\" where grains displace no fluid; change one of both";
+    assert_eq!(overlapping.check().unwrap_err().to_string(), message);
+    let mut held = scene();
+    held.sediment.as_mut().unwrap().pressure = SedimentPressure::AlongBed;
+    assert!(held.check().unwrap_err().to_string().contains("unless there is a sediment without a pressure of its own"));
+    let mut of_fluid = scene();
+    of_fluid.numerics.continuity = Continuity::Fluid;
+    assert!(of_fluid.check().unwrap_err().to_string().starts_with("`mean_flux` is zero, but must be \"free\""));
+}

@@ -86,7 +86,7 @@ fn approach(records: &[Record]) -> Figure {
                   alone has set in motion meets it again across the periods, so that its slip keeps fluctuating about the \
                   root; means are taken over the last 0.6 of a run."
             .to_owned(),
-        columns: panels.len().clamp(1, 2),
+        columns: if panels.len() > 4 { 3 } else { panels.len().clamp(1, 2) },
         panels,
     }
 }
