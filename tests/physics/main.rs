@@ -40,8 +40,12 @@ cases!(
     column_round,
     incline_collapse,
     flow_thickness,
+    still_water,
+    water_film,
+    clear_water,
+    settling,
     bed_load_1d,
-    settling
+    bed_load,
 );
 
 #[test]

@@ -101,6 +101,25 @@ pub(super) fn implicit_runs(path: &str, numerics: &Numerics, list: &str) -> Resu
     ))
 }
 
+/// Columns of fluid particles along the period of a channel: no particle may see another one twice.
+pub(super) fn channel_columns(field: &str, value: usize, numerics: &ProjectionNumerics) -> Result<(), InputError> {
+    let least = (4.0 * numerics.smoothing_ratio).ceil() as usize;
+    if (least..=1000).contains(&value) {
+        return Ok(());
+    }
+    let rule = format!("between {least} and 1000");
+    Err(InputError::field(field, value, &rule, "the period must hold twice the reach of the kernel; 12 is quick"))
+}
+
+/// Slope i of a bed that drives a flow.
+pub(super) fn driving_slope(field: &str, value: f64) -> Result<(), InputError> {
+    if value > 0.0 && value <= 0.2 {
+        return Ok(());
+    }
+    let remedy = "without a slope there is no friction velocity √(g h i); give its tangent, such as 0.03 for 3 %";
+    Err(InputError::field(field, value, "positive and at most 0.2", remedy))
+}
+
 fn choice(path: &str, problem: Option<ChoiceProblem>) -> Result<(), InputError> {
     problem.map_or(Ok(()), |(field, value, rule, remedy)| {
         Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))

@@ -60,6 +60,7 @@ fn suspension(
             filling: vec![FRACTION; COLUMNS * ROWS],
             wall: Vec::new(),
             spacing: SPACING,
+            smoothing_ratio: 1.2,
             density: 2600.0,
             grain_diameter: SPACING,
             law: LAWLESS,

@@ -19,6 +19,8 @@ mod profile;
 mod scene;
 mod stationarity;
 mod tables;
+#[cfg(test)]
+mod tests;
 
 pub use probe::{ChannelObservation, ChannelSeries, MomentumBalance};
 pub use profile::{BlockProfile, BlockSums, ProfilePoint};
@@ -30,7 +32,9 @@ use crate::case::Progress;
 use crate::cases::recording::Ending;
 use crate::metric::{Confidence, Limit, Metric};
 use crate::observe::{Frame, Recorded};
-use bagnold_solver::incompressible::{Bed, IncompressibleSimulation, ProjectionNumerics, Sediment, Turbulence};
+use bagnold_solver::incompressible::{
+    Bed, IncompressibleSimulation, ProjectionNumerics, Sediment, SolidFraction, Turbulence,
+};
 use bagnold_solver::scene::SceneError;
 use bagnold_solver::simulation::StopReason;
 use probe::ChannelProbe;
@@ -78,6 +82,8 @@ pub struct Channel<'a> {
     pub velocity: &'a (dyn Fn(f64) -> f64 + Sync),
     /// The sediment, if there is one.
     pub sediment: Option<Sediment<2>>,
+    /// How water and sediment share the space.
+    pub solid_fraction: SolidFraction,
     /// Numerics.
     pub numerics: ProjectionNumerics,
     /// How long it runs.

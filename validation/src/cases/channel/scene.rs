@@ -2,7 +2,7 @@
 
 use super::Channel;
 use bagnold_solver::boundary::{AxisBoundary, Domain};
-use bagnold_solver::incompressible::{Fluid, IncompressibleScene, ParticleSet, SolidFraction};
+use bagnold_solver::incompressible::{Fluid, IncompressibleScene, ParticleSet};
 use bagnold_solver::vector::Vector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -98,10 +98,10 @@ impl Channel<'_> {
                 gravity: Vector::<2>::new(self.gravity * self.slope, -self.gravity),
             },
             sediment: self.sediment.clone(),
-            solid_fraction: SolidFraction::Overlapping,
             domain: Domain {
                 axes: [AxisBoundary::Periodic { lower: 0.0, upper: lattice.length() }, AxisBoundary::Open],
             },
+            solid_fraction: self.solid_fraction.clone(),
             numerics: self.numerics,
         }
     }

@@ -160,6 +160,7 @@ impl GrainRun {
                 filling: vec![1.0],
                 wall: Vec::new(),
                 spacing: self.diameter,
+                smoothing_ratio: ProjectionNumerics::default().smoothing_ratio,
                 density: self.grain_density,
                 grain_diameter: self.diameter,
                 law: WITHOUT_STRENGTH,

@@ -248,7 +248,8 @@ impl SettlingParameters {
         for (index, &law) in suspension.laws.iter().enumerate() {
             let field = format!("suspension.laws[{index}]");
             let judged = suspension.solid_fractions.iter().any(|&fraction| covers(law, fraction));
-            if !judged && !(suspension.dilute_fraction > 0.0 && law != DragLaw::Ergun) {
+            let alone = suspension.dilute_fraction > 0.0 && law != DragLaw::Ergun;
+            if !(judged || alone) {
                 let rule = format!("a law for one of the solid fractions; \"ergun\" begins at {LEAST_BED}");
                 return Err(InputError::field(&field, law.name(), &rule, "leave it out, or add a denser suspension"));
             }

@@ -154,6 +154,7 @@ impl SuspensionRun {
                 filling: vec![self.solid_fraction; column.len()],
                 wall: Vec::new(),
                 spacing: self.diameter,
+                smoothing_ratio: ProjectionNumerics::default().smoothing_ratio,
                 density: self.grain_density,
                 grain_diameter: self.diameter,
                 law: WITHOUT_STRENGTH,
