@@ -255,6 +255,22 @@ fn grains_that_do_not_settle() {
             "numerics.velocity_tolerance=1.0",
             "`numerics.velocity_tolerance` is 1, but must be between 1e-14 and 0.1; see the default numerics with `bagnold show`",
         ),
+        (
+            "numerics.continuity=\"mixture\"",
+            "`numerics.continuity` is mixture, but must be \"fluid\"; only suspensions share their pressure, and `settling` chooses it for them",
+        ),
+        (
+            "numerics.mean_flux=\"zero\"",
+            "`numerics.mean_flux` is zero, but must be \"free\"; only suspensions share their pressure, and `settling` chooses it for them",
+        ),
+        (
+            "numerics.pressure_source=\"density\"",
+            "`numerics.pressure_source` is density, but must be \"divergence\" with suspensions; single grains have the paper's operators by the formulation \"paper\"; or empty `suspension.laws`",
+        ),
+        (
+            "numerics.surface=\"eliminated\"",
+            "`numerics.surface` is eliminated, but must be \"completed\" with suspensions; single grains have the paper's operators by the formulation \"paper\"; or empty `suspension.laws`",
+        ),
     ];
     for (setting, message) in cases {
         refused(&place, &["settling", "--set", setting], message);

@@ -1,9 +1,11 @@
 use super::*;
 use crate::boundary::{AxisBoundary, Domain};
 use crate::drag::DragLaw;
+use crate::incompressible::phase::LatticeSums;
+use crate::incompressible::simulation::IncompressibleSimulation;
 use crate::incompressible::{
-    Bed, Continuity, DragForm, Fluid, IncompressibleScene, ParticleSet, Sediment, SedimentLaw, SedimentPressure,
-    SedimentYield, SolidFraction, Stratification, Turbulence,
+    Bed, Continuity, DragForm, Fluid, IncompressibleScene, MeanFlux, ParticleSet, Sediment, SedimentLaw,
+    SedimentPressure, SedimentYield, SolidFraction, Stratification, Turbulence,
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;

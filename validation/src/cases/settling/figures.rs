@@ -1,28 +1,24 @@
 //! The case's figures.
 
-use super::grain::{Formulation, GrainRun};
-use super::probe::SettlingObservation;
+use super::grain::Formulation;
+use super::probe::{SettlingObservation, SettlingSeries};
 use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;
 use super::{Record, drag_curves};
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
-use crate::reference::richardson_zaki_exponent;
+use crate::reference::{GrainForm, richardson_zaki_exponent};
 use bagnold_solver::drag::DragLaw;
 
 /// The formulations that single grains have, in the order of their panels.
 const FORMULATIONS: [Formulation; 2] = [Formulation::Paper, Formulation::Stabilised];
 
+/// The formulation of suspensions.
+const CONTINUUM: &str = "continuum";
+
 /// Densest suspension drawn `[-]`.
 const DENSEST: f64 = 0.6;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
-    let grains: Vec<(&GrainRun, &SettlingObservation)> = records
-        .iter()
-        .filter_map(|(run, record)| match run {
-            SettlingRun::Grain(run) => Some((run, &record.data)),
-            SettlingRun::Suspension(_) => None,
-        })
-        .collect();
     let suspensions: Vec<(&SuspensionRun, &SettlingObservation)> = records
         .iter()
         .filter_map(|(run, record)| match run {
@@ -31,8 +27,9 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         })
         .collect();
     let mut figures = vec![approach(records)];
-    if !grains.is_empty() {
-        figures.push(terminal(&grains));
+    let alone = alone(records);
+    if !alone.is_empty() {
+        figures.push(terminal(&alone));
     }
     if !suspensions.is_empty() {
         figures.push(hindered(&suspensions));
@@ -91,36 +88,46 @@ fn approach(records: &[Record]) -> Figure {
     }
 }
 
-fn terminal(records: &[(&GrainRun, &SettlingObservation)]) -> Figure {
+/// Grains alone, and suspensions so dilute that they stand for one: formulation, root `[m/s]`, what was seen.
+fn alone<'a>(records: &'a [Record]) -> Vec<(&'static str, f64, &'a SettlingObservation)> {
+    let root = |run: &SettlingRun| match run {
+        SettlingRun::Grain(run) => Some((run.formulation.name(), run.terminal_velocity())),
+        SettlingRun::Suspension(run) => run.dilute.then(|| (CONTINUUM, run.terminal_velocity())),
+    };
+    let of = |(run, record): &'a Record| root(run).map(|(name, root)| (name, root, &record.data));
+    records.iter().filter_map(of).collect()
+}
+
+fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("root of the balance [m/s]"), Axis::linear("error of the slip [%]"));
-    let roots = || records.iter().map(|(run, _)| run.terminal_velocity());
+    let roots = || records.iter().map(|&(_, root, _)| root);
     let (low, high) = (roots().fold(f64::INFINITY, f64::min), roots().fold(0.0, f64::max));
     let (low, high) = (low - 0.05 * high, 1.05 * high);
     panel.bands.push(Band { label: "gate, 1 %".to_owned(), points: vec![(low, -1.0, 1.0), (high, -1.0, 1.0)] });
-    for formulation in FORMULATIONS {
-        let measured = |(run, data): &&(&GrainRun, &SettlingObservation)| {
+    for (slot, name) in FORMULATIONS.map(Formulation::name).into_iter().chain([CONTINUUM]).enumerate() {
+        let measured = |&(_, root, data): &(&str, f64, &SettlingObservation)| {
             let (mean, noise) = data.series.mean(&data.series.slip);
-            let root = run.terminal_velocity();
             ((root, 100.0 * (mean / root - 1.0)), 100.0 * noise / root)
         };
-        let of_formulation = records.iter().filter(|(run, _)| run.formulation == formulation);
-        let (points, error) = of_formulation.map(|record| measured(&record)).unzip();
-        let series = Series::new(formulation.name(), Mark::Points, formulation as usize, points);
-        panel.series.push(Series { error, ..series });
+        let (points, error): (Vec<_>, Vec<_>) = records.iter().filter(|record| record.0 == name).map(measured).unzip();
+        if !points.is_empty() {
+            panel.series.push(Series { error, ..Series::new(name, Mark::Points, slot, points) });
+        }
     }
     Figure {
         name: "terminal-velocity".to_owned(),
-        caption:
-            "Mean slip of a grain alone against the root of its balance, for every law, with the standard error of \
-                  the mean. Wen and Yu's and Gidaspow's grain alone is that of Schiller and Naumann."
-                .to_owned(),
+        caption: "Mean slip of a grain alone against the root of its balance, for every law, with the standard error of \
+                  the mean: one planar grain (c = ½) as printed and stabilised, spheres (c = ¾) of a very dilute suspension \
+                  by volume fractions. Wen and Yu's and Gidaspow's grain alone is that of Schiller and Naumann."
+            .to_owned(),
         panels: vec![panel],
         columns: 1,
     }
 }
 
 fn hindered(records: &[(&SuspensionRun, &SettlingObservation)]) -> Figure {
-    let mut panel = Panel::new("", Axis::linear("φ [-]"), Axis::linear("sinking velocity [m/s]"));
+    let mut slip = Panel::new("slip", Axis::linear("φ [-]"), Axis::linear("u_r [m/s]"));
+    let mut sinking = Panel::new("sinking velocity", Axis::linear("φ [-]"), Axis::linear("(1 − φ) u_r [m/s]"));
     let mut laws: Vec<DragLaw> = Vec::new();
     for (run, _) in records {
         if !laws.contains(&run.law) {
@@ -130,25 +137,33 @@ fn hindered(records: &[(&SuspensionRun, &SettlingObservation)]) -> Figure {
     let grains = records[0].0.grains();
     let fractions = || (1..=120).map(|k| DENSEST * f64::from(k) / 120.0);
     for &law in &laws {
-        let drawn = fractions().filter(|&phi| super::suspension::covers(law, phi));
-        let curve = drawn.filter_map(|phi| Some((phi, grains.hindered_velocity(law, phi)?))).collect();
-        panel.series.push(Series::new("", Mark::Line, drag_curves::slot(law), curve));
-        let of_law = records.iter().filter(|(run, _)| run.law == law);
-        let measured = of_law.map(|(run, data)| (run.solid_fraction, data.series.mean(&data.series.sinking).0));
         let slot = drag_curves::slot(law);
-        panel.series.push(Series::new(drag_curves::label(law), Mark::Points, slot, measured.collect()));
+        let root = |phi| Some((phi, grains.hindered_slip(law, phi)?));
+        let curve: Vec<(f64, f64)> =
+            fractions().filter(|&phi| super::suspension::covers(law, phi)).filter_map(root).collect();
+        let sunk = curve.iter().map(|&(phi, slip)| (phi, (1.0 - phi) * slip)).collect();
+        slip.series.push(Series::new("", Mark::Line, slot, curve));
+        sinking.series.push(Series::new("", Mark::Line, slot, sunk));
+        let measured = |of: fn(&SettlingSeries) -> &[f64]| -> Vec<(f64, f64)> {
+            let of_law = records.iter().filter(|(run, _)| run.law == law);
+            of_law.map(|(run, data)| (run.solid_fraction, data.series.mean(of(&data.series)).0)).collect()
+        };
+        // one legend serves both panels
+        slip.series.push(Series::new(drag_curves::label(law), Mark::Points, slot, measured(|series| &series.slip)));
+        sinking.series.push(Series::new("", Mark::Points, slot, measured(|series| &series.sinking)));
     }
-    let alone = grains.terminal_velocity(DragLaw::WenYu, crate::reference::GrainForm::Sphere).unwrap_or(f64::NAN);
+    let alone = grains.terminal_velocity(DragLaw::WenYu, GrainForm::Sphere).unwrap_or(f64::NAN);
     let exponent = richardson_zaki_exponent(grains.reynolds(alone));
-    let curve = fractions().map(|phi| (phi, alone * libm::pow(1.0 - phi, exponent))).collect();
-    panel.series.push(Series::new("Richardson–Zaki (unverified)", Mark::Reference, 0, curve));
+    let published = |exponent: f64| fractions().map(|phi| (phi, alone * libm::pow(1.0 - phi, exponent))).collect();
+    slip.series.push(Series::new("Richardson–Zaki (unverified)", Mark::Reference, 0, published(exponent - 1.0)));
+    sinking.series.push(Series::new("", Mark::Reference, 0, published(exponent)));
     Figure {
-        name: "hindered-velocity".to_owned(),
-        caption: "Velocity at which a uniform suspension sinks in a vessel: particles (points) and roots of the balance \
-                  (lines) for every law. Dashed: Richardson and Zaki (1954) with the grain alone of Wen and Yu, unverified: \
-                  observed, not judged."
+        name: "hindered-settling".to_owned(),
+        caption: "Slip of a uniform suspension and the velocity at which it sinks in a vessel: particles (points) and roots \
+                  of the balance (lines) for every law. Gidaspow's law is Wen and Yu's up to φ = 0.2 and Ergun's above. \
+                  Dashed: Richardson and Zaki (1954) with the grain alone of Wen and Yu, unverified: observed, not judged."
             .to_owned(),
-        panels: vec![panel],
-        columns: 1,
+        panels: vec![slip, sinking],
+        columns: 2,
     }
 }

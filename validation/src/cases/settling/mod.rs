@@ -56,8 +56,8 @@ impl Case for Settling {
          uniform pressure gradient takes out its mean, as the floor of a vessel does. Slip and sinking velocity must be \
          those of the balance of the submerged weight and K; at φ = 0.002 they are those of a sphere alone. The solid \
          fraction is given and stays uniform: with slip and without a stress between the grains, two phases of one \
-         pressure are unstable at short waves, which the kernel of the drag, twice the spacing, holds back for the \
-         time of a run; the unevenness of the grains' velocities is observed."
+         pressure are unstable at short waves. The kernel of the drag, two or three spacings wide, holds them back for \
+         the time of a run, not for ever; the unevenness of the grains' velocities is observed."
     }
 
     fn field_notes(&self) -> &'static [(&'static str, &'static str)] {

@@ -7,7 +7,7 @@ use crate::cases::rules;
 use crate::error::InputError;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::drag::DragLaw;
-use bagnold_solver::incompressible::ProjectionNumerics;
+use bagnold_solver::incompressible::{PressureSource, ProjectionNumerics, SurfaceTreatment};
 use serde::{Deserialize, Serialize};
 
 /// The fluid.
@@ -134,9 +134,9 @@ impl SettlingParameters {
                 solid_fractions: vec![0.1, 0.3, 0.5],
                 dilute_fraction: 0.002,
                 columns: 8,
-                rows: 12,
+                rows: 8,
                 drag_smoothing_ratio: 2.0,
-                relaxation_times: 20.0,
+                relaxation_times: 12.0,
                 jitter: 0.1,
             },
             numerics: ProjectionNumerics { time_step: 1e-3, ..ProjectionNumerics::default() },
@@ -149,6 +149,8 @@ impl SettlingParameters {
                 solid_fractions: vec![0.05, 0.1, 0.2, 0.3, 0.4, 0.5],
                 columns: 12,
                 rows: 24,
+                // the laws that do not hinder have twice the slip, at which short waves grow sooner
+                drag_smoothing_ratio: 3.0,
                 ..quick.suspension.clone()
             },
             ..quick.clone()
@@ -192,8 +194,26 @@ impl SettlingParameters {
             ));
         }
         rules::projection("numerics", &self.numerics)?;
+        self.check_operators()?;
         self.check_grain()?;
         self.check_suspension()
+    }
+
+    /// The operators that suspensions allow.
+    fn check_operators(&self) -> Result<(), InputError> {
+        if self.suspension.laws.is_empty() {
+            return Ok(());
+        }
+        let remedy =
+            "single grains have the paper's operators by the formulation \"paper\"; or empty `suspension.laws`";
+        let refused = |field, value, rule| Err(InputError::field(field, value, rule, remedy));
+        if self.numerics.pressure_source != PressureSource::Divergence {
+            return refused("numerics.pressure_source", "density", "\"divergence\" with suspensions");
+        }
+        if self.numerics.surface != SurfaceTreatment::Completed {
+            return refused("numerics.surface", "eliminated", "\"completed\" with suspensions");
+        }
+        Ok(())
     }
 
     fn check_grain(&self) -> Result<(), InputError> {
@@ -233,11 +253,11 @@ impl SettlingParameters {
         let suspension = &self.suspension;
         rules::positive("suspension.diameter", suspension.diameter, "give it in metres; 0.001 for 1 mm")?;
         let reach = suspension.drag_smoothing_ratio;
-        let remedy = "a kernel of twice the spacing holds short waves back";
+        let remedy = "a kernel of 2 to 3 spacings holds short waves back";
         rules::between("suspension.drag_smoothing_ratio", reach, 1.0, 10.0, remedy)?;
         self.periods(reach, [("suspension.columns", suspension.columns), ("suspension.rows", suspension.rows)])?;
         rules::between("suspension.jitter", suspension.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
-        let remedy = "20 leave a window of 12 to average over";
+        let remedy = "12 leave a window of 7 to average over";
         rules::between("suspension.relaxation_times", suspension.relaxation_times, 10.0, 1e4, remedy)?;
         let remedy = "0.002 hinders by less than 1 %; 0 for none";
         rules::between("suspension.dilute_fraction", suspension.dilute_fraction, 0.0, 0.005, remedy)?;
