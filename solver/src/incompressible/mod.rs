@@ -8,6 +8,7 @@
 //! space. Within a phase, a pair's force is one coefficient times a difference of velocities, or a sum of pressures
 //! along the line between the two: equal and opposite, so that momentum closes to rounding.
 
+mod averaged_gradient;
 mod closure;
 mod drag_exchange;
 mod granular_pressure;

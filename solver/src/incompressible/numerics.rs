@@ -32,6 +32,8 @@ pub enum PairLaw {
     PairRate,
     /// From the pair's own shear rate and the mean load of the two: that of the plane between them.
     PairRateMeanLoad,
+    /// From |ū_ab|/r of the averaged velocity gradient and the mean load: grains that dilate jostle.
+    AveragedPairRate,
     /// Arithmetic mean of the particles' viscosities, as (18) has it.
     ArithmeticMean,
     /// Harmonic mean of the particles' viscosities.

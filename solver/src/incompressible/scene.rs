@@ -1,6 +1,6 @@
 //! What an incompressible simulation starts from.
 
-use super::numerics::{Continuity, MeanFlux, PressureSource, ProjectionNumerics, SurfaceTreatment};
+use super::numerics::ProjectionNumerics;
 use super::stratification::Stratification;
 use crate::boundary::{AxisBoundary, Domain};
 use crate::drag::DragLaw;
@@ -287,36 +287,6 @@ impl<const D: usize> IncompressibleScene<D> {
             }
         }
         Ok(())
-    }
-
-    /// What the mixture's continuity asks of the other choices.
-    fn check_mixture(&self) -> Result<(), SceneError> {
-        let numerics = &self.numerics;
-        let choice = |field, value, rule, remedy| Err(SceneError::Choice { field, value, rule, remedy });
-        if numerics.continuity == Continuity::Fluid {
-            return match numerics.mean_flux {
-                MeanFlux::Free => Ok(()),
-                MeanFlux::Zero => choice(
-                    "mean_flux",
-                    "zero",
-                    "\"free\" unless the continuity is that of the mixture",
-                    "choose one of both",
-                ),
-            };
-        }
-        let without_pressure = self.sediment.as_ref().is_some_and(|s| s.pressure == SedimentPressure::None);
-        let problem = if self.solid_fraction.stratification().is_none() {
-            Some("\"fluid\" where grains displace no fluid")
-        } else if !without_pressure {
-            Some("\"fluid\" unless there is a sediment without a pressure of its own")
-        } else if numerics.pressure_source != PressureSource::Divergence {
-            Some("\"fluid\" with the density source")
-        } else if numerics.surface != SurfaceTreatment::Completed {
-            Some("\"fluid\" where particles at the surface are eliminated")
-        } else {
-            None
-        };
-        problem.map_or(Ok(()), |rule| choice("continuity", "mixture", rule, "change one of both"))
     }
 
     /// Product of the periods along the bed: its area `[m]` in 2-D, `[m²]` in 3-D.

@@ -1,5 +1,6 @@
 //! An incompressible simulation: state, candidate search, and the loop with its stop reasons.
 
+use super::averaged_gradient::AveragedGradient;
 use super::drag_exchange::DragExchange;
 use super::granular_pressure::GranularPressure;
 use super::mixture::Mixture;
@@ -34,7 +35,8 @@ pub struct IncompressibleSimulation<const D: usize> {
     pub(super) sediment_viscosity: Vec<f64>,
     /// Yield stress or overburden of every sediment particle `[Pa]`.
     pub(super) load: Vec<f64>,
-    pub(super) granular: GranularPressure<D>,
+    pub(super) granular: GranularPressure,
+    pub(super) sediment_rates: AveragedGradient<D>,
     pub(super) shifts: Vec<Vector<D>>,
     pub(super) periods: Periods<D>,
     pub(super) time: f64,
@@ -60,12 +62,56 @@ pub struct SolverCost {
 /// Skin of the candidate search over the fluid kernel's reach `[-]`.
 const SKIN: f64 = 0.2;
 
-impl<const D: usize> IncompressibleSimulation<D> {
+/// The plane: not generic, so that the loops are compiled here and not in every crate that takes a step.
+impl IncompressibleSimulation<2> {
     /// Sets up a simulation.
     ///
     /// # Errors
     /// A scene that breaks a rule.
-    pub fn new(scene: IncompressibleScene<D>) -> Result<Self, SceneError> {
+    pub fn new(scene: IncompressibleScene<2>) -> Result<Self, SceneError> {
+        Self::set_up(scene)
+    }
+
+    /// Takes one step of at most the time step of the numerics.
+    ///
+    /// # Errors
+    /// The divergence: a particle that would move by more than its spacing, a solve that does not converge, a Reynolds
+    /// number that the drag law does not cover.
+    pub fn step(&mut self) -> Result<(), Divergence<2>> {
+        self.take_step()
+    }
+
+    /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
+    /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
+    pub fn run(&mut self, end: f64, interval: f64, mut observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<2> {
+        let origin = self.time;
+        let mut observed = 0u64;
+        let mut observed_step = self.steps;
+        if observe(self).is_break() {
+            return StopReason::Stopped;
+        }
+        while self.time < end - 0.5 * self.last_step {
+            if let Err(divergence) = self.step() {
+                return StopReason::Diverged(divergence);
+            }
+            let due = ((self.time - origin) / interval + 1e-9).floor() as u64;
+            if due > observed {
+                observed = due;
+                observed_step = self.steps;
+                if observe(self).is_break() {
+                    return StopReason::Stopped;
+                }
+            }
+        }
+        if observed_step < self.steps && observe(self).is_break() {
+            return StopReason::Stopped;
+        }
+        StopReason::Finished
+    }
+}
+
+impl<const D: usize> IncompressibleSimulation<D> {
+    fn set_up(scene: IncompressibleScene<D>) -> Result<Self, SceneError> {
         scene.check()?;
         let ratio = scene.numerics.smoothing_ratio;
         let fluid =
@@ -98,6 +144,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
             sediment_poisson: PressurePoisson::new(),
             mixture: Mixture::new(),
             granular: GranularPressure::default(),
+            sediment_rates: AveragedGradient::default(),
             shifts: Vec::new(),
             time: 0.0,
             steps: 0,
@@ -110,34 +157,6 @@ impl<const D: usize> IncompressibleSimulation<D> {
         };
         simulation.search();
         Ok(simulation)
-    }
-
-    /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
-    /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
-    pub fn run(&mut self, end: f64, interval: f64, mut observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<D> {
-        let origin = self.time;
-        let mut observed = 0u64;
-        let mut observed_step = self.steps;
-        if observe(self).is_break() {
-            return StopReason::Stopped;
-        }
-        while self.time < end - 0.5 * self.last_step {
-            if let Err(divergence) = self.step() {
-                return StopReason::Diverged(divergence);
-            }
-            let due = ((self.time - origin) / interval + 1e-9).floor() as u64;
-            if due > observed {
-                observed = due;
-                observed_step = self.steps;
-                if observe(self).is_break() {
-                    return StopReason::Stopped;
-                }
-            }
-        }
-        if observed_step < self.steps && observe(self).is_break() {
-            return StopReason::Stopped;
-        }
-        StopReason::Finished
     }
 
     /// Time `[s]`.
@@ -191,12 +210,6 @@ impl<const D: usize> IncompressibleSimulation<D> {
     #[must_use]
     pub fn sediment(&self) -> (&[Vector<D>], &[Vector<D>]) {
         self.sediment.as_ref().map_or((&[], &[]), |sediment| (&sediment.position, &sediment.velocity))
-    }
-
-    /// Uniform pressure gradient that has taken the mixture's mean flux out in the last step `[Pa/m]`.
-    #[must_use]
-    pub fn mean_pressure_gradient(&self) -> Vector<D> {
-        self.mixture.mean_gradient
     }
 
     /// Share of the space that the fluid had at every fluid particle in the last step `[-]`.

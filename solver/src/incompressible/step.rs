@@ -1,7 +1,7 @@
 //! One step: implicit velocities of both phases, a pressure Poisson equation for each, correction, motion, shifting.
 
 use super::granular_pressure::{Dilatancy, GranularPressure};
-use super::numerics::{Continuity, PressureSource};
+use super::numerics::{Continuity, PairLaw, PressureSource};
 use super::phase::{Phase, height_axis};
 use super::pressure_poisson::{Correction, PressurePoisson};
 use super::scene::{SedimentPressure, SolidFraction};
@@ -15,12 +15,7 @@ use crate::vector::Vector;
 pub(crate) const MOST_ITERATIONS: usize = 2000;
 
 impl<const D: usize> IncompressibleSimulation<D> {
-    /// Takes one step of at most the time step of the numerics.
-    ///
-    /// # Errors
-    /// The divergence: a particle that would move by more than its spacing, a solve that does not converge, a Reynolds
-    /// number that the drag law does not cover.
-    pub fn step(&mut self) -> Result<(), Divergence<D>> {
+    pub(super) fn take_step(&mut self) -> Result<(), Divergence<D>> {
         let numerics = self.scene.numerics;
         let courant_step = numerics.courant * self.scene.fluid.spacing / self.largest_speed();
         let time_step = numerics.time_step.min(courant_step);
@@ -30,7 +25,8 @@ impl<const D: usize> IncompressibleSimulation<D> {
             phase.find_surface(&numerics);
             phase.find_velocity_gradients();
         }
-        self.find_granular_pressure(time_step);
+        self.average_sediment_gradients(time_step);
+        self.find_granular_pressure();
         self.find_viscosities();
         self.find_drag()?;
         self.assemble_velocities(time_step);
@@ -76,18 +72,25 @@ impl<const D: usize> IncompressibleSimulation<D> {
         Err(self.divergence(self.fluid.len() + grain, Quantity::Reynolds, reynolds, (*range.start(), *range.end())))
     }
 
+    /// Averaged velocity gradients of the sediment, for what depends on them.
+    fn average_sediment_gradients(&mut self, time_step: f64) {
+        let wanted = self.scene.numerics.pair_law == PairLaw::AveragedPairRate || self.dilatancy().is_some();
+        if let (true, Some(sediment)) = (wanted, &self.sediment) {
+            self.sediment_rates.update(sediment, time_step);
+        }
+    }
+
     /// Solid fraction, its mean along the bed, and the pressure of grains that dilate.
-    fn find_granular_pressure(&mut self, time_step: f64) {
+    fn find_granular_pressure(&mut self) {
         let Some(dilatancy) = self.dilatancy() else { return };
         let area = self.scene.bed_area();
         let Some(sediment) = &mut self.sediment else { return };
         self.granular.find_solid_fraction(sediment, &dilatancy);
-        self.granular.find_rates(sediment, time_step);
         if let SolidFraction::Averaged(layer) = &mut self.scene.solid_fraction {
             GranularPressure::average(sediment, area, layer);
         }
         if let Some(layer) = self.scene.solid_fraction.stratification() {
-            self.granular.find_pressures(sediment, &dilatancy, layer);
+            self.granular.find_pressures(sediment, &self.sediment_rates, &dilatancy, layer);
         }
     }
 

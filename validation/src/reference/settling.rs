@@ -218,7 +218,8 @@ mod tests {
     #[test]
     fn a_drag_belongs_to_its_slip() {
         for law in DragLaw::ALL {
-            for slip in [1e-5, 0.02, 0.6] {
+            // R = 0.05, 75, 3000: none at a joint of the table, where a drag has two slips
+            for slip in [1e-5, 0.015, 0.6] {
                 let product = law.drag_times_reynolds(sand(5e-3).reynolds(slip)).map(|product| product * slip);
                 let found = product.and_then(|product| sand(5e-3).slip_of_drag(law, product));
                 assert!(law == DragLaw::Ergun || (found.unwrap() / slip - 1.0).abs() < 1e-12, "{law:?}: {found:?}");

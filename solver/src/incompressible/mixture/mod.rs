@@ -17,6 +17,7 @@
 //! Fluid particles keep their volume of the lattice, so that the form serves suspensions whose φ changes little.
 
 mod projection;
+mod requirements;
 #[cfg(test)]
 mod tests;
 
@@ -58,7 +59,7 @@ pub(super) struct Mixture<const D: usize> {
     /// Accelerations by all pressure of the last step, the fluid's particles first `[m/s²]`.
     push: Vec<Vector<D>>,
     /// Uniform pressure gradient of the last step `[Pa/m]`.
-    pub(super) mean_gradient: Vector<D>,
+    mean_gradient: Vector<D>,
     solver: ConjugateGradient<f64>,
 }
 

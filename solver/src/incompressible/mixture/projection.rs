@@ -15,6 +15,12 @@ use crate::linear::NotConverged;
 use crate::vector::Vector;
 
 impl<const D: usize> IncompressibleSimulation<D> {
+    /// Uniform pressure gradient that has taken the mixture's mean flux out in the last step `[Pa/m]`.
+    #[must_use]
+    pub fn mean_pressure_gradient(&self) -> Vector<D> {
+        self.mixture.mean_gradient
+    }
+
     /// Begins the implicit velocities with the push of the last step's pressure.
     pub(in crate::incompressible) fn push_by_last_pressure(&mut self, time_step: f64) {
         let rows = self.system.velocity.len();

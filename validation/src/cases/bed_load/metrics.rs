@@ -216,7 +216,7 @@ fn continuum(
     metrics.push(channel::particles_lost(&variant, &record.clone().map(|data| data.channel)));
     common(metrics, run, record);
     let source = "the 1-D layer of the same closures";
-    let judged = run.averaging_time >= JUDGED_FROM && pair_law == PairLaw::PairRateMeanLoad;
+    let judged = run.averaging_time >= JUDGED_FROM && pair_law == stage.judged_pair_law();
     let gated = |metric: Metric, holds: bool, limit, reason: &str| {
         if judged && holds { metric.gated(limit, reason) } else { metric }
     };

@@ -155,6 +155,7 @@ impl Channel<'_> {
         // a fixed time is reached by the probe first, and no criterion of its own
         let reason = match (reason, self.until) {
             (StopReason::Stopped, Until::Time(_)) => StopReason::Finished,
+            (StopReason::Stopped, _) if !probe.is_stationary() => StopReason::Finished,
             (reason, _) => reason,
         };
         let ending = Ending {

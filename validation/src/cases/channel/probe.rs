@@ -142,6 +142,11 @@ impl ChannelProbe {
         self.window_start.is_some_and(|start| self.last_time >= start + self.window_length)
     }
 
+    /// Whether the criterion has been met.
+    pub(super) fn is_stationary(&self) -> bool {
+        self.stationarity.reached.is_some()
+    }
+
     /// Sees a step; true where it was a sample.
     pub(super) fn observe(&mut self, simulation: &IncompressibleSimulation<2>) -> bool {
         let time = simulation.time();
