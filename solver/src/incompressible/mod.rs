@@ -13,6 +13,7 @@ mod closure;
 mod drag_exchange;
 mod granular_pressure;
 mod grid;
+mod mixture;
 mod numerics;
 mod pairs;
 mod phase;
@@ -26,7 +27,7 @@ mod step;
 mod stratification;
 mod velocity_solve;
 
-pub use numerics::{DragSlip, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment};
+pub use numerics::{Continuity, DragSlip, MeanFlux, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment};
 pub use scene::{
     Bed, DragForm, Fluid, GranularFriction, IncompressibleScene, ParticleSet, Sediment, SedimentLaw, SedimentPressure,
     SedimentYield, SolidFraction, Turbulence,

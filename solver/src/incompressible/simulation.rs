@@ -3,6 +3,7 @@
 use super::averaged_gradient::AveragedGradient;
 use super::drag_exchange::DragExchange;
 use super::granular_pressure::GranularPressure;
+use super::mixture::Mixture;
 use super::pairs::Periods;
 use super::phase::{Phase, height_axis};
 use super::pressure_poisson::PressurePoisson;
@@ -25,6 +26,7 @@ pub struct IncompressibleSimulation<const D: usize> {
     pub(super) system: VelocitySystem<D>,
     pub(super) fluid_poisson: PressurePoisson<D>,
     pub(super) sediment_poisson: PressurePoisson<D>,
+    pub(super) mixture: Mixture<D>,
     /// Dynamic viscosity of every fluid particle `[Pa·s]`.
     pub(super) fluid_viscosity: Vec<f64>,
     /// Share of the space that the fluid has at every fluid particle `[-]`.
@@ -49,7 +51,7 @@ pub struct IncompressibleSimulation<const D: usize> {
 pub struct SolverCost {
     /// Iterations of the implicit velocities.
     pub velocity_iterations: u64,
-    /// Iterations of the fluid's pressure Poisson equation.
+    /// Iterations of the fluid's or the mixture's pressure Poisson equation.
     pub fluid_pressure_iterations: u64,
     /// Iterations of the sediment's pressure Poisson equation.
     pub sediment_pressure_iterations: u64,
@@ -140,6 +142,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
             system: VelocitySystem::new(),
             fluid_poisson: PressurePoisson::new(),
             sediment_poisson: PressurePoisson::new(),
+            mixture: Mixture::new(),
             granular: GranularPressure::default(),
             sediment_rates: AveragedGradient::default(),
             shifts: Vec::new(),
@@ -173,7 +176,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
     pub fn cost(&self) -> SolverCost {
         SolverCost {
             velocity_iterations: self.system.iterations(),
-            fluid_pressure_iterations: self.fluid_poisson.iterations(),
+            fluid_pressure_iterations: self.fluid_poisson.iterations() + self.mixture.iterations(),
             sediment_pressure_iterations: self.sediment_poisson.iterations(),
             searches: self.searches,
         }
@@ -207,6 +210,12 @@ impl<const D: usize> IncompressibleSimulation<D> {
     #[must_use]
     pub fn sediment(&self) -> (&[Vector<D>], &[Vector<D>]) {
         self.sediment.as_ref().map_or((&[], &[]), |sediment| (&sediment.position, &sediment.velocity))
+    }
+
+    /// Share of the space that the fluid had at every fluid particle in the last step `[-]`.
+    #[must_use]
+    pub fn fluid_share(&self) -> &[f64] {
+        &self.fluid_share
     }
 
     /// Masses of the free sediment `[kg]`, per metre of width in 2-D.

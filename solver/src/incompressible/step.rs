@@ -1,7 +1,7 @@
 //! One step: implicit velocities of both phases, a pressure Poisson equation for each, correction, motion, shifting.
 
 use super::granular_pressure::{Dilatancy, GranularPressure};
-use super::numerics::{PairLaw, PressureSource};
+use super::numerics::{Continuity, PairLaw, PressureSource};
 use super::phase::{Phase, height_axis};
 use super::pressure_poisson::{Correction, PressurePoisson};
 use super::scene::{SedimentPressure, SolidFraction};
@@ -31,12 +31,18 @@ impl<const D: usize> IncompressibleSimulation<D> {
         self.find_drag()?;
         self.assemble_velocities(time_step);
         self.add_granular_forces(time_step);
+        if numerics.continuity == Continuity::Mixture {
+            self.push_by_last_pressure(time_step);
+        }
         let criterion = Criterion { tolerance: numerics.velocity_tolerance, most_iterations: MOST_ITERATIONS };
         self.system.solve(criterion).map_err(|failed| {
             let NotConverged { row, residual } = failed;
             self.divergence(row, Quantity::VelocityResidual, residual, (0.0, numerics.velocity_tolerance))
         })?;
-        self.project(time_step)?;
+        match numerics.continuity {
+            Continuity::Fluid => self.project(time_step)?,
+            Continuity::Mixture => self.project_mixture(time_step)?,
+        }
         if numerics.shifting > 0.0 {
             self.fluid.measure(&self.periods);
             find_shifts(&self.fluid, numerics.shifting, time_step, &mut self.shifts);
@@ -102,7 +108,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
             SedimentPressure::Dilatant { dilation, packing, fixed_filling } => {
                 Some(Dilatancy { dilation, packing, grain_diameter: material.grain_diameter, fixed_filling })
             }
-            SedimentPressure::Incompressible | SedimentPressure::AlongBed => None,
+            SedimentPressure::Incompressible | SedimentPressure::None | SedimentPressure::AlongBed => None,
         }
     }
 
@@ -120,7 +126,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
                         slide(sediment, &self.system.velocity[first..], time_step);
                         continue;
                     }
-                    SedimentPressure::Dilatant { .. } => {
+                    SedimentPressure::None | SedimentPressure::Dilatant { .. } => {
                         let moved = drift(sediment, &self.system.velocity[first..], time_step);
                         if let Err(particle) = moved {
                             let way = sediment.velocity[particle].norm() * time_step / sediment.spacing;
