@@ -11,6 +11,7 @@
 mod closure;
 mod drag_exchange;
 mod grid;
+mod layers;
 mod numerics;
 mod pairs;
 mod phase;

@@ -97,9 +97,16 @@ impl<const D: usize> Pairs<D> {
                     self.found.push(source);
                 }
             });
+            // in order of the sources: neighbours in memory, and the factors of a row wait for the row before it last
+            self.found[before..].sort_unstable();
             self.candidates.push((self.found.len() - before) as u32);
         }
-        self.stride = self.candidates.iter().copied().max().unwrap_or(0).max(1) as usize;
+        let longest = self.candidates.iter().copied().max().unwrap_or(0).max(1) as usize;
+        if longest > self.stride {
+            // room for more, so that rows do not grow by one place at a time
+            self.stride = longest + longest / 4 + 1;
+            self.found.reserve((targets.len() * self.stride).saturating_sub(self.found.len()));
+        }
         self.count.resize(targets.len(), 0);
         self.candidate.resize(targets.len() * self.stride, 0);
         let none = Pair { source: 0, separation: Vector::zeros(), distance_squared: 0.0, value: 0.0, gradient: 0.0 };

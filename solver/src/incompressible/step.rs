@@ -39,7 +39,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
         })?;
         self.project(time_step)?;
         if numerics.shifting > 0.0 {
-            self.fluid.measure(&self.periods);
+            self.measure_fluid();
             find_shifts(&self.fluid, numerics.shifting, time_step, &mut self.shifts);
             for (particle, &shift) in self.shifts.iter().enumerate() {
                 self.fluid.displace(particle, shift);

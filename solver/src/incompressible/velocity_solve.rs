@@ -5,7 +5,7 @@
 //! is equal and opposite. With the constant velocity deflated the total momentum closes to rounding.
 
 use super::pairs::LEAST_TASK;
-use crate::linear::{ConjugateGradient, Criterion, NotConverged};
+use crate::linear::{ConjugateGradient, Criterion, IncompleteCholesky, NotConverged, Rows};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
@@ -26,7 +26,7 @@ pub(super) struct VelocitySystem<const D: usize> {
     pub(super) momentum: Vec<Vector<D>>,
     /// u* `[m/s]`.
     pub(super) velocity: Vec<Vector<D>>,
-    inverse_diagonal: Vec<f64>,
+    factors: IncompleteCholesky,
     solver: ConjugateGradient<Vector<D>>,
 }
 
@@ -41,7 +41,7 @@ impl<const D: usize> VelocitySystem<D> {
             inertia: Vec::new(),
             momentum: Vec::new(),
             velocity: Vec::new(),
-            inverse_diagonal: Vec::new(),
+            factors: IncompleteCholesky::default(),
             solver: ConjugateGradient::new(),
         }
     }
@@ -51,7 +51,7 @@ impl<const D: usize> VelocitySystem<D> {
         self.stride = stride;
         self.link.resize(rows * stride, (0, 0.0));
         self.count.resize(rows, 0);
-        for array in [&mut self.diagonal, &mut self.of_constant, &mut self.inertia, &mut self.inverse_diagonal] {
+        for array in [&mut self.diagonal, &mut self.of_constant, &mut self.inertia] {
             array.resize(rows, 0.0);
         }
         self.momentum.resize(rows, Vector::zeros());
@@ -68,14 +68,13 @@ impl<const D: usize> VelocitySystem<D> {
     /// # Errors
     /// A solve that did not reach its tolerance.
     pub(super) fn solve(&mut self, criterion: Criterion) -> Result<(), NotConverged> {
-        for (inverse, diagonal) in self.inverse_diagonal.iter_mut().zip(&self.diagonal) {
-            *inverse = 1.0 / diagonal;
-        }
+        let rows = VelocityRows { link: &self.link, stride: self.stride, count: &self.count, diagonal: &self.diagonal };
+        self.factors.factorise(self.diagonal.len(), self.stride, &rows);
         let (link, stride, count, diagonal) = (&self.link, self.stride, &self.count, &self.diagonal);
         self.solver.solve(
             &mut self.velocity,
             &self.momentum,
-            &self.inverse_diagonal,
+            &self.factors,
             Some(&self.of_constant),
             criterion,
             |u, product| {
@@ -88,5 +87,26 @@ impl<const D: usize> VelocitySystem<D> {
                 });
             },
         )
+    }
+}
+
+/// M + Δt K row by row.
+struct VelocityRows<'a> {
+    link: &'a [(u32, f64)],
+    stride: usize,
+    count: &'a [u32],
+    diagonal: &'a [f64],
+}
+
+impl Rows for VelocityRows<'_> {
+    #[inline(always)]
+    fn diagonal(&self, row: usize) -> f64 {
+        self.diagonal[row]
+    }
+
+    #[inline(always)]
+    fn off_diagonal(&self, row: usize) -> impl Iterator<Item = (u32, f64)> {
+        let links = &self.link[row * self.stride..][..self.count[row] as usize];
+        links.iter().map(|&(column, coefficient)| (column, -coefficient))
     }
 }

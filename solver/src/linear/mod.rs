@@ -1,6 +1,8 @@
 //! Linear systems with symmetric, positive definite operators that are given by their products.
 
 mod conjugate_gradient;
+mod incomplete_cholesky;
 mod reductions;
 
 pub(crate) use conjugate_gradient::{ConjugateGradient, Criterion, NotConverged};
+pub(crate) use incomplete_cholesky::{IncompleteCholesky, Rows};
