@@ -18,7 +18,7 @@ use super::numerics::{PressureSource, ProjectionNumerics, SurfaceTreatment};
 use super::pairs::LEAST_TASK;
 use super::phase::{Phase, height_axis};
 use super::step::MOST_ITERATIONS;
-use crate::linear::{ConjugateGradient, Criterion, NotConverged};
+use crate::linear::{ConjugateGradient, Criterion, IncompleteCholesky, NotConverged, Rows};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
@@ -26,39 +26,36 @@ use rayon::prelude::*;
 #[derive(Debug)]
 pub(super) struct PressurePoisson<const D: usize> {
     stride: usize,
-    /// g_ab and the coefficient of A for every pair.
-    link: Vec<Link<D>>,
+    /// The other particle of every pair.
+    source: Vec<u32>,
+    /// g_ab `[1/m]` of every pair.
+    pair_gradient: Vec<Vector<D>>,
+    /// Coefficient of A, 2 V (−F) `[1/m²]`, of every pair.
+    laplacian: Vec<f64>,
     /// Links of every row.
     count: Vec<u32>,
     /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
     own: Vec<Vector<D>>,
     diagonal: Vec<f64>,
-    inverse_diagonal: Vec<f64>,
     right_side: Vec<f64>,
     gradient: Vec<Vector<D>>,
+    factors: IncompleteCholesky,
     solver: ConjugateGradient<f64>,
-}
-
-#[derive(Debug, Clone, Copy)]
-struct Link<const D: usize> {
-    source: u32,
-    /// g_ab `[1/m]`.
-    gradient: Vector<D>,
-    /// 2 V (−F) `[1/m²]`.
-    laplacian: f64,
 }
 
 impl<const D: usize> PressurePoisson<D> {
     pub(super) fn new() -> Self {
         Self {
             stride: 1,
-            link: Vec::new(),
+            source: Vec::new(),
+            pair_gradient: Vec::new(),
+            laplacian: Vec::new(),
             count: Vec::new(),
             own: Vec::new(),
             diagonal: Vec::new(),
-            inverse_diagonal: Vec::new(),
             right_side: Vec::new(),
             gradient: Vec::new(),
+            factors: IncompleteCholesky::default(),
             solver: ConjugateGradient::new(),
         }
     }
@@ -70,13 +67,15 @@ impl<const D: usize> PressurePoisson<D> {
 
     /// Prepares the operators at the present positions.
     pub(super) fn assemble(&mut self, phase: &Phase<D>, numerics: &ProjectionNumerics) {
-        let stabilisation = numerics.stabilisation;
         let eliminated = numerics.surface == SurfaceTreatment::Eliminated;
         let count = phase.len();
         self.stride = phase.free_pairs.stride();
-        self.link.resize(count * self.stride, Link { source: 0, gradient: Vector::zeros(), laplacian: 0.0 });
+        let places = count * self.stride;
+        self.source.resize(places, 0);
+        self.pair_gradient.resize(places, Vector::zeros());
+        self.laplacian.resize(places, 0.0);
         self.count.resize(count, 0);
-        for array in [&mut self.diagonal, &mut self.inverse_diagonal, &mut self.right_side] {
+        for array in [&mut self.diagonal, &mut self.right_side] {
             array.resize(count, 0.0);
         }
         self.own.resize(count, Vector::zeros());
@@ -84,21 +83,26 @@ impl<const D: usize> PressurePoisson<D> {
         let gradient_scale = phase.lattice_volume;
         let laplacian_scale = -2.0 * phase.lattice_volume;
         let normal = height_axis(D);
-        (self.link.par_chunks_mut(self.stride), &mut self.count, &mut self.own, &mut self.diagonal)
+        let rows = (
+            self.source.par_chunks_mut(self.stride),
+            self.pair_gradient.par_chunks_mut(self.stride),
+            self.laplacian.par_chunks_mut(self.stride),
+        );
+        (rows, &mut self.count, &mut self.own, &mut self.diagonal)
             .into_par_iter()
             .enumerate()
             .with_min_len(LEAST_TASK)
-            .for_each(|(a, (links, count, own, diagonal))| {
+            .for_each(|(a, ((sources, gradients, laplacians), count, own, diagonal))| {
                 let mut sum = Vector::zeros();
                 let mut total = 0.0;
                 let mut beside_surface = false;
                 let pairs = phase.free_pairs.of(a);
-                for (link, pair) in links.iter_mut().zip(pairs) {
+                for (k, pair) in pairs.iter().enumerate() {
                     let moment = 2.0 / (phase.moment[a] + phase.moment[pair.source as usize]);
                     let weight = pair.gradient * moment;
                     let gradient = pair.separation * (gradient_scale * weight);
                     let laplacian = laplacian_scale * weight;
-                    *link = Link { source: pair.source, gradient, laplacian };
+                    (sources[k], gradients[k], laplacians[k]) = (pair.source, gradient, laplacian);
                     sum += gradient;
                     total += laplacian;
                     beside_surface |= phase.at_surface[pair.source as usize];
@@ -121,38 +125,30 @@ impl<const D: usize> PressurePoisson<D> {
                 } else {
                     phase.nearness[a] * (4.0 / 3.0 + 2.0 / 3.0 * phase.deficit[a])
                 };
-                *diagonal = total + mirror * missing;
+                // what is no unknown has no diagonal
+                let known = eliminated && phase.at_surface[a];
+                *diagonal = if known { 0.0 } else { total + mirror * missing };
             });
-        self.inverse_diagonal.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, inverse)| {
-            if eliminated && phase.at_surface[a] {
-                *inverse = 0.0;
-                return;
-            }
-            let links = &self.link[a * self.stride..a * self.stride + self.count[a] as usize];
-            // the diagonal of −D G: every neighbour's gradient sees P_a, and so does the own one
-            let mut squares = self.own[a].norm_squared();
-            for link in links {
-                squares += link.gradient.norm_squared();
-            }
-            let diagonal = self.diagonal[a] + stabilisation * squares;
-            *inverse = if diagonal > 0.0 { 1.0 / diagonal } else { 0.0 };
-        });
     }
 
     /// (D u)_a `[1/s]` of a velocity field.
+    #[inline(always)]
     pub(super) fn divergence(&self, a: usize, velocity: &[Vector<D>]) -> f64 {
         let mut sum = -self.own[a].dot(&velocity[a]);
-        for link in self.links(a) {
-            sum += link.gradient.dot(&velocity[link.source as usize]);
+        let row = self.row(a);
+        for (&source, gradient) in self.source[row.clone()].iter().zip(&self.pair_gradient[row]) {
+            sum += gradient.dot(&velocity[source as usize]);
         }
         sum
     }
 
     /// (G P)_a `[Pa/m]`.
+    #[inline(always)]
     pub(super) fn gradient(&self, a: usize, pressure: &[f64]) -> Vector<D> {
         let mut sum = self.own[a] * pressure[a];
-        for link in self.links(a) {
-            sum += link.gradient * pressure[link.source as usize];
+        let row = self.row(a);
+        for (&source, gradient) in self.source[row.clone()].iter().zip(&self.pair_gradient[row]) {
+            sum += gradient * pressure[source as usize];
         }
         sum
     }
@@ -200,15 +196,17 @@ impl<const D: usize> PressurePoisson<D> {
         let stabilisation = numerics.stabilisation;
         let mut solver = std::mem::replace(&mut self.solver, ConjugateGradient::new());
         let mut gradient = std::mem::take(&mut self.gradient);
-        let inverse = std::mem::take(&mut self.inverse_diagonal);
-        let outcome = solver.solve(&mut phase.pressure, &right_side, &inverse, None, criterion, |p, product| {
+        let mut factors = std::mem::take(&mut self.factors);
+        factors.factorise(self.count.len(), self.stride, &CompactRows(self));
+        let outcome = solver.solve(&mut phase.pressure, &right_side, &factors, None, criterion, |p, product| {
             self.apply(p, product, &mut gradient, &phase.at_surface, eliminated, stabilisation);
         });
-        (self.solver, self.gradient, self.inverse_diagonal, self.right_side) = (solver, gradient, inverse, right_side);
+        self.factors = factors;
+        (self.solver, self.gradient, self.right_side) = (solver, gradient, right_side);
         outcome
     }
 
-    fn apply(
+    pub(super) fn apply(
         &self,
         p: &[f64],
         product: &mut [f64],
@@ -217,33 +215,53 @@ impl<const D: usize> PressurePoisson<D> {
         eliminated: bool,
         stabilisation: f64,
     ) {
-        if stabilisation == 0.0 {
-            product.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, out)| {
-                let mut sum = self.diagonal[a] * p[a];
-                for link in self.links(a) {
-                    sum -= link.laplacian * p[link.source as usize];
+        // both operators read the pressures, D reads the gradients when all are there
+        (&mut *product, &mut *gradient).into_par_iter().enumerate().with_min_len(LEAST_TASK).for_each(
+            |(a, (out, gradient))| {
+                let mut compact = self.diagonal[a] * p[a];
+                let mut sum = self.own[a] * p[a];
+                let row = self.row(a);
+                let links = self.source[row.clone()].iter().zip(&self.pair_gradient[row.clone()]);
+                for ((&source, gradient), laplacian) in links.zip(&self.laplacian[row]) {
+                    let other = p[source as usize];
+                    sum += gradient * other;
+                    compact -= laplacian * other;
                 }
-                *out = if eliminated && surface[a] { 0.0 } else { sum };
-            });
+                *out = if eliminated && surface[a] { 0.0 } else { compact };
+                *gradient = sum;
+            },
+        );
+        if stabilisation == 0.0 {
             return;
         }
-        gradient.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, out)| *out = self.gradient(a, p));
         let gradient = &*gradient;
         product.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, out)| {
-            let mut compact = self.diagonal[a] * p[a];
-            let mut wide = self.own[a].dot(&gradient[a]);
-            for link in self.links(a) {
-                compact -= link.laplacian * p[link.source as usize];
-                wide -= link.gradient.dot(&gradient[link.source as usize]);
+            if !(eliminated && surface[a]) {
+                *out -= stabilisation * self.divergence(a, gradient);
             }
-            *out = if eliminated && surface[a] { 0.0 } else { compact + stabilisation * wide };
         });
     }
 
     #[inline(always)]
-    fn links(&self, a: usize) -> &[Link<D>] {
+    fn row(&self, a: usize) -> std::ops::Range<usize> {
         let start = a * self.stride;
-        &self.link[start..start + self.count[a] as usize]
+        start..start + self.count[a] as usize
+    }
+}
+
+/// A row by row: what A + s D G is preconditioned by, being nearly (1 + s) A where the pressure is smooth.
+struct CompactRows<'a, const D: usize>(&'a PressurePoisson<D>);
+
+impl<const D: usize> Rows for CompactRows<'_, D> {
+    #[inline(always)]
+    fn diagonal(&self, row: usize) -> f64 {
+        self.0.diagonal[row]
+    }
+
+    #[inline(always)]
+    fn off_diagonal(&self, row: usize) -> impl Iterator<Item = (u32, f64)> {
+        let links = self.0.row(row);
+        self.0.source[links.clone()].iter().copied().zip(self.0.laplacian[links].iter().map(|value| -value))
     }
 }
 
