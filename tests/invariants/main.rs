@@ -3,6 +3,7 @@
 mod density_coupling;
 mod determinism;
 mod free_fall;
+mod incompressible;
 mod momentum_balance;
 mod neighbour_list;
 mod patches;
@@ -10,5 +11,6 @@ mod scene_errors;
 mod stopping;
 mod supports;
 mod symmetries;
+mod two_phases;
 mod viscous_step;
 mod walls;

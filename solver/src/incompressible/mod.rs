@@ -24,6 +24,9 @@ mod step;
 mod stratification;
 mod velocity_solve;
 
+#[cfg(test)]
+mod tests;
+
 pub use numerics::{DragSlip, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment};
 pub use scene::{
     Bed, DragForm, Fluid, GranularFriction, IncompressibleScene, ParticleSet, Sediment, SedimentLaw, SedimentPressure,

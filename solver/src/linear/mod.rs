@@ -4,5 +4,8 @@ mod conjugate_gradient;
 mod incomplete_cholesky;
 mod reductions;
 
+#[cfg(test)]
+mod tests;
+
 pub(crate) use conjugate_gradient::{ConjugateGradient, Criterion, NotConverged};
 pub(crate) use incomplete_cholesky::{IncompleteCholesky, Rows};
