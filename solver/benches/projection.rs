@@ -66,6 +66,7 @@ fn scene(thickness: f64) -> IncompressibleScene<2> {
             filling: vec![1.0; count],
             wall,
             spacing: GRAIN,
+            smoothing_ratio: ProjectionNumerics::default().smoothing_ratio,
             density: 2600.0,
             grain_diameter: GRAIN,
             law: SedimentLaw::Bingham(SedimentYield {

@@ -2,7 +2,8 @@
 //!
 //! Reading order: [`vector`], the leaves ([`kernel`], [`rheology`], [`equation_of_state`], [`turbulence`], [`drag`]),
 //! then [`neighbours`], [`operators`], [`terms`] and [`boundary`], and last the step in `weakly_compressible` and the
-//! loop in [`simulation`]. Equation numbers are those of Salehizadeh & Shafiei (2018).
+//! loop in [`simulation`]. Equation numbers are those of Salehizadeh & Shafiei (2018). [`incompressible`] is a model of its own,
+//! with the equation numbers of its own paper.
 
 pub mod vector;
 

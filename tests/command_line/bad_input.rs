@@ -250,6 +250,44 @@ fn a_reservoir_of_too_few_or_too_many_rows() {
 }
 
 #[test]
+fn a_channel_without_a_slope() {
+    let place = Place::new();
+    let rule = "must be positive and at most 0.2; without a slope there is no friction velocity √(g h i); give its tangent, such as 0.03 for 3 %";
+    refused(&place, &["clear-water", "--set", "slopes=[0.03, 0]"], &format!("`slopes[1]` is 0, but {rule}"));
+    refused(&place, &["clear-water", "--set", "slopes=[nan]"], &format!("`slopes[0]` is NaN, but {rule}"));
+    refused(&place, &["water-film", "--set", "slope=-0.03"], &format!("`slope` is -0.03, but {rule}"));
+    refused(
+        &place,
+        &["clear-water", "--set", "slopes=[]"],
+        "`slopes` is [], but must be at least one slope; 3 % is 0.03",
+    );
+    refused(
+        &place,
+        &["clear-water", "--set", "slopes=[0.03, 0.03]"],
+        "`slopes[1]` is 0.03, but must be unlike the others; name every slope once",
+    );
+}
+
+#[test]
+fn a_roughness_that_no_wall_has() {
+    let place = Place::new();
+    for (value, shown) in [("-5e-3", "-0.005"), ("0", "0"), ("inf", "inf"), ("nan", "NaN")] {
+        refused(
+            &place,
+            &["clear-water", "--set", &format!("sand_roughness={value}")],
+            &format!(
+                "`sand_roughness` is {shown}, but must be positive and finite; give it in metres; about the grain diameter"
+            ),
+        );
+    }
+    refused(
+        &place,
+        &["clear-water", "--set", "sand_roughness=0.1"],
+        "`sand_roughness` is 0.1, but must be between 0 and 0.048; the logarithmic law begins at k_s/30, which must lie below the first row of particles",
+    );
+}
+
+#[test]
 fn a_gate_with_operators_or_walls_that_know_no_smooth_ones() {
     let place = Place::new();
     let operator = |path: &str, value: &str| {
@@ -298,5 +336,74 @@ fn an_implicit_step_without_a_viscous_law_or_its_divergence() {
         &place,
         &["column-planar", "--set", "numerics.momentum_operator=\"pairwise\""],
         "`numerics.momentum_operator` is pairwise, but must be \"single-divergence\" or \"uncorrected-divergence\" with the implicit runs of `regularised.aspect_ratios`; choose one of these, or empty that list",
+    );
+}
+
+#[test]
+fn a_moving_bed_that_cannot_be() {
+    let place = Place::new();
+    let cases = [
+        (
+            "stabilised.slopes=[0.0]",
+            "`stabilised.slopes[0]` is 0, but must be positive and at most 0.2; without a slope there is no friction velocity √(g h i); give its tangent, such as 0.03 for 3 %",
+        ),
+        (
+            "stabilised.material.yield_stress=-5.0",
+            "`stabilised.material.yield_stress` is -5, but must be between 0 and 1000000; give it in Pa, or 0 for none",
+        ),
+        (
+            "continuum.closures.largest_fraction=1.0",
+            "`continuum.closures.largest_fraction` is 1, but must be between 0.1 and 0.74; grains at rest fill 0.5 to 0.64",
+        ),
+        (
+            "materials.grain_density=900.0",
+            "`materials.grain_density` is 900, but must be between 1010 and 100000; grains that float are no bed load",
+        ),
+        (
+            "stabilised.bed_depth=0.032",
+            "`stabilised.bed_depth` is 0.032, but must be a whole multiple of the grain diameter, 0.005 m; choose lengths that divide each other",
+        ),
+        (
+            "fit.yield_stresses=[9.0]",
+            "`fit.yield_stresses` is [9.0], but must be empty or two or more rising values; the fits interpolate between them",
+        ),
+        (
+            "stabilised.averaging_time=3.0",
+            "`stabilised.averaging_time` is 3, but must be between 0.05 and 1; the window lies within the run",
+        ),
+    ];
+    for (setting, message) in cases {
+        refused(&place, &["bed-load", "--set", setting], message);
+    }
+}
+
+#[test]
+fn a_channel_that_is_too_short_and_times_that_do_not_fit() {
+    let place = Place::new();
+    for case in ["still-water", "water-film", "clear-water"] {
+        for columns in ["0", "4"] {
+            refused(
+                &place,
+                &[case, "--set", &format!("columns={columns}")],
+                &format!(
+                    "`columns` is {columns}, but must be between 5 and 1000; the period must hold twice the reach of the kernel; 12 is quick"
+                ),
+            );
+        }
+    }
+    refused(
+        &place,
+        &["clear-water", "--set", "period.fixed.averaging_time=2"],
+        "`period.fixed.averaging_time` is 2, but must be between 0.2 and 1.5; the window lies in the second half",
+    );
+    refused(
+        &place,
+        &["still-water", "--set", "averaging_time=inf"],
+        "`averaging_time` is inf, but must be between 0.2 and 2.5; the window lies in the second half",
+    );
+    refused(
+        &place,
+        &["still-water", "--set", "numerics.time_step=0"],
+        "`numerics.time_step` is 0, but must be between 1e-9 and 1; see the default numerics with `bagnold show`",
     );
 }

@@ -84,6 +84,7 @@ fn grains(position: Vec<Vector<2>>) -> Sediment<2> {
         filling: vec![1.0; count],
         wall: Vec::new(),
         spacing: GRAIN,
+        smoothing_ratio: ProjectionNumerics::default().smoothing_ratio,
         density: 2600.0,
         grain_diameter: GRAIN,
         law: SedimentLaw::Bingham(SedimentYield {

@@ -32,7 +32,21 @@ macro_rules! cases {
     };
 }
 
-cases!(hydrostatic, film, bagnold, column_planar, column_round, incline_collapse, flow_thickness, bed_load_1d);
+cases!(
+    hydrostatic,
+    film,
+    bagnold,
+    column_planar,
+    column_round,
+    incline_collapse,
+    flow_thickness,
+    still_water,
+    water_film,
+    clear_water,
+    settling,
+    bed_load_1d,
+    bed_load,
+);
 
 #[test]
 fn every_registered_case_is_tested() {

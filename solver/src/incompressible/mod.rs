@@ -10,12 +10,14 @@
 
 mod closure;
 mod drag_exchange;
+mod granular_pressure;
 mod grid;
 mod layers;
 mod numerics;
 mod pairs;
 mod phase;
 mod pressure_poisson;
+mod rows;
 mod scene;
 mod shifting;
 mod simulation;

@@ -13,6 +13,10 @@
 //! disordered particles: without it the hydrostatic pressure is 2.6 % low.
 //! At the surface, missing neighbours count as mirrored ones with the opposite pressure (32)–(34); where particles at
 //! the surface are eliminated (31), they have P = 0 and are no unknowns.
+//! A fluid without a surface has no level of pressure: P is then sought among fields of mean zero, and what the right
+//! side has of a constant is left out, because no pressure but an enormous one answers it. With the density source P is
+//! lifted until its lowest is 0, as it is below a surface: (13) draws particles together where P is negative, and
+//! nothing else keeps them apart.
 
 use super::numerics::{PressureSource, ProjectionNumerics, SurfaceTreatment};
 use super::pairs::LEAST_TASK;
@@ -39,8 +43,51 @@ pub(super) struct PressurePoisson<const D: usize> {
     diagonal: Vec<f64>,
     right_side: Vec<f64>,
     gradient: Vec<Vector<D>>,
+    /// A pressure less its mean, where there is no level.
+    deviation: Vec<f64>,
+    /// Whether a surface fixes the level of the pressure.
+    level: Level,
     factors: IncompleteCholesky,
     solver: ConjugateGradient<f64>,
+}
+
+/// What fixes the level of the pressure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Level {
+    /// A surface.
+    Surface,
+    /// Nothing.
+    Free,
+}
+
+impl Level {
+    /// Takes the mean out of a field where nothing fixes the level.
+    fn take_mean_out(self, field: &mut [f64]) {
+        if self == Self::Free {
+            let mean = field.iter().sum::<f64>() / field.len() as f64;
+            field.iter_mut().for_each(|value| *value -= mean);
+        }
+    }
+
+    /// The operator among fields of mean zero where nothing fixes the level: symmetric, as it is.
+    fn apply(
+        self,
+        p: &[f64],
+        product: &mut [f64],
+        deviation: &mut Vec<f64>,
+        operator: impl FnOnce(&[f64], &mut [f64]),
+    ) {
+        match self {
+            Self::Surface => operator(p, product),
+            Self::Free => {
+                deviation.clear();
+                deviation.extend_from_slice(p);
+                self.take_mean_out(deviation);
+                operator(deviation, product);
+                self.take_mean_out(product);
+            }
+        }
+    }
 }
 
 impl<const D: usize> PressurePoisson<D> {
@@ -55,6 +102,8 @@ impl<const D: usize> PressurePoisson<D> {
             diagonal: Vec::new(),
             right_side: Vec::new(),
             gradient: Vec::new(),
+            deviation: Vec::new(),
+            level: Level::Surface,
             factors: IncompleteCholesky::default(),
             solver: ConjugateGradient::new(),
         }
@@ -129,6 +178,11 @@ impl<const D: usize> PressurePoisson<D> {
                 let known = eliminated && phase.at_surface[a];
                 *diagonal = if known { 0.0 } else { total + mirror * missing };
             });
+        let has_surface = match numerics.surface {
+            SurfaceTreatment::Eliminated => phase.at_surface.contains(&true),
+            SurfaceTreatment::Completed => phase.nearness.iter().any(|&nearness| nearness > 0.0),
+        };
+        self.level = if has_surface { Level::Surface } else { Level::Free };
     }
 
     /// (D u)_a `[1/s]` of a velocity field.
@@ -192,17 +246,28 @@ impl<const D: usize> PressurePoisson<D> {
                 *pressure = 0.0;
             }
         }
+        self.level.take_mean_out(&mut right_side);
         let criterion = Criterion { tolerance: numerics.pressure_tolerance, most_iterations: MOST_ITERATIONS };
         let stabilisation = numerics.stabilisation;
         let mut solver = std::mem::replace(&mut self.solver, ConjugateGradient::new());
         let mut gradient = std::mem::take(&mut self.gradient);
+        let mut deviation = std::mem::take(&mut self.deviation);
         let mut factors = std::mem::take(&mut self.factors);
         factors.factorise(self.count.len(), self.stride, &CompactRows(self));
         let outcome = solver.solve(&mut phase.pressure, &right_side, &factors, None, criterion, |p, product| {
-            self.apply(p, product, &mut gradient, &phase.at_surface, eliminated, stabilisation);
+            self.level.apply(p, product, &mut deviation, |p, product| {
+                self.apply(p, product, &mut gradient, &phase.at_surface, eliminated, stabilisation);
+            });
         });
-        self.factors = factors;
+        if self.level == Level::Free {
+            let anchor = match numerics.pressure_source {
+                PressureSource::Divergence => phase.pressure.iter().sum::<f64>() / phase.len() as f64,
+                PressureSource::Density => phase.pressure.iter().copied().fold(f64::INFINITY, f64::min),
+            };
+            phase.pressure.iter_mut().for_each(|pressure| *pressure -= anchor);
+        }
         (self.solver, self.gradient, self.right_side) = (solver, gradient, right_side);
+        (self.factors, self.deviation) = (factors, deviation);
         outcome
     }
 

@@ -128,6 +128,8 @@ pub enum SedimentPressure {
         dilation: f64,
         /// φ_max `[-]`.
         packing: f64,
+        /// Volume of grains in a fixed particle over its lattice volume `[-]`.
+        fixed_filling: f64,
     },
 }
 
@@ -152,6 +154,8 @@ pub struct Sediment<const D: usize> {
     pub wall: Vec<Vector<D>>,
     /// Particle spacing `[m]`.
     pub spacing: f64,
+    /// Smoothing length over particle spacing of the sediment's kernel `[-]`.
+    pub smoothing_ratio: f64,
     /// Density of a grain `[kg/m³]`.
     pub density: f64,
     /// Grain diameter `[m]`.
@@ -229,6 +233,7 @@ impl<const D: usize> IncompressibleScene<D> {
             }
             values.extend([
                 ("sediment spacing", sediment.spacing),
+                ("sediment smoothing_ratio", sediment.smoothing_ratio),
                 ("sediment density", sediment.density),
                 ("grain_diameter", sediment.grain_diameter),
                 ("drag_smoothing_length", sediment.drag_smoothing_length),
@@ -254,7 +259,8 @@ impl<const D: usize> IncompressibleScene<D> {
             if found != expected {
                 return Err(SceneError::Length { array: "filling", found, expected });
             }
-            least = least.max(2.0 * self.reach(sediment.spacing)).max(4.0 * sediment.drag_smoothing_length);
+            least =
+                least.max(4.0 * sediment.smoothing_ratio * sediment.spacing).max(4.0 * sediment.drag_smoothing_length);
         }
         if let Some(layer) = self.solid_fraction.stratification() {
             for &value in &layer.solid_fraction {
@@ -278,6 +284,15 @@ impl<const D: usize> IncompressibleScene<D> {
             }
         }
         Ok(())
+    }
+
+    /// Product of the periods along the bed: its area `[m]` in 2-D, `[m²]` in 3-D.
+    pub(super) fn bed_area(&self) -> f64 {
+        let along = self.domain.axes.iter().take(D - 1);
+        along.fold(1.0, |area, boundary| match boundary {
+            AxisBoundary::Periodic { lower, upper } => area * (upper - lower),
+            AxisBoundary::Open | AxisBoundary::Mirror { .. } => area,
+        })
     }
 
     fn reach(&self, spacing: f64) -> f64 {

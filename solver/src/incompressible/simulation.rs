@@ -1,6 +1,7 @@
 //! An incompressible simulation: state, candidate search, and the loop with its stop reasons.
 
 use super::drag_exchange::DragExchange;
+use super::granular_pressure::GranularPressure;
 use super::layers::Layers;
 use super::pairs::Periods;
 use super::phase::Phase;
@@ -32,6 +33,7 @@ pub struct IncompressibleSimulation<const D: usize> {
     pub(super) sediment_viscosity: Vec<f64>,
     /// Yield stress or overburden of every sediment particle `[Pa]`.
     pub(super) load: Vec<f64>,
+    pub(super) granular: GranularPressure<D>,
     pub(super) shifts: Vec<Vector<D>>,
     pub(super) periods: Periods<D>,
     pub(super) time: f64,
@@ -67,10 +69,15 @@ impl<const D: usize> IncompressibleSimulation<D> {
         let ratio = scene.numerics.smoothing_ratio;
         let fluid =
             Phase::new(&scene.fluid.particles, &scene.fluid.wall, scene.fluid.spacing, scene.fluid.density, ratio);
-        let sediment = scene
-            .sediment
-            .as_ref()
-            .map(|material| Phase::new(&material.particles, &material.wall, material.spacing, material.density, ratio));
+        let sediment = scene.sediment.as_ref().map(|material| {
+            Phase::new(
+                &material.particles,
+                &material.wall,
+                material.spacing,
+                material.density,
+                material.smoothing_ratio,
+            )
+        });
         let sediment = sediment.map(|phase| match &scene.sediment {
             Some(material) => phase.filled(&material.filling),
             None => phase,
@@ -88,6 +95,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
             system: VelocitySystem::new(),
             fluid_poisson: PressurePoisson::new(),
             sediment_poisson: PressurePoisson::new(),
+            granular: GranularPressure::default(),
             shifts: Vec::new(),
             time: 0.0,
             steps: 0,
@@ -181,6 +189,12 @@ impl<const D: usize> IncompressibleSimulation<D> {
     #[must_use]
     pub fn sediment(&self) -> (&[Vector<D>], &[Vector<D>]) {
         self.sediment.as_ref().map_or((&[], &[]), |sediment| (&sediment.position, &sediment.velocity))
+    }
+
+    /// Masses of the free sediment `[kg]`, per metre of width in 2-D.
+    #[must_use]
+    pub fn sediment_masses(&self) -> &[f64] {
+        self.sediment.as_ref().map_or(&[], |sediment| &sediment.mass)
     }
 
     /// Force of walls and fixed grains on the fluid and the sediment in the last step `[N]`, per metre of width in 2-D:

@@ -1,9 +1,10 @@
 //! One step: implicit velocities of both phases, a pressure Poisson equation for each, correction, motion, shifting.
 
+use super::granular_pressure::{Dilatancy, GranularPressure};
 use super::numerics::PressureSource;
 use super::phase::{Phase, height_axis};
 use super::pressure_poisson::{Correction, PressurePoisson};
-use super::scene::SedimentPressure;
+use super::scene::{SedimentPressure, SolidFraction};
 use super::shifting::find_shifts;
 use super::simulation::IncompressibleSimulation;
 use crate::divergence::{Divergence, Quantity};
@@ -29,9 +30,11 @@ impl<const D: usize> IncompressibleSimulation<D> {
             phase.find_surface(&numerics);
             phase.find_velocity_gradients();
         }
+        self.find_granular_pressure(time_step);
         self.find_viscosities();
         self.find_drag()?;
         self.assemble_velocities(time_step);
+        self.add_granular_forces(time_step);
         let criterion = Criterion { tolerance: numerics.velocity_tolerance, most_iterations: MOST_ITERATIONS };
         self.system.solve(criterion).map_err(|failed| {
             let NotConverged { row, residual } = failed;
@@ -67,6 +70,39 @@ impl<const D: usize> IncompressibleSimulation<D> {
         Err(self.divergence(self.fluid.len() + grain, Quantity::Reynolds, reynolds, (*range.start(), *range.end())))
     }
 
+    /// Solid fraction, its mean along the bed, and the pressure of grains that dilate.
+    fn find_granular_pressure(&mut self, time_step: f64) {
+        let Some(dilatancy) = self.dilatancy() else { return };
+        let area = self.scene.bed_area();
+        let Some(sediment) = &mut self.sediment else { return };
+        self.granular.find_solid_fraction(sediment, &dilatancy);
+        self.granular.find_rates(sediment, time_step);
+        if let SolidFraction::Averaged(layer) = &mut self.scene.solid_fraction {
+            GranularPressure::average(sediment, area, layer);
+        }
+        if let Some(layer) = self.scene.solid_fraction.stratification() {
+            self.granular.find_pressures(sediment, &dilatancy, layer);
+        }
+    }
+
+    fn add_granular_forces(&mut self, time_step: f64) {
+        let (Some(dilatancy), Some(sediment)) = (self.dilatancy(), &self.sediment) else { return };
+        let first = self.fluid.len();
+        for particle in 0..sediment.len() {
+            self.system.momentum[first + particle] += self.granular.force(sediment, particle, &dilatancy) * time_step;
+        }
+    }
+
+    fn dilatancy(&self) -> Option<Dilatancy> {
+        let material = self.scene.sediment.as_ref()?;
+        match material.pressure {
+            SedimentPressure::Dilatant { dilation, packing, fixed_filling } => {
+                Some(Dilatancy { dilation, packing, grain_diameter: material.grain_diameter, fixed_filling })
+            }
+            SedimentPressure::Incompressible | SedimentPressure::AlongBed => None,
+        }
+    }
+
     /// Makes the predicted velocities of each phase free of divergence and moves its particles.
     fn project(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
         let free_fluid = self.fluid.len();
@@ -82,7 +118,11 @@ impl<const D: usize> IncompressibleSimulation<D> {
                         continue;
                     }
                     SedimentPressure::Dilatant { .. } => {
-                        slide(sediment, &self.system.velocity[first..], time_step);
+                        let moved = drift(sediment, &self.system.velocity[first..], time_step);
+                        if let Err(particle) = moved {
+                            let way = sediment.velocity[particle].norm() * time_step / sediment.spacing;
+                            return Err(self.divergence(first + particle, Quantity::Displacement, way, (0.0, 1.0)));
+                        }
                         continue;
                     }
                 }
@@ -110,6 +150,19 @@ impl<const D: usize> IncompressibleSimulation<D> {
         }
         Ok(())
     }
+}
+
+/// Moves particles with their predicted velocities; the first that moves too far is an error.
+fn drift<const D: usize>(phase: &mut Phase<D>, predicted: &[Vector<D>], time_step: f64) -> Result<(), usize> {
+    for (particle, &velocity) in predicted.iter().enumerate() {
+        phase.velocity[particle] = velocity;
+        let way = velocity.norm() * time_step;
+        if way.is_nan() || way > phase.spacing {
+            return Err(particle);
+        }
+        phase.displace(particle, velocity * time_step);
+    }
+    Ok(())
 }
 
 /// Moves particles along the bed only.

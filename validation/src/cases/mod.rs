@@ -1,7 +1,10 @@
 //! The canonical cases. A new case is one file or folder here and one line in [`REGISTRY`].
 
 pub mod bagnold;
+pub mod bed_load;
 pub mod bed_load_1d;
+pub mod channel;
+pub mod clear_water;
 pub mod collapse;
 pub mod column_planar;
 pub mod column_round;
@@ -12,8 +15,9 @@ pub mod incline_collapse;
 pub mod layer;
 mod recording;
 mod rules;
-#[cfg_attr(not(test), expect(dead_code, reason = "its figures wait for the case's runs"))]
-mod settling;
+pub mod settling;
+pub mod still_water;
+pub mod water_film;
 
 use crate::case::Registry;
 
@@ -26,5 +30,10 @@ pub static REGISTRY: Registry = Registry::new(&[
     &column_round::ColumnRound,
     &incline_collapse::InclineCollapse,
     &flow_thickness::FlowThickness,
+    &still_water::StillWater,
+    &water_film::WaterFilm,
+    &clear_water::ClearWater,
+    &settling::Settling,
     &bed_load_1d::BedLoad1d,
+    &bed_load::BedLoad,
 ]);

@@ -2,6 +2,7 @@
 
 use crate::error::InputError;
 use bagnold_solver::boundary::Surface;
+use bagnold_solver::incompressible::ProjectionNumerics;
 use bagnold_solver::numerics::{ChoiceProblem, Numerics};
 use bagnold_solver::rheology::Rheology;
 
@@ -71,6 +72,13 @@ pub(super) fn numerics(path: &str, numerics: &Numerics) -> Result<(), InputError
     })
 }
 
+/// The ranges of the numerics of the incompressible solver.
+pub(super) fn projection(path: &str, numerics: &ProjectionNumerics) -> Result<(), InputError> {
+    numerics.parameter_problem().map_or(Ok(()), |(field, value, rule, remedy)| {
+        Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
+    })
+}
+
 /// The viscous step that a law allows.
 pub(super) fn viscous_step(path: &str, numerics: &Numerics, law: &Rheology) -> Result<(), InputError> {
     choice(path, numerics.step_problem(law))
@@ -91,6 +99,25 @@ pub(super) fn implicit_runs(path: &str, numerics: &Numerics, list: &str) -> Resu
         &rule,
         "choose one of these, or empty that list",
     ))
+}
+
+/// Columns of fluid particles along the period of a channel: no particle may see another one twice.
+pub(super) fn channel_columns(field: &str, value: usize, numerics: &ProjectionNumerics) -> Result<(), InputError> {
+    let least = (4.0 * numerics.smoothing_ratio).ceil() as usize;
+    if (least..=1000).contains(&value) {
+        return Ok(());
+    }
+    let rule = format!("between {least} and 1000");
+    Err(InputError::field(field, value, &rule, "the period must hold twice the reach of the kernel; 12 is quick"))
+}
+
+/// Slope i of a bed that drives a flow.
+pub(super) fn driving_slope(field: &str, value: f64) -> Result<(), InputError> {
+    if value > 0.0 && value <= 0.2 {
+        return Ok(());
+    }
+    let remedy = "without a slope there is no friction velocity √(g h i); give its tangent, such as 0.03 for 3 %";
+    Err(InputError::field(field, value, "positive and at most 0.2", remedy))
 }
 
 fn choice(path: &str, problem: Option<ChoiceProblem>) -> Result<(), InputError> {

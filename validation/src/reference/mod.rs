@@ -13,6 +13,7 @@ mod film;
 mod layer_transient;
 mod measured;
 mod measured_table;
+mod rough_channel;
 mod settling;
 mod slope_laws;
 
@@ -23,5 +24,6 @@ pub use error::ReferenceError;
 pub use film::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
 pub use layer_transient::{LayerProfile, LayerTransient, TransientHistory};
 pub use measured::{Column, Confidence, Kind, MeasuredData, Metadata};
+pub use rough_channel::RoughChannel;
 pub use settling::{GrainForm, RICHARDSON_ZAKI_CONFIDENCE, SettlingGrains, richardson_zaki_exponent};
 pub use slope_laws::{RoughIncline, slope_run_out};

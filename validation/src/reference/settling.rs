@@ -87,6 +87,15 @@ impl SettlingGrains {
         law.reynolds_range().contains(&reynolds).then_some(velocity)
     }
 
+    /// Slip `[m/s]` at which (C_d R) u is a value ≥ 0 `[m/s]`, which the drag of a grain alone is proportional to. None
+    /// where the law has no drag of one.
+    #[must_use]
+    pub fn slip_of_drag(&self, law: DragLaw, value: f64) -> Option<f64> {
+        let start = value / law.drag_times_reynolds(0.0)?;
+        let product = |slip: f64| law.drag_times_reynolds(self.reynolds(slip)).unwrap_or(f64::INFINITY) * slip;
+        Some(root_of_increasing(value, start, product))
+    }
+
     /// Slip |u_f − u_s| `[m/s]` of a uniform suspension of a solid fraction φ `[-]` in (0, 1), none outside of it or
     /// beyond the law's range. Spheres: K has no planar form.
     #[must_use]
@@ -204,6 +213,19 @@ mod tests {
         assert!(sand(5e-2).terminal_velocity(DragLaw::SchillerNaumann, GrainForm::Sphere).is_some());
         assert_eq!(sand(1e-3).hindered_slip(DragLaw::WenYu, 0.0), None);
         assert_eq!(sand(1e-3).hindered_slip(DragLaw::WenYu, 1.0), None);
+    }
+
+    #[test]
+    fn a_drag_belongs_to_its_slip() {
+        for law in DragLaw::ALL {
+            // R = 0.05, 75, 3000: none at a joint of the table, where a drag has two slips
+            for slip in [1e-5, 0.015, 0.6] {
+                let product = law.drag_times_reynolds(sand(5e-3).reynolds(slip)).map(|product| product * slip);
+                let found = product.and_then(|product| sand(5e-3).slip_of_drag(law, product));
+                assert!(law == DragLaw::Ergun || (found.unwrap() / slip - 1.0).abs() < 1e-12, "{law:?}: {found:?}");
+            }
+        }
+        assert_eq!(sand(5e-3).slip_of_drag(DragLaw::Ergun, 1.0), None);
     }
 
     #[test]

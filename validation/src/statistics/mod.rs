@@ -1,9 +1,11 @@
 //! Fits and their uncertainty.
 
+mod block_average;
 mod fit;
 mod grid_convergence;
 mod student;
 
+pub use block_average::{BLOCKS, block_average, block_jackknife};
 pub use fit::{
     Estimate, Exponent, LinearFit, Regression, common_slope, linear_fit, linear_regression, log_log_slope, power_law,
 };

@@ -69,6 +69,7 @@ fn grains(cells: [usize; 2], jitter: f64, seed: u64) -> Sediment<2> {
         filling: vec![1.0; count],
         wall: Vec::new(),
         spacing: 2.0 * SPACING,
+        smoothing_ratio: ProjectionNumerics::default().smoothing_ratio,
         density: 2600.0,
         grain_diameter: 2.0 * SPACING,
         law: SedimentLaw::Bingham(SedimentYield {

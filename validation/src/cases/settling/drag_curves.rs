@@ -12,12 +12,7 @@ const ALONE: [(DragLaw, &str); 3] = [
 ];
 
 /// The laws of a suspension, from few grains to a bed.
-const SUSPENSION: [(DragLaw, &str); 4] = [
-    (DragLaw::WenYu, "Wen–Yu"),
-    (DragLaw::DiFelice, "Di Felice"),
-    (DragLaw::Ergun, "Ergun"),
-    (DragLaw::Gidaspow, "Gidaspow"),
-];
+const SUSPENSION: [DragLaw; 4] = [DragLaw::WenYu, DragLaw::DiFelice, DragLaw::Ergun, DragLaw::Gidaspow];
 
 /// Densest suspension drawn: about a random close packing.
 const DENSEST: f64 = 0.62;
@@ -32,8 +27,20 @@ const SAND: SettlingGrains = SettlingGrains {
 };
 
 /// The same colour for a law in every panel.
-fn slot(law: DragLaw) -> usize {
+pub(super) fn slot(law: DragLaw) -> usize {
     DragLaw::ALL.into_iter().position(|other| other == law).unwrap_or_default()
+}
+
+/// The law's name in a figure.
+pub(super) fn label(law: DragLaw) -> &'static str {
+    match law {
+        DragLaw::MorsiAlexander => "Morsi–Alexander",
+        DragLaw::SchillerNaumann => "Schiller–Naumann",
+        DragLaw::WenYu => "Wen–Yu",
+        DragLaw::Ergun => "Ergun",
+        DragLaw::Gidaspow => "Gidaspow",
+        DragLaw::DiFelice => "Di Felice",
+    }
 }
 
 /// Drag coefficient of a grain alone over the Reynolds number, and its ratio to that of Schiller and Naumann.
@@ -92,9 +99,9 @@ fn exchange_panel(fractions: &[f64], reynolds: f64, title: &str) -> Panel {
     };
     // a dilute law has the same exchange of a grain at every fraction
     let alone = exchange_of_a_grain(DragLaw::SchillerNaumann, 1.0);
-    for (law, label) in SUSPENSION {
+    for law in SUSPENSION {
         let points = fractions.iter().map(|&phi| (phi, exchange_of_a_grain(law, phi) / alone)).collect();
-        panel.series.push(Series::new(label, Mark::Line, slot(law), points));
+        panel.series.push(Series::new(label(law), Mark::Line, slot(law), points));
     }
     panel
 }
@@ -108,7 +115,7 @@ fn velocity_panel(fractions: &[f64]) -> Panel {
         let points = fractions.iter().map(|&phi| (phi, libm::pow(1.0 - phi, exponent))).collect();
         panel.series.push(Series::new("Richardson–Zaki (unverified)", Mark::Reference, 0, points));
     }
-    for (law, _) in SUSPENSION {
+    for law in SUSPENSION {
         let terminal = alone(law).or(alone(DragLaw::WenYu));
         let relative = |&phi: &f64| Some((phi, SAND.hindered_velocity(law, phi)? / terminal?));
         panel.series.push(Series::new("", Mark::Line, slot(law), fractions.iter().filter_map(relative).collect()));

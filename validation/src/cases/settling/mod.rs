@@ -1,3 +1,84 @@
-//! Settling grains: the drag laws and what follows from them for a grain alone and for a suspension.
+//! Settling grains: the drag laws, a grain alone and a uniform suspension against the roots of their balances.
 
 mod drag_curves;
+mod figures;
+mod grain;
+mod metrics;
+mod parameters;
+mod probe;
+
+pub use grain::{Formulation, GrainRun};
+pub use parameters::{Grain, SettlingParameters, Water};
+pub use probe::{SettlingObservation, SettlingSeries};
+
+use crate::case::{Case, Progress, Run, Tier};
+use crate::error::InputError;
+use crate::figure::Figure;
+use crate::metric::Metric;
+use crate::observe::Recorded;
+use crate::output::Table;
+
+/// The case.
+#[derive(Debug)]
+pub struct Settling;
+
+/// A run with what it left behind.
+type Record = (GrainRun, Recorded<SettlingObservation>);
+
+impl Case for Settling {
+    type Parameters = SettlingParameters;
+    type Run = GrainRun;
+    type Observation = SettlingObservation;
+
+    fn name(&self) -> &'static str {
+        "settling"
+    }
+
+    fn summary(&self) -> &'static str {
+        "a grain alone and a uniform suspension sink in a fluid, by every drag law"
+    }
+
+    fn description(&self) -> &'static str {
+        "One grain sinks through a box of fluid that is periodic in both directions and that is pushed up by as much as \
+         the grain weighs. Its slip against the fluid around it, in the mean over a window after the start, must be the \
+         root of the balance of submerged weight and drag; the momentum of both phases must close in every step to \
+         rounding. Formulation paper: the bed-load paper's operators and the drag from each pair's own slip; stabilised: \
+         the default operators and the drag from the grain's slip against the mean of the fluid around it. The slip that \
+         is judged is the one that the drag is taken from: in the mean form |⟨u_f⟩ − u_s|, in the pair form the U whose \
+         drag is the mean of the pairs' drag, C_d(U) U² = |⟨C_d |u_ba| u_ba⟩|. Where the fluid moves unevenly within the \
+         kernel U lies above the slip of the means, by half the variance in Newton's regime; that one and the root mean \
+         square are observed."
+    }
+
+    fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
+        parameters::FIELD_NOTES
+    }
+
+    fn parameters(&self, tier: Tier) -> SettlingParameters {
+        SettlingParameters::of_tier(tier)
+    }
+
+    fn check(&self, parameters: &SettlingParameters) -> Result<(), InputError> {
+        parameters.check()
+    }
+
+    fn runs(&self, parameters: &SettlingParameters) -> Vec<GrainRun> {
+        grain::runs(parameters)
+    }
+
+    fn simulate(&self, run: &GrainRun, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, InputError> {
+        Ok(run.simulate(progress)?)
+    }
+
+    fn metrics(&self, _: &SettlingParameters, records: &[Record]) -> Vec<Metric> {
+        metrics::all(records)
+    }
+
+    fn figures(&self, _: &SettlingParameters, records: &[Record]) -> Vec<Figure> {
+        figures::all(records)
+    }
+
+    fn tables(&self, _: &SettlingParameters, records: &[Record]) -> Vec<Table> {
+        records.iter().map(|(run, record)| record.data.series.table(&run.variant())).collect()
+    }
+}

@@ -1,0 +1,169 @@
+//! The pressure of sheared grains, p = ρ_s (d γ̇ B φ/(φ_max − φ))², which makes them dilate: where it carries the weight
+//! of the grains above, φ = φ_max/(1 + B I).
+//!
+//! φ is the sum of the grains' volumes over the kernel, fixed grains included. γ̇ is the norm of a velocity gradient that
+//! is averaged over a short time and over the neighbours first, because the norm of noise is not zero. Densely packed
+//! grains are elastic instead: p = K (φ − φ_e) from a little below φ_max on. Pair forces are equal and opposite:
+//! F_ab = −v_a v_b (p_a/φ_a² + p_b/φ_b²) ∇W with the volumes v of the grains in a particle.
+
+use super::pairs::{LEAST_TASK, Pair};
+use super::phase::{Phase, height_axis};
+use super::stratification::Stratification;
+use crate::vector::{Tensor, Vector, shear_rate};
+use rayon::prelude::*;
+
+/// Time over which velocity gradients are averaged `[s]`: some ten passages of a grain in the fastest shear.
+const AVERAGING_TIME: f64 = 0.02;
+
+/// Stiffness of packed grains dp/dφ `[Pa]`, and how far below φ_max it begins `[-]`: the overburden of a bed some
+/// centimetres thick changes φ by less than 0.02.
+const STIFFNESS: f64 = 1e4;
+const ELASTIC_RANGE: f64 = 0.02;
+
+/// Least φ_max − φ `[-]`.
+const LEAST_ROOM: f64 = 0.02;
+
+/// Least φ of a particle that is alone `[-]`.
+const LEAST_FRACTION: f64 = 1e-3;
+
+/// B and φ_max.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Dilatancy {
+    pub(super) dilation: f64,
+    pub(super) packing: f64,
+    pub(super) grain_diameter: f64,
+    /// Volume of grains in a fixed particle over its lattice volume `[-]`.
+    pub(super) fixed_filling: f64,
+}
+
+/// Fields of the free sediment particles.
+#[derive(Debug, Default)]
+pub(super) struct GranularPressure<const D: usize> {
+    /// φ `[-]`.
+    pub(super) solid_fraction: Vec<f64>,
+    /// ∇u averaged over time, then over neighbours `[1/s]`.
+    averaged: Vec<Tensor<D>>,
+    smoothed: Vec<Tensor<D>>,
+    /// p/φ² `[Pa]`.
+    scaled_pressure: Vec<f64>,
+}
+
+impl<const D: usize> GranularPressure<D> {
+    /// φ of every particle, and the volume that it then stands for.
+    pub(super) fn find_solid_fraction(&mut self, sediment: &mut Phase<D>, dilatancy: &Dilatancy) {
+        let Phase { free_pairs, wall_pairs, kernel, mass, density, lattice_volume, volume, .. } = sediment;
+        let (own, density) = (kernel.value(0.0), *density);
+        let fixed = *lattice_volume * dilatancy.fixed_filling;
+        self.solid_fraction.resize(mass.len(), 0.0);
+        (&mut self.solid_fraction, volume).into_par_iter().enumerate().with_min_len(LEAST_TASK).for_each(
+            |(a, (fraction, volume))| {
+                let free = |sum, pair: &Pair<D>| sum + pair.value * mass[pair.source as usize] / density;
+                let grains = free_pairs.of(a).iter().fold(own * mass[a] / density, free);
+                let walls = wall_pairs.of(a).iter().fold(0.0, |sum, pair| sum + pair.value * fixed);
+                *fraction = (grains + walls).max(LEAST_FRACTION);
+                *volume = mass[a] / (density * *fraction);
+            },
+        );
+    }
+
+    /// Shear rates of every particle from averaged velocity gradients `[1/s]`.
+    pub(super) fn find_rates(&mut self, sediment: &Phase<D>, time_step: f64) {
+        let count = sediment.len();
+        if self.averaged.len() != count {
+            self.averaged = sediment.velocity_gradient.clone();
+            self.smoothed = self.averaged.clone();
+        }
+        let share = (time_step / AVERAGING_TIME).min(1.0);
+        for (averaged, present) in self.averaged.iter_mut().zip(&sediment.velocity_gradient) {
+            *averaged += (present - *averaged) * share;
+        }
+        let own = sediment.kernel.value(0.0);
+        let averaged = &self.averaged;
+        self.smoothed.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, smoothed)| {
+            let (mut sum, mut weight) = (averaged[a] * own, own);
+            for pair in sediment.free_pairs.of(a) {
+                sum += averaged[pair.source as usize] * pair.value;
+                weight += pair.value;
+            }
+            *smoothed = sum / weight;
+        });
+    }
+
+    /// Pressures of every particle `[Pa]`.
+    pub(super) fn find_pressures(&mut self, sediment: &mut Phase<D>, dilatancy: &Dilatancy, layer: &Stratification) {
+        self.scaled_pressure.resize(sediment.len(), 0.0);
+        let normal = height_axis(D);
+        for a in 0..sediment.len() {
+            let fraction = self.solid_fraction[a];
+            let room = (dilatancy.packing - fraction).max(LEAST_ROOM);
+            let rate = shear_rate(&self.smoothed[a]);
+            let root = dilatancy.grain_diameter * rate * dilatancy.dilation * fraction / room;
+            // twice the load is enough to open a bed, and bounds what a single fast particle does
+            let bound = 2.0 * layer.at(sediment.position[a][normal]).overburden + 20.0;
+            let sheared = (sediment.density * root * root).min(bound);
+            let elastic = STIFFNESS * (fraction - dilatancy.packing + ELASTIC_RANGE).max(0.0);
+            sediment.pressure[a] = sheared + elastic;
+            self.scaled_pressure[a] = sediment.pressure[a] / (fraction * fraction);
+        }
+    }
+
+    /// Force of the granular pressure on a particle `[N]`, per metre of width in 2-D. A fixed grain has the pressure of
+    /// its partner.
+    pub(super) fn force(&self, sediment: &Phase<D>, a: usize, dilatancy: &Dilatancy) -> Vector<D> {
+        let own = self.scaled_pressure[a];
+        let grains = |b: usize| sediment.mass[b] / sediment.density;
+        let mut force = Vector::zeros();
+        for pair in sediment.free_pairs.of(a) {
+            let b = pair.source as usize;
+            force -= pair.separation * (grains(b) * (own + self.scaled_pressure[b]) * pair.gradient);
+        }
+        let fixed = sediment.lattice_volume * dilatancy.fixed_filling;
+        for pair in sediment.wall_pairs.of(a) {
+            force -= pair.separation * (fixed * 2.0 * own * pair.gradient);
+        }
+        force * grains(a)
+    }
+
+    /// Puts the mean solid fraction along the bed into the stratification.
+    pub(super) fn average(sediment: &Phase<D>, area: f64, layer: &mut Stratification) {
+        let intervals = layer.solid_fraction.len();
+        let mut sums = std::mem::take(&mut layer.solid_fraction);
+        sums.copy_from_slice(&layer.fixed_fraction);
+        let normal = height_axis(D);
+        // a particle is spread over a spacing to either side, as a triangle
+        let reach = sediment.spacing;
+        let scale = 1.0 / (area * layer.interval);
+        for (position, mass) in sediment.position.iter().zip(&sediment.mass) {
+            let grains = mass / sediment.density * scale;
+            let height = position[normal] - layer.base;
+            let first = (((height - reach) / layer.interval).floor().max(0.0) as usize).min(intervals);
+            let last = (((height + reach) / layer.interval).ceil().max(0.0) as usize).min(intervals);
+            for (place, sum) in sums.iter_mut().enumerate().take(last).skip(first) {
+                let lower = place as f64 * layer.interval - height;
+                *sum += grains * (ramp((lower + layer.interval) / reach) - ramp(lower / reach));
+            }
+        }
+        layer.solid_fraction = sums;
+        for fraction in &mut layer.solid_fraction {
+            *fraction = fraction.min(layer.packing);
+        }
+        layer.integrate();
+    }
+}
+
+/// Integral of the triangle 1 − |x| from −∞ to x `[-]`.
+fn ramp(x: f64) -> f64 {
+    let x = x.clamp(-1.0, 1.0);
+    0.5 + x - 0.5 * x * x.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ramp;
+
+    #[test]
+    fn the_triangle_has_the_area_one() {
+        assert_eq!((ramp(-2.0), ramp(0.0), ramp(2.0)), (0.0, 0.5, 1.0));
+        assert!((ramp(0.5) - 0.875).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,251 @@
+//! The case's figures; 7 to 13 of the paper, redrawn, and the check against the 1-D layer.
+
+use super::Record;
+use super::fit::held_out;
+use super::runs::{BedLoadRun, Formulation, pair_law_name};
+use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
+use crate::reference::{HONEST_BAND, TransportFormula};
+
+pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+    let mut figures = Vec::new();
+    let grains: Vec<&Record> =
+        records.iter().filter(|(run, _)| matches!(run.formulation, Formulation::Stabilised(_))).collect();
+    if !grains.is_empty() {
+        figures.push(water(&grains));
+        figures.push(sediment(&grains));
+    }
+    let layers: Vec<&Record> = records.iter().filter(|(_, record)| record.data.layer.is_some()).collect();
+    for stage in ["porous", "frozen", "dilating"] {
+        let of_stage: Vec<&Record> = layers.iter().copied().filter(|(run, _)| stage_of(run) == Some(stage)).collect();
+        if !of_stage.is_empty() {
+            figures.push(against_layer(stage, &of_stage));
+        }
+    }
+    figures.push(transport(records));
+    figures.push(over_time(records));
+    figures
+}
+
+fn stage_of(run: &BedLoadRun) -> Option<&'static str> {
+    match &run.formulation {
+        Formulation::Continuum { stage, .. } => Some(stage.name()),
+        _ => None,
+    }
+}
+
+fn percent(run: &BedLoadRun) -> String {
+    format!("{} %", (1e4 * run.slope).round() / 100.0)
+}
+
+/// Names a run beside others of the case.
+fn label(run: &BedLoadRun) -> String {
+    match &run.formulation {
+        Formulation::Paper(_) => format!("paper, {}", percent(run)),
+        Formulation::Stabilised(_) => format!("stabilised, {}", percent(run)),
+        Formulation::Fit(_) => format!("fit, {}", percent(run)),
+        Formulation::Continuum { stage, pair_law, start, spacing, .. } => {
+            let mut label = format!("{}, {}", stage.name(), percent(run));
+            if *pair_law != bagnold_solver::incompressible::PairLaw::PairRateMeanLoad {
+                label += &format!(", {}", pair_law_name(*pair_law));
+            }
+            if *start != 1.0 {
+                label += ", slow start";
+            }
+            if *spacing != 1e-3 {
+                label += &format!(", {} mm", 1e3 * spacing);
+            }
+            label
+        }
+    }
+}
+
+/// Water over height in units of the grain diameter, with clear water.
+fn water(records: &[&Record]) -> Figure {
+    let mut profile = Panel::new("", Axis::logarithmic("z/d [-]"), Axis::linear("u_f/u_* [-]"));
+    let mut deficit = Panel::new("", Axis::linear("z/d [-]"), Axis::linear("(u_f − u_clear)/u_* [-]"));
+    for (slot, (run, record)) in records.iter().enumerate() {
+        let law = run.clear_water();
+        let (diameter, scale) = (run.materials.grain_diameter, law.friction_velocity());
+        let points = record.data.channel.profile.points();
+        let velocities = record.data.channel.profile.velocities();
+        let above: Vec<usize> = (0..points.len()).filter(|&k| points[k].height > 0.0).collect();
+        let error: Vec<f64> = above.iter().map(|&k| velocities[k].standard_error / scale).collect();
+        let values = above.iter().map(|&k| (points[k].height / diameter, points[k].velocity / scale)).collect();
+        let differences = above
+            .iter()
+            .map(|&k| (points[k].height / diameter, (points[k].velocity - law.velocity(points[k].height)) / scale))
+            .collect();
+        if slot == 0 {
+            let heights = (1..=80).map(|k| 0.1 * diameter * libm::pow(92.0, f64::from(k) / 80.0));
+            let exact = heights.map(|z| (z / diameter, law.velocity(z) / scale)).collect();
+            profile.series.push(Series::new("clear water", Mark::Reference, 0, exact));
+        }
+        profile
+            .series
+            .push(Series { error: error.clone(), ..Series::new(&percent(run), Mark::LinePoints, slot, values) });
+        deficit.series.push(Series { error, ..Series::new("", Mark::LinePoints, slot, differences) });
+    }
+    Figure {
+        name: "water".to_owned(),
+        caption: "Mean velocity of the water over the moving bed in half-logarithmic axes, beside clear water over a fixed \
+                  bed of the same grains, and the difference of the two; bars are statistical errors from blocks of time. \
+                  Figures 7 to 9 of the paper show two layers of different slope at 3 % and three at 5 %."
+            .to_owned(),
+        panels: vec![profile, deficit],
+        columns: 2,
+    }
+}
+
+/// Grains and drag over height.
+fn sediment(records: &[&Record]) -> Figure {
+    let mut velocity = Panel::new("", Axis::logarithmic("u_s [m/s]"), Axis::linear("z/d [-]"));
+    let mut drag = Panel::new("", Axis::linear("drag on the grains [N/m³]"), Axis::linear("z/d [-]"));
+    for (slot, (run, record)) in records.iter().enumerate() {
+        let diameter = run.materials.grain_diameter;
+        let points = record.data.sediment.points();
+        let moving = points.iter().filter(|point| point.velocity > 1e-5);
+        let values = moving.map(|point| (point.velocity, point.height / diameter)).collect();
+        velocity.series.push(Series::new(&percent(run), Mark::LinePoints, slot, values));
+        let forces = record.data.drag_profile().iter().map(|(z, force)| (*force, z / diameter)).collect();
+        drag.series.push(Series::new("", Mark::LinePoints, slot, forces));
+    }
+    Figure {
+        name: "sediment".to_owned(),
+        caption: "Mean velocity of the grains and drag on them per volume. Figures 10 to 13 of the paper show velocities \
+                  that are concave above the bed's top and decay below it, and a drag that peaks near the top. With one \
+                  particle a grain and friction on the overburden, only the top row moves at small slopes: the tail below \
+                  is not reproduced."
+            .to_owned(),
+        panels: vec![velocity, drag],
+        columns: 2,
+    }
+}
+
+/// A stage of `continuum` against the 1-D layer.
+fn against_layer(stage: &str, records: &[&Record]) -> Figure {
+    let mut water = Panel::new("", Axis::linear("u_f/u_* [-]"), Axis::linear("z [mm]"));
+    let near = || Axis { limits: Some((-8.0, 12.0)), ..Axis::linear("z [mm]") };
+    let mut close = Panel::new("", Axis { limits: Some((0.0, 12.0)), ..Axis::linear("u_f/u_* [-]") }, near());
+    let mut grains = Panel::new("", Axis::linear("u_s/u_* [-]"), near());
+    let mut fraction = Panel::new("", Axis::linear("φ [-]"), near());
+    for (slot, (run, record)) in records.iter().enumerate() {
+        let Some(layer) = &record.data.layer else { continue };
+        let scale = run.clear_water().friction_velocity();
+        let curve = |values: &[f64], scale: f64, keep: &dyn Fn(usize) -> bool| -> Vec<(f64, f64)> {
+            let inside = (0..layer.height.len()).filter(|k| keep(*k));
+            inside.map(|k| (values[k] / scale, 1e3 * layer.height[k])).collect()
+        };
+        let with_grains = |k: usize| layer.solid_fraction[k] > 0.0;
+        let name = if slot == 0 { "1-D layer" } else { "" };
+        let exact = curve(&layer.fluid_velocity, scale, &|_| true);
+        water.series.push(Series::new(name, Mark::Reference, slot, exact.clone()));
+        close.series.push(Series::new("", Mark::Reference, slot, exact));
+        grains.series.push(Series::new("", Mark::Reference, slot, curve(&layer.grain_velocity, scale, &with_grains)));
+        fraction.series.push(Series::new("", Mark::Reference, slot, curve(&layer.solid_fraction, 1.0, &|_| true)));
+        let of = |points: Vec<crate::cases::channel::ProfilePoint>| -> Vec<(f64, f64)> {
+            points.iter().map(|point| (point.velocity / scale, 1e3 * point.height)).collect()
+        };
+        let own = of(record.data.channel.profile.points());
+        water.series.push(Series::new(&label(run), Mark::Points, slot, own.clone()));
+        close.series.push(Series::new("", Mark::Points, slot, own));
+        grains.series.push(Series::new("", Mark::Points, slot, of(record.data.sediment.points())));
+        if stage == "dilating" {
+            let own = record.data.solid_fraction().iter().map(|(z, value)| (*value, 1e3 * z)).collect();
+            fraction.series.push(Series::new("", Mark::Points, slot, own));
+        }
+    }
+    let panels = match stage {
+        "porous" => vec![water, close],
+        "frozen" => vec![water, close, grains],
+        _ => vec![water, close, grains, fraction],
+    };
+    Figure {
+        name: format!("layer-{stage}"),
+        caption: format!(
+            "Stage `{stage}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is \
+             independent: the whole depth of the water and the neighbourhood of the bed."
+        ),
+        panels,
+        columns: 2,
+    }
+}
+
+/// Whether a run belongs to a kind.
+type Choice = fn(&BedLoadRun) -> bool;
+
+fn transport(records: &[Record]) -> Figure {
+    let mut panel = Panel::new("", Axis::logarithmic("τ* [-]"), Axis::logarithmic("q* [-]"));
+    let shields = |k: i32| 0.07 * libm::pow(0.5 / 0.07, f64::from(k) / 120.0);
+    let own = TransportFormula::WongParker;
+    let curve = |formula: TransportFormula| (0..=120).map(shields).map(|tau| (tau, formula.transport(tau))).collect();
+    panel.bands.push(Band {
+        label: format!("factor {} … {}", HONEST_BAND.0, HONEST_BAND.1),
+        points: (0..=120)
+            .map(shields)
+            .map(|tau| (tau, HONEST_BAND.0 * own.transport(tau), HONEST_BAND.1 * own.transport(tau)))
+            .collect(),
+    });
+    panel.series.push(Series::new(own.name(), Mark::Reference, 0, curve(own)));
+    for (slot, formula) in TransportFormula::ALL.into_iter().filter(|formula| *formula != own).enumerate() {
+        panel.series.push(Series::new(formula.name(), Mark::Line, slot + 1, curve(formula)));
+    }
+    let kinds: [(&str, Choice); 3] = [
+        ("stabilised", |run| matches!(run.formulation, Formulation::Stabilised(_))),
+        ("continuum, given fraction", |run| stage_of(run) == Some("frozen")),
+        ("continuum, dilating", |run| stage_of(run) == Some("dilating")),
+    ];
+    for (slot, (name, belongs)) in kinds.into_iter().enumerate() {
+        let points: Vec<(f64, f64)> = records
+            .iter()
+            .filter(|(run, _)| belongs(run))
+            .map(|(run, record)| {
+                let values = record.data.transport_in_window();
+                (run.stream().shields_number(), values.iter().sum::<f64>() / values.len() as f64)
+            })
+            .filter(|(_, value)| *value > 0.0)
+            .collect();
+        if !points.is_empty() {
+            panel.series.push(Series::new(name, Mark::Points, if slot == 0 { 0 } else { slot + 4 }, points));
+        }
+    }
+    let held: Vec<(f64, f64)> = held_out(records)
+        .iter()
+        .map(|fit| (fit.shields_number, fit.ratio * own.transport(fit.shields_number)))
+        .collect();
+    if !held.is_empty() {
+        panel.series.push(Series::new("stabilised, slope held out", Mark::Points, 7, held));
+    }
+    Figure {
+        name: "transport".to_owned(),
+        caption:
+            "Bed-load transport over the Shields number against published formulas. The band about Wong & Parker's \
+                  formula is the scatter of the experiments behind it."
+                .to_owned(),
+        panels: vec![panel],
+        columns: 1,
+    }
+}
+
+fn over_time(records: &[Record]) -> Figure {
+    let mut velocity = Panel::new("", Axis::linear("t [s]"), Axis::linear("U/U_clear [-]"));
+    let mut rate = Panel::new("", Axis::linear("t [s]"), Axis::linear("q* [-]"));
+    let shown = records.iter().filter(|(run, _)| !matches!(run.formulation, Formulation::Fit(_)));
+    for (slot, (run, record)) in shown.enumerate() {
+        let data = &record.data;
+        let mean = run.clear_water().mean_velocity();
+        let time = &data.channel.series.time;
+        let line = |values: &[f64], scale: f64| -> Vec<(f64, f64)> {
+            time.iter().copied().zip(values.iter().map(|value| value / scale)).collect()
+        };
+        velocity.series.push(Series::new(&label(run), Mark::Line, slot, line(&data.stream_velocity, mean)));
+        rate.series.push(Series::new("", Mark::Line, slot, line(&data.transport, 1.0)));
+    }
+    Figure {
+        name: "over-time".to_owned(),
+        caption:
+            "Velocity of the stream above the bed over that of clear water, and the transport rate, from the start on."
+                .to_owned(),
+        panels: vec![velocity, rate],
+        columns: 2,
+    }
+}

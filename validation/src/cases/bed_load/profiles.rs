@@ -1,0 +1,121 @@
+//! What is read off the profiles of water and grains.
+
+use super::observation::BedLoadObservation;
+use super::runs::BedLoadRun;
+use crate::cases::channel::ProfilePoint;
+use crate::output::Table;
+use crate::reference::bed_load_layer::LayerState;
+use crate::statistics::linear_fit;
+
+/// Heights between which the slope of u over ln z is fitted `[m]`.
+pub(super) const LAYERS: [(&str, f64, f64); 4] =
+    [("0.5_3", 5e-4, 3.5e-3), ("3_8", 3e-3, 8e-3), ("8_18", 8e-3, 18e-3), ("15_43", 15e-3, 43e-3)];
+
+/// Slope of u over ln z between two heights, over u_*/κ `[-]`.
+pub(super) fn semi_log_slope(run: &BedLoadRun, points: &[ProfilePoint], lower: f64, upper: f64) -> f64 {
+    let law = run.clear_water();
+    let inside = points.iter().filter(|point| point.height >= lower && point.height <= upper);
+    let pairs: Vec<(f64, f64)> = inside.map(|point| (libm::log(point.height), point.velocity)).collect();
+    if pairs.len() < 2 {
+        return f64::NAN;
+    }
+    linear_fit(&pairs).map_or_else(
+        || (pairs[1].1 - pairs[0].1) / (pairs[1].0 - pairs[0].0) / law.semi_logarithmic_slope(),
+        |fit| fit.slope / law.semi_logarithmic_slope(),
+    )
+}
+
+/// Height up to which the water is slower than the logarithmic law continued from above by a tenth of u_* `[m]`: the
+/// thickness of the layer that the grains shear.
+pub(super) fn sheared_thickness(run: &BedLoadRun, points: &[ProfilePoint]) -> f64 {
+    let law = run.clear_water();
+    let outer: Vec<(f64, f64)> = points
+        .iter()
+        .filter(|point| point.height >= 15e-3 && point.height <= 0.9 * law.depth)
+        .map(|point| (libm::log(point.height), point.velocity))
+        .collect();
+    let Some(fit) = linear_fit(&outer) else { return f64::NAN };
+    let curve = |z: f64| fit.intercept + fit.slope * libm::log(z);
+    let below = points.iter().filter(|point| point.height > 0.0 && point.height < 15e-3);
+    let departs = below.filter(|p| (p.velocity - curve(p.height)).abs() > 0.1 * law.friction_velocity());
+    departs.map(|point| point.height).fold(0.0, f64::max)
+}
+
+/// Difference to clear water at a height, over u_* `[-]`.
+pub(super) fn deficit(run: &BedLoadRun, points: &[ProfilePoint], height: f64) -> f64 {
+    let law = run.clear_water();
+    let at = |z: f64| {
+        let upper = points.iter().position(|point| point.height >= z)?;
+        let (a, b) = (points.get(upper.checked_sub(1)?)?, &points[upper]);
+        Some(a.velocity + (b.velocity - a.velocity) * (z - a.height) / (b.height - a.height))
+    };
+    at(height).map_or(f64::NAN, |velocity| (velocity - law.velocity(height)) / law.friction_velocity())
+}
+
+/// Length over which the grains' velocity falls by e below z = 0 `[m]`.
+pub(super) fn decay_length(points: &[ProfilePoint]) -> f64 {
+    let tail: Vec<(f64, f64)> = points
+        .iter()
+        .filter(|point| point.height < 0.0 && point.velocity > 1e-4)
+        .map(|point| (point.height, libm::log(point.velocity)))
+        .collect();
+    linear_fit(&tail).map_or(f64::NAN, |fit| 1.0 / fit.slope)
+}
+
+/// Lowest height at which the grains are faster than `speed` `[m/s]`, `[m]`.
+pub(super) fn moves_above(points: &[ProfilePoint], speed: f64) -> f64 {
+    points.iter().filter(|point| point.velocity > speed).map(|point| point.height).fold(f64::INFINITY, f64::min)
+}
+
+/// Root mean square of u_f − u_1D over 0.5 mm … 0.9 h, over u_* `[-]`.
+pub(super) fn fluid_rms(run: &BedLoadRun, points: &[ProfilePoint], layer: &LayerState) -> f64 {
+    let law = run.clear_water();
+    let errors = compared(run, points).map(|p| (p.velocity - layer.at(p.height).fluid_velocity).powi(2));
+    root_mean(errors) / law.friction_velocity()
+}
+
+/// Depth mean of u_f over that of the layer at the same heights `[-]`.
+pub(super) fn fluid_mean(run: &BedLoadRun, points: &[ProfilePoint], layer: &LayerState) -> f64 {
+    let (own, other) = compared(run, points)
+        .fold((0.0, 0.0), |(own, other), point| (own + point.velocity, other + layer.at(point.height).fluid_velocity));
+    own / other
+}
+
+/// Root mean square of u_s − u_1D where the layer's grains are faster than 1 cm/s, over u_* `[-]`.
+pub(super) fn grain_rms(run: &BedLoadRun, points: &[ProfilePoint], layer: &LayerState) -> f64 {
+    let errors = points.iter().filter_map(|point| {
+        let velocity = layer.at(point.height).grain_velocity;
+        (velocity > 0.01).then(|| (point.velocity - velocity).powi(2))
+    });
+    root_mean(errors) / run.clear_water().friction_velocity()
+}
+
+fn compared<'a>(run: &BedLoadRun, points: &'a [ProfilePoint]) -> impl Iterator<Item = &'a ProfilePoint> {
+    let top = 0.9 * run.materials.depth;
+    points.iter().filter(move |point| point.height > 5e-4 && point.height < top)
+}
+
+fn root_mean(squares: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), square| (sum + square, count + 1.0));
+    (sum / count).sqrt()
+}
+
+/// Grains over the height.
+pub(super) fn grain_table(variant: &str, data: &BedLoadObservation) -> Option<Table> {
+    let stem = variant.replace(['=', ','], "-").replace('_', "-");
+    let (points, errors) = (data.sediment.points(), data.sediment.velocities());
+    if points.is_empty() {
+        return None;
+    }
+    let (drag, fraction) = (data.drag_profile(), data.solid_fraction());
+    let rows = (0..points.len()).map(|k| {
+        let (point, error) = (&points[k], &errors[k]);
+        vec![point.height, point.velocity, error.standard_error, fraction[k].1, drag[k].1]
+    });
+    let names = ["z [m]", "u_s [m/s]", "standard error of u_s [m/s]", "solid fraction [-]", "drag [N/m³]"];
+    Some(Table {
+        name: format!("grains-{stem}"),
+        columns: names.iter().map(|name| (*name).to_owned()).collect(),
+        rows: rows.collect(),
+    })
+}

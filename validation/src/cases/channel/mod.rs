@@ -1,0 +1,195 @@
+//! A fluid over a flat floor, periodic along it, alone or with a sediment: the scene and the probe that the cases of the
+//! incompressible model share.
+//!
+//! - [`Lattice`]: rows and columns of particles, displaced or not; walls are the rows below one.
+//! - [`Channel`]: fluid, floor, body force, start, numerics and how long it runs. [`Channel::scene`] gives the scene,
+//!   [`Channel::run`] the record; [`Channel::run_observed`] also shows the simulation at every sample, for what a case
+//!   measures beside. A sediment is handed through as the solver takes it.
+//! - [`Until`]: a fixed time, or until the depth mean of the velocity is stationary. In both cases the run ends with an
+//!   averaging window.
+//! - [`ChannelObservation`]: [`ChannelSeries`] over the whole run; over the window a [`BlockProfile`] in bins of one
+//!   spacing, whose blocks of time give every average its statistical error, and the [`MomentumBalance`].
+//! - [`BlockProfile::observe`] takes any set of particles, so that it also serves a sediment.
+//!
+//! x points along the floor and z, the last axis, away from it; a slope i is the tangent of the bed's angle, and the
+//! body force is (g i, −g), as in the bed-load paper.
+
+mod probe;
+mod profile;
+mod scene;
+mod stationarity;
+mod tables;
+#[cfg(test)]
+mod tests;
+
+pub use probe::{ChannelObservation, ChannelSeries, MomentumBalance};
+pub use profile::{BlockProfile, BlockSums, ProfilePoint};
+pub use scene::Lattice;
+pub use stationarity::Mark;
+pub use tables::tables;
+
+use crate::case::Progress;
+use crate::cases::recording::Ending;
+use crate::metric::{Confidence, Limit, Metric};
+use crate::observe::{Frame, Recorded};
+use bagnold_solver::incompressible::{
+    Bed, IncompressibleSimulation, ProjectionNumerics, Sediment, SolidFraction, Turbulence,
+};
+use bagnold_solver::scene::SceneError;
+use bagnold_solver::simulation::StopReason;
+use probe::ChannelProbe;
+use std::ops::ControlFlow;
+
+/// When the averaging window of a run ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Until {
+    /// At this time `[s]`.
+    Time(f64),
+    /// One window after the depth mean U of the velocity has become stationary: it changes by less than `tolerance`
+    /// over U/(2 g i), `checks` times in a row.
+    Stationary {
+        /// Largest relative change `[-]`.
+        tolerance: f64,
+        /// Times in a row.
+        checks: usize,
+        /// Time at which the window begins all the same `[s]`.
+        at_most: f64,
+    },
+}
+
+/// A channel and how it is run. SI units throughout.
+#[derive(Clone)]
+pub struct Channel<'a> {
+    /// The fluid's particles before they are displaced; the floor is the lattice's lower edge, and h its height.
+    pub fluid: Lattice,
+    /// Slope i of the bed `[-]`.
+    pub slope: f64,
+    /// Gravity g `[m/s²]`.
+    pub gravity: f64,
+    /// Density of the fluid `[kg/m³]`.
+    pub density: f64,
+    /// Kinematic viscosity of the fluid ν `[m²/s]`.
+    pub kinematic_viscosity: f64,
+    /// Turbulence.
+    pub turbulence: Turbulence,
+    /// What the floor does to the velocity along it.
+    pub bed: Bed,
+    /// Largest random displacement of a fluid particle along each axis, in spacings `[-]`.
+    pub jitter: f64,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// Initial velocity of the fluid along the floor `[m/s]` at a height `[m]`.
+    pub velocity: &'a (dyn Fn(f64) -> f64 + Sync),
+    /// The sediment, if there is one.
+    pub sediment: Option<Sediment<2>>,
+    /// How water and sediment share the space.
+    pub solid_fraction: SolidFraction,
+    /// Numerics.
+    pub numerics: ProjectionNumerics,
+    /// How long it runs.
+    pub until: Until,
+    /// Length of the averaging window `[s]`.
+    pub window: f64,
+    /// Interval of the samples `[s]`.
+    pub interval: f64,
+    /// Number of snapshots, the last state included.
+    pub frames: usize,
+    /// Whether a divergence is a result of the run and not an error.
+    pub may_diverge: bool,
+}
+
+impl Channel<'_> {
+    /// Longest time that the run may take `[s]`.
+    #[must_use]
+    pub fn longest(&self) -> f64 {
+        match self.until {
+            Until::Time(time) => time,
+            Until::Stationary { at_most, .. } => at_most + self.window,
+        }
+    }
+
+    /// Expected number of steps of the whole run.
+    #[must_use]
+    pub fn expected_steps(&self) -> f64 {
+        self.longest() / self.numerics.time_step
+    }
+
+    /// Runs the channel and records what the probe sees.
+    ///
+    /// # Errors
+    /// A scene that breaks a rule of the solver.
+    pub fn run(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, SceneError> {
+        self.run_observed(progress, |_, _| {})
+    }
+
+    /// The same, showing the simulation to `observe` at every sample, with whether it lies in the averaging window.
+    ///
+    /// # Errors
+    /// A scene that breaks a rule of the solver.
+    pub fn run_observed(
+        &self,
+        progress: &dyn Progress,
+        mut observe: impl FnMut(&IncompressibleSimulation<2>, bool),
+    ) -> Result<Recorded<ChannelObservation>, SceneError> {
+        let started = std::time::Instant::now();
+        let mut simulation = IncompressibleSimulation::new(self.scene())?;
+        let mut probe = ChannelProbe::new(self);
+        let mut last_good = simulation.snapshot();
+        let mut frames = Vec::new();
+        let (longest, particles) = (self.longest(), simulation.free_particles() as f64);
+        let frame_interval = longest / (self.frames.max(2) - 1) as f64;
+        // the bed's impulse is that of every step, so the probe sees every step
+        let every_step = 1e-3 * self.numerics.time_step;
+        let reason = simulation.run(longest, every_step, |simulation| {
+            if !probe.observe(simulation) {
+                return ControlFlow::Continue(());
+            }
+            observe(simulation, probe.in_window());
+            last_good = simulation.snapshot();
+            if last_good.time >= frame_interval * frames.len() as f64 && frames.len() + 1 < self.frames {
+                frames.push(Frame::of_phases(&last_good));
+            }
+            progress.advance(last_good.time, longest, simulation.steps() as f64 * particles);
+            if probe.is_done() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        // a fixed time is reached by the probe first, and no criterion of its own
+        let reason = match (reason, self.until) {
+            (StopReason::Stopped, Until::Time(_)) => StopReason::Finished,
+            (StopReason::Stopped, _) if !probe.is_stationary() => StopReason::Finished,
+            (reason, _) => reason,
+        };
+        let ending = Ending {
+            reason,
+            last_good,
+            criterion: format!("averaged over {:.1} s after the depth mean had become stationary", self.window),
+            may_diverge: self.may_diverge,
+            frames,
+            started,
+        };
+        Ok(ending.record(&simulation, |_| probe.finish()))
+    }
+}
+
+/// The number of particles that ended below the floor or far above the surface, gated at 0.
+#[must_use]
+pub fn particles_lost(variant: &str, record: &Recorded<ChannelObservation>) -> Metric {
+    Metric::observed("particles_lost", variant, record.data.particles_lost as f64, "-")
+        .against(Some(0.0), "no particle passes a wall", Confidence::Exact)
+        .gated(Limit::AtMost(0.0), "a particle below the floor is lost mass")
+}
+
+/// How far momentum along the floor closes over the averaging window, over the impulse of the slope `[-]`, gated.
+#[must_use]
+pub fn momentum_residual(variant: &str, record: &Recorded<ChannelObservation>) -> Metric {
+    Metric::observed("momentum_residual", variant, record.data.momentum.residual(), "-")
+        .against(
+            Some(0.0),
+            "change of momentum = gravity − friction of the bed, summed over every step",
+            Confidence::Exact,
+        )
+        .gated(
+            Limit::Within(-1e-6, 1e-6),
+            "pairs exchange equal and opposite impulses: rounding, not a tolerance of a solve",
+        )
+        .with_snapshot_tolerance(0.0, 1e-9)
+}

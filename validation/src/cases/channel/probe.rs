@@ -1,0 +1,257 @@
+//! What a channel leaves behind: time series, and over the averaging window a profile and the balance of momentum.
+
+use super::profile::BlockProfile;
+use super::stationarity::{Mark, Stationarity};
+use super::{Channel, Until};
+use bagnold_solver::incompressible::IncompressibleSimulation;
+use bagnold_solver::vector::Vector;
+use serde::{Deserialize, Serialize};
+
+/// Bins above the nominal surface.
+const SPARE_BINS: usize = 2;
+
+/// The fluid over time; every array has the shape `[samples]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct ChannelSeries {
+    /// Time `[s]`.
+    pub time: Vec<f64>,
+    /// Depth mean U of the velocity along the floor `[m/s]`.
+    pub mean_velocity: Vec<f64>,
+    /// Twice the mean height above the floor over the nominal depth `[-]`.
+    pub relative_height: Vec<f64>,
+    /// Height of the highest particle above the floor over the nominal depth `[-]`.
+    pub highest: Vec<f64>,
+    /// Root mean square of the velocity across the floor `[m/s]`.
+    pub rms_vertical_velocity: Vec<f64>,
+    /// Friction on walls and fixed grains per area of the floor, the mean since the sample before `[Pa]`.
+    pub bed_shear: Vec<f64>,
+    /// Root mean square of p − ρ g (h − z) over that of ρ g (h − z), over the particles `[-]`.
+    pub pressure_error: Vec<f64>,
+}
+
+impl ChannelSeries {
+    /// The samples of an array at times in a window `[s]`.
+    #[must_use]
+    pub fn within(&self, array: &[f64], window: (f64, f64)) -> Vec<f64> {
+        let samples = self.time.iter().zip(array);
+        samples.filter(|(time, _)| **time >= window.0 && **time <= window.1).map(|(_, value)| *value).collect()
+    }
+}
+
+/// Momentum along the floor over the averaging window, of all phases, per metre of width.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct MomentumBalance {
+    /// At its beginning `[kg/s]`.
+    pub before: f64,
+    /// At its end `[kg/s]`.
+    pub after: f64,
+    /// Impulse of the body force `[kg/s]`.
+    pub driven: f64,
+    /// Impulse of walls and fixed grains `[kg/s]`, negative where they hold the flow back.
+    pub held: f64,
+}
+
+impl MomentumBalance {
+    /// What is not accounted for, over the impulse of the body force `[-]`.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        (self.after - self.before - self.driven - self.held) / self.driven
+    }
+}
+
+/// All that a channel's run leaves behind.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ChannelObservation {
+    /// The whole run, from the first sample after the start.
+    pub series: ChannelSeries,
+    /// First and last time of the averaging window `[s]`; empty where the run did not get there.
+    pub window: (f64, f64),
+    /// The fluid over the window.
+    pub profile: BlockProfile,
+    /// Momentum over the window.
+    pub momentum: MomentumBalance,
+    /// Ends of the stationarity criterion's intervals, where there is a criterion.
+    pub marks: Vec<Mark>,
+    /// When the criterion was met `[s]`.
+    pub stationary_since: Option<f64>,
+    /// Fluid particles that ended below the floor or above twice the depth.
+    pub particles_lost: usize,
+}
+
+/// Collects observations during a run; sees every step.
+#[derive(Debug)]
+pub(super) struct ChannelProbe {
+    floor: f64,
+    depth: f64,
+    length: f64,
+    weight: f64,
+    until: Until,
+    window_length: f64,
+    interval: f64,
+    /// Samples that were due.
+    due: u64,
+    last_time: f64,
+    /// Impulses along the floor since the start and until the last sample `[kg/s]`.
+    driven: f64,
+    held: f64,
+    held_at_sample: f64,
+    time_at_sample: f64,
+    window_start: Option<f64>,
+    stationarity: Stationarity,
+    observation: ChannelObservation,
+}
+
+impl ChannelProbe {
+    pub(super) fn new(channel: &Channel<'_>) -> Self {
+        let fluid = &channel.fluid;
+        Self {
+            floor: fluid.bottom,
+            depth: fluid.height(),
+            length: fluid.length(),
+            weight: channel.density * channel.gravity,
+            until: channel.until,
+            window_length: channel.window,
+            interval: channel.interval,
+            due: 0,
+            last_time: 0.0,
+            driven: 0.0,
+            held: 0.0,
+            held_at_sample: 0.0,
+            time_at_sample: 0.0,
+            window_start: None,
+            stationarity: Stationarity::new(channel.until, channel.gravity * channel.slope),
+            observation: ChannelObservation {
+                series: ChannelSeries::default(),
+                window: (0.0, 0.0),
+                profile: BlockProfile::new(fluid.bottom, fluid.spacing, fluid.rows + SPARE_BINS),
+                momentum: MomentumBalance::default(),
+                marks: Vec::new(),
+                stationary_since: None,
+                particles_lost: 0,
+            },
+        }
+    }
+
+    /// Whether the latest sample lies in the averaging window.
+    pub(super) fn in_window(&self) -> bool {
+        self.window_start.is_some()
+    }
+
+    /// Whether the averaging window is over.
+    pub(super) fn is_done(&self) -> bool {
+        self.window_start.is_some_and(|start| self.last_time >= start + self.window_length)
+    }
+
+    /// Whether the criterion has been met.
+    pub(super) fn is_stationary(&self) -> bool {
+        self.stationarity.reached.is_some()
+    }
+
+    /// Sees a step; true where it was a sample.
+    pub(super) fn observe(&mut self, simulation: &IncompressibleSimulation<2>) -> bool {
+        let time = simulation.time();
+        if simulation.steps() == 0 {
+            return false;
+        }
+        let step = time - self.last_time;
+        self.last_time = time;
+        self.held += simulation.holding_force()[0] * step;
+        self.driven += body_force(simulation) * step;
+        let due = (time / self.interval + 1e-9).floor() as u64;
+        if due <= self.due {
+            return false;
+        }
+        self.due = due;
+        self.sample(simulation);
+        true
+    }
+
+    fn sample(&mut self, simulation: &IncompressibleSimulation<2>) {
+        let time = simulation.time();
+        let (position, velocity) = simulation.fluid();
+        let pressure = simulation.fluid_pressure();
+        let n = position.len() as f64;
+        let top = self.floor + self.depth;
+        let (mut along, mut across, mut height, mut highest) = (0.0, 0.0, 0.0, f64::NEG_INFINITY);
+        let (mut error, mut scale) = (0.0, 0.0);
+        for ((x, v), p) in position.iter().zip(velocity).zip(pressure) {
+            along += v[0];
+            across += v[1] * v[1];
+            height += x[1] - self.floor;
+            highest = x[1].max(highest);
+            let exact = self.weight * (top - x[1]);
+            error += (p - exact) * (p - exact);
+            scale += exact * exact;
+        }
+        let mean_velocity = along / n;
+        let series = &mut self.observation.series;
+        series.time.push(time);
+        series.mean_velocity.push(mean_velocity);
+        series.relative_height.push(2.0 * height / n / self.depth);
+        series.highest.push((highest - self.floor) / self.depth);
+        series.rms_vertical_velocity.push((across / n).sqrt());
+        series.bed_shear.push((self.held_at_sample - self.held) / (time - self.time_at_sample) / self.length);
+        series.pressure_error.push((error / scale).sqrt());
+        (self.held_at_sample, self.time_at_sample) = (self.held, time);
+        let inside = |x: &&Vector<2>| x[1] > self.floor && x[1] < self.floor + 2.0 * self.depth;
+        self.observation.particles_lost = position.len() - position.iter().filter(inside).count();
+
+        self.stationarity.observe(time, mean_velocity);
+        self.open_window(simulation);
+        if let Some(start) = self.window_start {
+            let share = (time - start) / self.window_length;
+            self.observation.profile.observe(share, position, velocity, pressure);
+            self.observation.window.1 = time;
+            let balance = &mut self.observation.momentum;
+            balance.after = momentum(simulation);
+            (balance.driven, balance.held) = (self.driven, self.held);
+        }
+    }
+
+    /// Begins the averaging window where it is time for it.
+    fn open_window(&mut self, simulation: &IncompressibleSimulation<2>) {
+        let time = simulation.time();
+        let is_time = match self.until {
+            Until::Time(end) => time >= end - self.window_length - 0.5 * self.interval,
+            Until::Stationary { at_most, .. } => self.stationarity.reached.is_some() || time >= at_most,
+        };
+        if is_time && self.window_start.is_none() {
+            self.window_start = Some(time);
+            self.observation.window = (time, time);
+            self.observation.momentum.before = momentum(simulation);
+            // impulses count from here
+            (self.driven, self.held_at_sample, self.held) = (0.0, 0.0, 0.0);
+        }
+    }
+
+    pub(super) fn finish(mut self) -> ChannelObservation {
+        self.observation.marks = self.stationarity.marks;
+        self.observation.stationary_since = self.stationarity.reached;
+        self.observation
+    }
+}
+
+/// Momentum of all phases along the floor, per metre of width `[kg/s]`.
+fn momentum(simulation: &IncompressibleSimulation<2>) -> f64 {
+    let scene = simulation.scene();
+    let of = |density: f64, spacing: f64, velocity: &[Vector<2>]| {
+        density * spacing * spacing * velocity.iter().map(|v| v[0]).sum::<f64>()
+    };
+    let fluid = of(scene.fluid.density, scene.fluid.spacing, simulation.fluid().1);
+    let sediment = scene.sediment.as_ref();
+    fluid + sediment.map_or(0.0, |material| of(material.density, material.spacing, simulation.sediment().1))
+}
+
+/// Body force on all phases along the floor, per metre of width `[N/m]`.
+fn body_force(simulation: &IncompressibleSimulation<2>) -> f64 {
+    let scene = simulation.scene();
+    let of = |density: f64, spacing: f64, particles: usize, gravity: &Vector<2>| {
+        density * spacing * spacing * particles as f64 * gravity[0]
+    };
+    let fluid = of(scene.fluid.density, scene.fluid.spacing, simulation.fluid().0.len(), &scene.fluid.gravity);
+    let sediment = scene.sediment.as_ref();
+    fluid
+        + sediment.map_or(0.0, |material| {
+            of(material.density, material.spacing, simulation.sediment().0.len(), &material.gravity)
+        })
+}

@@ -1,0 +1,165 @@
+//! Profiles over the height, in bins of one spacing and blocks of time.
+
+use crate::statistics::{BLOCKS, Estimate, block_jackknife};
+use bagnold_solver::vector::Vector;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// Sums over the samples (particles × times) of one bin in one block of time.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct BlockSums {
+    /// Samples.
+    pub samples: f64,
+    /// Heights `[m]`.
+    pub height: f64,
+    /// Velocities along the floor `[m/s]`.
+    pub velocity: f64,
+    /// Pressures `[Pa]`.
+    pub pressure: f64,
+}
+
+/// Averages of one bin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProfilePoint {
+    /// Mean height of the samples `[m]`.
+    pub height: f64,
+    /// Velocity along the floor `[m/s]`.
+    pub velocity: f64,
+    /// Pressure `[Pa]`.
+    pub pressure: f64,
+    /// Samples (particles × times).
+    pub samples: f64,
+}
+
+/// A profile over the averaging window.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct BlockProfile {
+    /// Lower edge of the lowest bin `[m]`.
+    pub bottom: f64,
+    /// Height of a bin `[m]`.
+    pub bin: f64,
+    /// Times that were sampled.
+    pub times: usize,
+    /// Sums, shape `[bins][blocks of time]`.
+    pub sums: Vec<Vec<BlockSums>>,
+}
+
+impl BlockProfile {
+    /// An empty profile of `bins` bins of the height `bin` `[m]` from `bottom` `[m]`.
+    #[must_use]
+    pub fn new(bottom: f64, bin: f64, bins: usize) -> Self {
+        Self { bottom, bin, times: 0, sums: vec![vec![BlockSums::default(); BLOCKS]; bins] }
+    }
+
+    /// Adds a sample at `share` of the averaging window, 0 … 1: the particles' positions `[m]`, velocities `[m/s]` and
+    /// pressures `[Pa]`. What lies outside of the bins is left out.
+    pub fn observe(&mut self, share: f64, position: &[Vector<2>], velocity: &[Vector<2>], pressure: &[f64]) {
+        let block = ((share * BLOCKS as f64).max(0.0) as usize).min(BLOCKS - 1);
+        self.times += 1;
+        for ((x, v), p) in position.iter().zip(velocity).zip(pressure) {
+            let bin = ((x[1] - self.bottom) / self.bin).floor();
+            if bin < 0.0 || bin >= self.sums.len() as f64 {
+                continue;
+            }
+            let sums = &mut self.sums[bin as usize][block];
+            sums.samples += 1.0;
+            sums.height += x[1];
+            sums.velocity += v[0];
+            sums.pressure += p;
+        }
+    }
+
+    /// The bins that hold samples, from below.
+    #[must_use]
+    pub fn points(&self) -> Vec<ProfilePoint> {
+        self.points_without(0..0)
+    }
+
+    fn points_without(&self, left_out: Range<usize>) -> Vec<ProfilePoint> {
+        self.sums.iter().filter_map(|blocks| mean_without(blocks, &left_out)).collect()
+    }
+
+    /// Velocity of every bin that holds samples, from below, with its statistical error `[m/s]`.
+    #[must_use]
+    pub fn velocities(&self) -> Vec<Estimate> {
+        let filled = self.sums.iter().filter(|blocks| mean_without(blocks, &(0..0)).is_some());
+        filled
+            .map(|blocks| {
+                block_jackknife(BLOCKS, |left_out| {
+                    mean_without(blocks, &left_out).map_or(f64::NAN, |point| point.velocity)
+                })
+            })
+            .collect()
+    }
+
+    /// A statistic of the whole profile with its statistical error.
+    #[must_use]
+    pub fn estimate(&self, statistic: impl Fn(&[ProfilePoint]) -> f64) -> Estimate {
+        block_jackknife(BLOCKS, |left_out| statistic(&self.points_without(left_out)))
+    }
+}
+
+fn mean_without(blocks: &[BlockSums], left_out: &Range<usize>) -> Option<ProfilePoint> {
+    let mut sum = BlockSums::default();
+    for (_, add) in blocks.iter().enumerate().filter(|(block, _)| !left_out.contains(block)) {
+        sum.samples += add.samples;
+        sum.height += add.height;
+        sum.velocity += add.velocity;
+        sum.pressure += add.pressure;
+    }
+    let n = sum.samples;
+    (n > 0.0).then(|| ProfilePoint {
+        height: sum.height / n,
+        velocity: sum.velocity / n,
+        pressure: sum.pressure / n,
+        samples: n,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two particles in the lower bin and one in the middle; the velocity of the first grows from block to block.
+    fn profile() -> BlockProfile {
+        let mut profile = BlockProfile::new(1.0, 0.5, 3);
+        let at = |z: f64| Vector::<2>::new(0.0, z);
+        let along = |u: f64| Vector::<2>::new(u, 0.0);
+        for sample in 0..320 {
+            let share = (f64::from(sample) + 0.5) / 320.0;
+            let block = f64::from(sample / 10);
+            profile.observe(
+                share,
+                &[at(1.1), at(1.3), at(1.75), at(0.9), at(2.5)],
+                &[along(block), along(2.0), along(5.0), along(9.0), along(9.0)],
+                &[30.0, 10.0, 0.0, 9.0, 9.0],
+            );
+        }
+        profile
+    }
+
+    #[test]
+    fn bins_have_the_means_of_what_lies_in_them() {
+        let profile = profile();
+        let points = profile.points();
+        assert_eq!(points.len(), 2, "the third bin is empty, and two particles lie outside");
+        assert_eq!(profile.times, 320);
+        assert_eq!(points[0].samples, 640.0);
+        assert!((points[0].height - 1.2).abs() < 1e-12 && (points[0].pressure - 20.0).abs() < 1e-12);
+        // mean of 0 … 31 is 15.5
+        assert!((points[0].velocity - 0.5 * (15.5 + 2.0)).abs() < 1e-12);
+        assert!((points[1].velocity - 5.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn errors_are_those_of_the_longest_blocks() {
+        // blocks of 4: means 1.5, 5.5, …, 29.5, of which the bin's velocity has half; Σ over 8 of (4 (k − 3.5)/2)² = 168
+        let exact = (168.0f64 / 56.0).sqrt();
+        let profile = profile();
+        let velocities = profile.velocities();
+        assert!((velocities[0].standard_error - exact).abs() < 1e-12, "{:?}", velocities[0]);
+        assert!(velocities[1].standard_error < 1e-12);
+        let difference = profile.estimate(|points| points[1].velocity - points[0].velocity);
+        assert!((difference.value + 3.75).abs() < 1e-12 && (difference.standard_error - exact).abs() < 1e-12);
+    }
+}

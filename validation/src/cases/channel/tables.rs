@@ -1,0 +1,53 @@
+//! Tables of one run: profile and time series.
+
+use super::ChannelObservation;
+use crate::output::Table;
+
+/// Tables of one run.
+#[must_use]
+pub fn tables(variant: &str, data: &ChannelObservation) -> Vec<Table> {
+    let stem = variant.replace(['=', ','], "-").replace('_', "-");
+    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+    let series = &data.series;
+    let profile = data.profile.points().into_iter().zip(data.profile.velocities());
+    let mut tables = vec![
+        Table {
+            name: format!("profile-{stem}"),
+            columns: names(&["z [m]", "u [m/s]", "standard error of u [m/s]", "p [Pa]", "samples [-]"]),
+            rows: profile
+                .map(|(point, velocity)| {
+                    vec![point.height, point.velocity, velocity.standard_error, point.pressure, point.samples]
+                })
+                .collect(),
+        },
+        Table {
+            name: format!("series-{stem}"),
+            columns: names(&[
+                "t [s]",
+                "mean u [m/s]",
+                "relative height [-]",
+                "highest [-]",
+                "rms vertical velocity [m/s]",
+                "bed shear [Pa]",
+                "pressure error [-]",
+            ]),
+            rows: (0..series.time.len())
+                .map(|k| {
+                    let columns = [
+                        &series.time,
+                        &series.mean_velocity,
+                        &series.relative_height,
+                        &series.highest,
+                        &series.rms_vertical_velocity,
+                        &series.bed_shear,
+                        &series.pressure_error,
+                    ];
+                    columns.iter().map(|column| column[k]).collect()
+                })
+                .collect(),
+        },
+    ];
+    // a run that diverged before its averaging window has no profile
+    tables.retain(|table| !table.rows.is_empty());
+    tables
+}

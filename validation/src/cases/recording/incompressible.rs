@@ -1,0 +1,62 @@
+//! Records of incompressible simulations.
+
+use super::{Recordable, State};
+use crate::observe::Frame;
+use bagnold_solver::incompressible::{IncompressibleSimulation, IncompressibleSnapshot, PhaseSnapshot};
+use bagnold_solver::vector::Vector;
+
+impl<const D: usize> State for IncompressibleSnapshot<D> {
+    fn bits(&self) -> Vec<u8> {
+        self.to_bytes()
+    }
+
+    fn frame(&self) -> Frame {
+        Frame::of_phases(self)
+    }
+}
+
+impl<const D: usize> Recordable for IncompressibleSimulation<D> {
+    type State = IncompressibleSnapshot<D>;
+
+    fn state(&self) -> IncompressibleSnapshot<D> {
+        self.snapshot()
+    }
+
+    fn particles(&self) -> usize {
+        self.free_particles()
+    }
+
+    fn steps(&self) -> u64 {
+        self.steps()
+    }
+
+    fn time(&self) -> f64 {
+        self.time()
+    }
+}
+
+impl Frame {
+    /// A picture of both phases, the fluid's particles first; `phase` is 0 for the fluid and 1 for the sediment.
+    pub(in crate::cases) fn of_phases<const D: usize>(snapshot: &IncompressibleSnapshot<D>) -> Self {
+        let phases = [&snapshot.fluid, &snapshot.sediment];
+        let flat = |v: &Vector<D>| [v[0], v[1], if D == 3 { v[2] } else { 0.0 }];
+        let joined = |array: fn(&PhaseSnapshot<D>) -> &Vec<Vector<D>>| {
+            phases.iter().flat_map(|phase| array(phase)).map(flat).collect::<Vec<_>>()
+        };
+        let scalar = |array: fn(&PhaseSnapshot<D>) -> &Vec<f64>| {
+            phases.iter().flat_map(|phase| array(phase)).copied().collect::<Vec<f64>>()
+        };
+        let counts = phases.map(|phase| phase.position.len());
+        let phase = [0.0, 1.0].iter().zip(counts).flat_map(|(&phase, count)| std::iter::repeat_n(phase, count));
+        Self {
+            time: snapshot.time,
+            position: joined(|phase| &phase.position),
+            scalars: vec![
+                ("pressure".to_owned(), "Pa".to_owned(), scalar(|phase| &phase.pressure)),
+                ("concentration".to_owned(), "-".to_owned(), scalar(|phase| &phase.concentration)),
+                ("phase".to_owned(), "-".to_owned(), phase.collect()),
+            ],
+            vectors: vec![("velocity".to_owned(), "m/s".to_owned(), joined(|phase| &phase.velocity))],
+        }
+    }
+}

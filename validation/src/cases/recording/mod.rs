@@ -1,0 +1,77 @@
+//! From a simulation that has ended to its record.
+
+mod incompressible;
+mod weakly_compressible;
+
+use crate::observe::{Frame, Outcome, Recorded, state_hash};
+use bagnold_solver::simulation::StopReason;
+use bagnold_solver::snapshot::Snapshot;
+use std::time::Instant;
+
+/// A state of a simulation.
+pub(super) trait State {
+    /// Its bits in a fixed order.
+    fn bits(&self) -> Vec<u8>;
+    /// A picture of it, in the plane or in space.
+    fn frame(&self) -> Frame;
+}
+
+/// A simulation that can be recorded.
+pub(super) trait Recordable {
+    /// Its states.
+    type State: State;
+    /// A copy of the present state.
+    fn state(&self) -> Self::State;
+    /// Particles that move.
+    fn particles(&self) -> usize;
+    /// Steps taken.
+    fn steps(&self) -> u64;
+    /// Time `[s]`.
+    fn time(&self) -> f64;
+}
+
+/// How a run ended, and what it left on its way.
+pub(super) struct Ending<const D: usize, S = Snapshot<D>> {
+    /// Why it ended.
+    pub(super) reason: StopReason<D>,
+    /// The state that was observed last.
+    pub(super) last_good: S,
+    /// The criterion by which the observer stops a run, in words.
+    pub(super) criterion: String,
+    /// Whether a divergence is a result and not an error.
+    pub(super) may_diverge: bool,
+    /// Pictures on the way; the last state is added to them.
+    pub(super) frames: Vec<Frame>,
+    /// When the run was started.
+    pub(super) started: Instant,
+}
+
+impl<const D: usize, S: State> Ending<D, S> {
+    /// The record, with the data that `measure` takes from the last state: the last good one after a divergence.
+    pub(super) fn record<O>(
+        self,
+        simulation: &impl Recordable<State = S>,
+        measure: impl FnOnce(&S) -> O,
+    ) -> Recorded<O> {
+        let (outcome, end) = match self.reason {
+            StopReason::Finished => (Outcome::Finished, simulation.state()),
+            StopReason::Stopped => (Outcome::Stopped { criterion: self.criterion }, simulation.state()),
+            StopReason::Diverged(divergence) => {
+                (Outcome::Diverged { message: divergence.to_string(), expected: self.may_diverge }, self.last_good)
+            }
+        };
+        let mut frames = self.frames;
+        frames.push(end.frame());
+        Recorded {
+            outcome,
+            state_hash: state_hash(&end.bits()),
+            particles: simulation.particles(),
+            steps: simulation.steps(),
+            simulated_time: simulation.time(),
+            wall_seconds: self.started.elapsed().as_secs_f64(),
+            threads: rayon::current_num_threads(),
+            frames,
+            data: measure(&end),
+        }
+    }
+}

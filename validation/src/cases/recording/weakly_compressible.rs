@@ -1,0 +1,64 @@
+//! Records of weakly compressible simulations.
+
+use super::{Recordable, State};
+use crate::observe::Frame;
+use bagnold_solver::simulation::Simulation;
+use bagnold_solver::snapshot::Snapshot;
+use bagnold_solver::vector::{Vector, equivalent_shear_stress, shear_rate};
+
+impl<const D: usize> State for Snapshot<D> {
+    fn bits(&self) -> Vec<u8> {
+        self.to_bytes()
+    }
+
+    fn frame(&self) -> Frame {
+        Frame::of_flow(self)
+    }
+}
+
+impl<const D: usize> Recordable for Simulation<D> {
+    type State = Snapshot<D>;
+
+    fn state(&self) -> Snapshot<D> {
+        self.snapshot()
+    }
+
+    fn particles(&self) -> usize {
+        self.particles().flow_count()
+    }
+
+    fn steps(&self) -> u64 {
+        self.steps()
+    }
+
+    fn time(&self) -> f64 {
+        self.time()
+    }
+}
+
+impl Frame {
+    /// A picture of the flow, in the plane or in space.
+    pub(in crate::cases) fn of_flow<const D: usize>(snapshot: &Snapshot<D>) -> Self {
+        let flat = |v: &Vector<D>| [v[0], v[1], if D == 3 { v[2] } else { 0.0 }];
+        Self {
+            time: snapshot.time,
+            position: snapshot.position.iter().map(flat).collect(),
+            scalars: vec![
+                ("pressure".to_owned(), "Pa".to_owned(), snapshot.pressure.clone()),
+                ("density".to_owned(), "kg/m³".to_owned(), snapshot.density.clone()),
+                ("shear_stress".to_owned(), "Pa".to_owned(), snapshot.stress.iter().map(|s| s[(0, 1)]).collect()),
+                ("viscosity".to_owned(), "Pa·s".to_owned(), apparent_viscosities(snapshot)),
+            ],
+            vectors: vec![("velocity".to_owned(), "m/s".to_owned(), snapshot.velocity.iter().map(flat).collect())],
+        }
+    }
+}
+
+/// Shear rate below which an apparent viscosity is no longer told from that of a solid `[1/s]`.
+const NO_SHEAR: f64 = 1e-6;
+
+/// Apparent viscosity τ/|γ̇| `[Pa·s]` of every particle.
+fn apparent_viscosities<const D: usize>(snapshot: &Snapshot<D>) -> Vec<f64> {
+    let viscosity = |(stress, gradient)| equivalent_shear_stress(stress) / shear_rate(gradient).max(NO_SHEAR);
+    snapshot.stress.iter().zip(&snapshot.velocity_gradient).map(viscosity).collect()
+}

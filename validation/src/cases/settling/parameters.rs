@@ -1,0 +1,170 @@
+//! Parameters and tiers.
+
+use super::grain::Formulation;
+use crate::case::Tier;
+use crate::cases::rules;
+use crate::error::InputError;
+use crate::reference::{GrainForm, SettlingGrains};
+use bagnold_solver::drag::DragLaw;
+use bagnold_solver::incompressible::ProjectionNumerics;
+use serde::{Deserialize, Serialize};
+
+/// The fluid.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Water {
+    /// Density ρ_f `[kg/m³]`.
+    pub density: f64,
+    /// Kinematic viscosity ν `[m²/s]`.
+    pub kinematic_viscosity: f64,
+}
+
+/// A grain alone in a periodic box of fluid, whose particles are as large as the grain.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Grain {
+    /// Diameter d `[m]`.
+    pub diameter: f64,
+    /// Drag laws.
+    pub laws: Vec<DragLaw>,
+    /// Formulations.
+    pub formulations: Vec<Formulation>,
+    /// Length of the box in diameters.
+    pub columns: usize,
+    /// Height of the box in diameters.
+    pub rows: usize,
+    /// Smoothing length of the drag in diameters `[-]`.
+    pub drag_smoothing_ratio: f64,
+    /// Simulated time over the time u_t ρ_s/(2 (ρ_s − ρ_f) g) in which a grain gets to its terminal velocity `[-]`.
+    pub relaxation_times: f64,
+}
+
+/// Parameters of the case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SettlingParameters {
+    /// Gravity `[m/s²]`.
+    pub gravity: f64,
+    /// Density of the grains ρ_s `[kg/m³]`.
+    pub grain_density: f64,
+    /// Largest random displacement of a fluid particle in spacings `[-]`.
+    pub jitter: f64,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// The fluid.
+    pub water: Water,
+    /// A grain alone.
+    pub grain: Grain,
+    /// Numerics.
+    pub numerics: ProjectionNumerics,
+}
+
+pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
+    ("gravity", "[m/s²]"),
+    ("grain_density", "ρ_s [kg/m³]"),
+    ("jitter", "[-], largest random displacement in spacings; the paper's density source wants a lattice"),
+    ("water.density", "ρ_f [kg/m³]"),
+    ("water.kinematic_viscosity", "ν [m²/s]"),
+    ("grain.diameter", "d [m]"),
+    ("grain.laws", "any drag law but \"ergun\", which has no grain alone; empty for none"),
+    ("grain.formulations", "\"paper\" and \"stabilised\""),
+    ("grain.columns", "length of the box in diameters"),
+    ("grain.rows", "height of the box in diameters"),
+    ("grain.drag_smoothing_ratio", "h/d [-] of the drag's kernel"),
+    ("grain.relaxation_times", "[-], simulated time over u_t ρ_s/(2 (ρ_s − ρ_f) g)"),
+    ("numerics", "of \"stabilised\"; \"paper\" takes the paper's own, with these steps and tolerances"),
+];
+
+impl SettlingParameters {
+    pub(super) fn of_tier(tier: Tier) -> Self {
+        let quick = Self {
+            gravity: 9.81,
+            grain_density: 2600.0,
+            jitter: 0.001,
+            seed: 1,
+            water: Water { density: 1000.0, kinematic_viscosity: 1e-6 },
+            grain: Grain {
+                diameter: 5e-3,
+                laws: vec![DragLaw::MorsiAlexander, DragLaw::DiFelice],
+                formulations: vec![Formulation::Paper, Formulation::Stabilised],
+                columns: 8,
+                rows: 12,
+                drag_smoothing_ratio: 2.0,
+                relaxation_times: 40.0,
+            },
+            numerics: ProjectionNumerics { time_step: 1e-3, ..ProjectionNumerics::default() },
+        };
+        let alone = DragLaw::ALL.into_iter().filter(|&law| law != DragLaw::Ergun).collect();
+        let paper = Self {
+            grain: Grain { laws: alone, columns: 12, rows: 16, relaxation_times: 80.0, ..quick.grain.clone() },
+            ..quick.clone()
+        };
+        match tier {
+            Tier::Quick => quick,
+            Tier::Paper => paper,
+            Tier::Fine => Self {
+                grain: Grain { columns: 24, rows: 32, relaxation_times: 160.0, ..paper.grain.clone() },
+                numerics: ProjectionNumerics { time_step: 5e-4, ..paper.numerics },
+                ..paper
+            },
+        }
+    }
+
+    /// Grains of a diameter `[m]` in the fluid.
+    pub(super) fn grains(&self, diameter: f64) -> SettlingGrains {
+        SettlingGrains {
+            grain_diameter: diameter,
+            grain_density: self.grain_density,
+            fluid_density: self.water.density,
+            kinematic_viscosity: self.water.kinematic_viscosity,
+            gravity: self.gravity,
+        }
+    }
+
+    pub(super) fn check(&self) -> Result<(), InputError> {
+        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
+        rules::positive("grain_density", self.grain_density, "give it in kg/m³, such as 2600")?;
+        rules::between("jitter", self.jitter, 0.0, 0.5, "0.001 breaks the symmetry of the lattice")?;
+        rules::positive("water.density", self.water.density, "give it in kg/m³, such as 1000")?;
+        let viscosity = self.water.kinematic_viscosity;
+        rules::positive("water.kinematic_viscosity", viscosity, "give it in m²/s, 1e-6 for water")?;
+        if self.grain_density <= self.water.density {
+            let rule = "greater than the density of the water";
+            return Err(InputError::field(
+                "grain_density",
+                self.grain_density,
+                rule,
+                "grains that float do not settle",
+            ));
+        }
+        rules::projection("numerics", &self.numerics)?;
+        self.check_grain()
+    }
+
+    fn check_grain(&self) -> Result<(), InputError> {
+        let grain = &self.grain;
+        rules::positive("grain.diameter", grain.diameter, "give it in metres; 0.005 for 5 mm")?;
+        let reach = grain.drag_smoothing_ratio;
+        rules::between("grain.drag_smoothing_ratio", reach, 1.0, 10.0, "the drag needs some fluid around the grain")?;
+        // the periods must hold both kernels
+        let least = (4.0 * reach.max(self.numerics.smoothing_ratio)).ceil() as usize;
+        for (field, value) in [("grain.columns", grain.columns), ("grain.rows", grain.rows)] {
+            if !(least..=1000).contains(&value) {
+                let rule = format!("between {least} and 1000");
+                let remedy = "the box must hold the reach of the kernels twice; 12 is quick";
+                return Err(InputError::field(field, value, &rule, remedy));
+            }
+        }
+        let remedy = "40 leaves a window of 24 to average over";
+        rules::between("grain.relaxation_times", grain.relaxation_times, 10.0, 1e4, remedy)?;
+        for (index, &law) in grain.laws.iter().enumerate() {
+            if self.grains(grain.diameter).terminal_velocity(law, GrainForm::Planar).is_none() {
+                let field = format!("grain.laws[{index}]");
+                let rule = "a law of one grain that covers its Reynolds number";
+                let remedy = "leave out \"ergun\", and \"morsi-alexander\" above R = 50 000";
+                return Err(InputError::field(&field, law.name(), rule, remedy));
+            }
+        }
+        Ok(())
+    }
+}

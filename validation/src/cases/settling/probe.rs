@@ -1,0 +1,227 @@
+//! What a settling run leaves behind: slip over time, and how far momentum closes in every step.
+
+use crate::case::Progress;
+use crate::cases::recording::Ending;
+use crate::observe::Recorded;
+use crate::output::Table;
+use crate::reference::SettlingGrains;
+use crate::statistics::block_average;
+use bagnold_solver::boundary::AxisBoundary;
+use bagnold_solver::incompressible::{IncompressibleScene, IncompressibleSimulation, Sediment};
+use bagnold_solver::kernel::{Kernel, KernelShape};
+use bagnold_solver::scene::SceneError;
+use bagnold_solver::vector::Vector;
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+
+/// Part of the run that is averaged, at its end `[-]`.
+const WINDOW: f64 = 0.6;
+
+/// Samples of a run.
+const SAMPLES: f64 = 500.0;
+
+/// Settling over time; every array has the shape `[samples]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct SettlingSeries {
+    /// Time `[s]`.
+    pub time: Vec<f64>,
+    /// Slip that the drag is taken from `[m/s]`.
+    pub slip: Vec<f64>,
+    /// |⟨u_f⟩ − u_s| with the mean ⟨⟩ over the fluid around the grains `[m/s]`.
+    pub slip_of_means: Vec<f64>,
+    /// √⟨|u_f − u_s|²⟩ `[m/s]`.
+    pub root_mean_square_slip: Vec<f64>,
+    /// Velocity at which the grains sink `[m/s]`.
+    pub sinking: Vec<f64>,
+}
+
+impl SettlingSeries {
+    pub(super) fn table(&self, variant: &str) -> Table {
+        let columns = ["t [s]", "slip [m/s]", "slip of means [m/s]", "rms slip [m/s]", "sinking velocity [m/s]"];
+        let arrays = [&self.time, &self.slip, &self.slip_of_means, &self.root_mean_square_slip, &self.sinking];
+        Table {
+            name: format!("series-{}", variant.replace(['=', ','], "-").replace('_', "-")),
+            columns: columns.map(str::to_owned).to_vec(),
+            rows: (0..self.time.len()).map(|k| arrays.iter().map(|array| array[k]).collect()).collect(),
+        }
+    }
+
+    /// Mean of an array over the window at the run's end, and its standard error.
+    #[must_use]
+    pub fn mean(&self, array: &[f64]) -> (f64, f64) {
+        let end = self.time.last().copied().unwrap_or_default();
+        let samples = self.time.iter().zip(array).filter(|(time, _)| **time >= (1.0 - WINDOW) * end);
+        let samples: Vec<f64> = samples.map(|(_, value)| *value).collect();
+        block_average(&samples).map_or((f64::NAN, f64::NAN), |mean| (mean.value, mean.standard_error))
+    }
+}
+
+/// All that a run leaves behind.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct SettlingObservation {
+    /// Over time.
+    pub series: SettlingSeries,
+    /// Largest |Δ Σ m u − Δt Σ m g| of a step over Δt |Σ m g| of the grains `[-]`.
+    pub momentum_error: f64,
+}
+
+/// Which slip the drag is taken from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Drag {
+    /// That of every pair: U of C_d(U) U² = |⟨C_d |u_ba| u_ba⟩|.
+    OfPairs,
+    /// That against the mean of the fluid around.
+    OfMean,
+}
+
+/// Collects observations during a run; sees every step.
+pub(super) struct Probe {
+    drag: Drag,
+    grains: SettlingGrains,
+    kernel: Kernel<2>,
+    size: Vector<2>,
+    interval: f64,
+    momentum: Vector<2>,
+    time: f64,
+    observation: SettlingObservation,
+}
+
+impl Probe {
+    /// Runs a scene with a sediment.
+    pub(super) fn run(
+        scene: IncompressibleScene<2>,
+        drag: Drag,
+        duration: f64,
+        progress: &dyn Progress,
+    ) -> Result<Recorded<SettlingObservation>, SceneError> {
+        let started = std::time::Instant::now();
+        let mut simulation = IncompressibleSimulation::new(scene)?;
+        let scene = simulation.scene();
+        let sediment = sediment(&simulation);
+        let mut probe = Self {
+            drag,
+            grains: SettlingGrains {
+                grain_diameter: sediment.grain_diameter,
+                grain_density: sediment.density,
+                fluid_density: scene.fluid.density,
+                kinematic_viscosity: scene.fluid.kinematic_viscosity,
+                gravity: sediment.gravity.norm(),
+            },
+            kernel: Kernel::new(KernelShape::CubicSpline, sediment.drag_smoothing_length),
+            size: Vector::<2>::from_fn(|axis, _| match scene.domain.axes[axis] {
+                AxisBoundary::Periodic { lower, upper } => upper - lower,
+                AxisBoundary::Open | AxisBoundary::Mirror { .. } => f64::INFINITY,
+            }),
+            interval: duration / SAMPLES,
+            momentum: Vector::zeros(),
+            time: 0.0,
+            observation: SettlingObservation::default(),
+        };
+        let particles = simulation.free_particles() as f64;
+        let mut last_good = simulation.snapshot();
+        // momentum is that of every step
+        let every_step = 1e-3 * scene.numerics.time_step;
+        let reason = simulation.run(duration, every_step, |simulation| {
+            if probe.observe(simulation) {
+                last_good = simulation.snapshot();
+                progress.advance(simulation.time(), duration, simulation.steps() as f64 * particles);
+            }
+            ControlFlow::Continue(())
+        });
+        let ending =
+            Ending { reason, last_good, criterion: String::new(), may_diverge: false, frames: Vec::new(), started };
+        Ok(ending.record(&simulation, |_| probe.observation))
+    }
+
+    /// Sees a step; true where it was a sample.
+    fn observe(&mut self, simulation: &IncompressibleSimulation<2>) -> bool {
+        let (momentum, weight) = momentum(simulation);
+        let (before, step) = (self.momentum, simulation.time() - self.time);
+        (self.momentum, self.time) = (momentum, simulation.time());
+        if simulation.steps() == 0 {
+            return false;
+        }
+        let error = (momentum - before - weight.all * step).norm() / (weight.grains.norm() * step);
+        self.observation.momentum_error = self.observation.momentum_error.max(error);
+        let series = &mut self.observation.series;
+        if self.time < self.interval * (series.time.len() + 1) as f64 * (1.0 - 1e-9) {
+            return false;
+        }
+        let (around, sinking) = self.around_grains(simulation);
+        let series = &mut self.observation.series;
+        series.time.push(self.time);
+        series.slip.push(match self.drag {
+            Drag::OfMean => around.mean,
+            Drag::OfPairs => self.grains.slip_of_drag(sediment(simulation).drag, around.drag).unwrap_or(f64::NAN),
+        });
+        series.slip_of_means.push(around.mean);
+        series.root_mean_square_slip.push(around.square.sqrt());
+        series.sinking.push(sinking);
+        true
+    }
+
+    /// Means over the fluid around each grain, of all grains, and the velocity at which they sink.
+    fn around_grains(&self, simulation: &IncompressibleSimulation<2>) -> (Around, f64) {
+        let law = sediment(simulation).drag;
+        let ((place, fluid), (grain_place, grain)) = (simulation.fluid(), simulation.sediment());
+        let mut of_all = Around::default();
+        let mut sinking = 0.0;
+        for (centre, own) in grain_place.iter().zip(grain) {
+            let (mut weight, mut slip, mut square, mut drag) = (0.0, Vector::<2>::zeros(), 0.0, Vector::<2>::zeros());
+            for (x, u) in place.iter().zip(fluid) {
+                let way = Vector::<2>::from_fn(|axis, _| {
+                    let way = x[axis] - centre[axis];
+                    way - self.size[axis] * (way / self.size[axis]).round()
+                });
+                let value = self.kernel.value(way.norm_squared());
+                let pair = u - own;
+                let product = law.drag_times_reynolds(self.grains.reynolds(pair.norm())).unwrap_or(f64::NAN);
+                weight += value;
+                slip += pair * value;
+                square += pair.norm_squared() * value;
+                drag += pair * (value * product);
+            }
+            let share = 1.0 / grain.len() as f64;
+            of_all.mean += share * (slip / weight).norm();
+            of_all.square += share * square / weight;
+            of_all.drag += share * (drag / weight).norm();
+            sinking -= share * own[1];
+        }
+        (of_all, sinking)
+    }
+}
+
+/// Means over the fluid around a grain.
+#[derive(Debug, Clone, Copy, Default)]
+struct Around {
+    /// |⟨u_f⟩ − u_s| `[m/s]`.
+    mean: f64,
+    /// ⟨|u_f − u_s|²⟩ `[m²/s²]`.
+    square: f64,
+    /// |⟨C_d R (u_f − u_s)⟩| `[m/s]`.
+    drag: f64,
+}
+
+/// What gravity pulls `[N/m]`.
+struct Weight {
+    all: Vector<2>,
+    grains: Vector<2>,
+}
+
+/// Momentum of both phases and the force of gravity on them, per metre of width.
+fn momentum(simulation: &IncompressibleSimulation<2>) -> (Vector<2>, Weight) {
+    let (scene, material) = (simulation.scene(), sediment(simulation));
+    let fluid_mass = scene.fluid.density * scene.fluid.spacing * scene.fluid.spacing;
+    let grain_mass = material.density * material.spacing * material.spacing;
+    let sum = |velocities: &[Vector<2>]| velocities.iter().fold(Vector::<2>::zeros(), |sum, u| sum + u);
+    let (fluid, grains) = (simulation.fluid().1, simulation.sediment().1);
+    let weight = material.gravity * (grain_mass * grains.len() as f64);
+    (
+        sum(fluid) * fluid_mass + sum(grains) * grain_mass,
+        Weight { all: weight + scene.fluid.gravity * (fluid_mass * fluid.len() as f64), grains: weight },
+    )
+}
+
+fn sediment(simulation: &IncompressibleSimulation<2>) -> &Sediment<2> {
+    simulation.scene().sediment.as_ref().expect("a settling run has grains")
+}

@@ -1,0 +1,108 @@
+//! The case's figures.
+
+use super::Record;
+use super::parameters::StillWaterRun;
+use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
+use crate::observe::{Frame, Outcome};
+
+pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+    let mut figures = vec![pressure(records), rest(records)];
+    figures.extend(states(records));
+    figures
+}
+
+fn label(run: &StillWaterRun) -> String {
+    let stabilisation = if run.unstabilised { ", not stabilised" } else { "" };
+    format!("jitter {}{stabilisation}", run.jitter)
+}
+
+/// Height above the floor over the depth, and pressure over that of the floor, of every particle.
+fn pressures(run: &StillWaterRun, frame: &Frame) -> Vec<(f64, f64)> {
+    let scale = run.density * run.gravity * run.depth;
+    let Some((_, _, pressures)) = frame.scalars.iter().find(|(name, _, _)| name == "pressure") else {
+        return Vec::new();
+    };
+    frame.position.iter().zip(pressures).map(|(x, p)| (x[1] / run.depth, p / scale)).collect()
+}
+
+fn pressure(records: &[Record]) -> Figure {
+    let mut profile = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("p/(ρ g h) [-]"));
+    let mut error = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("p/(ρ g h) − (1 − z/h) [%]"));
+    for (slot, (run, record)) in records.iter().filter(|(run, _)| !run.unstabilised).enumerate() {
+        let points = record.frames.last().map(|frame| pressures(run, frame)).unwrap_or_default();
+        let errors = points.iter().map(|&(z, p)| (z, 100.0 * (p - (1.0 - z)))).collect();
+        profile.series.push(Series::new(&label(run), Mark::Points, slot, points));
+        error.series.push(Series::new("", Mark::Points, slot, errors));
+    }
+    profile.series.push(Series::new("hydrostatic", Mark::Reference, 0, vec![(0.0, 1.0), (1.0, 0.0)]));
+    error.series.push(Series::new("", Mark::Reference, 0, vec![(0.0, 0.0), (1.0, 0.0)]));
+    Figure {
+        name: "pressure".to_owned(),
+        caption:
+            "Pressure of every particle at the end against the hydrostatic one, and the difference in per cent of the \
+                  pressure on the floor."
+                .to_owned(),
+        panels: vec![profile, error],
+        columns: 2,
+    }
+}
+
+fn rest(records: &[Record]) -> Figure {
+    let mut height = Panel::new("", Axis::linear("t [s]"), Axis::linear("mean height/(h/2) [-]"));
+    let mut speed = Panel::new("", Axis::logarithmic("t [s]"), Axis::logarithmic("rms vertical velocity [m/s]"));
+    let longest = records.iter().map(|(run, _)| run.duration).fold(0.0, f64::max);
+    for (slot, (run, record)) in records.iter().enumerate() {
+        let series = &record.data.series;
+        let line = |values: &[f64]| series.time.iter().copied().zip(values.iter().copied()).collect::<Vec<_>>();
+        let name = label(run);
+        // its height has no bound and would hide that of the others
+        if !run.unstabilised {
+            height.series.push(Series::new(&name, Mark::Line, slot, line(&series.relative_height)));
+        }
+        speed.series.push(Series::new(&name, Mark::Line, slot, line(&series.rms_vertical_velocity)));
+    }
+    for bound in [0.999, 1.001] {
+        let name = if bound < 1.0 { "limits" } else { "" };
+        height.series.push(Series::new(name, Mark::Reference, 0, vec![(0.0, bound), (longest, bound)]));
+    }
+    speed.series.push(Series::new("limit at the end", Mark::Reference, 0, vec![(1e-3, 5e-4), (longest, 5e-4)]));
+    Figure {
+        name: "rest".to_owned(),
+        caption: "Mean height and root mean square vertical velocity over time. The displaced column first shakes itself \
+                  into place and then comes to rest. Without the stabilisation a strongly displaced one blows up within \
+                  milliseconds."
+            .to_owned(),
+        panels: vec![height, speed],
+        columns: 2,
+    }
+}
+
+/// The last state of a run with and without stabilisation.
+fn states(records: &[Record]) -> Option<Figure> {
+    let (unstabilised, failed) = records.iter().find(|(run, _)| run.unstabilised)?;
+    let (stabilised, held) = records.iter().find(|(run, _)| !run.unstabilised && run.jitter == unstabilised.jitter)?;
+    let millimetres = |length: f64| 1e3 * length;
+    let panel = |run: &StillWaterRun, frame: &Frame, ending: &str| {
+        let title = format!("{}, {:.2} s{ending}", label(run), frame.time);
+        let mut panel = Panel::new(&title, Axis::linear("x [mm]"), Axis::linear("z [mm]"));
+        panel.y.limits = Some((0.0, millimetres(2.5 * run.depth)));
+        panel.field = Some(Field {
+            points: frame.position.iter().map(|x| (millimetres(x[0]), millimetres(x[1]))).collect(),
+            values: pressures(run, frame).into_iter().map(|(_, p)| p).collect(),
+            label: "p/(ρ g h) [-]".to_owned(),
+            diameter: millimetres(run.spacing()),
+            limits: Some((0.0, 1.0)),
+        });
+        panel
+    };
+    let ending = if matches!(failed.outcome, Outcome::Diverged { .. }) { ", diverged" } else { "" };
+    Some(Figure {
+        name: "states".to_owned(),
+        caption:
+            "Particles in the colour of their pressure at the end of the run and, without the stabilisation of the \
+                  pressure Poisson equation, at the end of its shorter run."
+                .to_owned(),
+        panels: vec![panel(stabilised, held.frames.last()?, ""), panel(unstabilised, failed.frames.last()?, ending)],
+        columns: 2,
+    })
+}

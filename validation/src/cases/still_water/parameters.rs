@@ -1,0 +1,224 @@
+//! Parameters, tiers and runs.
+
+use crate::case::{Progress, Run, Tier};
+use crate::cases::channel::{Channel, ChannelObservation, Lattice, Until};
+use crate::cases::rules;
+use crate::error::InputError;
+use crate::observe::Recorded;
+use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction, Turbulence};
+use serde::{Deserialize, Serialize};
+
+/// Parameters of the case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StillWaterParameters {
+    /// Depth h `[m]`.
+    pub depth: f64,
+    /// Gravity `[m/s²]`.
+    pub gravity: f64,
+    /// Density `[kg/m³]`.
+    pub density: f64,
+    /// Kinematic viscosity `[m²/s]`.
+    pub kinematic_viscosity: f64,
+    /// Rows of particles over the depth.
+    pub resolution: usize,
+    /// Columns of particles along the period.
+    pub columns: usize,
+    /// Largest random displacement of a particle in spacings, one run each `[-]`.
+    pub jitters: Vec<f64>,
+    /// Displacements of the runs without stabilisation `[-]`; empty for none.
+    pub unstabilised_jitters: Vec<f64>,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// Simulated time `[s]`.
+    pub duration: f64,
+    /// Averaging window before the end `[s]`.
+    pub averaging_time: f64,
+    /// Simulated time without stabilisation `[s]`.
+    pub unstabilised_duration: f64,
+    /// Numerics.
+    pub numerics: ProjectionNumerics,
+}
+
+pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
+    ("depth", "[m]"),
+    ("gravity", "[m/s²]"),
+    ("density", "[kg/m³]"),
+    ("kinematic_viscosity", "[m²/s]"),
+    ("resolution", "rows of particles over the depth"),
+    ("columns", "columns of particles along the period"),
+    ("jitters", "[-], largest random displacements in spacings, one run each"),
+    ("unstabilised_jitters", "[-], of the runs without stabilisation; empty for none"),
+    ("duration", "[s]"),
+    ("averaging_time", "[s], before the end"),
+    ("unstabilised_duration", "[s]"),
+    ("numerics.time_step", "[s], the largest"),
+    ("numerics.stabilisation", "[-], 0 is the paper's operator"),
+];
+
+impl StillWaterParameters {
+    pub(super) fn of_tier(tier: Tier) -> Self {
+        let quick = Self {
+            depth: 0.046,
+            gravity: 9.81,
+            density: 1000.0,
+            kinematic_viscosity: 1e-6,
+            resolution: 23,
+            columns: 12,
+            jitters: vec![0.1, 0.4],
+            unstabilised_jitters: vec![0.4],
+            seed: 1,
+            duration: 5.0,
+            averaging_time: 1.0,
+            unstabilised_duration: 0.5,
+            numerics: ProjectionNumerics::default(),
+        };
+        let paper = Self {
+            columns: 20,
+            jitters: vec![0.02, 0.1, 0.2, 0.4],
+            duration: 20.0,
+            averaging_time: 4.0,
+            ..quick.clone()
+        };
+        match tier {
+            Tier::Quick => quick,
+            Tier::Paper => paper,
+            Tier::Fine => Self {
+                resolution: 46,
+                columns: 40,
+                numerics: ProjectionNumerics { time_step: 1.25e-4, ..paper.numerics },
+                ..paper
+            },
+        }
+    }
+
+    pub(super) fn check(&self) -> Result<(), InputError> {
+        rules::positive("depth", self.depth, "give it in metres, such as 0.046")?;
+        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
+        rules::positive("density", self.density, "give it in kg/m³, such as 1000")?;
+        rules::positive("kinematic_viscosity", self.kinematic_viscosity, "give it in m²/s; water has 1e-6")?;
+        rules::rows("resolution", self.resolution)?;
+        rules::channel_columns("columns", self.columns, &self.numerics)?;
+        for (field, jitters) in [("jitters", &self.jitters), ("unstabilised_jitters", &self.unstabilised_jitters)] {
+            for (index, &jitter) in jitters.iter().enumerate() {
+                let field = format!("{field}[{index}]");
+                rules::between(&field, jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
+                let equal = jitters[..index].contains(&jitter);
+                if equal {
+                    return Err(InputError::field(&field, jitter, "unlike the others", "name every displacement once"));
+                }
+            }
+        }
+        if self.jitters.is_empty() {
+            return Err(InputError::field("jitters", "[]", "at least one displacement", "0.1 breaks the lattice"));
+        }
+        rules::between("duration", self.duration, 0.5, 1e4, "20 s bring the water to rest")?;
+        let longest = 0.5 * self.duration;
+        rules::between("averaging_time", self.averaging_time, 0.2, longest, "the window lies in the second half")?;
+        rules::between(
+            "unstabilised_duration",
+            self.unstabilised_duration,
+            0.1,
+            1e3,
+            "half a second is enough to blow up",
+        )?;
+        rules::projection("numerics", &self.numerics)
+    }
+}
+
+/// One simulation.
+#[derive(Debug, Clone, Serialize)]
+pub struct StillWaterRun {
+    /// Largest displacement in spacings `[-]`.
+    pub jitter: f64,
+    /// Rows over the depth.
+    pub resolution: usize,
+    /// Depth h `[m]`.
+    pub depth: f64,
+    /// Gravity `[m/s²]`.
+    pub gravity: f64,
+    /// Density `[kg/m³]`.
+    pub density: f64,
+    /// Simulated time `[s]`.
+    pub duration: f64,
+    /// Whether it is run to show that it fails.
+    pub unstabilised: bool,
+    kinematic_viscosity: f64,
+    columns: usize,
+    seed: u64,
+    averaging_time: f64,
+    numerics: ProjectionNumerics,
+}
+
+pub(super) fn runs(parameters: &StillWaterParameters) -> Vec<StillWaterRun> {
+    let new = |jitter, unstabilised| StillWaterRun {
+        jitter,
+        resolution: parameters.resolution,
+        depth: parameters.depth,
+        gravity: parameters.gravity,
+        density: parameters.density,
+        duration: if unstabilised { parameters.unstabilised_duration } else { parameters.duration },
+        unstabilised,
+        kinematic_viscosity: parameters.kinematic_viscosity,
+        columns: parameters.columns,
+        seed: parameters.seed,
+        averaging_time: if unstabilised { 0.5 * parameters.unstabilised_duration } else { parameters.averaging_time },
+        numerics: if unstabilised {
+            ProjectionNumerics { stabilisation: 0.0, ..parameters.numerics }
+        } else {
+            parameters.numerics
+        },
+    };
+    let mut runs: Vec<StillWaterRun> = parameters.jitters.iter().map(|&jitter| new(jitter, false)).collect();
+    // where nothing is stabilised, there is nothing to compare
+    if parameters.numerics.stabilisation > 0.0 {
+        runs.extend(parameters.unstabilised_jitters.iter().map(|&jitter| new(jitter, true)));
+    }
+    runs
+}
+
+impl Run for StillWaterRun {
+    fn variant(&self) -> String {
+        format!("jitter={},stabilisation={},resolution={}", self.jitter, self.numerics.stabilisation, self.resolution)
+    }
+
+    fn particle_steps(&self) -> f64 {
+        self.channel().expected_steps() * (self.resolution * self.columns) as f64
+    }
+}
+
+impl StillWaterRun {
+    /// Particle spacing `[m]`.
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.depth / self.resolution as f64
+    }
+
+    fn channel(&self) -> Channel<'static> {
+        Channel {
+            fluid: Lattice { spacing: self.spacing(), rows: self.resolution, columns: self.columns, bottom: 0.0 },
+            slope: 0.0,
+            gravity: self.gravity,
+            density: self.density,
+            kinematic_viscosity: self.kinematic_viscosity,
+            turbulence: Turbulence::Laminar,
+            bed: Bed::Slip,
+            jitter: self.jitter,
+            seed: self.seed,
+            velocity: &|_| 0.0,
+            sediment: None,
+            solid_fraction: SolidFraction::Overlapping,
+            numerics: self.numerics,
+            until: Until::Time(self.duration),
+            window: self.averaging_time,
+            // a column that blows up does so within a few steps
+            interval: if self.unstabilised { self.numerics.time_step } else { 5e-3 },
+            frames: 2,
+            may_diverge: self.unstabilised,
+        }
+    }
+
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
+        Ok(self.channel().run(progress)?)
+    }
+}

@@ -1,0 +1,111 @@
+//! The case's figures.
+
+use super::Record;
+use super::metrics::{Depth, convergence_errors, depth_of};
+use super::parameters::WaterFilmRun;
+use crate::cases::bagnold::Arrangement;
+use crate::figure::{Axis, Figure, Mark, Panel, Series};
+
+pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+    let mut figures = vec![profiles(records), over_time(records)];
+    let errors = convergence_errors(records, Depth::Nominal);
+    if errors.len() >= 2 {
+        let mut panel =
+            Panel::new("", Axis::logarithmic("rows over the depth [-]"), Axis::logarithmic("relative L2 of u [%]"));
+        let own = convergence_errors(records, Depth::Own);
+        let (rows, error) = own[0];
+        let guide = errors.iter().map(|(n, _)| (*n, error * rows / n)).collect();
+        panel.series.push(Series::new("against the film of the nominal depth", Mark::LinePoints, 0, errors));
+        panel.series.push(Series::new("against the film of the particles' own depth", Mark::LinePoints, 1, own));
+        panel.series.push(Series::new("first order", Mark::Reference, 0, guide));
+        figures.push(Figure {
+            name: "convergence".to_owned(),
+            caption: CONVERGENCE.to_owned(),
+            panels: vec![panel],
+            columns: 1,
+        });
+    }
+    figures
+}
+
+const CONVERGENCE: &str = "Relative L2 error of the velocity profile on the lattice with the number of rows. Against the film \
+     of the nominal depth the error is that of the depth: a sheared arrangement of particles has another Σ V W at the same \
+     density than the relaxed one that the reference concentration belongs to, and the velocity goes with the square of \
+     the depth. Against the film of the particles' own depth what remains is the wall and the rows at the surface.";
+
+fn label(run: &WaterFilmRun) -> String {
+    let particles = match run.particles {
+        Arrangement::Lattice => "lattice",
+        Arrangement::Jittered => "jittered",
+    };
+    format!("{} rows, {particles}", run.resolution)
+}
+
+fn profiles(records: &[Record]) -> Figure {
+    let mut velocity = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("u/u(h) [-]"));
+    let mut error = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("(u − u exact)/u(h) [%]"));
+    for (slot, (run, record)) in records.iter().enumerate() {
+        let film = run.film(run.depth);
+        let (depth, scale) = (run.depth, run.surface_velocity);
+        if slot == 0 {
+            let exact =
+                (0..=100).map(|k| f64::from(k) / 100.0).map(|z| (z, film.velocity(z * depth) / scale)).collect();
+            velocity.series.push(Series::new("exact", Mark::Reference, 0, exact));
+            error.series.push(Series::new("", Mark::Reference, 0, vec![(0.0, 0.0), (1.0, 0.0)]));
+        }
+        let profile = &record.data.profile;
+        let (points, errors) = (profile.points(), profile.velocities());
+        let values = points.iter().map(|point| (point.height / depth, point.velocity / scale)).collect();
+        velocity.series.push(Series::new(&label(run), Mark::Points, slot, values));
+        let deviations = points
+            .iter()
+            .map(|point| (point.height / depth, 100.0 * (point.velocity - film.velocity(point.height)) / scale))
+            .collect();
+        error.series.push(Series {
+            error: errors.iter().map(|velocity| 100.0 * velocity.standard_error / scale).collect(),
+            ..Series::new("", Mark::LinePoints, slot, deviations)
+        });
+    }
+    Figure {
+        name: "velocity-profile".to_owned(),
+        caption: "Velocity over the depth, averaged over the last relaxation times, against the exact film, and the \
+                  difference in per cent of the surface velocity with its statistical error from blocks."
+            .to_owned(),
+        panels: vec![velocity, error],
+        columns: 2,
+    }
+}
+
+fn over_time(records: &[Record]) -> Figure {
+    let mut mean = Panel::new("", Axis::linear("t ν π²/(4h²) [-]"), Axis::linear("U/(⅔ u(h)) [-]"));
+    let mut height = Panel::new("", Axis::linear("t ν π²/(4h²) [-]"), Axis::linear("mean height/(h/2) [-]"));
+    let mut longest: f64 = 0.0;
+    for (slot, (run, record)) in records.iter().enumerate() {
+        let series = &record.data.series;
+        let line = |values: &[f64], scale: f64| {
+            let times = series.time.iter().map(|time| time / run.relaxation_time());
+            times.zip(values.iter().map(|value| value / scale)).collect::<Vec<_>>()
+        };
+        longest = longest.max(record.simulated_time / run.relaxation_time());
+        let exact = run.film(run.depth).flux() / run.depth;
+        mean.series.push(Series::new(&label(run), Mark::Line, slot, line(&series.mean_velocity, exact)));
+        height.series.push(Series::new("", Mark::Line, slot, line(&series.relative_height, 1.0)));
+        let own = depth_of(run, &record.data, Depth::Own) / run.depth;
+        let window = record.data.window;
+        let at = |time: f64| time / run.relaxation_time();
+        height.series.push(Series::new(
+            "mean over the window",
+            Mark::Reference,
+            0,
+            vec![(at(window.0), own), (at(window.1), own)],
+        ));
+    }
+    mean.series.push(Series::new("exact", Mark::Reference, 0, vec![(0.0, 1.0), (longest, 1.0)]));
+    Figure {
+        name: "steadiness".to_owned(),
+        caption: "Depth mean of the velocity and mean height over time, from the exact profile at the nominal depth."
+            .to_owned(),
+        panels: vec![mean, height],
+        columns: 2,
+    }
+}

@@ -1,0 +1,121 @@
+//! How the runs are judged.
+
+use super::Record;
+use super::parameters::WaterFilmRun;
+use crate::case::Run;
+use crate::cases::bagnold::Arrangement;
+use crate::cases::channel::{self, ChannelObservation, ProfilePoint};
+use crate::metric::{Confidence, Limit, Metric};
+use crate::observe::Recorded;
+use crate::statistics::{Estimate, block_average, log_log_slope};
+
+/// Standard errors that a value may move before a change is reported `[-]`.
+const SNAPSHOT_ERRORS: f64 = 2.0;
+
+/// Which film a profile is compared with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Depth {
+    /// That of the nominal depth.
+    Nominal,
+    /// That of the particles' own depth, twice their mean height.
+    Own,
+}
+
+pub(super) fn all(records: &[Record]) -> Vec<Metric> {
+    let mut metrics = Vec::new();
+    for (run, record) in records {
+        of_run(&mut metrics, run, record);
+    }
+    for (name, depth) in [("observed_order", Depth::Nominal), ("observed_order_own_depth", Depth::Own)] {
+        let errors = convergence_errors(records, depth);
+        if errors.len() >= 3 {
+            let rows: Vec<String> = errors.iter().map(|(rows, _)| format!("{rows:.0}")).collect();
+            let variant = format!("particles=lattice,resolution={}", rows.join("_"));
+            let metric = Metric::observed(name, &variant, -log_log_slope(&errors).unwrap_or(f64::NAN), "-")
+                .against(None, source(depth), Confidence::Exact)
+                .with_snapshot_tolerance(0.1, 0.05);
+            let reason = match depth {
+                Depth::Nominal => "first order is expected of walls and surface",
+                Depth::Own => "the same, where the depth is not part of the error",
+            };
+            metrics.push(metric.gated(Limit::AtLeast(0.7), reason));
+        }
+    }
+    metrics
+}
+
+fn source(depth: Depth) -> &'static str {
+    match depth {
+        Depth::Nominal => "exact film (g i/ν)(h z − z²/2)",
+        Depth::Own => "exact film of the depth that the particles take, twice their mean height",
+    }
+}
+
+fn of_run(metrics: &mut Vec<Metric>, run: &WaterFilmRun, record: &Recorded<ChannelObservation>) {
+    let variant = run.variant();
+    let data = &record.data;
+    metrics.push(channel::particles_lost(&variant, record));
+    metrics.push(channel::momentum_residual(&variant, record));
+    let observed = |name: &str, estimate: Estimate, factor: f64, unit: &str| {
+        Metric::observed(name, &variant, factor * estimate.value, unit)
+            .with_snapshot_tolerance(1e-3, SNAPSHOT_ERRORS * factor * estimate.standard_error)
+    };
+    for (name, depth) in [("velocity_l2", Depth::Nominal), ("velocity_l2_own_depth", Depth::Own)] {
+        let metric = observed(name, velocity_l2(run, data, depth), 100.0, "%").against(
+            Some(0.0),
+            source(depth),
+            Confidence::Exact,
+        );
+        metrics.push(if depth == Depth::Nominal && run.resolution >= 20 {
+            metric.gated(Limit::AtMost(0.8), "0.8 % at 20 rows, from the lattice and from displaced particles")
+        } else {
+            metric
+        });
+    }
+    let none = Estimate { value: f64::NAN, standard_error: 0.0 };
+    let average = |array: &[f64]| block_average(&data.series.within(array, data.window)).unwrap_or(none);
+    let height = average(&data.series.relative_height);
+    metrics.push(observed("height_change", Estimate { value: height.value - 1.0, ..height }, 100.0, "%").against(
+        Some(0.0),
+        "mean height h/2; the velocity goes with the square of the depth",
+        Confidence::Exact,
+    ));
+    let weight = run.density * run.gravity * run.depth * run.slope;
+    metrics.push(observed("bed_shear", average(&data.series.bed_shear), 1.0 / weight, "-").against(
+        Some(1.0),
+        "ρ g h i",
+        Confidence::Exact,
+    ));
+}
+
+/// Depth h `[m]` that a run is compared at.
+pub(super) fn depth_of(run: &WaterFilmRun, data: &ChannelObservation, depth: Depth) -> f64 {
+    let heights = data.series.within(&data.series.relative_height, data.window);
+    match depth {
+        Depth::Nominal => run.depth,
+        Depth::Own => run.depth * heights.iter().sum::<f64>() / heights.len() as f64,
+    }
+}
+
+/// Relative L2 of the velocity over the samples of all bins `[-]`.
+fn velocity_l2(run: &WaterFilmRun, data: &ChannelObservation, depth: Depth) -> Estimate {
+    let film = run.film(depth_of(run, data, depth));
+    data.profile.estimate(|points: &[ProfilePoint]| {
+        let (error, scale) = points.iter().fold((0.0, 0.0), |(error, scale), point| {
+            let exact = film.velocity(point.height);
+            (error + point.samples * (point.velocity - exact).powi(2), scale + point.samples * exact * exact)
+        });
+        (error / scale).sqrt()
+    })
+}
+
+/// (rows, relative L2 `[%]`) of the lattice runs, coarse to fine.
+pub(super) fn convergence_errors(records: &[Record], depth: Depth) -> Vec<(f64, f64)> {
+    let mut errors: Vec<(f64, f64)> = records
+        .iter()
+        .filter(|(run, _)| run.particles == Arrangement::Lattice)
+        .map(|(run, record)| (run.resolution as f64, 100.0 * velocity_l2(run, &record.data, depth).value))
+        .collect();
+    errors.sort_by(|a, b| a.0.total_cmp(&b.0));
+    errors
+}

@@ -1,0 +1,249 @@
+//! Parameters, tiers and runs.
+
+use crate::case::{Progress, Run, Tier};
+use crate::cases::bagnold::Arrangement;
+use crate::cases::channel::{Channel, ChannelObservation, Lattice, Until};
+use crate::cases::rules;
+use crate::error::InputError;
+use crate::observe::Recorded;
+use crate::reference::{Incline, NewtonianFilm};
+use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction, Turbulence};
+use serde::{Deserialize, Serialize};
+
+/// Parameters of the case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WaterFilmParameters {
+    /// Depth h `[m]`.
+    pub depth: f64,
+    /// Slope i of the bed `[-]`.
+    pub slope: f64,
+    /// Gravity `[m/s²]`.
+    pub gravity: f64,
+    /// Density `[kg/m³]`.
+    pub density: f64,
+    /// Velocity at the surface, which sets the viscosity `[m/s]`.
+    pub surface_velocity: f64,
+    /// Arrangements to run at `resolution`.
+    pub arrangements: Vec<Arrangement>,
+    /// Rows of particles over the depth.
+    pub resolution: usize,
+    /// Columns of particles along the period.
+    pub columns: usize,
+    /// Largest random displacement of a jittered particle in spacings `[-]`.
+    pub jitter: f64,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// Rows of the convergence study on the lattice; empty for none.
+    pub convergence_resolutions: Vec<usize>,
+    /// Simulated time over 4h²/(π²ν) `[-]`.
+    pub relaxation_times: f64,
+    /// Averaging window before the end over the same `[-]`.
+    pub averaging_times: f64,
+    /// Numerics; the time step is that at `resolution` rows and goes with the spacing.
+    pub numerics: ProjectionNumerics,
+}
+
+pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
+    ("depth", "[m]"),
+    ("slope", "[-], tangent: 0.03 is 3 %"),
+    ("gravity", "[m/s²]"),
+    ("density", "[kg/m³]"),
+    ("surface_velocity", "[m/s], sets the viscosity g i h²/(2 u)"),
+    ("arrangements", "\"lattice\" and \"jittered\", at `resolution`"),
+    ("resolution", "rows of particles over the depth"),
+    ("columns", "columns of particles along the period"),
+    ("jitter", "[-], largest random displacement in spacings"),
+    ("convergence_resolutions", "rows of the study on the lattice; empty for none"),
+    ("relaxation_times", "[-], simulated time over 4h²/(π²ν)"),
+    ("averaging_times", "[-], window before the end over the same"),
+    ("numerics.time_step", "[s], at `resolution` rows; in proportion to the spacing at others"),
+];
+
+impl WaterFilmParameters {
+    pub(super) fn of_tier(tier: Tier) -> Self {
+        let quick = Self {
+            depth: 0.046,
+            slope: 0.03,
+            gravity: 9.81,
+            density: 1000.0,
+            surface_velocity: 0.5,
+            arrangements: vec![Arrangement::Lattice],
+            resolution: 20,
+            columns: 12,
+            jitter: 0.1,
+            seed: 1,
+            convergence_resolutions: Vec::new(),
+            relaxation_times: 2.0,
+            averaging_times: 1.0,
+            numerics: ProjectionNumerics::default(),
+        };
+        let paper = Self {
+            arrangements: vec![Arrangement::Lattice, Arrangement::Jittered],
+            convergence_resolutions: vec![10, 20, 40],
+            relaxation_times: 6.0,
+            averaging_times: 2.0,
+            ..quick.clone()
+        };
+        match tier {
+            Tier::Quick => quick,
+            Tier::Paper => paper,
+            Tier::Fine => Self { columns: 24, convergence_resolutions: vec![10, 20, 40, 80], ..paper },
+        }
+    }
+
+    pub(super) fn check(&self) -> Result<(), InputError> {
+        rules::positive("depth", self.depth, "give it in metres, such as 0.046")?;
+        rules::driving_slope("slope", self.slope)?;
+        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
+        rules::positive("density", self.density, "give it in kg/m³, such as 1000")?;
+        rules::positive("surface_velocity", self.surface_velocity, "give it in m/s, such as 0.5")?;
+        let arrangements = &self.arrangements;
+        if arrangements.is_empty() || (arrangements.len() > 1 && arrangements[1..].contains(&arrangements[0])) {
+            let shown = format!("{arrangements:?}").to_lowercase();
+            let rule = "one or both of \"lattice\" and \"jittered\"";
+            return Err(InputError::field("arrangements", shown, rule, "name every arrangement once"));
+        }
+        rules::rows("resolution", self.resolution)?;
+        for (index, &rows) in self.convergence_resolutions.iter().enumerate() {
+            let field = format!("convergence_resolutions[{index}]");
+            rules::rows(&field, rows)?;
+            if self.convergence_resolutions[..index].contains(&rows) {
+                return Err(InputError::field(&field, rows, "unlike the others", "name every number of rows once"));
+            }
+        }
+        rules::channel_columns("columns", self.columns, &self.numerics)?;
+        rules::between("jitter", self.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
+        rules::between("relaxation_times", self.relaxation_times, 0.5, 1e3, "4 leave 2 % of the start's error")?;
+        let longest = 0.5 * self.relaxation_times;
+        rules::between("averaging_times", self.averaging_times, 0.2, longest, "the window lies in the second half")?;
+        rules::projection("numerics", &self.numerics)
+    }
+}
+
+/// One simulation.
+#[derive(Debug, Clone, Serialize)]
+pub struct WaterFilmRun {
+    /// Arrangement of the particles.
+    pub particles: Arrangement,
+    /// Rows over the depth.
+    pub resolution: usize,
+    /// Depth h `[m]`.
+    pub depth: f64,
+    /// Slope i `[-]`.
+    pub slope: f64,
+    /// Gravity `[m/s²]`.
+    pub gravity: f64,
+    /// Density `[kg/m³]`.
+    pub density: f64,
+    /// Velocity at the surface `[m/s]`.
+    pub surface_velocity: f64,
+    columns: usize,
+    jitter: f64,
+    seed: u64,
+    relaxation_times: f64,
+    averaging_times: f64,
+    numerics: ProjectionNumerics,
+}
+
+pub(super) fn runs(parameters: &WaterFilmParameters) -> Vec<WaterFilmRun> {
+    let new = |particles, resolution: usize| WaterFilmRun {
+        particles,
+        resolution,
+        depth: parameters.depth,
+        slope: parameters.slope,
+        gravity: parameters.gravity,
+        density: parameters.density,
+        surface_velocity: parameters.surface_velocity,
+        columns: parameters.columns,
+        jitter: if particles == Arrangement::Lattice { 0.0 } else { parameters.jitter },
+        seed: parameters.seed,
+        relaxation_times: parameters.relaxation_times,
+        averaging_times: parameters.averaging_times,
+        numerics: ProjectionNumerics {
+            time_step: parameters.numerics.time_step * parameters.resolution as f64 / resolution as f64,
+            ..parameters.numerics
+        },
+    };
+    let mut runs: Vec<WaterFilmRun> =
+        parameters.arrangements.iter().map(|&particles| new(particles, parameters.resolution)).collect();
+    let is_run = |rows: usize| parameters.arrangements.contains(&Arrangement::Lattice) && rows == parameters.resolution;
+    let study = parameters.convergence_resolutions.iter().filter(|&&rows| !is_run(rows));
+    runs.extend(study.map(|&rows| new(Arrangement::Lattice, rows)));
+    runs
+}
+
+impl Run for WaterFilmRun {
+    fn variant(&self) -> String {
+        let particles = match self.particles {
+            Arrangement::Lattice => "lattice",
+            Arrangement::Jittered => "jittered",
+        };
+        format!("particles={particles},resolution={}", self.resolution)
+    }
+
+    fn particle_steps(&self) -> f64 {
+        self.channel(&|_| 0.0).expected_steps() * (self.resolution * self.columns) as f64
+    }
+}
+
+impl WaterFilmRun {
+    /// Kinematic viscosity ν = g i h²/(2 u) `[m²/s]`.
+    #[must_use]
+    pub fn kinematic_viscosity(&self) -> f64 {
+        self.gravity * self.slope * self.depth * self.depth / (2.0 * self.surface_velocity)
+    }
+
+    /// Relaxation time of the slowest mode 4h²/(π²ν) `[s]`.
+    #[must_use]
+    pub fn relaxation_time(&self) -> f64 {
+        4.0 * self.depth * self.depth / (std::f64::consts::PI.powi(2) * self.kinematic_viscosity())
+    }
+
+    /// The exact film of a depth `[m]`.
+    #[must_use]
+    pub fn film(&self, depth: f64) -> NewtonianFilm {
+        let incline = Incline {
+            layer_height: depth,
+            // the body force along the bed is g i: i is the sine here
+            slope_angle: libm::asin(self.slope),
+            gravity: self.gravity,
+            density: self.density,
+        };
+        NewtonianFilm { incline, viscosity: self.density * self.kinematic_viscosity() }
+    }
+
+    fn channel<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Channel<'a> {
+        let relaxation_time = self.relaxation_time();
+        Channel {
+            fluid: Lattice {
+                spacing: self.depth / self.resolution as f64,
+                rows: self.resolution,
+                columns: self.columns,
+                bottom: 0.0,
+            },
+            slope: self.slope,
+            gravity: self.gravity,
+            density: self.density,
+            kinematic_viscosity: self.kinematic_viscosity(),
+            turbulence: Turbulence::Laminar,
+            bed: Bed::NoSlip(0.0),
+            jitter: self.jitter,
+            seed: self.seed,
+            velocity,
+            sediment: None,
+            solid_fraction: SolidFraction::Overlapping,
+            numerics: self.numerics,
+            until: Until::Time(self.relaxation_times * relaxation_time),
+            window: self.averaging_times * relaxation_time,
+            interval: relaxation_time / 200.0,
+            frames: 2,
+            may_diverge: false,
+        }
+    }
+
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
+        let film = self.film(self.depth);
+        Ok(self.channel(&|z| film.velocity(z)).run(progress)?)
+    }
+}
