@@ -50,6 +50,11 @@ impl<const D: usize> Layers<D> {
         // a NaN goes to layer 0
         let layer = |x: &Vector<D>| (((x[normal] - lower) * per_height).max(0.0) as usize).min(count - 1);
         self.held.clear();
+        if self.held.capacity() < count {
+            // room for more: the highest particle may rise
+            self.held.reserve(2 * count);
+            self.ways.reserve(2 * count);
+        }
         self.held.resize(count, false);
         self.ways.resize(count, (Vector::zeros(), Vector::zeros()));
         self.layer.clear();

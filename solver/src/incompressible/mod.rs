@@ -16,6 +16,7 @@ mod layers;
 mod numerics;
 mod pairs;
 mod phase;
+mod pressure_links;
 mod pressure_poisson;
 mod rows;
 mod scene;

@@ -21,23 +21,19 @@
 use super::numerics::{PressureSource, ProjectionNumerics, SurfaceTreatment};
 use super::pairs::LEAST_TASK;
 use super::phase::{Phase, height_axis};
+use super::pressure_links::{FirstPass, Link, LinkChunk, SecondPass};
 use super::step::MOST_ITERATIONS;
-use crate::linear::{ConjugateGradient, Criterion, IncompleteCholesky, NotConverged, Rows};
+use crate::lanes::LANES;
+use crate::linear::{
+    ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, TASK_ROWS, single,
+};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
 /// Coefficients, reused from step to step.
 #[derive(Debug)]
 pub(super) struct PressurePoisson<const D: usize> {
-    stride: usize,
-    /// The other particle of every pair.
-    source: Vec<u32>,
-    /// g_ab `[1/m]` of every pair.
-    pair_gradient: Vec<Vector<D>>,
-    /// Coefficient of A, 2 V (−F) `[1/m²]`, of every pair.
-    laplacian: Vec<f64>,
-    /// Links of every row.
-    count: Vec<u32>,
+    links: LaneRows<LinkChunk<D>>,
     /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
     own: Vec<Vector<D>>,
     diagonal: Vec<f64>,
@@ -93,11 +89,7 @@ impl Level {
 impl<const D: usize> PressurePoisson<D> {
     pub(super) fn new() -> Self {
         Self {
-            stride: 1,
-            source: Vec::new(),
-            pair_gradient: Vec::new(),
-            laplacian: Vec::new(),
-            count: Vec::new(),
+            links: LaneRows::new(),
             own: Vec::new(),
             diagonal: Vec::new(),
             right_side: Vec::new(),
@@ -118,12 +110,6 @@ impl<const D: usize> PressurePoisson<D> {
     pub(super) fn assemble(&mut self, phase: &Phase<D>, numerics: &ProjectionNumerics) {
         let eliminated = numerics.surface == SurfaceTreatment::Eliminated;
         let count = phase.len();
-        self.stride = phase.free_pairs.stride();
-        let places = count * self.stride;
-        self.source.resize(places, 0);
-        self.pair_gradient.resize(places, Vector::zeros());
-        self.laplacian.resize(places, 0.0);
-        self.count.resize(count, 0);
         for array in [&mut self.diagonal, &mut self.right_side] {
             array.resize(count, 0.0);
         }
@@ -132,30 +118,25 @@ impl<const D: usize> PressurePoisson<D> {
         let gradient_scale = phase.lattice_volume;
         let laplacian_scale = -2.0 * phase.lattice_volume;
         let normal = height_axis(D);
-        let rows = (
-            self.source.par_chunks_mut(self.stride),
-            self.pair_gradient.par_chunks_mut(self.stride),
-            self.laplacian.par_chunks_mut(self.stride),
-        );
-        (rows, &mut self.count, &mut self.own, &mut self.diagonal)
-            .into_par_iter()
-            .enumerate()
-            .with_min_len(LEAST_TASK)
-            .for_each(|(a, ((sources, gradients, laplacians), count, own, diagonal))| {
+        let beside = (self.own.par_chunks_mut(LANES), self.diagonal.par_chunks_mut(LANES)).into_par_iter();
+        self.links.fill(count, phase.free_pairs.stride(), beside, |first, group, (own, diagonal)| {
+            for lane in 0..own.len() {
+                let a = first + lane;
                 let mut sum = Vector::zeros();
                 let mut total = 0.0;
                 let mut beside_surface = false;
-                let pairs = phase.free_pairs.of(a);
-                for (k, pair) in pairs.iter().enumerate() {
-                    let moment = 2.0 / (phase.moment[a] + phase.moment[pair.source as usize]);
-                    let weight = pair.gradient * moment;
-                    let gradient = pair.separation * (gradient_scale * weight);
-                    let laplacian = laplacian_scale * weight;
-                    (sources[k], gradients[k], laplacians[k]) = (pair.source, gradient, laplacian);
-                    sum += gradient;
-                    total += laplacian;
-                    beside_surface |= phase.at_surface[pair.source as usize];
-                }
+                group.row(lane, |links| {
+                    for pair in phase.free_pairs.of(a) {
+                        let moment = 2.0 / (phase.moment[a] + phase.moment[pair.source as usize]);
+                        let weight = pair.gradient * moment;
+                        let gradient = (pair.separation * (gradient_scale * weight)).map(single);
+                        let laplacian = single(laplacian_scale * weight);
+                        links.push(pair.source, (gradient, laplacian));
+                        sum += gradient;
+                        total += laplacian;
+                        beside_surface |= phase.at_surface[pair.source as usize];
+                    }
+                });
                 let mut wall = 0.0;
                 let mut wall_total = 0.0;
                 for pair in phase.wall_pairs.of(a) {
@@ -163,8 +144,7 @@ impl<const D: usize> PressurePoisson<D> {
                     wall_total += laplacian_scale * pair.gradient;
                 }
                 sum[normal] += 2.0 * wall;
-                *count = pairs.len() as u32;
-                *own = sum;
+                own[lane] = sum;
                 // what is missing counts as mirrored neighbours with −P_b: from half a spacing below the surface twice
                 // P_a away, from one and a half 4/3
                 let complete = phase.lattice.diagonal * laplacian_scale.abs() - wall_total;
@@ -176,8 +156,9 @@ impl<const D: usize> PressurePoisson<D> {
                 };
                 // what is no unknown has no diagonal
                 let known = eliminated && phase.at_surface[a];
-                *diagonal = if known { 0.0 } else { total + mirror * missing };
-            });
+                diagonal[lane] = if known { 0.0 } else { total + mirror * missing };
+            }
+        });
         let has_surface = match numerics.surface {
             SurfaceTreatment::Eliminated => phase.at_surface.contains(&true),
             SurfaceTreatment::Completed => phase.nearness.iter().any(|&nearness| nearness > 0.0),
@@ -189,9 +170,8 @@ impl<const D: usize> PressurePoisson<D> {
     #[inline(always)]
     pub(super) fn divergence(&self, a: usize, velocity: &[Vector<D>]) -> f64 {
         let mut sum = -self.own[a].dot(&velocity[a]);
-        let row = self.row(a);
-        for (&source, gradient) in self.source[row.clone()].iter().zip(&self.pair_gradient[row]) {
-            sum += gradient.dot(&velocity[source as usize]);
+        for link in self.links(a) {
+            sum += link.gradient.dot(&velocity[link.source as usize]);
         }
         sum
     }
@@ -200,11 +180,16 @@ impl<const D: usize> PressurePoisson<D> {
     #[inline(always)]
     pub(super) fn gradient(&self, a: usize, pressure: &[f64]) -> Vector<D> {
         let mut sum = self.own[a] * pressure[a];
-        let row = self.row(a);
-        for (&source, gradient) in self.source[row.clone()].iter().zip(&self.pair_gradient[row]) {
-            sum += gradient * pressure[source as usize];
+        for link in self.links(a) {
+            sum += link.gradient * pressure[link.source as usize];
         }
         sum
+    }
+
+    /// The links of a particle.
+    #[inline(always)]
+    pub(super) fn links(&self, a: usize) -> impl Iterator<Item = Link<D>> {
+        self.links.row(a).map(|(source, (gradient, laplacian))| Link { source, gradient, laplacian })
     }
 
     /// Solves for the pressures `[Pa]`, starting from the present ones.
@@ -253,7 +238,7 @@ impl<const D: usize> PressurePoisson<D> {
         let mut gradient = std::mem::take(&mut self.gradient);
         let mut deviation = std::mem::take(&mut self.deviation);
         let mut factors = std::mem::take(&mut self.factors);
-        factors.factorise(self.count.len(), self.stride, &CompactRows(self));
+        factors.factorise(self.links.len(), self.links.stride(), &CompactRows(self));
         let outcome = solver.solve(&mut phase.pressure, &right_side, &factors, None, criterion, |p, product| {
             self.level.apply(p, product, &mut deviation, |p, product| {
                 self.apply(p, product, &mut gradient, &phase.at_surface, eliminated, stabilisation);
@@ -281,36 +266,26 @@ impl<const D: usize> PressurePoisson<D> {
         stabilisation: f64,
     ) {
         // both operators read the pressures, D reads the gradients when all are there
-        (&mut *product, &mut *gradient).into_par_iter().enumerate().with_min_len(LEAST_TASK).for_each(
-            |(a, (out, gradient))| {
-                let mut compact = self.diagonal[a] * p[a];
-                let mut sum = self.own[a] * p[a];
-                let row = self.row(a);
-                let links = self.source[row.clone()].iter().zip(&self.pair_gradient[row.clone()]);
-                for ((&source, gradient), laplacian) in links.zip(&self.laplacian[row]) {
-                    let other = p[source as usize];
-                    sum += gradient * other;
-                    compact -= laplacian * other;
-                }
-                *out = if eliminated && surface[a] { 0.0 } else { compact };
-                *gradient = sum;
+        (product.par_chunks_mut(TASK_ROWS), gradient.par_chunks_mut(TASK_ROWS)).into_par_iter().enumerate().for_each(
+            |(task, (product, gradient))| {
+                let (own, diagonal, first) = (&self.own, &self.diagonal, task * TASK_ROWS);
+                self.links.run(FirstPass { links: &self.links, own, diagonal, p, first, product, gradient });
             },
         );
-        if stabilisation == 0.0 {
-            return;
+        if stabilisation != 0.0 {
+            let gradient = &*gradient;
+            product.par_chunks_mut(TASK_ROWS).enumerate().for_each(|(task, product)| {
+                let (own, first) = (&self.own, task * TASK_ROWS);
+                self.links.run(SecondPass { links: &self.links, own, gradient, first, product, stabilisation });
+            });
         }
-        let gradient = &*gradient;
-        product.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, out)| {
-            if !(eliminated && surface[a]) {
-                *out -= stabilisation * self.divergence(a, gradient);
+        if eliminated {
+            for (product, &at_surface) in product.iter_mut().zip(surface) {
+                if at_surface {
+                    *product = 0.0;
+                }
             }
-        });
-    }
-
-    #[inline(always)]
-    fn row(&self, a: usize) -> std::ops::Range<usize> {
-        let start = a * self.stride;
-        start..start + self.count[a] as usize
+        }
     }
 }
 
@@ -325,8 +300,7 @@ impl<const D: usize> Rows for CompactRows<'_, D> {
 
     #[inline(always)]
     fn off_diagonal(&self, row: usize) -> impl Iterator<Item = (u32, f64)> {
-        let links = self.0.row(row);
-        self.0.source[links.clone()].iter().copied().zip(self.0.laplacian[links].iter().map(|value| -value))
+        self.0.links(row).map(|link| (link.source, -link.laplacian))
     }
 }
 

@@ -212,13 +212,13 @@ impl<const D: usize> IncompressibleSimulation<D> {
     /// Force of the fluid on every free sediment particle in the last step `[N]`, per metre of width in 2-D.
     #[must_use]
     pub fn drag(&self) -> Vec<Vector<D>> {
+        let system = &self.system;
         let free_fluid = self.fluid.len();
-        let rows = free_fluid..self.system.count.len();
+        let rows = free_fluid..system.couplings.len();
         let of_row = |row: usize| {
-            let links = &self.system.link[row * self.system.stride..][..self.system.count[row] as usize];
-            let from_fluid = links.iter().filter(|(partner, _)| (*partner as usize) < free_fluid);
-            let force = |sum, &(partner, coefficient): &(u32, f64)| {
-                sum + (self.system.velocity[partner as usize] - self.system.velocity[row]) * coefficient
+            let from_fluid = system.couplings.row(row).filter(|(partner, _)| (*partner as usize) < free_fluid);
+            let force = |sum, (partner, coefficient): (u32, f64)| {
+                sum + (system.velocity[partner as usize] - system.velocity[row]) * coefficient
             };
             from_fluid.fold(Vector::zeros(), force) / self.last_step
         };
@@ -263,13 +263,8 @@ impl<const D: usize> IncompressibleSimulation<D> {
         }
     }
 
-    /// Measures the pairs of the fluid, after a search if one may be missing.
-    pub(super) fn measure_fluid(&mut self) {
-        self.search_if_due();
-        self.fluid.measure(&self.periods);
-    }
-
-    fn search_if_due(&mut self) {
+    /// Searches the candidates anew if a pair may be missing.
+    pub(super) fn search_if_due(&mut self) {
         let skin = self.skin();
         if self.layers.moved_apart(std::iter::once(&self.fluid).chain(&self.sediment), skin) {
             self.search();

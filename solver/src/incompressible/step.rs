@@ -42,8 +42,8 @@ impl<const D: usize> IncompressibleSimulation<D> {
         })?;
         self.project(time_step)?;
         if numerics.shifting > 0.0 {
-            self.measure_fluid();
-            find_shifts(&self.fluid, numerics.shifting, time_step, &mut self.shifts);
+            self.search_if_due();
+            find_shifts(&self.fluid, &self.periods, numerics.shifting, time_step, &mut self.shifts);
             for (particle, &shift) in self.shifts.iter().enumerate() {
                 self.fluid.displace(particle, shift);
             }

@@ -1,15 +1,16 @@
 //! Incomplete Cholesky factors without fill, with the off-diagonals of the operator itself, in blocks of rows.
 //!
-//! M = (P + L) P⁻¹ (P + Lᵀ) within a block, L the operator's lower part and P chosen so that the diagonals agree:
-//! P_a = A_aa − Σ_{b<a} L_ab²/P_b (Meijerink & van der Vorst 1977). Blocks have a fixed length and know nothing of each
-//! other, so that they are solved side by side with the same result on any number of threads.
+//! M = (1 + L) P (1 + Lᵀ) within a block, L P the operator's lower part and P chosen so that the diagonals agree:
+//! P_a = A_aa − Σ_{b<a} L_ab² P_b (Meijerink & van der Vorst 1977). Blocks have a fixed length and know nothing of each
+//! other, so that they are solved side by side with the same result on any number of threads. L is stored in single
+//! precision: both sweeps read the same numbers, so M stays symmetric, and it is an approximation anyway.
 
 use super::conjugate_gradient::Preconditioner;
 use super::reductions::Unknown;
 use rayon::prelude::*;
 
 /// Rows of a block.
-const BLOCK: usize = 1024;
+const BLOCK: usize = 2048;
 
 /// A symmetric operator with negative or no off-diagonals, row by row.
 pub(crate) trait Rows: Sync {
@@ -24,7 +25,7 @@ pub(crate) trait Rows: Sync {
 pub(crate) struct IncompleteCholesky {
     stride: usize,
     /// L_ab within the block, row after row without gaps; the column counts from the block's first row.
-    lower: Vec<(u32, f64)>,
+    lower: Vec<(u32, f32)>,
     /// Where a row ends, counted from the block's start.
     end: Vec<u32>,
     /// 1/P_a, or 0 for a row that is no unknown.
@@ -55,9 +56,10 @@ impl IncompleteCholesky {
                     for (column, value) in operator.off_diagonal(first + row) {
                         let column = (column as usize).wrapping_sub(first);
                         if column < row {
-                            lower[filled] = (column as u32, value);
+                            let factor = (value * inverse_pivot[column]) as f32;
+                            lower[filled] = (column as u32, factor);
                             filled += 1;
-                            pivot -= value * value * inverse_pivot[column];
+                            pivot -= value * f64::from(factor);
                         }
                     }
                     end[row] = filled as u32;
@@ -87,18 +89,21 @@ impl Preconditioner for IncompleteCholesky {
                 for row in 0..out.len() {
                     let stop = end[row] as usize;
                     let mut sum = residual[row];
-                    for &(column, value) in &lower[start..stop] {
-                        sum = sum - out[column as usize] * value;
+                    for &(column, factor) in &lower[start..stop] {
+                        sum = sum - out[column as usize] * f64::from(factor);
                     }
-                    out[row] = sum * inverse_pivot[row];
+                    out[row] = sum;
                     start = stop;
                 }
+                for (out, inverse) in out.iter_mut().zip(inverse_pivot) {
+                    *out = *out * *inverse;
+                }
                 for row in (0..out.len()).rev() {
-                    let this = out[row];
+                    let (before, this) = out.split_at_mut(row);
                     let start = if row > 0 { end[row - 1] as usize } else { 0 };
-                    for &(column, value) in &lower[start..end[row] as usize] {
-                        let column = column as usize;
-                        out[column] = out[column] - this * (value * inverse_pivot[column]);
+                    for &(column, factor) in &lower[start..end[row] as usize] {
+                        let column = &mut before[column as usize];
+                        *column = *column - this[0] * f64::from(factor);
                     }
                 }
             });

@@ -2,6 +2,7 @@
 
 mod conjugate_gradient;
 mod incomplete_cholesky;
+mod lane_rows;
 mod reductions;
 
 #[cfg(test)]
@@ -9,3 +10,4 @@ mod tests;
 
 pub(crate) use conjugate_gradient::{ConjugateGradient, Criterion, NotConverged};
 pub(crate) use incomplete_cholesky::{IncompleteCholesky, Rows};
+pub(crate) use lane_rows::{Coefficients, LaneRows, Row, Single, TASK_ROWS, single};

@@ -1,9 +1,10 @@
-use super::{ConjugateGradient, Criterion, IncompleteCholesky, NotConverged, Rows};
+use super::{ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, Single, single};
 use crate::vector::Vector;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+use rayon::prelude::*;
 
 const TIGHT: Criterion = Criterion { tolerance: 1e-13, most_iterations: 4000 };
 
@@ -228,4 +229,40 @@ fn too_few_iterations_and_numbers_that_are_none_are_errors() {
     let failed = matrix.solve_numbers(&mut [0.0; 60], &spoilt, TIGHT).expect_err("a NaN");
     assert_eq!(failed.row, 41);
     assert!(failed.residual.is_nan());
+}
+
+#[test]
+fn rows_in_lanes_give_the_product_that_their_entries_give_one_by_one() {
+    // 8·k + 5 rows of unequal length, some of them empty; more than a task of the product
+    for rows in [1, 5, 13, 2061] {
+        let mut random = random(17);
+        let entries: Vec<Vec<(u32, f64)>> = (0..rows)
+            .map(|row| {
+                let length = if row % 7 == 3 { 0 } else { random.random_range(0..12) };
+                (0..length).map(|_| (random.random_range(0..rows as u32), random.random::<f64>())).collect()
+            })
+            .collect();
+        let diagonal: Vec<f64> = (0..rows).map(|_| random.random::<f64>()).collect();
+        let u: Vec<_> = (0..rows).map(|_| Vector::<2>::new(random.random(), random.random())).collect();
+        let mut lanes = LaneRows::<Single>::new();
+        let mut seen = vec![0; rows];
+        // twice: what is left of longer rows must not come back
+        for shortest in [0, 1] {
+            lanes.fill(rows, 12, seen.par_chunks_mut(8), |first, group, seen| {
+                for (lane, seen) in seen.iter_mut().enumerate() {
+                    let kept = &entries[first + lane][shortest.min(entries[first + lane].len())..];
+                    group.row(lane, |row| kept.iter().for_each(|&(column, value)| row.push(column, value)));
+                    *seen += kept.len();
+                }
+            });
+        }
+        let mut product = vec![Vector::zeros(); rows];
+        lanes.subtract_from_diagonal(&diagonal, &u, &mut product);
+        for row in 0..rows {
+            let kept: Vec<_> = entries[row].iter().skip(1).map(|&(b, value)| (b, single(value))).collect();
+            assert_eq!(lanes.row(row).collect::<Vec<_>>(), kept, "row {row} of {rows}");
+            let sum = kept.iter().fold(Vector::zeros(), |sum, &(b, value)| sum + u[b as usize] * value);
+            assert_eq!(product[row], u[row] * diagonal[row] - sum, "row {row} of {rows}");
+        }
+    }
 }
