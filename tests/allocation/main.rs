@@ -16,6 +16,10 @@ use std::sync::atomic::Ordering;
 const SPACING: f64 = 0.01;
 const GRAVITY: f64 = 9.81;
 
+#[path = "../invariants/two_phases.rs"]
+#[expect(dead_code, reason = "the scenes of the invariants, of which this target needs one")]
+mod two_phases;
+
 /// The system's allocator with a counter.
 mod counting {
     #![expect(unsafe_code, reason = "an allocator cannot be written without; it only counts and passes on")]
@@ -124,6 +128,20 @@ where
     })
 }
 
+/// The same of an incompressible run: a bed of grains below water.
+fn projection_allocations(threads: usize, (warm_up, steps): (usize, usize)) -> u64 {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
+    pool.install(|| {
+        let mut simulation = two_phases::simulation(two_phases::bed([40, 40], 6, 3));
+        two_phases::advance(&mut simulation, warm_up);
+        let (before, searches) = (ALLOCATIONS.load(Ordering::SeqCst), simulation.cost().searches);
+        two_phases::advance(&mut simulation, steps);
+        let found = ALLOCATIONS.load(Ordering::SeqCst) - before;
+        assert!(simulation.cost().searches >= searches + 3, "too few searches in the counted steps");
+        found
+    })
+}
+
 #[test]
 fn a_step_after_warm_up_does_not_allocate() {
     let law = MuI {
@@ -152,5 +170,7 @@ fn a_step_after_warm_up_does_not_allocate() {
         assert_eq!(solved, 0, "allocations of the implicit viscous step on {threads} threads");
         let space = allocations([12, 8, 24], Numerics::default(), grains, threads, (150, 50));
         assert_eq!(space, 0, "allocations in 3-D on {threads} threads");
+        let projection = projection_allocations(threads, (300, 300));
+        assert_eq!(projection, 0, "allocations of an incompressible step on {threads} threads");
     }
 }

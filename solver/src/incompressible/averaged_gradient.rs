@@ -55,6 +55,6 @@ impl<const D: usize> AveragedGradient<D> {
             None => self.smoothed[a],
         };
         let difference: Vector<D> = gradient * pair.separation;
-        (difference.norm_squared() / pair.distance_squared).sqrt()
+        (difference.norm_squared() / pair.separation.norm_squared()).sqrt()
     }
 }

@@ -9,6 +9,7 @@ use crate::vector::shear_rate;
 use rayon::prelude::*;
 
 /// 1/γ̇, bounded as (1 − exp(−γ̇/γ_r))/γ̇.
+#[inline]
 fn inverse_rate(rate: f64, regularisation: f64) -> f64 {
     let ratio = rate / regularisation;
     if ratio < 1e-6 { 1.0 / regularisation } else { -libm::expm1(-ratio) / rate }
@@ -27,6 +28,7 @@ impl<const D: usize> Sediment<D> {
     }
 
     /// Apparent viscosity `[Pa·s]` at a load `[Pa]` and a shear rate `[1/s]`.
+    #[inline]
     pub(super) fn viscosity(&self, load: f64, rate: f64) -> f64 {
         match self.law {
             SedimentLaw::Bingham(law) => {

@@ -37,8 +37,8 @@ pub(super) struct DragExchange<const D: usize> {
 impl<const D: usize> DragExchange<D> {
     pub(super) fn new(smoothing_length: f64) -> Self {
         Self {
-            of_sediment: Pairs::default(),
-            of_fluid: Pairs::default(),
+            of_sediment: Pairs::new(),
+            of_fluid: Pairs::new(),
             sediment: Vec::new(),
             mean_factor: Vec::new(),
             slip: Vec::new(),

@@ -48,6 +48,10 @@ impl<const D: usize> Grid<D> {
         }
         let total: usize = self.cells.iter().product();
         self.start.clear();
+        if self.start.capacity() <= total {
+            // room for more: an open axis grows with every splash
+            self.start.reserve(2 * (total + 1));
+        }
         self.start.resize(total + 1, 0);
         self.cell_of.clear();
         for position in positions {

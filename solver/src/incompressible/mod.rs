@@ -13,10 +13,12 @@ mod closure;
 mod drag_exchange;
 mod granular_pressure;
 mod grid;
+mod layers;
 mod mixture;
 mod numerics;
 mod pairs;
 mod phase;
+mod pressure_links;
 mod pressure_poisson;
 mod rows;
 mod scene;
@@ -26,6 +28,9 @@ mod snapshot;
 mod step;
 mod stratification;
 mod velocity_solve;
+
+#[cfg(test)]
+mod tests;
 
 pub use numerics::{Continuity, DragSlip, MeanFlux, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment};
 pub use scene::{

@@ -4,6 +4,8 @@
 use super::grid::Grid;
 use crate::boundary::{AxisBoundary, Domain};
 use crate::kernel::Kernel;
+use crate::lanes::algebra::dot;
+use crate::lanes::{InstructionSet, LANES, LaneIndices, LanePass, Lanes, Real, gather_vectors};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
@@ -11,8 +13,9 @@ use rayon::prelude::*;
 pub(super) const LEAST_TASK: usize = 512;
 
 /// Pairs of targets with sources, each target's in a row of its own; all rows are equally long.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Pairs<const D: usize> {
+    /// A multiple of eight.
     stride: usize,
     /// Candidates of every target, and how many there are.
     candidate: Vec<u32>,
@@ -20,8 +23,7 @@ pub(super) struct Pairs<const D: usize> {
     /// Pairs within reach of every target, and how many there are.
     entry: Vec<Pair<D>>,
     count: Vec<u32>,
-    /// Candidates as they are found, before the rows are known to be long enough.
-    found: Vec<u32>,
+    set: InstructionSet,
 }
 
 /// One pair of a target a with a source b.
@@ -31,8 +33,6 @@ pub(super) struct Pair<const D: usize> {
     pub(super) source: u32,
     /// x_a − x_b of the nearest images `[m]`.
     pub(super) separation: Vector<D>,
-    /// |x_a − x_b|² `[m²]`.
-    pub(super) distance_squared: f64,
     /// W `[1/m^D]`.
     pub(super) value: f64,
     /// F = (1/r) dW/dr `[1/m^(D+2)]`, never positive.
@@ -61,14 +61,42 @@ impl<const D: usize> Periods<D> {
     }
 
     #[inline(always)]
-    fn shortest(&self, mut separation: Vector<D>) -> Vector<D> {
+    fn shortest<V: Real>(&self, mut separation: [V; D]) -> [V; D] {
+        let one = V::splat(1.0);
         for axis in 0..D {
-            let turns = separation[axis] * self.inverse[axis];
-            let whole = f64::from(i32::from(turns > 0.5) - i32::from(turns < -0.5));
-            separation[axis] -= whole * self.length[axis];
+            let turns = separation[axis] * V::splat(self.inverse[axis]);
+            let whole = one.where_less(V::splat(0.5), turns) - one.where_less(turns, V::splat(-0.5));
+            separation[axis] = separation[axis] - whole * V::splat(self.length[axis]);
         }
         separation
     }
+
+    /// |x_a − x_b|² `[m²]` of the nearest images.
+    #[inline(always)]
+    fn distance_squared(&self, target: &Vector<D>, source: &Vector<D>) -> f64 {
+        dot_of(&self.shortest((target - source).into()))
+    }
+
+    /// x_a − x_b `[m]` of the nearest images and |x_a − x_b|² `[m²]` for eight sources.
+    #[inline(always)]
+    pub(super) fn separations<V: Lanes>(
+        &self,
+        target: &Vector<D>,
+        sources: &[Vector<D>],
+        candidates: &[u32; LANES],
+    ) -> ([V; D], V) {
+        let mut separation = gather_vectors::<V, D>(sources, &LaneIndices::new(candidates, sources.len()));
+        for axis in 0..D {
+            separation[axis] = V::splat(target[axis]) - separation[axis];
+        }
+        let separation = self.shortest(separation);
+        (separation, dot_of(&separation))
+    }
+}
+
+#[inline(always)]
+fn dot_of<V: Real, const D: usize>(separation: &[V; D]) -> V {
+    dot(separation, separation)
 }
 
 /// Whether the sources are the targets themselves.
@@ -81,6 +109,17 @@ pub(super) enum Sources {
 }
 
 impl<const D: usize> Pairs<D> {
+    pub(super) fn new() -> Self {
+        Self {
+            stride: LANES,
+            candidate: Vec::new(),
+            candidates: Vec::new(),
+            entry: Vec::new(),
+            count: Vec::new(),
+            set: InstructionSet::best(),
+        }
+    }
+
     /// Finds all candidates within `radius` `[m]`.
     pub(super) fn search(
         &mut self,
@@ -91,30 +130,42 @@ impl<const D: usize> Pairs<D> {
         periods: &Periods<D>,
         radius: f64,
     ) {
-        self.found.clear();
-        self.candidates.clear();
-        for (index, target) in targets.iter().enumerate() {
-            let before = self.found.len();
-            grid.visit_near(target, |source| {
-                let separation = periods.shortest(target - sources[source as usize]);
-                let itself = which == Sources::Same && source as usize == index;
-                if !itself && separation.norm_squared() < radius * radius {
-                    self.found.push(source);
-                }
-            });
-            self.candidates.push((self.found.len() - before) as u32);
-        }
-        self.stride = self.candidates.iter().copied().max().unwrap_or(0).max(1) as usize;
+        self.candidates.resize(targets.len(), 0);
         self.count.resize(targets.len(), 0);
-        self.candidate.resize(targets.len() * self.stride, 0);
-        let none = Pair { source: 0, separation: Vector::zeros(), distance_squared: 0.0, value: 0.0, gradient: 0.0 };
-        self.entry.resize(targets.len() * self.stride, none);
-        let mut found = self.found.as_slice();
-        for (row, &count) in self.candidate.chunks_mut(self.stride).zip(&self.candidates) {
-            let (this, after) = found.split_at(count as usize);
-            row[..count as usize].copy_from_slice(this);
-            found = after;
+        loop {
+            self.candidate.resize(targets.len() * self.stride, 0);
+            (self.candidate.par_chunks_mut(self.stride), &mut self.candidates, targets)
+                .into_par_iter()
+                .enumerate()
+                .with_min_len(LEAST_TASK)
+                .for_each(|(index, (row, candidates, target))| {
+                    let mut found = 0;
+                    grid.visit_near(target, |source| {
+                        let square = periods.distance_squared(target, &sources[source as usize]);
+                        let itself = which == Sources::Same && source as usize == index;
+                        // written always and counted if near: no branch that the processor would guess wrong
+                        if let Some(place) = row.get_mut(found) {
+                            *place = source;
+                        }
+                        found += usize::from(!itself & (square < radius * radius));
+                    });
+                    *candidates = found as u32;
+                    // in order of the sources: neighbours in memory, and the factors of a row wait for the row before
+                    // it last
+                    let filled = found.min(row.len());
+                    row[..filled].sort_unstable();
+                    // any source does for the rest of the last eight
+                    row[filled..].fill(0);
+                });
+            let longest = self.candidates.iter().copied().max().unwrap_or(0) as usize;
+            if longest <= self.stride {
+                break;
+            }
+            // room for more, so that rows do not grow by one place at a time
+            self.stride = (longest + longest / 4 + 1).next_multiple_of(LANES);
         }
+        let none = Pair { source: 0, separation: Vector::zeros(), value: 0.0, gradient: 0.0 };
+        self.entry.resize(targets.len() * self.stride, none);
     }
 
     /// Measures the candidates and keeps those within the kernel's reach.
@@ -125,31 +176,28 @@ impl<const D: usize> Pairs<D> {
         periods: &Periods<D>,
         kernel: &Kernel<D>,
     ) {
-        let reach_squared = kernel.support() * kernel.support();
+        let rows = LEAST_TASK * self.stride;
         (
-            self.entry.par_chunks_mut(self.stride),
-            self.candidate.par_chunks(self.stride),
-            &self.candidates,
-            &mut self.count,
-            targets,
+            self.entry.par_chunks_mut(rows),
+            self.count.par_chunks_mut(LEAST_TASK),
+            self.candidate.par_chunks(rows),
+            self.candidates.par_chunks(LEAST_TASK),
+            targets.par_chunks(LEAST_TASK),
         )
             .into_par_iter()
-            .with_min_len(LEAST_TASK)
-            .for_each(|(row, candidate, &candidates, count, target)| {
-                let mut near = 0;
-                for &source in &candidate[..candidates as usize] {
-                    let separation = periods.shortest(target - sources[source as usize]);
-                    let distance_squared = separation.norm_squared();
-                    // written always and counted if near: no branch that the processor would guess wrong;
-                    // a row is as long as its candidates, and the last place is written last
-                    row[near] = Pair { source, separation, distance_squared, value: 0.0, gradient: 0.0 };
-                    near += usize::from(distance_squared < reach_squared);
-                }
-                for pair in &mut row[..near] {
-                    pair.value = kernel.value(pair.distance_squared);
-                    pair.gradient = kernel.gradient_weight(pair.distance_squared, 1.0);
-                }
-                *count = near as u32;
+            .for_each(|(entry, count, candidate, candidates, targets)| {
+                let stride = self.stride;
+                self.set.run(Measure {
+                    stride,
+                    entry,
+                    count,
+                    candidate,
+                    candidates,
+                    targets,
+                    sources,
+                    periods,
+                    kernel,
+                });
             });
     }
 
@@ -160,8 +208,72 @@ impl<const D: usize> Pairs<D> {
         &self.entry[start..start + self.count[target] as usize]
     }
 
+    /// The candidates of a target in eights, and how many there are: all sources within reach, and some more.
+    #[inline(always)]
+    pub(super) fn candidates(&self, target: usize) -> (&[[u32; LANES]], usize) {
+        let start = target * self.stride;
+        let count = self.candidates[target] as usize;
+        (self.candidate[start..start + count.next_multiple_of(LANES)].as_chunks().0, count)
+    }
+
+    /// The instruction set of its passes.
+    pub(super) fn set(&self) -> InstructionSet {
+        self.set
+    }
+
     /// Length of a row, in arrays that run parallel to the pairs too.
     pub(super) fn stride(&self) -> usize {
         self.stride
+    }
+}
+
+/// The pairs of some targets.
+struct Measure<'a, const D: usize> {
+    stride: usize,
+    entry: &'a mut [Pair<D>],
+    count: &'a mut [u32],
+    candidate: &'a [u32],
+    candidates: &'a [u32],
+    targets: &'a [Vector<D>],
+    sources: &'a [Vector<D>],
+    periods: &'a Periods<D>,
+    kernel: &'a Kernel<D>,
+}
+
+impl<const D: usize> LanePass for Measure<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let reach_squared = self.kernel.support() * self.kernel.support();
+        let rows = self.entry.chunks_mut(self.stride).zip(self.candidate.chunks(self.stride));
+        let targets = self.targets.iter().zip(self.candidates).zip(self.count);
+        for ((row, candidate), ((target, &candidates), count)) in rows.zip(targets) {
+            let mut left = candidates as usize;
+            let mut near = 0;
+            for eight in candidate.as_chunks::<LANES>().0 {
+                if left == 0 {
+                    break;
+                }
+                let (separation, square) = self.periods.separations::<V>(target, self.sources, eight);
+                let value = self.kernel.value(square).to_array();
+                let gradient = self.kernel.gradient_weight(square, V::splat(1.0)).to_array();
+                let square = square.to_array();
+                let mut arms = [[0.0; LANES]; D];
+                for axis in 0..D {
+                    arms[axis] = separation[axis].to_array();
+                }
+                for lane in 0..left.min(LANES) {
+                    let mut separation = Vector::zeros();
+                    for axis in 0..D {
+                        separation[axis] = arms[axis][lane];
+                    }
+                    // written always and counted if near: no branch that the processor would guess wrong;
+                    // a row is as long as its candidates, and the last place is written last
+                    row[near] = Pair { source: eight[lane], separation, value: value[lane], gradient: gradient[lane] };
+                    near += usize::from(square[lane] < reach_squared);
+                }
+                left = left.saturating_sub(LANES);
+            }
+            *count = near as u32;
+        }
     }
 }

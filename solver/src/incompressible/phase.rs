@@ -117,8 +117,8 @@ impl<const D: usize> Phase<D> {
             density,
             lattice: LatticeSums::of(&kernel, spacing),
             kernel,
-            free_pairs: Pairs::default(),
-            wall_pairs: Pairs::default(),
+            free_pairs: Pairs::new(),
+            wall_pairs: Pairs::new(),
             concentration: vec![1.0; count],
             at_surface: vec![false; count],
             moment: vec![1.0; count],
@@ -171,7 +171,7 @@ impl<const D: usize> Phase<D> {
                 let (mut value, mut arms) = (own, 0.0);
                 for pair in free_pairs.of(a).iter().chain(wall_pairs.of(a)) {
                     value += pair.value;
-                    arms -= pair.gradient * pair.distance_squared;
+                    arms -= pair.gradient * pair.separation.norm_squared();
                 }
                 *concentration = scale * value;
                 *at_surface = *concentration < threshold;

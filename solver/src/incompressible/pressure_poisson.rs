@@ -21,29 +21,29 @@
 use super::numerics::{PressureSource, ProjectionNumerics, SurfaceTreatment};
 use super::pairs::LEAST_TASK;
 use super::phase::{Phase, height_axis};
+use super::pressure_links::{FirstPass, Link, LinkChunk, SecondPass};
 use super::step::MOST_ITERATIONS;
-use crate::linear::{ConjugateGradient, Criterion, NotConverged};
+use crate::lanes::LANES;
+use crate::linear::{
+    ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, TASK_ROWS, single,
+};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
 /// Coefficients, reused from step to step.
 #[derive(Debug)]
 pub(super) struct PressurePoisson<const D: usize> {
-    stride: usize,
-    /// g_ab and the coefficient of A for every pair.
-    link: Vec<Link<D>>,
-    /// Links of every row.
-    count: Vec<u32>,
+    links: LaneRows<LinkChunk<D>>,
     /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
     own: Vec<Vector<D>>,
     diagonal: Vec<f64>,
-    inverse_diagonal: Vec<f64>,
     right_side: Vec<f64>,
     gradient: Vec<Vector<D>>,
     /// A pressure less its mean, where there is no level.
     deviation: Vec<f64>,
     /// Whether a surface fixes the level of the pressure.
     level: Level,
+    factors: IncompleteCholesky,
     solver: ConjugateGradient<f64>,
 }
 
@@ -86,28 +86,17 @@ impl Level {
     }
 }
 
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Link<const D: usize> {
-    pub(super) source: u32,
-    /// g_ab `[1/m]`.
-    pub(super) gradient: Vector<D>,
-    /// 2 V (−F) `[1/m²]`.
-    pub(super) laplacian: f64,
-}
-
 impl<const D: usize> PressurePoisson<D> {
     pub(super) fn new() -> Self {
         Self {
-            stride: 1,
-            link: Vec::new(),
-            count: Vec::new(),
+            links: LaneRows::new(),
             own: Vec::new(),
             diagonal: Vec::new(),
-            inverse_diagonal: Vec::new(),
             right_side: Vec::new(),
             gradient: Vec::new(),
             deviation: Vec::new(),
             level: Level::Surface,
+            factors: IncompleteCholesky::default(),
             solver: ConjugateGradient::new(),
         }
     }
@@ -119,13 +108,9 @@ impl<const D: usize> PressurePoisson<D> {
 
     /// Prepares the operators at the present positions.
     pub(super) fn assemble(&mut self, phase: &Phase<D>, numerics: &ProjectionNumerics) {
-        let stabilisation = numerics.stabilisation;
         let eliminated = numerics.surface == SurfaceTreatment::Eliminated;
         let count = phase.len();
-        self.stride = phase.free_pairs.stride();
-        self.link.resize(count * self.stride, Link { source: 0, gradient: Vector::zeros(), laplacian: 0.0 });
-        self.count.resize(count, 0);
-        for array in [&mut self.diagonal, &mut self.inverse_diagonal, &mut self.right_side] {
+        for array in [&mut self.diagonal, &mut self.right_side] {
             array.resize(count, 0.0);
         }
         self.own.resize(count, Vector::zeros());
@@ -133,25 +118,25 @@ impl<const D: usize> PressurePoisson<D> {
         let gradient_scale = phase.lattice_volume;
         let laplacian_scale = -2.0 * phase.lattice_volume;
         let normal = height_axis(D);
-        (self.link.par_chunks_mut(self.stride), &mut self.count, &mut self.own, &mut self.diagonal)
-            .into_par_iter()
-            .enumerate()
-            .with_min_len(LEAST_TASK)
-            .for_each(|(a, (links, count, own, diagonal))| {
+        let beside = (self.own.par_chunks_mut(LANES), self.diagonal.par_chunks_mut(LANES)).into_par_iter();
+        self.links.fill(count, phase.free_pairs.stride(), beside, |first, group, (own, diagonal)| {
+            for lane in 0..own.len() {
+                let a = first + lane;
                 let mut sum = Vector::zeros();
                 let mut total = 0.0;
                 let mut beside_surface = false;
-                let pairs = phase.free_pairs.of(a);
-                for (link, pair) in links.iter_mut().zip(pairs) {
-                    let moment = 2.0 / (phase.moment[a] + phase.moment[pair.source as usize]);
-                    let weight = pair.gradient * moment;
-                    let gradient = pair.separation * (gradient_scale * weight);
-                    let laplacian = laplacian_scale * weight;
-                    *link = Link { source: pair.source, gradient, laplacian };
-                    sum += gradient;
-                    total += laplacian;
-                    beside_surface |= phase.at_surface[pair.source as usize];
-                }
+                group.row(lane, |links| {
+                    for pair in phase.free_pairs.of(a) {
+                        let moment = 2.0 / (phase.moment[a] + phase.moment[pair.source as usize]);
+                        let weight = pair.gradient * moment;
+                        let gradient = (pair.separation * (gradient_scale * weight)).map(single);
+                        let laplacian = single(laplacian_scale * weight);
+                        links.push(pair.source, (gradient, laplacian));
+                        sum += gradient;
+                        total += laplacian;
+                        beside_surface |= phase.at_surface[pair.source as usize];
+                    }
+                });
                 let mut wall = 0.0;
                 let mut wall_total = 0.0;
                 for pair in phase.wall_pairs.of(a) {
@@ -159,8 +144,7 @@ impl<const D: usize> PressurePoisson<D> {
                     wall_total += laplacian_scale * pair.gradient;
                 }
                 sum[normal] += 2.0 * wall;
-                *count = pairs.len() as u32;
-                *own = sum;
+                own[lane] = sum;
                 // what is missing counts as mirrored neighbours with −P_b: from half a spacing below the surface twice
                 // P_a away, from one and a half 4/3
                 let complete = phase.lattice.diagonal * laplacian_scale.abs() - wall_total;
@@ -170,30 +154,20 @@ impl<const D: usize> PressurePoisson<D> {
                 } else {
                     phase.nearness[a] * (4.0 / 3.0 + 2.0 / 3.0 * phase.deficit[a])
                 };
-                *diagonal = total + mirror * missing;
-            });
+                // what is no unknown has no diagonal
+                let known = eliminated && phase.at_surface[a];
+                diagonal[lane] = if known { 0.0 } else { total + mirror * missing };
+            }
+        });
         let has_surface = match numerics.surface {
             SurfaceTreatment::Eliminated => phase.at_surface.contains(&true),
             SurfaceTreatment::Completed => phase.nearness.iter().any(|&nearness| nearness > 0.0),
         };
         self.level = if has_surface { Level::Surface } else { Level::Free };
-        self.inverse_diagonal.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, inverse)| {
-            if eliminated && phase.at_surface[a] {
-                *inverse = 0.0;
-                return;
-            }
-            let links = &self.link[a * self.stride..a * self.stride + self.count[a] as usize];
-            // the diagonal of −D G: every neighbour's gradient sees P_a, and so does the own one
-            let mut squares = self.own[a].norm_squared();
-            for link in links {
-                squares += link.gradient.norm_squared();
-            }
-            let diagonal = self.diagonal[a] + stabilisation * squares;
-            *inverse = if diagonal > 0.0 { 1.0 / diagonal } else { 0.0 };
-        });
     }
 
     /// (D u)_a `[1/s]` of a velocity field.
+    #[inline(always)]
     pub(super) fn divergence(&self, a: usize, velocity: &[Vector<D>]) -> f64 {
         let mut sum = -self.own[a].dot(&velocity[a]);
         for link in self.links(a) {
@@ -203,6 +177,7 @@ impl<const D: usize> PressurePoisson<D> {
     }
 
     /// (G P)_a `[Pa/m]`.
+    #[inline(always)]
     pub(super) fn gradient(&self, a: usize, pressure: &[f64]) -> Vector<D> {
         let mut sum = self.own[a] * pressure[a];
         for link in self.links(a) {
@@ -224,6 +199,12 @@ impl<const D: usize> PressurePoisson<D> {
     /// What fixes the level of the pressure.
     pub(super) fn level(&self) -> Level {
         self.level
+    }
+
+    /// The links of a particle.
+    #[inline(always)]
+    pub(super) fn links(&self, a: usize) -> impl Iterator<Item = Link<D>> {
+        self.links.row(a).map(|(source, (gradient, laplacian))| Link { source, gradient, laplacian })
     }
 
     /// Solves for the pressures `[Pa]`, starting from the present ones.
@@ -264,8 +245,9 @@ impl<const D: usize> PressurePoisson<D> {
         let mut solver = std::mem::replace(&mut self.solver, ConjugateGradient::new());
         let mut gradient = std::mem::take(&mut self.gradient);
         let mut deviation = std::mem::take(&mut self.deviation);
-        let inverse = std::mem::take(&mut self.inverse_diagonal);
-        let outcome = solver.solve(&mut phase.pressure, &right_side, &inverse, None, criterion, |p, product| {
+        let mut factors = std::mem::take(&mut self.factors);
+        factors.factorise(self.links.len(), self.links.stride(), &CompactRows(self));
+        let outcome = solver.solve(&mut phase.pressure, &right_side, &factors, None, criterion, |p, product| {
             self.level.apply(p, product, &mut deviation, |p, product| {
                 self.apply(p, product, &mut gradient, &phase.at_surface, eliminated, stabilisation);
             });
@@ -277,12 +259,12 @@ impl<const D: usize> PressurePoisson<D> {
             };
             phase.pressure.iter_mut().for_each(|pressure| *pressure -= anchor);
         }
-        (self.solver, self.gradient, self.inverse_diagonal, self.right_side) = (solver, gradient, inverse, right_side);
-        self.deviation = deviation;
+        (self.solver, self.gradient, self.right_side) = (solver, gradient, right_side);
+        (self.factors, self.deviation) = (factors, deviation);
         outcome
     }
 
-    fn apply(
+    pub(super) fn apply(
         &self,
         p: &[f64],
         product: &mut [f64],
@@ -291,34 +273,42 @@ impl<const D: usize> PressurePoisson<D> {
         eliminated: bool,
         stabilisation: f64,
     ) {
-        if stabilisation == 0.0 {
-            product.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, out)| {
-                let mut sum = self.diagonal[a] * p[a];
-                for link in self.links(a) {
-                    sum -= link.laplacian * p[link.source as usize];
-                }
-                *out = if eliminated && surface[a] { 0.0 } else { sum };
+        // both operators read the pressures, D reads the gradients when all are there
+        (product.par_chunks_mut(TASK_ROWS), gradient.par_chunks_mut(TASK_ROWS)).into_par_iter().enumerate().for_each(
+            |(task, (product, gradient))| {
+                let (own, diagonal, first) = (&self.own, &self.diagonal, task * TASK_ROWS);
+                self.links.run(FirstPass { links: &self.links, own, diagonal, p, first, product, gradient });
+            },
+        );
+        if stabilisation != 0.0 {
+            let gradient = &*gradient;
+            product.par_chunks_mut(TASK_ROWS).enumerate().for_each(|(task, product)| {
+                let (own, first) = (&self.own, task * TASK_ROWS);
+                self.links.run(SecondPass { links: &self.links, own, gradient, first, product, stabilisation });
             });
-            return;
         }
-        gradient.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, out)| *out = self.gradient(a, p));
-        let gradient = &*gradient;
-        product.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, out)| {
-            let mut compact = self.diagonal[a] * p[a];
-            let mut wide = self.own[a].dot(&gradient[a]);
-            for link in self.links(a) {
-                compact -= link.laplacian * p[link.source as usize];
-                wide -= link.gradient.dot(&gradient[link.source as usize]);
+        if eliminated {
+            for (product, &at_surface) in product.iter_mut().zip(surface) {
+                if at_surface {
+                    *product = 0.0;
+                }
             }
-            *out = if eliminated && surface[a] { 0.0 } else { compact + stabilisation * wide };
-        });
+        }
+    }
+}
+
+/// A row by row: what A + s D G is preconditioned by, being nearly (1 + s) A where the pressure is smooth.
+struct CompactRows<'a, const D: usize>(&'a PressurePoisson<D>);
+
+impl<const D: usize> Rows for CompactRows<'_, D> {
+    #[inline(always)]
+    fn diagonal(&self, row: usize) -> f64 {
+        self.0.diagonal[row]
     }
 
-    /// The links of a particle.
     #[inline(always)]
-    pub(super) fn links(&self, a: usize) -> &[Link<D>] {
-        let start = a * self.stride;
-        &self.link[start..start + self.count[a] as usize]
+    fn off_diagonal(&self, row: usize) -> impl Iterator<Item = (u32, f64)> {
+        self.0.links(row).map(|link| (link.source, -link.laplacian))
     }
 }
 

@@ -5,31 +5,34 @@
 
 use super::closure::mean_rate;
 use super::numerics::PairLaw;
-use super::pairs::{LEAST_TASK, Pair};
+use super::pairs::Pair;
 use super::phase::{Phase, height_axis};
 use super::scene::{Bed, Sediment};
 use super::simulation::IncompressibleSimulation;
 use super::velocity_solve::VelocitySystem;
+use crate::lanes::LANES;
+use crate::linear::{Row as Links, Single, single};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
 /// A row while it is filled.
-struct Row<'a> {
-    links: &'a mut [(u32, f64)],
-    filled: usize,
+struct Row<'a, 'b> {
+    links: &'a mut Links<'b, Single>,
     coupled: f64,
     held: f64,
 }
 
-impl Row<'_> {
+impl Row<'_, '_> {
     /// A pair with a free particle: Δt k_ab `[kg]`.
+    #[inline(always)]
     fn couple(&mut self, partner: usize, coefficient: f64) {
-        self.links[self.filled] = (partner as u32, coefficient);
-        self.filled += 1;
+        let coefficient = single(coefficient);
+        self.links.push(partner as u32, coefficient);
         self.coupled += coefficient;
     }
 
     /// A pair with what stands still.
+    #[inline(always)]
     fn hold(&mut self, coefficient: f64) {
         self.held += coefficient;
     }
@@ -49,46 +52,50 @@ impl<const D: usize> IncompressibleSimulation<D> {
         let free_sediment = self.sediment.as_ref().map_or(0, Phase::len);
         let fluid_stride = self.fluid.free_pairs.stride() + self.exchange.of_fluid.stride();
         let of_sediment = |s: &Phase<D>| s.free_pairs.stride() + self.exchange.of_sediment.stride();
-        system.resize(free_fluid + free_sediment, fluid_stride.max(self.sediment.as_ref().map_or(0, of_sediment)));
+        let stride = fluid_stride.max(self.sediment.as_ref().map_or(0, of_sediment));
+        system.resize(free_fluid + free_sediment);
         let gravity =
             (self.scene.fluid.gravity, self.scene.sediment.as_ref().map_or_else(Vector::zeros, |s| s.gravity));
-        (
-            system.link.par_chunks_mut(system.stride),
-            &mut system.count,
-            &mut system.diagonal,
-            &mut system.of_constant,
-            &mut system.inertia,
-            &mut system.momentum,
-            &mut system.velocity,
-        )
-            .into_par_iter()
-            .enumerate()
-            .with_min_len(LEAST_TASK)
-            .for_each(|(index, (links, count, diagonal, sum, inertia, momentum, velocity))| {
-                let mut row = Row { links, filled: 0, coupled: 0.0, held: 0.0 };
-                let force = match (&self.sediment, &self.scene.sediment) {
-                    (Some(sediment), Some(material)) if index >= free_fluid => {
-                        let a = index - free_fluid;
-                        self.sediment_row(a, sediment, material, time_step, &mut row);
-                        (*inertia, *velocity) = (sediment.mass[a], sediment.velocity[a]);
-                        gravity.1
-                    }
-                    _ => {
-                        self.fluid_row(index, time_step, &mut row);
-                        *inertia = self.fluid.mass[index] * self.fluid_share[index];
-                        *velocity = self.fluid.velocity[index];
-                        gravity.0
-                    }
-                };
-                *count = row.filled as u32;
-                *sum = *inertia + row.held;
-                *diagonal = *sum + row.coupled;
-                *momentum = (*velocity + force * time_step) * *inertia;
-            });
+        let VelocitySystem { couplings, diagonal, of_constant, inertia, momentum, velocity, .. } = &mut system;
+        let beside = (
+            diagonal.par_chunks_mut(LANES),
+            of_constant.par_chunks_mut(LANES),
+            inertia.par_chunks_mut(LANES),
+            momentum.par_chunks_mut(LANES),
+            velocity.par_chunks_mut(LANES),
+        );
+        let beside = beside.into_par_iter();
+        couplings.fill(free_fluid + free_sediment, stride, beside, |first, group, beside| {
+            let (diagonal, sum, inertia, momentum, velocity) = beside;
+            for lane in 0..diagonal.len() {
+                let index = first + lane;
+                let (coupled, held, force) = group.row(lane, |links| {
+                    let mut row = Row { links, coupled: 0.0, held: 0.0 };
+                    let force = match (&self.sediment, &self.scene.sediment) {
+                        (Some(sediment), Some(material)) if index >= free_fluid => {
+                            let a = index - free_fluid;
+                            self.sediment_row(a, sediment, material, time_step, &mut row);
+                            (inertia[lane], velocity[lane]) = (sediment.mass[a], sediment.velocity[a]);
+                            gravity.1
+                        }
+                        _ => {
+                            self.fluid_row(index, time_step, &mut row);
+                            inertia[lane] = self.fluid.mass[index] * self.fluid_share[index];
+                            velocity[lane] = self.fluid.velocity[index];
+                            gravity.0
+                        }
+                    };
+                    (row.coupled, row.held, force)
+                });
+                sum[lane] = inertia[lane] + held;
+                diagonal[lane] = sum[lane] + coupled;
+                momentum[lane] = (velocity[lane] + force * time_step) * inertia[lane];
+            }
+        });
         self.system = system;
     }
 
-    fn fluid_row(&self, a: usize, time_step: f64, row: &mut Row<'_>) {
+    fn fluid_row(&self, a: usize, time_step: f64, row: &mut Row<'_, '_>) {
         let (fluid, viscosity) = (&self.fluid, &self.fluid_viscosity);
         let scale = -2.0 * time_step;
         for pair in fluid.free_pairs.of(a) {
@@ -115,7 +122,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
     }
 
     /// Friction of what the fluid flows over.
-    fn hold_by_bed(&self, a: usize, time_step: f64, row: &mut Row<'_>) {
+    fn hold_by_bed(&self, a: usize, time_step: f64, row: &mut Row<'_, '_>) {
         let fluid = &self.fluid;
         let normal = height_axis(D);
         match self.scene.fluid.bed {
@@ -146,7 +153,14 @@ impl<const D: usize> IncompressibleSimulation<D> {
         }
     }
 
-    fn sediment_row(&self, a: usize, sediment: &Phase<D>, material: &Sediment<D>, time_step: f64, row: &mut Row<'_>) {
+    fn sediment_row(
+        &self,
+        a: usize,
+        sediment: &Phase<D>,
+        material: &Sediment<D>,
+        time_step: f64,
+        row: &mut Row<'_, '_>,
+    ) {
         let first = self.fluid.len();
         let scale = -2.0 * time_step;
         let normal = height_axis(D);
@@ -179,11 +193,12 @@ impl<const D: usize> IncompressibleSimulation<D> {
     }
 
     /// η_a + η_b of a pair of sediment particles `[Pa·s]`.
+    #[inline]
     fn pair_viscosity(&self, a: usize, material: &Sediment<D>, partner: &Partner<D>, pair: &Pair<D>) -> f64 {
         let (own_load, own) = (self.load[a], self.sediment_viscosity[a]);
         let rate = || {
             let velocity = self.sediment.as_ref().map_or_else(Vector::zeros, |sediment| sediment.velocity[a]);
-            mean_rate(D) * ((velocity - partner.velocity).norm_squared() / pair.distance_squared).sqrt()
+            mean_rate(D) * ((velocity - partner.velocity).norm_squared() / pair.separation.norm_squared()).sqrt()
         };
         match self.scene.numerics.pair_law {
             PairLaw::PairRate => 2.0 * material.viscosity(own_load.min(partner.load), rate()),

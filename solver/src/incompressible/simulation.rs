@@ -3,9 +3,10 @@
 use super::averaged_gradient::AveragedGradient;
 use super::drag_exchange::DragExchange;
 use super::granular_pressure::GranularPressure;
+use super::layers::Layers;
 use super::mixture::Mixture;
 use super::pairs::Periods;
-use super::phase::{Phase, height_axis};
+use super::phase::Phase;
 use super::pressure_poisson::PressurePoisson;
 use super::scene::IncompressibleScene;
 use super::snapshot::{IncompressibleSnapshot, PhaseSnapshot};
@@ -43,7 +44,7 @@ pub struct IncompressibleSimulation<const D: usize> {
     pub(super) steps: u64,
     pub(super) last_step: f64,
     searches: u64,
-    layers: Vec<Option<(Vector<D>, Vector<D>)>>,
+    layers: Layers<D>,
 }
 
 /// What the linear solves and the searches of a run have cost.
@@ -60,7 +61,7 @@ pub struct SolverCost {
 }
 
 /// Skin of the candidate search over the fluid kernel's reach `[-]`.
-const SKIN: f64 = 0.2;
+const SKIN: f64 = 0.3;
 
 /// The plane: not generic, so that the loops are compiled here and not in every crate that takes a step.
 impl IncompressibleSimulation<2> {
@@ -150,7 +151,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
             steps: 0,
             last_step: scene.numerics.time_step,
             searches: 0,
-            layers: Vec::new(),
+            layers: Layers::new(),
             scene,
             fluid,
             sediment,
@@ -239,13 +240,13 @@ impl<const D: usize> IncompressibleSimulation<D> {
     /// Force of the fluid on every free sediment particle in the last step `[N]`, per metre of width in 2-D.
     #[must_use]
     pub fn drag(&self) -> Vec<Vector<D>> {
+        let system = &self.system;
         let free_fluid = self.fluid.len();
-        let rows = free_fluid..self.system.count.len();
+        let rows = free_fluid..system.couplings.len();
         let of_row = |row: usize| {
-            let links = &self.system.link[row * self.system.stride..][..self.system.count[row] as usize];
-            let from_fluid = links.iter().filter(|(partner, _)| (*partner as usize) < free_fluid);
-            let force = |sum, &(partner, coefficient): &(u32, f64)| {
-                sum + (self.system.velocity[partner as usize] - self.system.velocity[row]) * coefficient
+            let from_fluid = system.couplings.row(row).filter(|(partner, _)| (*partner as usize) < free_fluid);
+            let force = |sum, (partner, coefficient): (u32, f64)| {
+                sum + (system.velocity[partner as usize] - system.velocity[row]) * coefficient
             };
             from_fluid.fold(Vector::zeros(), force) / self.last_step
         };
@@ -282,13 +283,19 @@ impl<const D: usize> IncompressibleSimulation<D> {
 
     /// Measures all pairs, after a search if one may be missing.
     pub(super) fn measure(&mut self) {
-        if self.search_is_due() {
-            self.search();
-        }
+        self.search_if_due();
         self.fluid.measure(&self.periods);
         if let Some(sediment) = &mut self.sediment {
             sediment.measure(&self.periods);
             self.exchange.measure(&self.fluid, sediment, &self.periods);
+        }
+    }
+
+    /// Searches the candidates anew if a pair may be missing.
+    pub(super) fn search_if_due(&mut self) {
+        let skin = self.skin();
+        if self.layers.moved_apart(std::iter::once(&self.fluid).chain(&self.sediment), skin) {
+            self.search();
         }
     }
 
@@ -298,68 +305,21 @@ impl<const D: usize> IncompressibleSimulation<D> {
 
     fn search(&mut self) {
         let skin = self.skin();
+        for phase in std::iter::once(&mut self.fluid).chain(&mut self.sediment) {
+            // cells are those of the period
+            for position in &mut phase.position {
+                self.scene.domain.wrap(position);
+            }
+        }
         self.fluid.search(&self.scene.domain, &self.periods, skin);
+        let mut reach = self.fluid.kernel.support();
         if let Some(sediment) = &mut self.sediment {
             sediment.search(&self.scene.domain, &self.periods, skin);
             self.exchange.search(&self.fluid, sediment, &self.scene.domain, &self.periods, skin);
-        }
-        self.searches += 1;
-    }
-
-    /// Whether particles of the same or of adjacent layers have moved by the skin against each other since the search.
-    ///
-    /// Layers are as thick as the longest reach, so that a pair lies in adjacent ones; what a layer moves as a whole
-    /// does not count, which saves most searches of a shear flow.
-    fn search_is_due(&mut self) -> bool {
-        let skin = self.skin();
-        let mut reach = self.fluid.kernel.support();
-        if let Some(sediment) = &self.sediment {
             reach = reach.max(sediment.kernel.support()).max(self.exchange.reach());
         }
-        let (thickness, normal) = (reach + skin, height_axis(D));
-        let mut lowest = f64::INFINITY;
-        let phases = || std::iter::once(&self.fluid).chain(&self.sediment);
-        for phase in phases() {
-            for position in phase.position.iter().chain(&phase.wall) {
-                lowest = lowest.min(position[normal]);
-            }
-        }
-        lowest -= reach;
-        let mut layers = std::mem::take(&mut self.layers);
-        layers.fill(None);
-        let mut extend = |height: f64, travel: Vector<D>| {
-            let layer = (((height - lowest) / thickness).max(0.0) as usize).min(MOST_LAYERS);
-            if layer >= layers.len() {
-                layers.resize(layer + 1, None);
-            }
-            let (low, high) = layers[layer].unwrap_or((travel, travel));
-            layers[layer] = Some((low.inf(&travel), high.sup(&travel)));
-        };
-        for phase in phases() {
-            for (position, travel) in phase.position.iter().zip(&phase.travel) {
-                // where it was at the search
-                extend(position[normal] - travel[normal], *travel);
-            }
-            for position in &phase.wall {
-                extend(position[normal], Vector::zeros());
-            }
-        }
-        let mut due = false;
-        let mut below: Option<(Vector<D>, Vector<D>)> = None;
-        for layer in &layers {
-            if let Some((mut low, mut high)) = *layer {
-                if let Some(below) = below {
-                    (low, high) = (low.inf(&below.0), high.sup(&below.1));
-                }
-                let moved = (high - low).norm();
-                due |= moved.is_nan() || moved >= skin;
-            }
-            below = *layer;
-        }
-        self.layers = layers;
-        due
+        let phases = std::iter::once(&self.fluid).chain(&self.sediment);
+        self.layers.sort(phases, &self.scene.domain, reach + 2.0 * skin);
+        self.searches += 1;
     }
 }
-
-/// More layers than this are one: a stray particle far away must not buy memory.
-const MOST_LAYERS: usize = 65_536;

@@ -44,8 +44,8 @@ impl<const D: usize> IncompressibleSimulation<D> {
             Continuity::Mixture => self.project_mixture(time_step)?,
         }
         if numerics.shifting > 0.0 {
-            self.fluid.measure(&self.periods);
-            find_shifts(&self.fluid, numerics.shifting, time_step, &mut self.shifts);
+            self.search_if_due();
+            find_shifts(&self.fluid, &self.periods, numerics.shifting, time_step, &mut self.shifts);
             for (particle, &shift) in self.shifts.iter().enumerate() {
                 self.fluid.displace(particle, shift);
             }

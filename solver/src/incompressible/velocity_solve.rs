@@ -4,18 +4,14 @@
 //! number a pair, the same seen from both sides, so K is symmetric, the axes do not mix, and the exchange of momentum
 //! is equal and opposite. With the constant velocity deflated the total momentum closes to rounding.
 
-use super::pairs::LEAST_TASK;
-use crate::linear::{ConjugateGradient, Criterion, NotConverged};
+use crate::linear::{ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, Single};
 use crate::vector::Vector;
-use rayon::prelude::*;
 
 /// Rows of M + Δt K: the fluid's free particles first, then the sediment's.
 #[derive(Debug)]
 pub(super) struct VelocitySystem<const D: usize> {
-    pub(super) stride: usize,
-    /// Partner and coefficient `[kg]` of every pair: Δt k_ab.
-    pub(super) link: Vec<(u32, f64)>,
-    pub(super) count: Vec<u32>,
+    /// Δt k_ab `[kg]` of every pair.
+    pub(super) couplings: LaneRows<Single>,
     /// m_a + Δt Σ k `[kg]`.
     pub(super) diagonal: Vec<f64>,
     /// m_a, and what walls and the fixed bed hold, Δt Σ_w k_aw `[kg]`: the rows' sums.
@@ -26,32 +22,27 @@ pub(super) struct VelocitySystem<const D: usize> {
     pub(super) momentum: Vec<Vector<D>>,
     /// u* `[m/s]`.
     pub(super) velocity: Vec<Vector<D>>,
-    inverse_diagonal: Vec<f64>,
+    factors: IncompleteCholesky,
     solver: ConjugateGradient<Vector<D>>,
 }
 
 impl<const D: usize> VelocitySystem<D> {
     pub(super) fn new() -> Self {
         Self {
-            stride: 1,
-            link: Vec::new(),
-            count: Vec::new(),
+            couplings: LaneRows::new(),
             diagonal: Vec::new(),
             of_constant: Vec::new(),
             inertia: Vec::new(),
             momentum: Vec::new(),
             velocity: Vec::new(),
-            inverse_diagonal: Vec::new(),
+            factors: IncompleteCholesky::default(),
             solver: ConjugateGradient::new(),
         }
     }
 
-    /// Room for `rows` rows of at most `stride` links.
-    pub(super) fn resize(&mut self, rows: usize, stride: usize) {
-        self.stride = stride;
-        self.link.resize(rows * stride, (0, 0.0));
-        self.count.resize(rows, 0);
-        for array in [&mut self.diagonal, &mut self.of_constant, &mut self.inertia, &mut self.inverse_diagonal] {
+    /// Room for `rows` rows.
+    pub(super) fn resize(&mut self, rows: usize) {
+        for array in [&mut self.diagonal, &mut self.of_constant, &mut self.inertia] {
             array.resize(rows, 0.0);
         }
         self.momentum.resize(rows, Vector::zeros());
@@ -68,25 +59,29 @@ impl<const D: usize> VelocitySystem<D> {
     /// # Errors
     /// A solve that did not reach its tolerance.
     pub(super) fn solve(&mut self, criterion: Criterion) -> Result<(), NotConverged> {
-        for (inverse, diagonal) in self.inverse_diagonal.iter_mut().zip(&self.diagonal) {
-            *inverse = 1.0 / diagonal;
-        }
-        let (link, stride, count, diagonal) = (&self.link, self.stride, &self.count, &self.diagonal);
-        self.solver.solve(
-            &mut self.velocity,
-            &self.momentum,
-            &self.inverse_diagonal,
-            Some(&self.of_constant),
-            criterion,
-            |u, product| {
-                product.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, out)| {
-                    let mut sum = u[a] * diagonal[a];
-                    for &(b, coefficient) in &link[a * stride..a * stride + count[a] as usize] {
-                        sum -= u[b as usize] * coefficient;
-                    }
-                    *out = sum;
-                });
-            },
-        )
+        let (couplings, diagonal) = (&self.couplings, &self.diagonal);
+        self.factors.factorise(couplings.len(), couplings.stride(), &VelocityRows { couplings, diagonal });
+        let sums = Some(self.of_constant.as_slice());
+        self.solver.solve(&mut self.velocity, &self.momentum, &self.factors, sums, criterion, |u, product| {
+            couplings.subtract_from_diagonal(diagonal, u, product);
+        })
+    }
+}
+
+/// M + Δt K row by row.
+struct VelocityRows<'a> {
+    couplings: &'a LaneRows<Single>,
+    diagonal: &'a [f64],
+}
+
+impl Rows for VelocityRows<'_> {
+    #[inline(always)]
+    fn diagonal(&self, row: usize) -> f64 {
+        self.diagonal[row]
+    }
+
+    #[inline(always)]
+    fn off_diagonal(&self, row: usize) -> impl Iterator<Item = (u32, f64)> {
+        self.couplings.row(row).map(|(column, coefficient)| (column, -coefficient))
     }
 }

@@ -30,6 +30,8 @@ pub trait Lanes: Real {
     fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices<'_>) -> [Self; 4];
     /// Eight values in order.
     fn load(values: &[f64; LANES]) -> Self;
+    /// Eight values of single precision in order.
+    fn load_single(values: &[f32; LANES]) -> Self;
     /// The transpose of [`Lanes::load_quads`]: writes the four values of lane k to `out[k · stride + offset]` for as
     /// many lanes as `out` has records, at most eight.
     fn store_quads(quads: &[Self; 4], out: &mut [[f64; 4]], stride: usize, offset: usize);
@@ -196,7 +198,8 @@ mod tests {
                 let b = (x * y - z / a).max(t[0][2]).min(t[2][1] + a);
                 let c = (b * b + V::splat(0.1)).sqrt().where_less(x, -t[1][1]);
                 let [p, q, r, s] = V::load_quads(self.quads, 2, 1, &indices);
-                let c = c + (p - q) * (r + s);
+                let single: [f32; LANES] = std::array::from_fn(|k| self.a[start + k] as f32);
+                let c = c + (p - q) * (r + s) * V::load_single(&single);
                 self.out.extend((b + c).to_array().map(f64::to_bits));
                 self.out.extend((c - b).to_array().map(f64::to_bits));
                 let mut packed = [0; LANES];

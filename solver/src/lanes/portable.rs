@@ -106,6 +106,15 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
+    fn load_single(values: &[f32; LANES]) -> Self {
+        let mut lanes = [0.0; LANES];
+        for k in 0..LANES {
+            lanes[k] = f64::from(values[k]);
+        }
+        Self(lanes)
+    }
+
+    #[inline(always)]
     fn less_mask(self, other: Self) -> u32 {
         let mut mask = 0;
         for k in 0..LANES {

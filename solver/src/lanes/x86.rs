@@ -161,6 +161,12 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
+    fn load_single(values: &[f32; LANES]) -> Self {
+        // SAFETY: the array holds eight values.
+        Self(unsafe { _mm512_cvtps_pd(_mm256_loadu_ps(values.as_ptr())) })
+    }
+
+    #[inline(always)]
     fn less_mask(self, other: Self) -> u32 {
         // SAFETY: values of this type exist only inside run_avx512.
         unsafe { u32::from(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0)) }
@@ -277,6 +283,13 @@ impl Lanes for Avx2 {
     fn load(values: &[f64; LANES]) -> Self {
         // SAFETY: the array holds eight values, four a load.
         unsafe { Self(_mm256_loadu_pd(values.as_ptr()), _mm256_loadu_pd(values.as_ptr().add(4))) }
+    }
+
+    #[inline(always)]
+    fn load_single(values: &[f32; LANES]) -> Self {
+        let pointer = values.as_ptr();
+        // SAFETY: the array holds eight values, four a load.
+        unsafe { Self(_mm256_cvtps_pd(_mm_loadu_ps(pointer)), _mm256_cvtps_pd(_mm_loadu_ps(pointer.add(4)))) }
     }
 
     #[inline(always)]

@@ -1,10 +1,31 @@
-//! Conjugate gradients, preconditioned with the diagonal and, if asked, with the constant vector deflated.
+//! Conjugate gradients, preconditioned and, if asked, with the constant vector deflated.
 //!
-//! Deflation (Nicolaides 1987) splits off the one vector that a diagonal handles worst: the whole set moving as one.
+//! Deflation (Nicolaides 1987) splits off the one vector that local factors handle worst: the whole set moving as one.
 //! Every residual is then orthogonal to the constant. If the unknowns are velocities and the rows forces, that is the
 //! total momentum: it closes to rounding, whatever the tolerance.
 
-use super::reductions::{Unknown, dot};
+use super::reductions::{Unknown, dot, weighted_square};
+
+/// What a residual is turned into a direction with.
+pub(crate) trait Preconditioner {
+    /// Weights of the residual's norm: the inverse diagonal, 0 for a row that is no unknown.
+    fn weights(&self) -> &[f64];
+    /// M⁻¹ times a residual.
+    fn apply<T: Unknown>(&self, residual: &[T], out: &mut [T]);
+}
+
+/// The inverse diagonal alone.
+impl Preconditioner for Vec<f64> {
+    fn weights(&self) -> &[f64] {
+        self
+    }
+
+    fn apply<T: Unknown>(&self, residual: &[T], out: &mut [T]) {
+        for ((out, residual), weight) in out.iter_mut().zip(residual).zip(self) {
+            *out = *residual * *weight;
+        }
+    }
+}
 
 /// When a solve ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,12 +80,13 @@ impl<T: Unknown> ConjugateGradient<T> {
         &mut self,
         unknown: &mut [T],
         right_side: &[T],
-        inverse_diagonal: &[f64],
+        preconditioner: &impl Preconditioner,
         of_constant: Option<&[f64]>,
         criterion: Criterion,
         mut apply: impl FnMut(&[T], &mut [T]),
     ) -> Result<(), NotConverged> {
         let rows = unknown.len();
+        let weights = preconditioner.weights();
         for buffer in [&mut self.residual, &mut self.direction, &mut self.product, &mut self.preconditioned] {
             buffer.clear();
             buffer.resize(rows, T::ZERO);
@@ -81,16 +103,24 @@ impl<T: Unknown> ConjugateGradient<T> {
                 self.residual[row] = self.residual[row] - shift * image[row];
             }
         }
-        self.precondition(inverse_diagonal);
-        let scale = weighted_square(right_side, inverse_diagonal);
+        let scale = weighted_square(right_side, weights);
+        if scale == 0.0 {
+            // no residual is small against nothing
+            unknown.fill(T::ZERO);
+            return Ok(());
+        }
         let goal = criterion.tolerance * criterion.tolerance * scale;
-        let mut descent = dot(&self.residual, &self.preconditioned);
+        let mut square = weighted_square(&self.residual, weights);
         let mut iterations = 0;
-        let mut growth = 0.0;
-        while descent > goal || descent.is_nan() {
+        let mut before = 0.0;
+        while square > goal || square.is_nan() {
+            preconditioner.apply(&self.residual, &mut self.preconditioned);
+            let descent = dot(&self.residual, &self.preconditioned);
             if iterations == criterion.most_iterations || !descent.is_finite() {
-                return Err(NotConverged { row: worst(&self.residual), residual: (descent / scale).sqrt() });
+                return Err(self.failure(square / scale));
             }
+            let growth = if iterations > 0 { descent / before } else { 0.0 };
+            before = descent;
             let lift = deflation.map_or(T::ZERO, |(image, inverse)| {
                 let overlap = self.preconditioned.iter().zip(image).fold(T::ZERO, |sum, (z, a)| sum + *z * *a);
                 overlap * inverse
@@ -99,34 +129,30 @@ impl<T: Unknown> ConjugateGradient<T> {
                 *direction = (*z - lift) + *direction * growth;
             }
             apply(&self.direction, &mut self.product);
-            let step = descent / dot(&self.direction, &self.product);
+            let curvature = dot(&self.direction, &self.product);
+            if curvature.is_nan() || curvature <= 0.0 {
+                // not a positive operator: the residual is still a number and tells where
+                return Err(self.failure(square / scale));
+            }
+            let step = descent / curvature;
             for row in 0..rows {
                 unknown[row] = unknown[row] + self.direction[row] * step;
                 self.residual[row] = self.residual[row] - self.product[row] * step;
             }
-            self.precondition(inverse_diagonal);
-            let next = dot(&self.residual, &self.preconditioned);
-            growth = next / descent;
-            descent = next;
+            square = weighted_square(&self.residual, weights);
             iterations += 1;
         }
         self.iterations += iterations as u64;
         Ok(())
     }
 
-    fn precondition(&mut self, inverse_diagonal: &[f64]) {
-        for ((z, r), d) in self.preconditioned.iter_mut().zip(&self.residual).zip(inverse_diagonal) {
-            *z = *r * *d;
-        }
+    fn failure(&self, square: f64) -> NotConverged {
+        NotConverged { row: worst(&self.residual), residual: square.sqrt() }
     }
 }
 
 fn sum<T: Unknown>(values: &[T]) -> T {
     values.iter().fold(T::ZERO, |sum, value| sum + *value)
-}
-
-fn weighted_square<T: Unknown>(values: &[T], weights: &[f64]) -> f64 {
-    values.iter().zip(weights).fold(0.0, |sum, (value, weight)| sum + value.product(value) * weight)
 }
 
 fn worst<T: Unknown>(residual: &[T]) -> usize {

@@ -43,3 +43,16 @@ pub(crate) fn dot<T: Unknown>(a: &[T], b: &[T]) -> f64 {
     }
     ((sums[0] + sums[1]) + (sums[2] + sums[3])) + rest
 }
+
+/// Σ w a·a in the same order.
+pub(crate) fn weighted_square<T: Unknown>(values: &[T], weights: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (quads, fours) = (values.chunks_exact(4), weights.chunks_exact(4));
+    let rest = quads.remainder().iter().zip(fours.remainder()).fold(0.0, |sum, (a, w)| sum + a.product(a) * w);
+    for (a, w) in quads.zip(fours) {
+        for k in 0..4 {
+            sums[k] += a[k].product(&a[k]) * w[k];
+        }
+    }
+    ((sums[0] + sums[1]) + (sums[2] + sums[3])) + rest
+}

@@ -1,0 +1,96 @@
+//! How far particles have moved against those around them since the last search, judged by layers along the bed.
+//!
+//! What a layer moves as a whole does not count, which saves most searches of a shear flow. The layers are those of the
+//! search, thicker than the reach by two skins: particles whose layers are not next to each other stay out of reach as
+//! long as no two successive layers move apart by a skin. Layers without particles are left out of the succession, so
+//! that a drop above the surface is compared with the surface.
+
+use super::phase::{Phase, height_axis};
+use crate::boundary::{AxisBoundary, Domain};
+use crate::vector::Vector;
+
+/// More layers than this are one: a stray particle far away must not buy memory.
+const MOST_LAYERS: usize = 65_536;
+
+/// The layers of a search.
+#[derive(Debug)]
+pub(super) struct Layers<const D: usize> {
+    /// Layer of every free particle, phase after phase.
+    layer: Vec<u32>,
+    /// Whether fixed particles lie in a layer.
+    held: Vec<bool>,
+    /// Smallest and largest way of a layer's particles `[m]`, not in order where there is none.
+    ways: Vec<(Vector<D>, Vector<D>)>,
+    periodic: bool,
+}
+
+impl<const D: usize> Layers<D> {
+    pub(super) fn new() -> Self {
+        Self { layer: Vec::new(), held: Vec::new(), ways: Vec::new(), periodic: false }
+    }
+
+    /// Sorts the particles of all phases into layers at least as thick as the longest reach and two skins `[m]`.
+    pub(super) fn sort<'a>(
+        &mut self,
+        phases: impl Iterator<Item = &'a Phase<D>> + Clone,
+        domain: &Domain<D>,
+        thickness: f64,
+    ) {
+        let normal = height_axis(D);
+        let heights = phases.clone().flat_map(|phase| phase.position.iter().chain(&phase.wall)).map(|x| x[normal]);
+        let (lower, upper) = match domain.axes[normal] {
+            AxisBoundary::Periodic { lower, upper } => (lower, upper),
+            AxisBoundary::Open | AxisBoundary::Mirror { .. } => {
+                heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)))
+            }
+        };
+        self.periodic = matches!(domain.axes[normal], AxisBoundary::Periodic { .. });
+        let count = (((upper - lower) / thickness) as usize).clamp(1, MOST_LAYERS);
+        let per_height = count as f64 / (upper - lower).max(thickness);
+        // a NaN goes to layer 0
+        let layer = |x: &Vector<D>| (((x[normal] - lower) * per_height).max(0.0) as usize).min(count - 1);
+        self.held.clear();
+        if self.held.capacity() < count {
+            // room for more: the highest particle may rise
+            self.held.reserve(2 * count);
+            self.ways.reserve(2 * count);
+        }
+        self.held.resize(count, false);
+        self.ways.resize(count, (Vector::zeros(), Vector::zeros()));
+        self.layer.clear();
+        for phase in phases {
+            self.layer.extend(phase.position.iter().map(|x| layer(x) as u32));
+            for x in &phase.wall {
+                self.held[layer(x)] = true;
+            }
+        }
+    }
+
+    /// Whether particles of the same layer or of successive ones have moved by `skin` `[m]` against each other.
+    pub(super) fn moved_apart<'a>(&mut self, phases: impl Iterator<Item = &'a Phase<D>>, skin: f64) -> bool {
+        let none = (Vector::repeat(f64::INFINITY), Vector::repeat(f64::NEG_INFINITY));
+        for (way, &held) in self.ways.iter_mut().zip(&self.held) {
+            *way = if held { (Vector::zeros(), Vector::zeros()) } else { none };
+        }
+        for (travel, &layer) in phases.flat_map(|phase| &phase.travel).zip(&self.layer) {
+            let (low, high) = &mut self.ways[layer as usize];
+            for axis in 0..D {
+                low[axis] = low[axis].min(travel[axis]);
+                high[axis] = high[axis].max(travel[axis]);
+            }
+        }
+        let mut filled = self.ways.iter().filter(|(low, high)| low[0] <= high[0]);
+        let Some(&first) = filled.next() else { return false };
+        let mut before = first;
+        let mut apart = |way: &(Vector<D>, Vector<D>)| {
+            let (low, high) = (way.0.inf(&before.0), way.1.sup(&before.1));
+            before = *way;
+            (high - low).norm_squared() >= skin * skin
+        };
+        let mut due = apart(&first);
+        for way in filled {
+            due |= apart(way);
+        }
+        due || (self.periodic && apart(&first))
+    }
+}

@@ -1,0 +1,117 @@
+//! The pairs of the pressure Poisson equation with their coefficients, and the passes of A and s D G over them.
+
+use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
+use crate::linear::{Coefficients, LaneRows};
+use crate::vector::Vector;
+
+/// A pair of two free particles.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Link<const D: usize> {
+    pub(super) source: u32,
+    /// g_ab `[1/m]`.
+    pub(super) gradient: Vector<D>,
+    /// Coefficient of A, 2 V (−F) `[1/m²]`.
+    pub(super) laplacian: f64,
+}
+
+/// Eight links, one a lane.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+pub(super) struct LinkChunk<const D: usize> {
+    gradient: [[f32; LANES]; D],
+    laplacian: [f32; LANES],
+}
+
+impl<const D: usize> Coefficients for LinkChunk<D> {
+    type Entry = (Vector<D>, f64);
+    const ZERO: Self = Self { gradient: [[0.0; LANES]; D], laplacian: [0.0; LANES] };
+
+    #[inline(always)]
+    fn entry(&self, lane: usize) -> (Vector<D>, f64) {
+        (Vector::from_fn(|axis, _| f64::from(self.gradient[axis][lane])), f64::from(self.laplacian[lane]))
+    }
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, (gradient, laplacian): (Vector<D>, f64)) {
+        for axis in 0..D {
+            self.gradient[axis][lane] = gradient[axis] as f32;
+        }
+        self.laplacian[lane] = laplacian as f32;
+    }
+
+    #[inline(always)]
+    fn clear(&mut self, lane: usize) {
+        self.set(lane, (Vector::zeros(), 0.0));
+    }
+}
+
+/// A P and G P of some rows.
+pub(super) struct FirstPass<'a, const D: usize> {
+    pub(super) links: &'a LaneRows<LinkChunk<D>>,
+    pub(super) own: &'a [Vector<D>],
+    pub(super) diagonal: &'a [f64],
+    pub(super) p: &'a [f64],
+    pub(super) first: usize,
+    pub(super) product: &'a mut [f64],
+    pub(super) gradient: &'a mut [Vector<D>],
+}
+
+impl<const D: usize> LanePass for FirstPass<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let groups = self.product.chunks_mut(LANES).zip(self.gradient.chunks_mut(LANES));
+        for (group, (product, gradient)) in groups.enumerate() {
+            let first = self.first + group * LANES;
+            let mut compact = V::splat(0.0);
+            let mut sums = [V::splat(0.0); D];
+            for (sources, link) in self.links.group(first) {
+                let other: V = gather(self.p, &sources);
+                compact = compact + V::load_single(&link.laplacian) * other;
+                for axis in 0..D {
+                    sums[axis] = sums[axis] + V::load_single(&link.gradient[axis]) * other;
+                }
+            }
+            let compact = compact.to_array();
+            for (lane, product) in product.iter_mut().enumerate() {
+                *product = self.diagonal[first + lane] * self.p[first + lane] - compact[lane];
+            }
+            for axis in 0..D {
+                let sums = sums[axis].to_array();
+                for (lane, gradient) in gradient.iter_mut().enumerate() {
+                    gradient[axis] = self.own[first + lane][axis] * self.p[first + lane] + sums[lane];
+                }
+            }
+        }
+    }
+}
+
+/// Takes s times the divergence of the gradients away from some rows of the product.
+pub(super) struct SecondPass<'a, const D: usize> {
+    pub(super) links: &'a LaneRows<LinkChunk<D>>,
+    pub(super) own: &'a [Vector<D>],
+    pub(super) gradient: &'a [Vector<D>],
+    pub(super) first: usize,
+    pub(super) product: &'a mut [f64],
+    pub(super) stabilisation: f64,
+}
+
+impl<const D: usize> LanePass for SecondPass<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        for (group, product) in self.product.chunks_mut(LANES).enumerate() {
+            let first = self.first + group * LANES;
+            let mut sum = V::splat(0.0);
+            for (sources, link) in self.links.group(first) {
+                let gradient = gather_vectors::<V, D>(self.gradient, &sources);
+                for axis in 0..D {
+                    sum = sum + V::load_single(&link.gradient[axis]) * gradient[axis];
+                }
+            }
+            let sum = sum.to_array();
+            for (lane, product) in product.iter_mut().enumerate() {
+                let own = self.own[first + lane].dot(&self.gradient[first + lane]);
+                *product -= self.stabilisation * (sum[lane] - own);
+            }
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! Pairs against brute force: every pair of nearest images, with no cells and no wrapping.
+
+use super::super::grid::Grid;
+use super::super::pairs::{Pairs, Periods, Sources};
+use super::super::phase::Phase;
+use super::super::simulation::IncompressibleSimulation;
+use super::{SPACING, grains, random, symmetric, water};
+use crate::boundary::{AxisBoundary, Domain};
+use crate::kernel::{Kernel, KernelShape};
+use crate::vector::Vector;
+use rand::RngExt;
+
+/// Sources within `reach` of every target with their separations, by trying every image.
+fn by_force<const D: usize>(
+    targets: &[Vector<D>],
+    sources: &[Vector<D>],
+    which: Sources,
+    domain: &Domain<D>,
+    reach: f64,
+) -> Vec<Vec<(u32, Vector<D>)>> {
+    let period = |axis: usize| match domain.axes[axis] {
+        AxisBoundary::Periodic { lower, upper } => upper - lower,
+        _ => 0.0,
+    };
+    let mut all = Vec::new();
+    for (a, target) in targets.iter().enumerate() {
+        let mut near = Vec::new();
+        for (b, source) in sources.iter().enumerate() {
+            if which == Sources::Same && a == b {
+                continue;
+            }
+            let images = (0..3_usize.pow(D as u32)).map(|code| {
+                let mut rest = code;
+                target - source
+                    + Vector::<D>::from_fn(|axis, _| {
+                        let turn = (rest % 3) as f64 - 1.0;
+                        rest /= 3;
+                        turn * period(axis)
+                    })
+            });
+            let nearest = images.min_by(|a, b| a.norm().total_cmp(&b.norm())).expect("an image");
+            if nearest.norm() < reach {
+                near.push((b as u32, nearest));
+            }
+        }
+        all.push(near);
+    }
+    all
+}
+
+fn compare<const D: usize>(
+    pairs: &Pairs<D>,
+    expected: &[Vec<(u32, Vector<D>)>],
+    kernel: &Kernel<D>,
+    what: &str,
+) -> usize {
+    let mut count = 0;
+    for (a, expected) in expected.iter().enumerate() {
+        let mut found: Vec<_> = pairs.of(a).iter().collect();
+        found.sort_by_key(|pair| pair.source);
+        let names: Vec<u32> = found.iter().map(|pair| pair.source).collect();
+        assert_eq!(names, expected.iter().map(|pair| pair.0).collect::<Vec<_>>(), "{what}: sources of target {a}");
+        for (pair, (_, separation)) in found.iter().zip(expected) {
+            assert!((pair.separation - separation).norm() < 1e-13, "{what}");
+            assert!((pair.value - kernel.value_at(separation.norm())).abs() < 1e-9 * kernel.value_at(0.0), "{what}");
+            let factor = kernel.gradient_factor_at(separation.norm());
+            assert!((pair.gradient - factor).abs() < 1e-9 * kernel.gradient_factor_at(0.0).abs(), "{what}");
+        }
+        count += expected.len();
+    }
+    count
+}
+
+fn check<const D: usize>(periods: [Option<f64>; D], which: Sources) {
+    let kernel = Kernel::<D>::new(KernelShape::CubicSpline, 0.5);
+    let reach = kernel.support();
+    let radius = 1.2 * reach;
+    let lower = -0.3;
+    let axes = periods.map(|period| match period {
+        Some(length) => AxisBoundary::Periodic { lower, upper: lower + length },
+        None => AxisBoundary::Open,
+    });
+    let domain = Domain { axes };
+    let mut random = random(31);
+    let mut set = |count: usize, spread: f64| -> Vec<Vector<D>> {
+        (0..count)
+            .map(|_| Vector::from_fn(|axis, _| lower + periods[axis].unwrap_or(spread) * random.random::<f64>()))
+            .collect()
+    };
+    // targets reach beyond an open axis' sources
+    let sources = set(150, 6.0);
+    let targets = if which == Sources::Same { sources.clone() } else { set(120, 9.0) };
+    let (mut grid, wrapped) = (Grid::new(), Periods::of(&domain));
+    grid.sort(&sources, &domain, radius);
+    let mut pairs = Pairs::new();
+    pairs.search(&targets, &sources, which, &grid, &wrapped, radius);
+    pairs.measure(&targets, &sources, &wrapped, &kernel);
+    let expected = by_force(&targets, &sources, which, &domain, reach);
+    let count = compare(&pairs, &expected, &kernel, &format!("{periods:?}"));
+    assert!(count > 100, "only {count} pairs along {periods:?}");
+}
+
+#[test]
+fn periods_of_one_two_three_and_many_cells() {
+    // cells are 1.2 long; a period must hold two reaches of 1
+    for which in [Sources::Same, Sources::Other] {
+        for along in [2.0, 2.41, 3.61, 12.0] {
+            check([Some(along), None], which);
+            for across in [2.0, 2.41, 3.61, 12.0] {
+                check([Some(along), Some(across)], which);
+            }
+            check([Some(along), Some(2.5), None], which);
+        }
+        check([None, None], which);
+        check([None, Some(3.7), Some(2.1)], which);
+    }
+}
+
+/// The pairs of a phase against brute force at its present positions.
+fn check_phase(phase: &Phase<2>, domain: &Domain<2>, what: &str) {
+    let reach = phase.kernel.support();
+    let of = |sources: &[Vector<2>], which| by_force(&phase.position, sources, which, domain, reach);
+    compare(&phase.free_pairs, &of(&phase.position, Sources::Same), &phase.kernel, what);
+    compare(&phase.wall_pairs, &of(&phase.wall, Sources::Other), &phase.kernel, what);
+}
+
+fn check_all(simulation: &IncompressibleSimulation<2>, what: &str) {
+    let domain = simulation.scene().domain;
+    check_phase(&simulation.fluid, &domain, what);
+    if let Some(sediment) = &simulation.sediment {
+        check_phase(sediment, &domain, what);
+        let reach = simulation.exchange.reach();
+        let kernel = Kernel::new(KernelShape::CubicSpline, 0.5 * reach);
+        let (fluid, grains) = (&simulation.fluid.position, &sediment.position);
+        let of = |targets, sources| by_force(targets, sources, Sources::Other, &domain, reach);
+        compare(&simulation.exchange.of_sediment, &of(grains, fluid), &kernel, what);
+        compare(&simulation.exchange.of_fluid, &of(fluid, grains), &kernel, what);
+    }
+}
+
+/// Moves all particles by a field of displacements and puts them back into their periods.
+fn displace(simulation: &mut IncompressibleSimulation<2>, field: impl Fn(&Vector<2>) -> Vector<2>) {
+    let domain = simulation.scene().domain;
+    for phase in std::iter::once(&mut simulation.fluid).chain(&mut simulation.sediment) {
+        for particle in 0..phase.len() {
+            let way = field(&phase.position[particle]);
+            phase.displace(particle, way);
+            domain.wrap(&mut phase.position[particle]);
+        }
+    }
+}
+
+#[test]
+fn no_pair_is_missed_in_a_shear_across_a_period() {
+    // u jumps across the upper period and drifts through it, so that the layers there meet others all the time
+    let cells = [12, 24];
+    let mut scene = water(cells, 0.2, true, 3);
+    scene.sediment = Some(grains([6, 12], 0.2, 4));
+    let height = cells[1] as f64 * SPACING;
+    let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
+    for step in 0..120 {
+        displace(&mut simulation, |x| Vector::<2>::new(0.15 * x[1] / height, 0.03) * SPACING);
+        simulation.measure();
+        check_all(&simulation, &format!("step {step}"));
+    }
+    let searches = simulation.cost().searches;
+    assert!((10..100).contains(&searches), "{searches} searches: neither never nor always");
+}
+
+#[test]
+fn no_pair_is_missed_when_a_drop_falls_onto_the_surface() {
+    let mut scene = water([12, 8], 0.1, false, 5);
+    // alone in its layer, with empty ones below
+    scene.fluid.particles.position.push(Vector::<2>::new(0.06, 0.40));
+    scene.fluid.particles.velocity.push(Vector::zeros());
+    let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
+    let drop = simulation.fluid.len() - 1;
+    for step in 0..200 {
+        displace(
+            &mut simulation,
+            |x| {
+                if x[1] > 0.09 { Vector::<2>::new(0.0, -0.2 * SPACING) } else { Vector::zeros() }
+            },
+        );
+        simulation.measure();
+        check_all(&simulation, &format!("step {step}"));
+    }
+    assert!(simulation.fluid.free_pairs.of(drop).len() > 3, "the drop has arrived");
+}
+
+#[test]
+fn no_pair_is_missed_within_a_step_of_a_run_with_strong_shear() {
+    let mut scene = water([14, 20], 0.05, false, 6);
+    let mut random = random(7);
+    for (x, u) in scene.fluid.particles.position.iter().zip(&mut scene.fluid.particles.velocity) {
+        *u = Vector::<2>::new(if x[1] > 0.1 { 2.0 } else { -2.0 } + 0.3 * symmetric(&mut random), 0.0);
+    }
+    scene.fluid.wall.clear();
+    scene.fluid.gravity = Vector::zeros();
+    scene.numerics.time_step = 2e-3;
+    // searched for, but not moved: the candidates of the end of a step are those of its positions
+    scene.numerics.shifting = 1e-30;
+    let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
+    for step in 0..60 {
+        simulation.step().expect("a step");
+        let searches = simulation.cost().searches;
+        simulation.fluid.measure(&simulation.periods);
+        assert_eq!(simulation.cost().searches, searches, "measured from the candidates of the step");
+        check_phase(&simulation.fluid, &simulation.scene().domain, &format!("end of step {step}"));
+    }
+    assert!(simulation.cost().searches > 10);
+}

@@ -1,0 +1,125 @@
+//! G = −Dᵀ, and A + s D G symmetric and positive, on disordered particles above a wall and with a surface.
+
+use super::super::numerics::SurfaceTreatment;
+use super::super::pressure_poisson::PressurePoisson;
+use super::super::simulation::IncompressibleSimulation;
+use super::{random, symmetric, water};
+use crate::vector::Vector;
+
+struct Prepared {
+    simulation: IncompressibleSimulation<2>,
+    poisson: PressurePoisson<2>,
+    eliminated: bool,
+}
+
+fn prepare(closed: bool, eliminated: bool, stabilisation: f64) -> Prepared {
+    let mut scene = water([13, 17], 0.25, closed, 41);
+    scene.numerics.stabilisation = stabilisation;
+    scene.numerics.surface = if eliminated { SurfaceTreatment::Eliminated } else { SurfaceTreatment::Completed };
+    let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
+    simulation.measure();
+    let numerics = simulation.scene().numerics;
+    simulation.fluid.find_surface(&numerics);
+    let mut poisson = PressurePoisson::new();
+    poisson.assemble(&simulation.fluid, &numerics);
+    Prepared { simulation, poisson, eliminated }
+}
+
+impl Prepared {
+    fn rows(&self) -> usize {
+        self.simulation.fluid.len()
+    }
+
+    /// A field that is zero where it is no unknown.
+    fn field(&self, mut value: impl FnMut(&Vector<2>) -> f64) -> Vec<f64> {
+        let phase = &self.simulation.fluid;
+        let known = |a: usize| self.eliminated && phase.at_surface[a];
+        (0..self.rows()).map(|a| if known(a) { 0.0 } else { value(&phase.position[a]) }).collect()
+    }
+
+    fn apply(&self, p: &[f64]) -> Vec<f64> {
+        let (mut product, mut gradient) = (vec![0.0; p.len()], vec![Vector::zeros(); p.len()]);
+        let stabilisation = self.simulation.scene().numerics.stabilisation;
+        let surface = &self.simulation.fluid.at_surface;
+        self.poisson.apply(p, &mut product, &mut gradient, surface, self.eliminated, stabilisation);
+        product
+    }
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+#[test]
+fn the_gradient_is_minus_the_transposed_divergence() {
+    for closed in [false, true] {
+        let prepared = prepare(closed, false, 0.5);
+        let mut random = random(5);
+        let p = prepared.field(|_| symmetric(&mut random));
+        let u: Vec<Vector<2>> = p.iter().map(|_| Vector::<2>::from_fn(|_, _| symmetric(&mut random))).collect();
+        let (mut work, mut counter, mut size) = (0.0, 0.0, 0.0);
+        for a in 0..prepared.rows() {
+            let terms = (u[a].dot(&prepared.poisson.gradient(a, &p)), p[a] * prepared.poisson.divergence(a, &u));
+            work += terms.0;
+            counter += terms.1;
+            size += terms.0.abs() + terms.1.abs();
+        }
+        assert!((work + counter).abs() < 1e-14 * size, "closed {closed}: {work} against {counter} of {size}");
+        assert!(work.abs() > 1e-6 * size);
+    }
+}
+
+#[test]
+fn the_wall_turns_the_normal_velocity_only() {
+    let prepared = prepare(false, false, 0.5);
+    let along = vec![Vector::<2>::new(1.0, 0.0); prepared.rows()];
+    let down = vec![Vector::<2>::new(0.0, -1.0); prepared.rows()];
+    let lowest = (0..prepared.rows())
+        .min_by(|&a, &b| {
+            let height = |a: usize| prepared.simulation.fluid.position[a][1];
+            height(a).total_cmp(&height(b))
+        })
+        .expect("particles");
+    // sliding along a wall does not compress, moving towards it does: about −1/spacing for the lowest row
+    let sums: f64 = (0..prepared.rows()).map(|a| prepared.poisson.divergence(a, &along)).sum();
+    assert!(sums.abs() < 1e-9, "{sums}");
+    assert!(prepared.poisson.divergence(lowest, &down) < -0.5 / super::SPACING);
+}
+
+#[test]
+fn the_operator_is_symmetric_and_positive() {
+    for (eliminated, stabilisation) in [(false, 0.5), (false, 0.0), (false, 3.0), (true, 0.5), (true, 0.0)] {
+        let prepared = prepare(false, eliminated, stabilisation);
+        let mut random = random(6);
+        for _ in 0..10 {
+            let x = prepared.field(|_| symmetric(&mut random));
+            let y = prepared.field(|_| symmetric(&mut random));
+            let (ax, ay) = (prepared.apply(&x), prepared.apply(&y));
+            let scale = (product(&x, &ax) * product(&y, &ay)).sqrt();
+            let difference = (product(&y, &ax) - product(&x, &ay)).abs();
+            assert!(difference < 1e-13 * scale, "{difference} of {scale}, {eliminated} {stabilisation}");
+        }
+        let alternating = |x: &Vector<2>| {
+            let cell = (x[0] / super::SPACING).floor() + (x[1] / super::SPACING).floor();
+            if cell.rem_euclid(2.0) < 1.0 { 1.0 } else { -1.0 }
+        };
+        for x in [prepared.field(|_| 1.0), prepared.field(|x| 0.2 - x[1]), prepared.field(alternating)] {
+            let energy = product(&x, &prepared.apply(&x));
+            assert!(energy > 0.0, "{energy} with {eliminated} {stabilisation}");
+        }
+    }
+}
+
+#[test]
+fn the_stabilisation_is_minus_s_times_divergence_of_gradient() {
+    let with = prepare(false, false, 0.7);
+    let without = prepare(false, false, 0.0);
+    let mut random = random(8);
+    let p = with.field(|_| symmetric(&mut random));
+    let gradient: Vec<_> = (0..with.rows()).map(|a| with.poisson.gradient(a, &p)).collect();
+    let (full, compact) = (with.apply(&p), without.apply(&p));
+    for a in 0..with.rows() {
+        let expected = -0.7 * with.poisson.divergence(a, &gradient);
+        assert!((full[a] - compact[a] - expected).abs() < 1e-10 * full[a].abs().max(1e4), "row {a}");
+    }
+}

@@ -1,0 +1,263 @@
+//! Sparse rows in groups of eight, one row a lane: chunk k of a group holds the k-th entry of each of its rows.
+//!
+//! A product then loads eight coefficients at once and no sum waits for its last addition. Short rows of a group are
+//! padded with zeros times their own unknown, which change nothing unless that is no number already.
+//!
+//! A product waits for its coefficients to come from memory. They are stored in single precision, which halves the way;
+//! sums and unknowns are double. Both rows of a pair hold the same rounded number, so symmetry and balance are exact.
+
+use crate::lanes::{CheckedIndices, InstructionSet, LANES, LaneChunks, LaneIndices, LanePass, Lanes};
+use crate::vector::Vector;
+use rayon::prelude::*;
+
+/// Groups that a task of a parallel fill has at least: a fill costs some ten products.
+const FILLED_GROUPS: usize = 64;
+
+/// Rows of a task of a product, a multiple of eight: less is done before another thread has woken.
+pub(crate) const TASK_ROWS: usize = 2048;
+
+/// The coefficients of a chunk, one a lane.
+pub(crate) trait Coefficients: Copy + Send + Sync {
+    /// The coefficients of one entry.
+    type Entry: Copy;
+    /// Zeros.
+    const ZERO: Self;
+    /// Those of a lane.
+    fn entry(&self, lane: usize) -> Self::Entry;
+    /// Changes those of a lane.
+    fn set(&mut self, lane: usize, entry: Self::Entry);
+    /// Makes those of a lane zero.
+    fn clear(&mut self, lane: usize);
+}
+
+/// One coefficient an entry, in single precision.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+pub(crate) struct Single([f32; LANES]);
+
+impl Coefficients for Single {
+    type Entry = f64;
+    const ZERO: Self = Self([0.0; LANES]);
+
+    #[inline(always)]
+    fn entry(&self, lane: usize) -> f64 {
+        f64::from(self.0[lane])
+    }
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, entry: f64) {
+        self.0[lane] = entry as f32;
+    }
+
+    #[inline(always)]
+    fn clear(&mut self, lane: usize) {
+        self.0[lane] = 0.0;
+    }
+}
+
+/// What single precision keeps of a coefficient: sums over a row are taken of these, so that row and sum agree.
+#[inline(always)]
+pub(crate) fn single(coefficient: f64) -> f64 {
+    f64::from(coefficient as f32)
+}
+
+/// Columns and coefficients of a square operator, without its diagonal.
+#[derive(Debug)]
+pub(crate) struct LaneRows<C> {
+    rows: usize,
+    stride: usize,
+    columns: CheckedIndices,
+    coefficients: Vec<C>,
+    /// Entries of every row, those of lanes without a row included.
+    count: Vec<u32>,
+    /// Chunks of every group.
+    width: Vec<u32>,
+    set: InstructionSet,
+}
+
+/// A group while it is filled.
+pub(crate) struct Group<'a, C> {
+    columns: &'a mut [[u32; LANES]],
+    coefficients: &'a mut [C],
+    filled: &'a mut [u32],
+}
+
+/// A row while it is filled.
+pub(crate) struct Row<'a, C> {
+    columns: &'a mut [[u32; LANES]],
+    coefficients: &'a mut [C],
+    lane: usize,
+    filled: usize,
+}
+
+impl<C: Coefficients> Row<'_, C> {
+    /// Adds an entry.
+    #[inline(always)]
+    pub(crate) fn push(&mut self, column: u32, entry: C::Entry) {
+        self.columns[self.filled][self.lane] = column;
+        self.coefficients[self.filled].set(self.lane, entry);
+        self.filled += 1;
+    }
+}
+
+impl<C: Coefficients> Group<'_, C> {
+    /// Lets `fill` fill the row of a lane.
+    #[inline(always)]
+    pub(crate) fn row<R>(&mut self, lane: usize, fill: impl FnOnce(&mut Row<'_, C>) -> R) -> R {
+        let mut row = Row { columns: self.columns, coefficients: self.coefficients, lane: lane % LANES, filled: 0 };
+        let result = fill(&mut row);
+        self.filled[lane] = row.filled as u32;
+        result
+    }
+
+    /// Pads the rows of the group to equal length, which is returned.
+    fn pad(&mut self, first: usize, rows: usize) -> u32 {
+        let width = self.filled.iter().copied().max().unwrap_or(0);
+        for lane in 0..LANES {
+            for place in self.filled[lane]..width {
+                self.columns[place as usize][lane] = (first + lane).min(rows - 1) as u32;
+                self.coefficients[place as usize].clear(lane);
+            }
+        }
+        width
+    }
+}
+
+impl<C: Coefficients> LaneRows<C> {
+    pub(crate) fn new() -> Self {
+        Self {
+            rows: 0,
+            stride: 1,
+            columns: CheckedIndices::default(),
+            coefficients: Vec::new(),
+            count: Vec::new(),
+            width: Vec::new(),
+            set: InstructionSet::best(),
+        }
+    }
+
+    /// Fills `rows` rows of at most `stride` entries. `fill` gets the first row of a group, the group and what `beside`
+    /// has for it.
+    pub(crate) fn fill<S: Send>(
+        &mut self,
+        rows: usize,
+        stride: usize,
+        beside: impl IndexedParallelIterator<Item = S>,
+        fill: impl Fn(usize, &mut Group<'_, C>, S) + Sync,
+    ) {
+        let groups = rows.div_ceil(LANES);
+        (self.rows, self.stride) = (rows, stride);
+        self.coefficients.resize(groups * stride, C::ZERO);
+        self.width.resize(groups, 0);
+        self.count.clear();
+        self.count.resize(groups * LANES, 0);
+        let Self { columns, coefficients, count, width, .. } = self;
+        columns.refill(rows, |columns| {
+            columns.resize(groups * stride, [0; LANES]);
+            let chunks = (columns.par_chunks_mut(stride), coefficients.par_chunks_mut(stride));
+            (chunks, count.par_chunks_mut(LANES), width, beside)
+                .into_par_iter()
+                .enumerate()
+                .with_min_len(FILLED_GROUPS)
+                .for_each(|(group, ((columns, coefficients), filled, width, beside))| {
+                    let mut rows_of_group = Group { columns, coefficients, filled };
+                    fill(group * LANES, &mut rows_of_group, beside);
+                    *width = rows_of_group.pad(group * LANES, rows);
+                });
+        });
+    }
+
+    /// Number of rows.
+    pub(crate) fn len(&self) -> usize {
+        self.rows
+    }
+
+    /// Most entries of a row.
+    pub(crate) fn stride(&self) -> usize {
+        self.stride
+    }
+
+    /// Columns and coefficients of a row.
+    #[inline(always)]
+    pub(crate) fn row(&self, row: usize) -> impl Iterator<Item = (u32, C::Entry)> {
+        let (first, lane) = (row / LANES * self.stride, row % LANES);
+        let chunks = first..first + self.count[row] as usize;
+        let columns = self.columns.part(chunks.clone()).raw().iter();
+        columns.zip(&self.coefficients[chunks]).map(move |(columns, entries)| (columns[lane], entries.entry(lane)))
+    }
+
+    /// The chunks of the group of a row.
+    #[inline(always)]
+    pub(crate) fn group(&self, first: usize) -> Chunks<'_, C> {
+        let group = first / LANES;
+        let chunks = group * self.stride..group * self.stride + self.width[group] as usize;
+        Chunks { columns: self.columns.part(chunks.clone()), coefficients: &self.coefficients[chunks] }
+    }
+
+    /// Runs a pass over lanes.
+    pub(crate) fn run(&self, pass: impl LanePass) {
+        self.set.run(pass);
+    }
+}
+
+/// The chunks of a group.
+pub(crate) struct Chunks<'a, C> {
+    columns: LaneChunks<'a>,
+    coefficients: &'a [C],
+}
+
+impl<'a, C> Iterator for Chunks<'a, C> {
+    type Item = (LaneIndices<'a>, &'a C);
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Self::Item> {
+        let (first, rest) = self.coefficients.split_first()?;
+        self.coefficients = rest;
+        Some((self.columns.next()?, first))
+    }
+}
+
+impl LaneRows<Single> {
+    /// diagonal · u − Σ coefficient · u of the columns.
+    pub(crate) fn subtract_from_diagonal<const D: usize>(
+        &self,
+        diagonal: &[f64],
+        u: &[Vector<D>],
+        product: &mut [Vector<D>],
+    ) {
+        product.par_chunks_mut(TASK_ROWS).enumerate().for_each(|(task, out)| {
+            self.run(Product { rows: self, diagonal, u, first: task * TASK_ROWS, out });
+        });
+    }
+}
+
+struct Product<'a, const D: usize> {
+    rows: &'a LaneRows<Single>,
+    diagonal: &'a [f64],
+    u: &'a [Vector<D>],
+    first: usize,
+    out: &'a mut [Vector<D>],
+}
+
+impl<const D: usize> LanePass for Product<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        for (group, out) in self.out.chunks_mut(LANES).enumerate() {
+            let first = self.first + group * LANES;
+            let mut sums = [V::splat(0.0); D];
+            for (columns, coefficients) in self.rows.group(first) {
+                let coefficient = V::load_single(&coefficients.0);
+                let u = crate::lanes::gather_vectors::<V, D>(self.u, &columns);
+                for axis in 0..D {
+                    sums[axis] = sums[axis] + u[axis] * coefficient;
+                }
+            }
+            for axis in 0..D {
+                let sums = sums[axis].to_array();
+                for (lane, out) in out.iter_mut().enumerate() {
+                    out[axis] = self.u[first + lane][axis] * self.diagonal[first + lane] - sums[lane];
+                }
+            }
+        }
+    }
+}
