@@ -22,6 +22,8 @@ pub(super) struct VelocitySystem<const D: usize> {
     pub(super) momentum: Vec<Vector<D>>,
     /// u* `[m/s]`.
     pub(super) velocity: Vec<Vector<D>>,
+    /// u* − uⁿ of the last solve `[m/s]`.
+    change: Vec<Vector<D>>,
     factors: IncompleteCholesky,
     solver: ConjugateGradient<Vector<D>>,
 }
@@ -35,6 +37,7 @@ impl<const D: usize> VelocitySystem<D> {
             inertia: Vec::new(),
             momentum: Vec::new(),
             velocity: Vec::new(),
+            change: Vec::new(),
             factors: IncompleteCholesky::default(),
             solver: ConjugateGradient::new(),
         }
@@ -54,17 +57,26 @@ impl<const D: usize> VelocitySystem<D> {
         self.solver.iterations()
     }
 
-    /// Solves for the velocities, starting from those in `velocity`.
+    /// Solves for the velocities. `velocity` holds uⁿ before; the solve starts from there with the change of the last
+    /// step, because weight, pressure and friction change slowly.
     ///
     /// # Errors
     /// A solve that did not reach its tolerance.
     pub(super) fn solve(&mut self, criterion: Criterion) -> Result<(), NotConverged> {
         let (couplings, diagonal) = (&self.couplings, &self.diagonal);
         self.factors.factorise(couplings.len(), couplings.stride(), &VelocityRows { couplings, diagonal });
+        self.change.resize(self.velocity.len(), Vector::zeros());
+        for (velocity, change) in self.velocity.iter_mut().zip(&mut self.change) {
+            (*velocity, *change) = (*velocity + *change, *velocity);
+        }
         let sums = Some(self.of_constant.as_slice());
         self.solver.solve(&mut self.velocity, &self.momentum, &self.factors, sums, criterion, |u, product| {
             couplings.subtract_from_diagonal(diagonal, u, product);
-        })
+        })?;
+        for (change, velocity) in self.change.iter_mut().zip(&self.velocity) {
+            *change = velocity - *change;
+        }
+        Ok(())
     }
 }
 

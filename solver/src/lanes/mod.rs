@@ -121,6 +121,27 @@ enum Level {
     Avx512,
 }
 
+/// All levels, slowest first.
+const LEVELS: &[Level] = &[
+    Level::Portable,
+    #[cfg(target_arch = "x86_64")]
+    Level::Avx2,
+    #[cfg(target_arch = "x86_64")]
+    Level::Avx512,
+];
+
+impl Level {
+    fn is_available(self) -> bool {
+        match self {
+            Self::Portable => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => is_x86_feature_detected!("avx2"),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl"),
+        }
+    }
+}
+
 /// An instruction set that this processor has; it changes the speed, never the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct InstructionSet(Level);
@@ -129,23 +150,13 @@ impl InstructionSet {
     /// All that this processor has, slowest first.
     #[must_use]
     pub fn available() -> Vec<Self> {
-        let mut sets = vec![Self(Level::Portable)];
-        #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx2") {
-                sets.push(Self(Level::Avx2));
-            }
-            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
-                sets.push(Self(Level::Avx512));
-            }
-        }
-        sets
+        LEVELS.iter().filter(|level| level.is_available()).map(|&level| Self(level)).collect()
     }
 
-    /// The fastest that this processor has.
+    /// The fastest that this processor has; asking allocates nothing.
     #[must_use]
     pub fn best() -> Self {
-        Self::available().last().copied().unwrap_or(Self(Level::Portable))
+        Self(LEVELS.iter().rev().find(|level| level.is_available()).copied().unwrap_or(Level::Portable))
     }
 
     /// Its name.
