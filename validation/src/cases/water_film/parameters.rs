@@ -76,7 +76,8 @@ impl WaterFilmParameters {
             convergence_resolutions: Vec::new(),
             relaxation_times: 2.0,
             averaging_times: 1.0,
-            numerics: ProjectionNumerics::default(),
+            // rows that slide over each other stay rows: their density is the lattice's, not that of stirred water
+            numerics: ProjectionNumerics { reference_concentration: 1.0, ..ProjectionNumerics::default() },
         };
         let paper = Self {
             arrangements: vec![Arrangement::Lattice, Arrangement::Jittered],
