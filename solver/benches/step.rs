@@ -5,7 +5,7 @@
 
 mod scenes;
 
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::simulation::{Compiled, Simulation};
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -23,14 +23,20 @@ fn pool(threads: usize) -> ThreadPool {
     ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool")
 }
 
-fn advance<const D: usize>(simulation: &mut Simulation<D>) {
+fn advance<const D: usize>(simulation: &mut Simulation<D>)
+where
+    Simulation<D>: Compiled<D>,
+{
     if let Err(divergence) = simulation.step() {
         panic!("{divergence}");
     }
 }
 
 /// One bench of a step on 1 and on 2 threads.
-fn step<const D: usize>(group: &mut BenchmarkGroup<'_, WallTime>, law: Law, size: usize, name: &str) {
+fn step<const D: usize>(group: &mut BenchmarkGroup<'_, WallTime>, law: Law, size: usize, name: &str)
+where
+    Simulation<D>: Compiled<D>,
+{
     let scene = scenes::dam_break::<D>(size, law);
     group.throughput(Throughput::Elements(scene.flow.position.len() as u64));
     for threads in [1, 2] {

@@ -51,12 +51,92 @@ pub enum StopReason<const D: usize> {
     Diverged(Divergence<D>),
 }
 
-impl<const D: usize> Simulation<D> {
+/// The dimensions whose loops are compiled with the solver, once, and not again in every crate that takes a step.
+///
+/// The loops are generic in the number of axes, and Rust compiles a generic function where it is used. These two methods
+/// are not generic: they keep the hot code in this crate, under its own level of optimisation.
+pub trait Compiled<const D: usize>: Sized {
+    /// Sets up a simulation.
+    ///
+    /// # Errors
+    /// A scene that breaks a rule, or whose particles lie on top of each other.
+    fn compiled_new(scene: Scene<D>) -> Result<Self, SceneError>;
+
+    /// Takes one step.
+    ///
+    /// # Errors
+    /// The divergence, if the state left its range.
+    fn compiled_step(&mut self) -> Result<(), Divergence<D>>;
+}
+
+macro_rules! compiled {
+    ($($dimensions:literal),+) => {$(
+        impl Compiled<$dimensions> for Simulation<$dimensions> {
+            fn compiled_new(scene: Scene<$dimensions>) -> Result<Self, SceneError> {
+                Self::set_up(scene)
+            }
+
+            fn compiled_step(&mut self) -> Result<(), Divergence<$dimensions>> {
+                self.take_step()
+            }
+        }
+    )+};
+}
+
+compiled!(2, 3);
+
+impl<const D: usize> Simulation<D>
+where
+    Self: Compiled<D>,
+{
     /// Sets up a simulation.
     ///
     /// # Errors
     /// A scene that breaks a rule, or whose particles lie on top of each other.
     pub fn new(scene: Scene<D>) -> Result<Self, SceneError> {
+        Self::compiled_new(scene)
+    }
+
+    /// Takes one step as long as the bounds allow.
+    ///
+    /// # Errors
+    /// The divergence, if the state left its range.
+    pub fn step(&mut self) -> Result<(), Divergence<D>> {
+        self.compiled_step()
+    }
+
+    /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
+    /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
+    pub fn run(&mut self, end: f64, interval: f64, mut observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<D> {
+        let origin = self.time;
+        let mut observed = 0u64;
+        let mut observed_step = self.steps;
+        if observe(self).is_break() {
+            return StopReason::Stopped;
+        }
+        // half a step of slack, so that rounding does not add a step
+        while self.time < end - 0.5 * self.time_step_bounds().step() {
+            if let Err(divergence) = self.step() {
+                return StopReason::Diverged(divergence);
+            }
+            let due = ((self.time - origin) / interval + 1e-9).floor() as u64;
+            if due > observed {
+                observed = due;
+                observed_step = self.steps;
+                if observe(self).is_break() {
+                    return StopReason::Stopped;
+                }
+            }
+        }
+        if observed_step < self.steps && observe(self).is_break() {
+            return StopReason::Stopped;
+        }
+        StopReason::Finished
+    }
+}
+
+impl<const D: usize> Simulation<D> {
+    fn set_up(scene: Scene<D>) -> Result<Self, SceneError> {
         scene.check()?;
         let numerics = scene.numerics;
         let reference_density = scene.equation_of_state.reference_density;
@@ -122,44 +202,11 @@ impl<const D: usize> Simulation<D> {
         self.model.instruction_set = instruction_set;
     }
 
-    /// Takes one step as long as the bounds allow.
-    ///
-    /// # Errors
-    /// The divergence, if the state left its range.
-    pub fn step(&mut self) -> Result<(), Divergence<D>> {
+    fn take_step(&mut self) -> Result<(), Divergence<D>> {
         if self.displacement > 0.5 * self.skin() {
             self.search_neighbours()?;
         }
         self.advance(self.time_step_bounds().step())
-    }
-
-    /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
-    /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
-    pub fn run(&mut self, end: f64, interval: f64, mut observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<D> {
-        let origin = self.time;
-        let mut observed = 0u64;
-        let mut observed_step = self.steps;
-        if observe(self).is_break() {
-            return StopReason::Stopped;
-        }
-        // half a step of slack, so that rounding does not add a step
-        while self.time < end - 0.5 * self.time_step_bounds().step() {
-            if let Err(divergence) = self.step() {
-                return StopReason::Diverged(divergence);
-            }
-            let due = ((self.time - origin) / interval + 1e-9).floor() as u64;
-            if due > observed {
-                observed = due;
-                observed_step = self.steps;
-                if observe(self).is_break() {
-                    return StopReason::Stopped;
-                }
-            }
-        }
-        if observed_step < self.steps && observe(self).is_break() {
-            return StopReason::Stopped;
-        }
-        StopReason::Finished
     }
 
     /// The bounds of the next step.

@@ -7,7 +7,7 @@ use bagnold_solver::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::numerics::{MomentumOperator, Numerics, ViscousStep};
 use bagnold_solver::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::scene::{Flow, Scene};
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::vector::{Tensor, Vector};
 use counting::ALLOCATIONS;
 use rand::{RngExt, SeedableRng};
@@ -57,7 +57,10 @@ mod counting {
 }
 
 /// A jittered column that collapses on a bed beside a mirror plane; in 3-D periodic across.
-fn column<const D: usize>(cells: [usize; D], numerics: Numerics, rheology: Rheology) -> Simulation<D> {
+fn column<const D: usize>(cells: [usize; D], numerics: Numerics, rheology: Rheology) -> Simulation<D>
+where
+    Simulation<D>: Compiled<D>,
+{
     let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(23);
     let equation_of_state = EquationOfState { reference_density: 1500.0, bulk_modulus: 6e5, tension: Tension::Cut };
     let height = cells[D - 1] as f64 * SPACING;
@@ -90,7 +93,10 @@ fn column<const D: usize>(cells: [usize; D], numerics: Numerics, rheology: Rheol
     Simulation::new(scene).expect("a valid scene")
 }
 
-fn advance<const D: usize>(simulation: &mut Simulation<D>, steps: usize) {
+fn advance<const D: usize>(simulation: &mut Simulation<D>, steps: usize)
+where
+    Simulation<D>: Compiled<D>,
+{
     for _ in 0..steps {
         if let Err(divergence) = simulation.step() {
             panic!("{divergence}");
@@ -105,7 +111,10 @@ fn allocations<const D: usize>(
     rheology: Rheology,
     threads: usize,
     (warm_up, steps): (usize, usize),
-) -> u64 {
+) -> u64
+where
+    Simulation<D>: Compiled<D>,
+{
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
     pool.install(|| {
         let mut simulation = column(cells, numerics, rheology);

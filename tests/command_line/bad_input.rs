@@ -220,6 +220,75 @@ fn a_layer_of_water_and_grains_that_cannot_be() {
 }
 
 #[test]
+fn grains_that_do_not_settle() {
+    let place = Place::new();
+    let cases = [
+        (
+            "grain_density=900.0",
+            "`grain_density` is 900, but must be greater than the density of the water; grains that float do not settle",
+        ),
+        (
+            "grain.diameter=-0.005",
+            "`grain.diameter` is -0.005, but must be positive and finite; give it in metres; 0.005 for 5 mm",
+        ),
+        (
+            "suspension.diameter=0.0",
+            "`suspension.diameter` is 0, but must be positive and finite; give it in metres; 0.001 for 1 mm",
+        ),
+        (
+            "suspension.solid_fractions=[0.3, 1.0]",
+            "`suspension.solid_fractions[1]` is 1, but must be between 0.01 and 0.64; grains fill up to 0.64 of the space",
+        ),
+        (
+            "suspension.dilute_fraction=0.1",
+            "`suspension.dilute_fraction` is 0.1, but must be between 0 and 0.005; 0.002 hinders by less than 1 %; 0 for none",
+        ),
+        (
+            "grain.laws=[\"ergun\"]",
+            "`grain.laws[0]` is ergun, but must be a law of one grain that covers its Reynolds number; leave out \"ergun\", and \"morsi-alexander\" above R = 50 000",
+        ),
+        (
+            "grain.columns=4",
+            "`grain.columns` is 4, but must be between 8 and 1000; the box must hold the reach of the kernels twice; 12 is quick",
+        ),
+        (
+            "numerics.velocity_tolerance=1.0",
+            "`numerics.velocity_tolerance` is 1, but must be between 1e-14 and 0.1; see the default numerics with `bagnold show`",
+        ),
+        (
+            "numerics.continuity=\"mixture\"",
+            "`numerics.continuity` is mixture, but must be \"fluid\"; only suspensions share their pressure, and `settling` chooses it for them",
+        ),
+        (
+            "numerics.mean_flux=\"zero\"",
+            "`numerics.mean_flux` is zero, but must be \"free\"; only suspensions share their pressure, and `settling` chooses it for them",
+        ),
+        (
+            "numerics.pressure_source=\"density\"",
+            "`numerics.pressure_source` is density, but must be \"divergence\" with suspensions; single grains have the paper's operators by the formulation \"paper\"; or empty `suspension.laws`",
+        ),
+        (
+            "numerics.surface=\"eliminated\"",
+            "`numerics.surface` is eliminated, but must be \"completed\" with suspensions; single grains have the paper's operators by the formulation \"paper\"; or empty `suspension.laws`",
+        ),
+    ];
+    for (setting, message) in cases {
+        refused(&place, &["settling", "--set", setting], message);
+    }
+    refused(
+        &place,
+        &[
+            "settling",
+            "--set",
+            "suspension.solid_fractions=[0.1]",
+            "--set",
+            "suspension.laws=[\"di-felice\", \"ergun\"]",
+        ],
+        "`suspension.laws[1]` is ergun, but must be a law for one of the solid fractions; \"ergun\" begins at 0.2; leave it out, or add a denser suspension",
+    );
+}
+
+#[test]
 fn a_start_angle_without_a_steady_flow() {
     let place = Place::new();
     for angle in ["20", "33"] {

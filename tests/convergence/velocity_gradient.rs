@@ -6,7 +6,7 @@ use bagnold_solver::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::numerics::Numerics;
 use bagnold_solver::rheology::{Newtonian, Rheology};
 use bagnold_solver::scene::{Flow, Scene};
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::snapshot::Snapshot;
 use bagnold_solver::vector::{Tensor, Vector};
 use rand::{RngExt, SeedableRng};
@@ -18,7 +18,10 @@ fn field<const D: usize>(
     jitter: f64,
     boundary: AxisBoundary,
     velocity: impl Fn(&Vector<D>) -> Vector<D>,
-) -> Snapshot<D> {
+) -> Snapshot<D>
+where
+    Simulation<D>: Compiled<D>,
+{
     let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(cells as u64);
     let spacing = 1.0 / cells as f64;
     let mut flow = Flow::default();
@@ -52,7 +55,10 @@ fn field<const D: usize>(
 
 #[test]
 fn a_linear_field_has_its_exact_gradient_up_to_the_free_surface() {
-    fn check<const D: usize>(cells: usize) {
+    fn check<const D: usize>(cells: usize)
+    where
+        Simulation<D>: Compiled<D>,
+    {
         let exact = Tensor::<D>::from_fn(|i, j| 1.0 + (i as f64) * 2.5 - (j as f64) * 1.7);
         let found = field::<D>(cells, 0.2, AxisBoundary::Open, |x| exact * x);
         let reach = 3.0 / cells as f64;
@@ -73,7 +79,10 @@ fn a_linear_field_has_its_exact_gradient_up_to_the_free_surface() {
 }
 
 /// Root mean square error of the gradient of a solenoidal sine field in the periodic unit box, over its own size.
-fn sine_error<const D: usize>(cells: usize, jitter: f64) -> f64 {
+fn sine_error<const D: usize>(cells: usize, jitter: f64) -> f64
+where
+    Simulation<D>: Compiled<D>,
+{
     let boundary = AxisBoundary::Periodic { lower: 0.0, upper: 1.0 };
     let found = field::<D>(cells, jitter, boundary, |x| Vector::from_fn(|i, _| (TAU * x[(i + 1) % D]).sin()));
     let (mut square, mut size) = (0.0, 0.0);

@@ -7,10 +7,14 @@ use bagnold_solver::boundary::{AxisBoundary, Domain};
 use bagnold_solver::kernel::{Kernel, KernelShape};
 use bagnold_solver::numerics::Numerics;
 use bagnold_solver::scene::Scene;
+use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::vector::Vector;
 
 /// What the coupling adds to every density in the first step `[kg/m³]`, and the densities before it.
-fn effect<const D: usize>(scene: &Scene<D>) -> (Vec<f64>, Vec<f64>) {
+fn effect<const D: usize>(scene: &Scene<D>) -> (Vec<f64>, Vec<f64>)
+where
+    Simulation<D>: Compiled<D>,
+{
     let densities = |density_coupling| {
         let numerics = Numerics { density_coupling, ..scene.numerics };
         let mut simulation = simulation(Scene { numerics, ..scene.clone() });
@@ -38,7 +42,10 @@ fn layer<const D: usize>(cells: [usize; D], pressure: impl Fn(f64) -> f64) -> Sc
 
 #[test]
 fn a_linear_pressure_is_not_felt_also_at_a_free_surface() {
-    fn check<const D: usize>(cells: [usize; D]) {
+    fn check<const D: usize>(cells: [usize; D])
+    where
+        Simulation<D>: Compiled<D>,
+    {
         let linear = largest(effect(&layer(cells, |height| 3000.0 - 150.0 * height)).0);
         let curved = largest(effect(&layer(cells, |height| 3000.0 - 10.0 * height * height)).0);
         // the difference of two densities of 1500 kg/m³ has no more digits

@@ -6,6 +6,7 @@ use bagnold_solver::lanes::InstructionSet;
 use bagnold_solver::numerics::{MomentumOperator, Numerics, ViscousStep};
 use bagnold_solver::rheology::Rheology;
 use bagnold_solver::scene::Scene;
+use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::vector::Vector;
 use rayon::ThreadPoolBuilder;
 
@@ -30,7 +31,10 @@ fn column<const D: usize>(cells: [usize; D]) -> Scene<D> {
     scene
 }
 
-fn bytes<const D: usize>(scene: &Scene<D>, threads: usize, instruction_set: InstructionSet) -> Vec<u8> {
+fn bytes<const D: usize>(scene: &Scene<D>, threads: usize, instruction_set: InstructionSet) -> Vec<u8>
+where
+    Simulation<D>: Compiled<D>,
+{
     let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
     pool.install(|| {
         let mut simulation = simulation(scene.clone());
@@ -41,7 +45,10 @@ fn bytes<const D: usize>(scene: &Scene<D>, threads: usize, instruction_set: Inst
     })
 }
 
-fn check<const D: usize>(scene: &Scene<D>) {
+fn check<const D: usize>(scene: &Scene<D>)
+where
+    Simulation<D>: Compiled<D>,
+{
     let expected = bytes(scene, 1, InstructionSet::best());
     assert!(expected.iter().any(|&byte| byte != 0));
     assert!(bytes(scene, 3, InstructionSet::best()) == expected, "three threads change the state");
@@ -72,7 +79,10 @@ fn the_papers_numerics_are_the_same_to_the_last_bit() {
 #[test]
 fn an_implicit_viscous_step_is_the_same_to_the_last_bit() {
     let Rheology::MuI(law) = GRAINS else { unreachable!("grains") };
-    fn run<const D: usize>(mut scene: Scene<D>, rheology: Rheology) {
+    fn run<const D: usize>(mut scene: Scene<D>, rheology: Rheology)
+    where
+        Simulation<D>: Compiled<D>,
+    {
         scene.numerics.viscous_step = ViscousStep::Implicit;
         scene.rheology = rheology;
         check(&scene);

@@ -4,11 +4,15 @@ use crate::patches::{Disorder, SPACING, advance, bed, block, open_scene, simulat
 use bagnold_solver::boundary::wall;
 use bagnold_solver::numerics::{MomentumOperator, Numerics};
 use bagnold_solver::scene::Scene;
+use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::vector::Vector;
 
 #[test]
 fn a_loose_block_falls_as_a_body() {
-    fn check<const D: usize>(cells: [usize; D], momentum_operator: MomentumOperator) {
+    fn check<const D: usize>(cells: [usize; D], momentum_operator: MomentumOperator)
+    where
+        Simulation<D>: Compiled<D>,
+    {
         let mut scene = open_scene(block(cells, Disorder { jitter: 0.2, mass: 0.1, ..Disorder::NONE }, 14));
         scene.gravity[D - 1] = -9.81;
         scene.gravity[0] = 2.0;

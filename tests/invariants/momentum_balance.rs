@@ -4,7 +4,7 @@ use crate::patches::{Disorder, GRAINS, SPACING, SYRUP, block, open_scene, period
 use bagnold_solver::numerics::{Contact, MomentumOperator, Numerics, ViscositySwitch};
 use bagnold_solver::rheology::{Bingham, Newtonian, Rheology};
 use bagnold_solver::scene::Scene;
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::vector::Vector;
 
 /// Steps of a run; some of them search the neighbours anew, most do not.
@@ -30,7 +30,10 @@ const PRESSED: Disorder = Disorder { speed: 0.0, stress: 0.0, ..Disorder::FULL }
 const DUST: Disorder = Disorder { compression: (0.0, 0.0), ..Disorder::FULL };
 
 /// Takes one step; returns the sum of the impulses and the sum of their magnitudes `[kg m/s]`.
-fn impulses<const D: usize>(simulation: &mut Simulation<D>) -> (Vector<D>, f64) {
+fn impulses<const D: usize>(simulation: &mut Simulation<D>) -> (Vector<D>, f64)
+where
+    Simulation<D>: Compiled<D>,
+{
     let before = simulation.snapshot();
     simulation.step().expect("a stable step");
     let after = simulation.snapshot();
@@ -49,7 +52,10 @@ fn imbalance(numerics: Numerics, rheology: Rheology, disorder: Disorder) -> f64 
         numerics: Numerics,
         rheology: Rheology,
         disorder: Disorder,
-    ) -> Result<f64, String> {
+    ) -> Result<f64, String>
+    where
+        Simulation<D>: Compiled<D>,
+    {
         let scene = periodic_scene(cells, disorder, 11);
         let mut simulation = simulation(Scene { numerics, rheology, ..scene });
         let mut worst = 0.0_f64;

@@ -4,7 +4,7 @@ use crate::patches::{Disorder, SPACING, bed, block, open_scene, random, simulati
 use bagnold_solver::boundary::{AxisBoundary, Domain, Wall, wall};
 use bagnold_solver::neighbours::brute_force;
 use bagnold_solver::scene::{Flow, Scene, SceneError};
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::vector::{Tensor, Vector};
 use rand::RngExt;
 
@@ -62,7 +62,10 @@ fn listed<const D: usize>(simulation: &Simulation<D>, centre: usize, indices: &[
 }
 
 /// Compares every row of the fresh list; returns the number of pairs.
-fn compare<const D: usize>(scene: Scene<D>) -> usize {
+fn compare<const D: usize>(scene: Scene<D>) -> usize
+where
+    Simulation<D>: Compiled<D>,
+{
     let radius = scene.search_radius();
     let walls: Vec<_> = scene.wall_particles.iter().map(|particle| particle.position).collect();
     let simulation = simulation(scene.clone());
@@ -121,7 +124,10 @@ fn clustered<const D: usize>(seed: u64) -> Flow<D> {
 
 #[test]
 fn open_flows_agree_with_all_pairs() {
-    fn check<const D: usize>(cells: [usize; D], count: usize, side: f64) {
+    fn check<const D: usize>(cells: [usize; D], count: usize, side: f64)
+    where
+        Simulation<D>: Compiled<D>,
+    {
         let lattice = compare(open_scene(block(cells, Disorder::NONE, 1)));
         let jittered = compare(open_scene(block(cells, Disorder { jitter: 0.3, ..Disorder::NONE }, 2)));
         let random = compare(open_scene(scattered::<D>(count, side, 3)));
@@ -148,7 +154,10 @@ fn open_flows_agree_with_the_public_brute_force() {
 
 #[test]
 fn periodic_flows_agree_with_all_images() {
-    fn check<const D: usize>(side: f64, count: usize, seed: u64) {
+    fn check<const D: usize>(side: f64, count: usize, seed: u64)
+    where
+        Simulation<D>: Compiled<D>,
+    {
         let axes = [AxisBoundary::Periodic { lower: 0.0, upper: side * SPACING }; D];
         let mut scene = open_scene(scattered::<D>(count, side, seed));
         scene.domain = Domain { axes };
@@ -166,7 +175,10 @@ fn periodic_flows_agree_with_all_images() {
 
 #[test]
 fn mirror_corners_and_walls_agree_with_all_images() {
-    fn check<const D: usize>(cells: [usize; D]) {
+    fn check<const D: usize>(cells: [usize; D])
+    where
+        Simulation<D>: Compiled<D>,
+    {
         let size = Vector::<D>::from_fn(|axis, _| cells[axis] as f64 * SPACING);
         let mut scene = open_scene(block(cells, Disorder { jitter: 0.3, ..Disorder::NONE }, 10));
         scene.domain.axes = [AxisBoundary::Mirror { lower: Some(0.0), upper: None }; D];

@@ -5,7 +5,7 @@ use bagnold_solver::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::numerics::Numerics;
 use bagnold_solver::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::scene::{Flow, Scene};
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::vector::{Tensor, Vector, deviator, equivalent_shear_stress};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -117,12 +117,18 @@ pub(crate) fn bed<const D: usize>() -> Wall<D> {
     Wall::still(D - 1, 0.0, 1.0)
 }
 
-pub(crate) fn simulation<const D: usize>(scene: Scene<D>) -> Simulation<D> {
+pub(crate) fn simulation<const D: usize>(scene: Scene<D>) -> Simulation<D>
+where
+    Simulation<D>: Compiled<D>,
+{
     Simulation::new(scene).expect("a valid scene")
 }
 
 /// Takes `steps` steps.
-pub(crate) fn advance<const D: usize>(simulation: &mut Simulation<D>, steps: usize) {
+pub(crate) fn advance<const D: usize>(simulation: &mut Simulation<D>, steps: usize)
+where
+    Simulation<D>: Compiled<D>,
+{
     for _ in 0..steps {
         if let Err(divergence) = simulation.step() {
             panic!("{divergence}");

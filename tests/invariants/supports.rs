@@ -5,7 +5,7 @@ use bagnold_solver::boundary::gate::Gate;
 use bagnold_solver::boundary::{AxisBoundary, Domain, Surface, WallTreatment, wall};
 use bagnold_solver::numerics::{MomentumOperator, Numerics};
 use bagnold_solver::scene::Scene;
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::vector::Vector;
 
 const MIRROR: AxisBoundary = AxisBoundary::Mirror { lower: Some(0.0), upper: None };
@@ -34,7 +34,10 @@ fn gated(speed: f64) -> Scene<2> {
 }
 
 /// Largest |Σ m (v − v_0) − support − M g t| and |support|, both over M g t, after some steps.
-fn residual<const D: usize>(scene: Scene<D>, steps: usize) -> (f64, f64) {
+fn residual<const D: usize>(scene: Scene<D>, steps: usize) -> (f64, f64)
+where
+    Simulation<D>: Compiled<D>,
+{
     let gravity = scene.gravity;
     let mut simulation = simulation(scene);
     let momentum = |simulation: &Simulation<D>| {

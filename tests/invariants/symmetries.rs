@@ -8,6 +8,7 @@ use bagnold_solver::boundary::{AxisBoundary, Domain, WallTreatment, wall};
 use bagnold_solver::numerics::{MomentumOperator, Numerics, ViscositySwitch};
 use bagnold_solver::rheology::{Bingham, Rheology};
 use bagnold_solver::scene::{Flow, Scene};
+use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::vector::{Tensor, Vector};
 
 const BINGHAM: Rheology =
@@ -28,7 +29,10 @@ fn variants() -> [(Numerics, Rheology); 5] {
 
 #[test]
 fn a_uniform_velocity_changes_nothing() {
-    fn check<const D: usize>(cells: [usize; D], drift: Vector<D>) {
+    fn check<const D: usize>(cells: [usize; D], drift: Vector<D>)
+    where
+        Simulation<D>: Compiled<D>,
+    {
         for (numerics, rheology) in variants() {
             let scene = Scene { numerics, rheology, ..periodic_scene(cells, Disorder::FULL, 21) };
             let mut moving = scene.clone();
@@ -65,7 +69,10 @@ fn turned<const D: usize>(flow: &Flow<D>) -> Flow<D> {
 
 #[test]
 fn a_quarter_turn_of_the_start_turns_the_result() {
-    fn check<const D: usize>(cells: [usize; D]) {
+    fn check<const D: usize>(cells: [usize; D])
+    where
+        Simulation<D>: Compiled<D>,
+    {
         for (numerics, rheology) in variants() {
             let mut scene = Scene { numerics, rheology, ..open_scene(block(cells, Disorder::FULL, 4)) };
             scene.gravity[0] = 9.81;
@@ -129,7 +136,10 @@ fn column_and_half<const D: usize>(half: [usize; D], numerics: Numerics, rheolog
 
 #[test]
 fn a_column_beside_a_mirror_is_half_of_the_whole_column() {
-    fn check<const D: usize>(half: [usize; D]) {
+    fn check<const D: usize>(half: [usize; D])
+    where
+        Simulation<D>: Compiled<D>,
+    {
         for (mut numerics, rheology) in variants() {
             numerics.verlet_skin = 0.02;
             if numerics.momentum_operator == MomentumOperator::Pairwise {

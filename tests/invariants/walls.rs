@@ -3,7 +3,7 @@
 use crate::patches::{Disorder, EQUATION_OF_STATE, SPACING, bed, block, open_scene, simulation};
 use bagnold_solver::boundary::{AxisBoundary, Wall, wall};
 use bagnold_solver::scene::Scene;
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::vector::Vector;
 
 const GRAVITY: f64 = 9.81;
@@ -37,7 +37,10 @@ fn carried<const D: usize>(simulation: &Simulation<D>) -> Vec<(Vector<D>, f64, V
 
 #[test]
 fn a_linear_pressure_is_continued_into_the_bed() {
-    fn check<const D: usize>(cells: [usize; D], angle: f64) {
+    fn check<const D: usize>(cells: [usize; D], angle: f64)
+    where
+        Simulation<D>: Compiled<D>,
+    {
         let height = cells[D - 1] as f64 * SPACING;
         let weight = 1500.0 * GRAVITY * angle.cos();
         let simulation = simulation(layer(cells, 0.2, angle));
@@ -74,7 +77,10 @@ fn a_layer_without_pressure_leaves_the_bed_without_pressure() {
 
 #[test]
 fn a_shear_flow_is_continued_to_the_other_side_of_a_moving_bed() {
-    fn check<const D: usize>(cells: [usize; D]) {
+    fn check<const D: usize>(cells: [usize; D])
+    where
+        Simulation<D>: Compiled<D>,
+    {
         let (rate, belt) = (7.0, 0.6);
         let mut scene = layer(cells, 0.2, 0.0);
         scene.walls[0].velocity[0] = belt;

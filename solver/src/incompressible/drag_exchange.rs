@@ -48,6 +48,10 @@ impl<const D: usize> DragExchange<D> {
         }
     }
 
+    pub(super) fn kernel(&self) -> &Kernel<D> {
+        &self.kernel
+    }
+
     /// Largest distance of a pair `[m]`.
     pub(super) fn reach(&self) -> f64 {
         self.kernel.support()

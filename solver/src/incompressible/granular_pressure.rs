@@ -1,19 +1,16 @@
 //! The pressure of sheared grains, p = ρ_s (d γ̇ B φ/(φ_max − φ))², which makes them dilate: where it carries the weight
 //! of the grains above, φ = φ_max/(1 + B I).
 //!
-//! φ is the sum of the grains' volumes over the kernel, fixed grains included. γ̇ is the norm of a velocity gradient that
-//! is averaged over a short time and over the neighbours first, because the norm of noise is not zero. Densely packed
-//! grains are elastic instead: p = K (φ − φ_e) from a little below φ_max on. Pair forces are equal and opposite:
+//! φ is the sum of the grains' volumes over the kernel, fixed grains included. γ̇ is the norm of the
+//! averaged velocity gradient. Densely packed grains are elastic instead: p = K (φ − φ_e) from a little below φ_max on. Pair forces are equal and opposite:
 //! F_ab = −v_a v_b (p_a/φ_a² + p_b/φ_b²) ∇W with the volumes v of the grains in a particle.
 
+use super::averaged_gradient::AveragedGradient;
 use super::pairs::{LEAST_TASK, Pair};
 use super::phase::{Phase, height_axis};
 use super::stratification::Stratification;
-use crate::vector::{Tensor, Vector, shear_rate};
+use crate::vector::Vector;
 use rayon::prelude::*;
-
-/// Time over which velocity gradients are averaged `[s]`: some ten passages of a grain in the fastest shear.
-const AVERAGING_TIME: f64 = 0.02;
 
 /// Stiffness of packed grains dp/dφ `[Pa]`, and how far below φ_max it begins `[-]`: the overburden of a bed some
 /// centimetres thick changes φ by less than 0.02.
@@ -38,19 +35,16 @@ pub(super) struct Dilatancy {
 
 /// Fields of the free sediment particles.
 #[derive(Debug, Default)]
-pub(super) struct GranularPressure<const D: usize> {
+pub(super) struct GranularPressure {
     /// φ `[-]`.
     pub(super) solid_fraction: Vec<f64>,
-    /// ∇u averaged over time, then over neighbours `[1/s]`.
-    averaged: Vec<Tensor<D>>,
-    smoothed: Vec<Tensor<D>>,
     /// p/φ² `[Pa]`.
     scaled_pressure: Vec<f64>,
 }
 
-impl<const D: usize> GranularPressure<D> {
+impl GranularPressure {
     /// φ of every particle, and the volume that it then stands for.
-    pub(super) fn find_solid_fraction(&mut self, sediment: &mut Phase<D>, dilatancy: &Dilatancy) {
+    pub(super) fn find_solid_fraction<const D: usize>(&mut self, sediment: &mut Phase<D>, dilatancy: &Dilatancy) {
         let Phase { free_pairs, wall_pairs, kernel, mass, density, lattice_volume, volume, .. } = sediment;
         let (own, density) = (kernel.value(0.0), *density);
         let fixed = *lattice_volume * dilatancy.fixed_filling;
@@ -66,37 +60,20 @@ impl<const D: usize> GranularPressure<D> {
         );
     }
 
-    /// Shear rates of every particle from averaged velocity gradients `[1/s]`.
-    pub(super) fn find_rates(&mut self, sediment: &Phase<D>, time_step: f64) {
-        let count = sediment.len();
-        if self.averaged.len() != count {
-            self.averaged = sediment.velocity_gradient.clone();
-            self.smoothed = self.averaged.clone();
-        }
-        let share = (time_step / AVERAGING_TIME).min(1.0);
-        for (averaged, present) in self.averaged.iter_mut().zip(&sediment.velocity_gradient) {
-            *averaged += (present - *averaged) * share;
-        }
-        let own = sediment.kernel.value(0.0);
-        let averaged = &self.averaged;
-        self.smoothed.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, smoothed)| {
-            let (mut sum, mut weight) = (averaged[a] * own, own);
-            for pair in sediment.free_pairs.of(a) {
-                sum += averaged[pair.source as usize] * pair.value;
-                weight += pair.value;
-            }
-            *smoothed = sum / weight;
-        });
-    }
-
     /// Pressures of every particle `[Pa]`.
-    pub(super) fn find_pressures(&mut self, sediment: &mut Phase<D>, dilatancy: &Dilatancy, layer: &Stratification) {
+    pub(super) fn find_pressures<const D: usize>(
+        &mut self,
+        sediment: &mut Phase<D>,
+        rates: &AveragedGradient<D>,
+        dilatancy: &Dilatancy,
+        layer: &Stratification,
+    ) {
         self.scaled_pressure.resize(sediment.len(), 0.0);
         let normal = height_axis(D);
         for a in 0..sediment.len() {
             let fraction = self.solid_fraction[a];
             let room = (dilatancy.packing - fraction).max(LEAST_ROOM);
-            let rate = shear_rate(&self.smoothed[a]);
+            let rate = rates.shear_rate(a);
             let root = dilatancy.grain_diameter * rate * dilatancy.dilation * fraction / room;
             // twice the load is enough to open a bed, and bounds what a single fast particle does
             let bound = 2.0 * layer.at(sediment.position[a][normal]).overburden + 20.0;
@@ -109,7 +86,7 @@ impl<const D: usize> GranularPressure<D> {
 
     /// Force of the granular pressure on a particle `[N]`, per metre of width in 2-D. A fixed grain has the pressure of
     /// its partner.
-    pub(super) fn force(&self, sediment: &Phase<D>, a: usize, dilatancy: &Dilatancy) -> Vector<D> {
+    pub(super) fn force<const D: usize>(&self, sediment: &Phase<D>, a: usize, dilatancy: &Dilatancy) -> Vector<D> {
         let own = self.scaled_pressure[a];
         let grains = |b: usize| sediment.mass[b] / sediment.density;
         let mut force = Vector::zeros();
@@ -125,7 +102,7 @@ impl<const D: usize> GranularPressure<D> {
     }
 
     /// Puts the mean solid fraction along the bed into the stratification.
-    pub(super) fn average(sediment: &Phase<D>, area: f64, layer: &mut Stratification) {
+    pub(super) fn average<const D: usize>(sediment: &Phase<D>, area: f64, layer: &mut Stratification) {
         let intervals = layer.solid_fraction.len();
         let mut sums = std::mem::take(&mut layer.solid_fraction);
         sums.copy_from_slice(&layer.fixed_fraction);

@@ -8,11 +8,13 @@
 //! space. Within a phase, a pair's force is one coefficient times a difference of velocities, or a sum of pressures
 //! along the line between the two: equal and opposite, so that momentum closes to rounding.
 
+mod averaged_gradient;
 mod closure;
 mod drag_exchange;
 mod granular_pressure;
 mod grid;
 mod layers;
+mod mixture;
 mod numerics;
 mod pairs;
 mod phase;
@@ -30,7 +32,7 @@ mod velocity_solve;
 #[cfg(test)]
 mod tests;
 
-pub use numerics::{DragSlip, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment};
+pub use numerics::{Continuity, DragSlip, MeanFlux, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment};
 pub use scene::{
     Bed, DragForm, Fluid, GranularFriction, IncompressibleScene, ParticleSet, Sediment, SedimentLaw, SedimentPressure,
     SedimentYield, SolidFraction, Turbulence,

@@ -32,6 +32,8 @@ pub enum PairLaw {
     PairRate,
     /// From the pair's own shear rate and the mean load of the two: that of the plane between them.
     PairRateMeanLoad,
+    /// From |ū_ab|/r of the averaged velocity gradient and the mean load: grains that dilate jostle.
+    AveragedPairRate,
     /// Arithmetic mean of the particles' viscosities, as (18) has it.
     ArithmeticMean,
     /// Harmonic mean of the particles' viscosities.
@@ -46,6 +48,26 @@ pub enum DragSlip {
     Pair,
     /// The grain's velocity against the mean of the fluid around it.
     Mean,
+}
+
+/// Which flux the pore pressure makes free of divergence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Continuity {
+    /// That of the fluid alone, ∇·u_f = 0.
+    Fluid,
+    /// That of both phases, ∇·(φ u_s + (1 − φ) u_f) = 0; the pressure pushes the grains as well.
+    Mixture,
+}
+
+/// What becomes of the mixture's mean flux along periods, which no pressure of the particles reaches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MeanFlux {
+    /// Nothing: it follows from the forces.
+    Free,
+    /// A uniform pressure gradient takes it out, as the floor of a vessel does.
+    Zero,
 }
 
 /// Numerical parameters of the projection step.
@@ -76,6 +98,10 @@ pub struct ProjectionNumerics {
     pub pair_law: PairLaw,
     /// Slip of the drag.
     pub drag_slip: DragSlip,
+    /// Which flux is free of divergence.
+    pub continuity: Continuity,
+    /// The mixture's mean flux.
+    pub mean_flux: MeanFlux,
     /// Relative residual of the pressure Poisson equation `[-]`.
     pub pressure_tolerance: f64,
     /// Relative residual of the implicit velocities `[-]`.
@@ -97,6 +123,8 @@ impl Default for ProjectionNumerics {
             shifting: 0.5,
             pair_law: PairLaw::PairRate,
             drag_slip: DragSlip::Mean,
+            continuity: Continuity::Fluid,
+            mean_flux: MeanFlux::Free,
             pressure_tolerance: 1e-2,
             velocity_tolerance: 1e-6,
         }

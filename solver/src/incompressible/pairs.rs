@@ -55,6 +55,11 @@ impl<const D: usize> Periods<D> {
         Self { length, inverse: length.map(|l| if l > 0.0 { 1.0 / l } else { 0.0 }) }
     }
 
+    /// Whether an axis has a period.
+    pub(super) fn has(&self, axis: usize) -> bool {
+        self.length[axis] > 0.0
+    }
+
     #[inline(always)]
     fn shortest<V: Real>(&self, mut separation: [V; D]) -> [V; D] {
         let one = V::splat(1.0);

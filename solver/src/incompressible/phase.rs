@@ -32,7 +32,7 @@ pub(super) struct LatticeSums {
 }
 
 impl LatticeSums {
-    fn of<const D: usize>(kernel: &Kernel<D>, spacing: f64) -> Self {
+    pub(super) fn of<const D: usize>(kernel: &Kernel<D>, spacing: f64) -> Self {
         let reach = (kernel.support() / spacing).ceil() as i32;
         let width = (2 * reach + 1) as usize;
         let volume = spacing.powi(D as i32);

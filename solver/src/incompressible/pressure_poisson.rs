@@ -49,7 +49,7 @@ pub(super) struct PressurePoisson<const D: usize> {
 
 /// What fixes the level of the pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Level {
+pub(super) enum Level {
     /// A surface.
     Surface,
     /// Nothing.
@@ -58,7 +58,7 @@ enum Level {
 
 impl Level {
     /// Takes the mean out of a field where nothing fixes the level.
-    fn take_mean_out(self, field: &mut [f64]) {
+    pub(super) fn take_mean_out(self, field: &mut [f64]) {
         if self == Self::Free {
             let mean = field.iter().sum::<f64>() / field.len() as f64;
             field.iter_mut().for_each(|value| *value -= mean);
@@ -66,7 +66,7 @@ impl Level {
     }
 
     /// The operator among fields of mean zero where nothing fixes the level: symmetric, as it is.
-    fn apply(
+    pub(super) fn apply(
         self,
         p: &[f64],
         product: &mut [f64],
@@ -192,6 +192,21 @@ impl<const D: usize> PressurePoisson<D> {
         self.links.row(a).map(|(source, (gradient, laplacian))| Link { source, gradient, laplacian })
     }
 
+    /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
+    pub(super) fn own(&self, a: usize) -> Vector<D> {
+        self.own[a]
+    }
+
+    /// The diagonal of A `[1/m²]`.
+    pub(super) fn diagonal(&self, a: usize) -> f64 {
+        self.diagonal[a]
+    }
+
+    /// What fixes the level of the pressure.
+    pub(super) fn level(&self) -> Level {
+        self.level
+    }
+
     /// Solves for the pressures `[Pa]`, starting from the present ones.
     ///
     /// # Errors
@@ -212,14 +227,7 @@ impl<const D: usize> PressurePoisson<D> {
                 *right = 0.0;
                 return;
             }
-            let missing = match correction {
-                Correction::Both => {
-                    let missing = 1.0 - phase.concentration[a];
-                    if missing > 0.0 { missing * (1.0 - phase.nearness[a]) } else { missing }
-                }
-                Correction::CompressionOnly => (1.0 - phase.concentration[a]).min(0.0),
-            };
-            let missing = numerics.density_correction * missing / (time_step * time_step);
+            let missing = numerics.density_correction * correction.missing(phase, a) / (time_step * time_step);
             *right = -density
                 * match numerics.pressure_source {
                     PressureSource::Divergence => self.divergence(a, predicted) / time_step + missing,
@@ -311,4 +319,16 @@ pub(super) enum Correction {
     Both,
     /// Too dense only: what may come apart.
     CompressionOnly,
+}
+
+impl Correction {
+    /// What a particle lacks of its density and is to be corrected `[-]`.
+    pub(super) fn missing<const D: usize>(self, phase: &Phase<D>, a: usize) -> f64 {
+        let missing = 1.0 - phase.concentration[a];
+        match self {
+            Self::Both if missing > 0.0 => missing * (1.0 - phase.nearness[a]),
+            Self::Both => missing,
+            Self::CompressionOnly => missing.min(0.0),
+        }
+    }
 }

@@ -5,6 +5,7 @@
 
 use super::closure::mean_rate;
 use super::numerics::PairLaw;
+use super::pairs::Pair;
 use super::phase::{Phase, height_axis};
 use super::scene::{Bed, Sediment};
 use super::simulation::IncompressibleSimulation;
@@ -139,7 +140,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
             Bed::Rough { level, origin_offset, law } => {
                 // twice Σ V |∂W| over the wall is a particle's share of the bed's area
                 let scale = -2.0 * fluid.lattice_volume / fluid.lattice.gradient;
-                let arms = |sum, pair: &super::pairs::Pair<D>| sum + pair.gradient * pair.separation[normal];
+                let arms = |sum, pair: &Pair<D>| sum + pair.gradient * pair.separation[normal];
                 let share = scale * fluid.wall_pairs.of(a).iter().fold(0.0, arms);
                 if share > 0.0 {
                     let mut along = fluid.velocity[a];
@@ -167,19 +168,21 @@ impl<const D: usize> IncompressibleSimulation<D> {
             let b = pair.source as usize;
             let moment = sediment.moment[a] + sediment.moment[b];
             let area = sediment.volume[a] * sediment.volume[b] * pair.gradient / moment;
-            let partner =
-                Partner { load: self.load[b], velocity: sediment.velocity[b], viscosity: self.sediment_viscosity[b] };
-            row.couple(
-                first + b,
-                scale * area * self.pair_viscosity(a, material, &partner, pair.separation.norm_squared()),
-            );
+            let partner = Partner {
+                particle: Some(b),
+                load: self.load[b],
+                velocity: sediment.velocity[b],
+                viscosity: self.sediment_viscosity[b],
+            };
+            row.couple(first + b, scale * area * self.pair_viscosity(a, material, &partner, pair));
         }
         let layer = self.scene.solid_fraction.stratification();
         for pair in sediment.wall_pairs.of(a) {
             let area = sediment.volume[a] * sediment.lattice_volume * pair.gradient / (2.0 * sediment.moment[a]);
             let load = material.load(sediment.wall[pair.source as usize][normal], layer);
-            let partner = Partner { load, velocity: Vector::zeros(), viscosity: self.sediment_viscosity[a] };
-            row.hold(scale * area * self.pair_viscosity(a, material, &partner, pair.separation.norm_squared()));
+            let partner =
+                Partner { particle: None, load, velocity: Vector::zeros(), viscosity: self.sediment_viscosity[a] };
+            row.hold(scale * area * self.pair_viscosity(a, material, &partner, pair));
         }
         for pair in self.exchange.of_sediment.of(a) {
             let b = pair.source as usize;
@@ -191,15 +194,19 @@ impl<const D: usize> IncompressibleSimulation<D> {
 
     /// η_a + η_b of a pair of sediment particles `[Pa·s]`.
     #[inline]
-    fn pair_viscosity(&self, a: usize, material: &Sediment<D>, partner: &Partner<D>, distance_squared: f64) -> f64 {
+    fn pair_viscosity(&self, a: usize, material: &Sediment<D>, partner: &Partner<D>, pair: &Pair<D>) -> f64 {
         let (own_load, own) = (self.load[a], self.sediment_viscosity[a]);
         let rate = || {
             let velocity = self.sediment.as_ref().map_or_else(Vector::zeros, |sediment| sediment.velocity[a]);
-            mean_rate(D) * ((velocity - partner.velocity).norm_squared() / distance_squared).sqrt()
+            mean_rate(D) * ((velocity - partner.velocity).norm_squared() / pair.separation.norm_squared()).sqrt()
         };
         match self.scene.numerics.pair_law {
             PairLaw::PairRate => 2.0 * material.viscosity(own_load.min(partner.load), rate()),
             PairLaw::PairRateMeanLoad => 2.0 * material.viscosity(0.5 * (own_load + partner.load), rate()),
+            PairLaw::AveragedPairRate => {
+                let rate = mean_rate(D) * self.sediment_rates.pair_rate(a, partner.particle, pair);
+                2.0 * material.viscosity(0.5 * (own_load + partner.load), rate)
+            }
             PairLaw::ArithmeticMean => own + partner.viscosity,
             PairLaw::HarmonicMean => 4.0 * own * partner.viscosity / (own + partner.viscosity),
         }
@@ -208,6 +215,8 @@ impl<const D: usize> IncompressibleSimulation<D> {
 
 /// What a pair reads of its other particle.
 struct Partner<const D: usize> {
+    /// Its index; none of a wall.
+    particle: Option<usize>,
     /// Yield stress or overburden `[Pa]`.
     load: f64,
     /// Velocity `[m/s]`.

@@ -120,6 +120,8 @@ pub struct GranularFriction {
 pub enum SedimentPressure {
     /// A pressure Poisson equation of its own, (11): each grain is incompressible.
     Incompressible,
+    /// Nothing: the particles move as fluid and gravity make them.
+    None,
     /// Nothing: the particles move along the bed only, and keep the solid fraction that is given.
     AlongBed,
     /// The pressure of sheared grains, p = ρ_s (d γ̇ B φ/(φ_max − φ))², the inverse of φ = φ_max/(1 + B I).
@@ -262,6 +264,7 @@ impl<const D: usize> IncompressibleScene<D> {
             least =
                 least.max(4.0 * sediment.smoothing_ratio * sediment.spacing).max(4.0 * sediment.drag_smoothing_length);
         }
+        self.check_mixture()?;
         if let Some(layer) = self.solid_fraction.stratification() {
             for &value in &layer.solid_fraction {
                 if !(0.0..1.0).contains(&value) {

@@ -1,8 +1,10 @@
 //! An incompressible simulation: state, candidate search, and the loop with its stop reasons.
 
+use super::averaged_gradient::AveragedGradient;
 use super::drag_exchange::DragExchange;
 use super::granular_pressure::GranularPressure;
 use super::layers::Layers;
+use super::mixture::Mixture;
 use super::pairs::Periods;
 use super::phase::Phase;
 use super::pressure_poisson::PressurePoisson;
@@ -25,6 +27,7 @@ pub struct IncompressibleSimulation<const D: usize> {
     pub(super) system: VelocitySystem<D>,
     pub(super) fluid_poisson: PressurePoisson<D>,
     pub(super) sediment_poisson: PressurePoisson<D>,
+    pub(super) mixture: Mixture<D>,
     /// Dynamic viscosity of every fluid particle `[Pa·s]`.
     pub(super) fluid_viscosity: Vec<f64>,
     /// Share of the space that the fluid has at every fluid particle `[-]`.
@@ -33,7 +36,8 @@ pub struct IncompressibleSimulation<const D: usize> {
     pub(super) sediment_viscosity: Vec<f64>,
     /// Yield stress or overburden of every sediment particle `[Pa]`.
     pub(super) load: Vec<f64>,
-    pub(super) granular: GranularPressure<D>,
+    pub(super) granular: GranularPressure,
+    pub(super) sediment_rates: AveragedGradient<D>,
     pub(super) shifts: Vec<Vector<D>>,
     pub(super) periods: Periods<D>,
     pub(super) time: f64,
@@ -48,7 +52,7 @@ pub struct IncompressibleSimulation<const D: usize> {
 pub struct SolverCost {
     /// Iterations of the implicit velocities.
     pub velocity_iterations: u64,
-    /// Iterations of the fluid's pressure Poisson equation.
+    /// Iterations of the fluid's or the mixture's pressure Poisson equation.
     pub fluid_pressure_iterations: u64,
     /// Iterations of the sediment's pressure Poisson equation.
     pub sediment_pressure_iterations: u64,
@@ -59,12 +63,56 @@ pub struct SolverCost {
 /// Skin of the candidate search over the fluid kernel's reach `[-]`.
 const SKIN: f64 = 0.3;
 
-impl<const D: usize> IncompressibleSimulation<D> {
+/// The plane: not generic, so that the loops are compiled here and not in every crate that takes a step.
+impl IncompressibleSimulation<2> {
     /// Sets up a simulation.
     ///
     /// # Errors
     /// A scene that breaks a rule.
-    pub fn new(scene: IncompressibleScene<D>) -> Result<Self, SceneError> {
+    pub fn new(scene: IncompressibleScene<2>) -> Result<Self, SceneError> {
+        Self::set_up(scene)
+    }
+
+    /// Takes one step of at most the time step of the numerics.
+    ///
+    /// # Errors
+    /// The divergence: a particle that would move by more than its spacing, a solve that does not converge, a Reynolds
+    /// number that the drag law does not cover.
+    pub fn step(&mut self) -> Result<(), Divergence<2>> {
+        self.take_step()
+    }
+
+    /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
+    /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
+    pub fn run(&mut self, end: f64, interval: f64, mut observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<2> {
+        let origin = self.time;
+        let mut observed = 0u64;
+        let mut observed_step = self.steps;
+        if observe(self).is_break() {
+            return StopReason::Stopped;
+        }
+        while self.time < end - 0.5 * self.last_step {
+            if let Err(divergence) = self.step() {
+                return StopReason::Diverged(divergence);
+            }
+            let due = ((self.time - origin) / interval + 1e-9).floor() as u64;
+            if due > observed {
+                observed = due;
+                observed_step = self.steps;
+                if observe(self).is_break() {
+                    return StopReason::Stopped;
+                }
+            }
+        }
+        if observed_step < self.steps && observe(self).is_break() {
+            return StopReason::Stopped;
+        }
+        StopReason::Finished
+    }
+}
+
+impl<const D: usize> IncompressibleSimulation<D> {
+    fn set_up(scene: IncompressibleScene<D>) -> Result<Self, SceneError> {
         scene.check()?;
         let ratio = scene.numerics.smoothing_ratio;
         let fluid =
@@ -95,7 +143,9 @@ impl<const D: usize> IncompressibleSimulation<D> {
             system: VelocitySystem::new(),
             fluid_poisson: PressurePoisson::new(),
             sediment_poisson: PressurePoisson::new(),
+            mixture: Mixture::new(),
             granular: GranularPressure::default(),
+            sediment_rates: AveragedGradient::default(),
             shifts: Vec::new(),
             time: 0.0,
             steps: 0,
@@ -108,34 +158,6 @@ impl<const D: usize> IncompressibleSimulation<D> {
         };
         simulation.search();
         Ok(simulation)
-    }
-
-    /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
-    /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
-    pub fn run(&mut self, end: f64, interval: f64, mut observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<D> {
-        let origin = self.time;
-        let mut observed = 0u64;
-        let mut observed_step = self.steps;
-        if observe(self).is_break() {
-            return StopReason::Stopped;
-        }
-        while self.time < end - 0.5 * self.last_step {
-            if let Err(divergence) = self.step() {
-                return StopReason::Diverged(divergence);
-            }
-            let due = ((self.time - origin) / interval + 1e-9).floor() as u64;
-            if due > observed {
-                observed = due;
-                observed_step = self.steps;
-                if observe(self).is_break() {
-                    return StopReason::Stopped;
-                }
-            }
-        }
-        if observed_step < self.steps && observe(self).is_break() {
-            return StopReason::Stopped;
-        }
-        StopReason::Finished
     }
 
     /// Time `[s]`.
@@ -155,7 +177,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
     pub fn cost(&self) -> SolverCost {
         SolverCost {
             velocity_iterations: self.system.iterations(),
-            fluid_pressure_iterations: self.fluid_poisson.iterations(),
+            fluid_pressure_iterations: self.fluid_poisson.iterations() + self.mixture.iterations(),
             sediment_pressure_iterations: self.sediment_poisson.iterations(),
             searches: self.searches,
         }
@@ -189,6 +211,12 @@ impl<const D: usize> IncompressibleSimulation<D> {
     #[must_use]
     pub fn sediment(&self) -> (&[Vector<D>], &[Vector<D>]) {
         self.sediment.as_ref().map_or((&[], &[]), |sediment| (&sediment.position, &sediment.velocity))
+    }
+
+    /// Share of the space that the fluid had at every fluid particle in the last step `[-]`.
+    #[must_use]
+    pub fn fluid_share(&self) -> &[f64] {
+        &self.fluid_share
     }
 
     /// Masses of the free sediment `[kg]`, per metre of width in 2-D.

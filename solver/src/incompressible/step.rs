@@ -1,7 +1,7 @@
 //! One step: implicit velocities of both phases, a pressure Poisson equation for each, correction, motion, shifting.
 
 use super::granular_pressure::{Dilatancy, GranularPressure};
-use super::numerics::PressureSource;
+use super::numerics::{Continuity, PairLaw, PressureSource};
 use super::phase::{Phase, height_axis};
 use super::pressure_poisson::{Correction, PressurePoisson};
 use super::scene::{SedimentPressure, SolidFraction};
@@ -15,12 +15,7 @@ use crate::vector::Vector;
 pub(crate) const MOST_ITERATIONS: usize = 2000;
 
 impl<const D: usize> IncompressibleSimulation<D> {
-    /// Takes one step of at most the time step of the numerics.
-    ///
-    /// # Errors
-    /// The divergence: a particle that would move by more than its spacing, a solve that does not converge, a Reynolds
-    /// number that the drag law does not cover.
-    pub fn step(&mut self) -> Result<(), Divergence<D>> {
+    pub(super) fn take_step(&mut self) -> Result<(), Divergence<D>> {
         let numerics = self.scene.numerics;
         let courant_step = numerics.courant * self.scene.fluid.spacing / self.largest_speed();
         let time_step = numerics.time_step.min(courant_step);
@@ -30,17 +25,24 @@ impl<const D: usize> IncompressibleSimulation<D> {
             phase.find_surface(&numerics);
             phase.find_velocity_gradients();
         }
-        self.find_granular_pressure(time_step);
+        self.average_sediment_gradients(time_step);
+        self.find_granular_pressure();
         self.find_viscosities();
         self.find_drag()?;
         self.assemble_velocities(time_step);
         self.add_granular_forces(time_step);
+        if numerics.continuity == Continuity::Mixture {
+            self.push_by_last_pressure(time_step);
+        }
         let criterion = Criterion { tolerance: numerics.velocity_tolerance, most_iterations: MOST_ITERATIONS };
         self.system.solve(criterion).map_err(|failed| {
             let NotConverged { row, residual } = failed;
             self.divergence(row, Quantity::VelocityResidual, residual, (0.0, numerics.velocity_tolerance))
         })?;
-        self.project(time_step)?;
+        match numerics.continuity {
+            Continuity::Fluid => self.project(time_step)?,
+            Continuity::Mixture => self.project_mixture(time_step)?,
+        }
         if numerics.shifting > 0.0 {
             self.search_if_due();
             find_shifts(&self.fluid, &self.periods, numerics.shifting, time_step, &mut self.shifts);
@@ -70,18 +72,25 @@ impl<const D: usize> IncompressibleSimulation<D> {
         Err(self.divergence(self.fluid.len() + grain, Quantity::Reynolds, reynolds, (*range.start(), *range.end())))
     }
 
+    /// Averaged velocity gradients of the sediment, for what depends on them.
+    fn average_sediment_gradients(&mut self, time_step: f64) {
+        let wanted = self.scene.numerics.pair_law == PairLaw::AveragedPairRate || self.dilatancy().is_some();
+        if let (true, Some(sediment)) = (wanted, &self.sediment) {
+            self.sediment_rates.update(sediment, time_step);
+        }
+    }
+
     /// Solid fraction, its mean along the bed, and the pressure of grains that dilate.
-    fn find_granular_pressure(&mut self, time_step: f64) {
+    fn find_granular_pressure(&mut self) {
         let Some(dilatancy) = self.dilatancy() else { return };
         let area = self.scene.bed_area();
         let Some(sediment) = &mut self.sediment else { return };
         self.granular.find_solid_fraction(sediment, &dilatancy);
-        self.granular.find_rates(sediment, time_step);
         if let SolidFraction::Averaged(layer) = &mut self.scene.solid_fraction {
             GranularPressure::average(sediment, area, layer);
         }
         if let Some(layer) = self.scene.solid_fraction.stratification() {
-            self.granular.find_pressures(sediment, &dilatancy, layer);
+            self.granular.find_pressures(sediment, &self.sediment_rates, &dilatancy, layer);
         }
     }
 
@@ -99,7 +108,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
             SedimentPressure::Dilatant { dilation, packing, fixed_filling } => {
                 Some(Dilatancy { dilation, packing, grain_diameter: material.grain_diameter, fixed_filling })
             }
-            SedimentPressure::Incompressible | SedimentPressure::AlongBed => None,
+            SedimentPressure::Incompressible | SedimentPressure::None | SedimentPressure::AlongBed => None,
         }
     }
 
@@ -117,7 +126,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
                         slide(sediment, &self.system.velocity[first..], time_step);
                         continue;
                     }
-                    SedimentPressure::Dilatant { .. } => {
+                    SedimentPressure::None | SedimentPressure::Dilatant { .. } => {
                         let moved = drift(sediment, &self.system.velocity[first..], time_step);
                         if let Err(particle) = moved {
                             let way = sediment.velocity[particle].norm() * time_step / sediment.spacing;

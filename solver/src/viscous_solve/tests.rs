@@ -6,7 +6,7 @@ use crate::lanes::LANES;
 use crate::numerics::{Numerics, ViscousStep};
 use crate::rheology::{Bingham, Rheology};
 use crate::scene::{Flow, Scene};
-use crate::simulation::Simulation;
+use crate::simulation::{Compiled, Simulation};
 use crate::vector::{Tensor, Vector};
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
@@ -30,7 +30,10 @@ fn patch<const D: usize>(
     bed: bool,
     jitter: f64,
     tolerance: f64,
-) -> Simulation<D> {
+) -> Simulation<D>
+where
+    Simulation<D>: Compiled<D>,
+{
     let mut random = Pcg64Mcg::seed_from_u64(7);
     let mut flow = Flow::default();
     for index in 0..cells.iter().product() {

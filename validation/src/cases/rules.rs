@@ -2,7 +2,7 @@
 
 use crate::error::InputError;
 use bagnold_solver::boundary::Surface;
-use bagnold_solver::incompressible::ProjectionNumerics;
+use bagnold_solver::incompressible::{Continuity, MeanFlux, ProjectionNumerics};
 use bagnold_solver::numerics::{ChoiceProblem, Numerics};
 use bagnold_solver::rheology::Rheology;
 
@@ -76,7 +76,14 @@ pub(super) fn numerics(path: &str, numerics: &Numerics) -> Result<(), InputError
 pub(super) fn projection(path: &str, numerics: &ProjectionNumerics) -> Result<(), InputError> {
     numerics.parameter_problem().map_or(Ok(()), |(field, value, rule, remedy)| {
         Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
-    })
+    })?;
+    let remedy = "only suspensions share their pressure, and `settling` chooses it for them";
+    let refused = |field: &str, value, rule| Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy));
+    match (numerics.continuity, numerics.mean_flux) {
+        (Continuity::Fluid, MeanFlux::Free) => Ok(()),
+        (Continuity::Mixture, _) => refused("continuity", "mixture", "\"fluid\""),
+        (Continuity::Fluid, MeanFlux::Zero) => refused("mean_flux", "zero", "\"free\""),
+    }
 }
 
 /// The viscous step that a law allows.

@@ -3,6 +3,7 @@
 mod block_average;
 mod fit;
 mod grid_convergence;
+mod segmented;
 mod student;
 
 pub use block_average::{BLOCKS, block_average, block_jackknife};
@@ -10,4 +11,5 @@ pub use fit::{
     Estimate, Exponent, LinearFit, Regression, common_slope, linear_fit, linear_regression, log_log_slope, power_law,
 };
 pub use grid_convergence::{GridConvergence, Mean, grid_convergence};
+pub use segmented::{Segmented, curvature, number_of_pieces, segmented_regression};
 pub use student::student_quantile;

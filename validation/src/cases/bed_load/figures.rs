@@ -45,7 +45,7 @@ fn label(run: &BedLoadRun) -> String {
         Formulation::Fit(_) => format!("fit, {}", percent(run)),
         Formulation::Continuum { stage, pair_law, start, spacing, .. } => {
             let mut label = format!("{}, {}", stage.name(), percent(run));
-            if *pair_law != bagnold_solver::incompressible::PairLaw::PairRateMeanLoad {
+            if *pair_law != stage.judged_pair_law() {
                 label += &format!(", {}", pair_law_name(*pair_law));
             }
             if *start != 1.0 {

@@ -11,7 +11,7 @@ use crate::cases::channel;
 use crate::metric::{Confidence, Kind, Limit, Metric};
 use crate::observe::Recorded;
 use crate::reference::{HONEST_BAND, TransportFormula};
-use crate::statistics::{Estimate, block_average, linear_fit};
+use crate::statistics::{Estimate, Segmented, block_average, linear_fit};
 use bagnold_solver::incompressible::PairLaw;
 
 /// Standard errors that a value may move before a change is reported `[-]`.
@@ -156,6 +156,7 @@ fn stabilised(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<Bed
         Limit::AtMost(0.8),
         "two layers: the lower semi-logarithmic slope is smaller by a fifth",
     ));
+    layers(metrics, run, record);
     let near = profile.estimate(|points| profiles::deficit(run, points, 2.5e-3));
     let deficit = observed("near_bed_deficit", &variant, near, 1.0, "u_*").against(
         None,
@@ -166,6 +167,34 @@ fn stabilised(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<Bed
     let thickness = profile.estimate(|points| profiles::sheared_thickness(run, points));
     metrics.push(observed("sheared_thickness", &variant, thickness, 1e3, "mm"));
     grains(metrics, run, data);
+}
+
+/// The layers that a segmented regression finds, with the errors of their slopes and borders; observed.
+fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>) {
+    let variant = run.variant();
+    let profile = &record.data.channel.profile;
+    let count = profiles::number_of_layers(run, &profile.points());
+    let source = "statement of the paper: two layers at 2 and 3 %, three at 5 %";
+    metrics.push(
+        Metric::observed("number_of_layers", &variant, count as f64, "-")
+            .against(Some(if run.slope < 0.04 { 2.0 } else { 3.0 }), source, Confidence::Medium)
+            .of_kind(Kind::Validation)
+            // a break more or less is no drift of the flow
+            .with_snapshot_tolerance(0.0, 1.0),
+    );
+    let scale = run.clear_water().semi_logarithmic_slope() / run.clear_water().friction_velocity();
+    for layer in 0..count {
+        let of = |read: &dyn Fn(&Segmented) -> f64| {
+            profile.estimate(|points| profiles::layers(run, points, count).map_or(f64::NAN, |fit| read(&fit)))
+        };
+        let named = format!("{variant},layer={}", layer + 1);
+        let slope = of(&|fit| fit.slopes[layer] / scale);
+        metrics.push(observed("layer_slope", &named, slope, 1.0, "-").against(Some(1.0), "u_*/κ", Confidence::Exact));
+        if layer + 1 < count {
+            let border = of(&|fit| libm::exp(fit.breaks[layer]));
+            metrics.push(observed("layer_border", &named, border, 1.0, "d"));
+        }
+    }
 }
 
 /// What is reported of the grains; none of it is gated.
@@ -195,6 +224,17 @@ fn grains(metrics: &mut Vec<Metric>, run: &BedLoadRun, data: &BedLoadObservation
             None => metric,
         });
     }
+    for (name, above) in [("grain_curvature_above", true), ("grain_curvature_below", false)] {
+        let estimate = data.sediment.estimate(|points| profiles::grain_curvature(run, points, above));
+        if estimate.value.is_finite() {
+            let metric = observed(name, &variant, estimate, 1.0, "u_*/d²");
+            metrics.push(metric.against(
+                None,
+                "statement of the paper: concave above the top of the bed (−), convex below (+)",
+                Confidence::Medium,
+            ));
+        }
+    }
     let drag = data.drag_profile();
     let peak = drag
         .iter()
@@ -216,7 +256,7 @@ fn continuum(
     metrics.push(channel::particles_lost(&variant, &record.clone().map(|data| data.channel)));
     common(metrics, run, record);
     let source = "the 1-D layer of the same closures";
-    let judged = run.averaging_time >= JUDGED_FROM && pair_law == PairLaw::PairRateMeanLoad;
+    let judged = run.averaging_time >= JUDGED_FROM && pair_law == stage.judged_pair_law();
     let gated = |metric: Metric, holds: bool, limit, reason: &str| {
         if judged && holds { metric.gated(limit, reason) } else { metric }
     };

@@ -1,5 +1,6 @@
 //! Bed load on three slopes in three formulations.
 
+mod checks;
 mod figures;
 mod fit;
 mod metrics;
@@ -7,6 +8,8 @@ mod observation;
 mod parameters;
 mod profiles;
 mod runs;
+mod scenes;
+mod tiers;
 
 pub use observation::BedLoadObservation;
 pub use parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns, Yield};

@@ -5,7 +5,7 @@ use super::runs::BedLoadRun;
 use crate::cases::channel::ProfilePoint;
 use crate::output::Table;
 use crate::reference::bed_load_layer::LayerState;
-use crate::statistics::linear_fit;
+use crate::statistics::{Segmented, curvature, linear_fit, number_of_pieces, segmented_regression};
 
 /// Heights between which the slope of u over ln z is fitted `[m]`.
 pub(super) const LAYERS: [(&str, f64, f64); 4] =
@@ -23,6 +23,36 @@ pub(super) fn semi_log_slope(run: &BedLoadRun, points: &[ProfilePoint], lower: f
         || (pairs[1].1 - pairs[0].1) / (pairs[1].0 - pairs[0].0) / law.semi_logarithmic_slope(),
         |fit| fit.slope / law.semi_logarithmic_slope(),
     )
+}
+
+/// Most layers that are looked for: the paper sees three.
+const MOST_LAYERS: usize = 3;
+
+/// u/u_* over ln(z/d) above the bed, up to 0.9 h.
+pub(super) fn semi_logarithmic(run: &BedLoadRun, points: &[ProfilePoint]) -> Vec<(f64, f64)> {
+    let scale = run.clear_water().friction_velocity();
+    let top = 0.9 * run.materials.depth;
+    let inside = points.iter().filter(|point| point.height > 0.0 && point.height < top);
+    inside.map(|point| (libm::log(point.height / run.materials.grain_diameter), point.velocity / scale)).collect()
+}
+
+/// Number of layers of different semi-logarithmic slope, by a segmented regression.
+pub(super) fn number_of_layers(run: &BedLoadRun, points: &[ProfilePoint]) -> usize {
+    number_of_pieces(&semi_logarithmic(run, points), MOST_LAYERS)
+}
+
+/// The layers: breaks in ln(z/d), slopes in u_*.
+pub(super) fn layers(run: &BedLoadRun, points: &[ProfilePoint], count: usize) -> Option<Segmented> {
+    segmented_regression(&semi_logarithmic(run, points), count)
+}
+
+/// Second derivative of the grains' velocity above or below the top of the bed, times d²/u_* `[-]`: negative where the
+/// profile is concave. Not a number with fewer than four moving rows.
+pub(super) fn grain_curvature(run: &BedLoadRun, points: &[ProfilePoint], above: bool) -> f64 {
+    let (diameter, scale) = (run.materials.grain_diameter, run.clear_water().friction_velocity());
+    let moving = points.iter().filter(|point| (point.height > 0.0) == above && point.velocity > 1e-4);
+    let values: Vec<(f64, f64)> = moving.map(|point| (point.height / diameter, point.velocity / scale)).collect();
+    curvature(&values).unwrap_or(f64::NAN)
 }
 
 /// Height up to which the water is slower than the logarithmic law continued from above by a tenth of u_* `[m]`: the

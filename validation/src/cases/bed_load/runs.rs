@@ -3,14 +3,10 @@
 use super::observation::{BedLoadObservation, Observer};
 use super::parameters::{BedLoadParameters, Continuum, Grains, Materials, Stage, Yield};
 use crate::case::{Progress, Run};
-use crate::cases::channel::{Channel, Lattice, Until};
 use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::bed_load_layer::{BedLoadLayer, Grains as LayerGrains, LayerState, SolidFraction, Start, Stream};
-use bagnold_solver::incompressible as solver;
-use bagnold_solver::incompressible::{Bed, PairLaw, ParticleSet, ProjectionNumerics, Sediment, Turbulence};
-use bagnold_solver::turbulence::{MixingLength, MixingLengthShape};
-use bagnold_solver::vector::Vector;
+use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
 use serde::Serialize;
 
 /// Which formulation a run is of.
@@ -51,8 +47,8 @@ pub struct BedLoadRun {
     pub duration: f64,
     /// Averaging window before its end `[s]`.
     pub averaging_time: f64,
-    jitter: f64,
-    seed: u64,
+    pub(super) jitter: f64,
+    pub(super) seed: u64,
 }
 
 pub(super) fn runs(parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
@@ -109,6 +105,7 @@ pub(super) fn pair_law_name(law: PairLaw) -> &'static str {
     match law {
         PairLaw::PairRate => "pair-rate",
         PairLaw::PairRateMeanLoad => "pair-rate-mean-load",
+        PairLaw::AveragedPairRate => "averaged-pair-rate",
         PairLaw::ArithmeticMean => "arithmetic-mean",
         PairLaw::HarmonicMean => "harmonic-mean",
     }
@@ -235,194 +232,7 @@ impl BedLoadRun {
             origin_offset: 6e-4,
         }
     }
-
-    fn grains_channel<'a>(&self, grains: &Grains, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Channel<'a> {
-        let Materials { depth, gravity, fluid_density, grain_density, grain_diameter, .. } = self.materials;
-        let rows = |length: f64, spacing: f64| (length / spacing).round() as usize;
-        let printed = matches!(self.formulation, Formulation::Paper(_));
-        // the printed set-up has water above the bed only, on the grains as on a floor
-        let below = if printed { 0.0 } else { grains.bed_depth };
-        let fluid = Lattice {
-            spacing: grains.spacing,
-            rows: rows(depth + below, grains.spacing),
-            columns: rows(grains.length, grains.spacing),
-            bottom: -below,
-        };
-        let bed = Lattice {
-            spacing: grain_diameter,
-            rows: rows(grains.bed_depth, grain_diameter),
-            columns: rows(grains.length, grain_diameter),
-            bottom: -grains.bed_depth,
-        };
-        let buoyant_weight = (grain_density - fluid_density) * gravity;
-        let sediment = Sediment {
-            particles: ParticleSet {
-                position: bed.displaced(self.jitter, self.seed.wrapping_add(1)),
-                velocity: vec![Vector::zeros(); bed.len()],
-            },
-            filling: vec![1.0; bed.len()],
-            wall: bed.below(4).sites().collect(),
-            spacing: grain_diameter,
-            smoothing_ratio: grains.numerics.smoothing_ratio,
-            density: grain_density,
-            grain_diameter,
-            law: solver::SedimentLaw::Bingham(solver::SedimentYield {
-                yield_stress: grains.material.yield_stress,
-                viscosity: grains.material.viscosity,
-                overburden_friction: grains.overburden_friction,
-                overburden_level: -grain_diameter,
-                buoyant_weight,
-                regularisation_rate: 0.01,
-                largest_viscosity: 1e4,
-            }),
-            pressure: solver::SedimentPressure::Incompressible,
-            drag: grains.drag,
-            drag_form: solver::DragForm::Grain(grains.drag_factor),
-            drag_smoothing_length: grains.drag_smoothing_length,
-            gravity: Vector::<2>::new(gravity * self.slope, -buoyant_weight / grain_density),
-        };
-        let law = MixingLength { shape: MixingLengthShape::Parabolic, origin_offset: grains.origin_offset };
-        Channel {
-            fluid,
-            turbulence: Turbulence::MixingLength { level: 0.0, depth, law },
-            bed: Bed::NoSlip(fluid.bottom),
-            sediment: Some(sediment),
-            solid_fraction: solver::SolidFraction::Overlapping,
-            numerics: grains.numerics,
-            may_diverge: printed,
-            ..self.bare_channel(fluid, velocity)
-        }
-    }
-
-    fn continuum_channel<'a>(
-        &self,
-        continuum: &Continuum,
-        stage: Stage,
-        (share, spacing): (f64, f64),
-        numerics: ProjectionNumerics,
-        layer: &LayerState,
-        velocity: &'a (dyn Fn(f64) -> f64 + Sync),
-    ) -> Channel<'a> {
-        let Materials { depth, gravity, fluid_density, grain_density, grain_diameter, .. } = self.materials;
-        let columns = (continuum.length / spacing).round() as usize;
-        let fluid = Lattice {
-            spacing,
-            rows: ((depth + continuum.bed_depth) / spacing).round() as usize,
-            columns,
-            bottom: -continuum.bed_depth,
-        };
-        let closures = &continuum.closures;
-        let packing = closures.largest_fraction;
-        let held = continuum.held_depth - continuum.bed_depth;
-        let mut stratification = solver::Stratification::new(
-            layer.face[0],
-            layer.cell_height,
-            layer.solid_fraction.clone(),
-            packing,
-            (grain_density - fluid_density) * gravity,
-            0.0,
-            depth,
-        );
-        let lattice = Lattice { bottom: fluid.bottom - 3.0 * spacing, rows: fluid.rows + 3, ..fluid };
-        let jitter = if stage == Stage::Dilating { continuum.sediment_jitter } else { 0.0 };
-        let (mut free, mut wall, mut filling) = (ParticleSet::default(), Vec::new(), Vec::new());
-        for (site, place) in lattice.sites().zip(lattice.displaced(jitter, self.seed.wrapping_add(1))) {
-            let point = layer.at(site[1]);
-            // the bed at rest, or the layer's own grains
-            let fraction = match stage {
-                Stage::Dilating => {
-                    if site[1] < 0.0 {
-                        packing
-                    } else {
-                        0.0
-                    }
-                }
-                Stage::Porous | Stage::Frozen => point.solid_fraction,
-            };
-            if site[1] < held || (stage == Stage::Porous && fraction > LEAST_FRACTION) {
-                wall.push(site);
-            } else if fraction > LEAST_FRACTION {
-                free.position.push(place);
-                free.velocity.push(Vector::<2>::new(share * point.grain_velocity, 0.0));
-                filling.push(fraction);
-            }
-        }
-        let solid_fraction = if stage == Stage::Dilating {
-            for (place, fraction) in stratification.fixed_fraction.iter_mut().enumerate() {
-                let height = stratification.base + (place as f64 + 0.5) * stratification.interval;
-                *fraction = if height < held { packing } else { 0.0 };
-            }
-            solver::SolidFraction::Averaged(stratification)
-        } else {
-            solver::SolidFraction::Given(stratification)
-        };
-        let buoyancy = if stage == Stage::Dilating { 1.0 - fluid_density / grain_density } else { 0.0 };
-        let sediment = Sediment {
-            particles: free,
-            filling,
-            wall,
-            spacing,
-            smoothing_ratio: if stage == Stage::Dilating {
-                continuum.smoothing_ratio
-            } else {
-                numerics.smoothing_ratio
-            },
-            density: grain_density,
-            grain_diameter,
-            law: solver::SedimentLaw::MuI(solver::GranularFriction {
-                static_friction: closures.static_friction,
-                limiting_friction: closures.limiting_friction,
-                reference_inertia: closures.reference_inertia,
-                regularisation_rate: closures.regularisation_rate,
-            }),
-            pressure: match stage {
-                Stage::Porous | Stage::Frozen => solver::SedimentPressure::AlongBed,
-                Stage::Dilating => {
-                    solver::SedimentPressure::Dilatant { dilation: closures.dilation, packing, fixed_filling: packing }
-                }
-            },
-            drag: closures.drag,
-            drag_form: solver::DragForm::Exchange,
-            drag_smoothing_length: numerics.smoothing_ratio * spacing,
-            gravity: Vector::<2>::new(gravity * self.slope, -buoyancy * gravity),
-        };
-        Channel {
-            fluid,
-            turbulence: Turbulence::Stratified,
-            bed: Bed::NoSlip(fluid.bottom),
-            sediment: Some(sediment),
-            solid_fraction,
-            numerics,
-            ..self.bare_channel(fluid, velocity)
-        }
-    }
-
-    fn bare_channel<'a>(&self, fluid: Lattice, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Channel<'a> {
-        Channel {
-            fluid,
-            slope: self.slope,
-            gravity: self.materials.gravity,
-            density: self.materials.fluid_density,
-            kinematic_viscosity: self.materials.kinematic_viscosity,
-            turbulence: Turbulence::Laminar,
-            bed: Bed::Slip,
-            jitter: self.jitter,
-            seed: self.seed,
-            velocity,
-            sediment: None,
-            solid_fraction: solver::SolidFraction::Overlapping,
-            numerics: ProjectionNumerics::default(),
-            until: Until::Time(self.duration),
-            window: self.averaging_time,
-            interval: 0.005,
-            frames: 2,
-            may_diverge: false,
-        }
-    }
 }
-
-/// Solid fraction below which a row of the layer carries no sediment particle `[-]`.
-const LEAST_FRACTION: f64 = 2e-3;
 
 fn no_layer() -> InputError {
     InputError::field("continuum", "no layer", "a run with its 1-D layer", "this is a defect of the program")

@@ -13,7 +13,7 @@ use bagnold_solver::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::numerics::Numerics;
 use bagnold_solver::rheology::{MuI, Rheology};
 use bagnold_solver::scene::Scene;
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::vector::Vector;
 use serde::Serialize;
 use std::ops::ControlFlow;
@@ -276,7 +276,10 @@ impl ColumnRun {
         }
     }
 
-    fn run<const D: usize>(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError> {
+    fn run<const D: usize>(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError>
+    where
+        Simulation<D>: Compiled<D>,
+    {
         let started = std::time::Instant::now();
         if self.regularisation_rate.is_some() {
             tracing::info!(

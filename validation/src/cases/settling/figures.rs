@@ -1,33 +1,73 @@
 //! The case's figures.
 
 use super::grain::Formulation;
+use super::probe::{SettlingObservation, SettlingSeries};
+use super::runs::SettlingRun;
+use super::suspension::SuspensionRun;
 use super::{Record, drag_curves};
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
+use crate::reference::{GrainForm, richardson_zaki_exponent};
+use bagnold_solver::drag::DragLaw;
+
+/// The formulations that single grains have, in the order of their panels.
+const FORMULATIONS: [Formulation; 2] = [Formulation::Paper, Formulation::Stabilised];
+
+/// The formulation of suspensions.
+const CONTINUUM: &str = "continuum";
+
+/// Densest suspension drawn `[-]`.
+const DENSEST: f64 = 0.6;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
-    let mut figures = Vec::new();
-    if !records.is_empty() {
-        figures.extend([approach(records), terminal(records)]);
+    let suspensions: Vec<(&SuspensionRun, &SettlingObservation)> = records
+        .iter()
+        .filter_map(|(run, record)| match run {
+            SettlingRun::Grain(_) => None,
+            SettlingRun::Suspension(run) => Some((run, &record.data)),
+        })
+        .collect();
+    let mut figures = vec![approach(records)];
+    let alone = alone(records);
+    if !alone.is_empty() {
+        figures.push(terminal(&alone));
+    }
+    if !suspensions.is_empty() {
+        figures.push(hindered(&suspensions));
     }
     figures.extend([drag_curves::drag_coefficients(), drag_curves::hindrance()]);
     figures
 }
 
-/// The formulations that single grains have, in the order of their panels.
-const FORMULATIONS: [Formulation; 2] = [Formulation::Paper, Formulation::Stabilised];
-
 fn approach(records: &[Record]) -> Figure {
+    let mut fractions: Vec<f64> = records
+        .iter()
+        .filter_map(|(run, _)| match run {
+            SettlingRun::Grain(_) => None,
+            SettlingRun::Suspension(run) => Some(run.solid_fraction),
+        })
+        .collect();
+    fractions.sort_by(f64::total_cmp);
+    fractions.dedup();
+    let formulations = FORMULATIONS.map(|formulation| {
+        let of = move |run: &SettlingRun| matches!(run, SettlingRun::Grain(run) if run.formulation == formulation);
+        (format!("one grain, {}", formulation.name()), Box::new(of) as Box<dyn Fn(&SettlingRun) -> bool>)
+    });
+    let columns = fractions.into_iter().map(|fraction| {
+        let of = move |run: &SettlingRun| matches!(run, SettlingRun::Suspension(run) if run.solid_fraction == fraction);
+        (format!("suspension, φ = {fraction}"), Box::new(of) as Box<dyn Fn(&SettlingRun) -> bool>)
+    });
+    let mut named: Vec<DragLaw> = Vec::new();
     let mut panels = Vec::new();
-    for formulation in FORMULATIONS {
-        let label = "slip over the root [-]";
-        let mut panel = Panel::new(formulation.name(), Axis::linear("t [s]"), Axis::linear(label));
+    for (title, of) in formulations.into_iter().chain(columns) {
+        let mut panel = Panel::new(&title, Axis::linear("t [s]"), Axis::linear("slip over the root [-]"));
         panel.y.limits = Some((0.0, 1.2));
-        let of_formulation = records.iter().filter(|(run, _)| run.formulation == formulation);
-        for (run, record) in of_formulation {
-            let (series, root) = (&record.data.series, run.terminal_velocity());
+        for (run, record) in records.iter().filter(|(run, _)| of(run)) {
+            let (series, root) = (&record.data.series, run.root());
             let points = series.time.iter().zip(&series.slip).map(|(t, slip)| (*t, slip / root)).collect();
-            let label = if panels.is_empty() { drag_curves::label(run.law) } else { "" };
-            panel.series.push(Series::new(label, Mark::Line, drag_curves::slot(run.law), points));
+            // a law has its name where it is drawn first
+            let label = if named.contains(&run.law()) { "" } else { drag_curves::label(run.law()) };
+            named.push(run.law());
+            panel.series.push(Series::new(label, Mark::Line, drag_curves::slot(run.law()), points));
         }
         let end = panel.series.iter().flat_map(|series| series.points.last()).fold(0.0, |end: f64, p| end.max(p.0));
         if end > 0.0 {
@@ -38,42 +78,92 @@ fn approach(records: &[Record]) -> Figure {
     }
     Figure {
         name: "approach".to_owned(),
-        caption: "A grain released in a periodic box of fluid gets to the slip at which its drag carries its weight. The \
-                  fluid that it has set in motion meets it again across the periods, so that the slip keeps fluctuating \
-                  about its root; the mean is taken over the last 0.6 of a run."
+        caption: "Grains released at rest get to the slip at which their drag carries their weight: one grain in a periodic \
+                  box of fluid, and a uniform suspension in a column without a flux of the mixture. The fluid that a grain \
+                  alone has set in motion meets it again across the periods, so that its slip keeps fluctuating about the \
+                  root; means are taken over the last 0.6 of a run."
             .to_owned(),
-        columns: panels.len().clamp(1, 2),
+        columns: if panels.len() > 4 { 3 } else { panels.len().clamp(1, 2) },
         panels,
     }
 }
 
-fn terminal(records: &[Record]) -> Figure {
+/// Grains alone, and suspensions so dilute that they stand for one: formulation, root `[m/s]`, what was seen.
+fn alone<'a>(records: &'a [Record]) -> Vec<(&'static str, f64, &'a SettlingObservation)> {
+    let root = |run: &SettlingRun| match run {
+        SettlingRun::Grain(run) => Some((run.formulation.name(), run.terminal_velocity())),
+        SettlingRun::Suspension(run) => run.dilute.then(|| (CONTINUUM, run.terminal_velocity())),
+    };
+    let of = |(run, record): &'a Record| root(run).map(|(name, root)| (name, root, &record.data));
+    records.iter().filter_map(of).collect()
+}
+
+fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("root of the balance [m/s]"), Axis::linear("error of the slip [%]"));
-    let roots = || records.iter().map(|(run, _)| run.terminal_velocity());
+    let roots = || records.iter().map(|&(_, root, _)| root);
     let (low, high) = (roots().fold(f64::INFINITY, f64::min), roots().fold(0.0, f64::max));
     let (low, high) = (low - 0.05 * high, 1.05 * high);
-    panel
-        .bands
-        .push(crate::figure::Band { label: "gate, 1 %".to_owned(), points: vec![(low, -1.0, 1.0), (high, -1.0, 1.0)] });
-    for formulation in FORMULATIONS {
-        let of_formulation: Vec<&Record> = records.iter().filter(|(run, _)| run.formulation == formulation).collect();
-        let measured = |(run, record): &&Record| {
-            let (mean, noise) = record.data.series.mean(&record.data.series.slip);
-            let root = run.terminal_velocity();
+    panel.bands.push(Band { label: "gate, 1 %".to_owned(), points: vec![(low, -1.0, 1.0), (high, -1.0, 1.0)] });
+    for (slot, name) in FORMULATIONS.map(Formulation::name).into_iter().chain([CONTINUUM]).enumerate() {
+        let measured = |&(_, root, data): &(&str, f64, &SettlingObservation)| {
+            let (mean, noise) = data.series.mean(&data.series.slip);
             ((root, 100.0 * (mean / root - 1.0)), 100.0 * noise / root)
         };
-        let (points, error) = of_formulation.iter().map(measured).unzip();
-        panel
-            .series
-            .push(Series { error, ..Series::new(formulation.name(), Mark::Points, formulation as usize, points) });
+        let (points, error): (Vec<_>, Vec<_>) = records.iter().filter(|record| record.0 == name).map(measured).unzip();
+        if !points.is_empty() {
+            panel.series.push(Series { error, ..Series::new(name, Mark::Points, slot, points) });
+        }
     }
     Figure {
         name: "terminal-velocity".to_owned(),
-        caption:
-            "Mean slip of a grain alone against the root of its balance, for every law, with the standard error of \
-                  the mean. Wen and Yu's and Gidaspow's grain alone is that of Schiller and Naumann."
-                .to_owned(),
+        caption: "Mean slip of a grain alone against the root of its balance, for every law, with the standard error of \
+                  the mean: one planar grain (c = ½) as printed and stabilised, spheres (c = ¾) of a very dilute suspension \
+                  by volume fractions. Wen and Yu's and Gidaspow's grain alone is that of Schiller and Naumann."
+            .to_owned(),
         panels: vec![panel],
         columns: 1,
+    }
+}
+
+fn hindered(records: &[(&SuspensionRun, &SettlingObservation)]) -> Figure {
+    let mut slip = Panel::new("slip", Axis::linear("φ [-]"), Axis::linear("u_r [m/s]"));
+    let mut sinking = Panel::new("sinking velocity", Axis::linear("φ [-]"), Axis::linear("(1 − φ) u_r [m/s]"));
+    let mut laws: Vec<DragLaw> = Vec::new();
+    for (run, _) in records {
+        if !laws.contains(&run.law) {
+            laws.push(run.law);
+        }
+    }
+    let grains = records[0].0.grains();
+    let fractions = || (1..=120).map(|k| DENSEST * f64::from(k) / 120.0);
+    for &law in &laws {
+        let slot = drag_curves::slot(law);
+        let root = |phi| Some((phi, grains.hindered_slip(law, phi)?));
+        let curve: Vec<(f64, f64)> =
+            fractions().filter(|&phi| super::suspension::covers(law, phi)).filter_map(root).collect();
+        let sunk = curve.iter().map(|&(phi, slip)| (phi, (1.0 - phi) * slip)).collect();
+        slip.series.push(Series::new("", Mark::Line, slot, curve));
+        sinking.series.push(Series::new("", Mark::Line, slot, sunk));
+        let measured = |of: fn(&SettlingSeries) -> &[f64]| -> Vec<(f64, f64)> {
+            let of_law = records.iter().filter(|(run, _)| run.law == law);
+            of_law.map(|(run, data)| (run.solid_fraction, data.series.mean(of(&data.series)).0)).collect()
+        };
+        // one legend serves both panels
+        slip.series.push(Series::new(drag_curves::label(law), Mark::Points, slot, measured(|series| &series.slip)));
+        sinking.series.push(Series::new("", Mark::Points, slot, measured(|series| &series.sinking)));
+    }
+    let alone = grains.terminal_velocity(DragLaw::WenYu, GrainForm::Sphere).unwrap_or(f64::NAN);
+    let exponent = richardson_zaki_exponent(grains.reynolds(alone));
+    let published = |exponent: f64| fractions().map(|phi| (phi, alone * libm::pow(1.0 - phi, exponent))).collect();
+    slip.series.push(Series::new("Richardson–Zaki (unverified)", Mark::Reference, 0, published(exponent - 1.0)));
+    sinking.series.push(Series::new("", Mark::Reference, 0, published(exponent)));
+    Figure {
+        name: "hindered-settling".to_owned(),
+        caption: "Slip of a uniform suspension and the velocity at which it sinks in a vessel: particles (points) and roots \
+                  of the balance (lines) for every law. Gidaspow's law is Wen and Yu's up to φ = 0.2 and Ergun's above. \
+                  Dashed: Richardson and Zaki (1954) with the grain alone of Wen and Yu, unverified: observed, not judged."
+            .to_owned(),
+        panels: vec![slip, sinking],
+        columns: 2,
     }
 }

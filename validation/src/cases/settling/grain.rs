@@ -85,7 +85,7 @@ pub(super) fn runs(parameters: &SettlingParameters) -> Vec<GrainRun> {
         gravity: parameters.gravity,
         columns: grain.columns,
         rows: grain.rows,
-        jitter: parameters.jitter,
+        jitter: grain.jitter,
         seed: parameters.seed,
         drag_smoothing_length: grain.drag_smoothing_ratio * grain.diameter,
         duration: grain.relaxation_times * relaxation_time(grains, law),

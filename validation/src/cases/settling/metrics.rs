@@ -1,41 +1,89 @@
 //! How the runs are judged.
 
 use super::Record;
+use super::grain::GrainRun;
+use super::probe::{SettlingObservation, SettlingSeries};
+use super::runs::SettlingRun;
+use super::suspension::SuspensionRun;
 use crate::case::Run;
-use crate::metric::{Confidence, Limit, Metric};
+use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::reference::{RICHARDSON_ZAKI_CONFIDENCE, richardson_zaki_exponent};
 
-const BALANCE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ½ for the planar form (30)";
+const ALONE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ½ for the planar form (30)";
+const SPHERE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ¾ for a sphere";
+const HINDERED: &str = "root of φ (1 − φ)(ρ_s − ρ_f) g = K |u_r|";
+const VESSEL: &str = "u_s = −(1 − φ) |u_r| without a flux of the mixture";
 
 pub(super) fn all(records: &[Record]) -> Vec<Metric> {
-    records.iter().flat_map(alone).collect()
-}
-
-/// Value over its reference less one `[%]`.
-fn percent(value: f64, reference: f64) -> f64 {
-    100.0 * (value / reference - 1.0)
-}
-
-fn alone((run, record): &Record) -> Vec<Metric> {
-    let (variant, series, root) = (run.variant(), &record.data.series, run.terminal_velocity());
-    let error = |name: &str, array: &[f64]| {
-        let (mean, noise) = series.mean(array);
-        // a box is a chaotic flow: its mean over the window moves by its own error when anything is rounded otherwise
-        Metric::observed(name, &variant, percent(mean, root), "%")
-            .against(Some(0.0), BALANCE, Confidence::Exact)
-            .with_snapshot_tolerance(0.0, 300.0 * noise / root)
+    let judged = |(run, record): &Record| match run {
+        SettlingRun::Grain(run) => alone(run, &record.data),
+        SettlingRun::Suspension(run) => together(run, &record.data),
     };
+    records.iter().flat_map(judged).collect()
+}
+
+/// Mean of an array over its reference less one `[%]`, observed; its own error is what it may drift by.
+fn error(name: &str, variant: &str, series: &SettlingSeries, array: &[f64], (root, source): (f64, &str)) -> Metric {
+    let (mean, noise) = series.mean(array);
+    Metric::observed(name, variant, 100.0 * (mean / root - 1.0), "%")
+        .against(Some(0.0), source, Confidence::Exact)
+        // displaced particles move chaotically: a mean over the window moves by its own error after any change
+        .with_snapshot_tolerance(0.0, 300.0 * noise / root + 1e-3)
+}
+
+fn alone(run: &GrainRun, data: &SettlingObservation) -> Vec<Metric> {
+    let (variant, series, root) = (run.variant(), &data.series, run.terminal_velocity());
+    let error = |name: &str, array: &[f64]| error(name, &variant, series, array, (root, ALONE));
     let reason = "acceptance line 4 of the bed-load model: 1 %, mean over the last 0.6 of the run";
     vec![
         error("terminal_velocity_error", &series.slip).gated(Limit::Within(-1.0, 1.0), reason),
         error("slip_of_means_error", &series.slip_of_means),
         error("root_mean_square_slip_error", &series.root_mean_square_slip),
-        momentum(&variant, record.data.momentum_error),
+        momentum(&variant, data.momentum_error),
     ]
+}
+
+fn together(run: &SuspensionRun, data: &SettlingObservation) -> Vec<Metric> {
+    let (variant, series) = (run.variant(), &data.series);
+    let (slip, alone, fluid) = (run.slip(), run.terminal_velocity(), 1.0 - run.solid_fraction);
+    let reason = "acceptance line 4 of the bed-load model: 2 %, mean over the last 0.6 of the run";
+    let mut metrics = Vec::new();
+    if run.dilute {
+        let reason = "acceptance line 4: 1 %, of which φ = 0.002 itself hinders by 0.1 to 0.6 %";
+        metrics.push(
+            error("terminal_velocity_error", &variant, series, &series.slip, (alone, SPHERE))
+                .gated(Limit::Within(-1.0, 1.0), reason),
+        );
+    }
+    metrics.push(
+        error("slip_error", &variant, series, &series.slip, (slip, HINDERED)).gated(Limit::Within(-2.0, 2.0), reason),
+    );
+    metrics.push(
+        error("sinking_error", &variant, series, &series.sinking, (fluid * slip, VESSEL))
+            .gated(Limit::Within(-2.0, 2.0), reason),
+    );
+    if !run.dilute {
+        let exponent = richardson_zaki_exponent(run.grains().reynolds(alone));
+        let published = alone * libm::pow(fluid, exponent);
+        metrics.push(
+            Metric::observed("sinking_over_richardson_zaki", &variant, series.mean(&series.sinking).0 / published, "-")
+                .of_kind(Kind::Validation)
+                .against(Some(1.0), "Richardson & Zaki 1954, u/u_t = (1 − φ)ⁿ", RICHARDSON_ZAKI_CONFIDENCE)
+                .with_snapshot_tolerance(0.01, 0.0),
+        );
+    }
+    metrics.push(
+        Metric::observed("unevenness", &variant, 100.0 * series.mean(&series.unevenness).0 / slip, "%")
+            .against(Some(0.0), "grains of a uniform suspension sink alike", Confidence::Exact)
+            .with_snapshot_tolerance(0.5, 0.01),
+    );
+    metrics.push(momentum(&variant, data.momentum_error));
+    metrics
 }
 
 fn momentum(variant: &str, error: f64) -> Metric {
     Metric::observed("momentum_error", variant, error, "-")
-        .against(Some(0.0), "change of momentum = impulse of gravity, in every step", Confidence::Exact)
+        .against(Some(0.0), "change of momentum = impulse of gravity and floor, in every step", Confidence::Exact)
         .gated(
             Limit::AtMost(1e-10),
             "acceptance line 4: 1e-10 of the grains' weight; pairs exchange equal and opposite impulses",

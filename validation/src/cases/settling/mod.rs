@@ -6,10 +6,14 @@ mod grain;
 mod metrics;
 mod parameters;
 mod probe;
+mod runs;
+mod suspension;
 
 pub use grain::{Formulation, GrainRun};
-pub use parameters::{Grain, SettlingParameters, Water};
+pub use parameters::{Grain, SettlingParameters, SuspendedGrains, Water};
 pub use probe::{SettlingObservation, SettlingSeries};
+pub use runs::SettlingRun;
+pub use suspension::SuspensionRun;
 
 use crate::case::{Case, Progress, Run, Tier};
 use crate::error::InputError;
@@ -23,11 +27,11 @@ use crate::output::Table;
 pub struct Settling;
 
 /// A run with what it left behind.
-type Record = (GrainRun, Recorded<SettlingObservation>);
+type Record = (SettlingRun, Recorded<SettlingObservation>);
 
 impl Case for Settling {
     type Parameters = SettlingParameters;
-    type Run = GrainRun;
+    type Run = SettlingRun;
     type Observation = SettlingObservation;
 
     fn name(&self) -> &'static str {
@@ -47,7 +51,13 @@ impl Case for Settling {
          is judged is the one that the drag is taken from: in the mean form |⟨u_f⟩ − u_s|, in the pair form the U whose \
          drag is the mean of the pairs' drag, C_d(U) U² = |⟨C_d |u_ba| u_ba⟩|. Where the fluid moves unevenly within the \
          kernel U lies above the slip of the means, by half the variance in Newton's regime; that one and the root mean \
-         square are observed."
+         square are observed. Formulation continuum: a uniform suspension sinks in a periodic column under the full \
+         gravity. One pore pressure makes the flux of the mixture free of divergence and pushes both phases, and a \
+         uniform pressure gradient takes out its mean, as the floor of a vessel does. Slip and sinking velocity must be \
+         those of the balance of the submerged weight and K; at φ = 0.002 they are those of a sphere alone. The solid \
+         fraction is given and stays uniform: with slip and without a stress between the grains, two phases of one \
+         pressure are unstable at short waves. The kernel of the drag, two or three spacings wide, holds them back for \
+         the time of a run, not for ever; the unevenness of the grains' velocities is observed."
     }
 
     fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
@@ -62,11 +72,15 @@ impl Case for Settling {
         parameters.check()
     }
 
-    fn runs(&self, parameters: &SettlingParameters) -> Vec<GrainRun> {
-        grain::runs(parameters)
+    fn runs(&self, parameters: &SettlingParameters) -> Vec<SettlingRun> {
+        runs::all(parameters)
     }
 
-    fn simulate(&self, run: &GrainRun, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, InputError> {
+    fn simulate(
+        &self,
+        run: &SettlingRun,
+        progress: &dyn Progress,
+    ) -> Result<Recorded<SettlingObservation>, InputError> {
         Ok(run.simulate(progress)?)
     }
 

@@ -1,12 +1,13 @@
 //! Parameters and tiers.
 
 use super::grain::Formulation;
+use super::suspension::{LEAST_BED, covers};
 use crate::case::Tier;
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::drag::DragLaw;
-use bagnold_solver::incompressible::ProjectionNumerics;
+use bagnold_solver::incompressible::{PressureSource, ProjectionNumerics, SurfaceTreatment};
 use serde::{Deserialize, Serialize};
 
 /// The fluid.
@@ -37,6 +38,32 @@ pub struct Grain {
     pub drag_smoothing_ratio: f64,
     /// Simulated time over the time u_t ρ_s/(2 (ρ_s − ρ_f) g) in which a grain gets to its terminal velocity `[-]`.
     pub relaxation_times: f64,
+    /// Largest random displacement of a fluid particle in spacings `[-]`.
+    pub jitter: f64,
+}
+
+/// A uniform suspension in a periodic column, whose particles are as large as its grains.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SuspendedGrains {
+    /// Diameter d `[m]`.
+    pub diameter: f64,
+    /// Drag laws.
+    pub laws: Vec<DragLaw>,
+    /// Solid fractions φ `[-]`.
+    pub solid_fractions: Vec<f64>,
+    /// Solid fraction that stands for a grain alone `[-]`; 0 for none.
+    pub dilute_fraction: f64,
+    /// Length of the column in diameters.
+    pub columns: usize,
+    /// Height of the column in diameters.
+    pub rows: usize,
+    /// Smoothing length of the drag in diameters `[-]`.
+    pub drag_smoothing_ratio: f64,
+    /// Simulated time over |u_r| ρ_s/((ρ_s − ρ_f) g) `[-]`.
+    pub relaxation_times: f64,
+    /// Largest random displacement of a particle in spacings `[-]`.
+    pub jitter: f64,
 }
 
 /// Parameters of the case.
@@ -47,14 +74,14 @@ pub struct SettlingParameters {
     pub gravity: f64,
     /// Density of the grains ρ_s `[kg/m³]`.
     pub grain_density: f64,
-    /// Largest random displacement of a fluid particle in spacings `[-]`.
-    pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// The fluid.
     pub water: Water,
     /// A grain alone.
     pub grain: Grain,
+    /// A suspension.
+    pub suspension: SuspendedGrains,
     /// Numerics.
     pub numerics: ProjectionNumerics,
 }
@@ -62,7 +89,6 @@ pub struct SettlingParameters {
 pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("gravity", "[m/s²]"),
     ("grain_density", "ρ_s [kg/m³]"),
-    ("jitter", "[-], largest random displacement in spacings; the paper's density source wants a lattice"),
     ("water.density", "ρ_f [kg/m³]"),
     ("water.kinematic_viscosity", "ν [m²/s]"),
     ("grain.diameter", "d [m]"),
@@ -72,6 +98,16 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("grain.rows", "height of the box in diameters"),
     ("grain.drag_smoothing_ratio", "h/d [-] of the drag's kernel"),
     ("grain.relaxation_times", "[-], simulated time over u_t ρ_s/(2 (ρ_s − ρ_f) g)"),
+    ("grain.jitter", "[-], largest random displacement in spacings; the paper's density source wants a lattice"),
+    ("suspension.diameter", "d [m]"),
+    ("suspension.laws", "any drag law; \"ergun\" at φ ≥ 0.2 only; empty for none"),
+    ("suspension.solid_fractions", "φ [-]"),
+    ("suspension.dilute_fraction", "φ [-] that stands for a grain alone; 0 for none"),
+    ("suspension.columns", "length of the column in diameters"),
+    ("suspension.rows", "height of the column in diameters"),
+    ("suspension.drag_smoothing_ratio", "h/d [-] of the drag's kernel"),
+    ("suspension.relaxation_times", "[-], simulated time over |u_r| ρ_s/((ρ_s − ρ_f) g)"),
+    ("suspension.jitter", "[-], largest random displacement in spacings"),
     ("numerics", "of \"stabilised\"; \"paper\" takes the paper's own, with these steps and tolerances"),
 ];
 
@@ -80,7 +116,6 @@ impl SettlingParameters {
         let quick = Self {
             gravity: 9.81,
             grain_density: 2600.0,
-            jitter: 0.001,
             seed: 1,
             water: Water { density: 1000.0, kinematic_viscosity: 1e-6 },
             grain: Grain {
@@ -91,12 +126,33 @@ impl SettlingParameters {
                 rows: 12,
                 drag_smoothing_ratio: 2.0,
                 relaxation_times: 40.0,
+                jitter: 0.001,
+            },
+            suspension: SuspendedGrains {
+                diameter: 1e-3,
+                laws: vec![DragLaw::WenYu, DragLaw::Ergun, DragLaw::Gidaspow, DragLaw::DiFelice],
+                solid_fractions: vec![0.1, 0.3, 0.5],
+                dilute_fraction: 0.002,
+                columns: 8,
+                rows: 8,
+                drag_smoothing_ratio: 2.0,
+                relaxation_times: 12.0,
+                jitter: 0.1,
             },
             numerics: ProjectionNumerics { time_step: 1e-3, ..ProjectionNumerics::default() },
         };
         let alone = DragLaw::ALL.into_iter().filter(|&law| law != DragLaw::Ergun).collect();
         let paper = Self {
             grain: Grain { laws: alone, columns: 12, rows: 16, relaxation_times: 80.0, ..quick.grain.clone() },
+            suspension: SuspendedGrains {
+                laws: DragLaw::ALL.to_vec(),
+                solid_fractions: vec![0.05, 0.1, 0.2, 0.3, 0.4, 0.5],
+                columns: 12,
+                rows: 24,
+                // the laws that do not hinder have twice the slip, at which short waves grow sooner
+                drag_smoothing_ratio: 3.0,
+                ..quick.suspension.clone()
+            },
             ..quick.clone()
         };
         match tier {
@@ -104,6 +160,7 @@ impl SettlingParameters {
             Tier::Paper => paper,
             Tier::Fine => Self {
                 grain: Grain { columns: 24, rows: 32, relaxation_times: 160.0, ..paper.grain.clone() },
+                suspension: SuspendedGrains { columns: 24, rows: 48, ..paper.suspension.clone() },
                 numerics: ProjectionNumerics { time_step: 5e-4, ..paper.numerics },
                 ..paper
             },
@@ -124,7 +181,6 @@ impl SettlingParameters {
     pub(super) fn check(&self) -> Result<(), InputError> {
         rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
         rules::positive("grain_density", self.grain_density, "give it in kg/m³, such as 2600")?;
-        rules::between("jitter", self.jitter, 0.0, 0.5, "0.001 breaks the symmetry of the lattice")?;
         rules::positive("water.density", self.water.density, "give it in kg/m³, such as 1000")?;
         let viscosity = self.water.kinematic_viscosity;
         rules::positive("water.kinematic_viscosity", viscosity, "give it in m²/s, 1e-6 for water")?;
@@ -138,7 +194,26 @@ impl SettlingParameters {
             ));
         }
         rules::projection("numerics", &self.numerics)?;
-        self.check_grain()
+        self.check_operators()?;
+        self.check_grain()?;
+        self.check_suspension()
+    }
+
+    /// The operators that suspensions allow.
+    fn check_operators(&self) -> Result<(), InputError> {
+        if self.suspension.laws.is_empty() {
+            return Ok(());
+        }
+        let remedy =
+            "single grains have the paper's operators by the formulation \"paper\"; or empty `suspension.laws`";
+        let refused = |field, value, rule| Err(InputError::field(field, value, rule, remedy));
+        if self.numerics.pressure_source != PressureSource::Divergence {
+            return refused("numerics.pressure_source", "density", "\"divergence\" with suspensions");
+        }
+        if self.numerics.surface != SurfaceTreatment::Completed {
+            return refused("numerics.surface", "eliminated", "\"completed\" with suspensions");
+        }
+        Ok(())
     }
 
     fn check_grain(&self) -> Result<(), InputError> {
@@ -146,15 +221,8 @@ impl SettlingParameters {
         rules::positive("grain.diameter", grain.diameter, "give it in metres; 0.005 for 5 mm")?;
         let reach = grain.drag_smoothing_ratio;
         rules::between("grain.drag_smoothing_ratio", reach, 1.0, 10.0, "the drag needs some fluid around the grain")?;
-        // the periods must hold both kernels
-        let least = (4.0 * reach.max(self.numerics.smoothing_ratio)).ceil() as usize;
-        for (field, value) in [("grain.columns", grain.columns), ("grain.rows", grain.rows)] {
-            if !(least..=1000).contains(&value) {
-                let rule = format!("between {least} and 1000");
-                let remedy = "the box must hold the reach of the kernels twice; 12 is quick";
-                return Err(InputError::field(field, value, &rule, remedy));
-            }
-        }
+        self.periods(reach, [("grain.columns", grain.columns), ("grain.rows", grain.rows)])?;
+        rules::between("grain.jitter", grain.jitter, 0.0, 0.5, "0.001 breaks the symmetry of the lattice")?;
         let remedy = "40 leaves a window of 24 to average over";
         rules::between("grain.relaxation_times", grain.relaxation_times, 10.0, 1e4, remedy)?;
         for (index, &law) in grain.laws.iter().enumerate() {
@@ -163,6 +231,52 @@ impl SettlingParameters {
                 let rule = "a law of one grain that covers its Reynolds number";
                 let remedy = "leave out \"ergun\", and \"morsi-alexander\" above R = 50 000";
                 return Err(InputError::field(&field, law.name(), rule, remedy));
+            }
+        }
+        Ok(())
+    }
+
+    /// Periods in diameters that hold both kernels twice.
+    fn periods(&self, drag_smoothing_ratio: f64, lengths: [(&str, usize); 2]) -> Result<(), InputError> {
+        let least = (4.0 * drag_smoothing_ratio.max(self.numerics.smoothing_ratio)).ceil() as usize;
+        for (field, value) in lengths {
+            if !(least..=1000).contains(&value) {
+                let rule = format!("between {least} and 1000");
+                let remedy = "the box must hold the reach of the kernels twice; 12 is quick";
+                return Err(InputError::field(field, value, &rule, remedy));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_suspension(&self) -> Result<(), InputError> {
+        let suspension = &self.suspension;
+        rules::positive("suspension.diameter", suspension.diameter, "give it in metres; 0.001 for 1 mm")?;
+        let reach = suspension.drag_smoothing_ratio;
+        let remedy = "a kernel of 2 to 3 spacings holds short waves back";
+        rules::between("suspension.drag_smoothing_ratio", reach, 1.0, 10.0, remedy)?;
+        self.periods(reach, [("suspension.columns", suspension.columns), ("suspension.rows", suspension.rows)])?;
+        rules::between("suspension.jitter", suspension.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
+        let remedy = "12 leave a window of 7 to average over";
+        rules::between("suspension.relaxation_times", suspension.relaxation_times, 10.0, 1e4, remedy)?;
+        let remedy = "0.002 hinders by less than 1 %; 0 for none";
+        rules::between("suspension.dilute_fraction", suspension.dilute_fraction, 0.0, 0.005, remedy)?;
+        for (index, &fraction) in suspension.solid_fractions.iter().enumerate() {
+            let field = format!("suspension.solid_fractions[{index}]");
+            rules::between(&field, fraction, 0.01, 0.64, "grains fill up to 0.64 of the space")?;
+        }
+        for (index, &law) in suspension.laws.iter().enumerate() {
+            let field = format!("suspension.laws[{index}]");
+            let judged = suspension.solid_fractions.iter().any(|&fraction| covers(law, fraction));
+            let alone = suspension.dilute_fraction > 0.0 && law != DragLaw::Ergun;
+            if !(judged || alone) {
+                let rule = format!("a law for one of the solid fractions; \"ergun\" begins at {LEAST_BED}");
+                return Err(InputError::field(&field, law.name(), &rule, "leave it out, or add a denser suspension"));
+            }
+            let in_range = |&fraction: &f64| self.grains(suspension.diameter).hindered_slip(law, fraction).is_some();
+            if !suspension.solid_fractions.iter().all(in_range) {
+                let rule = "a law that covers the grains' Reynolds number";
+                return Err(InputError::field(&field, law.name(), rule, "\"morsi-alexander\" ends at R = 50 000"));
             }
         }
         Ok(())

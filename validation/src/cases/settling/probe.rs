@@ -33,12 +33,22 @@ pub struct SettlingSeries {
     pub root_mean_square_slip: Vec<f64>,
     /// Velocity at which the grains sink `[m/s]`.
     pub sinking: Vec<f64>,
+    /// Root mean square of the grains' velocities less their mean `[m/s]`; 0 of a grain alone.
+    pub unevenness: Vec<f64>,
 }
 
 impl SettlingSeries {
     pub(super) fn table(&self, variant: &str) -> Table {
-        let columns = ["t [s]", "slip [m/s]", "slip of means [m/s]", "rms slip [m/s]", "sinking velocity [m/s]"];
-        let arrays = [&self.time, &self.slip, &self.slip_of_means, &self.root_mean_square_slip, &self.sinking];
+        let columns = [
+            "t [s]",
+            "slip [m/s]",
+            "slip of means [m/s]",
+            "rms slip [m/s]",
+            "sinking velocity [m/s]",
+            "unevenness [m/s]",
+        ];
+        let arrays =
+            [&self.time, &self.slip, &self.slip_of_means, &self.root_mean_square_slip, &self.sinking, &self.unevenness];
         Table {
             name: format!("series-{}", variant.replace(['=', ','], "-").replace('_', "-")),
             columns: columns.map(str::to_owned).to_vec(),
@@ -61,7 +71,8 @@ impl SettlingSeries {
 pub struct SettlingObservation {
     /// Over time.
     pub series: SettlingSeries,
-    /// Largest |Δ Σ m u − Δt Σ m g| of a step over Δt |Σ m g| of the grains `[-]`.
+    /// Largest |Δ Σ m u − Δt F| of a step over Δt |Σ m g| of the grains `[-]`: F is gravity on both phases, less the
+    /// uniform pressure gradient that carries a suspension.
     pub momentum_error: f64,
 }
 
@@ -135,13 +146,13 @@ impl Probe {
 
     /// Sees a step; true where it was a sample.
     fn observe(&mut self, simulation: &IncompressibleSimulation<2>) -> bool {
-        let (momentum, weight) = momentum(simulation);
+        let (momentum, force) = momentum(simulation);
         let (before, step) = (self.momentum, simulation.time() - self.time);
         (self.momentum, self.time) = (momentum, simulation.time());
         if simulation.steps() == 0 {
             return false;
         }
-        let error = (momentum - before - weight.all * step).norm() / (weight.grains.norm() * step);
+        let error = (momentum - before - force.all * step).norm() / (force.weight.norm() * step);
         self.observation.momentum_error = self.observation.momentum_error.max(error);
         let series = &mut self.observation.series;
         if self.time < self.interval * (series.time.len() + 1) as f64 * (1.0 - 1e-9) {
@@ -157,6 +168,7 @@ impl Probe {
         series.slip_of_means.push(around.mean);
         series.root_mean_square_slip.push(around.square.sqrt());
         series.sinking.push(sinking);
+        series.unevenness.push(unevenness(simulation.sediment().1));
         true
     }
 
@@ -202,24 +214,39 @@ struct Around {
     drag: f64,
 }
 
-/// What gravity pulls `[N/m]`.
-struct Weight {
+/// Forces from outside `[N/m]`.
+struct Force {
+    /// On both phases.
     all: Vector<2>,
-    grains: Vector<2>,
+    /// Gravity on the grains.
+    weight: Vector<2>,
 }
 
-/// Momentum of both phases and the force of gravity on them, per metre of width.
-fn momentum(simulation: &IncompressibleSimulation<2>) -> (Vector<2>, Weight) {
+/// Momentum of both phases and the forces on them, per metre of width.
+fn momentum(simulation: &IncompressibleSimulation<2>) -> (Vector<2>, Force) {
     let (scene, material) = (simulation.scene(), sediment(simulation));
-    let fluid_mass = scene.fluid.density * scene.fluid.spacing * scene.fluid.spacing;
-    let grain_mass = material.density * material.spacing * material.spacing;
-    let sum = |velocities: &[Vector<2>]| velocities.iter().fold(Vector::<2>::zeros(), |sum, u| sum + u);
-    let (fluid, grains) = (simulation.fluid().1, simulation.sediment().1);
-    let weight = material.gravity * (grain_mass * grains.len() as f64);
-    (
-        sum(fluid) * fluid_mass + sum(grains) * grain_mass,
-        Weight { all: weight + scene.fluid.gravity * (fluid_mass * fluid.len() as f64), grains: weight },
-    )
+    let fluid = (simulation.fluid().1, simulation.fluid_share(), &scene.fluid.gravity);
+    let grains = (simulation.sediment().1, &material.filling[..], &material.gravity);
+    let gradient = simulation.mean_pressure_gradient();
+    let of = |(velocity, share, gravity): (&[Vector<2>], &[f64], &Vector<2>), density: f64, spacing: f64| {
+        let (mut momentum, mut volume) = (Vector::<2>::zeros(), 0.0);
+        for (velocity, share) in velocity.iter().zip(share) {
+            momentum += velocity * (share * density * spacing * spacing);
+            volume += share * spacing * spacing;
+        }
+        (momentum, gravity * (density * volume), gradient * volume)
+    };
+    let (of_fluid, fluid_weight, on_fluid) = of(fluid, scene.fluid.density, scene.fluid.spacing);
+    let (of_grains, weight, on_grains) = of(grains, material.density, material.spacing);
+    // where the phases overlap the gradient is zero
+    (of_fluid + of_grains, Force { all: fluid_weight + weight - on_fluid - on_grains, weight })
+}
+
+/// Root mean square of velocities less their mean `[m/s]`.
+fn unevenness(velocity: &[Vector<2>]) -> f64 {
+    let count = velocity.len() as f64;
+    let mean = velocity.iter().fold(Vector::<2>::zeros(), |sum, u| sum + u) / count;
+    (velocity.iter().map(|u| (u - mean).norm_squared()).sum::<f64>() / count).sqrt()
 }
 
 fn sediment(simulation: &IncompressibleSimulation<2>) -> &Sediment<2> {

@@ -1,0 +1,37 @@
+//! Which scenes the mixture's continuity serves.
+
+use crate::incompressible::numerics::{Continuity, MeanFlux, PressureSource, SurfaceTreatment};
+use crate::incompressible::scene::{IncompressibleScene, SedimentPressure};
+use crate::scene::SceneError;
+
+impl<const D: usize> IncompressibleScene<D> {
+    /// What the mixture's continuity asks of the other choices.
+    pub(in crate::incompressible) fn check_mixture(&self) -> Result<(), SceneError> {
+        let numerics = &self.numerics;
+        let choice = |field, value, rule, remedy| Err(SceneError::Choice { field, value, rule, remedy });
+        if numerics.continuity == Continuity::Fluid {
+            return match numerics.mean_flux {
+                MeanFlux::Free => Ok(()),
+                MeanFlux::Zero => choice(
+                    "mean_flux",
+                    "zero",
+                    "\"free\" unless the continuity is that of the mixture",
+                    "choose one of both",
+                ),
+            };
+        }
+        let without_pressure = self.sediment.as_ref().is_some_and(|s| s.pressure == SedimentPressure::None);
+        let problem = if self.solid_fraction.stratification().is_none() {
+            Some("\"fluid\" where grains displace no fluid")
+        } else if !without_pressure {
+            Some("\"fluid\" unless there is a sediment without a pressure of its own")
+        } else if numerics.pressure_source != PressureSource::Divergence {
+            Some("\"fluid\" with the density source")
+        } else if numerics.surface != SurfaceTreatment::Completed {
+            Some("\"fluid\" where particles at the surface are eliminated")
+        } else {
+            None
+        };
+        problem.map_or(Ok(()), |rule| choice("continuity", "mixture", rule, "change one of both"))
+    }
+}

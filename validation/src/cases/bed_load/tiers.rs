@@ -1,0 +1,122 @@
+//! What each tier runs.
+
+use super::parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns, Yield};
+use crate::case::Tier;
+use crate::reference::bed_load_layer::Closures;
+use bagnold_solver::drag::DragLaw;
+use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
+
+impl BedLoadParameters {
+    pub(super) fn of_tier(tier: Tier) -> Self {
+        let stabilised = Grains {
+            slopes: vec![0.03],
+            material: Yield { yield_stress: 9.0, viscosity: 0.3 },
+            overburden_friction: 0.6,
+            bed_depth: 0.03,
+            length: 0.04,
+            spacing: 2e-3,
+            origin_offset: 6e-4,
+            drag: DragLaw::MorsiAlexander,
+            drag_factor: 1.0,
+            drag_smoothing_length: 3e-3,
+            duration: 1.0,
+            averaging_time: 0.6,
+            numerics: ProjectionNumerics::default(),
+        };
+        let paper = Grains {
+            slopes: Vec::new(),
+            material: Yield { yield_stress: 1220.0, viscosity: 0.26 },
+            overburden_friction: 0.0,
+            bed_depth: 0.08,
+            drag_smoothing_length: 6e-3,
+            duration: 1.0,
+            averaging_time: 0.5,
+            numerics: ProjectionNumerics::paper(),
+            ..stabilised.clone()
+        };
+        let runs = |stage, slopes: &[f64], pair_laws: &[PairLaw], starts: &[f64], duration: f64| StageRuns {
+            stage,
+            slopes: slopes.to_vec(),
+            pair_laws: pair_laws.to_vec(),
+            starts: starts.to_vec(),
+            spacings: vec![1e-3],
+            duration,
+            averaging_time: 0.4 * duration,
+        };
+        let best = |stage: Stage| [stage.judged_pair_law()];
+        let all = [0.02, 0.03, 0.05];
+        let quick = Self {
+            materials: Materials {
+                depth: 0.046,
+                gravity: 9.81,
+                fluid_density: 1000.0,
+                kinematic_viscosity: 1e-6,
+                grain_density: 2600.0,
+                grain_diameter: 5e-3,
+            },
+            paper,
+            stabilised,
+            continuum: Continuum {
+                runs: vec![runs(Stage::Porous, &[0.03], &best(Stage::Porous), &[1.0], 0.5)],
+                bed_depth: 0.016,
+                held_depth: 0.004,
+                length: 0.01,
+                closures: Closures::default(),
+                smoothing_ratio: 1.5,
+                sediment_jitter: 0.3,
+                numerics: ProjectionNumerics { time_step: 1.5e-4, ..ProjectionNumerics::default() },
+            },
+            fit: Fit {
+                yield_stresses: Vec::new(),
+                viscosities: Vec::new(),
+                slopes: vec![0.02, 0.03, 0.05],
+                duration: 3.0,
+                averaging_time: 1.5,
+            },
+            jitter: 1e-3,
+            seed: 1,
+        };
+        let paper_tier = Self {
+            paper: Grains { slopes: vec![0.02, 0.03, 0.05], ..quick.paper.clone() },
+            stabilised: Grains {
+                slopes: vec![0.02, 0.03, 0.05],
+                duration: 8.0,
+                averaging_time: 3.0,
+                ..quick.stabilised.clone()
+            },
+            continuum: Continuum {
+                runs: vec![
+                    runs(Stage::Porous, &all, &best(Stage::Porous), &[1.0], 4.0),
+                    runs(Stage::Frozen, &all, &best(Stage::Frozen), &[1.0], 4.0),
+                    runs(Stage::Frozen, &[0.03], &[PairLaw::PairRate, PairLaw::HarmonicMean], &[1.0], 4.0),
+                    runs(Stage::Dilating, &all, &best(Stage::Dilating), &[1.0], 4.0),
+                    runs(Stage::Dilating, &[0.03], &best(Stage::Dilating), &[0.3], 12.0),
+                    runs(Stage::Dilating, &[0.03], &[PairLaw::PairRateMeanLoad, PairLaw::HarmonicMean], &[1.0], 4.0),
+                ],
+                ..quick.continuum.clone()
+            },
+            ..quick.clone()
+        };
+        match tier {
+            Tier::Quick => quick,
+            Tier::Paper => paper_tier,
+            Tier::Fine => Self {
+                paper: Grains { slopes: Vec::new(), ..quick.paper.clone() },
+                stabilised: Grains { slopes: Vec::new(), ..quick.stabilised.clone() },
+                continuum: Continuum {
+                    runs: vec![StageRuns {
+                        spacings: vec![7e-4, 5e-4],
+                        ..runs(Stage::Dilating, &all, &best(Stage::Dilating), &[1.0, 0.3], 4.0)
+                    }],
+                    ..quick.continuum.clone()
+                },
+                fit: Fit {
+                    yield_stresses: vec![5.0, 7.0, 9.0, 11.0],
+                    viscosities: vec![0.2, 0.5],
+                    ..quick.fit.clone()
+                },
+                ..quick
+            },
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Continuous pieces of straight lines, and parabolas, by least squares.
+
+use nalgebra::{DMatrix, DVector};
+
+/// y in pieces of straight lines that meet at the break points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Segmented {
+    /// Where the slope changes, rising, unit of x; one fewer than there are pieces.
+    pub breaks: Vec<f64>,
+    /// Slope of every piece, unit of y over unit of x.
+    pub slopes: Vec<f64>,
+    /// Root mean square of what is left, unit of y.
+    pub residual: f64,
+}
+
+/// Points that a piece must hold.
+const LEAST_POINTS: usize = 3;
+
+/// Places between two neighbouring points at which a break is tried.
+const PLACES: usize = 2;
+
+/// The best continuous fit with a number of pieces to points (x, y) of rising x; none without three points a piece.
+#[must_use]
+pub fn segmented_regression(points: &[(f64, f64)], pieces: usize) -> Option<Segmented> {
+    let needed = LEAST_POINTS * pieces;
+    if pieces == 0 || points.len() < needed.max(pieces + 2) {
+        return None;
+    }
+    let mut best = None;
+    let mut breaks = vec![0.0; pieces - 1];
+    search(points, 0, LEAST_POINTS, &mut breaks, &mut best);
+    best.map(|(_, fit)| fit)
+}
+
+/// Tries every place of the break number `which`, and of those after it.
+fn search(
+    points: &[(f64, f64)],
+    which: usize,
+    first: usize,
+    breaks: &mut Vec<f64>,
+    best: &mut Option<(f64, Segmented)>,
+) {
+    if which == breaks.len() {
+        let Some((sum, slopes)) = hinges(points, breaks) else { return };
+        if best.as_ref().is_none_or(|(least, _)| sum < *least) {
+            let residual = (sum / points.len() as f64).sqrt();
+            *best = Some((sum, Segmented { breaks: breaks.clone(), slopes, residual }));
+        }
+        return;
+    }
+    let after = LEAST_POINTS * (breaks.len() - which);
+    for next in first..=points.len() - after {
+        let (lower, upper) = (points[next - 1].0, points[next].0);
+        for place in 0..PLACES {
+            breaks[which] = lower + (upper - lower) * (place as f64 + 0.5) / PLACES as f64;
+            search(points, which + 1, next + LEAST_POINTS, breaks, best);
+        }
+    }
+}
+
+/// Sum of squares and slopes of the fit 1, x, (x − b)₊ ….
+fn hinges(points: &[(f64, f64)], breaks: &[f64]) -> Option<(f64, Vec<f64>)> {
+    let (sum, coefficients) = least_squares(points, breaks.len() + 2, |x, column| match column {
+        0 => 1.0,
+        1 => x,
+        _ => (x - breaks[column - 2]).max(0.0),
+    })?;
+    let mut slope = 0.0;
+    let slopes = coefficients.iter().skip(1).map(|change| {
+        slope += change;
+        slope
+    });
+    Some((sum, slopes.collect()))
+}
+
+/// Number of pieces, up to `most`, whose fit has the least Bayesian information criterion n ln(RSS/n) + k ln n; every
+/// break counts for its place and its change of slope.
+#[must_use]
+pub fn number_of_pieces(points: &[(f64, f64)], most: usize) -> usize {
+    let count = points.len() as f64;
+    let criterion = |pieces: usize| {
+        let fit = segmented_regression(points, pieces)?;
+        let scale = points.iter().fold(0.0_f64, |most, point| most.max(point.1.abs())).max(f64::MIN_POSITIVE);
+        // a fit better than rounding is none the better
+        let residual = (fit.residual / scale).max(1e-12);
+        Some(2.0 * count * libm::log(residual) + 2.0 * pieces as f64 * libm::log(count))
+    };
+    (1..=most)
+        .filter_map(|pieces| criterion(pieces).map(|value| (value, pieces)))
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map_or(0, |(_, pieces)| pieces)
+}
+
+/// Second derivative of the parabola through points (x, y), unit of y over that of x²; none for fewer than four.
+#[must_use]
+pub fn curvature(points: &[(f64, f64)]) -> Option<f64> {
+    if points.len() < 4 {
+        return None;
+    }
+    let middle = points.iter().map(|point| point.0).sum::<f64>() / points.len() as f64;
+    let (_, coefficients) = least_squares(points, 3, |x, column| match column {
+        0 => 1.0,
+        1 => x - middle,
+        _ => (x - middle) * (x - middle),
+    })?;
+    Some(2.0 * coefficients[2])
+}
+
+/// Sum of squares that is left, and the coefficients of the columns.
+fn least_squares(
+    points: &[(f64, f64)],
+    columns: usize,
+    value: impl Fn(f64, usize) -> f64,
+) -> Option<(f64, DVector<f64>)> {
+    let matrix = DMatrix::from_fn(points.len(), columns, |row, column| value(points[row].0, column));
+    let right = DVector::from_iterator(points.len(), points.iter().map(|point| point.1));
+    let factors = matrix.clone().qr();
+    let projected = factors.q().transpose() * &right;
+    let coefficients = factors.r().solve_upper_triangular(&projected)?;
+    let left = (matrix * &coefficients - right).norm_squared();
+    left.is_finite().then_some((left, coefficients))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line_with_kinks(x: f64) -> f64 {
+        1.0 + 0.5 * x + 1.5 * (x - 1.1).max(0.0) - 1.0 * (x - 2.3).max(0.0)
+    }
+
+    #[test]
+    fn kinks_are_found_where_they_are() {
+        let points: Vec<(f64, f64)> = (0..40).map(|k| 0.1 * f64::from(k)).map(|x| (x, line_with_kinks(x))).collect();
+        let fit = segmented_regression(&points, 3).unwrap();
+        for (found, exact) in fit.breaks.iter().zip([1.1, 2.3]).chain(fit.slopes.iter().zip([0.5, 2.0, 1.0])) {
+            assert!((found - exact).abs() < 0.06, "{fit:?}");
+        }
+        assert_eq!(number_of_pieces(&points, 4), 3);
+    }
+
+    #[test]
+    fn noise_makes_no_pieces() {
+        // the fractional parts of multiples of the golden section are evenly spread
+        let noise = |k: i32| (f64::from(k) * 0.618_033_988_75).fract() - 0.5;
+        let points: Vec<(f64, f64)> = (0..30).map(|k| (f64::from(k), 2.0 * f64::from(k) + noise(k))).collect();
+        assert_eq!(number_of_pieces(&points, 3), 1);
+    }
+
+    #[test]
+    fn a_parabola_has_its_curvature() {
+        let points: Vec<(f64, f64)> = (0..6).map(|k| f64::from(k)).map(|x| (x, 3.0 - x - 0.7 * x * x)).collect();
+        assert!((curvature(&points).unwrap() + 1.4).abs() < 1e-12);
+        assert!(curvature(&points[..3]).is_none());
+    }
+
+    #[test]
+    fn too_few_points_have_no_fit() {
+        assert!(segmented_regression(&[(0.0, 1.0), (1.0, 2.0), (2.0, 3.0)], 2).is_none());
+    }
+}
