@@ -149,7 +149,7 @@ mod tests {
 
     #[test]
     fn a_parabola_has_its_curvature() {
-        let points: Vec<(f64, f64)> = (0..6).map(|k| f64::from(k)).map(|x| (x, 3.0 - x - 0.7 * x * x)).collect();
+        let points: Vec<(f64, f64)> = (0..6).map(f64::from).map(|x| (x, 3.0 - x - 0.7 * x * x)).collect();
         assert!((curvature(&points).unwrap() + 1.4).abs() < 1e-12);
         assert!(curvature(&points[..3]).is_none());
     }
