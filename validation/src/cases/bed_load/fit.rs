@@ -39,7 +39,9 @@ struct Surface {
 impl Surface {
     fn at(&self, yield_stress: f64, viscosity: f64) -> f64 {
         let (i, s) = place(&self.yields, yield_stress);
-        let (j, t) = place(&self.viscosities, viscosity);
+        // transport goes with a power of the viscosity
+        let logarithms: Vec<f64> = self.viscosities.iter().map(|mu| libm::log(*mu)).collect();
+        let (j, t) = place(&logarithms, libm::log(viscosity));
         let row = |i: usize| self.values[i][j] + t * (self.values[i][j + 1] - self.values[i][j]);
         row(i) + s * (row(i + 1) - row(i))
     }
@@ -138,8 +140,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn interpolation_is_exact_for_what_is_linear() {
-        let value = |tau: f64, mu: f64| 1.0 - 0.3 * tau - 0.5 * mu;
+    fn interpolation_is_exact_for_exponentials_of_the_yield_stress_and_powers_of_the_viscosity() {
+        let value = |tau: f64, mu: f64| 1.0 - 0.3 * tau - 0.5 * libm::log(mu);
         let (yields, viscosities) = (vec![5.0, 7.0, 11.0], vec![0.2, 0.5]);
         let values = yields.iter().map(|&tau| viscosities.iter().map(|&mu| value(tau, mu)).collect()).collect();
         let surface = Surface { slope: 0.03, shields_number: 0.173, yields, viscosities, values };

@@ -10,7 +10,8 @@ impl BedLoadParameters {
     pub(super) fn of_tier(tier: Tier) -> Self {
         let stabilised = Grains {
             slopes: vec![0.03],
-            material: Yield { yield_stress: 9.0, viscosity: 0.3 },
+            // fitted to Wong & Parker at 2 and 3 %
+            material: Yield { yield_stress: 9.7, viscosity: 0.5 },
             overburden_friction: 0.6,
             bed_depth: 0.03,
             length: 0.04,
@@ -110,11 +111,7 @@ impl BedLoadParameters {
                     }],
                     ..quick.continuum.clone()
                 },
-                fit: Fit {
-                    yield_stresses: vec![5.0, 7.0, 9.0, 11.0],
-                    viscosities: vec![0.2, 0.5],
-                    ..quick.fit.clone()
-                },
+                fit: Fit { yield_stresses: vec![3.0, 5.0, 7.0, 9.0], viscosities: vec![1.0, 2.5], ..quick.fit.clone() },
                 ..quick
             },
         }
