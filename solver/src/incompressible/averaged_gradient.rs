@@ -2,7 +2,8 @@
 //!
 //! Grains that dilate jostle, and a rate that is taken from two velocities alone is mostly jostling: a stress that is to
 //! be μ p is spread over a rate that is too large, and less of it acts on the mean shear. A mean that is taken before the
-//! norm keeps the shear and loses the noise, whose norm is not zero.
+//! norm keeps the shear and loses the noise, whose norm is not zero. It also loses shear where a moving layer is only
+//! some particles thick: at 2 % such grains come to rest.
 
 use super::pairs::{LEAST_TASK, Pair};
 use super::phase::Phase;

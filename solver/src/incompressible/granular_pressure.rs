@@ -121,9 +121,6 @@ impl GranularPressure {
             }
         }
         layer.solid_fraction = sums;
-        for fraction in &mut layer.solid_fraction {
-            *fraction = fraction.min(layer.packing);
-        }
         layer.integrate();
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! φ(z) is given, or the mean along the bed of what the sediment particles carry; so it serves flat beds.
 //! - overburden p′ = ∫_z φ (ρ_s − ρ_f) g cosθ dz `[Pa]`
-//! - room ∫ (1 − φ/φ_max) dz from the base, for the mixing length l = κ √(1 − z/h) × room `[m]`
+//! - room ∫ (1 − φ/φ_max) dz from the base, never below 0, for the mixing length l = κ √(1 − z/h) × room `[m]`
 
 use crate::turbulence::VON_KARMAN;
 
@@ -14,7 +14,7 @@ pub struct Stratification {
     pub base: f64,
     /// Length of an interval `[m]`.
     pub interval: f64,
-    /// φ of every interval `[-]`.
+    /// φ of every interval `[-]`; averaged from particles it may exceed φ_max here and there.
     pub solid_fraction: Vec<f64>,
     /// φ_max `[-]`: no eddy where the grains are packed as densely as this.
     pub packing: f64,
@@ -79,13 +79,14 @@ impl Stratification {
             *overburden = load + 0.5 * own;
             load += own;
         }
-        let mut room = 0.0;
+        // φ of particles scatters about φ_max in a bed: what one interval has too much the next has too little
+        let mut room = 0.0_f64;
         for (place, fraction) in self.solid_fraction.iter().enumerate() {
             let height = self.base + (place as f64 + 0.5) * self.interval - self.bed_level;
-            let own = (1.0 - fraction / self.packing).max(0.0) * self.interval;
+            let own = (1.0 - fraction / self.packing) * self.interval;
             let root = (1.0 - height / self.depth).max(0.0).sqrt();
-            self.mixing_length[place] = VON_KARMAN * root * (room + 0.5 * own);
-            room += own;
+            self.mixing_length[place] = VON_KARMAN * root * (room + 0.5 * own).max(0.0);
+            room = (room + own).max(0.0);
         }
     }
 
@@ -98,7 +99,7 @@ impl Stratification {
         let (share, upper) = (place - lower as f64, (lower + 1).min(last));
         let line = |values: &[f64]| values[lower] + share * (values[upper] - values[lower]);
         Stratum {
-            solid_fraction: line(&self.solid_fraction),
+            solid_fraction: line(&self.solid_fraction).min(self.packing),
             overburden: line(&self.overburden),
             mixing_length: line(&self.mixing_length),
         }

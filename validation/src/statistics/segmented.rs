@@ -19,6 +19,10 @@ const LEAST_POINTS: usize = 3;
 /// Places between two neighbouring points at which a break is tried.
 const PLACES: usize = 2;
 
+/// Passes over all breaks, and halvings of the step in each, by which their places are refined.
+const SWEEPS: usize = 3;
+const HALVINGS: usize = 6;
+
 /// The best continuous fit with a number of pieces to points (x, y) of rising x; none without three points a piece.
 #[must_use]
 pub fn segmented_regression(points: &[(f64, f64)], pieces: usize) -> Option<Segmented> {
@@ -29,7 +33,32 @@ pub fn segmented_regression(points: &[(f64, f64)], pieces: usize) -> Option<Segm
     let mut best = None;
     let mut breaks = vec![0.0; pieces - 1];
     search(points, 0, LEAST_POINTS, &mut breaks, &mut best);
-    best.map(|(_, fit)| fit)
+    best.map(|(_, fit)| refined(points, fit))
+}
+
+/// The fit with each break moved between the places that were tried beside it.
+fn refined(points: &[(f64, f64)], fit: Segmented) -> Segmented {
+    let mut best = fit;
+    for _ in 0..SWEEPS {
+        for which in 0..best.breaks.len() {
+            let upper = points.partition_point(|point| point.0 < best.breaks[which]).clamp(1, points.len() - 1);
+            let mut step = (points[upper].0 - points[upper - 1].0) / PLACES as f64;
+            for _ in 0..HALVINGS {
+                step *= 0.5;
+                for side in [-step, step] {
+                    let mut breaks = best.breaks.clone();
+                    breaks[which] += side;
+                    let Some((sum, slopes)) = hinges(points, &breaks) else { continue };
+                    let residual = (sum / points.len() as f64).sqrt();
+                    if residual < best.residual {
+                        best = Segmented { breaks, slopes, residual };
+                        break;
+                    }
+                }
+            }
+        }
+    }
+    best
 }
 
 /// Tries every place of the break number `which`, and of those after it.
@@ -139,10 +168,13 @@ mod tests {
         assert_eq!(number_of_pieces(&points, 4), 3);
     }
 
+    /// The fractional parts of multiples of the golden section are evenly spread.
+    fn noise(k: i32) -> f64 {
+        (f64::from(k) * 0.618_033_988_75).fract() - 0.5
+    }
+
     #[test]
     fn noise_makes_no_pieces() {
-        // the fractional parts of multiples of the golden section are evenly spread
-        let noise = |k: i32| (f64::from(k) * 0.618_033_988_75).fract() - 0.5;
         let points: Vec<(f64, f64)> = (0..30).map(|k| (f64::from(k), 2.0 * f64::from(k) + noise(k))).collect();
         assert_eq!(number_of_pieces(&points, 3), 1);
     }

@@ -2,6 +2,7 @@
 
 use super::Record;
 use super::fit::held_out;
+use super::parameters::JUDGED_PAIR_LAW;
 use super::runs::{BedLoadRun, Formulation, pair_law_name};
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
 use crate::reference::{HONEST_BAND, TransportFormula};
@@ -45,7 +46,7 @@ fn label(run: &BedLoadRun) -> String {
         Formulation::Fit(_) => format!("fit, {}", percent(run)),
         Formulation::Continuum { stage, pair_law, start, spacing, .. } => {
             let mut label = format!("{}, {}", stage.name(), percent(run));
-            if *pair_law != stage.judged_pair_law() {
+            if *pair_law != JUDGED_PAIR_LAW {
                 label += &format!(", {}", pair_law_name(*pair_law));
             }
             if *start != 1.0 {

@@ -3,7 +3,7 @@
 use super::Record;
 use super::fit::{self, held_out};
 use super::observation::BedLoadObservation;
-use super::parameters::Stage;
+use super::parameters::{JUDGED_PAIR_LAW, Stage};
 use super::profiles::{self, LAYERS};
 use super::runs::{BedLoadRun, Formulation};
 use crate::case::Run;
@@ -256,7 +256,7 @@ fn continuum(
     metrics.push(channel::particles_lost(&variant, &record.clone().map(|data| data.channel)));
     common(metrics, run, record);
     let source = "the 1-D layer of the same closures";
-    let judged = run.averaging_time >= JUDGED_FROM && pair_law == stage.judged_pair_law();
+    let judged = run.averaging_time >= JUDGED_FROM && pair_law == JUDGED_PAIR_LAW;
     let gated = |metric: Metric, holds: bool, limit, reason: &str| {
         if judged && holds { metric.gated(limit, reason) } else { metric }
     };

@@ -1,6 +1,8 @@
 //! What each tier runs.
 
-use super::parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns, Yield};
+use super::parameters::{
+    BedLoadParameters, Continuum, Fit, Grains, JUDGED_PAIR_LAW, Materials, Stage, StageRuns, Yield,
+};
 use crate::case::Tier;
 use crate::reference::bed_load_layer::Closures;
 use bagnold_solver::drag::DragLaw;
@@ -44,7 +46,7 @@ impl BedLoadParameters {
             duration,
             averaging_time: 0.4 * duration,
         };
-        let best = |stage: Stage| [stage.judged_pair_law()];
+        let best = [JUDGED_PAIR_LAW];
         let all = [0.02, 0.03, 0.05];
         let quick = Self {
             materials: Materials {
@@ -58,7 +60,7 @@ impl BedLoadParameters {
             paper,
             stabilised,
             continuum: Continuum {
-                runs: vec![runs(Stage::Porous, &[0.03], &best(Stage::Porous), &[1.0], 0.5)],
+                runs: vec![runs(Stage::Porous, &[0.03], &best, &[1.0], 0.5)],
                 bed_depth: 0.016,
                 held_depth: 0.004,
                 length: 0.01,
@@ -87,12 +89,12 @@ impl BedLoadParameters {
             },
             continuum: Continuum {
                 runs: vec![
-                    runs(Stage::Porous, &all, &best(Stage::Porous), &[1.0], 4.0),
-                    runs(Stage::Frozen, &all, &best(Stage::Frozen), &[1.0], 4.0),
+                    runs(Stage::Porous, &all, &best, &[1.0], 4.0),
+                    runs(Stage::Frozen, &all, &best, &[1.0], 4.0),
                     runs(Stage::Frozen, &[0.03], &[PairLaw::PairRate, PairLaw::HarmonicMean], &[1.0], 4.0),
-                    runs(Stage::Dilating, &all, &best(Stage::Dilating), &[1.0], 4.0),
-                    runs(Stage::Dilating, &[0.03], &best(Stage::Dilating), &[0.3], 12.0),
-                    runs(Stage::Dilating, &[0.03], &[PairLaw::PairRateMeanLoad, PairLaw::HarmonicMean], &[1.0], 4.0),
+                    runs(Stage::Dilating, &all, &best, &[1.0], 4.0),
+                    runs(Stage::Dilating, &[0.03], &best, &[0.3], 12.0),
+                    runs(Stage::Dilating, &all, &[PairLaw::AveragedPairRate], &[1.0], 4.0),
                 ],
                 ..quick.continuum.clone()
             },
@@ -107,7 +109,7 @@ impl BedLoadParameters {
                 continuum: Continuum {
                     runs: vec![StageRuns {
                         spacings: vec![7e-4, 5e-4],
-                        ..runs(Stage::Dilating, &all, &best(Stage::Dilating), &[1.0, 0.3], 4.0)
+                        ..runs(Stage::Dilating, &all, &best, &[1.0, 0.3], 4.0)
                     }],
                     ..quick.continuum.clone()
                 },
