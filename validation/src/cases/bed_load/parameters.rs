@@ -78,7 +78,7 @@ pub enum Stage {
 }
 
 /// The pair law whose runs are judged; runs of others show what a law does. Where grains dilate no law is right on all
-/// slopes: this one is 1.2 to 1.5 times too fast on each.
+/// slopes: this one carries 1.5 to 1.6 times too much on each.
 pub(super) const JUDGED_PAIR_LAW: PairLaw = PairLaw::PairRateMeanLoad;
 
 impl Stage {
