@@ -25,6 +25,7 @@ pub mod terms;
 pub mod divergence;
 pub mod incompressible;
 mod linear;
+mod observed_run;
 pub mod scene;
 pub mod simulation;
 pub mod snapshot;

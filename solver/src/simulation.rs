@@ -7,6 +7,7 @@ use crate::kernel::Kernel;
 use crate::lanes::InstructionSet;
 use crate::neighbours::{CellGrid, VerletList};
 use crate::numerics::ViscositySwitch;
+use crate::observed_run::{self, Stepping};
 use crate::particles::{Particles, SortScratch};
 use crate::rheology::Rheology;
 use crate::scene::{Scene, SceneError};
@@ -107,31 +108,29 @@ where
 
     /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
     /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
-    pub fn run(&mut self, end: f64, interval: f64, mut observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<D> {
-        let origin = self.time;
-        let mut observed = 0u64;
-        let mut observed_step = self.steps;
-        if observe(self).is_break() {
-            return StopReason::Stopped;
-        }
-        // half a step of slack, so that rounding does not add a step
-        while self.time < end - 0.5 * self.time_step_bounds().step() {
-            if let Err(divergence) = self.step() {
-                return StopReason::Diverged(divergence);
-            }
-            let due = ((self.time - origin) / interval + 1e-9).floor() as u64;
-            if due > observed {
-                observed = due;
-                observed_step = self.steps;
-                if observe(self).is_break() {
-                    return StopReason::Stopped;
-                }
-            }
-        }
-        if observed_step < self.steps && observe(self).is_break() {
-            return StopReason::Stopped;
-        }
-        StopReason::Finished
+    pub fn run(&mut self, end: f64, interval: f64, observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<D> {
+        observed_run::run(self, end, interval, observe)
+    }
+}
+
+impl<const D: usize> Stepping<D> for Simulation<D>
+where
+    Self: Compiled<D>,
+{
+    fn now(&self) -> f64 {
+        self.time
+    }
+
+    fn steps_taken(&self) -> u64 {
+        self.steps
+    }
+
+    fn next_step(&self) -> f64 {
+        self.time_step_bounds().step()
+    }
+
+    fn take_one(&mut self) -> Result<(), Divergence<D>> {
+        self.step()
     }
 }
 

@@ -12,6 +12,7 @@ use super::scene::IncompressibleScene;
 use super::snapshot::{IncompressibleSnapshot, PhaseSnapshot};
 use super::velocity_solve::VelocitySystem;
 use crate::divergence::{Divergence, Quantity};
+use crate::observed_run::{self, Stepping};
 use crate::scene::SceneError;
 use crate::simulation::StopReason;
 use crate::vector::Vector;
@@ -84,30 +85,26 @@ impl IncompressibleSimulation<2> {
 
     /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
     /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
-    pub fn run(&mut self, end: f64, interval: f64, mut observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<2> {
-        let origin = self.time;
-        let mut observed = 0u64;
-        let mut observed_step = self.steps;
-        if observe(self).is_break() {
-            return StopReason::Stopped;
-        }
-        while self.time < end - 0.5 * self.last_step {
-            if let Err(divergence) = self.step() {
-                return StopReason::Diverged(divergence);
-            }
-            let due = ((self.time - origin) / interval + 1e-9).floor() as u64;
-            if due > observed {
-                observed = due;
-                observed_step = self.steps;
-                if observe(self).is_break() {
-                    return StopReason::Stopped;
-                }
-            }
-        }
-        if observed_step < self.steps && observe(self).is_break() {
-            return StopReason::Stopped;
-        }
-        StopReason::Finished
+    pub fn run(&mut self, end: f64, interval: f64, observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<2> {
+        observed_run::run(self, end, interval, observe)
+    }
+}
+
+impl Stepping<2> for IncompressibleSimulation<2> {
+    fn now(&self) -> f64 {
+        self.time
+    }
+
+    fn steps_taken(&self) -> u64 {
+        self.steps
+    }
+
+    fn next_step(&self) -> f64 {
+        self.last_step
+    }
+
+    fn take_one(&mut self) -> Result<(), Divergence<2>> {
+        self.step()
     }
 }
 

@@ -17,6 +17,7 @@ mod recording;
 mod rules;
 pub mod settling;
 pub mod still_water;
+mod transport_panel;
 pub mod water_film;
 
 use crate::case::Registry;

@@ -4,8 +4,9 @@ use super::Record;
 use super::fit::held_out;
 use super::parameters::JUDGED_PAIR_LAW;
 use super::runs::{BedLoadRun, Formulation, pair_law_name};
-use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
-use crate::reference::{HONEST_BAND, TransportFormula};
+use crate::cases::transport_panel;
+use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::reference::TransportFormula;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let mut figures = Vec::new();
@@ -171,31 +172,22 @@ fn against_layer(stage: &str, records: &[&Record]) -> Figure {
     }
 }
 
+fn has_judged_law(run: &BedLoadRun) -> bool {
+    matches!(&run.formulation, Formulation::Continuum { pair_law, .. } if *pair_law == JUDGED_PAIR_LAW)
+}
+
 /// Whether a run belongs to a kind.
 type Choice = fn(&BedLoadRun) -> bool;
 
 fn transport(records: &[Record]) -> Figure {
-    let mut panel = Panel::new("", Axis::logarithmic("τ* [-]"), Axis::logarithmic("q* [-]"));
-    let shields = |k: i32| 0.07 * libm::pow(0.5 / 0.07, f64::from(k) / 120.0);
-    let own = TransportFormula::WongParker;
-    let curve = |formula: TransportFormula| (0..=120).map(shields).map(|tau| (tau, formula.transport(tau))).collect();
-    panel.bands.push(Band {
-        label: format!("factor {} … {}", HONEST_BAND.0, HONEST_BAND.1),
-        points: (0..=120)
-            .map(shields)
-            .map(|tau| (tau, HONEST_BAND.0 * own.transport(tau), HONEST_BAND.1 * own.transport(tau)))
-            .collect(),
-    });
-    panel.series.push(Series::new(own.name(), Mark::Reference, 0, curve(own)));
-    for (slot, formula) in TransportFormula::ALL.into_iter().filter(|formula| *formula != own).enumerate() {
-        panel.series.push(Series::new(formula.name(), Mark::Line, slot + 1, curve(formula)));
-    }
-    let kinds: [(&str, Choice); 3] = [
-        ("stabilised", |run| matches!(run.formulation, Formulation::Stabilised(_))),
-        ("continuum, given fraction", |run| stage_of(run) == Some("frozen")),
-        ("continuum, dilating", |run| stage_of(run) == Some("dilating")),
+    let mut panel = transport_panel::formulas();
+    let kinds: [(&str, usize, Choice); 4] = [
+        ("stabilised", 0, |run| matches!(run.formulation, Formulation::Stabilised(_))),
+        ("continuum, given fraction", 5, |run| stage_of(run) == Some("frozen") && has_judged_law(run)),
+        ("continuum, dilating", 6, |run| stage_of(run) == Some("dilating") && has_judged_law(run)),
+        ("continuum, other pair laws", 3, |run| stage_of(run).is_some() && !has_judged_law(run)),
     ];
-    for (slot, (name, belongs)) in kinds.into_iter().enumerate() {
+    for (name, slot, belongs) in kinds {
         let points: Vec<(f64, f64)> = records
             .iter()
             .filter(|(run, _)| belongs(run))
@@ -206,12 +198,12 @@ fn transport(records: &[Record]) -> Figure {
             .filter(|(_, value)| *value > 0.0)
             .collect();
         if !points.is_empty() {
-            panel.series.push(Series::new(name, Mark::Points, if slot == 0 { 0 } else { slot + 4 }, points));
+            panel.series.push(Series::new(name, Mark::Points, slot, points));
         }
     }
     let held: Vec<(f64, f64)> = held_out(records)
         .iter()
-        .map(|fit| (fit.shields_number, fit.ratio * own.transport(fit.shields_number)))
+        .map(|fit| (fit.shields_number, fit.ratio * TransportFormula::WongParker.transport(fit.shields_number)))
         .collect();
     if !held.is_empty() {
         panel.series.push(Series::new("stabilised, slope held out", Mark::Points, 7, held));

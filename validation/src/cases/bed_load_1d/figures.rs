@@ -3,9 +3,9 @@
 use super::Record;
 use super::metrics::{difference, literature, log_law, of};
 use super::runs::{BedLoad1dRun, Purpose};
-use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
+use crate::cases::transport_panel;
+use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::reference::bed_load_layer::LayerState;
-use crate::reference::{HONEST_BAND, TransportFormula};
 
 type Layer<'a> = (&'a BedLoad1dRun, &'a LayerState);
 
@@ -98,21 +98,7 @@ fn carried(state: &LayerState) -> Vec<f64> {
 }
 
 fn transport(layers: &[Layer<'_>]) -> Figure {
-    let mut panel = Panel::new("", Axis::logarithmic("τ* [-]"), Axis::logarithmic("q* [-]"));
-    let shields = |k: i32| 0.07 * libm::pow(0.5 / 0.07, f64::from(k) / 120.0);
-    let curve = |formula: TransportFormula| (0..=120).map(shields).map(|tau| (tau, formula.transport(tau))).collect();
-    let own = TransportFormula::WongParker;
-    panel.bands.push(Band {
-        label: format!("factor {} … {}", HONEST_BAND.0, HONEST_BAND.1),
-        points: (0..=120)
-            .map(shields)
-            .map(|tau| (tau, HONEST_BAND.0 * own.transport(tau), HONEST_BAND.1 * own.transport(tau)))
-            .collect(),
-    });
-    panel.series.push(Series::new(own.name(), Mark::Reference, 0, curve(own)));
-    for (slot, formula) in TransportFormula::ALL.into_iter().filter(|formula| *formula != own).enumerate() {
-        panel.series.push(Series::new(formula.name(), Mark::Line, slot + 1, curve(formula)));
-    }
+    let mut panel = transport_panel::formulas();
     let points = layers.iter().map(|(run, state)| (run.stream.shields_number(), state.transport())).collect();
     panel.series.push(Series::new("layer, nothing fitted", Mark::Points, 0, points));
     Figure {
