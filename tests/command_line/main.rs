@@ -1,7 +1,9 @@
 //! The program as a user meets it: messages, exit codes, files.
 
 mod bad_input;
+mod calibrate;
 mod exit_codes;
 mod files;
 mod permission;
 mod program;
+mod sweep;

@@ -114,6 +114,18 @@ pub enum InputError {
         /// Whose parameters they are.
         case: String,
     },
+    /// A plan names a path that a case's parameters do not have.
+    #[error("{}: `path` is `{path}`, but `{case}` has no such field; {}`bagnold show {case}` prints all fields", .file.display(), did_you_mean(.nearest))]
+    PlanPath {
+        /// The plan.
+        file: PathBuf,
+        /// The dotted path as given.
+        path: String,
+        /// The existing path that is nearest.
+        nearest: Option<String>,
+        /// Whose parameters they are.
+        case: String,
+    },
     /// `--set` gives a value of the wrong type.
     #[error("`--set {path}={value}`: `{path}` is {value}, but must be {rule}; {remedy}")]
     SetValue {
@@ -123,6 +135,83 @@ pub enum InputError {
         value: String,
         /// The rule it breaks, completing "must be …".
         rule: String,
+        /// What to do about it.
+        remedy: String,
+    },
+    /// A folder holds work that may be continued.
+    #[error("{}: holds a {what} already; add --resume to go on with it, or name another folder with --out", .folder.display())]
+    InUse {
+        /// A sweep or a calibration.
+        what: &'static str,
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A folder holds other work than what is asked for.
+    #[error("{}: holds a {what} {}; name another folder with --out", .folder.display(), if *.by_program { "of another version of bagnold, whose numbers may differ" } else { "of another plan" })]
+    OtherPlan {
+        /// A sweep or a calibration.
+        what: &'static str,
+        /// The folder.
+        folder: PathBuf,
+        /// Whether the program differs, not the plan.
+        by_program: bool,
+    },
+    /// A file of reference data cannot be used.
+    #[error("failed to {0}")]
+    Reference(#[from] crate::reference::ReferenceError),
+    /// A run is fitted and held out.
+    #[error("{}: the run `{run}` is in both `{fit}` and `{hold_out}`; what is predicted must not be fitted, so take it out of one", .file.display())]
+    InBoth {
+        /// The plan.
+        file: PathBuf,
+        /// The run.
+        run: String,
+        /// Where it is fitted.
+        fit: String,
+        /// Where it is held out.
+        hold_out: String,
+    },
+    /// Data have no counterpart in what a case computes.
+    #[error("{}: `{field}`: the case gives {reason}", .file.display())]
+    Counterpart {
+        /// The plan.
+        file: PathBuf,
+        /// The group of data.
+        field: String,
+        /// What is missing, and what there is.
+        reason: String,
+    },
+    /// A search cannot begin or has found nothing.
+    #[error("{}: {reason}", .file.display())]
+    Search {
+        /// The plan.
+        file: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// A folder holds no sweep.
+    #[error("{}: holds no sweep (no manifest.json); name the folder that `bagnold sweep` wrote", .folder.display())]
+    NoSweep {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A file of ours cannot be understood.
+    #[error("{}: damaged ({reason}); {remedy}", .file.display())]
+    Damaged {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+        /// What to do about it.
+        remedy: String,
+    },
+    /// A command of the scheduler is missing or refuses.
+    #[error("slurm: `{command}` {reason}; {remedy}")]
+    Slurm {
+        /// The command.
+        command: String,
+        /// What happened.
+        reason: String,
         /// What to do about it.
         remedy: String,
     },
@@ -172,6 +261,17 @@ impl InputError {
         self
     }
 
+    /// Types a TOML text.
+    ///
+    /// # Errors
+    /// A text that is not TOML or does not have the type's fields, with the place.
+    pub fn parse_toml<T: serde::de::DeserializeOwned>(file: &Path, text: &str) -> Result<T, Self> {
+        toml::from_str(text).map_err(|error| {
+            let (line, column) = crate::case::position(text, error.span().map_or(0, |span| span.start));
+            Self::Syntax { file: file.to_owned(), line, column, message: error.message().to_owned() }
+        })
+    }
+
     /// A file that cannot be read, with the system's reason.
     #[must_use]
     pub fn unreadable(file: &Path, error: &std::io::Error) -> Self {
@@ -192,6 +292,18 @@ impl InputError {
                 Some(field)
             }
             _ => None,
+        }
+    }
+
+    /// Puts what is wrong with a setting into the words of the plan that asks for it.
+    #[must_use]
+    pub fn in_plan(self, plan: &Path) -> Self {
+        match self {
+            Self::SetPath { path, nearest, case, .. } => Self::PlanPath { file: plan.to_owned(), path, nearest, case },
+            Self::SetValue { path, value, rule, remedy } => {
+                Self::Field { file: Some(plan.to_owned()), field: path, value, rule, remedy }
+            }
+            other => other.in_file(plan),
         }
     }
 

@@ -1,14 +1,19 @@
 //! Cases, references, metrics, figures and reports around the Bagnold solver.
 
+pub mod calibration;
 pub mod case;
 pub mod cases;
 pub mod cli;
 pub mod error;
+pub mod evaluation;
 pub mod figure;
+pub mod inference;
 pub mod metric;
 pub mod observe;
 pub mod output;
 pub mod reference;
 pub mod report;
+pub mod sampling;
 pub mod statistics;
 pub mod store;
+pub mod sweep;

@@ -75,6 +75,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
                 let eddy = match scene.fluid.turbulence {
                     Turbulence::Laminar => 0.0,
                     Turbulence::MixingLength { level, depth, law } => law.eddy_viscosity(height - level, depth, rate),
+                    Turbulence::Smagorinsky(law) => law.eddy_viscosity(scene.fluid.spacing, rate),
                     Turbulence::Stratified => stratum.map_or(0.0, |s| s.mixing_length * s.mixing_length * rate),
                 };
                 let solid_fraction = stratum.map_or(0.0, |stratum| stratum.solid_fraction);

@@ -5,7 +5,7 @@ use super::stratification::Stratification;
 use crate::boundary::{AxisBoundary, Domain};
 use crate::drag::DragLaw;
 use crate::scene::SceneError;
-use crate::turbulence::{MixingLength, RoughWall};
+use crate::turbulence::{MixingLength, RoughWall, Smagorinsky};
 use crate::vector::Vector;
 
 /// Free particles at the start; all arrays have the shape `[particles]`.
@@ -49,6 +49,8 @@ pub enum Turbulence {
         /// The law.
         law: MixingLength,
     },
+    /// Mixing below the scale of the particles.
+    Smagorinsky(Smagorinsky),
     /// The mixing length of the [`Stratification`].
     Stratified,
 }

@@ -28,12 +28,16 @@ pub trait AnyCase: Sync {
 pub trait Prepared: Send + Sync {
     /// Name of the case.
     fn name(&self) -> &'static str;
+    /// The parameters: a complete file for `bagnold run`.
+    fn parameters_toml(&self) -> &str;
     /// Number of runs.
     fn run_count(&self) -> usize;
     /// Full name of a run; empty where the case has a single one.
     fn variant(&self, run: usize) -> String;
     /// Expected cost of a run in particle-steps.
     fn particle_steps(&self, run: usize) -> f64;
+    /// What a run is known by in a store: the same for the same simulation; none where the store is bypassed.
+    fn identity(&self, run: usize, store: &Store) -> Option<String>;
     /// Takes a run's record from the store or simulates it, in the current rayon pool.
     ///
     /// # Errors
@@ -99,6 +103,10 @@ impl<C: Case> Prepared for Plan<C> {
         Case::name(self.case)
     }
 
+    fn parameters_toml(&self) -> &str {
+        &self.parameters_toml
+    }
+
     fn run_count(&self) -> usize {
         self.slots.len()
     }
@@ -109,6 +117,10 @@ impl<C: Case> Prepared for Plan<C> {
 
     fn particle_steps(&self, run: usize) -> f64 {
         self.slots[run].0.particle_steps()
+    }
+
+    fn identity(&self, run: usize, store: &Store) -> Option<String> {
+        store.key(self.name(), &self.slots[run].0).map(|key| key.to_string())
     }
 
     fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), InputError> {

@@ -12,10 +12,11 @@ mod schedule;
 
 pub use erased::{AnyCase, Prepared};
 pub use file::CaseFile;
+pub(crate) use file::position;
 pub use parameters::Changes;
 pub use registry::Registry;
 pub use result::{CaseResult, RunSummary};
-pub use schedule::{Monitor, Silent, execute};
+pub use schedule::{Monitor, Silent, execute, share_out};
 
 use crate::error::InputError;
 use crate::figure::{Animation, Figure};

@@ -49,13 +49,61 @@ struct Job {
 }
 
 /// What the workers share.
-struct Queue {
-    /// Jobs not yet begun, the shortest first: the next one is popped off the end.
-    waiting: Vec<Job>,
-    /// Threads that no run uses.
+struct Queue<J> {
+    /// Jobs not yet begun, the last first: the next one is popped off the end.
+    waiting: Vec<J>,
+    /// Threads that no job uses.
     free: usize,
     /// The first error; it stops the rest.
     error: Option<InputError>,
+}
+
+/// Does jobs, the first first, on the current rayon pool's number of threads: one thread each while there are more jobs
+/// than threads, a fair share for the last few. Every job finds a pool of its own as the current one.
+///
+/// # Errors
+/// The first job that fails; jobs that have not begun are then left.
+pub fn share_out<J: Send>(
+    mut jobs: Vec<J>,
+    work: impl Fn(J) -> Result<(), InputError> + Sync,
+) -> Result<(), InputError> {
+    jobs.reverse();
+    let threads = rayon::current_num_threads();
+    let workers = threads.min(jobs.len());
+    let queue = Mutex::new(Queue { waiting: jobs, free: threads, error: None });
+    let lock = || queue.lock().unwrap_or_else(PoisonError::into_inner);
+    let worker = || {
+        loop {
+            let (job, share) = {
+                let mut state = lock();
+                // A share leaves enough for the others, so a worker that finds a job also finds a thread.
+                let share = (state.free / state.waiting.len().max(1)).max(1);
+                let Some(job) = state.waiting.pop() else { return };
+                state.free = state.free.saturating_sub(share);
+                (job, share)
+            };
+            let outcome = rayon::ThreadPoolBuilder::new()
+                .num_threads(share)
+                .build()
+                .map_err(|error| InputError::Threads { threads: share, reason: error.to_string() })
+                .and_then(|pool| pool.install(|| work(job)));
+            let mut state = lock();
+            state.free += share;
+            if let Err(error) = outcome {
+                state.waiting.clear();
+                state.error.get_or_insert(error);
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(worker);
+        }
+    });
+    match queue.into_inner().unwrap_or_else(PoisonError::into_inner).error {
+        Some(error) => Err(error),
+        None => Ok(()),
+    }
 }
 
 /// Simulates all runs of all cases on the current rayon pool's number of threads and judges them.
@@ -75,50 +123,14 @@ pub fn execute(
         .map(|(number, (case, run))| Job { case, run, number })
         .collect();
     let cost = |job: &Job| cases[job.case].particle_steps(job.run);
-    // Later jobs of equal cost go first in the list, so that they are popped last.
-    jobs.sort_by(|a, b| cost(a).total_cmp(&cost(b)).then(b.number.cmp(&a.number)));
-
-    let threads = rayon::current_num_threads();
-    let workers = threads.min(jobs.len());
-    let queue = Mutex::new(Queue { waiting: jobs, free: threads, error: None });
-    std::thread::scope(|scope| {
-        for _ in 0..workers {
-            scope.spawn(|| work(&cases, &queue, store, monitor));
-        }
-    });
-    match queue.into_inner().unwrap_or_else(PoisonError::into_inner).error {
-        Some(error) => Err(error),
-        None => Ok(cases.into_iter().map(Prepared::finish).collect()),
-    }
-}
-
-/// One worker: takes the longest waiting run and a fair share of the free threads until nothing waits.
-fn work(cases: &[Box<dyn Prepared>], queue: &Mutex<Queue>, store: &Store, monitor: &dyn Monitor) {
-    let lock = || queue.lock().unwrap_or_else(PoisonError::into_inner);
-    loop {
-        let (job, share) = {
-            let mut state = lock();
-            // One thread each while there are more runs than threads; only the last few run on several.
-            // A share leaves enough for the others, so a worker that finds a run also finds a thread.
-            let share = (state.free / state.waiting.len().max(1)).max(1);
-            let Some(job) = state.waiting.pop() else { return };
-            state.free = state.free.saturating_sub(share);
-            (job, share)
-        };
+    // The longest first; of equal cost the first first.
+    jobs.sort_by(|a, b| cost(b).total_cmp(&cost(a)).then(a.number.cmp(&b.number)));
+    share_out(jobs, |job| {
         monitor.started(job.number);
         let progress = RunProgress { run: job.number, monitor };
-        let outcome = rayon::ThreadPoolBuilder::new()
-            .num_threads(share)
-            .build()
-            .map_err(|error| InputError::Threads { threads: share, reason: error.to_string() })
-            .and_then(|pool| pool.install(|| cases[job.case].simulate(job.run, store, &progress)));
+        let outcome = cases[job.case].simulate(job.run, store, &progress);
         monitor.finished(job.number);
-
-        let mut state = lock();
-        state.free += share;
-        if let Err(error) = outcome {
-            state.waiting.clear();
-            state.error.get_or_insert(error);
-        }
-    }
+        outcome
+    })?;
+    Ok(cases.into_iter().map(Prepared::finish).collect())
 }

@@ -34,6 +34,54 @@ The report is one self-contained folder: open its index.html. Failing gates come
 
 Exit codes: 0 all gates hold, 1 a gate fails, 2 bad input, 3 a run diverged.";
 
+const CALIBRATE_EXAMPLES: &str = "Examples:
+  bagnold calibrate calibrations/lube-run-out.toml
+  bagnold calibrate my.toml --out mine
+  bagnold calibrate my.toml --out mine --resume
+  bagnold run mine/calibrated.toml
+
+A file with one parameter, one fitted datum and one that is held out:
+
+  title = \"static friction of our sand\"
+
+  [[parameters]]
+  path = \"sand.law.static_friction\"
+  lower = 0.4
+  upper = 0.8
+
+  [[fit]]
+  case = \"column-planar\"
+  with = { sand = { aspect_ratios = [0.9] } }
+  data = [{ metric = \"run_out\", value = 1.2, unit = \"-\", uncertainty = 0.1, source = \"own, May\" }]
+
+  [[hold_out]]
+  ...
+
+data may also name a CSV: { table = \"profile-…\", x = \"y [m]\", y = \"u [m/s]\", file = \"mine.csv\" }.
+The folder receives index.html, figures/, result.json, data.csv, evaluations.csv and calibrated.toml.";
+
+const SWEEP_EXAMPLES: &str = "Examples:
+  bagnold sweep viscosity.toml --out viscosity        here
+  bagnold sweep viscosity.toml --out viscosity --resume
+  bagnold sweep viscosity.toml --out /shared/viscosity --engine slurm --partition short --time 00:30:00 --throttle 50
+  bagnold sweep collect /shared/viscosity --resubmit
+
+A file that varies the viscosity of a film over a grid:
+
+  design = \"grid\"   # or design.sobol = { points = 64, seed = 1 }, design.latin_hypercube = { … }
+
+  [[cases]]
+  case = \"film\"
+  with = { fluids = [\"newtonian\"], resolution = 10 }
+
+  [[parameters]]
+  path = \"newtonian.viscosity\"
+  values = [0.5, 1.0, 2.0]         # or lower, upper, levels, scale = \"log\"
+
+The folder receives manifest.json, runs/NNNN-CASE/, results.csv (one line a metric), failures.csv and figures/.
+
+Exit codes: 0 every run has numbers, 1 some are missing, 2 bad input, 3 some failed (see failures.csv).";
+
 /// Granular and sediment flows by smoothed particle hydrodynamics, judged against exact solutions and experiments.
 #[derive(Debug, Parser)]
 #[command(name = "bagnold", version, after_help = EXAMPLES, propagate_version = true)]
@@ -60,6 +108,10 @@ pub enum Command {
     Run(Run),
     /// Simulate many cases and write one page about them.
     Report(Report),
+    /// Find the parameters that agree best with data, and judge them on data held out.
+    Calibrate(Calibrate),
+    /// Simulate cases at many points of their parameters, here or on a cluster.
+    Sweep(Box<Sweep>),
 }
 
 /// `bagnold show`
@@ -115,6 +167,115 @@ pub struct Report {
     /// How to compute.
     #[command(flatten)]
     pub work: Work,
+}
+
+/// `bagnold calibrate`
+#[derive(Debug, Args)]
+#[command(after_help = CALIBRATE_EXAMPLES)]
+pub struct Calibrate {
+    /// TOML file that says which parameters, which cases and which data.
+    #[arg(value_name = "FILE.toml")]
+    pub file: PathBuf,
+    /// Folder to write [default: reports/calibrations/FILE].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Go on with a calibration that was interrupted.
+    #[arg(long)]
+    pub resume: bool,
+    /// How to compute.
+    #[command(flatten)]
+    pub work: Work,
+}
+
+/// `bagnold sweep`
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, after_help = SWEEP_EXAMPLES)]
+pub struct Sweep {
+    /// What to do with a sweep that was begun.
+    #[command(subcommand)]
+    pub action: Option<SweepAction>,
+    /// TOML file that says which cases, which parameters and which points.
+    #[arg(value_name = "FILE.toml", required = true)]
+    pub file: Option<PathBuf>,
+    /// Folder of the sweep [default: reports/sweeps/FILE].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Go on with a sweep that was interrupted.
+    #[arg(long)]
+    pub resume: bool,
+    /// What runs it.
+    #[arg(long, value_enum, default_value_t = Engine::Local)]
+    pub engine: Engine,
+    /// What to ask of Slurm.
+    #[command(flatten)]
+    pub cluster: Cluster,
+    /// How to compute.
+    #[command(flatten)]
+    pub work: Work,
+}
+
+/// What runs a sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Engine {
+    /// The threads of this machine.
+    Local,
+    /// A Slurm cluster that shares the sweep's folder: one task a run.
+    Slurm,
+}
+
+/// What to do with a sweep that was begun.
+#[derive(Debug, Subcommand)]
+pub enum SweepAction {
+    /// Gather the results of a sweep, and submit again what is missing.
+    Collect {
+        /// Folder of the sweep.
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+        /// Submit to Slurm again what is neither done nor queued.
+        #[arg(long)]
+        resubmit: bool,
+        /// What to ask of Slurm.
+        #[command(flatten)]
+        cluster: Cluster,
+    },
+    /// Run one entry of a sweep's manifest, as the tasks of a cluster do.
+    Task {
+        /// Folder of the sweep.
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+        /// Number of the entry, from 1.
+        #[arg(long, value_name = "N")]
+        entry: usize,
+        /// How to compute.
+        #[command(flatten)]
+        work: Work,
+    },
+    /// Print the Slurm script that ships with bagnold, to be edited for --template.
+    Template,
+}
+
+/// What to ask of Slurm.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Slurm")]
+pub struct Cluster {
+    /// Partition [default: the cluster's].
+    #[arg(long, value_name = "NAME")]
+    pub partition: Option<String>,
+    /// Time limit of one run, such as 01:30:00.
+    #[arg(long, value_name = "TIME")]
+    pub time: Option<String>,
+    /// Memory of one run, such as 2G.
+    #[arg(long, value_name = "SIZE")]
+    pub memory: Option<String>,
+    /// Cores of one run.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub cpus: u16,
+    /// Runs at the same time, at most.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub throttle: Option<u32>,
+    /// Job script to use instead of the one that `bagnold sweep template` prints.
+    #[arg(long, value_name = "FILE")]
+    pub template: Option<PathBuf>,
 }
 
 /// Options of everything that simulates.

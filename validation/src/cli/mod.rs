@@ -1,12 +1,14 @@
 //! The command line: arguments → calls. No physics here.
 
 mod arguments;
+mod calibrate;
 mod exit;
 mod logging;
 mod progress;
 mod report;
 mod run;
 mod summary;
+mod sweep;
 #[cfg(test)]
 mod tests;
 
@@ -54,6 +56,10 @@ pub fn execute(arguments: &Arguments, registry: Registry, output: &mut (dyn Writ
             Ok(Exit::Held)
         }
         Command::Run(command) => in_pool(&command.work, || run::run(command, registry, arguments.quiet, output)),
+        Command::Calibrate(command) => {
+            in_pool(&command.work, || calibrate::run(command, registry, arguments.quiet, output))
+        }
+        Command::Sweep(command) => in_pool(&command.work, || sweep::sweep(command, registry, arguments.quiet, output)),
         Command::Report(command) => {
             in_pool(&command.work, || report::report(command, registry, arguments.quiet, output))
         }

@@ -116,3 +116,43 @@ impl Monitor for Progress {
         self.show(&self.runs[run].name);
     }
 }
+
+/// A bar that counts things of about equal cost.
+pub(super) struct Count(ProgressBar);
+
+impl Count {
+    pub(super) fn new(what: &str, all: usize, done: usize, quiet: bool) -> Self {
+        let bar = if quiet {
+            ProgressBar::with_draw_target(Some(all as u64), ProgressDrawTarget::hidden())
+        } else {
+            BARS.add(ProgressBar::new(all as u64))
+        };
+        let template = format!("{{bar:24}} {{pos}}/{{len}} {what}  {{eta}} left  {{wide_msg}}");
+        if let Ok(style) = ProgressStyle::with_template(&template) {
+            bar.set_style(style);
+        }
+        bar.set_position(done as u64);
+        Self(bar)
+    }
+
+    /// So many more are to be done.
+    pub(super) fn expect(&self, more: usize) {
+        self.0.inc_length(more as u64);
+    }
+
+    /// Shows what is being done.
+    pub(super) fn say(&self, doing: &str) {
+        self.0.set_message(doing.to_owned());
+    }
+
+    /// One more is done.
+    pub(super) fn step(&self) {
+        self.0.inc(1);
+    }
+
+    /// Takes the bar off the screen.
+    pub(super) fn clear(&self) {
+        self.0.finish_and_clear();
+        BARS.remove(&self.0);
+    }
+}

@@ -4,9 +4,11 @@ mod base64;
 mod folder;
 pub mod snapshots;
 mod table;
+mod whole;
 
 pub use folder::OutputFolder;
 pub use table::Table;
+pub use whole::write_whole;
 
 use crate::case::CaseResult;
 use crate::figure::{self, FigureError};

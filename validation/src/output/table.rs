@@ -1,10 +1,11 @@
 //! Tables as CSV.
 
+use serde::{Deserialize, Serialize};
 use std::io;
 use std::path::Path;
 
 /// A table that becomes one CSV file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Table {
     /// File name without ending, kebab-case.
     pub name: String,

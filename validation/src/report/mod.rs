@@ -17,6 +17,7 @@ pub use baseline::{Baseline, Drift, Key};
 pub use error::{BaselineError, ReportError};
 pub use judgement::{Judgement, judge};
 pub use known_failures::{KnownFailure, KnownFailures, Standing};
+pub(crate) use page::template_value;
 
 use crate::case::Tier;
 use crate::figure::{self, Animation, Figure, FigureError};

@@ -42,7 +42,7 @@ pub(super) fn render(
 }
 
 /// The page as the template engine's own value, by way of JSON: the engine is built without serde.
-fn template_value(page: &Page) -> Result<minijinja::Value, minijinja::Error> {
+pub(crate) fn template_value(page: &impl serde::Serialize) -> Result<minijinja::Value, minijinja::Error> {
     use minijinja::{Error, ErrorKind, Value};
     use serde_json::Value as Json;
     fn convert(json: Json) -> Value {

@@ -1,6 +1,6 @@
 //! Finished runs on disk, shared by tests and report: nothing is simulated twice by the same program.
 
-mod entry;
+pub(crate) mod entry;
 pub mod provenance;
 
 pub use provenance::{commit, profile, source_hash, target_features, version, workspace};
@@ -39,6 +39,12 @@ pub struct Store {
 /// Identifies a run of a case by this version of the sources.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Key(String);
+
+impl std::fmt::Display for Key {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(&self.0)
+    }
+}
 
 impl Store {
     /// The store at its usual place: `BAGNOLD_STORE`, else `reports/store` in the workspace that this

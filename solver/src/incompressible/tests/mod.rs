@@ -1,5 +1,6 @@
 //! What needs a look behind the step: pairs against brute force, operators against their definitions.
 
+mod eddy_viscosity;
 mod pairs;
 mod pressure_operators;
 

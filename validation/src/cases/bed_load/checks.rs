@@ -42,6 +42,7 @@ impl BedLoadParameters {
         rules::between(&field("material.yield_stress"), yield_stress, 0.0, 1e6, "give it in Pa, or 0 for none")?;
         rules::between(&field("material.viscosity"), viscosity, 0.0, 1e4, "give it in Pa·s, or 0 for none")?;
         rules::between(&field("overburden_friction"), grains.overburden_friction, 0.0, 2.0, "0.6 for sand and gravel")?;
+        grains.turbulence.check(&field("turbulence"))?;
         rules::between(&field("drag_factor"), grains.drag_factor, 0.0, 10.0, "1 is the drag law's")?;
         rules::positive(&field("spacing"), grains.spacing, "give it in metres; 0.002 for the paper's")?;
         let diameter = self.materials.grain_diameter;

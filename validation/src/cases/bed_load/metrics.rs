@@ -164,8 +164,10 @@ fn stabilised(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<Bed
         Confidence::Medium,
     );
     metrics.push(gated(deficit, Limit::AtMost(-0.1), "slower than clear water by a tenth of u_*"));
-    let thickness = profile.estimate(|points| profiles::sheared_thickness(run, points));
-    metrics.push(observed("sheared_thickness", &variant, thickness, 1e3, "mm"));
+    let above = profile.estimate(|points| profiles::sheared_borders(run, points).1);
+    metrics.push(observed("sheared_up_to", &variant, above, 1e3, "mm"));
+    let below = profile.estimate(|points| profiles::sheared_borders(run, points).0);
+    metrics.push(observed("sheared_from", &variant, below, 1e3, "mm"));
     grains(metrics, run, data);
 }
 
@@ -310,7 +312,8 @@ fn growth(metrics: &mut Vec<Metric>, records: &[Record]) {
     }
     let transport = |record: &Recorded<BedLoadObservation>| average(&record.data, &record.data.transport).value;
     let thickness = |run: &BedLoadRun, record: &Recorded<BedLoadObservation>| {
-        profiles::sheared_thickness(run, &record.data.channel.profile.points())
+        let (lower, upper) = profiles::sheared_borders(run, &record.data.channel.profile.points());
+        upper - lower
     };
     let values = [
         ("transport_growth", transport(high) / transport(low)),

@@ -1,5 +1,6 @@
 //! Parameters.
 
+use crate::cases::channel::TurbulenceClosure;
 use crate::reference::bed_load_layer::Closures;
 use bagnold_solver::drag::DragLaw;
 use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
@@ -49,6 +50,8 @@ pub struct Grains {
     pub length: f64,
     /// Spacing of the water's particles `[m]`.
     pub spacing: f64,
+    /// Closure of the water's turbulence above the bed.
+    pub turbulence: TurbulenceClosure,
     /// Depth of the origin of the mixing length below the bed `[m]`.
     pub origin_offset: f64,
     /// Drag law.
@@ -176,6 +179,7 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("stabilised.material.yield_stress", "[Pa], in the norm √(½ s:s)"),
     ("stabilised.material.viscosity", "[Pa·s]"),
     ("stabilised.overburden_friction", "[-], on the weight of the grains below the top row"),
+    ("stabilised.turbulence", "`mixing_length` or `smagorinsky`"),
     ("stabilised.drag_smoothing_length", "[m]"),
     ("stabilised.duration", "[s]"),
     ("stabilised.averaging_time", "[s], before the end"),

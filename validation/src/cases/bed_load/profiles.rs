@@ -55,20 +55,36 @@ pub(super) fn grain_curvature(run: &BedLoadRun, points: &[ProfilePoint], above: 
     curvature(&values).unwrap_or(f64::NAN)
 }
 
-/// Height up to which the water is slower than the logarithmic law continued from above by a tenth of u_* `[m]`: the
-/// thickness of the layer that the grains shear.
-pub(super) fn sheared_thickness(run: &BedLoadRun, points: &[ProfilePoint]) -> f64 {
+/// Share of u_* by which the water departs from a flow without sheared bed.
+const DEPARTURE: f64 = 0.1;
+
+/// Borders of the layer that the moving grains shear `[m]`: below it the water seeps, above it the logarithmic law holds
+/// that is fitted to the outer flow; at both it departs by a tenth of u_*.
+pub(super) fn sheared_borders(run: &BedLoadRun, points: &[ProfilePoint]) -> (f64, f64) {
     let law = run.clear_water();
+    let threshold = DEPARTURE * law.friction_velocity();
     let outer: Vec<(f64, f64)> = points
         .iter()
         .filter(|point| point.height >= 15e-3 && point.height <= 0.9 * law.depth)
         .map(|point| (libm::log(point.height), point.velocity))
         .collect();
-    let Some(fit) = linear_fit(&outer) else { return f64::NAN };
-    let curve = |z: f64| fit.intercept + fit.slope * libm::log(z);
-    let below = points.iter().filter(|point| point.height > 0.0 && point.height < 15e-3);
-    let departs = below.filter(|p| (p.velocity - curve(p.height)).abs() > 0.1 * law.friction_velocity());
-    departs.map(|point| point.height).fold(0.0, f64::max)
+    let (Some(fit), Some(seepage)) = (linear_fit(&outer), points.first().map(|point| point.velocity)) else {
+        return (f64::NAN, f64::NAN);
+    };
+    let excess = |point: &ProfilePoint| point.velocity - seepage - threshold;
+    let missing =
+        |point: &ProfilePoint| (fit.intercept + fit.slope * libm::log(point.height) - point.velocity).abs() - threshold;
+    let inner: Vec<&ProfilePoint> = points.iter().filter(|point| point.height > 0.0 && point.height < 18e-3).collect();
+    let lower = points.windows(2).find_map(|pair| root([&pair[0], &pair[1]], excess));
+    let upper = inner.windows(2).rev().find_map(|pair| root([pair[0], pair[1]], missing));
+    (lower.unwrap_or(f64::NAN), upper.unwrap_or(f64::NAN))
+}
+
+/// Height between two points at which a function of them changes its sign.
+fn root(pair: [&ProfilePoint; 2], function: impl Fn(&ProfilePoint) -> f64) -> Option<f64> {
+    let [low, high] = pair.map(&function);
+    let span = pair[1].height - pair[0].height;
+    (low * high <= 0.0 && low != high).then(|| pair[0].height + span * low / (low - high))
 }
 
 /// Difference to clear water at a height, over u_* `[-]`.

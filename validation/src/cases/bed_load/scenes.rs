@@ -6,7 +6,6 @@ use crate::cases::channel::{Channel, Lattice, Until};
 use crate::reference::bed_load_layer::LayerState;
 use bagnold_solver::incompressible as solver;
 use bagnold_solver::incompressible::{Bed, ParticleSet, ProjectionNumerics, Sediment, Turbulence};
-use bagnold_solver::turbulence::{MixingLength, MixingLengthShape};
 use bagnold_solver::vector::Vector;
 
 /// Solid fraction below which a row of the layer carries no sediment particle `[-]`.
@@ -58,10 +57,9 @@ impl BedLoadRun {
             drag_smoothing_length: grains.drag_smoothing_length,
             gravity: Vector::<2>::new(gravity * self.slope, -buoyant_weight / grain_density),
         };
-        let law = MixingLength { shape: MixingLengthShape::Parabolic, origin_offset: grains.origin_offset };
         Channel {
             fluid,
-            turbulence: Turbulence::MixingLength { level: 0.0, depth, law },
+            turbulence: grains.turbulence.over(depth, grains.origin_offset),
             bed: Bed::NoSlip(fluid.bottom),
             sediment: Some(sediment),
             solid_fraction: solver::SolidFraction::Overlapping,

@@ -14,6 +14,7 @@
 //! x points along the floor and z, the last axis, away from it; a slope i is the tangent of the bed's angle, and the
 //! body force is (g i, −g), as in the bed-load paper.
 
+mod closure;
 mod probe;
 mod profile;
 mod scene;
@@ -22,6 +23,7 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
+pub use closure::TurbulenceClosure;
 pub use probe::{ChannelObservation, ChannelSeries, MomentumBalance};
 pub use profile::{BlockProfile, BlockSums, ProfilePoint};
 pub use scene::Lattice;

@@ -1,13 +1,13 @@
 //! Parameters, tiers and runs.
 
 use crate::case::{Progress, Run, Tier};
-use crate::cases::channel::{Channel, ChannelObservation, Lattice, Until};
+use crate::cases::channel::{Channel, ChannelObservation, Lattice, TurbulenceClosure, Until};
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::RoughChannel;
-use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction, Turbulence};
-use bagnold_solver::turbulence::{MixingLength, MixingLengthShape, RoughWall};
+use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction};
+use bagnold_solver::turbulence::{MixingLengthShape, RoughWall};
 use serde::{Deserialize, Serialize};
 
 /// How long a flow is simulated.
@@ -52,8 +52,8 @@ pub struct ClearWaterParameters {
     pub sand_roughness: f64,
     /// Depth z_off of the wall law's origin below the bed `[m]`.
     pub origin_offset: f64,
-    /// Mixing length over the depth.
-    pub mixing_length: MixingLengthShape,
+    /// Closure of the turbulence; the logarithmic law belongs to the parabolic mixing length.
+    pub turbulence: TurbulenceClosure,
     /// Rows of particles over the depth.
     pub resolution: usize,
     /// Columns of particles along the period.
@@ -78,7 +78,9 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("kinematic_viscosity", "[m²/s]"),
     ("sand_roughness", "k_s [m], about the grain diameter"),
     ("origin_offset", "z_off [m], of the wall law below the bed"),
-    ("mixing_length", "\"parabolic\" or \"linear\"; the logarithmic law belongs to the first"),
+    ("turbulence", "`mixing_length` or `smagorinsky`"),
+    ("turbulence.mixing_length.shape", "\"parabolic\" or \"linear\"; the logarithmic law belongs to the first"),
+    ("turbulence.smagorinsky.coefficient", "C_s [-]"),
     ("resolution", "rows of particles over the depth"),
     ("columns", "columns of particles along the period"),
     ("jitter", "[-], largest random displacement in spacings"),
@@ -103,7 +105,7 @@ impl ClearWaterParameters {
             kinematic_viscosity: 1e-6,
             sand_roughness: 5e-3,
             origin_offset: 6e-4,
-            mixing_length: MixingLengthShape::Parabolic,
+            turbulence: TurbulenceClosure::MixingLength { shape: MixingLengthShape::Parabolic },
             resolution: 23,
             columns: 12,
             jitter: 0.1,
@@ -152,6 +154,7 @@ impl ClearWaterParameters {
         let first_row = 0.5 * self.depth / self.resolution as f64 + self.origin_offset;
         let remedy = "the logarithmic law begins at k_s/30, which must lie below the first row of particles";
         rules::between("sand_roughness", self.sand_roughness, 0.0, 30.0 * first_row, remedy)?;
+        self.turbulence.check("turbulence")?;
         rules::channel_columns("columns", self.columns, &self.numerics)?;
         rules::between("jitter", self.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
         rules::between("start_share", self.start_share, 0.1, 3.0, "1 starts from the logarithmic law")?;
@@ -191,7 +194,7 @@ pub struct ClearWaterRun {
     kinematic_viscosity: f64,
     sand_roughness: f64,
     origin_offset: f64,
-    mixing_length: MixingLengthShape,
+    turbulence: TurbulenceClosure,
     columns: usize,
     jitter: f64,
     seed: u64,
@@ -210,7 +213,7 @@ pub(super) fn runs(parameters: &ClearWaterParameters) -> Vec<ClearWaterRun> {
         kinematic_viscosity: parameters.kinematic_viscosity,
         sand_roughness: parameters.sand_roughness,
         origin_offset: parameters.origin_offset,
-        mixing_length: parameters.mixing_length,
+        turbulence: parameters.turbulence,
         columns: parameters.columns,
         jitter: parameters.jitter,
         seed: parameters.seed,
@@ -263,11 +266,7 @@ impl ClearWaterRun {
             gravity: self.gravity,
             density: self.density,
             kinematic_viscosity: self.kinematic_viscosity,
-            turbulence: Turbulence::MixingLength {
-                level: 0.0,
-                depth: self.depth,
-                law: MixingLength { shape: self.mixing_length, origin_offset: self.origin_offset },
-            },
+            turbulence: self.turbulence.over(self.depth, self.origin_offset),
             bed: Bed::Rough {
                 level: 0.0,
                 origin_offset: self.origin_offset,

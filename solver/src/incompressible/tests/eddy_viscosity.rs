@@ -1,0 +1,41 @@
+//! What a closure makes of a uniform shear of displaced particles, where the corrected gradient is exact.
+
+use super::super::Turbulence;
+use super::super::simulation::IncompressibleSimulation;
+use super::water;
+use crate::turbulence::{MixingLength, MixingLengthShape, Smagorinsky};
+use crate::vector::Vector;
+
+const SHEAR_RATE: f64 = 40.0;
+
+/// Height `[m]` and eddy viscosity `[m²/s]` of every particle.
+fn eddy_viscosities(turbulence: Turbulence) -> Vec<(f64, f64)> {
+    let mut scene = water([12, 15], 0.2, false, 7);
+    let particles = &mut scene.fluid.particles;
+    particles.velocity = particles.position.iter().map(|x| Vector::<2>::new(SHEAR_RATE * x[1], 0.0)).collect();
+    scene.fluid.turbulence = turbulence;
+    let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
+    simulation.measure();
+    simulation.fluid.find_velocity_gradients();
+    simulation.find_viscosities();
+    let (density, molecular) = (1000.0, 1e-6);
+    let eddy = |viscosity: &f64| viscosity / density - molecular;
+    simulation.fluid.position.iter().map(|x| x[1]).zip(simulation.fluid_viscosity.iter().map(eddy)).collect()
+}
+
+#[test]
+fn smagorinsky_mixes_by_the_spacing_at_every_height() {
+    // (C_s Δ)² γ̇ with Δ = 10 mm: (1.5 mm)² × 40/s
+    for (height, eddy) in eddy_viscosities(Turbulence::Smagorinsky(Smagorinsky { coefficient: 0.15 })) {
+        assert!((eddy - 9e-5).abs() < 1e-12, "z = {height} m: {eddy} m²/s");
+    }
+}
+
+#[test]
+fn a_mixing_length_grows_with_the_height() {
+    let law = MixingLength { shape: MixingLengthShape::Linear, origin_offset: 0.0 };
+    for (height, eddy) in eddy_viscosities(Turbulence::MixingLength { level: 0.0, depth: 0.15, law }) {
+        let expected = (0.41 * height).powi(2) * SHEAR_RATE;
+        assert!((eddy - expected).abs() < 1e-9 * expected, "z = {height} m: {eddy} or {expected} m²/s");
+    }
+}

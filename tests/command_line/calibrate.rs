@@ -1,0 +1,204 @@
+//! Calibrations: with one's own CSV, killed and resumed, refused.
+
+use crate::program::Place;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::{Duration, SystemTime};
+
+/// The viscosity of a film from three velocities that someone has measured, with 3 % of uncertainty each.
+const PLAN: &str = r#"
+title = "viscosity of a film"
+evaluations = 12
+trajectories = 2
+
+[[parameters]]
+path = "newtonian.viscosity"
+unit = "Pa·s"
+lower = 0.2
+upper = 2.0
+scale = "log"
+
+[[fit]]
+case = "film"
+with = { fluids = ["newtonian"], resolution = 10, convergence_resolutions = [], comparison_resolution = 0 }
+data = [{ table = "profile-fluid-newtonian-particles-jittered-resolution-10", x = "y [m]", y = "u [m/s]", file = "mine.csv" }]
+
+[[hold_out]]
+case = "film"
+with = { fluids = ["newtonian"], resolution = 12, convergence_resolutions = [], comparison_resolution = 0 }
+data = [{ metric = "particles_lost", value = 0.0, unit = "-", uncertainty = 1.0, source = "own" }]
+"#;
+
+const MINE: &str = "\
+# quantity: velocity of a film
+# unit: m/s
+# kind: measured
+# confidence: medium
+# uncertainty: 3 %, column
+# source: own experiment
+# licence: own data
+y [m],u [m/s],uncertainty [m/s]
+0.003,0.086,0.003
+0.005,0.126,0.004
+0.008,0.161,0.005
+";
+
+fn place() -> (Place, String) {
+    let place = Place::new();
+    place.file("mine.csv", MINE);
+    let plan = place.file("plan.toml", PLAN);
+    (place, plan)
+}
+
+/// When each evaluation was written.
+fn evaluations(folder: &Path) -> BTreeMap<String, SystemTime> {
+    let entries = std::fs::read_dir(folder.join("evaluations")).into_iter().flatten().flatten();
+    let written = |entry: std::fs::DirEntry| {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let time = entry.metadata().and_then(|metadata| metadata.modified()).ok()?;
+        name.ends_with(".postcard").then_some((name, time))
+    };
+    entries.filter_map(written).collect()
+}
+
+#[test]
+fn own_data_give_parameters_a_page_and_a_case_to_run() {
+    let (place, plan) = place();
+    let done = place.bagnold(&["-q", "calibrate", &plan, "--out", "out"]).assert().code(0);
+    let printed = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    assert!(printed.starts_with("viscosity = 0.5"), "{printed}");
+    assert!(printed.contains("fit error: ") && printed.contains("held-out error: 0 σ over 1 data"), "{printed}");
+    let text = std::fs::read_to_string(place.path("out/result.json")).expect("written");
+    let result: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let best = result["parameters"][0]["best"].as_f64().expect("a number");
+    let [low, high] = [0, 1].map(|k| result["parameters"][0]["interval"][k].as_f64().expect("a number"));
+    // three data of 3 % each fix the viscosity to about ±3.5 % at 95 %
+    assert!(
+        low < best && best < high && (high - low) / best > 0.04 && (high - low) / best < 0.1,
+        "{low} {best} {high}"
+    );
+    assert!(result["searched"].as_u64().is_some_and(|count| count <= 12));
+    for name in ["index.html", "data.csv", "evaluations.csv", "figures/profiles.svg", "figures/fit.png"] {
+        assert!(place.path("out").join(name).is_file(), "{name}");
+    }
+    place.bagnold(&["-q", "run", "out/calibrated.toml", "--out", "again"]).assert().code(0);
+}
+
+#[test]
+fn a_calibration_that_was_killed_gives_the_same_result_and_repeats_nothing() {
+    let (place, plan) = place();
+    place.bagnold(&["-q", "calibrate", &plan, "--out", "whole"]).assert().code(0);
+    // a store of its own, so that the second calibration cannot live on the first one's runs
+    let second = |resume: &[&str]| {
+        let arguments = ["-q", "calibrate", &plan, "--out", "killed", "--threads", "1", "--store", "other"];
+        let mut command = std::process::Command::new(crate::program::path());
+        command.current_dir(place.path("")).args(arguments).args(resume).stdout(Stdio::null()).stderr(Stdio::null());
+        command.spawn().expect("started")
+    };
+    let folder = place.path("killed");
+    let mut seen = BTreeMap::new();
+    for kill in 1..=3 {
+        let mut child = second(if kill == 1 { &[] } else { &["--resume"] });
+        let wanted = seen.len() + 1;
+        while evaluations(&folder).len() < wanted && child.try_wait().expect("a child").is_none() {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        child.kill().expect("kill -9");
+        child.wait().expect("ended");
+        let now = evaluations(&folder);
+        assert!(seen.iter().all(|(key, time)| now.get(key) == Some(time)), "kill {kill}: an evaluation was repeated");
+        seen = now;
+    }
+    assert!(!folder.join("result.json").exists(), "the calibration was over before the last kill");
+    assert_eq!(second(&["--resume"]).wait().expect("ended").code(), Some(0));
+    let all = evaluations(&folder);
+    assert!(seen.iter().all(|(key, time)| all.get(key) == Some(time)), "an evaluation was repeated");
+    assert_eq!(
+        all.keys().collect::<Vec<_>>(),
+        evaluations(&place.path("whole")).keys().collect::<Vec<_>>(),
+        "other points were asked for"
+    );
+    for name in ["result.json", "data.csv", "evaluations.csv", "calibrated.toml", "index.html"] {
+        let read = |folder: &str| std::fs::read(place.path(folder).join(name)).expect("written");
+        assert_eq!(read("whole"), read("killed"), "{name}");
+    }
+}
+
+/// What `bagnold calibrate` says to a plan or data that it refuses, with exit code 2.
+fn refusal(change: impl Fn(&str) -> String, data: impl Fn(&str) -> String) -> String {
+    let place = Place::new();
+    place.file("mine.csv", &data(MINE));
+    place.file("plan.toml", &change(PLAN));
+    let refused = place.bagnold(&["-q", "calibrate", "plan.toml", "--out", "out"]).assert().code(2);
+    assert!(!place.path("out/result.json").exists());
+    String::from_utf8_lossy(&refused.get_output().stderr).trim_end().to_owned()
+}
+
+#[test]
+fn wrong_plans_are_refused_by_name() {
+    let plan = |from: &'static str, to: &'static str| refusal(move |text| text.replace(from, to), str::to_owned);
+    assert_eq!(
+        plan("newtonian.viscosity", "newtonian.viscoscity"),
+        "error: plan.toml: `path` is `newtonian.viscoscity`, but `film` has no such field; did you mean \
+         `newtonian.viscosity`? `bagnold show film` prints all fields"
+    );
+    assert_eq!(
+        plan("lower = 0.2", "lower = 5.0"),
+        "error: plan.toml: `parameters[0].lower` is 5, but must be below `upper`, which is 2; exchange the two bounds"
+    );
+    assert_eq!(
+        plan("resolution = 12", "resolution = 10"),
+        "error: plan.toml: the run `film fluid=newtonian,particles=jittered,resolution=10` is in both `fit[0]` and \
+         `hold_out[0]`; what is predicted must not be fitted, so take it out of one"
+    );
+    assert_eq!(
+        plan("uncertainty = 1.0, ", ""),
+        "error: plan.toml: `hold_out[0].data[0].uncertainty` is missing or not positive, but must be positive; give the \
+         standard deviation in the value's unit, or `factor` for one in logarithms; Bagnold does not invent one"
+    );
+    let unit = plan("unit = \"-\", uncertainty", "unit = \"m\", uncertainty");
+    assert!(unit.ends_with("the case gives `particles_lost` in [-], but the data are in [m]; convert them"), "{unit}");
+}
+
+#[test]
+fn wrong_data_are_refused_by_name() {
+    let data = |from: &'static str, to: &'static str| refusal(str::to_owned, move |text| text.replace(from, to));
+    assert_eq!(
+        data("u [m/s]", "u [cm/s]"),
+        "error: mine.csv: `u` is in [cm/s], but must be in the simulated quantity's unit, [m/s]; convert the column; \
+         Bagnold does not guess"
+    );
+    assert_eq!(
+        data(",uncertainty [m/s]\n", "\n").split(';').next(),
+        Some(
+            "error: failed to read the reference data mine.csv, line 9, column 2: the row has 3 fields, the table 2 columns"
+        )
+    );
+    assert_eq!(
+        data(",uncertainty [m/s]", ",sigma [m/s]"),
+        "error: mine.csv: `uncertainty` is missing, but must be a column of standard deviations; add `uncertainty [m/s]`; \
+         Bagnold does not invent one"
+    );
+    assert_eq!(
+        data("y [m],", "z [m],"),
+        "error: failed to read the reference data mine.csv: there is no number column `y`; its columns are `z`, `u`, \
+         `uncertainty`"
+    );
+    assert_eq!(
+        data("0.126", "NaN"),
+        "error: failed to read the reference data mine.csv, line 10, column 2 (`u`): `NaN` is not a finite number; write \
+         one with a decimal point, or drop the row"
+    );
+}
+
+#[test]
+fn data_without_counterpart_say_what_there_is() {
+    let place = Place::new();
+    place.file("mine.csv", MINE);
+    place.file("plan.toml", &PLAN.replace("profile-fluid-newtonian", "profile-newtonian"));
+    let refused = place.bagnold(&["-q", "calibrate", "plan.toml", "--out", "out"]).assert().code(2);
+    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    let begin = "error: plan.toml: `fit[0]`: the case gives no table `profile-newtonian-particles-jittered-resolution-10`; it has ";
+    assert!(message.starts_with(begin), "{message}");
+}

@@ -1,0 +1,191 @@
+//! Sweeps: killed and resumed, refused, and what they leave.
+
+use crate::program::Place;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::{Duration, SystemTime};
+
+const PLAN: &str = r#"
+design = "grid"
+
+[[cases]]
+case = "film"
+with = { fluids = ["newtonian"], resolution = 10, convergence_resolutions = [], comparison_resolution = 0 }
+
+[[parameters]]
+path = "newtonian.viscosity"
+values = [0.5, 0.7, 1.0, 1.4]
+
+[[parameters]]
+path = "slope_angle"
+values = [20.0, 25.0, 95.0]
+"#;
+
+/// When each record was written.
+fn records(folder: &Path) -> BTreeMap<String, SystemTime> {
+    let runs = std::fs::read_dir(folder.join("runs")).into_iter().flatten().flatten();
+    let written = |run: std::fs::DirEntry| {
+        let record = run.path().join("record.postcard");
+        let time = record.metadata().and_then(|metadata| metadata.modified()).ok()?;
+        Some((run.file_name().to_string_lossy().into_owned(), time))
+    };
+    runs.filter_map(written).collect()
+}
+
+#[test]
+fn a_sweep_that_was_killed_gives_the_same_table_and_repeats_nothing() {
+    let place = Place::new();
+    let plan = place.file("plan.toml", PLAN);
+    let whole = place.bagnold(&["-q", "sweep", &plan, "--out", "whole"]).assert().code(3);
+    let printed = String::from_utf8_lossy(&whole.get_output().stdout).into_owned();
+    assert!(printed.starts_with("8 of 12 runs done, 4 failed (failures.csv says why)\n"), "{printed}");
+
+    // a store of its own, so that the second sweep cannot live on the first one's runs
+    let second = |resume: &[&str]| {
+        let arguments = ["-q", "sweep", &plan, "--out", "killed", "--threads", "1", "--store", "other"];
+        let mut command = std::process::Command::new(crate::program::path());
+        command.current_dir(place.path("")).args(arguments).args(resume).stdout(Stdio::null()).stderr(Stdio::null());
+        command.spawn().expect("started")
+    };
+    let folder = place.path("killed");
+    let mut seen = BTreeMap::new();
+    for kill in 1..=3 {
+        let mut child = second(if kill == 1 { &[] } else { &["--resume"] });
+        let wanted = seen.len() + 1;
+        while records(&folder).len() < wanted && child.try_wait().expect("a child").is_none() {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        child.kill().expect("kill -9");
+        child.wait().expect("ended");
+        let now = records(&folder);
+        assert!(now.len() >= wanted, "kill {kill}: {} records", now.len());
+        assert!(seen.iter().all(|(run, time)| now.get(run) == Some(time)), "kill {kill}: a finished run was repeated");
+        seen = now;
+    }
+    assert!(seen.len() < 8, "the sweep was over before the last kill");
+    let code = second(&["--resume"]).wait().expect("ended").code();
+    assert_eq!(code, Some(3));
+    let all = records(&folder);
+    assert!(seen.iter().all(|(run, time)| all.get(run) == Some(time)), "a finished run was repeated");
+    for name in ["results.csv", "failures.csv", "manifest.json"] {
+        let read = |folder: &str| std::fs::read(place.path(folder).join(name)).expect("written");
+        assert_eq!(read("whole"), read("killed"), "{name}");
+    }
+}
+
+#[test]
+fn failures_keep_their_reason() {
+    let place = Place::new();
+    let plan = place.file("plan.toml", &PLAN.replace("[0.5, 0.7, 1.0, 1.4]", "[0.5]"));
+    place.bagnold(&["-q", "sweep", &plan, "--out", "out"]).assert().code(3);
+    let failures = std::fs::read_to_string(place.path("out/failures.csv")).expect("written");
+    assert_eq!(
+        failures,
+        "run,case,tier,viscosity,slope_angle,reason\n\
+         3,film,quick,0.5,95.0,\"plan.toml: `slope_angle` is 95, but must be inside (−90°, 90°); give the angle between \
+         the slope and the horizontal in degrees\"\n"
+            .replace("plan.toml: ", "")
+    );
+}
+
+/// What `bagnold sweep` says to a plan that it refuses, with exit code 2 and without a folder.
+fn refusal(plan: &str, arguments: &[&str]) -> String {
+    let place = Place::new();
+    place.file("plan.toml", plan);
+    let command = [&["-q", "sweep", "plan.toml", "--out", "out"], arguments].concat();
+    let refused = place.bagnold(&command).assert().code(2);
+    assert!(records(&place.path("out")).is_empty());
+    String::from_utf8_lossy(&refused.get_output().stderr).trim_end().to_owned()
+}
+
+#[test]
+fn wrong_plans_are_refused_by_name() {
+    let path = refusal(&PLAN.replace("newtonian.viscosity", "newtonian.viscoscity"), &[]);
+    assert_eq!(
+        path,
+        "error: plan.toml: `path` is `newtonian.viscoscity`, but `film` has no such field; did you mean \
+         `newtonian.viscosity`? `bagnold show film` prints all fields"
+    );
+    let reversed = PLAN.replace("values = [0.5, 0.7, 1.0, 1.4]", "lower = 2.0\nupper = 1.0\nlevels = 3");
+    assert_eq!(
+        refusal(&reversed, &[]),
+        "error: plan.toml: `parameters[0].lower` is 2, but must be below `upper`, which is 1; exchange the two bounds"
+    );
+    let case = refusal(&PLAN.replace("case = \"film\"", "case = \"flim\""), &[]);
+    assert_eq!(case, "error: plan.toml: unknown case `flim`; did you mean `film`? `bagnold list` prints all cases");
+    let syntax = refusal(&PLAN.replace("[[parameters]]", "[[parameter]]"), &[]);
+    assert!(syntax.starts_with("error: plan.toml: line 8, column 3: unknown field `parameter`"), "{syntax}");
+}
+
+#[test]
+fn a_sweep_without_slurm_says_what_is_missing() {
+    let place = Place::new();
+    let plan = place.file("plan.toml", PLAN);
+    let refused = place
+        .bagnold(&["-q", "sweep", &plan, "--out", "out", "--engine", "slurm"])
+        .env("PATH", place.path("empty"))
+        .assert()
+        .code(2);
+    assert_eq!(
+        String::from_utf8_lossy(&refused.get_output().stderr),
+        "error: slurm: `sbatch` is not on this machine; log in to the cluster, or use --engine local\n"
+    );
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_or_holds_a_sweep_is_refused() {
+    let place = Place::new();
+    let plan = place.file("plan.toml", &PLAN.replace("[0.5, 0.7, 1.0, 1.4]", "[0.5]"));
+    let file = place.file("file", "");
+    let below = format!("{file}/out");
+    let unwritable = place.bagnold(&["-q", "sweep", &plan, "--out", &below]).assert().code(2);
+    assert_eq!(
+        String::from_utf8_lossy(&unwritable.get_output().stderr),
+        format!(
+            "error: {below}: cannot be written (not a directory); choose a folder that you may write to with --out\n"
+        )
+    );
+    place.bagnold(&["-q", "sweep", &plan, "--out", "out"]).assert().code(3);
+    let again = place.bagnold(&["-q", "sweep", &plan, "--out", "out"]).assert().code(2);
+    assert_eq!(
+        String::from_utf8_lossy(&again.get_output().stderr),
+        "error: out: holds a sweep already; add --resume to go on with it, or name another folder with --out\n"
+    );
+    let other = place.file("other.toml", &PLAN.replace("[0.5, 0.7, 1.0, 1.4]", "[0.6]"));
+    let mixed = place.bagnold(&["-q", "sweep", &other, "--out", "out", "--resume"]).assert().code(2);
+    assert_eq!(
+        String::from_utf8_lossy(&mixed.get_output().stderr),
+        "error: out: holds a sweep of another plan; name another folder with --out\n"
+    );
+    let none = place.bagnold(&["sweep", "collect", "store"]).assert().code(2);
+    let message = String::from_utf8_lossy(&none.get_output().stderr).into_owned();
+    assert!(message.contains("holds no sweep (no manifest.json)"), "{message}");
+}
+
+#[test]
+fn points_of_a_hypercube_fill_their_range_on_its_scale() {
+    let place = Place::new();
+    let plan = PLAN
+        .replace("design = \"grid\"", "[design.latin_hypercube]\npoints = 4\nseed = 7")
+        .replace("values = [0.5, 0.7, 1.0, 1.4]", "lower = 0.5\nupper = 8.0\nscale = \"log\"")
+        .replace("values = [20.0, 25.0, 95.0]", "lower = 20.0\nupper = 28.0");
+    let plan = place.file("plan.toml", &plan);
+    place.bagnold(&["-q", "sweep", &plan, "--out", "out"]).assert().code(0);
+    let results = std::fs::read_to_string(place.path("out/results.csv")).expect("written");
+    let mut points: Vec<(f64, f64)> = results
+        .lines()
+        .filter(|line| line.contains(",particles_lost,"))
+        .map(|line| {
+            let fields: Vec<&str> = line.split(',').collect();
+            (fields[3].parse().expect("a viscosity"), fields[4].parse().expect("an angle"))
+        })
+        .collect();
+    // one point in each quarter of either range: factors of two from 0.5 Pa·s, 2° from 20°
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let quarters: Vec<u32> = points.iter().map(|point| ((point.0 / 0.5_f64).log2()) as u32).collect();
+    assert_eq!(quarters, [0, 1, 2, 3], "{points:?}");
+    points.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let quarters: Vec<u32> = points.iter().map(|point| ((point.1 - 20.0) / 2.0) as u32).collect();
+    assert_eq!(quarters, [0, 1, 2, 3], "{points:?}");
+}

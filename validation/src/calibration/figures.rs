@@ -1,0 +1,228 @@
+//! Figures of a calibration, from its outcome alone.
+
+use super::result::{Compared, Outcome};
+use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
+use crate::inference::chi_squared_quantile;
+
+/// All figures that the outcome has the numbers for.
+pub(super) fn all(outcome: &Outcome) -> Vec<Figure> {
+    let mut figures = Vec::new();
+    figures.extend(history(outcome));
+    figures.extend(profiles(outcome));
+    if outcome.trials.is_empty() {
+        figures.extend(agreement("fit", "Data that were fitted, and the model.", &outcome.fit));
+        figures.extend(agreement(
+            "hold-out",
+            "Data that were held out, and the model's prediction.",
+            &outcome.hold_out,
+        ));
+    } else {
+        figures.extend(trials(outcome));
+    }
+    figures.extend(sensitivity(outcome));
+    figures
+}
+
+fn axis(logarithmic: bool, label: &str) -> Axis {
+    if logarithmic { Axis::logarithmic(label) } else { Axis::linear(label) }
+}
+
+fn labelled(name: &str, unit: &str) -> String {
+    format!("{name} [{unit}]")
+}
+
+fn history(outcome: &Outcome) -> Option<Figure> {
+    let points: Vec<(f64, f64)> = outcome
+        .evaluations
+        .iter()
+        .enumerate()
+        .filter_map(|(k, evaluation)| evaluation.chi_squared.map(|chi| ((k + 1) as f64, chi)))
+        .collect();
+    if points.len() < 2 {
+        return None;
+    }
+    let mut least = f64::INFINITY;
+    let best = points.iter().map(|&(k, chi)| {
+        least = least.min(chi);
+        (k, least)
+    });
+    let best: Vec<(f64, f64)> = best.collect();
+    let mut first = Panel::new("", Axis::linear("evaluation [-]"), Axis::logarithmic("χ² [-]"));
+    first.series.push(Series::new("evaluation", Mark::Points, 0, points));
+    first.series.push(Series::new("best so far", Mark::Line, 1, best));
+    let mut panels = vec![first];
+    for (k, parameter) in outcome.parameters.iter().enumerate() {
+        let label = labelled(&parameter.name, &parameter.unit);
+        let mut panel = Panel::new("", Axis::linear("evaluation [-]"), axis(parameter.logarithmic, &label));
+        let values = outcome.evaluations.iter().enumerate().map(|(n, e)| ((n + 1) as f64, e.values[k])).collect();
+        panel.series.push(Series::new("", Mark::Points, 0, values));
+        if let Some(truth) = parameter.truth {
+            let last = outcome.evaluations.len() as f64;
+            panel.series.push(Series::new("truth", Mark::Reference, 0, vec![(1.0, truth), (last, truth)]));
+        }
+        panels.push(panel);
+    }
+    Some(Figure {
+        name: "history".to_owned(),
+        caption: "Every evaluation of the search and, last, of the ends of the intervals.".to_owned(),
+        columns: panels.len().min(2),
+        panels,
+    })
+}
+
+fn profiles(outcome: &Outcome) -> Option<Figure> {
+    let threshold = outcome.inflation * outcome.inflation * chi_squared_quantile(0.95, 1);
+    let mut panels = Vec::new();
+    for parameter in outcome.parameters.iter().filter(|parameter| parameter.profile.len() > 1) {
+        let label = labelled(&parameter.name, &parameter.unit);
+        let mut panel = Panel::new("", axis(parameter.logarithmic, &label), Axis::linear("χ² above its minimum [-]"));
+        let highest = 3.0 * threshold;
+        let points: Vec<(f64, f64)> = parameter.profile.iter().copied().filter(|point| point.1 <= highest).collect();
+        let ends = points.first().zip(points.last()).map(|(first, last)| (first.0, last.0)).unwrap_or_default();
+        panel.series.push(Series::new("profile", Mark::Line, 0, points));
+        panel.series.push(Series::new("95 %", Mark::Reference, 0, vec![(ends.0, threshold), (ends.1, threshold)]));
+        panel.series.push(Series::new("best", Mark::Points, 1, vec![(parameter.best, 0.0)]));
+        if let Some(truth) = parameter.truth.filter(|truth| *truth >= ends.0 && *truth <= ends.1) {
+            panel.series.push(Series::new("truth", Mark::Points, 2, vec![(truth, 0.0)]));
+        }
+        panels.push(panel);
+    }
+    (!panels.is_empty()).then(|| Figure {
+        name: "profiles".to_owned(),
+        caption:
+            "Profile likelihood: χ² with all other parameters at their best, on a polynomial through the evaluations. \
+                  Values below the dashed line agree with the data at 95 %."
+                .to_owned(),
+        columns: panels.len().min(3),
+        panels,
+    })
+}
+
+/// One panel a group of data: profiles over their abscissa, single numbers model over datum.
+fn agreement(name: &str, caption: &str, data: &[Compared]) -> Option<Figure> {
+    let mut groups: Vec<(String, Vec<&Compared>)> = Vec::new();
+    for datum in data {
+        let title = match &datum.at {
+            Some(place) => place.table.clone(),
+            None => datum.label.split(' ').next().unwrap_or_default().to_owned(),
+        };
+        match groups.iter_mut().find(|(other, _)| *other == title) {
+            Some((_, members)) => members.push(datum),
+            None => groups.push((title, vec![datum])),
+        }
+    }
+    let tables: Vec<&str> =
+        groups.iter().filter(|(_, members)| members[0].at.is_some()).map(|(title, _)| title.as_str()).collect();
+    let (head, tail) = common_ends(&tables);
+    let titled = |(title, members): &(String, Vec<&Compared>)| match members[0].at {
+        Some(_) if tables.len() > 1 => panel(&title[head..title.len() - tail], members),
+        Some(_) => panel("", members),
+        None => panel(title, members),
+    };
+    let panels: Vec<Panel> = groups.iter().map(titled).collect();
+    let mut caption = format!("{caption} Error bars are one standard uncertainty.");
+    if let Some(first) = tables.first() {
+        let middle = if tables.len() > 1 { "…" } else { &first[head..first.len() - tail] };
+        caption += &format!(" Profiles of {}{middle}{}.", &first[..head], &first[first.len() - tail..]);
+    }
+    (!panels.is_empty()).then(|| Figure { name: name.to_owned(), caption, columns: panels.len().min(3), panels })
+}
+
+/// Bytes that all names begin and end with, without splitting a word at a hyphen.
+fn common_ends(names: &[&str]) -> (usize, usize) {
+    let Some((first, others)) = names.split_first() else { return (0, 0) };
+    if others.is_empty() {
+        return (0, 0);
+    }
+    let shared = |same: &dyn Fn(&str) -> usize| others.iter().map(|other| same(other)).min().unwrap_or(0);
+    let head = shared(&|other| first.bytes().zip(other.bytes()).take_while(|(a, b)| a == b).count());
+    let tail = shared(&|other| first.bytes().rev().zip(other.bytes().rev()).take_while(|(a, b)| a == b).count());
+    let head = first[..head].rfind('-').map_or(0, |place| place + 1);
+    let tail = first[first.len() - tail..].find('-').map_or(0, |place| tail - place);
+    let shortest = names.iter().map(|name| name.len()).min().unwrap_or(0);
+    if head + tail < shortest { (head, tail) } else { (0, 0) }
+}
+
+fn panel(title: &str, members: &[&Compared]) -> Panel {
+    let first = members[0];
+    let half = |datum: &&Compared| 0.5 * (datum.band.1 - datum.band.0);
+    let errors: Vec<f64> = members.iter().map(half).collect();
+    if let Some(place) = &first.at {
+        let mut panel = Panel::new(title, Axis::linear(&place.x), Axis::linear(&place.y));
+        let of = |value: fn(&Compared) -> f64| -> Vec<(f64, f64)> {
+            members.iter().filter_map(|datum| Some((datum.at.as_ref()?.at, value(datum)))).collect()
+        };
+        panel.series.push(Series::new("model", Mark::Line, 0, of(|datum| datum.model)));
+        let mut points = Series::new("data", Mark::Points, 1, of(|datum| datum.datum));
+        points.error = errors;
+        panel.series.push(points);
+        return panel;
+    }
+    let label = |what: &str| format!("{title}, {what} [{}]", first.unit);
+    let mut panel = Panel::new("", Axis::linear(&label("model")), Axis::linear(&label("datum")));
+    let values: Vec<f64> = members.iter().flat_map(|datum| [datum.datum, datum.model]).collect();
+    let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
+    panel.series.push(Series::new("equal", Mark::Reference, 0, vec![(low, low), (high, high)]));
+    let mut points =
+        Series::new("data", Mark::Points, 1, members.iter().map(|datum| (datum.model, datum.datum)).collect());
+    points.error = errors;
+    panel.series.push(points);
+    panel
+}
+
+fn trials(outcome: &Outcome) -> Option<Figure> {
+    let worked: Vec<_> = outcome.trials.iter().filter(|trial| trial.failure.is_none()).collect();
+    let data = worked.first()?.fit.len();
+    let mut panel = Panel::new("", Axis::linear("datum by number [-]"), Axis::linear("(model − datum)/σ [-]"));
+    panel
+        .bands
+        .push(Band { label: "±2 σ".to_owned(), points: vec![(0.5, -2.0, 2.0), (data as f64 + 0.5, -2.0, 2.0)] });
+    for (slot, trial) in worked.iter().enumerate() {
+        let points = trial.fit.iter().enumerate().map(|(k, datum)| ((k + 1) as f64, datum.residual)).collect();
+        panel.series.push(Series::new(&trial.name, Mark::LinePoints, slot, points));
+    }
+    Some(Figure {
+        name: "choices".to_owned(),
+        caption: "Weighted residuals of every choice, in the order of the table of data.".to_owned(),
+        columns: 1,
+        panels: vec![panel],
+    })
+}
+
+fn sensitivity(outcome: &Outcome) -> Option<Figure> {
+    if outcome.sensitivity.is_empty() {
+        return None;
+    }
+    let mut panel = Panel::new(
+        "",
+        Axis::linear("mean effect μ* [σ a range]"),
+        Axis::linear("scatter σ of the effects [σ a range]"),
+    );
+    for (slot, effect) in outcome.sensitivity.iter().enumerate() {
+        if effect.effect.is_finite() && effect.spread.is_finite() {
+            panel.series.push(Series::new(&effect.name, Mark::Points, slot, vec![(effect.effect, effect.spread)]));
+        }
+    }
+    Some(Figure {
+        name: "sensitivity".to_owned(),
+        caption: "Morris screening over the whole ranges: to the right, parameters that the data feel; high up, those that act \
+                  non-linearly or together with others."
+            .to_owned(),
+        columns: 1,
+        panels: vec![panel],
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::common_ends;
+
+    #[test]
+    fn names_are_told_apart_by_their_middle() {
+        let names = ["profile-angle-22-start-rest", "profile-angle-23.5-start-rest"];
+        let (head, tail) = common_ends(&names);
+        assert_eq!(names.map(|name| &name[head..name.len() - tail]), ["22", "23.5"]);
+        assert_eq!(common_ends(&["a-b"]), (0, 0));
+        assert_eq!(common_ends(&[]), (0, 0));
+    }
+}

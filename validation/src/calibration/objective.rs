@@ -1,0 +1,243 @@
+//! From points of the unit cube to weighted residuals: evaluations in parallel, each a file, none done twice.
+
+use super::data::{Datum, Group, Synthetic, Target, Uncertainty};
+use super::plan::{Block, Plan};
+use crate::case::{Prepared, Registry, Silent, share_out};
+use crate::error::InputError;
+use crate::evaluation::{self, Record};
+use crate::inference::Evaluate;
+use crate::sampling::Random;
+use crate::store::Store;
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+
+/// Watches a calibration, for a progress bar. Called from several threads.
+pub trait Watch: Sync {
+    /// So many evaluations are to be made beyond those counted before.
+    fn expected(&self, evaluations: usize);
+    /// One has its record.
+    fn evaluated(&self, case: &str, failure: Option<&str>);
+}
+
+/// A question to the model: a block's case with some settings.
+pub(super) struct Question {
+    /// Place of the block in the plan.
+    pub(super) block: usize,
+    /// `path=value` settings.
+    pub(super) settings: Vec<String>,
+}
+
+/// A job that one of the workers takes: key and case.
+type Waiting = Mutex<Option<(String, Box<dyn Prepared>)>>;
+
+/// The model and the data that it is fitted to.
+pub(super) struct Objective<'a> {
+    pub(super) plan: &'a Plan,
+    pub(super) registry: Registry,
+    pub(super) store: &'a Store,
+    /// Where evaluations are kept.
+    pub(super) folder: PathBuf,
+    pub(super) watch: &'a dyn Watch,
+    /// All data, those of fitted blocks first.
+    pub(super) data: Vec<Datum>,
+}
+
+impl Objective<'_> {
+    /// Records of questions, in their order; what has a file is read, the rest simulated on the current pool's threads.
+    pub(super) fn ask(&self, questions: &[Question]) -> Result<Vec<Record>, InputError> {
+        let mut answers: Vec<Option<Record>> = Vec::with_capacity(questions.len());
+        let mut waiting: Vec<(usize, String, Box<dyn Prepared>)> = Vec::new();
+        for (place, question) in questions.iter().enumerate() {
+            let request = &self.plan.blocks[question.block].request;
+            match request.prepare(self.registry, &self.plan.file, &question.settings) {
+                Ok(prepared) => {
+                    let key = evaluation::key(prepared.as_ref());
+                    let known = Record::read(&self.file(&key), &key);
+                    // two questions of one batch may be the same
+                    let asked = waiting.iter().any(|(_, other, _)| *other == key);
+                    if known.is_none() && !asked {
+                        waiting.push((place, key, prepared));
+                    }
+                    answers.push(known);
+                }
+                // a point that the case refuses is one where the model fails
+                Err(error) => answers.push(Some(Record::failed("", &request.case, &error.to_string()))),
+            }
+        }
+        self.watch.expected(waiting.len());
+        let cost =
+            |prepared: &dyn Prepared| -> f64 { (0..prepared.run_count()).map(|k| prepared.particle_steps(k)).sum() };
+        waiting.sort_by(|a, b| cost(b.2.as_ref()).total_cmp(&cost(a.2.as_ref())).then(a.0.cmp(&b.0)));
+        let jobs: Vec<Waiting> =
+            waiting.into_iter().map(|(_, key, prepared)| Mutex::new(Some((key, prepared)))).collect();
+        share_out(jobs.iter().collect(), |job| {
+            let taken = job.lock().unwrap_or_else(PoisonError::into_inner).take();
+            let Some((key, prepared)) = taken else { return Ok(()) };
+            let record = evaluation::evaluate(prepared, self.store, &Silent);
+            self.watch.evaluated(&record.case, record.failure.as_deref());
+            let file = self.file(&key);
+            record.write(&file).map_err(|error| InputError::unwritable(&file, &error))
+        })?;
+        for (answer, question) in answers.iter_mut().zip(questions) {
+            if answer.is_none() {
+                let request = &self.plan.blocks[question.block].request;
+                let prepared = request.prepare(self.registry, &self.plan.file, &question.settings)?;
+                let key = evaluation::key(prepared.as_ref());
+                let file = self.file(&key);
+                *answer = Some(Record::read(&file, &key).ok_or_else(|| {
+                    let lost = std::io::Error::other("an evaluation that was just written cannot be read back");
+                    InputError::unwritable(&file, &lost)
+                })?);
+            }
+        }
+        Ok(answers.into_iter().flatten().collect())
+    }
+
+    fn file(&self, key: &str) -> PathBuf {
+        self.folder.join(format!("{key}.postcard"))
+    }
+
+    /// The question of a block at physical values.
+    pub(super) fn question(&self, block: usize, values: &[f64]) -> Question {
+        Question { block, settings: self.plan.settings(&self.plan.blocks[block], values) }
+    }
+
+    /// Data of the fitted blocks, or of those held out.
+    pub(super) fn data_of(&self, held_out: bool) -> impl Iterator<Item = &Datum> {
+        self.data.iter().filter(move |datum| self.plan.blocks[datum.block].held_out == held_out)
+    }
+
+    /// What the records of all blocks say about some data; an error where a record lacks what is asked for.
+    pub(super) fn predict<'d>(
+        &self,
+        data: impl Iterator<Item = &'d Datum>,
+        record: impl Fn(usize) -> Option<&'d Record>,
+    ) -> Result<Vec<f64>, InputError> {
+        data.map(|datum| {
+            let block = &self.plan.blocks[datum.block];
+            let wrong = |reason: String| self.counterpart(block, reason);
+            let record = record(datum.block).ok_or_else(|| wrong("no record".to_owned()))?;
+            if let Some(failure) = &record.failure {
+                return Err(wrong(format!("no numbers: {failure}")));
+            }
+            let (value, unit) = datum.target.predicted(record).map_err(wrong)?;
+            if unit != datum.unit {
+                let label = datum.target.label();
+                return Err(wrong(format!(
+                    "`{label}` in [{unit}], but the data are in [{}]; convert them",
+                    datum.unit
+                )));
+            }
+            Ok(value)
+        })
+        .collect()
+    }
+
+    pub(super) fn counterpart(&self, block: &Block, reason: String) -> InputError {
+        InputError::Counterpart { file: self.plan.file.clone(), field: block.field.clone(), reason }
+    }
+
+    /// Reads the data of the plan; synthetic ones are simulated with the parameters' truth.
+    pub(super) fn read_data(&mut self) -> Result<(), InputError> {
+        let mut groups = Vec::new();
+        for (block, texts) in self.plan.data.iter().enumerate() {
+            for text in texts {
+                groups.push(text.read(block, &self.plan.file)?);
+            }
+        }
+        let mut noise = Random::new(self.plan.budget.seed);
+        let mut truths: Vec<Option<Record>> = vec![None; self.plan.blocks.len()];
+        if groups.iter().any(|group| matches!(group, Group::Synthetic(_))) {
+            let values = self.plan.parameters.iter().map(|parameter| parameter.truth).collect::<Option<Vec<f64>>>();
+            let values = values.ok_or_else(|| {
+                let remedy = "give every parameter's `truth`, with which the synthetic data are made";
+                InputError::field("parameters.truth", "missing", "given with a `noise`", remedy)
+                    .in_file(&self.plan.file)
+            })?;
+            let wanted: Vec<usize> = (0..self.plan.blocks.len())
+                .filter(|&block| groups.iter().any(|group| matches!(group, Group::Synthetic(s) if s.block == block)))
+                .collect();
+            let questions: Vec<Question> = wanted.iter().map(|&block| self.question(block, &values)).collect();
+            for (block, record) in wanted.into_iter().zip(self.ask(&questions)?) {
+                truths[block] = Some(record);
+            }
+        }
+        for group in groups {
+            match group {
+                Group::Given(data) => self.data.extend(data),
+                Group::Synthetic(synthetic) => {
+                    let block = &self.plan.blocks[synthetic.block];
+                    let record = truths[synthetic.block].as_ref();
+                    let made = record
+                        .ok_or_else(|| "no truth".to_owned())
+                        .and_then(|record| synthetic.make(record, &mut noise))
+                        .map_err(|reason| self.counterpart(block, reason))?;
+                    self.data.extend(made);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Evaluate for Objective<'_> {
+    type Error = InputError;
+
+    fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, InputError> {
+        let fitted: Vec<usize> = (0..self.plan.blocks.len()).filter(|&k| !self.plan.blocks[k].held_out).collect();
+        let values: Vec<Vec<f64>> = points.iter().map(|point| self.plan.values(point)).collect();
+        let questions: Vec<Question> =
+            values.iter().flat_map(|values| fitted.iter().map(|&block| self.question(block, values))).collect();
+        let records = self.ask(&questions)?;
+        let of_point = |records: &[Record]| {
+            let record = |block: usize| fitted.iter().position(|&k| k == block).map(|place| &records[place]);
+            let residual = |datum: &Datum| {
+                let record = record(datum.block).filter(|record| record.failure.is_none())?;
+                let (value, _) = datum.target.predicted(record).ok()?;
+                Some(datum.residual(value)).filter(|residual| residual.is_finite())
+            };
+            self.data_of(false).map(residual).collect::<Option<Vec<f64>>>()
+        };
+        Ok(records.chunks(fitted.len()).map(of_point).collect())
+    }
+}
+
+impl Synthetic {
+    /// Data from the truth's record: equidistant abscissas over the table, or a metric, with noise.
+    fn make(&self, record: &Record, noise: &mut Random) -> Result<Vec<Datum>, String> {
+        if let Some(failure) = &record.failure {
+            return Err(format!("no numbers for the truth: {failure}"));
+        }
+        let places: Vec<Target> = match &self.target {
+            Target::Metric { .. } => vec![self.target.clone()],
+            Target::Profile { table, x, .. } => {
+                let range = record.tables.iter().find(|other| other.name == *table).and_then(|found| {
+                    let column = found.columns.iter().position(|column| column == x)?;
+                    Some((found.rows.first()?[column], found.rows.last()?[column]))
+                });
+                // a table or column that does not exist is named by the first prediction
+                let (first, last) = range.unwrap_or_default();
+                let step = (last - first) / (self.bins.max(2) - 1) as f64;
+                (0..self.bins).map(|k| self.target.at_abscissa(first + k as f64 * step)).collect()
+            }
+        };
+        places
+            .into_iter()
+            .map(|target| {
+                let (value, unit) = target.predicted(record)?;
+                let sigma = self.noise * value.abs();
+                if sigma == 0.0 {
+                    return Err(format!("zero for `{}`, so a relative noise means nothing", target.label()));
+                }
+                Ok(Datum {
+                    block: self.block,
+                    target,
+                    value: value + sigma * noise.normal(),
+                    unit,
+                    uncertainty: Uncertainty::Absolute(sigma),
+                    source: format!("made by Bagnold itself, with {} % of noise", 100.0 * self.noise),
+                })
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,229 @@
+//! Files of a calibration: the page, its figures, tables and the calibrated cases.
+
+use super::figures;
+use super::result::{Compared, Outcome, relative_error, weighted_error};
+use crate::error::InputError;
+use crate::figure::{self, FigureError};
+use crate::output::write_whole;
+use crate::report::template_value;
+use serde::Serialize;
+use std::io;
+use std::path::Path;
+
+/// A figure as the page shows it.
+#[derive(Debug, Serialize)]
+struct Picture {
+    file: String,
+    caption: String,
+}
+
+/// Errors of a set of data as text.
+#[derive(Debug, Serialize)]
+struct Errors {
+    what: &'static str,
+    data: usize,
+    weighted: String,
+    relative: String,
+}
+
+#[derive(Debug, Serialize)]
+struct Page<'a> {
+    outcome: &'a Outcome,
+    errors: Vec<Errors>,
+    parameters: Vec<Vec<String>>,
+    trials: Vec<Vec<String>>,
+    data: Vec<Vec<String>>,
+    summary: Vec<String>,
+    pictures: Vec<Picture>,
+    style: &'static str,
+}
+
+/// Writes everything into a folder, the result last.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write(outcome: &Outcome, folder: &Path) -> Result<(), InputError> {
+    let unwritable = |error: io::Error| InputError::unwritable(folder, &error);
+    let drawn = folder.join("figures");
+    let mut pictures = Vec::new();
+    for picture in figures::all(outcome) {
+        match figure::write(&picture, &drawn) {
+            Ok(_) => pictures.push(Picture { file: format!("figures/{}.svg", picture.name), caption: picture.caption }),
+            Err(FigureError::Write { source, .. }) => return Err(unwritable(source)),
+            // a figure that cannot be drawn is no reason to lose the numbers
+            Err(error) => tracing::error!("figure {}: failed to {error}", picture.name),
+        }
+    }
+    for (place, text) in outcome.calibrated.iter().enumerate() {
+        let name = if place == 0 { "calibrated.toml".to_owned() } else { format!("calibrated-{}.toml", place + 1) };
+        write_whole(&folder.join(name), text.as_bytes()).map_err(unwritable)?;
+    }
+    write_whole(&folder.join("evaluations.csv"), &evaluations(outcome).map_err(unwritable)?).map_err(unwritable)?;
+    write_whole(&folder.join("data.csv"), &data(outcome).map_err(unwritable)?).map_err(unwritable)?;
+    let html = render(outcome, pictures).map_err(|error| unwritable(io::Error::other(error.to_string())))?;
+    write_whole(&folder.join("index.html"), html.as_bytes()).map_err(unwritable)?;
+    let json = serde_json::to_string_pretty(outcome).map_err(|error| unwritable(error.into()))?;
+    write_whole(&folder.join("result.json"), format!("{json}\n").as_bytes()).map_err(unwritable)
+}
+
+fn evaluations(outcome: &Outcome) -> io::Result<Vec<u8>> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let heads = outcome.parameters.iter().map(|parameter| format!("{} [{}]", parameter.name, parameter.unit));
+    writer.write_record(["evaluation".to_owned()].into_iter().chain(heads).chain(["chi squared [-]".to_owned()]))?;
+    for (k, evaluation) in outcome.evaluations.iter().enumerate() {
+        let chi = evaluation.chi_squared.map_or_else(|| "failed".to_owned(), |chi| chi.to_string());
+        let values = evaluation.values.iter().map(f64::to_string);
+        writer.write_record([(k + 1).to_string()].into_iter().chain(values).chain([chi]))?;
+    }
+    writer.into_inner().map_err(|error| io::Error::other(error.to_string()))
+}
+
+/// Every datum with its use: `fit`, `hold-out`, or those of a choice.
+fn all_data(outcome: &Outcome) -> Vec<(String, &Compared)> {
+    let own = [("fit", &outcome.fit), ("hold-out", &outcome.hold_out)];
+    let mut list: Vec<(String, &Compared)> =
+        own.into_iter().flat_map(|(name, data)| data.iter().map(move |datum| (name.to_owned(), datum))).collect();
+    for trial in &outcome.trials {
+        list.extend(trial.fit.iter().map(|datum| (format!("fit, {}", trial.name), datum)));
+        list.extend(trial.hold_out.iter().map(|datum| (format!("hold-out, {}", trial.name), datum)));
+    }
+    list
+}
+
+fn data(outcome: &Outcome) -> io::Result<Vec<u8>> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record([
+        "use",
+        "block",
+        "quantity",
+        "unit",
+        "datum",
+        "lower",
+        "upper",
+        "model",
+        "residual [-]",
+        "source",
+    ])?;
+    for (name, datum) in all_data(outcome) {
+        let numbers =
+            [datum.datum, datum.band.0, datum.band.1, datum.model, datum.residual].map(|value| value.to_string());
+        let head = [name, datum.block.clone(), datum.label.clone(), datum.unit.clone()];
+        writer.write_record(head.into_iter().chain(numbers).chain([datum.source.clone()]))?;
+    }
+    writer.into_inner().map_err(|error| io::Error::other(error.to_string()))
+}
+
+/// Four significant digits.
+fn shown(value: f64) -> String {
+    crate::inference::significant(value, 4)
+}
+
+fn optional(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".to_owned(), shown)
+}
+
+fn errors(what: &'static str, data: &[Compared]) -> Option<Errors> {
+    (!data.is_empty()).then(|| Errors {
+        what,
+        data: data.len(),
+        weighted: optional(weighted_error(data)),
+        relative: relative_error(data).map_or_else(|| "–".to_owned(), |error| format!("{} %", shown(100.0 * error))),
+    })
+}
+
+/// The sentences that stand first.
+fn summary(outcome: &Outcome) -> Vec<String> {
+    let mut lines = Vec::new();
+    if outcome.trials.is_empty() {
+        let failed = outcome.evaluations.iter().filter(|evaluation| evaluation.chi_squared.is_none()).count();
+        let beyond = outcome.evaluations.len() - outcome.searched;
+        lines.push(format!(
+            "{} evaluations by {} and {beyond} at the ends of the intervals, {failed} of them failed; {}.",
+            outcome.searched, outcome.method, outcome.stopped
+        ));
+        if let (Some(reduced), Some(p)) = (outcome.reduced_chi_squared, outcome.p_value) {
+            let judged = if outcome.inflation > 1.0 {
+                format!(
+                    "the model does not explain the data within their uncertainties, so these were enlarged by {} for the \
+                     intervals",
+                    shown(outcome.inflation)
+                )
+            } else {
+                "the model explains the data within their uncertainties".to_owned()
+            };
+            lines.push(format!("χ² over the degrees of freedom is {} (p = {}): {judged}.", shown(reduced), shown(p)));
+        }
+        if let Some(inside) = outcome.truth_inside {
+            let word = if inside { "holds" } else { "does not hold" };
+            lines.push(format!("The joint 95 % region {word} the truth that the synthetic data were made with."));
+        }
+    } else {
+        lines
+            .push(format!("{} choices, ranked by χ² of the same data; no parameter was fitted.", outcome.trials.len()));
+    }
+    lines
+}
+
+fn render(outcome: &Outcome, pictures: Vec<Picture>) -> Result<String, minijinja::Error> {
+    let parameter = |found: &super::result::Found| {
+        let interval = found.interval.map_or_else(
+            || "–".to_owned(),
+            |(low, high)| {
+                let end = |open: bool, value: f64, sign: &str| {
+                    if open { format!("{sign} {} (bound)", shown(value)) } else { shown(value) }
+                };
+                format!("{} … {}", end(found.open.0, low, "≤"), end(found.open.1, high, "≥"))
+            },
+        );
+        let bounds = format!("{} … {}", shown(found.bounds.0), shown(found.bounds.1));
+        let truth = found.truth.map_or_else(String::new, |truth| {
+            format!("{} ({:+.2} %)", shown(truth), 100.0 * (found.best / truth - 1.0))
+        });
+        vec![found.name.clone(), found.unit.clone(), shown(found.best), interval, shown(found.start), bounds, truth]
+    };
+    let trial = |trial: &super::result::Trial| {
+        let ranks = trial.ranks.map_or_else(
+            || "–".to_owned(),
+            |(low, high)| {
+                if low == high { low.to_string() } else { format!("{low} … {high}") }
+            },
+        );
+        vec![
+            trial.name.clone(),
+            optional(trial.chi_squared),
+            optional(weighted_error(&trial.fit)),
+            optional(trial.weight),
+            optional(trial.first),
+            ranks,
+            optional(trial.hold_out_chi_squared),
+            optional(weighted_error(&trial.hold_out)),
+            trial.failure.clone().unwrap_or_default(),
+        ]
+    };
+    let datum = |(name, datum): (String, &Compared)| {
+        vec![
+            name,
+            datum.label.clone(),
+            datum.unit.clone(),
+            shown(datum.datum),
+            format!("{} … {}", shown(datum.band.0), shown(datum.band.1)),
+            shown(datum.model),
+            format!("{:+.2}", datum.residual),
+            datum.source.clone(),
+        ]
+    };
+    let page = Page {
+        errors: [errors("fitted", &outcome.fit), errors("held out", &outcome.hold_out)].into_iter().flatten().collect(),
+        parameters: outcome.parameters.iter().map(parameter).collect(),
+        trials: outcome.trials.iter().map(trial).collect(),
+        data: all_data(outcome).into_iter().map(datum).collect(),
+        summary: summary(outcome),
+        pictures,
+        outcome,
+        style: include_str!("../report/template/style.css"),
+    };
+    let mut environment = minijinja::Environment::new();
+    // the ending tells the template engine to escape everything that is inserted
+    environment.add_template("index.html", include_str!("template/index.html"))?;
+    environment.get_template("index.html")?.render(template_value(&page)?)
+}

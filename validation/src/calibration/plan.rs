@@ -1,0 +1,314 @@
+//! A calibration as a TOML file.
+
+use super::data::DatumText;
+use crate::case::{Registry, Tier};
+use crate::error::InputError;
+use crate::evaluation::CaseRequest;
+use crate::inference::{Budget, Method};
+use crate::sampling::{Bounds, Paths, Spacing, float};
+use crate::store::Store;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// One parameter that is sought.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ParameterText {
+    path: Paths,
+    name: Option<String>,
+    #[serde(default = "none")]
+    unit: String,
+    lower: f64,
+    upper: f64,
+    #[serde(default)]
+    scale: Spacing,
+    start: Option<f64>,
+    truth: Option<f64>,
+    levels: Option<usize>,
+}
+
+/// A case and what is compared with it.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BlockText {
+    case: String,
+    tier: Option<Tier>,
+    #[serde(default)]
+    with: toml::Table,
+    pub(super) data: Vec<DatumText>,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Text {
+    title: String,
+    #[serde(default)]
+    note: String,
+    method: Option<Method>,
+    evaluations: Option<usize>,
+    seed: Option<u64>,
+    difference: Option<f64>,
+    tolerance: Option<f64>,
+    #[serde(default)]
+    trajectories: usize,
+    region_evaluations: Option<usize>,
+    #[serde(default)]
+    parameters: Vec<ParameterText>,
+    #[serde(default)]
+    choices: Vec<Choice>,
+    #[serde(default)]
+    fit: Vec<BlockText>,
+    #[serde(default)]
+    hold_out: Vec<BlockText>,
+}
+
+fn none() -> String {
+    "-".to_owned()
+}
+
+/// A parameter with its range.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Name in tables and figures.
+    pub name: String,
+    /// Unit.
+    pub unit: String,
+    /// Range and scale.
+    pub bounds: Bounds,
+    /// Where the search begins.
+    pub start: f64,
+    /// The value that synthetic data were made with.
+    pub truth: Option<f64>,
+    /// Where it stands.
+    pub path: Paths,
+}
+
+/// One of a few settings that are tried.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Choice {
+    /// Name; in the data's variants, `{choice}` stands for it.
+    pub name: String,
+    /// `path=value` settings by case.
+    pub set: BTreeMap<String, Vec<String>>,
+}
+
+/// A case, and whether its data are fitted or only predicted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Block {
+    /// The case and what differs from its tier.
+    pub request: CaseRequest,
+    /// Whether its data are held out.
+    pub held_out: bool,
+    /// Where it stands in the file, such as `fit[0]`.
+    pub field: String,
+}
+
+/// A calibration that was read.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// The file.
+    pub file: PathBuf,
+    /// What is calibrated, one line.
+    pub title: String,
+    /// What a reader of the page must know.
+    pub note: String,
+    /// How the minimum is looked for.
+    pub method: Method,
+    /// What the search may spend.
+    pub budget: Budget,
+    /// Evaluations beyond the search that may map the region of agreement.
+    pub region_evaluations: usize,
+    /// Trajectories of the screening; 0 for none.
+    pub trajectories: usize,
+    /// What is sought.
+    pub parameters: Vec<Parameter>,
+    /// Levels of a design's grid along each parameter; empty for a Sobol sequence.
+    pub levels: Vec<usize>,
+    /// What is tried; empty for a search.
+    pub choices: Vec<Choice>,
+    /// Fitted blocks first.
+    pub blocks: Vec<Block>,
+    /// The data of each block.
+    pub(super) data: Vec<Vec<DatumText>>,
+}
+
+impl Plan {
+    /// Reads and checks a file.
+    ///
+    /// # Errors
+    /// A file that cannot be read or typed, ranges that break a rule, a case or a path that does not exist, a run that is
+    /// in both fit and hold-out.
+    pub fn read(file: &Path, registry: Registry) -> Result<Self, InputError> {
+        let text = std::fs::read_to_string(file).map_err(|error| InputError::unreadable(file, &error))?;
+        let text: Text = InputError::parse_toml(file, &text)?;
+        let plan = Self::of(file, text).map_err(|error| error.in_file(file))?;
+        plan.check_cases(registry)?;
+        Ok(plan)
+    }
+
+    fn of(file: &Path, text: Text) -> Result<Self, InputError> {
+        if text.fit.is_empty() {
+            let remedy = "add a `[[fit]]` table with case and data";
+            return Err(InputError::field("fit", "empty", "at least one table", remedy));
+        }
+        if text.parameters.is_empty() == text.choices.is_empty() {
+            let (value, remedy) = if text.choices.is_empty() {
+                ("empty", "add a `[[parameters]]` table with path, lower and upper, or `[[choices]]`")
+            } else {
+                ("beside `choices`", "calibrate the parameters of each choice in a file of its own")
+            };
+            return Err(InputError::field("parameters", value, "at least one table, or none with a choice", remedy));
+        }
+        let parameters = text
+            .parameters
+            .iter()
+            .enumerate()
+            .map(|(index, parameter)| parameter.checked(&format!("parameters[{index}]")))
+            .collect::<Result<Vec<_>, _>>()?;
+        if let Some(place) =
+            (1..parameters.len()).find(|&k| parameters[..k].iter().any(|p| p.name == parameters[k].name))
+        {
+            let field = format!("parameters[{place}].name");
+            return Err(InputError::field(&field, &parameters[place].name, "unlike the others", "give each its own"));
+        }
+        let given = text.parameters.iter().filter(|parameter| parameter.levels.is_some()).count();
+        if given > 0 && given < parameters.len() {
+            let remedy = "give `levels` of all or of none";
+            return Err(InputError::field("parameters.levels", "given of some", "a grid along every axis", remedy));
+        }
+        let levels: Vec<usize> = text.parameters.iter().filter_map(|parameter| parameter.levels).collect();
+        let default = Budget::default();
+        let method = text.method.unwrap_or(if levels.is_empty() { Method::TrustRegion } else { Method::Design });
+        let budget = Budget {
+            evaluations: text.evaluations.unwrap_or(default.evaluations),
+            seed: text.seed.unwrap_or(default.seed),
+            difference: text.difference.unwrap_or(default.difference),
+            tolerance: text.tolerance.unwrap_or(default.tolerance),
+        };
+        // a grid covers the whole range already
+        let usual = if levels.is_empty() { 4 * parameters.len() } else { 0 };
+        let region_evaluations = text.region_evaluations.unwrap_or(usual);
+        if text.choices.len() == 1 {
+            let remedy = "list what is compared";
+            return Err(InputError::field("choices", "a single one", "two or more", remedy));
+        }
+        let mut blocks = Vec::new();
+        let mut data = Vec::new();
+        for (kind, held_out, texts) in [("fit", false, text.fit), ("hold_out", true, text.hold_out)] {
+            for (index, block) in texts.into_iter().enumerate() {
+                let field = format!("{kind}[{index}]");
+                for (place, datum) in block.data.iter().enumerate() {
+                    datum.check(&format!("{field}.data[{place}]"))?;
+                }
+                let tier = block.tier.unwrap_or(Tier::Quick);
+                let request = CaseRequest { case: block.case, tier, with: block.with };
+                blocks.push(Block { request, held_out, field });
+                data.push(block.data);
+            }
+        }
+        Ok(Self {
+            file: file.to_owned(),
+            title: text.title,
+            note: text.note,
+            method,
+            budget,
+            trajectories: text.trajectories,
+            region_evaluations,
+            parameters,
+            levels,
+            choices: text.choices,
+            blocks,
+            data,
+        })
+    }
+
+    /// The settings of a block's case at a point of physical values.
+    #[must_use]
+    pub fn settings(&self, block: &Block, values: &[f64]) -> Vec<String> {
+        let path = |paths: &Paths| paths.in_case(&block.request.case).map(str::to_owned);
+        self.parameters
+            .iter()
+            .zip(values)
+            .filter_map(|(parameter, &value)| path(&parameter.path).map(|path| format!("{path}={}", float(value))))
+            .collect()
+    }
+
+    /// Physical values of a point of the unit cube.
+    #[must_use]
+    pub fn values(&self, point: &[f64]) -> Vec<f64> {
+        self.parameters.iter().zip(point).map(|(parameter, &u)| parameter.bounds.value(u)).collect()
+    }
+
+    /// The start in the unit cube.
+    #[must_use]
+    pub fn start(&self) -> Vec<f64> {
+        self.parameters.iter().map(|parameter| parameter.bounds.coordinate(parameter.start).clamp(0.0, 1.0)).collect()
+    }
+
+    fn check_cases(&self, registry: Registry) -> Result<(), InputError> {
+        let start: Vec<f64> = self.parameters.iter().map(|parameter| parameter.start).collect();
+        let store = Store::open(crate::store::StorePolicy::Use);
+        let mut fitted: BTreeMap<String, String> = BTreeMap::new();
+        for block in &self.blocks {
+            let mut settings = self.settings(block, &start);
+            if let Some(choice) = self.choices.first() {
+                settings.extend(choice.in_case(&block.request.case));
+            }
+            if settings.is_empty() {
+                let remedy = "let a parameter or a choice name a path of the case";
+                let field = format!("{}.case", block.field);
+                return Err(InputError::field(&field, &block.request.case, "a case with a parameter", remedy)
+                    .in_file(&self.file));
+            }
+            let prepared =
+                block.request.prepare(registry, &self.file, &settings).map_err(|error| error.in_plan(&self.file))?;
+            for run in 0..prepared.run_count() {
+                let Some(identity) = prepared.identity(run, &store) else { continue };
+                if !block.held_out {
+                    fitted.insert(identity, block.field.clone());
+                } else if let Some(field) = fitted.get(&identity) {
+                    return Err(InputError::InBoth {
+                        file: self.file.clone(),
+                        run: format!("{} {}", prepared.name(), prepared.variant(run)).trim_end().to_owned(),
+                        fit: field.clone(),
+                        hold_out: block.field.clone(),
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Choice {
+    /// The settings of a case.
+    #[must_use]
+    pub fn in_case(&self, case: &str) -> Vec<String> {
+        self.set.get(case).cloned().unwrap_or_default()
+    }
+}
+
+impl ParameterText {
+    fn checked(&self, field: &str) -> Result<Parameter, InputError> {
+        let bounds = Bounds { lower: self.lower, upper: self.upper, spacing: self.scale };
+        bounds.check(field)?;
+        let start = self.start.unwrap_or_else(|| bounds.value(0.5));
+        let rule = format!("between {} and {}", self.lower, self.upper);
+        if !(start >= self.lower && start <= self.upper) {
+            return Err(InputError::field(&format!("{field}.start"), start, &rule, "start within the bounds"));
+        }
+        if let Some(levels) = self.levels.filter(|&levels| levels < 2) {
+            return Err(InputError::field(&format!("{field}.levels"), levels, "2 or more", "or leave it out"));
+        }
+        Ok(Parameter {
+            name: self.name.clone().unwrap_or_else(|| self.path.name()),
+            unit: self.unit.clone(),
+            bounds,
+            start,
+            truth: self.truth,
+            path: self.path.clone(),
+        })
+    }
+}

@@ -1,0 +1,375 @@
+//! What a calibration hands to its page and files: plain data without a trace of when or where it ran.
+
+use super::data::{Datum, Target};
+use super::objective::Objective;
+use super::plan::Plan;
+use crate::error::InputError;
+use crate::evaluation::Record;
+use crate::inference::scores::Score;
+use crate::inference::{Explored, Parameter as Named, Search, assess, chi_squared};
+use crate::sampling::Spacing;
+use serde::{Deserialize, Serialize};
+
+/// Where a datum lies in a profile.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// Table of the case.
+    pub table: String,
+    /// Its column of abscissas, with its unit.
+    pub x: String,
+    /// Its column that is compared, with its unit.
+    pub y: String,
+    /// Abscissa.
+    pub at: f64,
+}
+
+/// One datum beside the model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Compared {
+    /// Which block of the plan.
+    pub block: String,
+    /// What is compared.
+    pub label: String,
+    /// Table, column and abscissa of a point of a profile.
+    pub at: Option<Place>,
+    /// The datum, in `unit`.
+    pub datum: f64,
+    /// The datum less and plus its standard uncertainty.
+    pub band: (f64, f64),
+    /// The model.
+    pub model: f64,
+    /// Unit.
+    pub unit: String,
+    /// (model − datum)/σ, or the same of logarithms `[-]`.
+    pub residual: f64,
+    /// Where the datum comes from.
+    pub source: String,
+}
+
+/// One parameter and what the data say about it, in its unit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Found {
+    /// Name.
+    pub name: String,
+    /// Unit.
+    pub unit: String,
+    /// Bounds of the search.
+    pub bounds: (f64, f64),
+    /// Whether the scale is logarithmic.
+    pub logarithmic: bool,
+    /// Start of the search.
+    pub start: f64,
+    /// Best value.
+    pub best: f64,
+    /// 95 % interval by profile likelihood; none with too few evaluations.
+    pub interval: Option<(f64, f64)>,
+    /// Whether the interval ends at a bound only because the search does.
+    pub open: (bool, bool),
+    /// Profile of χ² above its minimum over the parameter.
+    pub profile: Vec<(f64, f64)>,
+    /// The value that synthetic data were made with.
+    pub truth: Option<f64>,
+}
+
+/// One point of the search.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Evaluation {
+    /// Parameters, in their units.
+    pub values: Vec<f64>,
+    /// χ² `[-]`; none where the model failed.
+    pub chi_squared: Option<f64>,
+}
+
+/// What one parameter does to the data over its whole range.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Sensitivity {
+    /// Name.
+    pub name: String,
+    /// Mean size of its elementary effects μ*, in standard uncertainties of a datum a range `[-]`.
+    pub effect: f64,
+    /// Their scatter σ, likewise `[-]`.
+    pub spread: f64,
+}
+
+/// One choice of a bake-off.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// The choice.
+    pub name: String,
+    /// Fitted data.
+    pub fit: Vec<Compared>,
+    /// Data held out.
+    pub hold_out: Vec<Compared>,
+    /// χ² of the fitted data `[-]`.
+    pub chi_squared: Option<f64>,
+    /// χ² of the data held out `[-]`.
+    pub hold_out_chi_squared: Option<f64>,
+    /// Akaike weight among the choices `[-]`.
+    pub weight: Option<f64>,
+    /// Share of resampled data in which it is first `[-]`.
+    pub first: Option<f64>,
+    /// 95 % interval of its rank.
+    pub ranks: Option<(usize, usize)>,
+    /// Why it has no numbers.
+    pub failure: Option<String>,
+}
+
+/// A finished calibration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// What was calibrated.
+    pub title: String,
+    /// What a reader must know.
+    pub note: String,
+    /// Method of the search.
+    pub method: String,
+    /// Why it ended.
+    pub stopped: String,
+    /// Evaluations of the search itself.
+    pub searched: usize,
+    /// All evaluations by number: the search, then the ends of the intervals.
+    pub evaluations: Vec<Evaluation>,
+    /// The parameters.
+    pub parameters: Vec<Found>,
+    /// χ² at the best point `[-]`.
+    pub chi_squared: Option<f64>,
+    /// χ² over the degrees of freedom `[-]`; none unless there are more data than parameters.
+    pub reduced_chi_squared: Option<f64>,
+    /// Share of repeated experiments in which a true model gives a larger χ² `[-]`.
+    pub p_value: Option<f64>,
+    /// Factor by which the stated uncertainties were enlarged for the intervals `[-]`.
+    pub inflation: f64,
+    /// Correlation of the parameters `[-]`.
+    pub correlation: Vec<Vec<f64>>,
+    /// Whether the joint 95 % region holds the truth of synthetic data.
+    pub truth_inside: Option<bool>,
+    /// What the data leave open, in sentences.
+    pub findings: Vec<String>,
+    /// Screening; empty if none was asked for.
+    pub sensitivity: Vec<Sensitivity>,
+    /// Fitted data at the best point.
+    pub fit: Vec<Compared>,
+    /// Data held out, there.
+    pub hold_out: Vec<Compared>,
+    /// Choices by rank; empty unless there were any.
+    pub trials: Vec<Trial>,
+    /// Complete parameters of every fitted case at the best point.
+    pub calibrated: Vec<String>,
+}
+
+/// Root mean square of weighted residuals `[-]`; none without data.
+#[must_use]
+pub fn weighted_error(data: &[Compared]) -> Option<f64> {
+    let sum: f64 = data.iter().map(|datum| datum.residual * datum.residual).sum();
+    (!data.is_empty()).then(|| (sum / data.len() as f64).sqrt())
+}
+
+/// Root mean square of (model − datum)/datum `[-]`; none without data or where a datum is zero.
+#[must_use]
+pub(super) fn relative_error(data: &[Compared]) -> Option<f64> {
+    let sum: f64 = data.iter().map(|datum| ((datum.model - datum.datum) / datum.datum).powi(2)).sum();
+    Some((sum / data.len() as f64).sqrt()).filter(|error| error.is_finite())
+}
+
+/// The data of one kind beside the records of their blocks.
+pub(super) fn compared<'r>(
+    objective: &Objective<'_>,
+    held_out: bool,
+    record: impl Fn(usize) -> Option<&'r Record>,
+    named: impl Fn(&Target) -> Target,
+) -> Result<Vec<Compared>, InputError> {
+    let data: Vec<Datum> =
+        objective.data_of(held_out).map(|datum| Datum { target: named(&datum.target), ..datum.clone() }).collect();
+    let owned: Vec<Option<Record>> = (0..objective.plan.blocks.len()).map(|k| record(k).cloned()).collect();
+    let predicted = objective.predict(data.iter(), |block| owned[block].as_ref())?;
+    let one = |(datum, model): (Datum, f64)| Compared {
+        block: objective.plan.blocks[datum.block].field.clone(),
+        label: datum.target.label(),
+        at: datum.target.place(),
+        datum: datum.value,
+        band: datum.band(),
+        model,
+        unit: datum.unit.clone(),
+        residual: datum.residual(model),
+        source: datum.source,
+    };
+    Ok(data.into_iter().zip(predicted).map(one).collect())
+}
+
+/// The fitted cases as complete files, each once.
+pub(super) fn calibrated(objective: &Objective<'_>, values: &[f64]) -> Result<Vec<String>, InputError> {
+    let plan = objective.plan;
+    let fitted = plan.blocks.iter().filter(|block| !block.held_out);
+    fitted
+        .map(|block| {
+            let prepared = block.request.prepare(objective.registry, &plan.file, &plan.settings(block, values))?;
+            Ok(prepared.parameters_toml().to_owned())
+        })
+        .collect()
+}
+
+/// Everything about a search, in physical units.
+pub(super) fn assemble(
+    plan: &Plan,
+    search: &Search,
+    searched: usize,
+    mapped: Option<&Explored>,
+    sensitivity: Vec<Sensitivity>,
+    (fit, hold_out): (Vec<Compared>, Vec<Compared>),
+    calibrated: Vec<String>,
+) -> Outcome {
+    let region = mapped.map(|mapped| &mapped.region);
+    let physical = |k: usize, u: f64| plan.parameters[k].bounds.value(u);
+    let best = plan.values(&search.best);
+    let found = |(k, parameter): (usize, &super::plan::Parameter)| {
+        let profile = region.map(|region| &region.profiles[k]);
+        Found {
+            name: parameter.name.clone(),
+            unit: parameter.unit.clone(),
+            bounds: (parameter.bounds.lower, parameter.bounds.upper),
+            logarithmic: parameter.bounds.spacing == Spacing::Log,
+            start: parameter.start,
+            best: best[k],
+            interval: profile.map(|p| (physical(k, p.interval[0]), physical(k, p.interval[1]))),
+            open: profile.map_or((false, false), |p| (p.open_below, p.open_above)),
+            profile: profile.map_or_else(Vec::new, |p| {
+                p.curve.iter().map(|point| (physical(k, point.point[k]), point.rise)).collect()
+            }),
+            truth: parameter.truth,
+        }
+    };
+    let names: Vec<Named> =
+        plan.parameters.iter().map(|p| Named { name: p.name.clone(), unit: p.unit.clone() }).collect();
+    let truth: Option<Vec<f64>> =
+        plan.parameters.iter().map(|p| p.truth.map(|truth| p.bounds.coordinate(truth))).collect();
+    let findings = region.map_or_else(
+        || vec!["too few evaluations succeeded to say how well the data determine the parameters".to_owned()],
+        |region| {
+            let found = assess(&region.jacobian(), region, &names, &physical);
+            let mut sentences: Vec<String> = found.iter().map(ToString::to_string).collect();
+            if mapped.is_some_and(|mapped| !mapped.settled) {
+                let text = "ends of intervals lie where the model was not evaluated; allow more `region_evaluations`";
+                sentences.push(text.to_owned());
+            }
+            sentences
+        },
+    );
+    let correlation = region.map_or_else(Vec::new, |region| {
+        region.correlation.row_iter().map(|row| row.iter().copied().collect()).collect()
+    });
+    let evaluation = |evaluated: &crate::inference::Evaluated| Evaluation {
+        values: plan.values(&evaluated.point),
+        chi_squared: evaluated.chi_squared,
+    };
+    let residuals: Vec<f64> = fit.iter().map(|datum| datum.residual).collect();
+    Outcome {
+        title: plan.title.clone(),
+        note: plan.note.clone(),
+        method: plan.method.name().to_owned(),
+        stopped: search.stopped.to_string(),
+        searched,
+        evaluations: search.history.iter().map(evaluation).collect(),
+        parameters: plan.parameters.iter().enumerate().map(found).collect(),
+        chi_squared: Some(chi_squared(&residuals)),
+        reduced_chi_squared: region.and_then(|region| region.reduced_chi_squared),
+        p_value: region.and_then(|region| region.p_value),
+        inflation: region.map_or(1.0, |region| region.inflation),
+        correlation,
+        truth_inside: region.zip(truth).map(|(region, truth)| region.contains(&truth)),
+        findings,
+        sensitivity,
+        fit,
+        hold_out,
+        trials: Vec::new(),
+        calibrated,
+    }
+}
+
+impl Outcome {
+    pub(super) fn of_trials(plan: &Plan, trials: Vec<Trial>) -> Self {
+        Self {
+            title: plan.title.clone(),
+            note: plan.note.clone(),
+            method: "all choices".to_owned(),
+            stopped: "done: every choice was tried".to_owned(),
+            searched: trials.len(),
+            evaluations: Vec::new(),
+            parameters: Vec::new(),
+            chi_squared: None,
+            reduced_chi_squared: None,
+            p_value: None,
+            inflation: 1.0,
+            correlation: Vec::new(),
+            truth_inside: None,
+            findings: undecided(&trials),
+            sensitivity: Vec::new(),
+            fit: Vec::new(),
+            hold_out: Vec::new(),
+            trials,
+            calibrated: Vec::new(),
+        }
+    }
+}
+
+/// Weight above which a choice is not refuted.
+const RIVAL: f64 = 0.05;
+
+/// Data below which resampling them says little about ranks.
+const FEW_DATA: usize = 10;
+
+/// What a bake-off leaves open.
+fn undecided(trials: &[Trial]) -> Vec<String> {
+    let is_rival = |trial: &&Trial| {
+        trial.weight.is_some_and(|weight| weight >= RIVAL) || trial.ranks.is_some_and(|(best, _)| best == 1)
+    };
+    let rivals: Vec<&str> = trials.iter().filter(is_rival).map(|trial| trial.name.as_str()).collect();
+    let mut findings = Vec::new();
+    if rivals.len() > 1 {
+        findings.push(format!(
+            "the data do not decide between {}: each has a weight of 5 % or more, or is first in 2.5 % of the resampled data",
+            rivals.join(", ")
+        ));
+    }
+    let data = trials.iter().map(|trial| trial.fit.len()).max().unwrap_or(0);
+    if data < FEW_DATA {
+        findings.push(format!("{data} data are few: resampling them tells little about ranks, so look at the weights"));
+    }
+    let best = trials.iter().filter(|trial| trial.failure.is_none()).min_by(|a, b| {
+        let of = |trial: &Trial| trial.chi_squared.unwrap_or(f64::INFINITY);
+        of(a).total_cmp(&of(b))
+    });
+    if let Some(error) = best.and_then(|trial| weighted_error(&trial.fit)).filter(|error| *error > 2.0) {
+        findings.push(format!(
+            "even the best choice misses the data by {error:.1} standard uncertainties: the weights between choices mean \
+             little then"
+        ));
+    }
+    findings
+}
+
+impl Trial {
+    pub(super) fn of(name: String, fit: Vec<Compared>, hold_out: Vec<Compared>) -> Self {
+        let sum = |data: &[Compared]| data.iter().map(|datum| datum.residual * datum.residual).sum();
+        Self {
+            name,
+            chi_squared: Some(sum(&fit)),
+            hold_out_chi_squared: (!hold_out.is_empty()).then(|| sum(&hold_out)),
+            fit,
+            hold_out,
+            weight: None,
+            first: None,
+            ranks: None,
+            failure: None,
+        }
+    }
+
+    pub(super) fn failed(name: String, reason: String) -> Self {
+        Self { chi_squared: None, failure: Some(reason), ..Self::of(name, Vec::new(), Vec::new()) }
+    }
+
+    pub(super) fn score(&mut self, score: Option<&Score>) {
+        self.weight = score.map(|score| score.weight);
+        self.first = score.map(|score| score.first);
+        self.ranks = score.map(|score| (score.ranks[0], score.ranks[1]));
+    }
+}

@@ -1,0 +1,89 @@
+//! `bagnold calibrate`: parameters from data.
+
+use super::arguments::Calibrate;
+use super::progress::Count;
+use super::{Exit, say};
+use crate::calibration::{CalibrationFolder, Outcome, Plan, Watch, calibrate, write};
+use crate::case::Registry;
+use crate::error::InputError;
+use crate::inference::significant;
+use crate::output::OutputFolder;
+use std::io::Write;
+use std::path::Path;
+
+/// Calibrates, writes the page and prints the parameters.
+pub(super) fn run(
+    command: &Calibrate,
+    registry: Registry,
+    quiet: bool,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, InputError> {
+    let plan = Plan::read(&command.file, registry)?;
+    let folder = command.out.clone().unwrap_or_else(|| {
+        Path::new("reports/calibrations").join(command.file.file_stem().unwrap_or_else(|| "calibration".as_ref()))
+    });
+    if command.out.is_none() {
+        OutputFolder::adopt(Path::new("reports"))?;
+    }
+    let kept = CalibrationFolder::begin(&folder, &command.file, command.resume)?;
+    let bar = Bar(Count::new("evaluations", 0, 0, quiet));
+    let outcome = calibrate(&plan, &kept, registry, &command.work.open_store(), &bar);
+    bar.0.clear();
+    let outcome = outcome?;
+    write(&outcome, &folder)?;
+    say(output, &text(&outcome));
+    say(output, &format!("written to {}\n", folder.join("index.html").display()));
+    Ok(Exit::Held)
+}
+
+/// The parameters or choices, a line each, and what the data leave open.
+fn text(outcome: &Outcome) -> String {
+    let mut text = String::new();
+    for found in &outcome.parameters {
+        let shown = |value: f64| significant(value, 4);
+        let interval = found.interval.map_or_else(String::new, |(low, high)| {
+            let end = |open: bool| if open { " (bound)" } else { "" };
+            format!("  95 %: {}{} … {}{}", shown(low), end(found.open.0), shown(high), end(found.open.1))
+        });
+        let unit = if found.unit == "-" { "" } else { &found.unit };
+        text += &format!("{} = {} {unit}{interval}\n", found.name, shown(found.best));
+    }
+    for trial in &outcome.trials {
+        let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| significant(value, 4));
+        text += &format!(
+            "{}: χ² {}, held out {}, weight {}{}\n",
+            trial.name,
+            number(trial.chi_squared),
+            number(trial.hold_out_chi_squared),
+            number(trial.weight),
+            trial.failure.as_ref().map_or_else(String::new, |reason| format!("; failed: {reason}"))
+        );
+    }
+    let error = |what: &str, data: &[crate::calibration::Compared]| {
+        crate::calibration::weighted_error(data)
+            .map_or_else(String::new, |error| format!("{what}: {} σ over {} data\n", significant(error, 3), data.len()))
+    };
+    text += &error("fit error", &outcome.fit);
+    text += &error("held-out error", &outcome.hold_out);
+    for finding in &outcome.findings {
+        text += &format!("open: {finding}\n");
+    }
+    text
+}
+
+/// A progress bar that counts evaluations.
+struct Bar(Count);
+
+impl Watch for Bar {
+    fn expected(&self, evaluations: usize) {
+        self.0.expect(evaluations);
+    }
+
+    fn evaluated(&self, case: &str, failure: Option<&str>) {
+        if let Some(reason) = failure {
+            tracing::warn!("{case}: {reason}");
+        }
+        self.0.say(case);
+        self.0.step();
+    }
+}

@@ -1,0 +1,151 @@
+//! `bagnold sweep`: many runs of one plan, here or on a cluster.
+
+use super::arguments::{Cluster, Engine, Sweep, SweepAction};
+use super::progress::Count;
+use super::{Exit, say};
+use crate::case::Registry;
+use crate::error::InputError;
+use crate::evaluation::Record;
+use crate::output::OutputFolder;
+use crate::sweep::{Entry, SweepFolder, SweepPlan, Tally, Watch, gather, run_entry, run_locally, slurm};
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Plans, runs, submits or gathers.
+pub(super) fn sweep(
+    command: &Sweep,
+    registry: Registry,
+    quiet: bool,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, InputError> {
+    match (&command.action, &command.file) {
+        (Some(SweepAction::Template), _) => {
+            say(output, slurm::TEMPLATE);
+            Ok(Exit::Held)
+        }
+        (Some(SweepAction::Task { folder, entry, work }), _) => super::in_pool(work, || {
+            let sweep = SweepFolder::open(folder)?;
+            let record = run_entry(&sweep, sweep.manifest().entry(*entry)?, registry, &work.open_store())?;
+            Ok(if record.failure.is_some() { Exit::Diverged } else { Exit::Held })
+        }),
+        (Some(SweepAction::Collect { folder, resubmit, cluster }), _) => collect(folder, *resubmit, cluster, output),
+        (None, Some(file)) => begin(file, command, registry, quiet, output),
+        (None, None) => Ok(Exit::BadInput),
+    }
+}
+
+fn begin(
+    file: &Path,
+    command: &Sweep,
+    registry: Registry,
+    quiet: bool,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, InputError> {
+    let manifest = SweepPlan::read(file)?.manifest(registry)?;
+    let folder = command
+        .out
+        .clone()
+        .unwrap_or_else(|| Path::new("reports/sweeps").join(file.file_stem().unwrap_or_else(|| "sweep".as_ref())));
+    if command.out.is_none() {
+        OutputFolder::adopt(Path::new("reports"))?;
+    }
+    let sweep = SweepFolder::begin(&folder, manifest, command.resume)?;
+    match command.engine {
+        Engine::Local => {
+            let watch = Bar::new(&sweep, quiet);
+            let outcome = run_locally(&sweep, registry, &command.work.open_store(), &watch);
+            watch.0.clear();
+            outcome?;
+            finish(&sweep, output)
+        }
+        Engine::Slurm => {
+            submit(&sweep, &command.cluster, command.work.store.clone(), output)?;
+            say(output, &format!("then: bagnold sweep collect {}\n", folder.display()));
+            Ok(Exit::Held)
+        }
+    }
+}
+
+fn collect(
+    folder: &Path,
+    resubmit: bool,
+    cluster: &Cluster,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, InputError> {
+    let sweep = SweepFolder::open(folder)?;
+    if resubmit {
+        submit(&sweep, cluster, None, output)?;
+    }
+    finish(&sweep, output)
+}
+
+/// Submits what is neither done nor queued.
+fn submit(
+    sweep: &SweepFolder,
+    cluster: &Cluster,
+    store: Option<PathBuf>,
+    output: &mut (dyn Write + Send),
+) -> Result<(), InputError> {
+    let queued = slurm::queued(sweep)?;
+    let missing: BTreeSet<usize> = sweep.missing().iter().map(|entry| entry.number).collect();
+    let numbers: Vec<usize> = missing.difference(&queued).copied().collect();
+    if numbers.is_empty() {
+        say(output, "nothing to submit\n");
+        return Ok(());
+    }
+    let request = slurm::Request {
+        partition: cluster.partition.clone(),
+        time: cluster.time.clone(),
+        memory: cluster.memory.clone(),
+        cpus: cluster.cpus,
+        throttle: cluster.throttle,
+        template: cluster.template.clone(),
+        store,
+    };
+    let jobs = slurm::submit(sweep, &numbers, &request)?;
+    say(output, &format!("submitted {} runs as Slurm job {}\n", numbers.len(), jobs.join(", ")));
+    Ok(())
+}
+
+/// Gathers and says how far the sweep is.
+fn finish(sweep: &SweepFolder, output: &mut (dyn Write + Send)) -> Result<Exit, InputError> {
+    let Tally { done, failed, missing } = gather(sweep)?;
+    let all = sweep.manifest().entries.len();
+    let mut text = format!("{done} of {all} runs done");
+    if failed > 0 {
+        text += &format!(", {failed} failed (failures.csv says why)");
+    }
+    if missing > 0 {
+        text += &format!(", {missing} missing");
+    }
+    say(output, &format!("{text}\nwritten to {}\n", sweep.path().join("results.csv").display()));
+    Ok(match (missing, failed) {
+        (1.., _) => Exit::GateFailed,
+        (0, 1..) => Exit::Diverged,
+        (0, 0) => Exit::Held,
+    })
+}
+
+/// A progress bar that counts runs.
+struct Bar(Count);
+
+impl Bar {
+    fn new(sweep: &SweepFolder, quiet: bool) -> Self {
+        let all = sweep.manifest().entries.len();
+        Self(Count::new("runs", all, all - sweep.missing().len(), quiet))
+    }
+}
+
+impl Watch for Bar {
+    fn begun(&self, entry: &Entry) {
+        self.0.say(&entry.folder);
+    }
+
+    fn ended(&self, entry: &Entry, record: &Record) {
+        if let Some(reason) = &record.failure {
+            tracing::warn!("{}: {reason}", entry.folder);
+        }
+        self.0.step();
+    }
+}

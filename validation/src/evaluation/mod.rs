@@ -1,0 +1,74 @@
+//! One case with some of its parameters changed, simulated and judged: what sweeps and calibrations are made of.
+//!
+//! An evaluation is a file, written whole or not at all, and known by its [`key`]: the hash of the program's sources, the
+//! case, its tier and all its parameters. Whoever finds the file need not simulate.
+
+mod record;
+
+pub use record::{MetricValue, Record};
+
+use crate::case::{Changes, Monitor, Prepared, Registry, Tier, execute};
+use crate::error::InputError;
+use crate::store::{Store, hexadecimal, source_hash};
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::path::Path;
+
+/// A case and what differs from its tier's parameters.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CaseRequest {
+    /// Name of the case.
+    pub case: String,
+    /// Tier whose parameters fill what is left out.
+    #[serde(default = "quick")]
+    pub tier: Tier,
+    /// Parameters, as in a case's file.
+    #[serde(default)]
+    pub with: toml::Table,
+}
+
+fn quick() -> Tier {
+    Tier::Quick
+}
+
+impl CaseRequest {
+    /// Types and checks the parameters, `settings` (`path=value`) over what the file gives.
+    ///
+    /// # Errors
+    /// An unknown case, or the first field that is unknown, of the wrong type, or breaks a rule.
+    pub fn prepare(
+        &self,
+        registry: Registry,
+        file: &Path,
+        settings: &[String],
+    ) -> Result<Box<dyn Prepared>, InputError> {
+        let case = registry.find(&self.case).map_err(|error| error.in_file(file))?;
+        case.prepare(self.tier, &Changes { file: Some((file, self.with.clone())), settings })
+    }
+}
+
+/// The hash that an evaluation is known by: 32 hexadecimal digits.
+#[must_use]
+pub fn key(prepared: &dyn Prepared) -> String {
+    let mut hash = Sha256::new();
+    for part in [source_hash(), prepared.name(), prepared.parameters_toml()] {
+        hash.update((part.len() as u64).to_le_bytes());
+        hash.update(part);
+    }
+    hexadecimal(&hash.finalize())[..32].to_owned()
+}
+
+/// Simulates and judges on the current rayon pool's threads. What cannot be simulated is a record too, with the reason.
+#[must_use]
+pub fn evaluate(prepared: Box<dyn Prepared>, store: &Store, monitor: &dyn Monitor) -> Record {
+    let key = key(prepared.as_ref());
+    let case = prepared.name().to_owned();
+    match execute(vec![prepared], store, monitor) {
+        Ok(results) => results
+            .into_iter()
+            .next()
+            .map_or_else(|| Record::failed(&key, &case, "nothing was simulated"), |result| Record::of(&key, &result)),
+        Err(error) => Record::failed(&key, &case, &error.to_string()),
+    }
+}

@@ -1,0 +1,108 @@
+//! Intervals from data drawn anew about the fitted model (parametric bootstrap), on the emulator.
+
+use super::descent::{Smooth, descend};
+use super::emulator::Emulator;
+use super::region::CONFIDENCE;
+use crate::sampling::Random;
+use nalgebra::{DMatrix, DVector};
+
+/// The parameters of repeated experiments.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bootstrap {
+    /// The parameters that fit each set of data, in the unit cube.
+    pub samples: Vec<Vec<f64>>,
+    /// Interval of every parameter that contains 95 % of them, as many left out below as above.
+    pub intervals: Vec<[f64; 2]>,
+}
+
+/// The emulator with data that the fitted model gives, plus noise.
+struct Redrawn<'a> {
+    emulator: &'a Emulator,
+    /// To be added to the residuals.
+    shift: DVector<f64>,
+}
+
+impl Smooth for Redrawn<'_> {
+    fn residuals(&self, point: &[f64]) -> DVector<f64> {
+        DVector::from_vec(self.emulator.predict(point)) + &self.shift
+    }
+
+    fn jacobian(&self, point: &[f64]) -> DMatrix<f64> {
+        self.emulator.jacobian(point)
+    }
+}
+
+/// Fits the emulator to `repeats` sets of data that the model gives at the minimum, with noise of the stated standard
+/// uncertainties. Unlike the data themselves, these have no part that the model cannot explain.
+#[must_use]
+pub fn bootstrap(emulator: &Emulator, repeats: usize, seed: u64) -> Bootstrap {
+    let minimum = emulator.minimum().point;
+    let fitted = DVector::from_vec(emulator.predict(&minimum));
+    let (lower, upper) = (vec![0.0; minimum.len()], vec![1.0; minimum.len()]);
+    let mut random = Random::new(seed);
+    let samples: Vec<Vec<f64>> = (0..repeats)
+        .map(|_| {
+            let noise = DVector::from_fn(fitted.len(), |_, _| random.normal());
+            descend(&Redrawn { emulator, shift: noise - &fitted }, &minimum, &lower, &upper).point
+        })
+        .collect();
+    let interval = |k: usize| {
+        let mut values: Vec<f64> = samples.iter().map(|sample| sample[k]).collect();
+        values.sort_by(f64::total_cmp);
+        [0.5 - 0.5 * CONFIDENCE, 0.5 + 0.5 * CONFIDENCE].map(|share| percentile(&values, share))
+    };
+    Bootstrap { intervals: (0..minimum.len()).map(interval).collect(), samples }
+}
+
+/// The value below which a share of a sorted list lies, between neighbours in proportion; not a number in an empty
+/// list.
+pub(super) fn percentile(sorted: &[f64], share: f64) -> f64 {
+    let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
+    let place = share * last as f64;
+    let below = (place as usize).min(last);
+    let above = (below + 1).min(last);
+    sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::chi_squared;
+    use super::super::search::Evaluated;
+    use super::*;
+    use crate::sampling::design::full_grid;
+
+    fn emulator(residuals: impl Fn(&[f64]) -> Vec<f64>) -> Emulator {
+        let one = |point: Vec<f64>| {
+            let residuals = residuals(&point);
+            Evaluated { point, chi_squared: Some(chi_squared(&residuals)), residuals: Some(residuals) }
+        };
+        let history: Vec<Evaluated> = full_grid(&[4, 4]).into_iter().map(one).collect();
+        Emulator::fit(&history, 0.02).unwrap()
+    }
+
+    #[test]
+    fn a_linear_model_gives_normal_intervals() {
+        let emulator = emulator(|u| vec![20.0 * (u[0] - 0.5), 10.0 * (u[0] + u[1] - 1.0), 2.0]);
+        let repeated = bootstrap(&emulator, 4000, 1);
+        for (interval, variance) in repeated.intervals.iter().zip([0.0025, 0.0125f64]) {
+            let half = 1.96 * variance.sqrt();
+            assert!((interval[0] - 0.5 + half).abs() < 0.05 * half, "{interval:?}");
+            assert!((interval[1] - 0.5 - half).abs() < 0.05 * half, "{interval:?}");
+        }
+        assert_eq!(repeated.samples[..10], bootstrap(&emulator, 10, 1).samples);
+    }
+
+    #[test]
+    fn samples_stay_in_the_cube() {
+        let repeated = bootstrap(&emulator(|u| vec![u[0] - 0.95, 9.0 * (u[1] - 0.5)]), 200, 1);
+        assert!(repeated.samples.iter().flatten().all(|u| (0.0..=1.0).contains(u)));
+        assert_eq!(repeated.intervals[0], [0.0, 1.0]);
+    }
+
+    #[test]
+    fn percentiles_lie_between_neighbours() {
+        let list = [1.0, 2.0, 4.0];
+        assert_eq!([0.0, 0.25, 0.75, 1.0].map(|share| percentile(&list, share)), [1.0, 1.5, 3.0, 4.0]);
+        assert!(percentile(&[], 0.5).is_nan());
+    }
+}

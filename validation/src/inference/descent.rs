@@ -1,0 +1,94 @@
+//! Gauss–Newton between bounds, for functions that cost nothing to evaluate.
+
+use super::box_least_squares::box_least_squares;
+use nalgebra::{DMatrix, DVector};
+
+/// A cheap smooth vector function of the unit cube.
+pub(super) trait Smooth {
+    /// Residuals `[-]` at a point.
+    fn residuals(&self, point: &[f64]) -> DVector<f64>;
+    /// Their derivatives, one column a coordinate.
+    fn jacobian(&self, point: &[f64]) -> DMatrix<f64>;
+}
+
+/// Where a descent ends.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Bottom {
+    /// The point.
+    pub(super) point: Vec<f64>,
+    /// χ² there `[-]`.
+    pub(super) chi_squared: f64,
+}
+
+/// Steps after which a descent gives up; a dozen is usual.
+const MOST_STEPS: usize = 60;
+
+/// Largest first step along an axis.
+const FIRST_RADIUS: f64 = 0.25;
+
+/// The minimum of Σ r² that lies downhill of `start` between the bounds.
+pub(super) fn descend(function: &impl Smooth, start: &[f64], lower: &[f64], upper: &[f64]) -> Bottom {
+    let mut point: Vec<f64> = start.iter().enumerate().map(|(k, u)| u.clamp(lower[k], upper[k])).collect();
+    let mut residuals = function.residuals(&point);
+    let mut chi_squared = residuals.norm_squared();
+    let mut radius = FIRST_RADIUS;
+    let mut jacobian = function.jacobian(&point);
+    for _ in 0..MOST_STEPS {
+        let least: Vec<f64> = (0..point.len()).map(|k| (lower[k] - point[k]).max(-radius)).collect();
+        let most: Vec<f64> = (0..point.len()).map(|k| (upper[k] - point[k]).min(radius)).collect();
+        let step = box_least_squares(&jacobian, &-&residuals, &least, &most);
+        let predicted = chi_squared - (&residuals + &jacobian * &step).norm_squared();
+        if predicted <= 1e-12 * (1.0 + chi_squared) {
+            break;
+        }
+        let trial: Vec<f64> = (0..point.len()).map(|k| (point[k] + step[k]).clamp(lower[k], upper[k])).collect();
+        let there = function.residuals(&trial);
+        let gain = (chi_squared - there.norm_squared()) / predicted;
+        let length = step.amax();
+        if gain < 0.25 {
+            radius = 0.25 * length;
+        } else if gain > 0.75 && length > 0.99 * radius {
+            radius = (2.0 * radius).min(1.0);
+        }
+        if gain > 0.0 {
+            chi_squared = there.norm_squared();
+            (point, residuals) = (trial, there);
+            jacobian = function.jacobian(&point);
+        } else if radius < 1e-12 {
+            break;
+        }
+    }
+    Bottom { point, chi_squared }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rosenbrock's valley in the unit cube, minimum at (0.6, 0.36).
+    struct Valley;
+
+    impl Smooth for Valley {
+        fn residuals(&self, u: &[f64]) -> DVector<f64> {
+            DVector::from_row_slice(&[30.0 * (u[1] - u[0] * u[0]), 3.0 * (0.6 - u[0])])
+        }
+        fn jacobian(&self, u: &[f64]) -> DMatrix<f64> {
+            DMatrix::from_row_slice(2, 2, &[-60.0 * u[0], 30.0, -3.0, 0.0])
+        }
+    }
+
+    #[test]
+    fn the_bottom_of_a_valley_is_found() {
+        let bottom = descend(&Valley, &[0.0, 1.0], &[0.0, 0.0], &[1.0, 1.0]);
+        assert!((bottom.point[0] - 0.6).abs() < 1e-8 && (bottom.point[1] - 0.36).abs() < 1e-8);
+        assert!(bottom.chi_squared < 1e-14);
+    }
+
+    #[test]
+    fn a_bound_is_kept() {
+        // with x ≤ 0.5 the best y is 0.25
+        let bottom = descend(&Valley, &[0.0, 1.0], &[0.0, 0.0], &[0.5, 1.0]);
+        assert_eq!(bottom.point[0], 0.5);
+        assert!((bottom.point[1] - 0.25).abs() < 1e-8 && (bottom.chi_squared - 0.09).abs() < 1e-10);
+    }
+}

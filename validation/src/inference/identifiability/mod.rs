@@ -1,0 +1,290 @@
+//! What the data do not say about the parameters, in sentences.
+
+mod sentence;
+
+use super::region::{CONFIDENCE, Region, chi_squared_quantile};
+use nalgebra::DMatrix;
+use sentence::Writer;
+use std::fmt;
+
+/// A closed interval wider than this share of the range says nothing much.
+const WIDE: f64 = 0.5;
+
+/// Correlation above which two parameters are known only together.
+const STRONG: f64 = 0.95;
+
+/// Singular values below this share of the largest one count as zero.
+const RANK_TOLERANCE: f64 = 1e-6;
+
+/// A direction is weak if χ² stays within the threshold for this step along it, in the unit cube.
+const WEAK: f64 = 0.25;
+
+/// Components of a direction below this share of the largest one are left out.
+const DOMINANT: f64 = 0.3;
+
+/// Distance from a bound that counts as lying on it.
+const AT_BOUND: f64 = 1e-6;
+
+/// A parameter as sentences call it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Parameter {
+    /// Its name, as in the input file.
+    pub name: String,
+    /// Its unit; empty or `-` without one.
+    pub unit: String,
+}
+
+/// What was found, with numbers in the unit cube.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kind {
+    /// There are fewer data than parameters.
+    FewData {
+        /// Number of data.
+        data: usize,
+        /// Number of parameters.
+        parameters: usize,
+    },
+    /// At the minimum the data depend on fewer combinations than there are parameters.
+    RankDeficient {
+        /// Number of independent combinations.
+        rank: usize,
+        /// Number of parameters.
+        parameters: usize,
+    },
+    /// The 95 % interval reaches a bound, or is wider than half the range.
+    NotDetermined {
+        /// Index of the parameter.
+        parameter: usize,
+        /// Its interval.
+        interval: [f64; 2],
+        /// Whether it reaches the lower and the upper bound.
+        open: [bool; 2],
+    },
+    /// The minimum lies on a bound.
+    AtBound {
+        /// Index of the parameter.
+        parameter: usize,
+        /// The upper bound rather than the lower one.
+        upper: bool,
+    },
+    /// Two parameters are known only together.
+    Correlated {
+        /// Their indices.
+        pair: [usize; 2],
+        /// Their correlation `[-]`.
+        correlation: f64,
+    },
+    /// Several parameters can change together at little cost.
+    WeakDirection {
+        /// Unit vector of the change that the data hardly notice.
+        free: Vec<f64>,
+        /// Unit vector of the change of the same parameters that they notice most.
+        fixed: Vec<f64>,
+        /// Step along `free`, both ways, for which χ² rises by the 95 % threshold, if the model were linear; infinite
+        /// where it never rises.
+        reach: f64,
+    },
+}
+
+/// A finding and the sentence that tells it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// What was found.
+    pub kind: Kind,
+    text: String,
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.text)
+    }
+}
+
+/// All that the data leave open, worst first. `jacobian` holds the derivatives of the weighted residuals at the
+/// minimum, `physical` turns the coordinate of a parameter into its value in its unit.
+#[must_use]
+pub fn assess(
+    jacobian: &DMatrix<f64>,
+    region: &Region,
+    parameters: &[Parameter],
+    physical: &dyn Fn(usize, f64) -> f64,
+) -> Vec<Finding> {
+    let writer = Writer { parameters, physical };
+    let minimum = &region.minimum.point;
+    let (data, count) = (jacobian.nrows(), jacobian.ncols());
+    let mut findings = Vec::new();
+    let mut add = |kind: Kind| findings.push(Finding { text: writer.sentence(&kind, minimum), kind });
+
+    let (values, directions) = spectrum(jacobian);
+    let largest = values.iter().copied().fold(0.0, f64::max);
+    let rank = values.iter().filter(|value| **value > RANK_TOLERANCE * largest).count();
+    if data < count {
+        add(Kind::FewData { data, parameters: count });
+    } else if rank < count {
+        add(Kind::RankDeficient { rank, parameters: count });
+    }
+    for (k, profile) in region.profiles.iter().enumerate() {
+        if !profile.is_closed() || profile.width() > WIDE {
+            let open = [profile.open_below, profile.open_above];
+            add(Kind::NotDetermined { parameter: k, interval: profile.interval, open });
+        }
+    }
+    for (k, profile) in region.profiles.iter().enumerate() {
+        let (lower, upper) = (minimum[k] < AT_BOUND, minimum[k] > 1.0 - AT_BOUND);
+        // where every value agrees, it means nothing that the best lies at an end
+        if (lower || upper) && !(profile.open_below && profile.open_above) {
+            add(Kind::AtBound { parameter: k, upper });
+        }
+    }
+    for first in 0..count {
+        for second in first + 1..count {
+            let correlation = region.correlation[(first, second)];
+            if correlation.abs() > STRONG {
+                add(Kind::Correlated { pair: [first, second], correlation });
+            }
+        }
+    }
+    let threshold = region.inflation * chi_squared_quantile(CONFIDENCE, 1).sqrt();
+    for (value, direction) in values.iter().zip(&directions) {
+        let free = dominant(direction);
+        let members = free.iter().filter(|share| **share != 0.0).count();
+        let reach = threshold / value;
+        let fixed = strongest(jacobian, &free);
+        // where even the best known combination is weak there is nothing to set it against
+        let alike = free.iter().zip(&fixed).map(|(a, b)| a * b).sum::<f64>().abs() > 0.99;
+        if reach > WEAK && members > 1 && !alike {
+            add(Kind::WeakDirection { fixed, free, reach });
+        }
+    }
+    findings
+}
+
+/// Singular values of J and their directions, the smallest first; as many as there are parameters.
+fn spectrum(jacobian: &DMatrix<f64>) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let count = jacobian.ncols();
+    // with fewer data than parameters the directions without effect are only found with rows of zeros
+    let square = jacobian.clone().resize_vertically(jacobian.nrows().max(count), 0.0);
+    let factors = square.svd(false, true);
+    let Some(directions) = factors.v_t else { return (Vec::new(), Vec::new()) };
+    let mut order: Vec<usize> = (0..count).collect();
+    order.sort_by(|a, b| factors.singular_values[*a].total_cmp(&factors.singular_values[*b]));
+    let row = |k: &usize| directions.row(*k).iter().copied().collect();
+    (order.iter().map(|k| factors.singular_values[*k]).collect(), order.iter().map(row).collect())
+}
+
+/// The direction with its small components left out, of length 1, its first component positive.
+fn dominant(direction: &[f64]) -> Vec<f64> {
+    let largest = direction.iter().fold(0.0_f64, |most, share| most.max(share.abs()));
+    let kept = |share: &f64| if share.abs() >= DOMINANT * largest { *share } else { 0.0 };
+    let sign = direction.iter().map(kept).find(|share| *share != 0.0).map_or(1.0, f64::signum);
+    unit(direction.iter().map(|share| sign * kept(share)).collect())
+}
+
+fn unit(vector: Vec<f64>) -> Vec<f64> {
+    let length = vector.iter().map(|share| share * share).sum::<f64>().sqrt();
+    vector.into_iter().map(|share| share / length).collect()
+}
+
+/// The change of the same parameters that moves the residuals most.
+fn strongest(jacobian: &DMatrix<f64>, free: &[f64]) -> Vec<f64> {
+    let mut part = jacobian.clone();
+    for (k, share) in free.iter().enumerate() {
+        if *share == 0.0 {
+            part.column_mut(k).fill(0.0);
+        }
+    }
+    spectrum(&part).1.last().map_or_else(|| vec![0.0; free.len()], |direction| dominant(direction))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::region::Uncertainties;
+    use super::super::search::Evaluated;
+    use super::super::{Emulator, chi_squared};
+    use super::*;
+    use crate::sampling::design::full_grid;
+
+    /// Findings of a model of two parameters, `viscosity` 0.5 to 2.5 Pa·s and `friction` 0 to 1.
+    fn findings(residuals: impl Fn(&[f64]) -> Vec<f64>) -> Vec<Finding> {
+        let one = |point: Vec<f64>| {
+            let residuals = residuals(&point);
+            Evaluated { point, chi_squared: Some(chi_squared(&residuals)), residuals: Some(residuals) }
+        };
+        let history: Vec<Evaluated> = full_grid(&[4, 4]).into_iter().map(one).collect();
+        let emulator = Emulator::fit(&history, 0.02).unwrap();
+        let region = Region::new(&emulator, Uncertainties::AsStated);
+        let jacobian = emulator.jacobian(&region.minimum.point);
+        let parameters = [("viscosity", "Pa·s"), ("friction", "-")]
+            .map(|(name, unit)| Parameter { name: name.to_owned(), unit: unit.to_owned() });
+        let findings = assess(&jacobian, &region, &parameters, &|k, u| [0.5 + 2.0 * u, u][k]);
+        for finding in &findings {
+            println!("{finding}");
+        }
+        findings
+    }
+
+    fn texts(findings: &[Finding]) -> Vec<String> {
+        findings.iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn well_determined_parameters_raise_nothing() {
+        assert_eq!(findings(|u| vec![50.0 * (u[0] - 0.5), 50.0 * (u[1] - 0.5), 1.0]), []);
+    }
+
+    #[test]
+    fn one_datum_does_not_determine_two_parameters() {
+        let found = findings(|u| vec![40.0 * (u[0] + u[1] - 1.0)]);
+        assert_eq!(found[0].kind, Kind::FewData { data: 1, parameters: 2 });
+        assert!(matches!(found[1].kind, Kind::NotDetermined { parameter: 0, .. }));
+        let all = texts(&found);
+        assert_eq!(
+            all[1],
+            "the data do not determine `viscosity`: any value from 0.5 to 2.5 Pa·s agrees with them at 95 %"
+        );
+        let Some(Kind::WeakDirection { free, fixed, reach }) = found.last().map(|finding| &finding.kind) else {
+            panic!("{all:?}")
+        };
+        assert!(found.iter().any(|finding| matches!(
+            finding.kind,
+            Kind::Correlated { correlation, .. } if correlation < -0.999
+        )));
+        assert!((free[0] + free[1]).abs() < 1e-6 && (fixed[0] - fixed[1]).abs() < 1e-6 && *reach > 1e6);
+    }
+
+    #[test]
+    fn nearly_collinear_parameters_are_known_together() {
+        // the sum to 1/100, the difference to 1/4
+        let found = findings(|u| vec![100.0 * (u[0] + u[1] - 1.0), 4.0 * (u[0] - u[1])]);
+        assert!(found.iter().any(|finding| matches!(
+            finding.kind,
+            Kind::Correlated { pair: [0, 1], correlation } if correlation < -0.99
+        )));
+        let weak = found.iter().find(|finding| matches!(finding.kind, Kind::WeakDirection { .. })).unwrap();
+        assert_eq!(
+            weak.to_string(),
+            "the data fix 0.71 `viscosity` + 0.71 `friction` (each as a share of its range) but hardly 0.71 \
+             `viscosity` − 0.71 `friction`: any point from `viscosity` = 1.01 Pa·s, `friction` = 0.745 to `viscosity` \
+             = 1.99 Pa·s, `friction` = 0.255 agrees with them at 95 %"
+        );
+    }
+
+    #[test]
+    fn a_minimum_at_a_bound_is_told() {
+        let found = texts(&findings(|u| vec![50.0 * (u[0] - 1.1), 50.0 * (u[1] - 0.5)]));
+        assert!(found[0].starts_with("the data do not bound `viscosity` from above: any value from"), "{found:?}");
+        assert!(found[1].starts_with("the best `viscosity` lies at its upper bound 2.5 Pa·s"), "{found:?}");
+    }
+
+    #[test]
+    fn an_interval_without_end_is_told() {
+        let found = texts(&findings(|u| vec![50.0 * (u[0] - 0.5), 0.01 * (u[1] - 0.5), 0.0]));
+        assert_eq!(found, ["the data do not determine `friction`: any value from 0 to 1 agrees with them at 95 %"]);
+    }
+
+    #[test]
+    fn dependence_on_fewer_combinations_is_told() {
+        let found = findings(|u| (1..4).map(|k| f64::from(k) * 10.0 * (u[0] + u[1] - 1.0)).collect());
+        assert_eq!(found[0].kind, Kind::RankDeficient { rank: 1, parameters: 2 });
+    }
+}

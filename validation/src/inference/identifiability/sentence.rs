@@ -1,0 +1,123 @@
+//! Findings in sentences.
+
+use super::{Kind, Parameter};
+use crate::inference::figures::significant;
+
+/// Writes numbers of the unit cube as a physicist reads them.
+pub(super) struct Writer<'a> {
+    pub(super) parameters: &'a [Parameter],
+    pub(super) physical: &'a dyn Fn(usize, f64) -> f64,
+}
+
+impl Writer<'_> {
+    fn name(&self, k: usize) -> String {
+        self.parameters.get(k).map_or_else(|| format!("parameter {k}"), |parameter| format!("`{}`", parameter.name))
+    }
+
+    fn value(&self, k: usize, u: f64) -> String {
+        significant((self.physical)(k, u), 3)
+    }
+
+    /// The unit after a number.
+    fn unit(&self, k: usize) -> String {
+        match self.parameters.get(k).map_or("", |parameter| parameter.unit.as_str()) {
+            "" | "-" => String::new(),
+            unit => format!(" {unit}"),
+        }
+    }
+
+    /// "0.71 `a` − 0.71 `b`".
+    fn combination(&self, direction: &[f64]) -> String {
+        let mut text = String::new();
+        for (k, share) in direction.iter().enumerate().filter(|(_, share)| **share != 0.0) {
+            let sign = match (text.is_empty(), *share < 0.0) {
+                (true, true) => "−",
+                (true, false) => "",
+                (false, true) => " − ",
+                (false, false) => " + ",
+            };
+            text += &format!("{sign}{} {}", significant(share.abs(), 2), self.name(k));
+        }
+        text
+    }
+
+    /// "`a` = 0.7 Pa·s, `b` = 2 m" at a step along a direction.
+    fn place(&self, minimum: &[f64], direction: &[f64], step: f64) -> String {
+        let members = (0..direction.len()).filter(|k| direction[*k] != 0.0);
+        let one = |k: usize| {
+            let value = self.value(k, (minimum[k] + step * direction[k]).clamp(0.0, 1.0));
+            format!("{} = {value}{}", self.name(k), self.unit(k))
+        };
+        members.map(one).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The sentence that tells a finding about a minimum.
+    pub(super) fn sentence(&self, kind: &Kind, minimum: &[f64]) -> String {
+        match kind {
+            Kind::FewData { data, parameters } => format!(
+                "there are fewer data ({data}) than parameters ({parameters}), so not all parameters can be \
+                 determined; fix some or add data"
+            ),
+            Kind::RankDeficient { rank, parameters } => format!(
+                "near the best point the data depend on only {rank} independent combination{} of the {parameters} \
+                 parameters; fix some or add data of another kind",
+                if *rank == 1 { "" } else { "s" }
+            ),
+            Kind::NotDetermined { parameter, interval, open } => {
+                let (name, unit) = (self.name(*parameter), self.unit(*parameter));
+                let [from, to] = interval.map(|u| self.value(*parameter, u));
+                match open {
+                    [true, false] => format!(
+                        "the data do not bound {name} from below: any value from its lower bound {from} to {to}{unit} \
+                         agrees with them at 95 %"
+                    ),
+                    [false, true] => format!(
+                        "the data do not bound {name} from above: any value from {from} to its upper bound {to}{unit} \
+                         agrees with them at 95 %"
+                    ),
+                    _ => format!(
+                        "the data do not determine {name}: any value from {from} to {to}{unit} agrees with them at 95 %"
+                    ),
+                }
+            }
+            Kind::AtBound { parameter, upper } => format!(
+                "the best {} lies at its {} bound {}{}: values beyond may agree still better, so widen the range if \
+                 physics allows",
+                self.name(*parameter),
+                if *upper { "upper" } else { "lower" },
+                self.value(*parameter, if *upper { 1.0 } else { 0.0 }),
+                self.unit(*parameter)
+            ),
+            Kind::Correlated { pair: [first, second], correlation } => format!(
+                "the data determine {} and {} only together (correlation {}): a larger value of one is made up for \
+                 by a {} value of the other",
+                self.name(*first),
+                self.name(*second),
+                significant(*correlation, 3),
+                if *correlation > 0.0 { "larger" } else { "smaller" }
+            ),
+            Kind::WeakDirection { free, fixed, reach } => {
+                let step = (*reach).min(room(minimum, free));
+                let back = (*reach).min(room(minimum, &free.iter().map(|share| -share).collect::<Vec<_>>()));
+                format!(
+                    "the data fix {} (each as a share of its range) but hardly {}: any point from {} to {} agrees with \
+                     them at 95 %",
+                    self.combination(fixed),
+                    self.combination(free),
+                    self.place(minimum, free, -back),
+                    self.place(minimum, free, step)
+                )
+            }
+        }
+    }
+}
+
+/// The longest step along a direction within the cube.
+fn room(point: &[f64], direction: &[f64]) -> f64 {
+    let along = |(u, share): (&f64, &f64)| match share.total_cmp(&0.0) {
+        std::cmp::Ordering::Greater => (1.0 - u) / share,
+        std::cmp::Ordering::Less => -u / share,
+        std::cmp::Ordering::Equal => f64::INFINITY,
+    };
+    point.iter().zip(direction).map(along).fold(f64::INFINITY, f64::min)
+}

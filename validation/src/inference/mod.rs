@@ -1,0 +1,49 @@
+//! The mathematics of calibration: the parameters that agree best with data, how well the data determine them, and what they leave open.
+//!
+//! Parameters are coordinates u of the unit cube; the caller maps them to physical values. A weighted residual is
+//! r = (model − datum)/σ with the datum's standard uncertainty σ, and χ² = Σ r². Nothing here runs on a clock or an
+//! unseeded generator, so a search that is begun anew asks for the same points in the same order.
+
+pub mod bootstrap;
+mod box_least_squares;
+#[cfg(test)]
+mod coverage;
+mod descent;
+pub mod emulator;
+pub mod explore;
+mod figures;
+pub mod identifiability;
+mod profile;
+pub mod region;
+pub mod scores;
+pub mod search;
+pub mod sensitivity;
+#[cfg(test)]
+mod stand_in;
+
+pub use emulator::Emulator;
+pub use explore::{Explored, explore};
+pub use figures::significant;
+pub use identifiability::{Parameter, assess};
+pub use profile::{Profile, ProfilePoint};
+pub use region::{Region, Uncertainties, chi_squared_quantile};
+pub use search::{Budget, Evaluated, Method, Search, SearchError, Stopped, search, search_design};
+
+/// The model as the search sees it.
+pub trait Evaluate {
+    /// What can go wrong beyond a run that diverges.
+    type Error;
+
+    /// Weighted residuals `[-]` at each point of the unit cube; `None` where the model failed (a run diverged). Points
+    /// may be evaluated in parallel; the caller caches, so asking twice costs nothing and counts once.
+    ///
+    /// # Errors
+    /// What stops the whole search, such as a full disk.
+    fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Self::Error>;
+}
+
+/// χ² of weighted residuals `[-]`.
+#[must_use]
+pub fn chi_squared(residuals: &[f64]) -> f64 {
+    residuals.iter().map(|residual| residual * residual).sum()
+}

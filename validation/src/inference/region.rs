@@ -1,0 +1,196 @@
+//! What the data leave open: the joint region, intervals, covariance, and whether the model explains the data at all.
+//!
+//! Of data with normal errors χ² rises from its minimum to the truth by a number that follows the χ² distribution, with
+//! as many degrees of freedom as there are parameters, or one for a single parameter with the others at their best
+//! (Wilks, Annals of Mathematical Statistics 9 (1938) 60).
+
+use super::emulator::{Emulator, Minimum};
+use super::profile::{Profile, profile};
+use nalgebra::DMatrix;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// Share of repeated experiments whose region contains the truth.
+pub const CONFIDENCE: f64 = 0.95;
+
+/// Singular values of J below this share of the largest one, or below this number of standard uncertainties over a full
+/// range, count as that much: directions without information get a large variance, not an infinite one.
+const LEAST_SHARE: f64 = 1e-8;
+const LEAST_INFORMATION: f64 = 1e-3;
+
+/// Which standard uncertainties of the data count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Uncertainties {
+    /// As they are stated.
+    AsStated,
+    /// Enlarged by √(reduced χ²) where that exceeds 1, as if what the model misses were part of the noise.
+    Inflated,
+}
+
+/// The parameters that agree with the data, in the unit cube.
+#[derive(Debug, Clone)]
+pub struct Region {
+    emulator: Emulator,
+    /// The least χ² of the emulator.
+    pub minimum: Minimum,
+    /// Rise of χ² at the edge of the joint region `[-]`.
+    pub threshold: f64,
+    /// Profile of every parameter with its interval.
+    pub profiles: Vec<Profile>,
+    /// Covariance (JᵀJ)⁻¹ at the minimum. A standard deviation far above 1, the range, only says that the data do not
+    /// determine the parameter.
+    pub covariance: DMatrix<f64>,
+    /// Correlation of the parameters `[-]`.
+    pub correlation: DMatrix<f64>,
+    /// χ² over the number of data less that of parameters `[-]`; none unless there are more data.
+    pub reduced_chi_squared: Option<f64>,
+    /// Share of repeated experiments in which a true model gives a larger χ² `[-]`.
+    pub p_value: Option<f64>,
+    /// Factor on the stated standard uncertainties that the region, the intervals and the covariance include `[-]`.
+    pub inflation: f64,
+}
+
+impl Region {
+    /// The region of an emulator.
+    #[must_use]
+    pub fn new(emulator: &Emulator, uncertainties: Uncertainties) -> Self {
+        let minimum = emulator.minimum();
+        let dimensions = emulator.dimensions();
+        let freedom = emulator.data().checked_sub(dimensions).filter(|freedom| *freedom > 0);
+        let reduced_chi_squared = freedom.map(|freedom| minimum.chi_squared / freedom as f64);
+        let p_value = freedom.map(|freedom| chi_squared_tail(minimum.chi_squared, freedom));
+        let inflation = match uncertainties {
+            Uncertainties::AsStated => 1.0,
+            Uncertainties::Inflated => reduced_chi_squared.unwrap_or(1.0).max(1.0).sqrt(),
+        };
+        let squared = inflation * inflation;
+        let covariance = squared * covariance(&emulator.jacobian(&minimum.point));
+        let profiles = (0..dimensions)
+            .map(|k| {
+                let deviation = covariance[(k, k)].sqrt();
+                profile(emulator, &minimum, k, deviation, squared * chi_squared_quantile(CONFIDENCE, 1))
+            })
+            .collect();
+        Self {
+            emulator: emulator.clone(),
+            threshold: squared * chi_squared_quantile(CONFIDENCE, dimensions),
+            profiles,
+            correlation: correlation(&covariance),
+            covariance,
+            reduced_chi_squared,
+            p_value,
+            inflation,
+            minimum,
+        }
+    }
+
+    /// Derivatives of the weighted residuals at the minimum, one row a datum, one column a parameter.
+    #[must_use]
+    pub fn jacobian(&self) -> DMatrix<f64> {
+        self.emulator.jacobian(&self.minimum.point)
+    }
+
+    /// Whether a point of the cube agrees with the data.
+    #[must_use]
+    pub fn contains(&self, point: &[f64]) -> bool {
+        self.emulator.chi_squared(point) - self.minimum.chi_squared <= self.threshold
+    }
+}
+
+/// χ² below which a share `confidence` of its distribution lies `[-]`; not a number without freedom.
+#[must_use]
+pub fn chi_squared_quantile(confidence: f64, freedom: usize) -> f64 {
+    // rounded, since the library underneath takes logarithms from the platform
+    let rounded = |value: f64| (value * 1e9).round() * 1e-9;
+    ChiSquared::new(freedom as f64).map_or(f64::NAN, |distribution| rounded(distribution.inverse_cdf(confidence)))
+}
+
+/// Share of the distribution of χ² above a value `[-]`; not a number without freedom.
+#[must_use]
+pub fn chi_squared_tail(value: f64, freedom: usize) -> f64 {
+    let rounded = |value: f64| (value * 1e9).round() * 1e-9;
+    ChiSquared::new(freedom as f64).map_or(f64::NAN, |distribution| rounded(distribution.sf(value)))
+}
+
+/// (JᵀJ)⁻¹ from the singular values of J.
+fn covariance(jacobian: &DMatrix<f64>) -> DMatrix<f64> {
+    let count = jacobian.ncols();
+    let mut result = DMatrix::zeros(count, count);
+    // with fewer data than parameters, rows of zeros bring out the directions without effect
+    let factors = jacobian.clone().resize_vertically(jacobian.nrows().max(count), 0.0).svd(false, true);
+    let Some(directions) = factors.v_t else { return result };
+    let least = LEAST_INFORMATION.max(LEAST_SHARE * factors.singular_values.max());
+    for (row, value) in factors.singular_values.iter().enumerate() {
+        let direction = directions.row(row);
+        let value = value.max(least);
+        result += direction.tr_mul(&direction) / (value * value);
+    }
+    result
+}
+
+/// Correlation matrix of a covariance; nothing correlates with a parameter without variance.
+fn correlation(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(covariance.nrows(), covariance.ncols(), |row, column| {
+        let scale = (covariance[(row, row)] * covariance[(column, column)]).sqrt();
+        if row == column {
+            1.0
+        } else if scale > 0.0 {
+            (covariance[(row, column)] / scale).clamp(-1.0, 1.0)
+        } else {
+            0.0
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::chi_squared;
+    use super::super::search::Evaluated;
+    use super::*;
+    use crate::sampling::design::full_grid;
+
+    fn emulator(residuals: impl Fn(&[f64]) -> Vec<f64>) -> Emulator {
+        let one = |point: Vec<f64>| {
+            let residuals = residuals(&point);
+            Evaluated { point, chi_squared: Some(chi_squared(&residuals)), residuals: Some(residuals) }
+        };
+        let history: Vec<Evaluated> = full_grid(&[4, 4]).into_iter().map(one).collect();
+        Emulator::fit(&history, 0.02).unwrap()
+    }
+
+    #[test]
+    fn quantiles_are_those_of_the_tables() {
+        for (freedom, expected) in [(1, 3.841_459), (2, 5.991_465), (3, 7.814_728), (10, 18.307_038)] {
+            assert!((chi_squared_quantile(0.95, freedom) - expected).abs() < 1e-5, "{freedom}");
+            assert!((chi_squared_tail(expected, freedom) - 0.05).abs() < 1e-7);
+        }
+        assert!(chi_squared_quantile(0.95, 0).is_nan());
+    }
+
+    #[test]
+    fn the_covariance_inverts_the_information() {
+        let emulator = emulator(|u| vec![20.0 * (u[0] - 0.5), 10.0 * (u[0] + u[1] - 1.0)]);
+        let region = Region::new(&emulator, Uncertainties::AsStated);
+        let exact = DMatrix::from_row_slice(2, 2, &[0.0025, -0.0025, -0.0025, 0.0125]);
+        assert!((&region.covariance - exact).norm() < 1e-9);
+        assert!((region.correlation[(0, 1)] + 0.2f64.sqrt()).abs() < 1e-7);
+        assert_eq!((region.reduced_chi_squared, region.p_value, region.inflation), (None, None, 1.0));
+        // the edge of the ellipse along the first axis: (400 + 100) s² = 5.9915
+        let edge = (5.991_465f64 / 500.0).sqrt();
+        assert!(region.contains(&[0.5 + 0.999 * edge, 0.5]) && !region.contains(&[0.5 + 1.001 * edge, 0.5]));
+    }
+
+    #[test]
+    fn a_model_that_misses_the_data_is_noticed_and_its_region_enlarged() {
+        // two constants of 3 standard uncertainties: χ² = 18 on 4 − 2 degrees of freedom
+        let emulator = emulator(|u| vec![50.0 * (u[0] - 0.5), 50.0 * (u[1] - 0.5), 3.0, -3.0]);
+        let stated = Region::new(&emulator, Uncertainties::AsStated);
+        let inflated = Region::new(&emulator, Uncertainties::Inflated);
+        assert!((stated.reduced_chi_squared.unwrap() - 9.0).abs() < 1e-9);
+        assert!((stated.p_value.unwrap() - libm::exp(-9.0)).abs() < 1e-9);
+        assert!((inflated.inflation - 3.0).abs() < 1e-9);
+        for k in 0..2 {
+            assert!((inflated.profiles[k].width() / stated.profiles[k].width() - 3.0).abs() < 1e-5);
+        }
+        assert!(!stated.contains(&[0.6, 0.5]) && inflated.contains(&[0.6, 0.5]));
+    }
+}

@@ -1,0 +1,185 @@
+//! What has been evaluated: each distinct point once, never more than the budget.
+
+use super::{Evaluated, Search, SearchError, Stopped};
+use crate::inference::{Evaluate, chi_squared};
+use crate::sampling::design;
+use std::collections::BTreeMap;
+
+/// Why a method cannot go on.
+#[derive(Debug)]
+pub(in crate::inference) enum Halt<E> {
+    /// A new point would exceed the budget.
+    BudgetSpent,
+    /// No point tried so far works, and none else is to be tried.
+    NothingWorked,
+    /// The model has an error.
+    Model(E),
+    /// Numbers of residuals that differ: expected and found.
+    Residuals(usize, usize),
+}
+
+/// The model with a memory and a budget.
+pub(in crate::inference) struct Recorder<'a, M> {
+    model: &'a mut M,
+    budget: usize,
+    history: Vec<Evaluated>,
+    /// Position in the history by the bits of the coordinates.
+    known: BTreeMap<Vec<u64>, usize>,
+    /// Number of residuals of the first success.
+    data: Option<usize>,
+}
+
+/// A point and the residuals there.
+type Start = (Vec<f64>, Vec<f64>);
+
+/// Points of one batch while none has worked yet.
+const RESCUE_BATCH: usize = 4;
+
+impl<'a, M: Evaluate> Recorder<'a, M> {
+    pub(in crate::inference) fn new(model: &'a mut M, budget: usize) -> Self {
+        Self { model, budget, history: Vec::new(), known: BTreeMap::new(), data: None }
+    }
+
+    /// Every distinct point so far.
+    pub(in crate::inference) fn history(&self) -> &[Evaluated] {
+        &self.history
+    }
+
+    /// The evaluated point of least χ².
+    pub(in crate::inference) fn best(&self) -> Option<(&Evaluated, f64)> {
+        self.history
+            .iter()
+            .filter_map(|evaluated| evaluated.chi_squared.map(|chi_squared| (evaluated, chi_squared)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The residuals at each point, new ones in one batch. Of points beyond the budget none is evaluated, those before
+    /// them are.
+    pub(in crate::inference) fn residuals(
+        &mut self,
+        points: &[Vec<f64>],
+    ) -> Result<Vec<Option<Vec<f64>>>, Halt<M::Error>> {
+        let mut fresh: Vec<Vec<f64>> = Vec::new();
+        for point in points {
+            let next = self.history.len() + fresh.len();
+            let key = bits(point);
+            if self.known.contains_key(&key) || next >= self.budget {
+                continue;
+            }
+            self.known.insert(key, next);
+            fresh.push(point.clone());
+        }
+        if !fresh.is_empty() {
+            let results = self.model.residuals(&fresh).map_err(Halt::Model)?;
+            for (point, residuals) in fresh.into_iter().zip(results) {
+                let residuals = residuals.filter(|list| list.iter().all(|residual| residual.is_finite()));
+                if let Some(list) = &residuals {
+                    let expected = *self.data.get_or_insert(list.len());
+                    if expected != list.len() {
+                        return Err(Halt::Residuals(expected, list.len()));
+                    }
+                }
+                let chi_squared = residuals.as_deref().map(chi_squared);
+                self.history.push(Evaluated { point, residuals, chi_squared });
+            }
+        }
+        points
+            .iter()
+            .map(|point| {
+                let position = self.known.get(&bits(point)).ok_or(Halt::BudgetSpent)?;
+                Ok(self.history.get(*position).and_then(|evaluated| evaluated.residuals.clone()))
+            })
+            .collect()
+    }
+
+    /// The residuals at one point.
+    pub(in crate::inference) fn residuals_at(&mut self, point: &[f64]) -> Result<Option<Vec<f64>>, Halt<M::Error>> {
+        Ok(self.residuals(&[point.to_vec()])?.pop().flatten())
+    }
+
+    /// The start, or where the model fails there, the best of the first few points spread over the cube that work.
+    pub(in crate::inference) fn working_start(&mut self, start: &[f64], seed: u64) -> Result<Start, Halt<M::Error>> {
+        if let Some(residuals) = self.residuals_at(start)? {
+            return Ok((start.to_vec(), residuals));
+        }
+        for batch in design::sobol(self.budget, start.len(), seed).chunks(RESCUE_BATCH) {
+            let outcome = self.residuals(batch);
+            if let Some((best, _)) = self.best() {
+                let residuals = best.residuals.clone().unwrap_or_default();
+                return Ok((best.point.clone(), residuals));
+            }
+            outcome?;
+        }
+        Err(Halt::NothingWorked)
+    }
+
+    /// The result of a method that has ended.
+    pub(in crate::inference) fn finish(
+        self,
+        outcome: Result<Stopped, Halt<M::Error>>,
+    ) -> Result<Search, SearchError<M::Error>> {
+        let stopped = match outcome {
+            Ok(stopped) => stopped,
+            Err(Halt::BudgetSpent | Halt::NothingWorked) => Stopped::BudgetSpent,
+            Err(Halt::Model(error)) => return Err(SearchError::Model(error)),
+            Err(Halt::Residuals(expected, found)) => return Err(SearchError::Residuals { expected, found }),
+        };
+        match self.best().map(|(best, chi_squared)| (best.point.clone(), chi_squared)) {
+            Some((best, chi_squared)) => Ok(Search { best, chi_squared, history: self.history, stopped }),
+            None => Err(SearchError::NothingWorked { evaluations: self.history.len() }),
+        }
+    }
+}
+
+/// The coordinates as bits; both zeros are one.
+fn bits(point: &[f64]) -> Vec<u64> {
+    point.iter().map(|u| (u + 0.0).to_bits()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::stand_in::Valley;
+    use super::*;
+
+    struct Counting(usize);
+
+    impl Evaluate for Counting {
+        type Error = String;
+        fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, String> {
+            self.0 += points.len();
+            Ok(points.iter().map(|u| (u[0] < 0.9).then(|| vec![u[0]])).collect())
+        }
+    }
+
+    #[test]
+    fn a_point_is_evaluated_once() {
+        let mut model = Counting(0);
+        let mut recorder = Recorder::new(&mut model, 3);
+        let points = [vec![0.5], vec![0.0], vec![0.5], vec![-0.0]];
+        let residuals = recorder.residuals(&points).unwrap();
+        assert_eq!(residuals, [Some(vec![0.5]), Some(vec![0.0]), Some(vec![0.5]), Some(vec![0.0])]);
+        assert_eq!(recorder.residuals_at(&[0.95]).unwrap(), None);
+        assert_eq!(recorder.history().len(), 3);
+        assert_eq!(model.0, 3);
+    }
+
+    #[test]
+    fn a_batch_is_cut_at_the_budget() {
+        let mut model = Counting(0);
+        let mut recorder = Recorder::new(&mut model, 2);
+        let points = [vec![0.5], vec![0.25], vec![0.125]];
+        assert!(matches!(recorder.residuals(&points), Err(Halt::BudgetSpent)));
+        assert_eq!(recorder.history().len(), 2);
+        assert!(matches!(recorder.residuals(&points[..2]), Ok(list) if list.len() == 2));
+        assert_eq!(recorder.best().unwrap().1, 0.0625);
+    }
+
+    #[test]
+    fn a_start_that_fails_is_replaced() {
+        let mut model = Counting(0);
+        let (start, residuals) = Recorder::new(&mut model, 9).working_start(&[1.0], 1).unwrap();
+        assert!(start[0] < 0.9 && residuals == start);
+        let (start, _) = Recorder::new(&mut Valley, 9).working_start(&[1.0, 0.5], 1).unwrap();
+        assert_eq!(start, [1.0, 0.5]);
+    }
+}

@@ -1,0 +1,146 @@
+//! Screening by elementary effects: which parameters matter at all.
+//!
+//! A trajectory starts at a random point of a grid and changes one parameter after the other by Δ; the change of a
+//! residual over Δ is an elementary effect. Its size averaged over trajectories ranks the parameters, its scatter shows
+//! curvature or interaction.
+//!
+//! Sources: Morris, Technometrics 33 (1991) 161; Campolongo et al., Environ. Model. Softw. 22 (2007) 1509, for μ*.
+
+use super::Evaluate;
+use crate::sampling::Random;
+
+/// Levels of the grid along every axis.
+const LEVELS: usize = 4;
+
+/// Change of a parameter, p/(2 (p − 1)) of the range for p levels, so that all levels are equally likely.
+const CHANGE: f64 = LEVELS as f64 / (2.0 * (LEVELS as f64 - 1.0));
+
+/// What one parameter does to the residuals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effect {
+    /// Root mean square over the data of the mean size of its effects (μ*), in standard uncertainties of a datum per
+    /// full range `[-]`; not a number without effects.
+    pub mean_size: f64,
+    /// Root mean square over the data of the standard deviation of its effects (σ), likewise `[-]`; not a number for
+    /// fewer than two effects.
+    pub deviation: f64,
+    /// Effects that count, those of steps both ends of which worked.
+    pub effects: usize,
+}
+
+/// The effects of all parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Screening {
+    /// One a parameter.
+    pub effects: Vec<Effect>,
+    /// Points of the trajectories.
+    pub points: usize,
+    /// Points at which the model failed.
+    pub failed: usize,
+}
+
+/// The points of all trajectories, one trajectory of `dimensions` + 1 points after the other.
+#[must_use]
+pub fn trajectories(count: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
+    let mut random = Random::new(seed);
+    let mut points = Vec::new();
+    for _ in 0..count {
+        let mut point: Vec<f64> = (0..dimensions).map(|_| random.index(LEVELS) as f64 / (LEVELS - 1) as f64).collect();
+        let mut order: Vec<usize> = (0..dimensions).collect();
+        random.shuffle(&mut order);
+        points.push(point.clone());
+        for k in order {
+            point[k] = if point[k] < 0.5 { (point[k] + CHANGE).min(1.0) } else { (point[k] - CHANGE).max(0.0) };
+            points.push(point.clone());
+        }
+    }
+    points
+}
+
+/// Evaluates trajectories in one batch and measures the effects.
+///
+/// # Errors
+/// An error of the model itself.
+pub fn screen<M: Evaluate>(model: &mut M, dimensions: usize, count: usize, seed: u64) -> Result<Screening, M::Error> {
+    let points = trajectories(count, dimensions, seed);
+    let residuals = model.residuals(&points)?;
+    let mut effects: Vec<Vec<Vec<f64>>> = vec![Vec::new(); dimensions];
+    for (line, values) in points.chunks(dimensions + 1).zip(residuals.chunks(dimensions + 1)) {
+        for (ends, results) in line.windows(2).zip(values.windows(2)) {
+            let ([from, to], [Some(before), Some(after)]) = (ends, results) else { continue };
+            let Some(k) = (0..dimensions).find(|k| from[*k] != to[*k]) else { continue };
+            effects[k].push(before.iter().zip(after).map(|(a, b)| (b - a) / (to[k] - from[k])).collect());
+        }
+    }
+    Ok(Screening {
+        effects: effects.iter().map(|list| effect(list)).collect(),
+        points: points.len(),
+        failed: residuals.iter().filter(|result| result.is_none()).count(),
+    })
+}
+
+/// Statistics of the effects of one parameter, each a list over the data.
+fn effect(list: &[Vec<f64>]) -> Effect {
+    let (count, data) = (list.len() as f64, list.first().map_or(0, Vec::len));
+    let over_data = |square: &dyn Fn(usize) -> f64| ((0..data).map(square).sum::<f64>() / data as f64).sqrt();
+    let mean_size = over_data(&|datum| {
+        let mean = list.iter().map(|effect| effect[datum].abs()).sum::<f64>() / count;
+        mean * mean
+    });
+    let deviation = over_data(&|datum| {
+        let mean = list.iter().map(|effect| effect[datum]).sum::<f64>() / count;
+        list.iter().map(|effect| (effect[datum] - mean) * (effect[datum] - mean)).sum::<f64>() / (count - 1.0)
+    });
+    Effect { mean_size, deviation, effects: list.len() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::convert::Infallible;
+
+    /// Linear in the first parameter, a product of the second and third, and without the fourth.
+    struct Product {
+        beyond: f64,
+    }
+
+    impl Evaluate for Product {
+        type Error = Infallible;
+        fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Infallible> {
+            let one = |u: &Vec<f64>| (u[3] <= self.beyond).then(|| vec![7.0 * u[0] - 1.0, 12.0 * u[1] * u[2]]);
+            Ok(points.iter().map(one).collect())
+        }
+    }
+
+    #[test]
+    fn effects_are_those_of_the_formula() {
+        let screening = screen(&mut Product { beyond: 1.0 }, 4, 400, 3).unwrap();
+        let effects = &screening.effects;
+        assert_eq!((screening.points, screening.failed), (2000, 0));
+        // one datum of two with effect 7
+        assert!((effects[0].mean_size - 7.0 / 2.0f64.sqrt()).abs() < 1e-12 && effects[0].deviation < 1e-12);
+        // 12 u with u = 0, 1/3, 2/3, 1: mean 6, deviation 12 √(5/36)
+        for effect in &effects[1..3] {
+            assert!((effect.mean_size - 6.0 / 2.0f64.sqrt()).abs() < 0.3, "{effect:?}");
+            assert!((effect.deviation - 12.0 * (5.0f64 / 36.0).sqrt() / 2.0f64.sqrt()).abs() < 0.2, "{effect:?}");
+        }
+        assert_eq!((effects[3].mean_size, effects[3].effects), (0.0, 400));
+    }
+
+    #[test]
+    fn failures_are_counted_and_left_out() {
+        let screening = screen(&mut Product { beyond: 0.5 }, 4, 50, 3).unwrap();
+        assert!(screening.failed > 50 && screening.failed < 200);
+        assert!(screening.effects[3].effects == 0 && screening.effects[3].mean_size.is_nan());
+        assert!((screening.effects[0].mean_size - 7.0 / 2.0f64.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_trajectory_changes_every_parameter_once() {
+        for line in trajectories(30, 3, 1).chunks(4) {
+            let changed = |k: usize| line.windows(2).filter(|ends| ends[0][k] != ends[1][k]).count();
+            assert!((0..3).all(|k| changed(k) == 1));
+            assert!(line.iter().flatten().all(|u| [0.0, 1.0, 2.0, 3.0].iter().any(|l| (u - l / 3.0).abs() < 1e-12)));
+        }
+    }
+}

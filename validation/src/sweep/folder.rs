@@ -1,0 +1,132 @@
+//! The folder of a sweep: who is done, who failed, who is missing.
+
+use super::manifest::{Entry, Manifest};
+use crate::error::InputError;
+use crate::evaluation::Record;
+use crate::output::write_whole;
+use std::path::{Path, PathBuf};
+
+/// How far a sweep is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Tally {
+    /// Runs with numbers.
+    pub done: usize,
+    /// Runs that failed, with their reason.
+    pub failed: usize,
+    /// Runs without a record.
+    pub missing: usize,
+}
+
+/// A sweep on disk.
+#[derive(Debug, Clone)]
+pub struct SweepFolder {
+    folder: PathBuf,
+    manifest: Manifest,
+}
+
+impl SweepFolder {
+    /// Makes the folder of a sweep, or continues it.
+    ///
+    /// # Errors
+    /// A folder with another sweep, somebody else's files, or a sweep that is not to be resumed; files that cannot be
+    /// written.
+    pub fn begin(folder: &Path, manifest: Manifest, resume: bool) -> Result<Self, InputError> {
+        let listed = folder.join("manifest.json");
+        if listed.is_file() {
+            if !resume {
+                return Err(InputError::InUse { what: "sweep", folder: folder.to_owned() });
+            }
+            let old = Manifest::read(&listed)?;
+            if old != manifest {
+                return Err(InputError::OtherPlan {
+                    what: "sweep",
+                    folder: folder.to_owned(),
+                    by_program: old.is_foreign(),
+                });
+            }
+            return Ok(Self { folder: folder.to_owned(), manifest: old });
+        }
+        let unwritable = |error: std::io::Error| InputError::unwritable(folder, &error);
+        match std::fs::read_dir(folder) {
+            Ok(mut entries) => {
+                if entries.next().is_some() {
+                    return Err(InputError::ForeignFolder { folder: folder.to_owned() });
+                }
+            }
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                std::fs::create_dir_all(folder).map_err(unwritable)?;
+            }
+            Err(error) => return Err(unwritable(error)),
+        }
+        let begun = Self { folder: folder.to_owned(), manifest };
+        let text = serde_json::to_string_pretty(&begun.manifest).map_err(|error| unwritable(error.into()))?;
+        write_whole(&listed, format!("{text}\n").as_bytes()).map_err(unwritable)?;
+        Ok(begun)
+    }
+
+    /// Opens the folder of a sweep.
+    ///
+    /// # Errors
+    /// A folder without a manifest, or a manifest of another version of the program.
+    pub fn open(folder: &Path) -> Result<Self, InputError> {
+        let listed = folder.join("manifest.json");
+        if !listed.is_file() {
+            return Err(InputError::NoSweep { folder: folder.to_owned() });
+        }
+        let manifest = Manifest::read(&listed)?;
+        if manifest.is_foreign() {
+            return Err(InputError::OtherPlan { what: "sweep", folder: folder.to_owned(), by_program: true });
+        }
+        Ok(Self { folder: folder.to_owned(), manifest })
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.folder
+    }
+
+    /// What is to be run.
+    #[must_use]
+    pub fn manifest(&self) -> &Manifest {
+        &self.manifest
+    }
+
+    /// Folder of a run.
+    #[must_use]
+    pub fn of(&self, entry: &Entry) -> PathBuf {
+        self.folder.join("runs").join(&entry.folder)
+    }
+
+    /// The record of a run that is done or has failed.
+    #[must_use]
+    pub fn record(&self, entry: &Entry) -> Option<Record> {
+        match &entry.refusal {
+            Some(reason) => Some(Record::failed("", &entry.case, reason)),
+            None => Record::read(&self.of(entry).join("record.postcard"), &entry.key),
+        }
+    }
+
+    /// Runs without a record, the longest first; of equal ones the first first.
+    #[must_use]
+    pub fn missing(&self) -> Vec<&Entry> {
+        let mut missing: Vec<&Entry> =
+            self.manifest.entries.iter().filter(|entry| self.record(entry).is_none()).collect();
+        missing.sort_by(|a, b| b.particle_steps.total_cmp(&a.particle_steps).then(a.number.cmp(&b.number)));
+        missing
+    }
+
+    /// How far it is.
+    #[must_use]
+    pub fn tally(&self) -> Tally {
+        let mut tally = Tally::default();
+        for entry in &self.manifest.entries {
+            match self.record(entry) {
+                None => tally.missing += 1,
+                Some(record) if record.failure.is_some() => tally.failed += 1,
+                Some(_) => tally.done += 1,
+            }
+        }
+        tally
+    }
+}

@@ -1,0 +1,161 @@
+//! From the runs' records to one tidy table, the list of failures and pair plots.
+
+use super::folder::{SweepFolder, Tally};
+use super::manifest::{Entry, Manifest};
+use crate::error::InputError;
+use crate::evaluation::Record;
+use crate::figure::{self, Axis, Figure, Mark, Panel, Series};
+use crate::metric::Verdict;
+use crate::output::write_whole;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Metrics that are drawn for a case if the plan names none.
+const DRAWN: usize = 4;
+
+/// Writes `results.csv`, `failures.csv` and the figures from the records that are there.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn gather(sweep: &SweepFolder) -> Result<Tally, InputError> {
+    let unwritable = |error: std::io::Error| InputError::unwritable(sweep.path(), &error);
+    let records: Vec<(&Entry, Record)> =
+        sweep.manifest().entries.iter().filter_map(|entry| sweep.record(entry).map(|record| (entry, record))).collect();
+    let names = &sweep.manifest().parameters;
+    let results = results(names, &records).map_err(unwritable)?;
+    write_whole(&sweep.path().join("results.csv"), &results).map_err(unwritable)?;
+    let failures = failures(names, &records).map_err(unwritable)?;
+    write_whole(&sweep.path().join("failures.csv"), &failures).map_err(unwritable)?;
+    let folder = sweep.path().join("figures");
+    for drawn in figures(sweep.manifest(), &records) {
+        draw(&drawn, &folder)?;
+    }
+    Ok(sweep.tally())
+}
+
+fn draw(drawn: &Figure, folder: &Path) -> Result<(), InputError> {
+    match figure::write(drawn, folder) {
+        Ok(_) => Ok(()),
+        Err(figure::FigureError::Write { source, .. }) => Err(InputError::unwritable(folder, &source)),
+        // a figure that cannot be drawn is no reason to lose the numbers
+        Err(error) => {
+            tracing::error!("figure {}: failed to {error}", drawn.name);
+            Ok(())
+        }
+    }
+}
+
+/// One line a metric: run, case, tier, parameters, metric, variant, value, unit, verdict.
+fn results(names: &[String], records: &[(&Entry, Record)]) -> std::io::Result<Vec<u8>> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let (head, tail) = (["run", "case", "tier"], ["metric", "variant", "value", "unit", "verdict"]);
+    writer.write_record(head.into_iter().chain(names.iter().map(String::as_str)).chain(tail))?;
+    for (entry, record) in records.iter().filter(|(_, record)| record.failure.is_none()) {
+        for metric in &record.metrics {
+            let verdict = match metric.verdict {
+                Verdict::Pass => "pass",
+                Verdict::Fail => "fail",
+                Verdict::Observed => "observed",
+            };
+            writer.write_record(first(entry).into_iter().chain([
+                metric.name.clone(),
+                metric.variant.clone(),
+                metric.value.to_string(),
+                metric.unit.clone(),
+                verdict.to_owned(),
+            ]))?;
+        }
+    }
+    writer.into_inner().map_err(|error| std::io::Error::other(error.to_string()))
+}
+
+/// One line a run that failed: run, case, tier, parameters, reason.
+fn failures(names: &[String], records: &[(&Entry, Record)]) -> std::io::Result<Vec<u8>> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let head = ["run", "case", "tier"];
+    writer.write_record(head.into_iter().chain(names.iter().map(String::as_str)).chain(["reason"]))?;
+    for (entry, record) in records {
+        if let Some(reason) = &record.failure {
+            writer.write_record(first(entry).into_iter().chain([reason.clone()]))?;
+        }
+    }
+    writer.into_inner().map_err(|error| std::io::Error::other(error.to_string()))
+}
+
+/// What every line begins with. Words lose TOML's quotes.
+fn first(entry: &Entry) -> Vec<String> {
+    let plain = |value: &String| value.trim_matches(|mark| mark == '"' || mark == '\'').to_owned();
+    let head = [entry.number.to_string(), entry.case.clone(), entry.tier.to_string()];
+    head.into_iter().chain(entry.point.iter().map(plain)).collect()
+}
+
+/// One figure a case: its metrics, one a row of panels, over the parameters that are numbers.
+fn figures(manifest: &Manifest, records: &[(&Entry, Record)]) -> Vec<Figure> {
+    let mut cases: Vec<&str> = Vec::new();
+    for (entry, _) in records {
+        if !cases.contains(&entry.case.as_str()) {
+            cases.push(&entry.case);
+        }
+    }
+    cases.into_iter().filter_map(|case| pairs(manifest, case, records)).collect()
+}
+
+fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Option<Figure> {
+    let own: Vec<&(&Entry, Record)> =
+        records.iter().filter(|(entry, record)| entry.case == case && record.failure.is_none()).collect();
+    let numbers = |parameter: usize| -> Option<Vec<f64>> {
+        let values: Option<Vec<f64>> = own.iter().map(|(entry, _)| entry.point[parameter].parse().ok()).collect();
+        values.filter(|values| values.iter().any(|value| *value != values[0]))
+    };
+    let varied: Vec<(usize, Vec<f64>)> =
+        (0..manifest.parameters.len()).filter_map(|k| numbers(k).map(|values| (k, values))).collect();
+    let metrics = drawn_metrics(manifest, &own);
+    if varied.is_empty() || metrics.is_empty() {
+        return None;
+    }
+    let mut panels = Vec::new();
+    for (name, variant) in &metrics {
+        for (parameter, values) in &varied {
+            let mut unit = String::new();
+            let mut points = Vec::new();
+            for ((_, record), &x) in own.iter().zip(values) {
+                let found = record.metrics.iter().find(|metric| metric.name == *name && metric.variant == *variant);
+                if let Some(metric) = found.filter(|metric| metric.value.is_finite()) {
+                    unit.clone_from(&metric.unit);
+                    points.push((x, metric.value));
+                }
+            }
+            let label = &manifest.parameters[*parameter];
+            let mut panel = Panel::new(variant, Axis::linear(label), Axis::linear(&format!("{name} [{unit}]")));
+            panel.series.push(Series::new("", Mark::Points, 0, points));
+            panels.push(panel);
+        }
+    }
+    Some(Figure {
+        name: format!("pairs-{case}"),
+        caption: "Metrics of every run over the parameters that were varied.".to_owned(),
+        columns: varied.len().min(3),
+        panels,
+    })
+}
+
+/// The metrics that the plan names, else the first gated ones, else the first; each with its variant.
+fn drawn_metrics(manifest: &Manifest, own: &[&(&Entry, Record)]) -> Vec<(String, String)> {
+    let mut seen = BTreeSet::new();
+    let all: Vec<_> = own
+        .iter()
+        .flat_map(|(_, record)| &record.metrics)
+        .filter(|metric| seen.insert((metric.name.clone(), metric.variant.clone())))
+        .collect();
+    let named = |metric: &&&crate::evaluation::MetricValue| manifest.metrics.contains(&metric.name);
+    let gated = |metric: &&&crate::evaluation::MetricValue| metric.verdict != Verdict::Observed;
+    let mut chosen: Vec<_> = if manifest.metrics.is_empty() {
+        all.iter().filter(gated).take(DRAWN).collect()
+    } else {
+        all.iter().filter(named).take(3 * DRAWN).collect()
+    };
+    if chosen.is_empty() {
+        chosen = all.iter().take(DRAWN).collect();
+    }
+    chosen.into_iter().map(|metric| (metric.name.clone(), metric.variant.clone())).collect()
+}

@@ -1,0 +1,61 @@
+//! The embedded engine: runs of the manifest on this machine's threads.
+
+use super::folder::SweepFolder;
+use super::manifest::Entry;
+use crate::case::{CaseFile, Changes, Registry, Silent, share_out};
+use crate::error::InputError;
+use crate::evaluation::{self, Record};
+use crate::output::write_whole;
+use crate::store::Store;
+
+/// Watches a sweep, for a progress bar. Called from several threads.
+pub trait Watch: Sync {
+    /// A run begins.
+    fn begun(&self, entry: &Entry);
+    /// A run has its record.
+    fn ended(&self, entry: &Entry, record: &Record);
+}
+
+/// Runs one entry on the current rayon pool's threads and writes its folder, the record last.
+///
+/// # Errors
+/// Files that cannot be written. A run that fails is no error: its record says why.
+pub fn run_entry(sweep: &SweepFolder, entry: &Entry, registry: Registry, store: &Store) -> Result<Record, InputError> {
+    if let Some(record) = sweep.record(entry) {
+        return Ok(record);
+    }
+    let folder = sweep.of(entry);
+    let unwritable = |error: std::io::Error| InputError::unwritable(&folder, &error);
+    std::fs::create_dir_all(&folder).map_err(unwritable)?;
+    let listed = folder.join("case.toml");
+    write_whole(&listed, entry.parameters_toml.as_bytes()).map_err(unwritable)?;
+    let file = CaseFile::read(&listed)?;
+    let changes = Changes { file: Some((&listed, file.fields)), settings: &[] };
+    let prepared = registry.find(&entry.case)?.prepare(entry.tier, &changes)?;
+    let record = evaluation::evaluate(prepared, store, &Silent);
+    if let Some(reason) = &record.failure {
+        write_whole(&folder.join("failure.txt"), format!("{reason}\n").as_bytes()).map_err(unwritable)?;
+    }
+    let metrics = serde_json::to_string_pretty(&record.metrics).map_err(|error| unwritable(error.into()))?;
+    write_whole(&folder.join("metrics.json"), format!("{metrics}\n").as_bytes()).map_err(unwritable)?;
+    record.write(&folder.join("record.postcard")).map_err(unwritable)?;
+    Ok(record)
+}
+
+/// Runs what is missing.
+///
+/// # Errors
+/// Files that cannot be written; runs that have not begun are then left.
+pub fn run_locally(
+    sweep: &SweepFolder,
+    registry: Registry,
+    store: &Store,
+    watch: &dyn Watch,
+) -> Result<(), InputError> {
+    share_out(sweep.missing(), |entry| {
+        watch.begun(entry);
+        let record = run_entry(sweep, entry, registry, store)?;
+        watch.ended(entry, &record);
+        Ok(())
+    })
+}

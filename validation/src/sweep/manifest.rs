@@ -1,0 +1,74 @@
+//! What a sweep is to run, fixed once: every engine works from it.
+
+use crate::case::Tier;
+use crate::error::InputError;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// One run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// Number, from 1.
+    pub number: usize,
+    /// Name of the case.
+    pub case: String,
+    /// Its tier.
+    pub tier: Tier,
+    /// Name of its folder below `runs`.
+    pub folder: String,
+    /// The parameters' values as TOML, in the manifest's order.
+    pub point: Vec<String>,
+    /// What its record is known by; empty if it was refused.
+    pub key: String,
+    /// Expected cost `[particle-steps]`.
+    pub particle_steps: f64,
+    /// Its complete parameters.
+    pub parameters_toml: String,
+    /// Why the case refuses these parameters.
+    pub refusal: Option<String>,
+}
+
+/// All runs of a sweep.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Hash of the sources of the program that made it.
+    pub source_hash: String,
+    /// Names of the parameters.
+    pub parameters: Vec<String>,
+    /// Metrics to be drawn over the parameters; empty for the gated ones.
+    pub metrics: Vec<String>,
+    /// The runs by number.
+    pub entries: Vec<Entry>,
+}
+
+impl Manifest {
+    /// Reads a manifest.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is damaged.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let text = std::fs::read_to_string(path).map_err(|error| InputError::unreadable(path, &error))?;
+        serde_json::from_str(&text).map_err(|error| InputError::Damaged {
+            file: path.to_owned(),
+            reason: error.to_string(),
+            remedy: "make the sweep again with another --out".to_owned(),
+        })
+    }
+
+    /// The entry of a number.
+    ///
+    /// # Errors
+    /// A number that the manifest does not have.
+    pub fn entry(&self, number: usize) -> Result<&Entry, InputError> {
+        self.entries.iter().find(|entry| entry.number == number).ok_or_else(|| {
+            let rule = format!("between 1 and {}", self.entries.len());
+            InputError::field("--entry", number, &rule, "manifest.json lists the runs")
+        })
+    }
+
+    /// Whether another program made it, whose numbers may differ from this one's.
+    #[must_use]
+    pub fn is_foreign(&self) -> bool {
+        self.source_hash != crate::store::source_hash()
+    }
+}

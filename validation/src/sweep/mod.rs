@@ -1,0 +1,24 @@
+//! Many evaluations of one plan: a manifest, one folder a run, one table of results.
+//!
+//! ```text
+//! FOLDER/manifest.json          what is to be run, with the key of every run
+//! FOLDER/runs/0001-film/        case.toml, and when it is done record.postcard, metrics.json or failure.txt
+//! FOLDER/results.csv            one line a metric; failures.csv, figures/
+//! FOLDER/slurm/                 job script, job numbers and logs of the engine `slurm`
+//! ```
+//!
+//! A run is done when its record is there, so a sweep that was killed goes on where it stood, and machines that share the
+//! folder need nothing else to work on one sweep.
+
+mod folder;
+mod gather;
+mod local;
+mod manifest;
+mod plan;
+pub mod slurm;
+
+pub use folder::{SweepFolder, Tally};
+pub use gather::gather;
+pub use local::{Watch, run_entry, run_locally};
+pub use manifest::{Entry, Manifest};
+pub use plan::SweepPlan;

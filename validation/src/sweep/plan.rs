@@ -1,0 +1,259 @@
+//! A sweep as a TOML file.
+
+use super::manifest::{Entry, Manifest};
+use crate::case::{Prepared, Registry};
+use crate::error::InputError;
+use crate::evaluation::{self, CaseRequest};
+use crate::sampling::{Bounds, Paths, Spacing, design, float};
+use crate::store::source_hash;
+use serde::Deserialize;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use toml::Value;
+
+/// More runs than this are a slip of the pen.
+const MOST_RUNS: usize = 100_000;
+
+/// How the points lie.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+enum Design {
+    /// All combinations of the parameters' values.
+    Grid,
+    /// One point in each of `points` slices along every axis.
+    LatinHypercube { points: usize, seed: u64 },
+    /// The first points of a scrambled Sobol sequence.
+    Sobol { points: usize, seed: u64 },
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Varied {
+    path: Paths,
+    name: Option<String>,
+    values: Option<Vec<Value>>,
+    lower: Option<f64>,
+    upper: Option<f64>,
+    #[serde(default)]
+    scale: Spacing,
+    levels: Option<usize>,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Text {
+    design: Design,
+    cases: Vec<CaseRequest>,
+    parameters: Vec<Varied>,
+    #[serde(default)]
+    metrics: Vec<String>,
+}
+
+/// A sweep that was read.
+#[derive(Debug, Clone)]
+pub struct SweepPlan {
+    file: PathBuf,
+    text: Text,
+}
+
+impl SweepPlan {
+    /// Reads a file; its cases' parameters are checked when the manifest is made.
+    ///
+    /// # Errors
+    /// A file that cannot be read or typed, or ranges that break a rule.
+    pub fn read(file: &Path) -> Result<Self, InputError> {
+        let text = std::fs::read_to_string(file).map_err(|error| InputError::unreadable(file, &error))?;
+        let plan = Self { file: file.to_owned(), text: InputError::parse_toml(file, &text)? };
+        plan.check().map_err(|error| error.in_file(file))?;
+        Ok(plan)
+    }
+
+    fn check(&self) -> Result<(), InputError> {
+        let missing = |field: &str, example: &str| {
+            Err(InputError::field(
+                field,
+                "empty",
+                "at least one table",
+                &format!("add a `[[{field}]]` table, {example}"),
+            ))
+        };
+        if self.text.cases.is_empty() {
+            return missing("cases", "such as case = \"film\"");
+        }
+        if self.text.parameters.is_empty() {
+            return missing("parameters", "with path and values, or lower and upper");
+        }
+        let mut names = BTreeSet::new();
+        for (index, parameter) in self.text.parameters.iter().enumerate() {
+            let field = format!("parameters[{index}]");
+            parameter.check(&field, self.text.design == Design::Grid)?;
+            let name = parameter.name();
+            if !names.insert(name.clone()) {
+                let remedy = "give each a `name` of its own";
+                return Err(InputError::field(&format!("{field}.name"), name, "unlike the others", remedy));
+            }
+            for request in &self.text.cases {
+                if parameter.path.in_case(&request.case).is_none() {
+                    let remedy = format!("add {} = \"…\"", request.case);
+                    return Err(InputError::field(&format!("{field}.path"), "a table", "one with every case", &remedy));
+                }
+            }
+        }
+        match self.text.design {
+            Design::Grid => Ok(()),
+            Design::LatinHypercube { points, .. } | Design::Sobol { points, .. } => {
+                if (1..=MOST_RUNS).contains(&points) {
+                    return Ok(());
+                }
+                let rule = format!("between 1 and {MOST_RUNS}");
+                Err(InputError::field("design.points", points, &rule, "every point is one run of each case"))
+            }
+        }
+    }
+
+    /// One setting text a parameter, for every point.
+    fn points(&self) -> Vec<Vec<String>> {
+        let parameters = &self.text.parameters;
+        let in_cube = |points: Vec<Vec<f64>>| -> Vec<Vec<String>> {
+            let at = |(parameter, &coordinate): (&Varied, &f64)| float(parameter.bounds().value(coordinate));
+            points.iter().map(|point| parameters.iter().zip(point).map(at).collect()).collect()
+        };
+        match self.text.design {
+            Design::Grid => {
+                let values: Vec<Vec<String>> = parameters.iter().map(Varied::grid).collect();
+                let place = |levels: &[usize]| -> Vec<String> {
+                    levels.iter().zip(&values).map(|(&level, values)| values[level].clone()).collect()
+                };
+                let counts: Vec<usize> = values.iter().map(Vec::len).collect();
+                design::combinations(&counts).iter().map(|levels| place(levels)).collect()
+            }
+            Design::LatinHypercube { points, seed } => in_cube(design::latin_hypercube(points, parameters.len(), seed)),
+            Design::Sobol { points, seed } => in_cube(design::sobol(points, parameters.len(), seed)),
+        }
+    }
+
+    /// Every run with its checked parameters. A point that its case refuses is an entry too: it fails with the reason,
+    /// unless all points do.
+    ///
+    /// # Errors
+    /// A case's fields or a path that do not exist, or values that no run accepts.
+    pub fn manifest(&self, registry: Registry) -> Result<Manifest, InputError> {
+        let points = self.points();
+        let runs = points.len() * self.text.cases.len();
+        if runs > MOST_RUNS {
+            let rule = format!("at most {MOST_RUNS} runs");
+            return Err(InputError::field("parameters", runs, &rule, "take fewer values").in_file(&self.file));
+        }
+        let mut entries = Vec::with_capacity(runs);
+        let mut refusal = None;
+        for request in &self.text.cases {
+            request.prepare(registry, &self.file, &[])?;
+            for point in &points {
+                let setting = |(parameter, value): (&Varied, &String)| {
+                    format!("{}={value}", parameter.path.in_case(&request.case).unwrap_or_default())
+                };
+                let settings: Vec<String> = self.text.parameters.iter().zip(point).map(setting).collect();
+                let number = entries.len() + 1;
+                let folder = format!("{number:04}-{}", request.case);
+                let mut entry = Entry {
+                    number,
+                    case: request.case.clone(),
+                    tier: request.tier,
+                    folder,
+                    point: point.clone(),
+                    key: String::new(),
+                    particle_steps: 0.0,
+                    parameters_toml: String::new(),
+                    refusal: None,
+                };
+                match request.prepare(registry, &self.file, &settings) {
+                    Ok(prepared) => {
+                        entry.key = evaluation::key(prepared.as_ref());
+                        entry.particle_steps = cost(prepared.as_ref());
+                        entry.parameters_toml = prepared.parameters_toml().to_owned();
+                    }
+                    // a path or a type that is wrong is wrong at every point
+                    Err(error @ (InputError::SetPath { .. } | InputError::SetValue { .. })) => {
+                        return Err(error.in_plan(&self.file));
+                    }
+                    Err(error) => {
+                        entry.refusal = Some(error.to_string());
+                        refusal.get_or_insert(error);
+                    }
+                }
+                entries.push(entry);
+            }
+        }
+        match refusal {
+            Some(error) if entries.iter().all(|entry| entry.refusal.is_some()) => Err(error),
+            _ => Ok(Manifest {
+                source_hash: source_hash().to_owned(),
+                parameters: self.text.parameters.iter().map(Varied::name).collect(),
+                metrics: self.text.metrics.clone(),
+                entries,
+            }),
+        }
+    }
+}
+
+fn cost(prepared: &dyn Prepared) -> f64 {
+    (0..prepared.run_count()).map(|run| prepared.particle_steps(run)).sum()
+}
+
+impl Varied {
+    fn name(&self) -> String {
+        self.name.clone().unwrap_or_else(|| self.path.name())
+    }
+
+    fn bounds(&self) -> Bounds {
+        Bounds { lower: self.lower.unwrap_or(f64::NAN), upper: self.upper.unwrap_or(f64::NAN), spacing: self.scale }
+    }
+
+    /// The values of a grid as TOML.
+    fn grid(&self) -> Vec<String> {
+        match (&self.values, self.levels) {
+            (Some(values), _) => values.iter().map(Value::to_string).collect(),
+            (None, levels) => {
+                let points = design::full_grid(&[levels.unwrap_or(2)]);
+                points.iter().map(|point| float(self.bounds().value(point[0]))).collect()
+            }
+        }
+    }
+
+    fn check(&self, field: &str, grid: bool) -> Result<(), InputError> {
+        let has_range = self.lower.is_some() || self.upper.is_some();
+        match (&self.values, has_range) {
+            (Some(_), true) => {
+                let remedy = "keep either the values or the range";
+                Err(InputError::field(&format!("{field}.values"), "given", "alone, without lower and upper", remedy))
+            }
+            (Some(values), false) if values.is_empty() => {
+                Err(InputError::field(&format!("{field}.values"), "[]", "at least one value", "list them"))
+            }
+            (Some(_), false) if !grid => {
+                let remedy = "give lower and upper, or take design = \"grid\"";
+                Err(InputError::field(&format!("{field}.values"), "given", "absent outside a grid", remedy))
+            }
+            (Some(_), false) => Ok(()),
+            (None, _) => {
+                for (name, bound) in [("lower", self.lower), ("upper", self.upper)] {
+                    if bound.is_none() {
+                        let remedy = if grid { "or list `values`" } else { "give both bounds" };
+                        return Err(InputError::field(&format!("{field}.{name}"), "missing", "a number", remedy));
+                    }
+                }
+                self.bounds().check(field)?;
+                match (self.levels, grid) {
+                    (None, false) => Ok(()),
+                    (Some(2..), true) => Ok(()),
+                    (levels, _) => {
+                        let shown = levels.map_or_else(|| "missing".to_owned(), |levels| levels.to_string());
+                        let rule = if grid { "2 or more" } else { "absent outside a grid" };
+                        let remedy = "the levels divide the range of a grid's parameter";
+                        Err(InputError::field(&format!("{field}.levels"), shown, rule, remedy))
+                    }
+                }
+            }
+        }
+    }
+}
