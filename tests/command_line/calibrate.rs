@@ -202,3 +202,84 @@ fn data_without_counterpart_say_what_there_is() {
     let begin = "error: plan.toml: `fit[0]`: the case gives no table `profile-newtonian-particles-jittered-resolution-10`; it has ";
     assert!(message.starts_with(begin), "{message}");
 }
+
+const CHOICES: &str = r#"
+title = "which fluid"
+
+[[choices]]
+name = "thin"
+set = { film = ["newtonian.viscosity=0.5"] }
+
+[[choices]]
+name = "thick"
+set = { film = ["newtonian.viscosity=1.0"] }
+
+[[fit]]
+case = "film"
+with = { fluids = ["newtonian"], resolution = 10, convergence_resolutions = [], comparison_resolution = 0 }
+data = [{ table = "profile-fluid-newtonian-particles-jittered-resolution-10", x = "y [m]", y = "u [m/s]", file = "mine.csv" }]
+
+[[hold_out]]
+case = "film"
+with = { fluids = ["newtonian"], resolution = 12, convergence_resolutions = [], comparison_resolution = 0 }
+data = [{ metric = "no_such_metric", value = 0.0, unit = "-", uncertainty = 1.0, source = "own" }]
+"#;
+
+#[test]
+fn choices_are_ranked_by_the_fitted_data_alone() {
+    let place = Place::new();
+    place.file("mine.csv", MINE);
+    place.file("plan.toml", CHOICES);
+    let done = place.bagnold(&["-q", "calibrate", "plan.toml", "--out", "out"]).assert().code(0);
+    let printed = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    // nothing can be said of what is held out, which changes neither ranks nor weights
+    assert!(printed.starts_with("thin: χ² "), "{printed}");
+    let text = std::fs::read_to_string(place.path("out/result.json")).expect("written");
+    let result: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(result["trials"][0]["name"], "thin");
+    assert!(result["trials"][0]["weight"].as_f64().is_some_and(|weight| weight > 0.99), "{text}");
+    assert!(result["trials"][1]["hold_out_failure"].as_str().is_some_and(|reason| reason.contains("no_such_metric")));
+}
+
+#[test]
+fn choices_that_set_nothing_are_refused() {
+    let refusal = |from: &str, to: &str| {
+        let place = Place::new();
+        place.file("mine.csv", MINE);
+        place.file("plan.toml", &CHOICES.replacen(from, to, 1));
+        let refused = place.bagnold(&["-q", "calibrate", "plan.toml", "--out", "out"]).assert().code(2);
+        String::from_utf8_lossy(&refused.get_output().stderr).trim_end().to_owned()
+    };
+    assert_eq!(
+        refusal("film = [\"newtonian.viscosity=1.0\"]", "flim = [\"newtonian.viscosity=1.0\"]"),
+        "error: plan.toml: `choices[1].set` is flim, but must be a case that has data; did you mean `film`?"
+    );
+    assert_eq!(
+        refusal("newtonian.viscosity=1.0", "newtonian.viscoscity=1.0"),
+        "error: plan.toml: `path` is `newtonian.viscoscity`, but `film` has no such field; did you mean \
+         `newtonian.viscosity`? `bagnold show film` prints all fields"
+    );
+    assert_eq!(
+        refusal("name = \"thick\"", "name = \"thin\""),
+        "error: plan.toml: `choices[1].name` is thin, but must be unlike the others; rename it"
+    );
+}
+
+/// The shipped example on the real solver: all three parameters of μ(I) within 2 %, the truth inside the 95 % region.
+#[test]
+fn friction_and_inertia_are_found_again_from_profiles() {
+    let place = Place::new();
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/calibrations/mu-i-from-profiles.toml");
+    let text = std::fs::read_to_string(example).expect("the example").replace("trajectories = 2", "trajectories = 0");
+    let plan = place.file("plan.toml", &text);
+    place.bagnold(&["-q", "calibrate", &plan, "--out", "out"]).assert().code(0);
+    let text = std::fs::read_to_string(place.path("out/result.json")).expect("written");
+    let result: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert!(result["searched"].as_u64().is_some_and(|count| count <= 25));
+    for parameter in result["parameters"].as_array().expect("a list") {
+        let number = |name: &str| parameter[name].as_f64().expect("a number");
+        let error = number("best") / number("truth") - 1.0;
+        assert!(error.abs() < 0.02, "{parameter}");
+    }
+    assert_eq!(result["truth_inside"], true, "{text}");
+}

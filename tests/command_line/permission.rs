@@ -72,3 +72,18 @@ fn a_folder_that_nobody_can_make() {
         "error: file/out: cannot be written (not a directory); choose a folder that you may write to with --out\n",
     );
 }
+
+#[test]
+fn a_shared_folder_that_may_not_be_written() {
+    let place = Place::new();
+    place.file(
+        "plan.toml",
+        "design = \"grid\"\n[[cases]]\ncase = \"film\"\n[[parameters]]\npath = \"slope_angle\"\nvalues = [20.0]\n",
+    );
+    let shared = place.path("shared");
+    std::fs::create_dir(&shared).expect("writable");
+    restrict(&shared, 0o555);
+    ordinary(&place).args(["sweep", "plan.toml", "--out", "shared/sweep"]).assert().code(2).stdout("").stderr(
+        "error: shared/sweep: cannot be written (permission denied); choose a folder that you may write to with --out\n",
+    );
+}

@@ -1,8 +1,7 @@
 //! What a model is compared with: single numbers, profiles from a CSV file, or synthetic data.
 
-use super::result::Place;
-use crate::error::{InputError, nearest};
-use crate::evaluation::Record;
+use super::target::{Datum, Target, Uncertainty, parted};
+use crate::error::InputError;
 use crate::reference::{Column, MeasuredData};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -35,55 +34,6 @@ pub(super) struct DatumText {
     noise: Option<f64>,
     /// Points of a synthetic profile.
     bins: Option<usize>,
-}
-
-/// What of a record a datum is compared with.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Target {
-    /// A metric.
-    Metric {
-        /// Name.
-        name: String,
-        /// Variant; `None` if there is one only.
-        variant: Option<String>,
-    },
-    /// A value interpolated in a table.
-    Profile {
-        /// Name of the table.
-        table: String,
-        /// Column of abscissas, with its unit.
-        x: String,
-        /// Column of ordinates, with its unit.
-        y: String,
-        /// Abscissa.
-        at: f64,
-    },
-}
-
-/// How far a datum may be off, as a standard deviation.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Uncertainty {
-    /// In the datum's unit.
-    Absolute(f64),
-    /// As a factor on the datum.
-    Factor(f64),
-}
-
-/// One datum.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Datum {
-    /// The block whose case it is compared with.
-    pub(super) block: usize,
-    /// What it is compared with.
-    pub(super) target: Target,
-    /// The value, in `unit`.
-    pub(super) value: f64,
-    /// Unit.
-    pub(super) unit: String,
-    /// Standard uncertainty.
-    pub(super) uncertainty: Uncertainty,
-    /// Where it comes from.
-    pub(super) source: String,
 }
 
 /// Synthetic data that are still to be made from the model itself.
@@ -123,14 +73,45 @@ impl DatumText {
             }
             _ => {}
         }
+        let given = [
+            ("value", self.value.is_some()),
+            ("unit", self.unit.is_some()),
+            ("uncertainty", self.uncertainty.is_some()),
+            ("factor", self.factor.is_some()),
+            ("source", self.source.is_some()),
+        ];
+        let spare = given.iter().find(|(_, given)| *given).map(|(name, _)| *name);
+        if self.metric.is_some() && (self.x.is_some() || self.y.is_some()) {
+            return wrong("x", "given", "absent with a metric", "x and y are columns of a table");
+        }
+        if self.bins.is_some_and(|bins| !(1..=10_000).contains(&bins)) || (self.bins.is_some() && self.noise.is_none())
+        {
+            return wrong(
+                "bins",
+                "given",
+                "between 1 and 10000, and only with `noise`",
+                "bins are points of synthetic data",
+            );
+        }
         if let Some(noise) = self.noise {
             if !(noise > 0.0 && noise.is_finite()) {
                 return wrong("noise", &noise.to_string(), "positive", "0.01 is one per cent");
             }
+            if let Some(name) = spare.or_else(|| self.file.is_some().then_some("file")) {
+                return wrong(
+                    name,
+                    "given",
+                    "absent with `noise`",
+                    "synthetic data need no measurement: keep one of the two",
+                );
+            }
             return Ok(());
         }
         if self.file.is_some() {
-            return Ok(());
+            return match spare {
+                Some(name) => wrong(name, "given", "absent with a `file`", "the file says it"),
+                None => Ok(()),
+            };
         }
         let Some(value) = self.value else {
             return wrong("value", "missing", "a number", "or name a `file`, or a `noise` for synthetic data");
@@ -155,6 +136,14 @@ impl DatumText {
             },
             |_| Ok(()),
         )
+    }
+
+    /// Whether both mean the same measurement.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let same_file = self.file.is_some() && self.file == other.file;
+        let same_value = self.value.is_some() && (self.value, &self.source) == (other.value, &other.source);
+        let same_target = (&self.metric, &self.table, &self.y) == (&other.metric, &other.table, &other.y);
+        same_target && self.variant == other.variant && (same_file || same_value)
     }
 
     fn uncertainty(&self, value: f64) -> Option<Uncertainty> {
@@ -268,146 +257,5 @@ fn numbers(
             Err(InputError::field(wanted, format!("in [{unit}]"), &rule, remedy).in_file(path))
         }
         _ => Ok((values, unit)),
-    }
-}
-
-/// Name and unit of a column such as `u [m/s]`.
-fn parted(column: &str) -> (&str, &str) {
-    column.split_once('[').map_or((column, "-"), |(name, rest)| (name.trim(), rest.trim_end_matches(']').trim()))
-}
-
-impl Target {
-    /// What a record says, with its unit.
-    ///
-    /// # Errors
-    /// The words for what the record does not have.
-    pub(super) fn predicted(&self, record: &Record) -> Result<(f64, String), String> {
-        match self {
-            Self::Metric { name, variant } => {
-                let mut found = record
-                    .metrics
-                    .iter()
-                    .filter(|m| m.name == *name && variant.as_ref().is_none_or(|v| *v == m.variant));
-                let missing = || {
-                    let known = record.metrics.iter().filter(|metric| metric.name == *name);
-                    let variants: Vec<&str> = known.map(|metric| metric.variant.as_str()).collect();
-                    if variants.is_empty() {
-                        let names = record.metrics.iter().map(|metric| metric.name.as_str());
-                        let guess =
-                            nearest(name, names).map_or_else(String::new, |near| format!(", did you mean `{near}`?"));
-                        format!("no metric `{name}`{guess}")
-                    } else {
-                        format!(
-                            "no variant `{}` of `{name}`; it has {}",
-                            variant.clone().unwrap_or_default(),
-                            variants.join("; ")
-                        )
-                    }
-                };
-                let first = found.next().ok_or_else(missing)?;
-                if variant.is_none() && found.next().is_some() {
-                    return Err(format!(
-                        "several variants of `{name}`; name one with `variant`, such as `{}`",
-                        first.variant
-                    ));
-                }
-                Ok((first.value, first.unit.clone()))
-            }
-            Self::Profile { table, x, y, at } => {
-                let found = record.tables.iter().find(|other| other.name == *table).ok_or_else(|| {
-                    let names: Vec<&str> = record.tables.iter().map(|table| table.name.as_str()).collect();
-                    format!("no table `{table}`; it has {}", names.join(", "))
-                })?;
-                let column =
-                    |name: &str| {
-                        found.columns.iter().position(|column| column == name).ok_or_else(|| {
-                            format!("no column `{name}` in `{table}`; it has {}", found.columns.join(", "))
-                        })
-                    };
-                let (x, y) = (column(x)?, column(y)?);
-                let points: Vec<(f64, f64)> = found.rows.iter().map(|row| (row[x], row[y])).collect();
-                let unit = parted(&found.columns[y]).1.to_owned();
-                interpolated(&points, *at).map(|value| (value, unit)).ok_or_else(|| {
-                    let ends = points.first().zip(points.last()).map(|(first, last)| (first.0, last.0));
-                    let (first, last) = ends.unwrap_or_default();
-                    format!("no value of `{table}` at {at}; it reaches from {first} to {last}")
-                })
-            }
-        }
-    }
-
-    /// The same target of a profile at another abscissa.
-    #[must_use]
-    pub(super) fn at_abscissa(&self, place: f64) -> Self {
-        let mut moved = self.clone();
-        if let Self::Profile { at, .. } = &mut moved {
-            *at = place;
-        }
-        moved
-    }
-
-    /// The same metric of another variant.
-    #[must_use]
-    pub(super) fn with_variant(&self, change: impl FnOnce(&str) -> String) -> Self {
-        let mut changed = self.clone();
-        if let Self::Metric { variant: Some(variant), .. } = &mut changed {
-            *variant = change(variant);
-        }
-        changed
-    }
-
-    /// Where it lies in a profile.
-    #[must_use]
-    pub(super) fn place(&self) -> Option<Place> {
-        match self {
-            Self::Metric { .. } => None,
-            Self::Profile { table, x, y, at } => {
-                Some(Place { table: table.clone(), x: x.clone(), y: y.clone(), at: *at })
-            }
-        }
-    }
-
-    /// Name for tables and figures.
-    #[must_use]
-    pub(super) fn label(&self) -> String {
-        match self {
-            Self::Metric { name, variant } => match variant {
-                Some(variant) if !variant.is_empty() => format!("{name} {variant}"),
-                _ => name.clone(),
-            },
-            Self::Profile { table, y, at, .. } => format!("{table}: {y} at {at:.4e}"),
-        }
-    }
-}
-
-/// Linear interpolation in points of rising abscissa; half a step beyond the ends is extrapolated, no more.
-fn interpolated(points: &[(f64, f64)], at: f64) -> Option<f64> {
-    let place = points.windows(2).position(|pair| at <= pair[1].0).unwrap_or(points.len().checked_sub(2)?);
-    let ((x0, y0), (x1, y1)) = (points[place], points[place + 1]);
-    let share = (at - x0) / (x1 - x0);
-    ((-0.5..=1.5).contains(&share) && share.is_finite()).then_some(y0 + share * (y1 - y0))
-}
-
-impl Datum {
-    /// (model − datum)/σ, or the same of logarithms `[-]`.
-    #[must_use]
-    pub(super) fn residual(&self, predicted: f64) -> f64 {
-        match self.uncertainty {
-            Uncertainty::Absolute(sigma) => (predicted - self.value) / sigma,
-            // a transport that has ceased is as wrong as one too small by e^30
-            Uncertainty::Factor(factor) => {
-                let ratio = (predicted / self.value).max(1e-13);
-                libm::log(ratio) / libm::log(factor)
-            }
-        }
-    }
-
-    /// The value one standard deviation below and above.
-    #[must_use]
-    pub(super) fn band(&self) -> (f64, f64) {
-        match self.uncertainty {
-            Uncertainty::Absolute(sigma) => (self.value - sigma, self.value + sigma),
-            Uncertainty::Factor(factor) => (self.value / factor, self.value * factor),
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! The folder of a calibration: which plan it belongs to.
 
 use crate::error::InputError;
-use crate::output::write_whole;
+use crate::output::{is_unused, write_whole};
 use crate::store::source_hash;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -46,14 +46,8 @@ impl CalibrationFolder {
             return Ok(Self { folder: folder.to_owned() });
         }
         let unwritable = |error: std::io::Error| InputError::unwritable(folder, &error);
-        match std::fs::read_dir(folder) {
-            Ok(mut entries) => {
-                if entries.next().is_some() {
-                    return Err(InputError::ForeignFolder { folder: folder.to_owned() });
-                }
-            }
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
-            Err(error) => return Err(unwritable(error)),
+        if !is_unused(folder).map_err(unwritable)? {
+            return Err(InputError::ForeignFolder { folder: folder.to_owned() });
         }
         let begun = Self { folder: folder.to_owned() };
         std::fs::create_dir_all(begun.evaluations()).map_err(unwritable)?;

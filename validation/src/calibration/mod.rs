@@ -18,6 +18,7 @@ mod page;
 mod plan;
 mod result;
 mod screening;
+mod target;
 mod trials;
 
 pub use folder::CalibrationFolder;
@@ -34,6 +35,7 @@ use crate::sampling::design;
 use crate::store::Store;
 use objective::Objective;
 use result::compared;
+use std::sync::Mutex;
 
 /// Share of repeated experiments below which a χ² is taken as a sign that the model misses something.
 const UNLIKELY: f64 = 0.05;
@@ -49,20 +51,35 @@ pub fn calibrate(
     store: &Store,
     watch: &dyn Watch,
 ) -> Result<Outcome, InputError> {
-    let mut objective = Objective { plan, registry, store, folder: folder.evaluations(), watch, data: Vec::new() };
+    let mut objective = Objective {
+        plan,
+        registry,
+        store,
+        folder: folder.evaluations(),
+        watch,
+        data: Vec::new(),
+        failure: Mutex::default(),
+    };
     objective.read_data()?;
     if !plan.choices.is_empty() {
         return trials::try_all(&objective);
     }
     let start = plan.start();
-    // units and names are checked before the search begins, at a point that it asks for anyway
+    // units and names are checked before the search begins, where nothing fails
     let first = if plan.levels.is_empty() { start.clone() } else { vec![0.0; plan.levels.len()] };
     for held_out in [false, true] {
-        compare_at(&objective, &plan.values(&first), held_out)?;
+        if let Err(reason) = compare_at(&objective, &plan.values(&first), held_out)? {
+            tracing::warn!("at the first point: {reason}");
+        }
     }
-    let found = search(plan, &mut objective, &start).map_err(|error| match error {
+    let found = search(plan, &mut objective, &start);
+    let found = found.map_err(|error| match error {
         SearchError::Model(error) => error,
-        other => InputError::Search { file: plan.file.clone(), reason: other.to_string() },
+        other => {
+            let cause =
+                objective.last_failure().map_or_else(String::new, |reason| format!("; the last said: {reason}"));
+            InputError::Search { file: plan.file.clone(), reason: format!("{other}{cause}") }
+        }
     })?;
     let searched = found.history.len();
     let mapped = region_of(plan, &mut objective, &found)?;
@@ -74,7 +91,8 @@ pub fn calibrate(
         .map_or_else(|| found.best.clone(), |(_, point)| point.clone());
     let sensitivity = screening::screen(&mut objective, plan.trajectories)?;
     let values = plan.values(&best);
-    let fit = compare_at(&objective, &values, false)?;
+    let failed = |reason: String| InputError::Search { file: plan.file.clone(), reason };
+    let fit = compare_at(&objective, &values, false)?.map_err(failed)?;
     let hold_out = compare_at(&objective, &values, true)?;
     let calibrated = result::calibrated(&objective, &values)?;
     let search = Search { best, history, ..found };
@@ -105,12 +123,19 @@ fn region_of(plan: &Plan, objective: &mut Objective<'_>, found: &Search) -> Resu
     }
 }
 
-/// The fitted or held-out data beside what the model says at physical values.
-fn compare_at(objective: &Objective<'_>, values: &[f64], held_out: bool) -> Result<Vec<Compared>, InputError> {
+/// The fitted or held-out data beside what the model says at physical values, or why a run of theirs failed.
+fn compare_at(
+    objective: &Objective<'_>,
+    values: &[f64],
+    held_out: bool,
+) -> Result<Result<Vec<Compared>, String>, InputError> {
     let blocks: Vec<usize> =
         (0..objective.plan.blocks.len()).filter(|&k| objective.plan.blocks[k].held_out == held_out).collect();
     let questions: Vec<_> = blocks.iter().map(|&block| objective.question(block, values)).collect();
     let records: Vec<Record> = objective.ask(&questions)?;
+    if let Some(reason) = records.iter().find_map(|record| record.failure.clone()) {
+        return Ok(Err(reason));
+    }
     let record = |block: usize| blocks.iter().position(|&k| k == block).map(|place| &records[place]);
-    compared(objective, held_out, record, Clone::clone)
+    compared(objective, held_out, record, Clone::clone).map(Ok)
 }

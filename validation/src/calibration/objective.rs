@@ -1,7 +1,8 @@
 //! From points of the unit cube to weighted residuals: evaluations in parallel, each a file, none done twice.
 
-use super::data::{Datum, Group, Synthetic, Target, Uncertainty};
+use super::data::{Group, Synthetic};
 use super::plan::{Block, Plan};
+use super::target::{Datum, Target, Uncertainty};
 use crate::case::{Prepared, Registry, Silent, share_out};
 use crate::error::InputError;
 use crate::evaluation::{self, Record};
@@ -40,6 +41,8 @@ pub(super) struct Objective<'a> {
     pub(super) watch: &'a dyn Watch,
     /// All data, those of fitted blocks first.
     pub(super) data: Vec<Datum>,
+    /// Why the last failing record failed.
+    pub(super) failure: Mutex<Option<String>>,
 }
 
 impl Objective<'_> {
@@ -73,7 +76,7 @@ impl Objective<'_> {
         share_out(jobs.iter().collect(), |job| {
             let taken = job.lock().unwrap_or_else(PoisonError::into_inner).take();
             let Some((key, prepared)) = taken else { return Ok(()) };
-            let record = evaluation::evaluate(prepared, self.store, &Silent);
+            let record = evaluation::evaluate(prepared, self.store, &Silent)?;
             self.watch.evaluated(&record.case, record.failure.as_deref());
             let file = self.file(&key);
             record.write(&file).map_err(|error| InputError::unwritable(&file, &error))
@@ -90,7 +93,16 @@ impl Objective<'_> {
                 })?);
             }
         }
-        Ok(answers.into_iter().flatten().collect())
+        let answers: Vec<Record> = answers.into_iter().flatten().collect();
+        if let Some(reason) = answers.iter().rev().find_map(|record| record.failure.clone()) {
+            *self.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(reason);
+        }
+        Ok(answers)
+    }
+
+    /// Why the last failing record failed.
+    pub(super) fn last_failure(&self) -> Option<String> {
+        self.failure.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     fn file(&self, key: &str) -> PathBuf {
@@ -127,6 +139,9 @@ impl Objective<'_> {
                     "`{label}` in [{unit}], but the data are in [{}]; convert them",
                     datum.unit
                 )));
+            }
+            if !value.is_finite() {
+                return Err(wrong(format!("{value} for `{}`", datum.target.label())));
             }
             Ok(value)
         })

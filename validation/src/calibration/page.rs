@@ -197,7 +197,7 @@ fn render(outcome: &Outcome, pictures: Vec<Picture>) -> Result<String, minijinja
             ranks,
             optional(trial.hold_out_chi_squared),
             optional(weighted_error(&trial.hold_out)),
-            trial.failure.clone().unwrap_or_default(),
+            trial.failure.clone().or_else(|| trial.hold_out_failure.clone()).unwrap_or_default(),
         ]
     };
     let datum = |(name, datum): (String, &Compared)| {

@@ -2,7 +2,7 @@
 
 use super::data::DatumText;
 use crate::case::{Registry, Tier};
-use crate::error::InputError;
+use crate::error::{InputError, nearest};
 use crate::evaluation::CaseRequest;
 use crate::inference::{Budget, Method};
 use crate::sampling::{Bounds, Paths, Spacing, float};
@@ -10,6 +10,9 @@ use crate::store::Store;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// More evaluations than this are a slip of the pen.
+const MOST_EVALUATIONS: usize = 10_000;
 
 /// One parameter that is sought.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -179,6 +182,24 @@ impl Plan {
             return Err(InputError::field("parameters.levels", "given of some", "a grid along every axis", remedy));
         }
         let levels: Vec<usize> = text.parameters.iter().filter_map(|parameter| parameter.levels).collect();
+        let points = levels.iter().try_fold(1usize, |product, count| product.checked_mul(*count));
+        if points.is_none_or(|points| points > MOST_EVALUATIONS) {
+            let rule = format!("a grid of at most {MOST_EVALUATIONS} points");
+            return Err(InputError::field("parameters.levels", "too many", &rule, "take fewer levels"));
+        }
+        for (name, value, most) in [
+            ("evaluations", text.evaluations.unwrap_or(1), MOST_EVALUATIONS),
+            ("region_evaluations", text.region_evaluations.unwrap_or(0), MOST_EVALUATIONS),
+            ("trajectories", text.trajectories, 1000),
+        ] {
+            if value > most {
+                return Err(InputError::field(name, value, &format!("at most {most}"), "each costs a simulation"));
+            }
+        }
+        if !levels.is_empty() && text.method.is_some_and(|method| method != Method::Design) {
+            let remedy = "leave out the method or the levels";
+            return Err(InputError::field("method", "given", "\"design\" with levels", remedy));
+        }
         let default = Budget::default();
         let method = text.method.unwrap_or(if levels.is_empty() { Method::TrustRegion } else { Method::Design });
         let budget = Budget {
@@ -195,15 +216,20 @@ impl Plan {
             return Err(InputError::field("choices", "a single one", "two or more", remedy));
         }
         let mut blocks = Vec::new();
-        let mut data = Vec::new();
+        let mut data: Vec<Vec<DatumText>> = Vec::new();
         for (kind, held_out, texts) in [("fit", false, text.fit), ("hold_out", true, text.hold_out)] {
             for (index, block) in texts.into_iter().enumerate() {
                 let field = format!("{kind}[{index}]");
                 for (place, datum) in block.data.iter().enumerate() {
-                    datum.check(&format!("{field}.data[{place}]"))?;
+                    let field = format!("{field}.data[{place}]");
+                    datum.check(&field)?;
+                    if held_out && data.iter().flatten().any(|fitted| datum.is_same(fitted)) {
+                        let remedy = "what is predicted must not be fitted, so take it out of one";
+                        return Err(InputError::field(&field, "fitted too", "held out only", remedy));
+                    }
                 }
                 let tier = block.tier.unwrap_or(Tier::Quick);
-                let request = CaseRequest { case: block.case, tier, with: block.with };
+                let request = CaseRequest { case: block.case, name: None, tier, with: block.with };
                 blocks.push(Block { request, held_out, field });
                 data.push(block.data);
             }
@@ -247,23 +273,75 @@ impl Plan {
         self.parameters.iter().map(|parameter| parameter.bounds.coordinate(parameter.start).clamp(0.0, 1.0)).collect()
     }
 
+    /// Every case that a parameter's path or a choice names must be compared with data, and the other way round.
+    fn check_names(&self) -> Result<(), InputError> {
+        let cases: Vec<&str> = self.blocks.iter().map(|block| block.request.case.as_str()).collect();
+        let known = |field: String, case: &str| {
+            if cases.contains(&case) {
+                return Ok(());
+            }
+            let guess = nearest(case, cases.iter().copied());
+            let remedy = guess.map_or_else(
+                || "use a case of `fit` or `hold_out`".to_owned(),
+                |near| format!("did you mean `{near}`?"),
+            );
+            Err(InputError::field(&field, case, "a case that has data", &remedy))
+        };
+        for (index, parameter) in self.parameters.iter().enumerate() {
+            if let Paths::ByCase(paths) = &parameter.path {
+                paths.keys().try_for_each(|case| known(format!("parameters[{index}].path"), case))?;
+            }
+            if self.parameters[..index].iter().any(|other| other.path == parameter.path) {
+                let field = format!("parameters[{index}].path");
+                return Err(InputError::field(&field, "given twice", "unlike the others", "vary a path once"));
+            }
+        }
+        for (index, choice) in self.choices.iter().enumerate() {
+            let field = format!("choices[{index}]");
+            choice.set.keys().try_for_each(|case| known(format!("{field}.set"), case))?;
+            if let Some(case) = cases.iter().find(|case| choice.in_case(case).is_empty()) {
+                let remedy = format!("say what {} sets there", choice.name);
+                return Err(InputError::field(
+                    &format!("{field}.set"),
+                    "incomplete",
+                    &format!("given for `{case}`"),
+                    &remedy,
+                ));
+            }
+            if self.choices[..index].iter().any(|other| other.name == choice.name) {
+                return Err(InputError::field(
+                    &format!("{field}.name"),
+                    &choice.name,
+                    "unlike the others",
+                    "rename it",
+                ));
+            }
+        }
+        Ok(())
+    }
+
     fn check_cases(&self, registry: Registry) -> Result<(), InputError> {
+        self.check_names().map_err(|error| error.in_file(&self.file))?;
         let start: Vec<f64> = self.parameters.iter().map(|parameter| parameter.start).collect();
         let store = Store::open(crate::store::StorePolicy::Use);
         let mut fitted: BTreeMap<String, String> = BTreeMap::new();
         for block in &self.blocks {
-            let mut settings = self.settings(block, &start);
-            if let Some(choice) = self.choices.first() {
-                settings.extend(choice.in_case(&block.request.case));
-            }
-            if settings.is_empty() {
-                let remedy = "let a parameter or a choice name a path of the case";
+            let settings = self.settings(block, &start);
+            if settings.is_empty() && self.choices.is_empty() {
+                let remedy = "let a parameter name a path of the case";
                 let field = format!("{}.case", block.field);
                 return Err(InputError::field(&field, &block.request.case, "a case with a parameter", remedy)
                     .in_file(&self.file));
             }
-            let prepared =
-                block.request.prepare(registry, &self.file, &settings).map_err(|error| error.in_plan(&self.file))?;
+            let prepare = |settings: &[String]| {
+                let prepared = block.request.prepare(registry, &self.file, settings);
+                prepared.map_err(|error| error.in_plan(&self.file))
+            };
+            for choice in &self.choices {
+                prepare(&choice.in_case(&block.request.case))?;
+            }
+            let first = self.choices.first().map_or(settings, |choice| choice.in_case(&block.request.case));
+            let prepared = prepare(&first)?;
             for run in 0..prepared.run_count() {
                 let Some(identity) = prepared.identity(run, &store) else { continue };
                 if !block.held_out {

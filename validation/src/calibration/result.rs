@@ -1,12 +1,12 @@
 //! What a calibration hands to its page and files: plain data without a trace of when or where it ran.
 
-use super::data::{Datum, Target};
 use super::objective::Objective;
 use super::plan::Plan;
+use super::target::{Datum, Target};
 use crate::error::InputError;
 use crate::evaluation::Record;
 use crate::inference::scores::Score;
-use crate::inference::{Explored, Parameter as Named, Search, assess, chi_squared};
+use crate::inference::{Explored, Parameter as Named, Search, Stopped, assess, chi_squared};
 use crate::sampling::Spacing;
 use serde::{Deserialize, Serialize};
 
@@ -112,6 +112,8 @@ pub struct Trial {
     pub ranks: Option<(usize, usize)>,
     /// Why it has no numbers.
     pub failure: Option<String>,
+    /// Why it has none for what was held out.
+    pub hold_out_failure: Option<String>,
 }
 
 /// A finished calibration.
@@ -215,10 +217,14 @@ pub(super) fn assemble(
     searched: usize,
     mapped: Option<&Explored>,
     sensitivity: Vec<Sensitivity>,
-    (fit, hold_out): (Vec<Compared>, Vec<Compared>),
+    (fit, hold_out): (Vec<Compared>, Result<Vec<Compared>, String>),
     calibrated: Vec<String>,
 ) -> Outcome {
     let region = mapped.map(|mapped| &mapped.region);
+    let (hold_out, held_out_failure) = match hold_out {
+        Ok(data) => (data, None),
+        Err(reason) => (Vec::new(), Some(format!("what was held out failed at the best parameters: {reason}"))),
+    };
     let physical = |k: usize, u: f64| plan.parameters[k].bounds.value(u);
     let best = plan.values(&search.best);
     let found = |(k, parameter): (usize, &super::plan::Parameter)| {
@@ -242,18 +248,37 @@ pub(super) fn assemble(
         plan.parameters.iter().map(|p| Named { name: p.name.clone(), unit: p.unit.clone() }).collect();
     let truth: Option<Vec<f64>> =
         plan.parameters.iter().map(|p| p.truth.map(|truth| p.bounds.coordinate(truth))).collect();
-    let findings = region.map_or_else(
-        || vec!["too few evaluations succeeded to say how well the data determine the parameters".to_owned()],
-        |region| {
-            let found = assess(&region.jacobian(), region, &names, &physical);
-            let mut sentences: Vec<String> = found.iter().map(ToString::to_string).collect();
-            if mapped.is_some_and(|mapped| !mapped.settled) {
-                let text = "ends of intervals lie where the model was not evaluated; allow more `region_evaluations`";
-                sentences.push(text.to_owned());
+    let mut findings = Vec::new();
+    if matches!(search.stopped, Stopped::BudgetSpent | Stopped::Stalled) {
+        findings.push(format!("the search did not converge: {}", search.stopped));
+    }
+    match mapped {
+        None => {
+            findings.push("too few evaluations succeeded to say how well the data determine the parameters".to_owned())
+        }
+        Some(mapped) => {
+            let region = &mapped.region;
+            if region.inflation > 1.0 {
+                findings.push("the model does not explain the data within their uncertainties".to_owned());
             }
-            sentences
-        },
-    );
+            findings.extend(assess(&region.jacobian(), region, &names, &physical).iter().map(ToString::to_string));
+            for (k, profile) in region.profiles.iter().enumerate() {
+                let [low, high] = profile.interval;
+                if !(low..=high).contains(&search.best[k]) {
+                    findings.push(format!(
+                        "the best `{}` that was evaluated lies outside its own interval, which rests on a polynomial through \
+                         all evaluations: the model may be noisy",
+                        names[k].name
+                    ));
+                }
+            }
+            if !mapped.settled {
+                let text = "ends of intervals lie where the model was not evaluated; allow more `region_evaluations`";
+                findings.push(text.to_owned());
+            }
+        }
+    }
+    findings.extend(held_out_failure);
     let correlation = region.map_or_else(Vec::new, |region| {
         region.correlation.row_iter().map(|row| row.iter().copied().collect()).collect()
     });
@@ -330,6 +355,11 @@ fn undecided(trials: &[Trial]) -> Vec<String> {
             rivals.join(", ")
         ));
     }
+    let failed: Vec<&str> =
+        trials.iter().filter(|trial| trial.failure.is_some()).map(|trial| trial.name.as_str()).collect();
+    if !failed.is_empty() {
+        findings.push(format!("{} failed and could not be ranked; the table says why", failed.join(", ")));
+    }
     let data = trials.iter().map(|trial| trial.fit.len()).max().unwrap_or(0);
     if data < FEW_DATA {
         findings.push(format!("{data} data are few: resampling them tells little about ranks, so look at the weights"));
@@ -360,6 +390,7 @@ impl Trial {
             first: None,
             ranks: None,
             failure: None,
+            hold_out_failure: None,
         }
     }
 

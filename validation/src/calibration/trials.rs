@@ -1,9 +1,9 @@
 //! A bake-off: every choice of a setting is tried, and ranked by how well it explains the same data.
 
-use super::data::Target;
 use super::objective::{Objective, Question};
 use super::plan::Choice;
 use super::result::{Compared, Outcome, Trial, compared};
+use super::target::Target;
 use crate::error::InputError;
 use crate::inference::scores;
 
@@ -26,8 +26,15 @@ pub(super) fn try_all(objective: &Objective<'_>) -> Result<Outcome, InputError> 
     for (choice, records) in plan.choices.iter().zip(records.chunks(blocks)) {
         let named = |target: &Target| target.with_variant(|variant| variant.replace("{choice}", &choice.name));
         let both = |held_out: bool| compared(objective, held_out, |block| records.get(block), named);
-        match both(false).and_then(|fit| Ok((fit, both(true)?))) {
-            Ok((fit, hold_out)) => trials.push(Trial::of(choice.name.clone(), fit, hold_out)),
+        match both(false) {
+            // what is held out must not decide who is ranked
+            Ok(fit) => trials.push(match both(true) {
+                Ok(hold_out) => Trial::of(choice.name.clone(), fit, hold_out),
+                Err(error) => Trial {
+                    hold_out_failure: Some(error.to_string()),
+                    ..Trial::of(choice.name.clone(), fit, Vec::new())
+                },
+            }),
             Err(error) => {
                 trials.push(Trial::failed(choice.name.clone(), error.to_string()));
                 first_error.get_or_insert(error);

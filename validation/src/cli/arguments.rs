@@ -35,12 +35,12 @@ The report is one self-contained folder: open its index.html. Failing gates come
 Exit codes: 0 all gates hold, 1 a gate fails, 2 bad input, 3 a run diverged.";
 
 const CALIBRATE_EXAMPLES: &str = "Examples:
-  bagnold calibrate calibrations/lube-run-out.toml
+  bagnold calibrate validation/calibrations/lube-run-out.toml
   bagnold calibrate my.toml --out mine
   bagnold calibrate my.toml --out mine --resume
   bagnold run mine/calibrated.toml
 
-A file with one parameter, one fitted datum and one that is held out:
+A file with one parameter and one fitted datum; [[hold_out]] has the form of [[fit]]:
 
   title = \"static friction of our sand\"
 
@@ -52,10 +52,8 @@ A file with one parameter, one fitted datum and one that is held out:
   [[fit]]
   case = \"column-planar\"
   with = { sand = { aspect_ratios = [0.9] } }
-  data = [{ metric = \"run_out\", value = 1.2, unit = \"-\", uncertainty = 0.1, source = \"own, May\" }]
-
-  [[hold_out]]
-  ...
+  data = [{ metric = \"run_out\", variant = \"material=sand,aspect_ratio=0.9,resolution=20\",
+            value = 1.2, unit = \"-\", uncertainty = 0.1, source = \"own, May\" }]
 
 data may also name a CSV: { table = \"profile-…\", x = \"y [m]\", y = \"u [m/s]\", file = \"mine.csv\" }.
 The folder receives index.html, figures/, result.json, data.csv, evaluations.csv and calibrated.toml.";
@@ -267,9 +265,9 @@ pub struct Cluster {
     /// Memory of one run, such as 2G.
     #[arg(long, value_name = "SIZE")]
     pub memory: Option<String>,
-    /// Cores of one run.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub cpus: u16,
+    /// Cores of one run [default: 1].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub cpus: Option<u16>,
     /// Runs at the same time, at most.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub throttle: Option<u32>,

@@ -50,6 +50,9 @@ fn begin(
     if command.out.is_none() {
         OutputFolder::adopt(Path::new("reports"))?;
     }
+    if command.engine == Engine::Slurm {
+        slurm::available()?;
+    }
     let sweep = SweepFolder::begin(&folder, manifest, command.resume)?;
     match command.engine {
         Engine::Local => {
@@ -94,14 +97,15 @@ fn submit(
         say(output, "nothing to submit\n");
         return Ok(());
     }
+    let last = slurm::last_request(sweep)?;
     let request = slurm::Request {
-        partition: cluster.partition.clone(),
-        time: cluster.time.clone(),
-        memory: cluster.memory.clone(),
-        cpus: cluster.cpus,
-        throttle: cluster.throttle,
-        template: cluster.template.clone(),
-        store,
+        partition: cluster.partition.clone().or(last.partition),
+        time: cluster.time.clone().or(last.time),
+        memory: cluster.memory.clone().or(last.memory),
+        cpus: cluster.cpus.unwrap_or(last.cpus.max(1)),
+        throttle: cluster.throttle.or(last.throttle),
+        template: cluster.template.clone().or(last.template),
+        store: store.or(last.store),
     };
     let jobs = slurm::submit(sweep, &numbers, &request)?;
     say(output, &format!("submitted {} runs as Slurm job {}\n", numbers.len(), jobs.join(", ")));

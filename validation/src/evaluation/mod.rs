@@ -12,6 +12,7 @@ use crate::error::InputError;
 use crate::store::{Store, hexadecimal, source_hash};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
+use std::panic::AssertUnwindSafe;
 use std::path::Path;
 
 /// A case and what differs from its tier's parameters.
@@ -20,6 +21,8 @@ use std::path::Path;
 pub struct CaseRequest {
     /// Name of the case.
     pub case: String,
+    /// What tells it from other requests of the same case.
+    pub name: Option<String>,
     /// Tier whose parameters fill what is left out.
     #[serde(default = "quick")]
     pub tier: Tier,
@@ -33,6 +36,12 @@ fn quick() -> Tier {
 }
 
 impl CaseRequest {
+    /// What it is called in tables.
+    #[must_use]
+    pub fn label(&self) -> &str {
+        self.name.as_deref().unwrap_or(&self.case)
+    }
+
     /// Types and checks the parameters, `settings` (`path=value`) over what the file gives.
     ///
     /// # Errors
@@ -59,16 +68,24 @@ pub fn key(prepared: &dyn Prepared) -> String {
     hexadecimal(&hash.finalize())[..32].to_owned()
 }
 
-/// Simulates and judges on the current rayon pool's threads. What cannot be simulated is a record too, with the reason.
-#[must_use]
-pub fn evaluate(prepared: Box<dyn Prepared>, store: &Store, monitor: &dyn Monitor) -> Record {
+/// Simulates and judges on the current rayon pool's threads. Parameters that give no scene, a run that diverges and one
+/// that panics are records too, with the reason.
+///
+/// # Errors
+/// What has nothing to do with the parameters, such as threads that cannot be started.
+pub fn evaluate(prepared: Box<dyn Prepared>, store: &Store, monitor: &dyn Monitor) -> Result<Record, InputError> {
     let key = key(prepared.as_ref());
     let case = prepared.name().to_owned();
-    match execute(vec![prepared], store, monitor) {
-        Ok(results) => results
+    let simulate = AssertUnwindSafe(|| execute(vec![prepared], store, monitor));
+    match std::panic::catch_unwind(simulate) {
+        Ok(Ok(results)) => Ok(results
             .into_iter()
             .next()
-            .map_or_else(|| Record::failed(&key, &case, "nothing was simulated"), |result| Record::of(&key, &result)),
-        Err(error) => Record::failed(&key, &case, &error.to_string()),
+            .map_or_else(|| Record::failed(&key, &case, "nothing was simulated"), |result| Record::of(&key, &result))),
+        Ok(Err(error @ (InputError::Field { .. } | InputError::Scene(_) | InputError::NothingToRun { .. }))) => {
+            Ok(Record::failed(&key, &case, &error.to_string()))
+        }
+        Ok(Err(error)) => Err(error),
+        Err(_) => Ok(Record::failed(&key, &case, "a run panicked, which is an error of the program; please report it")),
     }
 }

@@ -1,6 +1,7 @@
 //! Repeated synthetic experiments: do the regions contain the truth as often as they claim?
 
 use super::bootstrap::bootstrap;
+use super::explore::explore;
 use super::region::{Region, Uncertainties};
 use super::search::{Budget, Method, Search, Stopped, search};
 use super::stand_in::{RANGES, Slopes, TRUTH};
@@ -14,9 +15,11 @@ const BUDGET: Budget = Budget { evaluations: 25, seed: 1, difference: 0.02, tole
 const STARTS: [[f64; 3]; 3] = [[0.5, 0.5, 0.5], [0.45, 0.6, 0.3], [0.55, 0.1, 0.85]];
 
 fn calibrate(seed: u64) -> (Search, Emulator) {
-    let found = search(&mut Slopes::new(seed), &STARTS[seed as usize % 3], Method::TrustRegion, BUDGET).unwrap();
-    let emulator = Emulator::fit(&found.history, BUDGET.difference).unwrap();
-    (found, emulator)
+    let mut model = Slopes::new(seed);
+    let found = search(&mut model, &STARTS[seed as usize % 3], Method::TrustRegion, BUDGET).unwrap();
+    let further = Budget { evaluations: 12, ..BUDGET };
+    let explored = explore(&mut model, found.history.clone(), Uncertainties::AsStated, &further).unwrap().unwrap();
+    (found, explored.emulator)
 }
 
 #[test]

@@ -9,9 +9,13 @@ use super::emulator::{Degree, Emulator};
 use super::region::{Region, Uncertainties};
 use super::{Budget, Evaluate, Evaluated, chi_squared};
 use crate::sampling::design::sobol;
+use nalgebra::SymmetricEigen;
 
 /// Rounds of further points.
 const MOST_ROUNDS: usize = 4;
+
+/// Rise of χ² over the region's threshold up to which points count as near a narrow region.
+const NEARBY: f64 = 4.0;
 
 /// An end of an interval is trusted with a point nearer than this share of its distance from the minimum.
 const NEAR: f64 = 0.25;
@@ -46,6 +50,9 @@ pub fn explore<M: Evaluate>(
     for round in 0.. {
         let Some(emulator) = Emulator::fit(&history, resolution) else { return Ok(None) };
         let region = Region::new(&emulator, uncertainties);
+        if extent(&region) <= budget.difference {
+            return refine(model, history, (emulator, region), uncertainties, most).map(Some);
+        }
         let mut points = wanted(&region, &history, budget);
         let settled = points.is_empty();
         points.truncate(most - history.len());
@@ -63,11 +70,55 @@ pub fn explore<M: Evaluate>(
     Ok(None)
 }
 
+/// A region that is narrower than the steps of the search: the model at both ends of its principal axes, and an emulator of
+/// the points in and near it alone. Slopes over longer steps would turn a narrow valley out of its direction.
+fn refine<M: Evaluate>(
+    model: &mut M,
+    mut history: Vec<Evaluated>,
+    (emulator, region): (Emulator, Region),
+    uncertainties: Uncertainties,
+    most: usize,
+) -> Result<Explored, M::Error> {
+    let mut points = axes(&region);
+    points.truncate(most - history.len());
+    let results = model.residuals(&points)?;
+    for (point, residuals) in points.into_iter().zip(results) {
+        let residuals = residuals.filter(|list| list.iter().all(|residual| residual.is_finite()));
+        let chi_squared = residuals.as_deref().map(chi_squared);
+        history.push(Evaluated { point, residuals, chi_squared });
+    }
+    let near: Vec<Evaluated> = history
+        .iter()
+        .filter(|evaluated| {
+            emulator.chi_squared(&evaluated.point) - region.minimum.chi_squared <= NEARBY * region.threshold
+        })
+        .cloned()
+        .collect();
+    let enough = near.len() > 2 * region.profiles.len();
+    let local = if enough { Emulator::fit(&near, 0.5 * extent(&region)) } else { None };
+    Ok(match local {
+        Some(local) => {
+            let region = Region::new(&local, uncertainties);
+            Explored { emulator: local, region, history, settled: true }
+        }
+        None => Explored { emulator, region, history, settled: true },
+    })
+}
+
+/// Both ends of the principal axes of the joint region, within the cube.
+fn axes(region: &Region) -> Vec<Vec<f64>> {
+    let factors = SymmetricEigen::new(region.covariance.clone());
+    let radius = region.threshold.sqrt() / region.inflation;
+    let end = |axis: usize, sign: f64| {
+        let step = sign * radius * factors.eigenvalues[axis].max(0.0).sqrt();
+        let moved = |(k, u): (usize, &f64)| (u + step * factors.eigenvectors[(k, axis)]).clamp(0.0, 1.0);
+        region.minimum.point.iter().enumerate().map(moved).collect()
+    };
+    (0..region.profiles.len()).flat_map(|axis| [end(axis, -1.0), end(axis, 1.0)]).collect()
+}
+
 /// The points that the region still lacks: ends of intervals, and as many between them as a quadratic needs.
 fn wanted(region: &Region, history: &[Evaluated], budget: &Budget) -> Vec<Vec<f64>> {
-    if extent(region) <= budget.difference {
-        return Vec::new();
-    }
     let mut points: Vec<Vec<f64>> = Vec::new();
     for end in region.profiles.iter().flat_map(|profile| &profile.ends) {
         let near = budget.difference.max(NEAR * distance(end, &region.minimum.point));
@@ -185,13 +236,13 @@ mod tests {
     }
 
     #[test]
-    fn a_region_within_reach_needs_nothing_further() {
+    fn a_region_within_reach_needs_the_ends_of_its_axes_only() {
         let mut model = Slopes::new(3);
         let budget = Budget::default();
         let found = search(&mut model, &[0.5; 3], Method::TrustRegion, budget).unwrap();
         let count = found.history.len();
         let explored = explore(&mut model, found.history, Uncertainties::AsStated, &budget).unwrap().unwrap();
-        assert!(explored.settled && explored.history.len() == count);
+        assert!(explored.settled && explored.history.len() == count + 2 * explored.region.profiles.len());
     }
 
     #[test]

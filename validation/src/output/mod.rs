@@ -8,7 +8,7 @@ mod whole;
 
 pub use folder::OutputFolder;
 pub use table::Table;
-pub use whole::write_whole;
+pub use whole::{is_unused, write_whole};
 
 use crate::case::CaseResult;
 use crate::figure::{self, FigureError};

@@ -1,5 +1,7 @@
 //! Files that appear whole or not at all.
 
+use std::collections::hash_map::RandomState;
+use std::hash::{BuildHasher, Hasher};
 use std::io;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -13,10 +15,50 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> io::Result<()> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder)?;
     }
-    let unique = format!("{}-{}.partial", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+    // machines that share a folder may have processes of the same number, hence the random part
+    let random = RandomState::new().build_hasher().finish();
+    let count = COUNT.fetch_add(1, Ordering::Relaxed);
+    let unique = format!("{}-{count}-{random:016x}.partial", std::process::id());
     let partial = path.with_extension(unique);
     std::fs::write(&partial, contents).and_then(|()| std::fs::rename(&partial, path)).inspect_err(|_| {
         // Best effort: the error that counts is the one already at hand.
         let _ = std::fs::remove_file(&partial);
     })
+}
+
+/// Whether a folder is missing, empty, or holds only what a command that was killed at its very start leaves.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub fn is_unused(folder: &Path) -> io::Result<bool> {
+    let entries = match std::fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),
+        Err(error) => return Err(error),
+    };
+    for entry in entries {
+        let path = entry?.path();
+        let is_partial = path.extension().is_some_and(|ending| ending == "partial");
+        if !is_partial && std::fs::read_dir(&path).map_or(true, |mut inside| inside.next().is_some()) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_kill_at_the_start_leaves_does_not_count() {
+        let root = tempfile::tempdir().expect("temporary folder");
+        let folder = root.path().join("out");
+        assert!(is_unused(&folder).expect("readable"));
+        std::fs::create_dir_all(folder.join("evaluations")).expect("writable");
+        std::fs::write(folder.join("plan.17-0-00.partial"), "half").expect("writable");
+        assert!(is_unused(&folder).expect("readable"));
+        std::fs::write(folder.join("thesis.tex"), "").expect("writable");
+        assert!(!is_unused(&folder).expect("readable"));
+    }
 }

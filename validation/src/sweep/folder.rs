@@ -3,7 +3,7 @@
 use super::manifest::{Entry, Manifest};
 use crate::error::InputError;
 use crate::evaluation::Record;
-use crate::output::write_whole;
+use crate::output::{is_unused, write_whole};
 use std::path::{Path, PathBuf};
 
 /// How far a sweep is.
@@ -47,17 +47,10 @@ impl SweepFolder {
             return Ok(Self { folder: folder.to_owned(), manifest: old });
         }
         let unwritable = |error: std::io::Error| InputError::unwritable(folder, &error);
-        match std::fs::read_dir(folder) {
-            Ok(mut entries) => {
-                if entries.next().is_some() {
-                    return Err(InputError::ForeignFolder { folder: folder.to_owned() });
-                }
-            }
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                std::fs::create_dir_all(folder).map_err(unwritable)?;
-            }
-            Err(error) => return Err(unwritable(error)),
+        if !is_unused(folder).map_err(unwritable)? {
+            return Err(InputError::ForeignFolder { folder: folder.to_owned() });
         }
+        std::fs::create_dir_all(folder).map_err(unwritable)?;
         let begun = Self { folder: folder.to_owned(), manifest };
         let text = serde_json::to_string_pretty(&begun.manifest).map_err(|error| unwritable(error.into()))?;
         write_whole(&listed, format!("{text}\n").as_bytes()).map_err(unwritable)?;

@@ -85,7 +85,7 @@ fn failures(names: &[String], records: &[(&Entry, Record)]) -> std::io::Result<V
 /// What every line begins with. Words lose TOML's quotes.
 fn first(entry: &Entry) -> Vec<String> {
     let plain = |value: &String| value.trim_matches(|mark| mark == '"' || mark == '\'').to_owned();
-    let head = [entry.number.to_string(), entry.case.clone(), entry.tier.to_string()];
+    let head = [entry.number.to_string(), entry.label.clone(), entry.tier.to_string()];
     head.into_iter().chain(entry.point.iter().map(plain)).collect()
 }
 
@@ -93,8 +93,8 @@ fn first(entry: &Entry) -> Vec<String> {
 fn figures(manifest: &Manifest, records: &[(&Entry, Record)]) -> Vec<Figure> {
     let mut cases: Vec<&str> = Vec::new();
     for (entry, _) in records {
-        if !cases.contains(&entry.case.as_str()) {
-            cases.push(&entry.case);
+        if !cases.contains(&entry.label.as_str()) {
+            cases.push(&entry.label);
         }
     }
     cases.into_iter().filter_map(|case| pairs(manifest, case, records)).collect()
@@ -102,7 +102,7 @@ fn figures(manifest: &Manifest, records: &[(&Entry, Record)]) -> Vec<Figure> {
 
 fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Option<Figure> {
     let own: Vec<&(&Entry, Record)> =
-        records.iter().filter(|(entry, record)| entry.case == case && record.failure.is_none()).collect();
+        records.iter().filter(|(entry, record)| entry.label == case && record.failure.is_none()).collect();
     let numbers = |parameter: usize| -> Option<Vec<f64>> {
         let values: Option<Vec<f64>> = own.iter().map(|(entry, _)| entry.point[parameter].parse().ok()).collect();
         values.filter(|values| values.iter().any(|value| *value != values[0]))
@@ -132,7 +132,7 @@ fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Optio
         }
     }
     Some(Figure {
-        name: format!("pairs-{case}"),
+        name: format!("pairs-{}", case.replace([' ', '/'], "-")),
         caption: "Metrics of every run over the parameters that were varied.".to_owned(),
         columns: varied.len().min(3),
         panels,

@@ -32,7 +32,7 @@ pub fn run_entry(sweep: &SweepFolder, entry: &Entry, registry: Registry, store: 
     let file = CaseFile::read(&listed)?;
     let changes = Changes { file: Some((&listed, file.fields)), settings: &[] };
     let prepared = registry.find(&entry.case)?.prepare(entry.tier, &changes)?;
-    let record = evaluation::evaluate(prepared, store, &Silent);
+    let record = evaluation::evaluate(prepared, store, &Silent)?;
     if let Some(reason) = &record.failure {
         write_whole(&folder.join("failure.txt"), format!("{reason}\n").as_bytes()).map_err(unwritable)?;
     }

@@ -12,6 +12,8 @@ pub struct Entry {
     pub number: usize,
     /// Name of the case.
     pub case: String,
+    /// What it is called in the tables.
+    pub label: String,
     /// Its tier.
     pub tier: Tier,
     /// Name of its folder below `runs`.
@@ -70,5 +72,36 @@ impl Manifest {
     #[must_use]
     pub fn is_foreign(&self) -> bool {
         self.source_hash != crate::store::source_hash()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampling::Random;
+
+    #[test]
+    fn a_manifest_comes_back_to_the_bit() {
+        let mut random = Random::new(3);
+        let entry = |number: usize| Entry {
+            number,
+            case: "film".to_owned(),
+            label: "film".to_owned(),
+            tier: Tier::Quick,
+            folder: format!("{number:04}-film"),
+            point: vec!["0.1".to_owned()],
+            key: String::new(),
+            particle_steps: 1e7 * random.uniform() + random.uniform(),
+            parameters_toml: String::new(),
+            refusal: None,
+        };
+        let manifest = Manifest {
+            source_hash: String::new(),
+            parameters: vec!["viscosity".to_owned()],
+            metrics: Vec::new(),
+            entries: (1..=1000).map(entry).collect(),
+        };
+        let text = serde_json::to_string(&manifest).expect("writable");
+        assert_eq!(serde_json::from_str::<Manifest>(&text).expect("readable"), manifest);
     }
 }

@@ -7,8 +7,8 @@
 //! FOLDER/slurm/                 job script, job numbers and logs of the engine `slurm`
 //! ```
 //!
-//! A run is done when its record is there, so a sweep that was killed goes on where it stood, and machines that share the
-//! folder need nothing else to work on one sweep.
+//! A run is done when its record is there, so a sweep that was killed goes on where it stood, and Slurm's tasks, one an entry,
+//! need nothing but the folder.
 
 mod folder;
 mod gather;

@@ -14,6 +14,12 @@ use toml::Value;
 /// More runs than this are a slip of the pen.
 const MOST_RUNS: usize = 100_000;
 
+/// Length of the Sobol sequence.
+const MOST_SOBOL_POINTS: usize = 65_536;
+
+/// Columns that the table of results has anyway.
+const TAKEN: [&str; 9] = ["run", "case", "tier", "metric", "variant", "value", "unit", "verdict", "reason"];
+
 /// How the points lie.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -88,9 +94,13 @@ impl SweepPlan {
             let field = format!("parameters[{index}]");
             parameter.check(&field, self.text.design == Design::Grid)?;
             let name = parameter.name();
-            if !names.insert(name.clone()) {
-                let remedy = "give each a `name` of its own";
+            if !names.insert(name.clone()) || TAKEN.contains(&name.as_str()) {
+                let remedy = "give each a `name` of its own that is no column of the results";
                 return Err(InputError::field(&format!("{field}.name"), name, "unlike the others", remedy));
+            }
+            if self.text.parameters[..index].iter().any(|other| other.path == parameter.path) {
+                let field = format!("{field}.path");
+                return Err(InputError::field(&field, "given twice", "unlike the others", "vary a path once"));
             }
             for request in &self.text.cases {
                 if parameter.path.in_case(&request.case).is_none() {
@@ -99,13 +109,34 @@ impl SweepPlan {
                 }
             }
         }
+        for (index, request) in self.text.cases.iter().enumerate() {
+            if self.text.cases[..index].iter().any(|other| other.label() == request.label()) {
+                let (rule, remedy) = ("unlike the others", "give a case that stands twice a `name` each time");
+                return Err(InputError::field(&format!("cases[{index}].name"), request.label(), rule, remedy));
+            }
+        }
+        let most = match self.text.design {
+            Design::Sobol { .. } => MOST_SOBOL_POINTS,
+            _ => MOST_RUNS,
+        };
         match self.text.design {
-            Design::Grid => Ok(()),
+            Design::Grid => {
+                let levels = |parameter: &Varied| {
+                    parameter.values.as_ref().map_or_else(|| parameter.levels.unwrap_or(1), Vec::len)
+                };
+                let product = self.text.parameters.iter().try_fold(1usize, |product, parameter| {
+                    product.checked_mul(levels(parameter)).filter(|product| *product <= MOST_RUNS)
+                });
+                let rule = format!("a grid of at most {MOST_RUNS} points");
+                let too_many =
+                    || InputError::field("parameters", "too many values", &rule, "take fewer values or levels");
+                product.map(|_| ()).ok_or_else(too_many)
+            }
             Design::LatinHypercube { points, .. } | Design::Sobol { points, .. } => {
-                if (1..=MOST_RUNS).contains(&points) {
+                if (1..=most).contains(&points) {
                     return Ok(());
                 }
-                let rule = format!("between 1 and {MOST_RUNS}");
+                let rule = format!("between 1 and {most}");
                 Err(InputError::field("design.points", points, &rule, "every point is one run of each case"))
             }
         }
@@ -154,10 +185,11 @@ impl SweepPlan {
                 };
                 let settings: Vec<String> = self.text.parameters.iter().zip(point).map(setting).collect();
                 let number = entries.len() + 1;
-                let folder = format!("{number:04}-{}", request.case);
+                let folder = format!("{number:04}-{}", file_name(request.label()));
                 let mut entry = Entry {
                     number,
                     case: request.case.clone(),
+                    label: request.label().to_owned(),
                     tier: request.tier,
                     folder,
                     point: point.clone(),
@@ -196,8 +228,15 @@ impl SweepPlan {
     }
 }
 
+/// A label as a file name.
+fn file_name(label: &str) -> String {
+    label.chars().map(|letter| if letter.is_alphanumeric() || "-_.".contains(letter) { letter } else { '-' }).collect()
+}
+
 fn cost(prepared: &dyn Prepared) -> f64 {
-    (0..prepared.run_count()).map(|run| prepared.particle_steps(run)).sum()
+    let sum: f64 = (0..prepared.run_count()).map(|run| prepared.particle_steps(run)).sum();
+    // JSON has no infinity
+    sum.min(f64::MAX)
 }
 
 impl Varied {
@@ -233,6 +272,10 @@ impl Varied {
             (Some(_), false) if !grid => {
                 let remedy = "give lower and upper, or take design = \"grid\"";
                 Err(InputError::field(&format!("{field}.values"), "given", "absent outside a grid", remedy))
+            }
+            (Some(_), false) if self.levels.is_some() => {
+                let remedy = "keep either the values or the levels";
+                Err(InputError::field(&format!("{field}.levels"), "given", "absent beside values", remedy))
             }
             (Some(_), false) => Ok(()),
             (None, _) => {

@@ -16,7 +16,7 @@ pub const TEMPLATE: &str = include_str!("template/array.sh");
 const ARRAY_LENGTH: usize = 1000;
 
 /// What a job asks of the cluster.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Request {
     /// Partition; `None` for the cluster's default.
     pub partition: Option<String>,
@@ -58,7 +58,8 @@ pub fn submit(sweep: &SweepFolder, numbers: &[usize], request: &Request) -> Resu
     let logs = scripts.join("logs");
     let unwritable = |error: std::io::Error| InputError::unwritable(&scripts, &error);
     std::fs::create_dir_all(&logs).map_err(unwritable)?;
-    let mut jobs = read_jobs(&scripts);
+    write_json(&scripts.join("request.json"), request)?;
+    let mut jobs = read_jobs(&scripts)?;
     let mut submitted = Vec::new();
     let blocks: BTreeSet<usize> = numbers.iter().map(|number| (number - 1) / ARRAY_LENGTH).collect();
     for block in blocks {
@@ -75,8 +76,7 @@ pub fn submit(sweep: &SweepFolder, numbers: &[usize], request: &Request) -> Resu
         let printed = call("sbatch", &["--parsable", &shown])?;
         let id = printed.trim().split(';').next().unwrap_or_default().to_owned();
         jobs.push(Job { id: id.clone(), offset });
-        let list = serde_json::to_string_pretty(&jobs).map_err(|error| unwritable(error.into()))?;
-        write_whole(&scripts.join("jobs.json"), list.as_bytes()).map_err(unwritable)?;
+        write_json(&scripts.join("jobs.json"), &jobs)?;
         submitted.push(id);
     }
     Ok(submitted)
@@ -87,7 +87,7 @@ pub fn submit(sweep: &SweepFolder, numbers: &[usize], request: &Request) -> Resu
 /// # Errors
 /// No Slurm on this machine, or a queue that does not answer.
 pub fn queued(sweep: &SweepFolder) -> Result<BTreeSet<usize>, InputError> {
-    let jobs = read_jobs(&sweep.path().join("slurm"));
+    let jobs = read_jobs(&sweep.path().join("slurm"))?;
     let mut numbers = BTreeSet::new();
     if jobs.is_empty() {
         return Ok(numbers);
@@ -105,11 +105,44 @@ pub fn queued(sweep: &SweepFolder) -> Result<BTreeSet<usize>, InputError> {
     Ok(numbers)
 }
 
-fn read_jobs(scripts: &Path) -> Vec<Job> {
-    std::fs::read_to_string(scripts.join("jobs.json"))
-        .ok()
-        .and_then(|text| serde_json::from_str(&text).ok())
-        .unwrap_or_default()
+/// What was asked of Slurm the last time, for a submission that asks for nothing else.
+///
+/// # Errors
+/// A damaged file.
+pub fn last_request(sweep: &SweepFolder) -> Result<Request, InputError> {
+    read_json(&sweep.path().join("slurm").join("request.json"))
+}
+
+/// Whether Slurm is on this machine.
+///
+/// # Errors
+/// A machine without it.
+pub fn available() -> Result<(), InputError> {
+    call("sbatch", &["--version"]).map(|_| ())
+}
+
+fn read_jobs(scripts: &Path) -> Result<Vec<Job>, InputError> {
+    read_json(&scripts.join("jobs.json"))
+}
+
+/// What a file holds; the default without a file.
+fn read_json<T: Default + serde::de::DeserializeOwned>(file: &Path) -> Result<T, InputError> {
+    let text = match std::fs::read_to_string(file) {
+        Ok(text) => text,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(T::default()),
+        Err(error) => return Err(InputError::unreadable(file, &error)),
+    };
+    serde_json::from_str(&text).map_err(|error| InputError::Damaged {
+        file: file.to_owned(),
+        reason: error.to_string(),
+        remedy: "remove it when `squeue` shows no job of this sweep".to_owned(),
+    })
+}
+
+fn write_json(file: &Path, value: &impl Serialize) -> Result<(), InputError> {
+    let unwritable = |error: std::io::Error| InputError::unwritable(file, &error);
+    let text = serde_json::to_string_pretty(value).map_err(|error| unwritable(error.into()))?;
+    write_whole(file, text.as_bytes()).map_err(unwritable)
 }
 
 fn fill(

@@ -321,7 +321,7 @@ fn growth(metrics: &mut Vec<Metric>, records: &[Record]) {
     ];
     for (name, value) in values {
         metrics.push(
-            Metric::observed(name, "formulation=stabilised,slope=0.05_over_0.03", value, "-")
+            Metric::observed(name, "formulation=stabilised,slope=0.03_0.05", value, "-")
                 .against(None, "statement of the paper: larger at 5 % than at 3 %", Confidence::Medium)
                 .gated(Limit::AtLeast(1.05), "larger by more than the scatter of repeats, 3 %")
                 .with_snapshot_tolerance(0.05, 0.0),
