@@ -3,7 +3,7 @@
 use super::folder::{SweepFolder, Tally};
 use super::manifest::{Entry, Manifest};
 use crate::error::InputError;
-use crate::evaluation::Record;
+use crate::evaluation::{MetricValue, Record};
 use crate::figure::{self, Axis, Figure, Mark, Panel, Series};
 use crate::metric::Verdict;
 use crate::output::write_whole;
@@ -113,6 +113,8 @@ fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Optio
     if varied.is_empty() || metrics.is_empty() {
         return None;
     }
+    let rows: Vec<String> =
+        metrics.iter().map(|(name, variant)| format!("{name} {variant}").trim_end().to_owned()).collect();
     let mut panels = Vec::new();
     for (name, variant) in &metrics {
         for (parameter, values) in &varied {
@@ -126,20 +128,20 @@ fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Optio
                 }
             }
             let label = &manifest.parameters[*parameter];
-            let mut panel = Panel::new(variant, Axis::linear(label), Axis::linear(&format!("{name} [{unit}]")));
+            let mut panel = Panel::new("", Axis::linear(label), Axis::linear(&format!("{name} [{unit}]")));
             panel.series.push(Series::new("", Mark::Points, 0, points));
             panels.push(panel);
         }
     }
     Some(Figure {
         name: format!("pairs-{}", case.replace([' ', '/'], "-")),
-        caption: "Metrics of every run over the parameters that were varied.".to_owned(),
+        caption: format!("Metrics of every run over the parameters that were varied, row by row: {}.", rows.join("; ")),
         columns: varied.len().min(3),
         panels,
     })
 }
 
-/// The metrics that the plan names, else the first gated ones, else the first; each with its variant.
+/// The metrics that the plan names, else the first that the parameters change, gated ones first; each with its variant.
 fn drawn_metrics(manifest: &Manifest, own: &[&(&Entry, Record)]) -> Vec<(String, String)> {
     let mut seen = BTreeSet::new();
     let all: Vec<_> = own
@@ -147,15 +149,17 @@ fn drawn_metrics(manifest: &Manifest, own: &[&(&Entry, Record)]) -> Vec<(String,
         .flat_map(|(_, record)| &record.metrics)
         .filter(|metric| seen.insert((metric.name.clone(), metric.variant.clone())))
         .collect();
-    let named = |metric: &&&crate::evaluation::MetricValue| manifest.metrics.contains(&metric.name);
-    let gated = |metric: &&&crate::evaluation::MetricValue| metric.verdict != Verdict::Observed;
-    let mut chosen: Vec<_> = if manifest.metrics.is_empty() {
-        all.iter().filter(gated).take(DRAWN).collect()
-    } else {
-        all.iter().filter(named).take(3 * DRAWN).collect()
+    let changes = |metric: &MetricValue| {
+        let same = |other: &&MetricValue| other.name == metric.name && other.variant == metric.variant;
+        let mut values = own.iter().filter_map(|(_, record)| record.metrics.iter().find(same)).map(|other| other.value);
+        values.any(|value| value != metric.value)
     };
-    if chosen.is_empty() {
-        chosen = all.iter().take(DRAWN).collect();
-    }
+    let chosen: Vec<&MetricValue> = if manifest.metrics.is_empty() {
+        let (gated, others): (Vec<&MetricValue>, Vec<&MetricValue>) =
+            all.into_iter().filter(|metric| changes(metric)).partition(|metric| metric.verdict != Verdict::Observed);
+        gated.into_iter().chain(others).take(DRAWN).collect()
+    } else {
+        all.into_iter().filter(|metric| manifest.metrics.contains(&metric.name)).take(3 * DRAWN).collect()
+    };
     chosen.into_iter().map(|metric| (metric.name.clone(), metric.variant.clone())).collect()
 }
