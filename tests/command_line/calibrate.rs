@@ -1,10 +1,8 @@
 //! Calibrations: with one's own CSV, killed and resumed, refused.
 
+use crate::killed::{Finished, assert_same_files, kill_and_resume, written};
 use crate::program::Place;
-use std::collections::BTreeMap;
-use std::path::Path;
-use std::process::Stdio;
-use std::time::{Duration, SystemTime};
+use std::path::{Path, PathBuf};
 
 /// The viscosity of a film from three velocities that someone has measured, with 3 % of uncertainty each.
 const PLAN: &str = r#"
@@ -52,14 +50,29 @@ fn place() -> (Place, String) {
 }
 
 /// When each evaluation was written.
-fn evaluations(folder: &Path) -> BTreeMap<String, SystemTime> {
+fn evaluations(folder: &Path) -> Finished {
     let entries = std::fs::read_dir(folder.join("evaluations")).into_iter().flatten().flatten();
-    let written = |entry: std::fs::DirEntry| {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        let time = entry.metadata().and_then(|metadata| metadata.modified()).ok()?;
-        name.ends_with(".postcard").then_some((name, time))
-    };
-    entries.filter_map(written).collect()
+    let files: Vec<PathBuf> = entries
+        .map(|entry| entry.path())
+        .filter(|file| file.extension().is_some_and(|kind| kind == "postcard"))
+        .collect();
+    let name = |file: &PathBuf| file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    written(files.iter().map(|file| (name(file), file.as_path())))
+}
+
+/// Weighted least squares by hand: the exact film, u = ρ g sin θ/η (h y − y²/2), is linear in 1/η. The viscosity
+/// `[Pa·s]` and its standard deviation `[Pa·s]`.
+fn viscosity_of_the_exact_film() -> (f64, f64) {
+    let (depth, slope, density, gravity) = (0.01, 10.0f64.to_radians(), 1000.0, 9.81);
+    let data = [[0.003, 0.086, 0.003], [0.005, 0.126, 0.004], [0.008, 0.161, 0.005]];
+    let (mut up, mut down) = (0.0, 0.0);
+    for [y, velocity, uncertainty] in data {
+        let of_one = density * gravity * slope.sin() * (depth * y - y * y / 2.0) / uncertainty;
+        up += of_one * velocity / uncertainty;
+        down += of_one * of_one;
+    }
+    let fluidity: f64 = up / down;
+    (1.0 / fluidity, 1.0 / (down.sqrt() * fluidity * fluidity))
 }
 
 #[test]
@@ -73,10 +86,12 @@ fn own_data_give_parameters_a_page_and_a_case_to_run() {
     let result: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let best = result["parameters"][0]["best"].as_f64().expect("a number");
     let [low, high] = [0, 1].map(|k| result["parameters"][0]["interval"][k].as_f64().expect("a number"));
-    // three data of 3 % each fix the viscosity to about ±3.5 % at 95 %
+    let (exact, deviation) = viscosity_of_the_exact_film();
+    assert!((best / exact - 1.0).abs() < 0.01, "{best} Pa·s, but the exact film has {exact} Pa·s");
+    let width = (high - low) / (2.0 * 1.96 * deviation);
     assert!(
-        low < best && best < high && (high - low) / best > 0.04 && (high - low) / best < 0.1,
-        "{low} {best} {high}"
+        low < best && best < high && (0.9..1.1).contains(&width),
+        "{low} {best} {high}, {width} of the exact width"
     );
     assert!(result["searched"].as_u64().is_some_and(|count| count <= 12));
     for name in ["index.html", "data.csv", "evaluations.csv", "figures/profiles.svg", "figures/fit.png"] {
@@ -89,40 +104,11 @@ fn own_data_give_parameters_a_page_and_a_case_to_run() {
 fn a_calibration_that_was_killed_gives_the_same_result_and_repeats_nothing() {
     let (place, plan) = place();
     place.bagnold(&["-q", "calibrate", &plan, "--out", "whole"]).assert().code(0);
-    // a store of its own, so that the second calibration cannot live on the first one's runs
-    let second = |resume: &[&str]| {
-        let arguments = ["-q", "calibrate", &plan, "--out", "killed", "--threads", "1", "--store", "other"];
-        let mut command = std::process::Command::new(crate::program::path());
-        command.current_dir(place.path("")).args(arguments).args(resume).stdout(Stdio::null()).stderr(Stdio::null());
-        command.spawn().expect("started")
-    };
-    let folder = place.path("killed");
-    let mut seen = BTreeMap::new();
-    for kill in 1..=3 {
-        let mut child = second(if kill == 1 { &[] } else { &["--resume"] });
-        let wanted = seen.len() + 1;
-        while evaluations(&folder).len() < wanted && child.try_wait().expect("a child").is_none() {
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        child.kill().expect("kill -9");
-        child.wait().expect("ended");
-        let now = evaluations(&folder);
-        assert!(seen.iter().all(|(key, time)| now.get(key) == Some(time)), "kill {kill}: an evaluation was repeated");
-        seen = now;
-    }
-    assert!(!folder.join("result.json").exists(), "the calibration was over before the last kill");
-    assert_eq!(second(&["--resume"]).wait().expect("ended").code(), Some(0));
-    let all = evaluations(&folder);
-    assert!(seen.iter().all(|(key, time)| all.get(key) == Some(time)), "an evaluation was repeated");
-    assert_eq!(
-        all.keys().collect::<Vec<_>>(),
-        evaluations(&place.path("whole")).keys().collect::<Vec<_>>(),
-        "other points were asked for"
-    );
-    for name in ["result.json", "data.csv", "evaluations.csv", "calibrated.toml", "index.html"] {
-        let read = |folder: &str| std::fs::read(place.path(folder).join(name)).expect("written");
-        assert_eq!(read("whole"), read("killed"), "{name}");
-    }
+    assert_eq!(kill_and_resume(&place, "calibrate", &plan, evaluations), 0);
+    let points = |folder: &str| evaluations(&place.path(folder)).into_keys().collect::<Vec<_>>();
+    assert_eq!(points("whole"), points("killed"), "other points were asked for");
+    let names = ["result.json", "data.csv", "evaluations.csv", "calibrated.toml", "index.html"];
+    assert_same_files(&place, "whole", &names);
 }
 
 /// What `bagnold calibrate` says to a plan or data that it refuses, with exit code 2.
@@ -157,8 +143,28 @@ fn wrong_plans_are_refused_by_name() {
         "error: plan.toml: `hold_out[0].data[0].uncertainty` is missing or not positive, but must be positive; give the \
          standard deviation in the value's unit, or `factor` for one in logarithms; Bagnold does not invent one"
     );
+    assert_eq!(
+        plan("x = \"y [m]\"", "x = \"y\""),
+        "error: plan.toml: `fit[0].data[0].x` is y, but must be a column with its unit, as the table's heading has it; such \
+         as \"y [m]\""
+    );
+    assert_eq!(
+        plan("evaluations = 12", "evaluations = 0"),
+        "error: plan.toml: `evaluations` is 0, but must be at least 1; 25 suffice for three parameters"
+    );
     let unit = plan("unit = \"-\", uncertainty", "unit = \"m\", uncertainty");
     assert!(unit.ends_with("the case gives `particles_lost` in [-], but the data are in [m]; convert them"), "{unit}");
+}
+
+#[test]
+fn nothing_to_compare_with_is_refused() {
+    let from = PLAN.find("data = [{ table").expect("there");
+    let to = from + PLAN[from..].find("}]").expect("there") + 2;
+    let empty = refusal(|text| text.replace(&PLAN[from..to], "data = []"), str::to_owned);
+    assert_eq!(
+        empty,
+        "error: plan.toml: `fit[0].data` is [], but must be at least one entry; say what the case is compared with"
+    );
 }
 
 #[test]

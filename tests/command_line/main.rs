@@ -4,6 +4,7 @@ mod bad_input;
 mod calibrate;
 mod exit_codes;
 mod files;
+mod killed;
 mod permission;
 mod program;
 mod sweep;

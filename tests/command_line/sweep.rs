@@ -1,10 +1,8 @@
 //! Sweeps: killed and resumed, refused, and what they leave.
 
+use crate::killed::{Finished, assert_same_files, kill_and_resume, written};
 use crate::program::Place;
-use std::collections::BTreeMap;
-use std::path::Path;
-use std::process::Stdio;
-use std::time::{Duration, SystemTime};
+use std::path::{Path, PathBuf};
 
 const PLAN: &str = r#"
 design = "grid"
@@ -23,14 +21,12 @@ values = [20.0, 25.0, 95.0]
 "#;
 
 /// When each record was written.
-fn records(folder: &Path) -> BTreeMap<String, SystemTime> {
-    let runs = std::fs::read_dir(folder.join("runs")).into_iter().flatten().flatten();
-    let written = |run: std::fs::DirEntry| {
-        let record = run.path().join("record.postcard");
-        let time = record.metadata().and_then(|metadata| metadata.modified()).ok()?;
-        Some((run.file_name().to_string_lossy().into_owned(), time))
-    };
-    runs.filter_map(written).collect()
+fn records(folder: &Path) -> Finished {
+    let runs: Vec<PathBuf> =
+        std::fs::read_dir(folder.join("runs")).into_iter().flatten().flatten().map(|run| run.path()).collect();
+    let files: Vec<PathBuf> = runs.iter().map(|run| run.join("record.postcard")).collect();
+    let name = |run: &Path| run.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    written(runs.iter().map(|run| name(run)).zip(files.iter().map(PathBuf::as_path)))
 }
 
 #[test]
@@ -41,37 +37,8 @@ fn a_sweep_that_was_killed_gives_the_same_table_and_repeats_nothing() {
     let printed = String::from_utf8_lossy(&whole.get_output().stdout).into_owned();
     assert!(printed.starts_with("8 of 12 runs done, 4 failed (failures.csv says why)\n"), "{printed}");
 
-    // a store of its own, so that the second sweep cannot live on the first one's runs
-    let second = |resume: &[&str]| {
-        let arguments = ["-q", "sweep", &plan, "--out", "killed", "--threads", "1", "--store", "other"];
-        let mut command = std::process::Command::new(crate::program::path());
-        command.current_dir(place.path("")).args(arguments).args(resume).stdout(Stdio::null()).stderr(Stdio::null());
-        command.spawn().expect("started")
-    };
-    let folder = place.path("killed");
-    let mut seen = BTreeMap::new();
-    for kill in 1..=3 {
-        let mut child = second(if kill == 1 { &[] } else { &["--resume"] });
-        let wanted = seen.len() + 1;
-        while records(&folder).len() < wanted && child.try_wait().expect("a child").is_none() {
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        child.kill().expect("kill -9");
-        child.wait().expect("ended");
-        let now = records(&folder);
-        assert!(now.len() >= wanted, "kill {kill}: {} records", now.len());
-        assert!(seen.iter().all(|(run, time)| now.get(run) == Some(time)), "kill {kill}: a finished run was repeated");
-        seen = now;
-    }
-    assert!(seen.len() < 8, "the sweep was over before the last kill");
-    let code = second(&["--resume"]).wait().expect("ended").code();
-    assert_eq!(code, Some(3));
-    let all = records(&folder);
-    assert!(seen.iter().all(|(run, time)| all.get(run) == Some(time)), "a finished run was repeated");
-    for name in ["results.csv", "failures.csv", "manifest.json"] {
-        let read = |folder: &str| std::fs::read(place.path(folder).join(name)).expect("written");
-        assert_eq!(read("whole"), read("killed"), "{name}");
-    }
+    assert_eq!(kill_and_resume(&place, "sweep", &plan, records), 3);
+    assert_same_files(&place, "whole", &["results.csv", "failures.csv", "manifest.json"]);
 }
 
 #[test]
@@ -116,6 +83,23 @@ fn wrong_plans_are_refused_by_name() {
     assert_eq!(case, "error: plan.toml: unknown case `flim`; did you mean `film`? `bagnold list` prints all cases");
     let syntax = refusal(&PLAN.replace("[[parameters]]", "[[parameter]]"), &[]);
     assert!(syntax.starts_with("error: plan.toml: line 8, column 3: unknown field `parameter`"), "{syntax}");
+    let design = refusal(&PLAN.replace("design = \"grid\"", "design = \"sobol\""), &[]);
+    assert_eq!(
+        design,
+        "error: plan.toml: line 2, column 10: expected design = \"grid\", or a table [design.latin_hypercube] or \
+         [design.sobol] with `points` and `seed`; `bagnold sweep --help` shows a plan"
+    );
+}
+
+#[test]
+fn a_metric_that_no_run_has_is_named() {
+    let place = Place::new();
+    let plan =
+        PLAN.replace("design = \"grid\"", "design = \"grid\"\nmetrics = [\"particles_lost\", \"particles_list\"]");
+    let plan = place.file("plan.toml", &plan.replace("[0.5, 0.7, 1.0, 1.4]", "[0.5]"));
+    let done = place.bagnold(&["sweep", &plan, "--out", "out"]).assert().code(3);
+    let said = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    assert!(said.contains("no run gives the metric `particles_list`") && !said.contains("`particles_lost`"), "{said}");
 }
 
 #[test]

@@ -13,6 +13,8 @@ PATH=$PATH:/usr/sbin:/sbin
 
 # Logs, state and configuration of the running cluster; empty while there is none.
 cluster_folder=
+# Folder of further logs that help when something goes wrong.
+cluster_logs=
 
 cluster_install() {
     local program missing=no
@@ -56,9 +58,9 @@ cluster_start() {
         --log-file="$cluster_folder/munged.log" || return
     cluster_daemon slurmctld -c -f "$SLURM_CONF" || return
     # A slurmd that finds no controller waits long before it asks again.
-    cluster_wait cluster_answers "slurmctld did not answer" || return
+    cluster_wait "an answer of slurmctld" 60 cluster_answers || return
     cluster_daemon slurmd -c -f "$SLURM_CONF" || return
-    cluster_wait cluster_is_idle "the node did not become idle" || return
+    cluster_wait "an idle node" 60 cluster_is_idle || return
 }
 
 # Meant for a trap: never fails, may be called twice.
@@ -83,6 +85,37 @@ cluster_stop() {
     rm -rf "$cluster_folder" || true
     cluster_folder=
     unset SLURM_CONF
+}
+
+# cluster_wait WHAT SECONDS COMMAND...
+cluster_wait() {
+    local what=$1 end=$((SECONDS + $2))
+    shift 2
+    until "$@"; do
+        ((SECONDS < end)) || { cluster_complain "not in time: $what"; return 1; }
+        sleep 0.1
+    done
+}
+
+# Says what went wrong, and what Slurm and the logs say.
+cluster_complain() {
+    echo "${0##*/}: $1" >&2
+    [[ -n $cluster_folder ]] || return 0
+    timeout 10 sinfo --long --Node >&2 || true
+    tail -n 20 "$cluster_folder"/*.out "$cluster_folder"/*.log "$cluster_logs"/* >&2 2>/dev/null || true
+}
+
+cluster_fail() {
+    cluster_complain "$*"
+    exit 1
+}
+
+# For a script's trap on EXIT: stops the cluster, removes the script's folder and ends with its exit code.
+cluster_leave() {
+    local status=$?
+    cluster_stop
+    [[ -z $1 ]] || rm -rf "$1"
+    exit "$status"
 }
 
 # ---- Only used above
@@ -170,22 +203,6 @@ cluster_is_idle() {
 
 cluster_answers() {
     timeout 10 scontrol ping >/dev/null 2>&1
-}
-
-cluster_wait() {
-    local end=$((SECONDS + 60))
-    while ((SECONDS < end)); do
-        ! "$1" || return 0
-        sleep 0.1
-    done
-    cluster_complain "$2 within 60 s"
-    return 1
-}
-
-cluster_complain() {
-    echo "local cluster: $1" >&2
-    timeout 10 sinfo --long --Node >&2 || true
-    tail -n 20 "$cluster_folder"/*.out "$cluster_folder"/*.log >&2 || true
 }
 
 # The daemons, the jobs' watchers (slurmstepd) and the jobs' own processes; another Slurm's are not ours to end.

@@ -11,33 +11,11 @@ program=$(realpath "${1:-$root/target/debug/bagnold}")
 [[ -x $program ]] || { echo "sweep.sh: $program does not exist; cargo build --bin bagnold" >&2; exit 1; }
 
 work=
-leave() {
-    local status=$?
-    cluster_stop
-    [[ -z $work ]] || rm -rf "$work"
-    exit "$status"
-}
-trap leave EXIT
-
-fail() {
-    echo "sweep.sh: $*" >&2
-    [[ -z ${SLURM_CONF:-} ]] || cluster_complain 'what Slurm says:'
-    tail -n 5 "$work"/slurm-sweep/slurm/logs/* >&2 2>/dev/null || true
-    exit 1
-}
-
-# wait_for WHAT SECONDS COMMAND...
-wait_for() {
-    local what=$1 end=$((SECONDS + $2))
-    shift 2
-    until "$@"; do
-        ((SECONDS < end)) || fail "not in time: $what"
-        sleep 0.1
-    done
-}
+trap 'cluster_leave "$work"' EXIT
 
 work=$(mktemp -d)
 cd "$work"
+cluster_logs=$work/slurm-sweep/slurm/logs
 cat >sweep.toml <<'PLAN'
 design = "grid"
 
@@ -60,7 +38,7 @@ PLAN
 # Stores of their own: nothing may come from the other engine's runs.
 "$program" --quiet sweep sweep.toml --out local-sweep --store local-store
 records=(local-sweep/runs/*/record.postcard)
-((${#records[@]} == 24)) || fail "${#records[@]} of 24 runs have a record"
+((${#records[@]} == 24)) || cluster_fail "${#records[@]} of 24 runs have a record"
 
 cluster_install
 cluster_start
@@ -71,22 +49,22 @@ touch hold
 "$program" sweep sweep.toml --out slurm-sweep --store slurm-store --engine slurm --throttle 2 --time 00:10:00 \
     --memory 500M --template held.sh
 
-wait_for 'start of task 3' 60 test -s task.3
+cluster_wait 'start of task 3' 60 test -s task.3
 kill -9 "$(cat task.3)"
 rm hold
 ended() {
     [[ -z $(squeue --noheader --me) ]]
 }
-wait_for 'end of the first jobs' 300 ended
+cluster_wait 'end of the first jobs' 300 ended
 
 status=0
 "$program" --quiet sweep collect slurm-sweep || status=$?
-((status == 1)) || fail "exit code $status with a task that was killed, expected 1"
-[[ ! -e slurm-sweep/runs/0003-film/record.postcard ]] || fail 'the killed task left a record'
-cmp -s local-sweep/results.csv slurm-sweep/results.csv && fail 'the tables are equal although a run is missing'
+((status == 1)) || cluster_fail "exit code $status with a task that was killed, expected 1"
+[[ ! -e slurm-sweep/runs/0003-film/record.postcard ]] || cluster_fail 'the killed task left a record'
+cmp -s local-sweep/results.csv slurm-sweep/results.csv && cluster_fail 'the tables are equal although a run is missing'
 
 "$program" sweep collect slurm-sweep --resubmit --time 00:10:00 --memory 500M || true
-wait_for 'end of the second job' 120 ended
+cluster_wait 'end of the second job' 120 ended
 "$program" --quiet sweep collect slurm-sweep
-cmp local-sweep/results.csv slurm-sweep/results.csv || fail 'the engines give different tables'
+cmp local-sweep/results.csv slurm-sweep/results.csv || cluster_fail 'the engines give different tables'
 echo "both engines give the same $(wc -l <slurm-sweep/results.csv) lines; task 3 was killed and recovered"

@@ -7,29 +7,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/local_cluster.sh"
 
 shared=
-leave() {
-    local status=$?
-    cluster_stop
-    [[ -z $shared ]] || rm -rf "$shared"
-    exit "$status"
-}
-trap leave EXIT
-
-fail() {
-    echo "try.sh: $*" >&2
-    [[ -z ${SLURM_CONF:-} ]] || cluster_complain 'what Slurm says:'
-    exit 1
-}
-
-# wait_for WHAT SECONDS COMMAND...
-wait_for() {
-    local what=$1 end=$((SECONDS + $2))
-    shift 2
-    until "$@"; do
-        ((SECONDS < end)) || fail "not in time: $what"
-        sleep 0.1
-    done
-}
+trap 'cluster_leave "$shared"' EXIT
 
 running() {
     squeue --noheader --array --job="$1" --states=RUNNING | wc -l
@@ -82,41 +60,41 @@ until ended "$job"; do
         kill -9 "$(<"$shared/pid.3")"
         killed=yes
     fi
-    ((SECONDS < begin + 120)) || fail 'the array did not end'
+    ((SECONDS < begin + 120)) || cluster_fail 'the array did not end'
     sleep 0.1
 done
 expected=$(($(nproc) < 2 ? 1 : 2))
-((most == expected)) || fail "$most tasks ran at once instead of $expected"
-[[ $(files) == 'done.1 done.2 done.4 done.5 done.6' ]] || fail "after the kill there are: $(files)"
-[[ $(state "${job}_3") == FAILED ]] || fail "the killed task is $(state "${job}_3")"
-[[ $(state "${job}_4") == COMPLETED ]] || fail "another task is $(state "${job}_4")"
+((most == expected)) || cluster_fail "$most tasks ran at once instead of $expected"
+[[ $(files) == 'done.1 done.2 done.4 done.5 done.6' ]] || cluster_fail "after the kill there are: $(files)"
+[[ $(state "${job}_3") == FAILED ]] || cluster_fail "the killed task is $(state "${job}_3")"
+[[ $(state "${job}_4") == COMPLETED ]] || cluster_fail "another task is $(state "${job}_4")"
 
 again=$("${submit[@]}" --array=3 "$shared/task")
-wait_for 'the second try' 60 ended "$again"
-[[ $(files) == 'done.1 done.2 done.3 done.4 done.5 done.6' ]] || fail "after the second try there are: $(files)"
+cluster_wait 'the second try' 60 ended "$again"
+[[ $(files) == 'done.1 done.2 done.3 done.4 done.5 done.6' ]] || cluster_fail "after the second try there are: $(files)"
 
 rm "$shared"/pid.*
 doomed=$("${submit[@]}" --array=7-8%1 "$shared/task" 60)
-wait_for 'the start of a task to cancel' 60 test -s "$shared/pid.7"
+cluster_wait 'the start of a task to cancel' 60 test -s "$shared/pid.7"
 # A machine of two cores would run no more than two anyway: only this shows that it is the throttle that holds.
-wait_for 'the throttle as the reason to wait' 30 throttled "$doomed"
+cluster_wait 'the throttle as the reason to wait' 30 throttled "$doomed"
 scancel "$doomed"
-wait_for 'the end of a cancelled array' 60 ended "$doomed"
-wait_for 'the end of its process' 10 gone "$(<"$shared/pid.7")"
-[[ $(state "${doomed}_7") == CANCELLED && $(state "${doomed}_8") == CANCELLED ]] || fail 'scancel left another state'
-[[ ! -e $shared/pid.8 ]] || fail 'a task started after scancel'
+cluster_wait 'the end of a cancelled array' 60 ended "$doomed"
+cluster_wait 'the end of its process' 10 gone "$(<"$shared/pid.7")"
+[[ $(state "${doomed}_7") == CANCELLED && $(state "${doomed}_8") == CANCELLED ]] || cluster_fail 'scancel left another state'
+[[ ! -e $shared/pid.8 ]] || cluster_fail 'a task started after scancel'
 
 # Stopped with a job running: that too must leave nothing.
 rm "$shared"/pid.*
 "${submit[@]}" --array=9 "$shared/task" 60 >/dev/null
-wait_for 'the start of the last task' 60 test -s "$shared/pid.9"
+cluster_wait 'the start of the last task' 60 test -s "$shared/pid.9"
 folder=$cluster_folder
 processes=$(cluster_processes)
-[[ $(wc -w <<<"$processes") -ge 5 ]] || fail "the cluster's processes were not found: $processes"
+[[ $(wc -w <<<"$processes") -ge 5 ]] || cluster_fail "the cluster's processes were not found: $processes"
 cluster_stop
-[[ ! -e $folder ]] || fail "$folder was left"
+[[ ! -e $folder ]] || cluster_fail "$folder was left"
 for process in $processes; do
-    gone "$process" || fail "process $process was left: $(tr '\0' ' ' <"/proc/$process/cmdline")"
+    gone "$process" || cluster_fail "process $process was left: $(tr '\0' ' ' <"/proc/$process/cmdline")"
 done
 
 echo "try.sh: all well after $((SECONDS - begin)) s"

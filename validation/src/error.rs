@@ -70,6 +70,20 @@ pub enum InputError {
         /// The parser's words.
         message: String,
     },
+    /// A plan is not TOML, or not one of its command.
+    #[error("{}: line {line}, column {column}: {message}; `bagnold {command} --help` shows a plan", .file.display())]
+    Plan {
+        /// The file.
+        file: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// The parser's words.
+        message: String,
+        /// The command.
+        command: &'static str,
+    },
     /// A file does not say whose parameters it holds.
     #[error("{}: `case` is missing, but must name the case that the file describes; add `case = \"…\"` (`bagnold list` prints the names)", .file.display())]
     NoCase {
@@ -261,14 +275,18 @@ impl InputError {
         self
     }
 
-    /// Types a TOML text.
+    /// Types a plan's text; `command` is the one whose help shows a valid plan.
     ///
     /// # Errors
     /// A text that is not TOML or does not have the type's fields, with the place.
-    pub fn parse_toml<T: serde::de::DeserializeOwned>(file: &Path, text: &str) -> Result<T, Self> {
+    pub fn parse_plan<T: serde::de::DeserializeOwned>(
+        file: &Path,
+        text: &str,
+        command: &'static str,
+    ) -> Result<T, Self> {
         toml::from_str(text).map_err(|error| {
             let (line, column) = crate::case::position(text, error.span().map_or(0, |span| span.start));
-            Self::Syntax { file: file.to_owned(), line, column, message: error.message().to_owned() }
+            Self::Plan { file: file.to_owned(), line, column, message: error.message().to_owned(), command }
         })
     }
 

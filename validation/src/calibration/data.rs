@@ -73,6 +73,16 @@ impl DatumText {
             }
             _ => {}
         }
+        for (name, column) in [("x", &self.x), ("y", &self.y)] {
+            if let Some(column) = column.as_ref().filter(|column| !column.contains('[') || !column.ends_with(']')) {
+                return wrong(
+                    name,
+                    column,
+                    "a column with its unit, as the table's heading has it",
+                    "such as \"y [m]\"",
+                );
+            }
+        }
         let given = [
             ("value", self.value.is_some()),
             ("unit", self.unit.is_some()),

@@ -1,7 +1,7 @@
 //! The folder of a calibration: which plan it belongs to.
 
 use crate::error::InputError;
-use crate::output::{is_unused, write_whole};
+use crate::output::{Owner, claim};
 use crate::store::source_hash;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -11,6 +11,15 @@ use std::path::{Path, PathBuf};
 struct Belongs {
     source_hash: String,
     plan: String,
+}
+
+impl Owner for Belongs {
+    const WHAT: &'static str = "calibration";
+    const MARKER: &'static str = "plan.json";
+
+    fn is_foreign(&self) -> bool {
+        self.source_hash != crate::store::source_hash()
+    }
 }
 
 /// A calibration on disk.
@@ -27,32 +36,10 @@ impl CalibrationFolder {
     /// cannot be read or written.
     pub fn begin(folder: &Path, plan: &Path, resume: bool) -> Result<Self, InputError> {
         let plan = std::fs::read_to_string(plan).map_err(|error| InputError::unreadable(plan, &error))?;
-        let belongs = Belongs { source_hash: source_hash().to_owned(), plan };
-        let marker = folder.join("plan.json");
-        if marker.is_file() {
-            if !resume {
-                return Err(InputError::InUse { what: "calibration", folder: folder.to_owned() });
-            }
-            let text = std::fs::read_to_string(&marker).map_err(|error| InputError::unreadable(&marker, &error))?;
-            let old: Belongs = serde_json::from_str(&text).map_err(|error| InputError::Damaged {
-                file: marker.clone(),
-                reason: error.to_string(),
-                remedy: "begin the calibration again with another --out".to_owned(),
-            })?;
-            if old != belongs {
-                let by_program = old.source_hash != belongs.source_hash;
-                return Err(InputError::OtherPlan { what: "calibration", folder: folder.to_owned(), by_program });
-            }
-            return Ok(Self { folder: folder.to_owned() });
-        }
-        let unwritable = |error: std::io::Error| InputError::unwritable(folder, &error);
-        if !is_unused(folder).map_err(unwritable)? {
-            return Err(InputError::ForeignFolder { folder: folder.to_owned() });
-        }
         let begun = Self { folder: folder.to_owned() };
-        std::fs::create_dir_all(begun.evaluations()).map_err(unwritable)?;
-        let text = serde_json::to_string_pretty(&belongs).map_err(|error| unwritable(error.into()))?;
-        write_whole(&marker, text.as_bytes()).map_err(unwritable)?;
+        claim(folder, Belongs { source_hash: source_hash().to_owned(), plan }, resume)?;
+        let evaluations = begun.evaluations();
+        std::fs::create_dir_all(&evaluations).map_err(|error| InputError::unwritable(&evaluations, &error))?;
         Ok(begun)
     }
 

@@ -19,13 +19,15 @@ mod plan;
 mod result;
 mod screening;
 mod target;
+mod text;
 mod trials;
 
 pub use folder::CalibrationFolder;
 pub use objective::Watch;
 pub use page::write;
 pub use plan::{Block, Choice, Parameter, Plan};
-pub use result::{Compared, Evaluation, Found, Outcome, Place, Sensitivity, Trial, weighted_error};
+pub use result::{Compared, Evaluation, Found, Outcome, Place, Sensitivity, weighted_error};
+pub use trials::Trial;
 
 use crate::case::Registry;
 use crate::error::InputError;

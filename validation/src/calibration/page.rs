@@ -115,7 +115,7 @@ fn data(outcome: &Outcome) -> io::Result<Vec<u8>> {
 
 /// Four significant digits.
 fn shown(value: f64) -> String {
-    crate::inference::significant(value, 4)
+    crate::report::number::four_digits(value)
 }
 
 fn optional(value: Option<f64>) -> String {
@@ -181,7 +181,7 @@ fn render(outcome: &Outcome, pictures: Vec<Picture>) -> Result<String, minijinja
         });
         vec![found.name.clone(), found.unit.clone(), shown(found.best), interval, shown(found.start), bounds, truth]
     };
-    let trial = |trial: &super::result::Trial| {
+    let trial = |trial: &super::trials::Trial| {
         let ranks = trial.ranks.map_or_else(
             || "–".to_owned(),
             |(low, high)| {

@@ -1,74 +1,16 @@
 //! A calibration as a TOML file.
 
 use super::data::DatumText;
-use crate::case::{Registry, Tier};
+use super::text::Text;
+use crate::case::Registry;
 use crate::error::{InputError, nearest};
 use crate::evaluation::CaseRequest;
 use crate::inference::{Budget, Method};
-use crate::sampling::{Bounds, Paths, Spacing, float};
+use crate::sampling::{Bounds, Paths, float};
 use crate::store::Store;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-/// More evaluations than this are a slip of the pen.
-const MOST_EVALUATIONS: usize = 10_000;
-
-/// One parameter that is sought.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ParameterText {
-    path: Paths,
-    name: Option<String>,
-    #[serde(default = "none")]
-    unit: String,
-    lower: f64,
-    upper: f64,
-    #[serde(default)]
-    scale: Spacing,
-    start: Option<f64>,
-    truth: Option<f64>,
-    levels: Option<usize>,
-}
-
-/// A case and what is compared with it.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct BlockText {
-    case: String,
-    tier: Option<Tier>,
-    #[serde(default)]
-    with: toml::Table,
-    pub(super) data: Vec<DatumText>,
-}
-
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Text {
-    title: String,
-    #[serde(default)]
-    note: String,
-    method: Option<Method>,
-    evaluations: Option<usize>,
-    seed: Option<u64>,
-    difference: Option<f64>,
-    tolerance: Option<f64>,
-    #[serde(default)]
-    trajectories: usize,
-    region_evaluations: Option<usize>,
-    #[serde(default)]
-    parameters: Vec<ParameterText>,
-    #[serde(default)]
-    choices: Vec<Choice>,
-    #[serde(default)]
-    fit: Vec<BlockText>,
-    #[serde(default)]
-    hold_out: Vec<BlockText>,
-}
-
-fn none() -> String {
-    "-".to_owned()
-}
 
 /// A parameter with its range.
 #[derive(Debug, Clone, PartialEq)]
@@ -145,109 +87,10 @@ impl Plan {
     /// in both fit and hold-out.
     pub fn read(file: &Path, registry: Registry) -> Result<Self, InputError> {
         let text = std::fs::read_to_string(file).map_err(|error| InputError::unreadable(file, &error))?;
-        let text: Text = InputError::parse_toml(file, &text)?;
-        let plan = Self::of(file, text).map_err(|error| error.in_file(file))?;
+        let text: Text = InputError::parse_plan(file, &text, "calibrate")?;
+        let plan = text.checked(file).map_err(|error| error.in_file(file))?;
         plan.check_cases(registry)?;
         Ok(plan)
-    }
-
-    fn of(file: &Path, text: Text) -> Result<Self, InputError> {
-        if text.fit.is_empty() {
-            let remedy = "add a `[[fit]]` table with case and data";
-            return Err(InputError::field("fit", "empty", "at least one table", remedy));
-        }
-        if text.parameters.is_empty() == text.choices.is_empty() {
-            let (value, remedy) = if text.choices.is_empty() {
-                ("empty", "add a `[[parameters]]` table with path, lower and upper, or `[[choices]]`")
-            } else {
-                ("beside `choices`", "calibrate the parameters of each choice in a file of its own")
-            };
-            return Err(InputError::field("parameters", value, "at least one table, or none with a choice", remedy));
-        }
-        let parameters = text
-            .parameters
-            .iter()
-            .enumerate()
-            .map(|(index, parameter)| parameter.checked(&format!("parameters[{index}]")))
-            .collect::<Result<Vec<_>, _>>()?;
-        if let Some(place) =
-            (1..parameters.len()).find(|&k| parameters[..k].iter().any(|p| p.name == parameters[k].name))
-        {
-            let field = format!("parameters[{place}].name");
-            return Err(InputError::field(&field, &parameters[place].name, "unlike the others", "give each its own"));
-        }
-        let given = text.parameters.iter().filter(|parameter| parameter.levels.is_some()).count();
-        if given > 0 && given < parameters.len() {
-            let remedy = "give `levels` of all or of none";
-            return Err(InputError::field("parameters.levels", "given of some", "a grid along every axis", remedy));
-        }
-        let levels: Vec<usize> = text.parameters.iter().filter_map(|parameter| parameter.levels).collect();
-        let points = levels.iter().try_fold(1usize, |product, count| product.checked_mul(*count));
-        if points.is_none_or(|points| points > MOST_EVALUATIONS) {
-            let rule = format!("a grid of at most {MOST_EVALUATIONS} points");
-            return Err(InputError::field("parameters.levels", "too many", &rule, "take fewer levels"));
-        }
-        for (name, value, most) in [
-            ("evaluations", text.evaluations.unwrap_or(1), MOST_EVALUATIONS),
-            ("region_evaluations", text.region_evaluations.unwrap_or(0), MOST_EVALUATIONS),
-            ("trajectories", text.trajectories, 1000),
-        ] {
-            if value > most {
-                return Err(InputError::field(name, value, &format!("at most {most}"), "each costs a simulation"));
-            }
-        }
-        if !levels.is_empty() && text.method.is_some_and(|method| method != Method::Design) {
-            let remedy = "leave out the method or the levels";
-            return Err(InputError::field("method", "given", "\"design\" with levels", remedy));
-        }
-        let default = Budget::default();
-        let method = text.method.unwrap_or(if levels.is_empty() { Method::TrustRegion } else { Method::Design });
-        let budget = Budget {
-            evaluations: text.evaluations.unwrap_or(default.evaluations),
-            seed: text.seed.unwrap_or(default.seed),
-            difference: text.difference.unwrap_or(default.difference),
-            tolerance: text.tolerance.unwrap_or(default.tolerance),
-        };
-        // a grid covers the whole range already
-        let usual = if levels.is_empty() { 4 * parameters.len() } else { 0 };
-        let region_evaluations = text.region_evaluations.unwrap_or(usual);
-        if text.choices.len() == 1 {
-            let remedy = "list what is compared";
-            return Err(InputError::field("choices", "a single one", "two or more", remedy));
-        }
-        let mut blocks = Vec::new();
-        let mut data: Vec<Vec<DatumText>> = Vec::new();
-        for (kind, held_out, texts) in [("fit", false, text.fit), ("hold_out", true, text.hold_out)] {
-            for (index, block) in texts.into_iter().enumerate() {
-                let field = format!("{kind}[{index}]");
-                for (place, datum) in block.data.iter().enumerate() {
-                    let field = format!("{field}.data[{place}]");
-                    datum.check(&field)?;
-                    if held_out && data.iter().flatten().any(|fitted| datum.is_same(fitted)) {
-                        let remedy = "what is predicted must not be fitted, so take it out of one";
-                        return Err(InputError::field(&field, "fitted too", "held out only", remedy));
-                    }
-                }
-                let tier = block.tier.unwrap_or(Tier::Quick);
-                let request = CaseRequest { case: block.case, name: None, tier, with: block.with };
-                blocks.push(Block { request, held_out, field });
-                data.push(block.data);
-            }
-        }
-        Ok(Self {
-            file: file.to_owned(),
-            title: text.title,
-            note: text.note,
-            method,
-            budget,
-            trajectories: text.trajectories,
-            region_evaluations,
-            parameters,
-            levels,
-            choices: text.choices,
-            blocks,
-            data,
-        })
     }
 
     /// The settings of a block's case at a point of physical values.
@@ -365,28 +208,5 @@ impl Choice {
     #[must_use]
     pub fn in_case(&self, case: &str) -> Vec<String> {
         self.set.get(case).cloned().unwrap_or_default()
-    }
-}
-
-impl ParameterText {
-    fn checked(&self, field: &str) -> Result<Parameter, InputError> {
-        let bounds = Bounds { lower: self.lower, upper: self.upper, spacing: self.scale };
-        bounds.check(field)?;
-        let start = self.start.unwrap_or_else(|| bounds.value(0.5));
-        let rule = format!("between {} and {}", self.lower, self.upper);
-        if !(start >= self.lower && start <= self.upper) {
-            return Err(InputError::field(&format!("{field}.start"), start, &rule, "start within the bounds"));
-        }
-        if let Some(levels) = self.levels.filter(|&levels| levels < 2) {
-            return Err(InputError::field(&format!("{field}.levels"), levels, "2 or more", "or leave it out"));
-        }
-        Ok(Parameter {
-            name: self.name.clone().unwrap_or_else(|| self.path.name()),
-            unit: self.unit.clone(),
-            bounds,
-            start,
-            truth: self.truth,
-            path: self.path.clone(),
-        })
     }
 }

@@ -3,9 +3,9 @@
 use super::objective::Objective;
 use super::plan::Plan;
 use super::target::{Datum, Target};
+use super::trials::Trial;
 use crate::error::InputError;
 use crate::evaluation::Record;
-use crate::inference::scores::Score;
 use crate::inference::{Explored, Parameter as Named, Search, Stopped, assess, chi_squared};
 use crate::sampling::Spacing;
 use serde::{Deserialize, Serialize};
@@ -89,31 +89,6 @@ pub struct Sensitivity {
     pub effect: f64,
     /// Their scatter σ, likewise `[-]`.
     pub spread: f64,
-}
-
-/// One choice of a bake-off.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Trial {
-    /// The choice.
-    pub name: String,
-    /// Fitted data.
-    pub fit: Vec<Compared>,
-    /// Data held out.
-    pub hold_out: Vec<Compared>,
-    /// χ² of the fitted data `[-]`.
-    pub chi_squared: Option<f64>,
-    /// χ² of the data held out `[-]`.
-    pub hold_out_chi_squared: Option<f64>,
-    /// Akaike weight among the choices `[-]`.
-    pub weight: Option<f64>,
-    /// Share of resampled data in which it is first `[-]`.
-    pub first: Option<f64>,
-    /// 95 % interval of its rank.
-    pub ranks: Option<(usize, usize)>,
-    /// Why it has no numbers.
-    pub failure: Option<String>,
-    /// Why it has none for what was held out.
-    pub hold_out_failure: Option<String>,
 }
 
 /// A finished calibration.
@@ -267,7 +242,7 @@ pub(super) fn assemble(
                 if !(low..=high).contains(&search.best[k]) {
                     findings.push(format!(
                         "the best `{}` that was evaluated lies outside its own interval, which rests on a polynomial through \
-                         all evaluations: the model may be noisy",
+                         all evaluations: they lie too far apart, or the model is noisy",
                         names[k].name
                     ));
                 }
@@ -307,100 +282,5 @@ pub(super) fn assemble(
         hold_out,
         trials: Vec::new(),
         calibrated,
-    }
-}
-
-impl Outcome {
-    pub(super) fn of_trials(plan: &Plan, trials: Vec<Trial>) -> Self {
-        Self {
-            title: plan.title.clone(),
-            note: plan.note.clone(),
-            method: "all choices".to_owned(),
-            stopped: "done: every choice was tried".to_owned(),
-            searched: trials.len(),
-            evaluations: Vec::new(),
-            parameters: Vec::new(),
-            chi_squared: None,
-            reduced_chi_squared: None,
-            p_value: None,
-            inflation: 1.0,
-            correlation: Vec::new(),
-            truth_inside: None,
-            findings: undecided(&trials),
-            sensitivity: Vec::new(),
-            fit: Vec::new(),
-            hold_out: Vec::new(),
-            trials,
-            calibrated: Vec::new(),
-        }
-    }
-}
-
-/// Weight above which a choice is not refuted.
-const RIVAL: f64 = 0.05;
-
-/// Data below which resampling them says little about ranks.
-const FEW_DATA: usize = 10;
-
-/// What a bake-off leaves open.
-fn undecided(trials: &[Trial]) -> Vec<String> {
-    let is_rival = |trial: &&Trial| {
-        trial.weight.is_some_and(|weight| weight >= RIVAL) || trial.ranks.is_some_and(|(best, _)| best == 1)
-    };
-    let rivals: Vec<&str> = trials.iter().filter(is_rival).map(|trial| trial.name.as_str()).collect();
-    let mut findings = Vec::new();
-    if rivals.len() > 1 {
-        findings.push(format!(
-            "the data do not decide between {}: each has a weight of 5 % or more, or is first in 2.5 % of the resampled data",
-            rivals.join(", ")
-        ));
-    }
-    let failed: Vec<&str> =
-        trials.iter().filter(|trial| trial.failure.is_some()).map(|trial| trial.name.as_str()).collect();
-    if !failed.is_empty() {
-        findings.push(format!("{} failed and could not be ranked; the table says why", failed.join(", ")));
-    }
-    let data = trials.iter().map(|trial| trial.fit.len()).max().unwrap_or(0);
-    if data < FEW_DATA {
-        findings.push(format!("{data} data are few: resampling them tells little about ranks, so look at the weights"));
-    }
-    let best = trials.iter().filter(|trial| trial.failure.is_none()).min_by(|a, b| {
-        let of = |trial: &Trial| trial.chi_squared.unwrap_or(f64::INFINITY);
-        of(a).total_cmp(&of(b))
-    });
-    if let Some(error) = best.and_then(|trial| weighted_error(&trial.fit)).filter(|error| *error > 2.0) {
-        findings.push(format!(
-            "even the best choice misses the data by {error:.1} standard uncertainties: the weights between choices mean \
-             little then"
-        ));
-    }
-    findings
-}
-
-impl Trial {
-    pub(super) fn of(name: String, fit: Vec<Compared>, hold_out: Vec<Compared>) -> Self {
-        let sum = |data: &[Compared]| data.iter().map(|datum| datum.residual * datum.residual).sum();
-        Self {
-            name,
-            chi_squared: Some(sum(&fit)),
-            hold_out_chi_squared: (!hold_out.is_empty()).then(|| sum(&hold_out)),
-            fit,
-            hold_out,
-            weight: None,
-            first: None,
-            ranks: None,
-            failure: None,
-            hold_out_failure: None,
-        }
-    }
-
-    pub(super) fn failed(name: String, reason: String) -> Self {
-        Self { chi_squared: None, failure: Some(reason), ..Self::of(name, Vec::new(), Vec::new()) }
-    }
-
-    pub(super) fn score(&mut self, score: Option<&Score>) {
-        self.weight = score.map(|score| score.weight);
-        self.first = score.map(|score| score.first);
-        self.ranks = score.map(|score| (score.ranks[0], score.ranks[1]));
     }
 }

@@ -1,14 +1,46 @@
 //! A bake-off: every choice of a setting is tried, and ranked by how well it explains the same data.
 
 use super::objective::{Objective, Question};
-use super::plan::Choice;
-use super::result::{Compared, Outcome, Trial, compared};
+use super::plan::{Choice, Plan};
+use super::result::{Compared, Outcome, compared, weighted_error};
 use super::target::Target;
 use crate::error::InputError;
-use crate::inference::scores;
+use crate::inference::scores::{self, Score};
+use serde::{Deserialize, Serialize};
 
 /// Resamplings of the data for the ranks.
 const REPEATS: usize = 2000;
+
+/// Weight above which a choice is not refuted.
+const RIVAL: f64 = 0.05;
+
+/// Data below which resampling them says little about ranks.
+const FEW_DATA: usize = 10;
+
+/// One choice of a bake-off.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// The choice.
+    pub name: String,
+    /// Fitted data.
+    pub fit: Vec<Compared>,
+    /// Data held out.
+    pub hold_out: Vec<Compared>,
+    /// χ² of the fitted data `[-]`.
+    pub chi_squared: Option<f64>,
+    /// χ² of the data held out `[-]`.
+    pub hold_out_chi_squared: Option<f64>,
+    /// Akaike weight among the choices `[-]`.
+    pub weight: Option<f64>,
+    /// Share of resampled data in which it is first `[-]`.
+    pub first: Option<f64>,
+    /// 95 % interval of its rank.
+    pub ranks: Option<(usize, usize)>,
+    /// Why it has no numbers.
+    pub failure: Option<String>,
+    /// Why it has none for what was held out.
+    pub hold_out_failure: Option<String>,
+}
 
 /// Evaluates and ranks all choices. One that fails stays in the table with its reason.
 pub(super) fn try_all(objective: &Objective<'_>) -> Result<Outcome, InputError> {
@@ -57,4 +89,93 @@ pub(super) fn try_all(objective: &Objective<'_>) -> Result<Outcome, InputError> 
     let weight = |trial: &Trial| trial.chi_squared.unwrap_or(f64::INFINITY);
     trials.sort_by(|a, b| weight(a).total_cmp(&weight(b)));
     Ok(Outcome::of_trials(plan, trials))
+}
+
+impl Outcome {
+    pub(super) fn of_trials(plan: &Plan, trials: Vec<Trial>) -> Self {
+        Self {
+            title: plan.title.clone(),
+            note: plan.note.clone(),
+            method: "all choices".to_owned(),
+            stopped: "done: every choice was tried".to_owned(),
+            searched: trials.len(),
+            evaluations: Vec::new(),
+            parameters: Vec::new(),
+            chi_squared: None,
+            reduced_chi_squared: None,
+            p_value: None,
+            inflation: 1.0,
+            correlation: Vec::new(),
+            truth_inside: None,
+            findings: undecided(&trials),
+            sensitivity: Vec::new(),
+            fit: Vec::new(),
+            hold_out: Vec::new(),
+            trials,
+            calibrated: Vec::new(),
+        }
+    }
+}
+
+/// What a bake-off leaves open.
+fn undecided(trials: &[Trial]) -> Vec<String> {
+    let is_rival = |trial: &&Trial| {
+        trial.weight.is_some_and(|weight| weight >= RIVAL) || trial.ranks.is_some_and(|(best, _)| best == 1)
+    };
+    let rivals: Vec<&str> = trials.iter().filter(is_rival).map(|trial| trial.name.as_str()).collect();
+    let mut findings = Vec::new();
+    if rivals.len() > 1 {
+        findings.push(format!(
+            "the data do not decide between {}: each has a weight of 5 % or more, or is first in 2.5 % of the resampled data",
+            rivals.join(", ")
+        ));
+    }
+    let failed: Vec<&str> =
+        trials.iter().filter(|trial| trial.failure.is_some()).map(|trial| trial.name.as_str()).collect();
+    if !failed.is_empty() {
+        findings.push(format!("{} failed and could not be ranked; the table says why", failed.join(", ")));
+    }
+    let data = trials.iter().map(|trial| trial.fit.len()).max().unwrap_or(0);
+    if data < FEW_DATA {
+        findings.push(format!("{data} data are few: resampling them tells little about ranks, so look at the weights"));
+    }
+    let best = trials.iter().filter(|trial| trial.failure.is_none()).min_by(|a, b| {
+        let of = |trial: &Trial| trial.chi_squared.unwrap_or(f64::INFINITY);
+        of(a).total_cmp(&of(b))
+    });
+    if let Some(error) = best.and_then(|trial| weighted_error(&trial.fit)).filter(|error| *error > 2.0) {
+        findings.push(format!(
+            "even the best choice misses the data by {error:.1} standard uncertainties: the weights between choices mean \
+             little then"
+        ));
+    }
+    findings
+}
+
+impl Trial {
+    pub(super) fn of(name: String, fit: Vec<Compared>, hold_out: Vec<Compared>) -> Self {
+        let sum = |data: &[Compared]| data.iter().map(|datum| datum.residual * datum.residual).sum();
+        Self {
+            name,
+            chi_squared: Some(sum(&fit)),
+            hold_out_chi_squared: (!hold_out.is_empty()).then(|| sum(&hold_out)),
+            fit,
+            hold_out,
+            weight: None,
+            first: None,
+            ranks: None,
+            failure: None,
+            hold_out_failure: None,
+        }
+    }
+
+    pub(super) fn failed(name: String, reason: String) -> Self {
+        Self { chi_squared: None, failure: Some(reason), ..Self::of(name, Vec::new(), Vec::new()) }
+    }
+
+    pub(super) fn score(&mut self, score: Option<&Score>) {
+        self.weight = score.map(|score| score.weight);
+        self.first = score.map(|score| score.first);
+        self.ranks = score.map(|score| (score.ranks[0], score.ranks[1]));
+    }
 }

@@ -2,11 +2,11 @@
 
 use super::arguments::Calibrate;
 use super::progress::Count;
+use super::summary::number;
 use super::{Exit, say};
 use crate::calibration::{CalibrationFolder, Outcome, Plan, Watch, calibrate, write};
 use crate::case::Registry;
 use crate::error::InputError;
-use crate::inference::significant;
 use crate::output::OutputFolder;
 use std::io::Write;
 use std::path::Path;
@@ -40,28 +40,27 @@ pub(super) fn run(
 fn text(outcome: &Outcome) -> String {
     let mut text = String::new();
     for found in &outcome.parameters {
-        let shown = |value: f64| significant(value, 4);
         let interval = found.interval.map_or_else(String::new, |(low, high)| {
             let end = |open: bool| if open { " (bound)" } else { "" };
-            format!("  95 %: {}{} … {}{}", shown(low), end(found.open.0), shown(high), end(found.open.1))
+            format!("  95 %: {}{} … {}{}", number(low), end(found.open.0), number(high), end(found.open.1))
         });
         let unit = if found.unit == "-" { "" } else { &found.unit };
-        text += &format!("{} = {} {unit}{interval}\n", found.name, shown(found.best));
+        text += &format!("{} = {} {unit}{interval}\n", found.name, number(found.best));
     }
     for trial in &outcome.trials {
-        let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| significant(value, 4));
+        let optional = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), number);
         text += &format!(
             "{}: χ² {}, held out {}, weight {}{}\n",
             trial.name,
-            number(trial.chi_squared),
-            number(trial.hold_out_chi_squared),
-            number(trial.weight),
+            optional(trial.chi_squared),
+            optional(trial.hold_out_chi_squared),
+            optional(trial.weight),
             trial.failure.as_ref().map_or_else(String::new, |reason| format!("; failed: {reason}"))
         );
     }
     let error = |what: &str, data: &[crate::calibration::Compared]| {
         crate::calibration::weighted_error(data)
-            .map_or_else(String::new, |error| format!("{what}: {} σ over {} data\n", significant(error, 3), data.len()))
+            .map_or_else(String::new, |error| format!("{what}: {} σ over {} data\n", number(error), data.len()))
     };
     text += &error("fit error", &outcome.fit);
     text += &error("held-out error", &outcome.hold_out);

@@ -82,7 +82,7 @@ fn rule(limit: Limit) -> String {
 }
 
 /// Four significant figures.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {
         "0".to_owned()

@@ -66,19 +66,8 @@ pub(super) fn percentile(sorted: &[f64], share: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::chi_squared;
-    use super::super::search::Evaluated;
+    use super::super::stand_in::emulator;
     use super::*;
-    use crate::sampling::design::full_grid;
-
-    fn emulator(residuals: impl Fn(&[f64]) -> Vec<f64>) -> Emulator {
-        let one = |point: Vec<f64>| {
-            let residuals = residuals(&point);
-            Evaluated { point, chi_squared: Some(chi_squared(&residuals)), residuals: Some(residuals) }
-        };
-        let history: Vec<Evaluated> = full_grid(&[4, 4]).into_iter().map(one).collect();
-        Emulator::fit(&history, 0.02).unwrap()
-    }
 
     #[test]
     fn a_linear_model_gives_normal_intervals() {

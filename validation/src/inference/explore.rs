@@ -7,7 +7,7 @@
 
 use super::emulator::{Degree, Emulator};
 use super::region::{Region, Uncertainties};
-use super::{Budget, Evaluate, Evaluated, chi_squared};
+use super::{Budget, Evaluate, Evaluated};
 use crate::sampling::design::sobol;
 use nalgebra::SymmetricEigen;
 
@@ -59,12 +59,7 @@ pub fn explore<M: Evaluate>(
         if points.is_empty() || round == MOST_ROUNDS {
             return Ok(Some(Explored { emulator, region, history, settled }));
         }
-        let results = model.residuals(&points)?;
-        for (point, residuals) in points.into_iter().zip(results) {
-            let residuals = residuals.filter(|list| list.iter().all(|residual| residual.is_finite()));
-            let chi_squared = residuals.as_deref().map(chi_squared);
-            history.push(Evaluated { point, residuals, chi_squared });
-        }
+        evaluate(model, &mut history, points)?;
         resolution = budget.difference.max(extent(&region));
     }
     Ok(None)
@@ -81,12 +76,7 @@ fn refine<M: Evaluate>(
 ) -> Result<Explored, M::Error> {
     let mut points = axes(&region);
     points.truncate(most - history.len());
-    let results = model.residuals(&points)?;
-    for (point, residuals) in points.into_iter().zip(results) {
-        let residuals = residuals.filter(|list| list.iter().all(|residual| residual.is_finite()));
-        let chi_squared = residuals.as_deref().map(chi_squared);
-        history.push(Evaluated { point, residuals, chi_squared });
-    }
+    evaluate(model, &mut history, points)?;
     let near: Vec<Evaluated> = history
         .iter()
         .filter(|evaluated| {
@@ -103,6 +93,13 @@ fn refine<M: Evaluate>(
         }
         None => Explored { emulator, region, history, settled: true },
     })
+}
+
+/// Adds the model at some points to the history.
+fn evaluate<M: Evaluate>(model: &mut M, history: &mut Vec<Evaluated>, points: Vec<Vec<f64>>) -> Result<(), M::Error> {
+    let results = model.residuals(&points)?;
+    history.extend(points.into_iter().zip(results).map(|(point, residuals)| Evaluated::new(point, residuals)));
+    Ok(())
 }
 
 /// Both ends of the principal axes of the joint region, within the cube.

@@ -11,7 +11,6 @@ mod coverage;
 mod descent;
 pub mod emulator;
 pub mod explore;
-mod figures;
 pub mod identifiability;
 mod profile;
 pub mod region;
@@ -23,7 +22,6 @@ mod stand_in;
 
 pub use emulator::Emulator;
 pub use explore::{Explored, explore};
-pub use figures::significant;
 pub use identifiability::{Parameter, assess};
 pub use profile::{Profile, ProfilePoint};
 pub use region::{Region, Uncertainties, chi_squared_quantile};

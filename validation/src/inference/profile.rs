@@ -137,20 +137,8 @@ fn bisected(
 
 #[cfg(test)]
 mod tests {
-    use super::super::chi_squared;
     use super::super::region::{Region, Uncertainties};
-    use super::super::search::Evaluated;
-    use super::*;
-    use crate::sampling::design::full_grid;
-
-    fn emulator(residuals: impl Fn(&[f64]) -> Vec<f64>) -> Emulator {
-        let one = |point: Vec<f64>| {
-            let residuals = residuals(&point);
-            Evaluated { point, chi_squared: Some(chi_squared(&residuals)), residuals: Some(residuals) }
-        };
-        let history: Vec<Evaluated> = full_grid(&[4, 4]).into_iter().map(one).collect();
-        Emulator::fit(&history, 0.02).unwrap()
-    }
+    use super::super::stand_in::emulator;
 
     /// For a linear model the profile is a parabola, (u − û)²/variance, whatever the other parameter does.
     #[test]

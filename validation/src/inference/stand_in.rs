@@ -1,9 +1,20 @@
 //! Cheap models with known minima, for tests.
 
-use super::Evaluate;
+use super::{Emulator, Evaluate, Evaluated};
 use crate::sampling::Random;
+use crate::sampling::design::full_grid;
 use nalgebra::DMatrix;
 use std::convert::Infallible;
+
+/// The emulator of a model of two parameters on a grid of four by four.
+pub(super) fn emulator(residuals: impl Fn(&[f64]) -> Vec<f64>) -> Emulator {
+    let one = |point: Vec<f64>| {
+        let residuals = residuals(&point);
+        Evaluated::new(point, Some(residuals))
+    };
+    let history: Vec<Evaluated> = full_grid(&[4, 4]).into_iter().map(one).collect();
+    Emulator::fit(&history, 0.02).unwrap()
+}
 
 /// Rosenbrock's valley; the minimum, χ² = 0, lies at (0.6, 0.36).
 pub(super) struct Valley;

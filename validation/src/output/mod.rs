@@ -1,14 +1,16 @@
 //! Files that a run writes.
 
 mod base64;
+mod claim;
 mod folder;
 pub mod snapshots;
 mod table;
 mod whole;
 
+pub use claim::{Owner, claim, is_claimed, owner_of};
 pub use folder::OutputFolder;
 pub use table::Table;
-pub use whole::{is_unused, write_whole};
+pub use whole::write_whole;
 
 use crate::case::CaseResult;
 use crate::figure::{self, FigureError};

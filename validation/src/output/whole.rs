@@ -30,7 +30,7 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> io::Result<()> {
 ///
 /// # Errors
 /// A folder that cannot be read.
-pub fn is_unused(folder: &Path) -> io::Result<bool> {
+pub(super) fn is_unused(folder: &Path) -> io::Result<bool> {
     let entries = match std::fs::read_dir(folder) {
         Ok(entries) => entries,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),

@@ -3,7 +3,7 @@
 use super::manifest::{Entry, Manifest};
 use crate::error::InputError;
 use crate::evaluation::Record;
-use crate::output::{is_unused, write_whole};
+use crate::output::{Owner, claim, is_claimed, owner_of};
 use std::path::{Path, PathBuf};
 
 /// How far a sweep is.
@@ -31,30 +31,7 @@ impl SweepFolder {
     /// A folder with another sweep, somebody else's files, or a sweep that is not to be resumed; files that cannot be
     /// written.
     pub fn begin(folder: &Path, manifest: Manifest, resume: bool) -> Result<Self, InputError> {
-        let listed = folder.join("manifest.json");
-        if listed.is_file() {
-            if !resume {
-                return Err(InputError::InUse { what: "sweep", folder: folder.to_owned() });
-            }
-            let old = Manifest::read(&listed)?;
-            if old != manifest {
-                return Err(InputError::OtherPlan {
-                    what: "sweep",
-                    folder: folder.to_owned(),
-                    by_program: old.is_foreign(),
-                });
-            }
-            return Ok(Self { folder: folder.to_owned(), manifest: old });
-        }
-        let unwritable = |error: std::io::Error| InputError::unwritable(folder, &error);
-        if !is_unused(folder).map_err(unwritable)? {
-            return Err(InputError::ForeignFolder { folder: folder.to_owned() });
-        }
-        std::fs::create_dir_all(folder).map_err(unwritable)?;
-        let begun = Self { folder: folder.to_owned(), manifest };
-        let text = serde_json::to_string_pretty(&begun.manifest).map_err(|error| unwritable(error.into()))?;
-        write_whole(&listed, format!("{text}\n").as_bytes()).map_err(unwritable)?;
-        Ok(begun)
+        Ok(Self { folder: folder.to_owned(), manifest: claim(folder, manifest, resume)? })
     }
 
     /// Opens the folder of a sweep.
@@ -62,11 +39,10 @@ impl SweepFolder {
     /// # Errors
     /// A folder without a manifest, or a manifest of another version of the program.
     pub fn open(folder: &Path) -> Result<Self, InputError> {
-        let listed = folder.join("manifest.json");
-        if !listed.is_file() {
+        if !is_claimed::<Manifest>(folder) {
             return Err(InputError::NoSweep { folder: folder.to_owned() });
         }
-        let manifest = Manifest::read(&listed)?;
+        let manifest: Manifest = owner_of(folder)?;
         if manifest.is_foreign() {
             return Err(InputError::OtherPlan { what: "sweep", folder: folder.to_owned(), by_program: true });
         }

@@ -26,11 +26,24 @@ pub fn gather(sweep: &SweepFolder) -> Result<Tally, InputError> {
     write_whole(&sweep.path().join("results.csv"), &results).map_err(unwritable)?;
     let failures = failures(names, &records).map_err(unwritable)?;
     write_whole(&sweep.path().join("failures.csv"), &failures).map_err(unwritable)?;
+    for name in unknown_metrics(sweep.manifest(), &records) {
+        tracing::warn!("no run gives the metric `{name}` that the plan wants drawn; results.csv names those there are");
+    }
     let folder = sweep.path().join("figures");
     for drawn in figures(sweep.manifest(), &records) {
         draw(&drawn, &folder)?;
     }
     Ok(sweep.tally())
+}
+
+/// Metrics that the plan names and no run has, once there is a run that could have them.
+fn unknown_metrics<'a>(manifest: &'a Manifest, records: &[(&Entry, Record)]) -> Vec<&'a str> {
+    let given: BTreeSet<&str> =
+        records.iter().flat_map(|(_, record)| &record.metrics).map(|metric| metric.name.as_str()).collect();
+    if given.is_empty() {
+        return Vec::new();
+    }
+    manifest.metrics.iter().map(String::as_str).filter(|name| !given.contains(name)).collect()
 }
 
 fn draw(drawn: &Figure, folder: &Path) -> Result<(), InputError> {

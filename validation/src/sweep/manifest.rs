@@ -2,8 +2,8 @@
 
 use crate::case::Tier;
 use crate::error::InputError;
+use crate::output::Owner;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
 
 /// One run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -44,19 +44,6 @@ pub struct Manifest {
 }
 
 impl Manifest {
-    /// Reads a manifest.
-    ///
-    /// # Errors
-    /// A file that cannot be read or is damaged.
-    pub fn read(path: &Path) -> Result<Self, InputError> {
-        let text = std::fs::read_to_string(path).map_err(|error| InputError::unreadable(path, &error))?;
-        serde_json::from_str(&text).map_err(|error| InputError::Damaged {
-            file: path.to_owned(),
-            reason: error.to_string(),
-            remedy: "make the sweep again with another --out".to_owned(),
-        })
-    }
-
     /// The entry of a number.
     ///
     /// # Errors
@@ -67,10 +54,13 @@ impl Manifest {
             InputError::field("--entry", number, &rule, "manifest.json lists the runs")
         })
     }
+}
 
-    /// Whether another program made it, whose numbers may differ from this one's.
-    #[must_use]
-    pub fn is_foreign(&self) -> bool {
+impl Owner for Manifest {
+    const WHAT: &'static str = "sweep";
+    const MARKER: &'static str = "manifest.json";
+
+    fn is_foreign(&self) -> bool {
         self.source_hash != crate::store::source_hash()
     }
 }

@@ -22,14 +22,34 @@ const TAKEN: [&str; 9] = ["run", "case", "tier", "metric", "variant", "value", "
 
 /// How the points lie.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[serde(
+    untagged,
+    expecting = "expected design = \"grid\", or a table [design.latin_hypercube] or [design.sobol] with `points` and `seed`"
+)]
 enum Design {
     /// All combinations of the parameters' values.
+    Word(Word),
+    /// Points spread over the range.
+    Spread(Spread),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Word {
     Grid,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+enum Spread {
     /// One point in each of `points` slices along every axis.
     LatinHypercube { points: usize, seed: u64 },
     /// The first points of a scrambled Sobol sequence.
     Sobol { points: usize, seed: u64 },
+}
+
+impl Design {
+    const GRID: Self = Self::Word(Word::Grid);
 }
 
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -69,7 +89,7 @@ impl SweepPlan {
     /// A file that cannot be read or typed, or ranges that break a rule.
     pub fn read(file: &Path) -> Result<Self, InputError> {
         let text = std::fs::read_to_string(file).map_err(|error| InputError::unreadable(file, &error))?;
-        let plan = Self { file: file.to_owned(), text: InputError::parse_toml(file, &text)? };
+        let plan = Self { file: file.to_owned(), text: InputError::parse_plan(file, &text, "sweep")? };
         plan.check().map_err(|error| error.in_file(file))?;
         Ok(plan)
     }
@@ -92,7 +112,7 @@ impl SweepPlan {
         let mut names = BTreeSet::new();
         for (index, parameter) in self.text.parameters.iter().enumerate() {
             let field = format!("parameters[{index}]");
-            parameter.check(&field, self.text.design == Design::Grid)?;
+            parameter.check(&field, self.text.design == Design::GRID)?;
             let name = parameter.name();
             if !names.insert(name.clone()) || TAKEN.contains(&name.as_str()) {
                 let remedy = "give each a `name` of its own that is no column of the results";
@@ -116,11 +136,11 @@ impl SweepPlan {
             }
         }
         let most = match self.text.design {
-            Design::Sobol { .. } => MOST_SOBOL_POINTS,
+            Design::Spread(Spread::Sobol { .. }) => MOST_SOBOL_POINTS,
             _ => MOST_RUNS,
         };
         match self.text.design {
-            Design::Grid => {
+            Design::Word(Word::Grid) => {
                 let levels = |parameter: &Varied| {
                     parameter.values.as_ref().map_or_else(|| parameter.levels.unwrap_or(1), Vec::len)
                 };
@@ -132,7 +152,7 @@ impl SweepPlan {
                     || InputError::field("parameters", "too many values", &rule, "take fewer values or levels");
                 product.map(|_| ()).ok_or_else(too_many)
             }
-            Design::LatinHypercube { points, .. } | Design::Sobol { points, .. } => {
+            Design::Spread(Spread::LatinHypercube { points, .. } | Spread::Sobol { points, .. }) => {
                 if (1..=most).contains(&points) {
                     return Ok(());
                 }
@@ -150,7 +170,7 @@ impl SweepPlan {
             points.iter().map(|point| parameters.iter().zip(point).map(at).collect()).collect()
         };
         match self.text.design {
-            Design::Grid => {
+            Design::Word(Word::Grid) => {
                 let values: Vec<Vec<String>> = parameters.iter().map(Varied::grid).collect();
                 let place = |levels: &[usize]| -> Vec<String> {
                     levels.iter().zip(&values).map(|(&level, values)| values[level].clone()).collect()
@@ -158,8 +178,10 @@ impl SweepPlan {
                 let counts: Vec<usize> = values.iter().map(Vec::len).collect();
                 design::combinations(&counts).iter().map(|levels| place(levels)).collect()
             }
-            Design::LatinHypercube { points, seed } => in_cube(design::latin_hypercube(points, parameters.len(), seed)),
-            Design::Sobol { points, seed } => in_cube(design::sobol(points, parameters.len(), seed)),
+            Design::Spread(Spread::LatinHypercube { points, seed }) => {
+                in_cube(design::latin_hypercube(points, parameters.len(), seed))
+            }
+            Design::Spread(Spread::Sobol { points, seed }) => in_cube(design::sobol(points, parameters.len(), seed)),
         }
     }
 

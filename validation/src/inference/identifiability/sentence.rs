@@ -1,7 +1,7 @@
 //! Findings in sentences.
 
+use super::number::significant;
 use super::{Kind, Parameter};
-use crate::inference::figures::significant;
 
 /// Writes numbers of the unit cube as a physicist reads them.
 pub(super) struct Writer<'a> {

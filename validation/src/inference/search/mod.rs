@@ -78,6 +78,16 @@ pub struct Evaluated {
     pub chi_squared: Option<f64>,
 }
 
+impl Evaluated {
+    /// A point with what the model returned there; a residual that is no finite number is a failure.
+    #[must_use]
+    pub fn new(point: Vec<f64>, residuals: Option<Vec<f64>>) -> Self {
+        let residuals = residuals.filter(|list| list.iter().all(|residual| residual.is_finite()));
+        let chi_squared = residuals.as_deref().map(super::chi_squared);
+        Self { point, residuals, chi_squared }
+    }
+}
+
 /// Why a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -1,7 +1,7 @@
 //! What has been evaluated: each distinct point once, never more than the budget.
 
 use super::{Evaluated, Search, SearchError, Stopped};
-use crate::inference::{Evaluate, chi_squared};
+use crate::inference::Evaluate;
 use crate::sampling::design;
 use std::collections::BTreeMap;
 
@@ -72,15 +72,14 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
         if !fresh.is_empty() {
             let results = self.model.residuals(&fresh).map_err(Halt::Model)?;
             for (point, residuals) in fresh.into_iter().zip(results) {
-                let residuals = residuals.filter(|list| list.iter().all(|residual| residual.is_finite()));
-                if let Some(list) = &residuals {
+                let evaluated = Evaluated::new(point, residuals);
+                if let Some(list) = &evaluated.residuals {
                     let expected = *self.data.get_or_insert(list.len());
                     if expected != list.len() {
                         return Err(Halt::Residuals(expected, list.len()));
                     }
                 }
-                let chi_squared = residuals.as_deref().map(chi_squared);
-                self.history.push(Evaluated { point, residuals, chi_squared });
+                self.history.push(evaluated);
             }
         }
         points

@@ -2,8 +2,7 @@
 
 /// The value with a number of significant digits, without trailing zeros; powers of ten where it is very large or
 /// small.
-#[must_use]
-pub fn significant(value: f64, digits: usize) -> String {
+pub(super) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
