@@ -422,7 +422,7 @@ fn a_moving_bed_that_cannot_be() {
         ),
         (
             "continuum.closures.largest_fraction=1.0",
-            "`continuum.closures.largest_fraction` is 1, but must be between 0.1 and 0.74; grains at rest fill 0.5 to 0.64",
+            "`continuum.closures.largest_fraction` is 1, but must be between 0.1 and 0.74; grains at rest fill 0.5 to 0.64 of the space",
         ),
         (
             "materials.grain_density=900.0",
@@ -440,10 +440,39 @@ fn a_moving_bed_that_cannot_be() {
             "stabilised.averaging_time=3.0",
             "`stabilised.averaging_time` is 3, but must be between 0.05 and 1; the window lies within the run",
         ),
+        (
+            "stabilised.drag=\"ergun\"",
+            "`stabilised.drag` is ergun, but must be a law of one grain; Ergun's is one of packed grains; `continuum` has it",
+        ),
+        (
+            "continuum.closures.mixing_length=\"root\"",
+            "`continuum.closures.mixing_length` is root, but must be integral; the particles know no other; bed-load-1d \
+             compares all",
+        ),
+        (
+            "continuum.closures.karman=0.4",
+            "`continuum.closures.karman` is 0.4, but must be 0.41; the particles know no other; bed-load-1d takes any",
+        ),
+        (
+            "continuum.closures.limiting_friction=0.3",
+            "`continuum.closures.limiting_friction` is 0.3, but must be greater than the static friction; friction grows \
+             from μ_s at rest to μ_2 in fast shear",
+        ),
+        (
+            "continuum.bed_depth=0.0161",
+            "`continuum.bed_depth` is 0.0161, but must be a whole multiple of a cell of the 1-D layer, 0.00025 m; choose \
+             lengths that divide each other",
+        ),
     ];
     for (setting, message) in cases {
         refused(&place, &["bed-load", "--set", setting], message);
     }
+    let two = ["bed-load", "--tier", "fine", "--set", "fit.slopes=[0.02, 0.05]"];
+    refused(
+        &place,
+        &two,
+        "`fit.slopes` is [0.02, 0.05], but must be three or more; two are fitted for each that is held out",
+    );
 }
 
 #[test]

@@ -9,7 +9,7 @@ use super::grid::Grid;
 use super::numerics::DragSlip;
 use super::pairs::{LEAST_TASK, Pairs, Periods, Sources};
 use super::phase::{Phase, height_axis};
-use super::scene::{DragForm, IncompressibleScene, Sediment};
+use super::scene::{DragForm, IncompressibleScene, Sediment, SolidFraction};
 use crate::boundary::Domain;
 use crate::kernel::{Kernel, KernelShape};
 use crate::vector::Vector;
@@ -113,6 +113,7 @@ impl<const D: usize> DragExchange<D> {
         self.slip.resize(self.sediment.len(), 0.0);
         let (of_sediment, positions) = (&self.of_sediment, &self.sediment);
         let layer = scene.solid_fraction.stratification();
+        let averaged = matches!(scene.solid_fraction, SolidFraction::Averaged(_));
         let viscosity = scene.fluid.kinematic_viscosity;
         let normal = height_axis(D);
         (&mut self.mean_factor, &mut self.slip).into_par_iter().enumerate().with_min_len(LEAST_TASK).for_each(
@@ -132,7 +133,11 @@ impl<const D: usize> DragExchange<D> {
                         let density = scene.fluid.density;
                         let exchange =
                             material.drag.exchange_coefficient(fraction, *slip, diameter, density, viscosity);
-                        let volume = sediment.volume.get(a).copied().unwrap_or(sediment.lattice_volume);
+                        let volume = match sediment.mass.get(a) {
+                            // K is that of the mean fraction, so the volume must be that too: all grains have the same
+                            Some(mass) if averaged => mass / (sediment.density * fraction.max(LEAST_FRACTION)),
+                            _ => sediment.volume.get(a).copied().unwrap_or(sediment.lattice_volume),
+                        };
                         // shared by the fluid around: Σ_b m_b W is the fluid's density where its particles are all there
                         volume * exchange / (density * (weight * fluid.lattice_volume).max(LEAST_FLUID))
                     }
@@ -152,6 +157,9 @@ impl<const D: usize> DragExchange<D> {
 /// Σ V W of the fluid around a sediment particle below which its drag is not shared out in full `[-]`: where a particle
 /// leaves the water, the force must fall with the water that there is.
 const LEAST_FLUID: f64 = 0.3;
+
+/// Mean solid fraction below which a grain's drag is that of a grain alone `[-]`.
+const LEAST_FRACTION: f64 = 1e-3;
 
 /// ½ C_d d |u| of (30) `[m²/s]`; Ergun's law, which has no single grain, gives none.
 fn printed_factor<const D: usize>(material: &Sediment<D>, slip: f64, kinematic_viscosity: f64) -> f64 {

@@ -2,8 +2,8 @@
 //! of the grains above, φ = φ_max/(1 + B I).
 //!
 //! φ is the sum of the grains' volumes over the kernel, fixed grains included. γ̇ is the norm of the
-//! averaged velocity gradient. Densely packed grains are elastic instead: p = K (φ − φ_e) from a little below φ_max on. Pair forces are equal and opposite:
-//! F_ab = −v_a v_b (p_a/φ_a² + p_b/φ_b²) ∇W with the volumes v of the grains in a particle.
+//! averaged velocity gradient. Densely packed grains are elastic instead, p = p′ + K (φ − φ_max) if that is more. Pair
+//! forces are equal and opposite: F_ab = −v_a v_b (p_a/φ_a² + p_b/φ_b²) ∇W with the volumes v of the grains in a particle.
 
 use super::averaged_gradient::AveragedGradient;
 use super::pairs::{LEAST_TASK, Pair};
@@ -12,10 +12,13 @@ use super::stratification::Stratification;
 use crate::vector::Vector;
 use rayon::prelude::*;
 
-/// Stiffness of packed grains dp/dφ `[Pa]`, and how far below φ_max it begins `[-]`: the overburden of a bed some
-/// centimetres thick changes φ by less than 0.02.
+/// Stiffness of packed grains dp/dφ `[Pa]`. At rest they carry the load at φ_max, and none once they are looser by
+/// load/stiffness, some thousandths.
 const STIFFNESS: f64 = 1e4;
-const ELASTIC_RANGE: f64 = 0.02;
+
+/// Spacings over which a particle is spread to either side in the mean solid fraction `[-]`: rows of grains that dilate
+/// lie two apart, and their drag is that of the mean fraction, not of a row's.
+const SPREAD: f64 = 2.0;
 
 /// Least φ_max − φ `[-]`.
 const LEAST_ROOM: f64 = 0.02;
@@ -31,6 +34,19 @@ pub(super) struct Dilatancy {
     pub(super) grain_diameter: f64,
     /// Volume of grains in a fixed particle over its lattice volume `[-]`.
     pub(super) fixed_filling: f64,
+}
+
+impl Dilatancy {
+    /// Pressure of grains `[Pa]` from their density `[kg/m³]`, shear rate `[1/s]`, solid fraction `[-]` and the load on
+    /// them `[Pa]`.
+    fn pressure(&self, density: f64, rate: f64, fraction: f64, load: f64) -> f64 {
+        let room = (self.packing - fraction).max(LEAST_ROOM);
+        let root = self.grain_diameter * rate * self.dilation * fraction / room;
+        // twice the load is enough to open a bed, and bounds what a single fast particle does
+        let sheared = (density * root * root).min(2.0 * load + 20.0);
+        let elastic = load + STIFFNESS * (fraction - self.packing);
+        sheared.max(elastic)
+    }
 }
 
 /// Fields of the free sediment particles.
@@ -72,14 +88,8 @@ impl GranularPressure {
         let normal = height_axis(D);
         for a in 0..sediment.len() {
             let fraction = self.solid_fraction[a];
-            let room = (dilatancy.packing - fraction).max(LEAST_ROOM);
-            let rate = rates.shear_rate(a);
-            let root = dilatancy.grain_diameter * rate * dilatancy.dilation * fraction / room;
-            // twice the load is enough to open a bed, and bounds what a single fast particle does
-            let bound = 2.0 * layer.at(sediment.position[a][normal]).overburden + 20.0;
-            let sheared = (sediment.density * root * root).min(bound);
-            let elastic = STIFFNESS * (fraction - dilatancy.packing + ELASTIC_RANGE).max(0.0);
-            sediment.pressure[a] = sheared + elastic;
+            let load = layer.at(sediment.position[a][normal]).overburden;
+            sediment.pressure[a] = dilatancy.pressure(sediment.density, rates.shear_rate(a), fraction, load);
             self.scaled_pressure[a] = sediment.pressure[a] / (fraction * fraction);
         }
     }
@@ -101,17 +111,24 @@ impl GranularPressure {
         force * grains(a)
     }
 
-    /// Puts the mean solid fraction along the bed into the stratification.
-    pub(super) fn average<const D: usize>(sediment: &Phase<D>, area: f64, layer: &mut Stratification) {
+    /// Puts the mean solid fraction along the bed, fixed grains included, into the stratification.
+    pub(super) fn average<const D: usize>(
+        sediment: &Phase<D>,
+        dilatancy: &Dilatancy,
+        area: f64,
+        layer: &mut Stratification,
+    ) {
         let intervals = layer.solid_fraction.len();
         let mut sums = std::mem::take(&mut layer.solid_fraction);
-        sums.copy_from_slice(&layer.fixed_fraction);
+        sums.fill(0.0);
         let normal = height_axis(D);
-        // a particle is spread over a spacing to either side, as a triangle
-        let reach = sediment.spacing;
+        // a particle is spread to either side, as a triangle
+        let reach = SPREAD * sediment.spacing;
         let scale = 1.0 / (area * layer.interval);
-        for (position, mass) in sediment.position.iter().zip(&sediment.mass) {
-            let grains = mass / sediment.density * scale;
+        let fixed = sediment.lattice_volume * dilatancy.fixed_filling;
+        let free = sediment.position.iter().zip(&sediment.mass).map(|(x, mass)| (x, mass / sediment.density));
+        for (position, volume) in free.chain(sediment.wall.iter().map(|x| (x, fixed))) {
+            let grains = volume * scale;
             let height = position[normal] - layer.base;
             let first = (((height - reach) / layer.interval).floor().max(0.0) as usize).min(intervals);
             let last = (((height + reach) / layer.interval).ceil().max(0.0) as usize).min(intervals);
@@ -133,7 +150,31 @@ fn ramp(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::ramp;
+    use super::{Dilatancy, ramp};
+
+    const SAND: Dilatancy = Dilatancy { dilation: 0.31, packing: 0.6, grain_diameter: 5e-3, fixed_filling: 0.6 };
+
+    /// The 1-D layer's closure, φ = φ_max/(1 + B I) with I = γ̇ d √(ρ_s/p′), is where the pressure carries the load.
+    #[test]
+    fn sheared_grains_carry_their_load_at_the_fraction_of_their_inertia() {
+        for (rate, load) in [(5.0, 10.0), (50.0, 10.0), (50.0, 100.0), (200.0, 30.0)] {
+            let inertia = rate * 5e-3 * (2600.0_f64 / load).sqrt();
+            let fraction = 0.6 / (1.0 + 0.31 * inertia);
+            let pressure = SAND.pressure(2600.0, rate, fraction, load);
+            assert!((pressure / load - 1.0).abs() < 1e-12, "{rate} 1/s, {load} Pa: {pressure} Pa");
+            assert!(SAND.pressure(2600.0, rate, fraction + 0.01, load) > load);
+            assert!(SAND.pressure(2600.0, rate, fraction - 0.01, load) < load);
+        }
+    }
+
+    #[test]
+    fn grains_at_rest_carry_their_load_at_the_densest_packing() {
+        for load in [1.0, 100.0] {
+            assert_eq!(SAND.pressure(2600.0, 0.0, 0.6, load), load);
+            assert_eq!(SAND.pressure(2600.0, 0.0, 0.58, load), 0.0);
+            assert!(SAND.pressure(2600.0, 0.0, 0.601, load) > load);
+        }
+    }
 
     #[test]
     fn the_triangle_has_the_area_one() {

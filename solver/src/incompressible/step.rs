@@ -87,7 +87,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
         let Some(sediment) = &mut self.sediment else { return };
         self.granular.find_solid_fraction(sediment, &dilatancy);
         if let SolidFraction::Averaged(layer) = &mut self.scene.solid_fraction {
-            GranularPressure::average(sediment, area, layer);
+            GranularPressure::average(sediment, &dilatancy, area, layer);
         }
         if let Some(layer) = self.scene.solid_fraction.stratification() {
             self.granular.find_pressures(sediment, &self.sediment_rates, &dilatancy, layer);

@@ -24,8 +24,6 @@ pub struct Stratification {
     pub bed_level: f64,
     /// Depth of the flow above the bed `[m]`.
     pub depth: f64,
-    /// What fixed grains add to φ of every interval `[-]`, if it is averaged from particles.
-    pub fixed_fraction: Vec<f64>,
     overburden: Vec<f64>,
     mixing_length: Vec<f64>,
 }
@@ -63,7 +61,6 @@ impl Stratification {
             buoyant_weight,
             bed_level,
             depth,
-            fixed_fraction: vec![0.0; count],
             overburden,
             mixing_length,
         };

@@ -1,8 +1,12 @@
 //! What a case file may ask for.
 
 use super::parameters::{BedLoadParameters, Grains, Materials, Yield};
-use crate::cases::rules;
+use super::runs::LAYER_CELL;
+use crate::cases::{bed_load_1d, rules};
 use crate::error::InputError;
+use crate::reference::bed_load_layer::{Closures, MixingLength};
+use bagnold_solver::drag::DragLaw;
+use bagnold_solver::turbulence::VON_KARMAN;
 
 impl BedLoadParameters {
     pub(super) fn check(&self) -> Result<(), InputError> {
@@ -32,6 +36,10 @@ impl BedLoadParameters {
             }
         }
         check_slopes("fit.slopes", &fit.slopes)?;
+        if fit.slopes.len() < 3 && !fit.yield_stresses.is_empty() && !fit.viscosities.is_empty() {
+            let (rule, remedy) = ("three or more", "two are fitted for each that is held out");
+            return Err(InputError::field("fit.slopes", format!("{:?}", fit.slopes), rule, remedy));
+        }
         check_time("fit", fit.duration, fit.averaging_time)
     }
 
@@ -43,6 +51,10 @@ impl BedLoadParameters {
         rules::between(&field("material.viscosity"), viscosity, 0.0, 1e4, "give it in Pa·s, or 0 for none")?;
         rules::between(&field("overburden_friction"), grains.overburden_friction, 0.0, 2.0, "0.6 for sand and gravel")?;
         grains.turbulence.check(&field("turbulence"))?;
+        if grains.drag == DragLaw::Ergun {
+            let (rule, remedy) = ("a law of one grain", "Ergun's is one of packed grains; `continuum` has it");
+            return Err(InputError::field(&field("drag"), "ergun", rule, remedy));
+        }
         rules::between(&field("drag_factor"), grains.drag_factor, 0.0, 10.0, "1 is the drag law's")?;
         rules::positive(&field("spacing"), grains.spacing, "give it in metres; 0.002 for the paper's")?;
         let diameter = self.materials.grain_diameter;
@@ -72,8 +84,26 @@ impl BedLoadParameters {
         rules::between("continuum.held_depth", continuum.held_depth, 0.0, 0.9 * continuum.bed_depth, remedy)?;
         rules::between("continuum.smoothing_ratio", continuum.smoothing_ratio, 1.0, 3.0, "1.5 for dilating sediment")?;
         rules::between("continuum.sediment_jitter", continuum.sediment_jitter, 0.0, 0.5, "0.3 breaks the rows")?;
-        let packing = continuum.closures.largest_fraction;
-        rules::between("continuum.closures.largest_fraction", packing, 0.1, 0.74, "grains at rest fill 0.5 to 0.64")?;
+        bed_load_1d::closures("continuum.closures", &continuum.closures)?;
+        let Closures { mixing_length, karman, .. } = continuum.closures;
+        if mixing_length != MixingLength::Integral {
+            let remedy = "the particles know no other; bed-load-1d compares all";
+            let given = format!("{mixing_length:?}").to_lowercase();
+            return Err(InputError::field("continuum.closures.mixing_length", given, "integral", remedy));
+        }
+        if karman != VON_KARMAN {
+            let remedy = "the particles know no other; bed-load-1d takes any";
+            return Err(InputError::field("continuum.closures.karman", karman, &VON_KARMAN.to_string(), remedy));
+        }
+        for (name, length) in [
+            ("materials.depth", self.materials.depth),
+            ("continuum.bed_depth", continuum.bed_depth),
+            ("continuum.held_depth", continuum.held_depth),
+        ] {
+            if length > 0.0 && !continuum.runs.is_empty() {
+                whole(name, length, LAYER_CELL, "of a cell of the 1-D layer")?;
+            }
+        }
         for (index, runs) in continuum.runs.iter().enumerate() {
             let path = format!("continuum.runs[{index}]");
             check_slopes(&format!("{path}.slopes"), &runs.slopes)?;

@@ -2,7 +2,6 @@
 
 use super::Record;
 use super::fit::held_out;
-use super::parameters::JUDGED_PAIR_LAW;
 use super::runs::{BedLoadRun, Formulation, pair_law_name};
 use crate::cases::transport_panel;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
@@ -47,7 +46,7 @@ fn label(run: &BedLoadRun) -> String {
         Formulation::Fit(_) => format!("fit, {}", percent(run)),
         Formulation::Continuum { stage, pair_law, start, spacing, .. } => {
             let mut label = format!("{}, {}", stage.name(), percent(run));
-            if *pair_law != JUDGED_PAIR_LAW {
+            if *pair_law != stage.judged_pair_law() {
                 label += &format!(", {}", pair_law_name(*pair_law));
             }
             if *start != 1.0 {
@@ -63,7 +62,7 @@ fn label(run: &BedLoadRun) -> String {
 
 /// Water over height in units of the grain diameter, with clear water.
 fn water(records: &[&Record]) -> Figure {
-    let mut profile = Panel::new("", Axis::logarithmic("z/d [-]"), Axis::linear("u_f/u_* [-]"));
+    let mut profile = Panel::new("", Axis::logarithmic("(z + z_0)/d [-]"), Axis::linear("u_f/u_* [-]"));
     let mut deficit = Panel::new("", Axis::linear("z/d [-]"), Axis::linear("(u_f − u_clear)/u_* [-]"));
     for (slot, (run, record)) in records.iter().enumerate() {
         let law = run.clear_water();
@@ -72,14 +71,17 @@ fn water(records: &[&Record]) -> Figure {
         let velocities = record.data.channel.profile.velocities();
         let above: Vec<usize> = (0..points.len()).filter(|&k| points[k].height > 0.0).collect();
         let error: Vec<f64> = above.iter().map(|&k| velocities[k].standard_error / scale).collect();
-        let values = above.iter().map(|&k| (points[k].height / diameter, points[k].velocity / scale)).collect();
+        let values = above
+            .iter()
+            .map(|&k| ((points[k].height + law.origin_offset) / diameter, points[k].velocity / scale))
+            .collect();
         let differences = above
             .iter()
             .map(|&k| (points[k].height / diameter, (points[k].velocity - law.velocity(points[k].height)) / scale))
             .collect();
         if slot == 0 {
             let heights = (1..=80).map(|k| 0.1 * diameter * libm::pow(92.0, f64::from(k) / 80.0));
-            let exact = heights.map(|z| (z / diameter, law.velocity(z) / scale)).collect();
+            let exact = heights.map(|z| ((z + law.origin_offset) / diameter, law.velocity(z) / scale)).collect();
             profile.series.push(Series::new("clear water", Mark::Reference, 0, exact));
         }
         profile
@@ -90,7 +92,8 @@ fn water(records: &[&Record]) -> Figure {
     Figure {
         name: "water".to_owned(),
         caption: "Mean velocity of the water over the moving bed in half-logarithmic axes, beside clear water over a fixed \
-                  bed of the same grains, and the difference of the two; bars are statistical errors from blocks of time. \
+                  bed of the same grains, a straight line with the offset z_0 of its law, and the difference of the two; \
+                  bars are statistical errors from blocks of time. \
                   Figures 7 to 9 of the paper show two layers of different slope at 3 % and three at 5 %."
             .to_owned(),
         panels: vec![profile, deficit],
@@ -173,7 +176,7 @@ fn against_layer(stage: &str, records: &[&Record]) -> Figure {
 }
 
 fn has_judged_law(run: &BedLoadRun) -> bool {
-    matches!(&run.formulation, Formulation::Continuum { pair_law, .. } if *pair_law == JUDGED_PAIR_LAW)
+    matches!(&run.formulation, Formulation::Continuum { stage, pair_law, .. } if *pair_law == stage.judged_pair_law())
 }
 
 /// Whether a run belongs to a kind.

@@ -9,6 +9,7 @@ mod parameters;
 mod profiles;
 mod runs;
 mod scenes;
+mod statements;
 mod tiers;
 
 pub use observation::BedLoadObservation;

@@ -16,12 +16,10 @@ pub struct BedLoadObservation {
     pub transport: Vec<f64>,
     /// Mean velocity of the water above z = 0 at every sample `[m/s]`.
     pub stream_velocity: Vec<f64>,
-    /// Velocities of the grains over the window.
+    /// Velocities of the grains over the window, and volumes of grains in a particle `[m²]` in the place of pressures.
     pub sediment: BlockProfile,
     /// Forces of the water on the grains over the window `[N/m]`, in the place of velocities.
     pub drag: BlockProfile,
-    /// Volume of grains in a free particle `[m²]`, the largest.
-    pub grain_volume: f64,
     /// Length of the period `[m]`.
     pub length: f64,
     /// The 1-D layer of a `continuum` run.
@@ -33,16 +31,18 @@ pub(super) struct Observer {
     unit: f64,
     length: f64,
     grain_density: f64,
+    /// Heights between which grains belong `[m]`.
+    inside: (f64, f64),
     window_start: Option<f64>,
     window: f64,
+    /// Grains outside at the last sample.
+    grains_lost: usize,
     observation: BedLoadObservation,
 }
 
 impl Observer {
     pub(super) fn new(run: &BedLoadRun, channel: &Channel<'_>) -> Self {
         let spacing = channel.sediment.as_ref().map_or(channel.fluid.spacing, |sediment| sediment.spacing);
-        let filling =
-            channel.sediment.as_ref().map_or(0.0, |sediment| sediment.filling.iter().copied().fold(0.0, f64::max));
         let bin = spacing.min(0.5 * run.materials.grain_diameter);
         let stream = run.stream();
         let bins = ((stream.bed_depth + stream.flow_depth) / bin).ceil() as usize;
@@ -51,8 +51,10 @@ impl Observer {
             unit: stream.transport_unit(),
             length: channel.fluid.length(),
             grain_density: run.materials.grain_density,
+            inside: (-stream.bed_depth, stream.flow_depth + stream.bed_depth),
             window_start: None,
             window: run.averaging_time,
+            grains_lost: 0,
             observation: BedLoadObservation {
                 channel: ChannelObservation {
                     series: Default::default(),
@@ -67,7 +69,6 @@ impl Observer {
                 stream_velocity: Vec::new(),
                 sediment: profile.clone(),
                 drag: profile,
-                grain_volume: filling * spacing * spacing,
                 length: channel.fluid.length(),
                 layer: None,
             },
@@ -78,6 +79,9 @@ impl Observer {
         let (position, velocity) = simulation.sediment();
         let masses = simulation.sediment_masses();
         let flux = velocity.iter().zip(masses).fold(0.0, |sum, (v, mass)| sum + v[0] * mass);
+        let (lowest, highest) = self.inside;
+        let is_inside = |x: &&Vector<2>| x[1] > lowest && x[1] < highest;
+        self.grains_lost = position.len() - position.iter().filter(is_inside).count();
         let data = &mut self.observation;
         data.transport.push(flux / self.grain_density / self.length / self.unit);
         let (sum, count) = simulation
@@ -92,13 +96,15 @@ impl Observer {
             let start = *self.window_start.get_or_insert(simulation.time());
             let share = (simulation.time() - start) / self.window;
             let none = vec![0.0; position.len()];
-            data.sediment.observe(share, position, velocity, &none);
+            let volumes: Vec<f64> = masses.iter().map(|mass| mass / self.grain_density).collect();
+            data.sediment.observe(share, position, velocity, &volumes);
             let drag: Vec<Vector<2>> = simulation.drag();
             data.drag.observe(share, position, &drag, &none);
         }
     }
 
-    pub(super) fn finish(self, channel: ChannelObservation, layer: Option<&LayerState>) -> BedLoadObservation {
+    pub(super) fn finish(self, mut channel: ChannelObservation, layer: Option<&LayerState>) -> BedLoadObservation {
+        channel.particles_lost += self.grains_lost;
         BedLoadObservation { channel, layer: layer.cloned(), ..self.observation }
     }
 }
@@ -119,12 +125,12 @@ impl BedLoadObservation {
         points.iter().map(|point| (point.height, point.velocity * point.samples / (times * volume))).collect()
     }
 
-    /// Solid fraction over height, where all particles hold the same volume of grains: (z `[m]`, φ `[-]`).
+    /// Solid fraction over height: (z `[m]`, φ `[-]`).
     #[must_use]
     pub fn solid_fraction(&self) -> Vec<(f64, f64)> {
         let times = self.sediment.times as f64;
         let volume = self.sediment.bin * self.length;
         let points = self.sediment.points();
-        points.iter().map(|point| (point.height, self.grain_volume * point.samples / (times * volume))).collect()
+        points.iter().map(|point| (point.height, point.pressure * point.samples / (times * volume))).collect()
     }
 }

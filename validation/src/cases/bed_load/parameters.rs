@@ -80,11 +80,17 @@ pub enum Stage {
     Dilating,
 }
 
-/// The pair law whose runs are judged; runs of others show what a law does. Where grains dilate no law is right on all
-/// slopes: this one carries 1.5 to 1.6 times too much on each.
-pub(super) const JUDGED_PAIR_LAW: PairLaw = PairLaw::PairRateMeanLoad;
-
 impl Stage {
+    /// The pair law whose runs are judged; runs of others show what a law does. Grains in rows have no rate but that of
+    /// the flow. Grains that dilate jostle: with the pair's own rate a raft of them slides on a thin layer, the faster the
+    /// finer the spacing, while the averaged rate comes nearer to the layer.
+    pub(super) fn judged_pair_law(self) -> PairLaw {
+        match self {
+            Self::Porous | Self::Frozen => PairLaw::PairRateMeanLoad,
+            Self::Dilating => PairLaw::AveragedPairRate,
+        }
+    }
+
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Porous => "porous",

@@ -7,15 +7,25 @@ use crate::output::Table;
 use crate::reference::bed_load_layer::LayerState;
 use crate::statistics::{Segmented, curvature, linear_fit, number_of_pieces, segmented_regression};
 
-/// Heights between which the slope of u over ln z is fitted `[m]`.
+/// ln((z + z_0)/d) with the offset z_0 of the logarithmic law, over which u of clear water is a straight line `[-]`.
+fn log_height(run: &BedLoadRun, height: f64) -> f64 {
+    libm::log((height + run.clear_water().origin_offset) / run.materials.grain_diameter)
+}
+
+/// Height of a logarithm `[m]`.
+pub(super) fn height_of(run: &BedLoadRun, logarithm: f64) -> f64 {
+    run.materials.grain_diameter * libm::exp(logarithm) - run.clear_water().origin_offset
+}
+
+/// Heights between which the slope of u over ln(z + z_0) is fitted `[m]`.
 pub(super) const LAYERS: [(&str, f64, f64); 4] =
     [("0.5_3", 5e-4, 3.5e-3), ("3_8", 3e-3, 8e-3), ("8_18", 8e-3, 18e-3), ("15_43", 15e-3, 43e-3)];
 
-/// Slope of u over ln z between two heights, over u_*/κ `[-]`.
+/// Slope of u over ln(z + z_0) between two heights, over u_*/κ `[-]`.
 pub(super) fn semi_log_slope(run: &BedLoadRun, points: &[ProfilePoint], lower: f64, upper: f64) -> f64 {
     let law = run.clear_water();
     let inside = points.iter().filter(|point| point.height >= lower && point.height <= upper);
-    let pairs: Vec<(f64, f64)> = inside.map(|point| (libm::log(point.height), point.velocity)).collect();
+    let pairs: Vec<(f64, f64)> = inside.map(|point| (log_height(run, point.height), point.velocity)).collect();
     if pairs.len() < 2 {
         return f64::NAN;
     }
@@ -28,12 +38,12 @@ pub(super) fn semi_log_slope(run: &BedLoadRun, points: &[ProfilePoint], lower: f
 /// Most layers that are looked for: the paper sees three.
 const MOST_LAYERS: usize = 3;
 
-/// u/u_* over ln(z/d) above the bed, up to 0.9 h.
+/// u/u_* over ln((z + z_0)/d) above the bed, up to 0.9 h.
 pub(super) fn semi_logarithmic(run: &BedLoadRun, points: &[ProfilePoint]) -> Vec<(f64, f64)> {
     let scale = run.clear_water().friction_velocity();
     let top = 0.9 * run.materials.depth;
     let inside = points.iter().filter(|point| point.height > 0.0 && point.height < top);
-    inside.map(|point| (libm::log(point.height / run.materials.grain_diameter), point.velocity / scale)).collect()
+    inside.map(|point| (log_height(run, point.height), point.velocity / scale)).collect()
 }
 
 /// Number of layers of different semi-logarithmic slope, by a segmented regression.
@@ -41,7 +51,7 @@ pub(super) fn number_of_layers(run: &BedLoadRun, points: &[ProfilePoint]) -> usi
     number_of_pieces(&semi_logarithmic(run, points), MOST_LAYERS)
 }
 
-/// The layers: breaks in ln(z/d), slopes in u_*.
+/// The layers: breaks in ln((z + z_0)/d), slopes in u_*.
 pub(super) fn layers(run: &BedLoadRun, points: &[ProfilePoint], count: usize) -> Option<Segmented> {
     segmented_regression(&semi_logarithmic(run, points), count)
 }
@@ -66,14 +76,15 @@ pub(super) fn sheared_borders(run: &BedLoadRun, points: &[ProfilePoint]) -> (f64
     let outer: Vec<(f64, f64)> = points
         .iter()
         .filter(|point| point.height >= 15e-3 && point.height <= 0.9 * law.depth)
-        .map(|point| (libm::log(point.height), point.velocity))
+        .map(|point| (log_height(run, point.height), point.velocity))
         .collect();
     let (Some(fit), Some(seepage)) = (linear_fit(&outer), points.first().map(|point| point.velocity)) else {
         return (f64::NAN, f64::NAN);
     };
     let excess = |point: &ProfilePoint| point.velocity - seepage - threshold;
-    let missing =
-        |point: &ProfilePoint| (fit.intercept + fit.slope * libm::log(point.height) - point.velocity).abs() - threshold;
+    let missing = |point: &ProfilePoint| {
+        (fit.intercept + fit.slope * log_height(run, point.height) - point.velocity).abs() - threshold
+    };
     let inner: Vec<&ProfilePoint> = points.iter().filter(|point| point.height > 0.0 && point.height < 18e-3).collect();
     let lower = points.windows(2).find_map(|pair| root([&pair[0], &pair[1]], excess));
     let upper = inner.windows(2).rev().find_map(|pair| root([pair[0], pair[1]], missing));
@@ -164,4 +175,33 @@ pub(super) fn grain_table(variant: &str, data: &BedLoadObservation) -> Option<Ta
         columns: names.iter().map(|name| (*name).to_owned()).collect(),
         rows: rows.collect(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parameters::BedLoadParameters;
+    use super::super::runs::runs;
+    use super::*;
+    use crate::case::Tier;
+
+    #[test]
+    fn clear_water_has_one_layer_of_the_slope_one() {
+        let run = runs(&BedLoadParameters::of_tier(Tier::Quick)).remove(0);
+        let law = run.clear_water();
+        let point = |k: i32| {
+            let height = 1e-3 * (2.0 * f64::from(k) + 1.0);
+            ProfilePoint { height, velocity: law.velocity(height), pressure: 0.0, samples: 1.0 }
+        };
+        let points: Vec<ProfilePoint> = (0..23).map(point).collect();
+        for (name, lower, upper) in LAYERS {
+            let slope = semi_log_slope(&run, &points, lower, upper);
+            assert!((slope - 1.0).abs() < 1e-9, "{name}: {slope}");
+        }
+        assert_eq!(number_of_layers(&run, &points), 1);
+        let fit = layers(&run, &points, 2).expect("enough points");
+        assert!((fit.slopes[0] / fit.slopes[1] - 1.0).abs() < 1e-6, "{fit:?}");
+        assert!(deficit(&run, &points, 0.023).abs() < 1e-9);
+        let border = 7e-3;
+        assert!((height_of(&run, log_height(&run, border)) - border).abs() < 1e-15);
+    }
 }

@@ -51,6 +51,12 @@ pub struct BedLoadRun {
     pub(super) seed: u64,
 }
 
+/// Offset of the logarithmic law that a layer of grains is set beside `[m]`.
+const LAYER_OFFSET: f64 = 6e-4;
+
+/// Height of a cell of the 1-D layer `[m]`.
+pub(super) const LAYER_CELL: f64 = 2.5e-4;
+
 pub(super) fn runs(parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
     let BedLoadParameters { materials, paper, stabilised, continuum, fit, jitter, seed } = parameters;
     let new = |formulation, slope, duration, averaging_time| BedLoadRun {
@@ -172,8 +178,12 @@ impl BedLoadRun {
     /// The 1-D layer that a `continuum` run is verified against.
     pub(super) fn layer(&self) -> Result<Option<LayerState>, InputError> {
         let Formulation::Continuum { continuum, stage, .. } = &self.formulation else { return Ok(None) };
-        let layer =
-            |grains| BedLoadLayer { stream: self.stream(), closures: continuum.closures, grains, cell_height: 2.5e-4 };
+        let layer = |grains| BedLoadLayer {
+            stream: self.stream(),
+            closures: continuum.closures,
+            grains,
+            cell_height: LAYER_CELL,
+        };
         let refused = |error: crate::reference::ReferenceError| {
             InputError::field(
                 "continuum.closures",
@@ -223,13 +233,19 @@ impl BedLoadRun {
     /// Clear water over a fixed bed of the same grains.
     #[must_use]
     pub fn clear_water(&self) -> crate::reference::RoughChannel {
+        let origin_offset = match &self.formulation {
+            Formulation::Paper(grains) | Formulation::Stabilised(grains) | Formulation::Fit(grains) => {
+                grains.origin_offset
+            }
+            Formulation::Continuum { .. } => LAYER_OFFSET,
+        };
         crate::reference::RoughChannel {
             depth: self.materials.depth,
             slope: self.slope,
             gravity: self.materials.gravity,
             density: self.materials.fluid_density,
             sand_roughness: self.materials.grain_diameter,
-            origin_offset: 6e-4,
+            origin_offset,
         }
     }
 }

@@ -89,7 +89,7 @@ impl BedLoadRun {
         let closures = &continuum.closures;
         let packing = closures.largest_fraction;
         let held = continuum.held_depth - continuum.bed_depth;
-        let mut stratification = solver::Stratification::new(
+        let stratification = solver::Stratification::new(
             layer.face[0],
             layer.cell_height,
             layer.solid_fraction.clone(),
@@ -123,10 +123,6 @@ impl BedLoadRun {
             }
         }
         let solid_fraction = if stage == Stage::Dilating {
-            for (place, fraction) in stratification.fixed_fraction.iter_mut().enumerate() {
-                let height = stratification.base + (place as f64 + 0.5) * stratification.interval;
-                *fraction = if height < held { packing } else { 0.0 };
-            }
             solver::SolidFraction::Averaged(stratification)
         } else {
             solver::SolidFraction::Given(stratification)

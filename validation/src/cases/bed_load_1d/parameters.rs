@@ -189,7 +189,7 @@ impl BedLoad1dParameters {
 }
 
 /// Rules of the closures.
-pub(super) fn closures(path: &str, closures: &Closures) -> Result<(), InputError> {
+pub(in crate::cases) fn closures(path: &str, closures: &Closures) -> Result<(), InputError> {
     let field = |name: &str| format!("{path}.{name}");
     rules::positive(&field("static_friction"), closures.static_friction, "give μ_s, such as 0.35")?;
     rules::positive(&field("limiting_friction"), closures.limiting_friction, "give μ_2, such as 0.97")?;

@@ -74,7 +74,7 @@ pub struct ChannelObservation {
     pub marks: Vec<Mark>,
     /// When the criterion was met `[s]`.
     pub stationary_since: Option<f64>,
-    /// Fluid particles that ended below the floor or above twice the depth.
+    /// Particles that ended outside: of the fluid, those below the floor or above twice the depth.
     pub particles_lost: usize,
 }
 

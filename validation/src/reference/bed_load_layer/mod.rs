@@ -2,7 +2,8 @@
 //!
 //! z is normal to the bed, 0 at its top before anything moves; φ is the solid fraction, θ the slope's angle.
 //!
-//! - water: 0 = (1 − φ) ρ_f g sinθ + ∂_z τ_f − f, τ_f = (1 − φ) ρ_f [ν (1 + 2.5 φ/(1 − φ/0.62)) + l² |∂_z u_f|] ∂_z u_f;
+//! - water: 0 = (1 − φ) ρ_f g sinθ + ∂_z τ_f − f, τ_f = (1 − φ) ρ_f [ν (1 + 2.5 φ/(1 − φ/0.62)) + l² |∂_z u_f|] ∂_z u_f,
+//!   in its denominator φ at most 0.59;
 //! - grains: 0 = φ ρ_s g sinθ + ∂_z τ_s + f, τ_s = μ(I) p′ γ/√(γ² + γ_r²), γ = ∂_z u_s, I = |γ| d √(ρ_s/p′);
 //! - drag on the grains f = K (u_f − u_s); p′ = ∫_z φ (ρ_s − ρ_f) g cosθ dz;
 //! - μ = μ_s + (μ_2 − μ_s) I/(I + I_0) and φ = φ_max/(1 + B I): the grains dilate where they are sheared;

@@ -1,0 +1,140 @@
+//! `stabilised` against what Kazemi et al. state of the flow, and against the transport formula on the slope held out.
+
+use super::Record;
+use super::metrics::{JUDGED_FROM, average, common, grains, observed};
+use super::observation::BedLoadObservation;
+use super::parameters::Grains;
+use super::profiles::{self, LAYERS};
+use super::runs::{BedLoadRun, Formulation};
+use super::tiers::FITTED;
+use crate::case::Run;
+use crate::cases::channel;
+use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::observe::Recorded;
+use crate::reference::{HONEST_BAND, TransportFormula};
+use crate::statistics::Segmented;
+
+pub(super) fn stabilised(
+    metrics: &mut Vec<Metric>,
+    run: &BedLoadRun,
+    record: &Recorded<BedLoadObservation>,
+    bed: &Grains,
+) {
+    let variant = run.variant();
+    let data = &record.data;
+    let outer = record.clone().map(|data| data.channel);
+    metrics.push(channel::particles_lost(&variant, &outer));
+    metrics.push(channel::momentum_residual(&variant, &outer));
+    common(metrics, run, record);
+    let judged = run.averaging_time >= JUDGED_FROM && run.slope == 0.03;
+    // of the fitted slopes the transport says nothing
+    if judged && bed.material == FITTED {
+        let formula = TransportFormula::WongParker;
+        let reference = formula.transport(run.stream().shields_number());
+        let ratio = observed("transport_ratio", &variant, average(data, &data.transport), 1.0 / reference, "-");
+        let reason = "yield stress and viscosity are fitted to the two other slopes";
+        let metric = ratio.against(Some(1.0), formula.name(), Confidence::High).of_kind(Kind::Validation);
+        metrics.push(metric.gated(Limit::Within(HONEST_BAND.0, HONEST_BAND.1), reason));
+    }
+    let gated = |metric: Metric, limit, reason: &str| if judged { metric.gated(limit, reason) } else { metric };
+    let profile = &data.channel.profile;
+    let mut slopes = Vec::new();
+    for (name, lower, upper) in LAYERS {
+        let estimate = profile.estimate(|points| profiles::semi_log_slope(run, points, lower, upper));
+        slopes.push(estimate.value);
+        metrics.push(observed("semi_log_slope", &format!("{variant},height={name}"), estimate, 1.0, "-").against(
+            Some(1.0),
+            "u_*/κ, fitted to u over ln(z + z_0)",
+            Confidence::Exact,
+        ));
+    }
+    let ratio = Metric::observed("layer_slope_ratio", &variant, slopes[0] / slopes[3], "-")
+        .against(None, "statement of the paper: two layers at 3 %, the lower one less steep", Confidence::Medium)
+        .of_kind(Kind::Validation)
+        .with_snapshot_tolerance(0.1, 0.0);
+    metrics.push(gated(
+        ratio,
+        Limit::AtMost(0.8),
+        "two layers: the lower semi-logarithmic slope is smaller by a fifth",
+    ));
+    layers(metrics, run, record);
+    let near = profile.estimate(|points| profiles::deficit(run, points, 2.5e-3));
+    let deficit = observed("near_bed_deficit", &variant, near, 1.0, "u_*")
+        .against(None, "statement of the paper: near the bed slower than clear water", Confidence::Medium)
+        .of_kind(Kind::Validation);
+    metrics.push(gated(deficit, Limit::AtMost(-0.1), "slower than clear water by a tenth of u_*"));
+    let far = profile.estimate(|points| profiles::deficit(run, points, 0.5 * run.materials.depth));
+    metrics.push(
+        observed("outer_deficit", &variant, far, 1.0, "u_*")
+            .against(Some(0.0), "statement of the paper: above as fast as clear water", Confidence::Medium)
+            .of_kind(Kind::Validation),
+    );
+    let above = profile.estimate(|points| profiles::sheared_borders(run, points).1);
+    metrics.push(observed("sheared_up_to", &variant, above, 1e3, "mm"));
+    let below = profile.estimate(|points| profiles::sheared_borders(run, points).0);
+    metrics.push(observed("sheared_from", &variant, below, 1e3, "mm"));
+    grains(metrics, run, data);
+}
+
+/// The layers that a segmented regression finds, with the errors of their slopes and borders; observed.
+fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>) {
+    let variant = run.variant();
+    let profile = &record.data.channel.profile;
+    let count = profiles::number_of_layers(run, &profile.points());
+    // of 2 % the paper says nothing
+    let published = match run.slope {
+        0.03 => Some(2.0),
+        0.05 => Some(3.0),
+        _ => None,
+    };
+    metrics.push(
+        Metric::observed("number_of_layers", &variant, count as f64, "-")
+            .against(published, "statement of the paper: two layers at 3 %, three at 5 %", Confidence::Medium)
+            .of_kind(Kind::Validation)
+            // a break more or less is no drift of the flow
+            .with_snapshot_tolerance(0.0, 1.0),
+    );
+    let scale = run.clear_water().semi_logarithmic_slope() / run.clear_water().friction_velocity();
+    for layer in 0..count {
+        let of = |read: &dyn Fn(&Segmented) -> f64| {
+            profile.estimate(|points| profiles::layers(run, points, count).map_or(f64::NAN, |fit| read(&fit)))
+        };
+        let named = format!("{variant},layer={}", layer + 1);
+        let slope = of(&|fit| fit.slopes[layer] / scale);
+        metrics.push(observed("layer_slope", &named, slope, 1.0, "-").against(Some(1.0), "u_*/κ", Confidence::Exact));
+        if layer + 1 < count {
+            let border = of(&|fit| profiles::height_of(run, fit.breaks[layer]));
+            metrics.push(observed("layer_border", &named, border, 1.0 / run.materials.grain_diameter, "d"));
+        }
+    }
+}
+
+/// More transport and a thicker sheared layer at 5 % than at 3 %.
+pub(super) fn growth(metrics: &mut Vec<Metric>, records: &[Record]) {
+    let of = |slope: f64| {
+        let found = |(run, _): &&Record| matches!(run.formulation, Formulation::Stabilised(_)) && run.slope == slope;
+        records.iter().find(found)
+    };
+    let (Some((low_run, low)), Some((high_run, high))) = (of(0.03), of(0.05)) else { return };
+    if low_run.averaging_time < JUDGED_FROM {
+        return;
+    }
+    let transport = |record: &Recorded<BedLoadObservation>| average(&record.data, &record.data.transport).value;
+    let thickness = |run: &BedLoadRun, record: &Recorded<BedLoadObservation>| {
+        let (lower, upper) = profiles::sheared_borders(run, &record.data.channel.profile.points());
+        upper - lower
+    };
+    let values = [
+        ("transport_growth", transport(high) / transport(low)),
+        ("sheared_thickness_growth", thickness(high_run, high) / thickness(low_run, low)),
+    ];
+    for (name, value) in values {
+        metrics.push(
+            Metric::observed(name, "formulation=stabilised,slope=0.03_0.05", value, "-")
+                .against(None, "statement of the paper: larger at 5 % than at 3 %", Confidence::Medium)
+                .of_kind(Kind::Validation)
+                .gated(Limit::AtLeast(1.05), "larger by more than the scatter of repeats, 3 %")
+                .with_snapshot_tolerance(0.05, 0.0),
+        );
+    }
+}
