@@ -150,7 +150,11 @@ fn ramp(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Dilatancy, ramp};
+    use super::{Dilatancy, GranularPressure, ramp};
+    use crate::incompressible::phase::Phase;
+    use crate::incompressible::scene::ParticleSet;
+    use crate::incompressible::stratification::Stratification;
+    use crate::vector::Vector;
 
     const SAND: Dilatancy = Dilatancy { dilation: 0.31, packing: 0.6, grain_diameter: 5e-3, fixed_filling: 0.6 };
 
@@ -180,5 +184,24 @@ mod tests {
     fn the_triangle_has_the_area_one() {
         assert_eq!((ramp(-2.0), ramp(0.0), ramp(2.0)), (0.0, 0.5, 1.0));
         assert!((ramp(0.5) - 0.875).abs() < 1e-15);
+    }
+
+    /// Rows of a resting bed, the lower ones held, fill it evenly at φ_max: no eddy has room within.
+    #[test]
+    fn a_resting_bed_leaves_no_room_at_its_held_grains() {
+        let row = |k: i32| (0..10).map(move |i| Vector::<2>::new(f64::from(i) + 0.5, f64::from(k) + 0.5) * 1e-3);
+        let free: Vec<_> = (-6..0).flat_map(row).collect();
+        let held: Vec<_> = (-13..-6).flat_map(row).collect();
+        let count = free.len();
+        let particles = ParticleSet { position: free, velocity: vec![Vector::zeros(); count] };
+        let sediment = Phase::new(&particles, &held, 1e-3, 2600.0, 1.5).filled(&vec![0.6; count]);
+        let mut layer = Stratification::new(-0.01, 2.5e-4, vec![0.0; 80], 0.6, 15_696.0, 0.0, 0.046);
+        GranularPressure::average(&sediment, &SAND, 0.01, &mut layer);
+        for (place, fraction) in layer.solid_fraction.iter().enumerate().take(32) {
+            assert!((fraction - 0.6).abs() < 1e-12, "interval {place}: {fraction}");
+        }
+        assert!(layer.at(-0.003).mixing_length < 1e-12);
+        let volume: f64 = layer.solid_fraction.iter().sum::<f64>() * 2.5e-4;
+        assert!((volume - 0.6 * 0.01).abs() < 1e-12, "{volume} m of grains in a bed of 10 mm");
     }
 }
