@@ -3,13 +3,13 @@
 //! A step bench goes on through a run: clear water over a rough bed, and the same over 80 mm of 5 mm grains with water
 //! between. What the linear solves take is printed after each.
 
-use bagnold_solver::boundary::{AxisBoundary, Domain};
-use bagnold_solver::drag::DragLaw;
+use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
     Bed, DragForm, Fluid, IncompressibleScene, IncompressibleSimulation, ParticleSet, ProjectionNumerics, Sediment,
     SedimentLaw, SedimentPressure, SedimentYield, SolidFraction, SolverCost, Turbulence,
 };
-use bagnold_solver::turbulence::{MixingLength, MixingLengthShape, RoughWall, VON_KARMAN};
+use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::turbulence::{MixingLength, MixingLengthShape, RoughWall, VON_KARMAN};
 use bagnold_solver::vector::Vector;
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use rand::{RngExt, SeedableRng};

@@ -5,7 +5,7 @@
 
 mod scenes;
 
-use bagnold_solver::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use rayon::{ThreadPool, ThreadPoolBuilder};

@@ -2,13 +2,14 @@
 //!
 //! A target of its own with a single test, because the counter sees every thread of the process.
 
-use bagnold_solver::boundary::{AxisBoundary, Domain, Wall, wall};
-use bagnold_solver::equation_of_state::{EquationOfState, Tension};
-use bagnold_solver::numerics::{MomentumOperator, Numerics, ViscousStep};
-use bagnold_solver::rheology::{MuI, Newtonian, Rheology};
-use bagnold_solver::scene::{Flow, Scene};
-use bagnold_solver::simulation::{Compiled, Simulation};
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
+use bagnold_solver::weakly_compressible::boundary::{Wall, wall};
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscousStep};
+use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use counting::ALLOCATIONS;
 use rand::{RngExt, SeedableRng};
 use std::sync::atomic::Ordering;

@@ -1,13 +1,13 @@
 //! A shear wave decays as exp(−ν k² t), also with steps far beyond the explicit viscous bound.
 
 use crate::orders;
-use bagnold_solver::boundary::{AxisBoundary, Domain};
-use bagnold_solver::equation_of_state::{EquationOfState, Tension};
-use bagnold_solver::numerics::{Numerics, ViscousStep};
-use bagnold_solver::rheology::{Newtonian, Rheology};
-use bagnold_solver::scene::{Flow, Scene};
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
+use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::simulation::Simulation;
 use std::f64::consts::TAU;
 
 const DENSITY: f64 = 1000.0;

@@ -2,15 +2,16 @@
 //! exp(−4 ν k² t) for u = U (sin kx cos ky, −cos kx sin ky).
 
 use crate::orders;
-use bagnold_solver::boundary::{AxisBoundary, Domain};
-use bagnold_solver::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::kernel::{Kernel, KernelShape};
-use bagnold_solver::numerics::{MomentumOperator, Numerics};
-use bagnold_solver::rheology::{Newtonian, Rheology};
-use bagnold_solver::scene::{Flow, Scene};
-use bagnold_solver::simulation::{Simulation, StopReason};
-use bagnold_solver::snapshot::Snapshot;
+use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
+use bagnold_solver::run::StopReason;
 use bagnold_solver::vector::{Tensor, Vector};
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use rand::{RngExt, SeedableRng};
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;

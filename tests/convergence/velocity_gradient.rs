@@ -1,14 +1,14 @@
 //! The corrected velocity gradient (9): exact for linear fields, convergent for smooth ones, also when jittered.
 
 use crate::orders;
-use bagnold_solver::boundary::{AxisBoundary, Domain};
-use bagnold_solver::equation_of_state::{EquationOfState, Tension};
-use bagnold_solver::numerics::Numerics;
-use bagnold_solver::rheology::{Newtonian, Rheology};
-use bagnold_solver::scene::{Flow, Scene};
-use bagnold_solver::simulation::{Compiled, Simulation};
-use bagnold_solver::snapshot::Snapshot;
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
+use bagnold_solver::weakly_compressible::numerics::Numerics;
+use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use rand::{RngExt, SeedableRng};
 use std::f64::consts::TAU;
 

@@ -3,12 +3,12 @@
 use crate::patches::{
     Disorder, EQUATION_OF_STATE, SOUND_SPEED, SPACING, block, open_scene, periodic_scene, simulation,
 };
-use bagnold_solver::boundary::{AxisBoundary, Domain};
+use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::kernel::{Kernel, KernelShape};
-use bagnold_solver::numerics::Numerics;
-use bagnold_solver::scene::Scene;
-use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::numerics::Numerics;
+use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
 /// What the coupling adds to every density in the first step `[kg/m³]`, and the densities before it.
 fn effect<const D: usize>(scene: &Scene<D>) -> (Vec<f64>, Vec<f64>)

@@ -1,13 +1,14 @@
 //! The same bits for every number of threads and every instruction set.
 
 use crate::patches::{Disorder, EQUATION_OF_STATE, GRAINS, SPACING, advance, bed, block, open_scene, simulation};
-use bagnold_solver::boundary::{AxisBoundary, wall};
+use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::lanes::InstructionSet;
-use bagnold_solver::numerics::{MomentumOperator, Numerics, ViscousStep};
-use bagnold_solver::rheology::Rheology;
-use bagnold_solver::scene::Scene;
-use bagnold_solver::simulation::{Compiled, Simulation};
+use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::wall;
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscousStep};
+use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use rayon::ThreadPoolBuilder;
 
 const STEPS: usize = 200;

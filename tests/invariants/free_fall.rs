@@ -1,11 +1,11 @@
 //! What a block without contact does: its masses are exact, its shape stays, it falls with g.
 
 use crate::patches::{Disorder, SPACING, advance, bed, block, open_scene, simulation};
-use bagnold_solver::boundary::wall;
-use bagnold_solver::numerics::{MomentumOperator, Numerics};
-use bagnold_solver::scene::Scene;
-use bagnold_solver::simulation::{Compiled, Simulation};
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::wall;
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
 #[test]
 fn a_loose_block_falls_as_a_body() {

@@ -1,11 +1,11 @@
 //! Incompressible runs: momentum of two phases, hydrostatics, determinism, the ends of a run and of a scene.
 
 use crate::two_phases::{GRAIN, GRAVITY, SPACING, advance, bed, periodic_box, simulation, water};
-use bagnold_solver::boundary::AxisBoundary;
-use bagnold_solver::divergence::Quantity;
+use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::incompressible::{
     IncompressibleScene, IncompressibleSimulation, ParticleSet, SedimentLaw, SolidFraction, Stratification,
 };
+use bagnold_solver::run::divergence::Quantity;
 use bagnold_solver::vector::Vector;
 use rayon::ThreadPoolBuilder;
 

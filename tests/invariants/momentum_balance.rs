@@ -1,11 +1,11 @@
 //! No pair term makes momentum: Σ m Δv = 0 in every step of a fully periodic block, term by term.
 
 use crate::patches::{Disorder, GRAINS, SPACING, SYRUP, block, open_scene, periodic_scene, simulation};
-use bagnold_solver::numerics::{Contact, MomentumOperator, Numerics, ViscositySwitch};
-use bagnold_solver::rheology::{Bingham, Newtonian, Rheology};
-use bagnold_solver::scene::Scene;
-use bagnold_solver::simulation::{Compiled, Simulation};
+use bagnold_solver::material::rheology::{Bingham, Newtonian, Rheology};
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics, ViscositySwitch};
+use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
 /// Steps of a run; some of them search the neighbours anew, most do not.
 const STEPS: usize = 24;

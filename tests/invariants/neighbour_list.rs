@@ -1,11 +1,13 @@
 //! The neighbour list against a search through all pairs and all images, made without the solver's own images.
 
 use crate::patches::{Disorder, SPACING, bed, block, open_scene, random, simulation};
-use bagnold_solver::boundary::{AxisBoundary, Domain, Wall, wall};
-use bagnold_solver::neighbours::brute_force;
-use bagnold_solver::scene::{Flow, Scene, SceneError};
-use bagnold_solver::simulation::{Compiled, Simulation};
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
+use bagnold_solver::weakly_compressible::boundary::{Wall, wall};
+use bagnold_solver::weakly_compressible::neighbours::brute_force;
+use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use rand::RngExt;
 
 /// A position and all its images, the position first; none along open axes.

@@ -1,12 +1,13 @@
 //! The states that the invariants are tested on: seeded, disordered blocks of grains or liquid.
 
-use bagnold_solver::boundary::{AxisBoundary, Domain, Wall};
-use bagnold_solver::equation_of_state::{EquationOfState, Tension};
-use bagnold_solver::numerics::Numerics;
-use bagnold_solver::rheology::{MuI, Newtonian, Rheology};
-use bagnold_solver::scene::{Flow, Scene};
-use bagnold_solver::simulation::{Compiled, Simulation};
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector, deviator, equivalent_shear_stress};
+use bagnold_solver::weakly_compressible::boundary::Wall;
+use bagnold_solver::weakly_compressible::numerics::Numerics;
+use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 

@@ -1,12 +1,13 @@
 //! Every scene that cannot be simulated, with its exact message.
 
 use crate::patches::{Disorder, block, open_scene};
-use bagnold_solver::boundary::AxisBoundary;
-use bagnold_solver::numerics::{Numerics, ViscousStep};
-use bagnold_solver::rheology::{MuI, Newtonian, Rheology};
-use bagnold_solver::scene::{Flow, Scene, SceneError};
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::domain::AxisBoundary;
+use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
+use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
+use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::simulation::Simulation;
 
 fn sound() -> Scene<2> {
     open_scene(block([6, 6], Disorder::NONE, 1))

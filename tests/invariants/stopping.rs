@@ -1,12 +1,12 @@
 //! How a run ends: finished, stopped by its observer, or diverged with a message that says where and why.
 
 use crate::patches::{Disorder, SOUND_SPEED, SPACING, block, open_scene, simulation};
-use bagnold_solver::divergence::{Divergence, Quantity};
-use bagnold_solver::numerics::{MomentumOperator, Numerics};
-use bagnold_solver::rheology::{Newtonian, Rheology};
-use bagnold_solver::scene::Scene;
-use bagnold_solver::simulation::StopReason;
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
+use bagnold_solver::run::StopReason;
+use bagnold_solver::run::divergence::{Divergence, Quantity};
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::weakly_compressible::scene::Scene;
 use std::ops::ControlFlow;
 
 fn quiet() -> Scene<2> {

@@ -1,12 +1,13 @@
 //! What walls, mirrors, gates and contacts give to the flow: with gravity it is all the momentum that the flow gains.
 
 use crate::patches::{Disorder, SPACING, SYRUP, bed, block, open_scene, simulation};
-use bagnold_solver::boundary::gate::Gate;
-use bagnold_solver::boundary::{AxisBoundary, Domain, Surface, WallTreatment, wall};
-use bagnold_solver::numerics::{MomentumOperator, Numerics};
-use bagnold_solver::scene::Scene;
-use bagnold_solver::simulation::{Compiled, Simulation};
+use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::gate::Gate;
+use bagnold_solver::weakly_compressible::boundary::{Surface, WallTreatment, wall};
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
 const MIRROR: AxisBoundary = AxisBoundary::Mirror { lower: Some(0.0), upper: None };
 

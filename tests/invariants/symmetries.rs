@@ -4,12 +4,13 @@ use crate::patches::{
     Disorder, EQUATION_OF_STATE, GRAINS, SPACING, SYRUP, advance, bed, block, largest_difference, open_scene,
     periodic_scene, simulation,
 };
-use bagnold_solver::boundary::{AxisBoundary, Domain, WallTreatment, wall};
-use bagnold_solver::numerics::{MomentumOperator, Numerics, ViscositySwitch};
-use bagnold_solver::rheology::{Bingham, Rheology};
-use bagnold_solver::scene::{Flow, Scene};
-use bagnold_solver::simulation::{Compiled, Simulation};
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::material::rheology::{Bingham, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
+use bagnold_solver::weakly_compressible::boundary::{WallTreatment, wall};
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscositySwitch};
+use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
 const BINGHAM: Rheology =
     Rheology::Bingham(Bingham { plastic_viscosity: 5.0, yield_stress: 400.0, regularisation_rate: 5.0 });

@@ -1,11 +1,11 @@
 //! The states that incompressible runs are tested on: seeded water and grains.
 
-use bagnold_solver::boundary::{AxisBoundary, Domain};
-use bagnold_solver::drag::DragLaw;
+use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
     Bed, DragForm, Fluid, IncompressibleScene, IncompressibleSimulation, ParticleSet, ProjectionNumerics, Sediment,
     SedimentLaw, SedimentPressure, SedimentYield, SolidFraction, Turbulence,
 };
+use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::vector::Vector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;

@@ -1,12 +1,13 @@
 //! The implicit viscous step against the explicit one, beyond its bound, and at walls.
 
 use crate::patches::{Disorder, GRAINS, SPACING, SYRUP, bed, block, open_scene, periodic_scene, simulation};
-use bagnold_solver::boundary::{AxisBoundary, wall};
-use bagnold_solver::numerics::{Numerics, ViscousStep};
-use bagnold_solver::rheology::Rheology;
-use bagnold_solver::scene::Scene;
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::domain::AxisBoundary;
+use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::wall;
+use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::simulation::Simulation;
 
 fn numerics(viscous_step: ViscousStep, viscous_tolerance: f64) -> Numerics {
     Numerics { viscous_step, viscous_tolerance, artificial_viscosity: 0.0, hourglass: 0.0, ..Numerics::default() }

@@ -21,7 +21,7 @@ pub enum InputError {
     },
     /// The parameters are each in range, but together give no valid scene.
     #[error("the parameters give no valid scene: {0}")]
-    Scene(#[from] bagnold_solver::scene::SceneError),
+    Scene(#[from] bagnold_solver::run::SceneError),
     /// The parameters ask for no simulation, so no gate could fail.
     #[error(
         "the parameters of `{case}` ask for no run; fill at least one of its lists, `bagnold show {case}` prints them"

@@ -1,11 +1,12 @@
 //! The blocks that the benches step: a dam at rest beside a symmetry plane, and a periodic block that drifts.
 
-use bagnold_solver::boundary::{AxisBoundary, Domain, Wall, WallTreatment, wall};
-use bagnold_solver::equation_of_state::{EquationOfState, Tension};
-use bagnold_solver::numerics::{Contact, MomentumOperator, Numerics};
-use bagnold_solver::rheology::{MuI, Newtonian, Rheology};
-use bagnold_solver::scene::{Flow, Scene};
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
+use bagnold_solver::weakly_compressible::boundary::{Wall, WallTreatment, wall};
+use bagnold_solver::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics};
+use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use rand::{RngExt, SeedableRng};
 
 const GRAVITY: f64 = 9.81;

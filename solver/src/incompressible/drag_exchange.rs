@@ -10,7 +10,7 @@ use super::numerics::DragSlip;
 use super::pairs::{LEAST_TASK, Pairs, Periods, Sources};
 use super::phase::{Phase, height_axis};
 use super::scene::{DragForm, IncompressibleScene, Sediment, SolidFraction};
-use crate::boundary::Domain;
+use crate::domain::Domain;
 use crate::kernel::{Kernel, KernelShape};
 use crate::vector::Vector;
 use rayon::prelude::*;

@@ -1,6 +1,6 @@
 //! Cells for the search of candidate pairs, with periods that are wrapped instead of copied.
 
-use crate::boundary::{AxisBoundary, Domain};
+use crate::domain::{AxisBoundary, Domain};
 use crate::vector::Vector;
 
 /// Particles sorted by cell; the sort is stable, so the order is a function of the input alone.

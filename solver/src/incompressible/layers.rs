@@ -6,7 +6,7 @@
 //! that a drop above the surface is compared with the surface.
 
 use super::phase::{Phase, height_axis};
-use crate::boundary::{AxisBoundary, Domain};
+use crate::domain::{AxisBoundary, Domain};
 use crate::vector::Vector;
 
 /// More layers than this are one: a stray particle far away must not buy memory.

@@ -1,7 +1,7 @@
 //! The numerical choices of an incompressible run; the default is the recipe, [`ProjectionNumerics::paper`] the
 //! bed-load paper's own set.
 
-use crate::rheology::ParameterProblem;
+use crate::material::rheology::ParameterProblem;
 use serde::{Deserialize, Serialize};
 
 /// What the pressure Poisson equation drives to zero.

@@ -2,7 +2,7 @@
 //! and from them, in every step, the pairs within reach with their kernel values.
 
 use super::grid::Grid;
-use crate::boundary::{AxisBoundary, Domain};
+use crate::domain::{AxisBoundary, Domain};
 use crate::kernel::Kernel;
 use crate::lanes::algebra::dot;
 use crate::lanes::{InstructionSet, LANES, LaneIndices, LanePass, Lanes, Real, gather_vectors};

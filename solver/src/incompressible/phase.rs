@@ -4,7 +4,7 @@ use super::grid::Grid;
 use super::numerics::ProjectionNumerics;
 use super::pairs::{LEAST_TASK, Pair, Pairs, Periods, Sources};
 use super::scene::ParticleSet;
-use crate::boundary::Domain;
+use crate::domain::Domain;
 use crate::kernel::{Kernel, KernelShape};
 use crate::vector::{Tensor, Vector};
 use rayon::prelude::*;

@@ -2,10 +2,10 @@
 
 use super::numerics::ProjectionNumerics;
 use super::stratification::Stratification;
-use crate::boundary::{AxisBoundary, Domain};
-use crate::drag::DragLaw;
-use crate::scene::SceneError;
-use crate::turbulence::{MixingLength, RoughWall, Smagorinsky};
+use crate::domain::{AxisBoundary, Domain};
+use crate::material::drag::DragLaw;
+use crate::material::turbulence::{MixingLength, RoughWall, Smagorinsky};
+use crate::run::SceneError;
 use crate::vector::Vector;
 
 /// Free particles at the start; all arrays have the shape `[particles]`.

@@ -11,10 +11,10 @@ use super::pressure_poisson::PressurePoisson;
 use super::scene::IncompressibleScene;
 use super::snapshot::{IncompressibleSnapshot, PhaseSnapshot};
 use super::velocity_solve::VelocitySystem;
-use crate::divergence::{Divergence, Quantity};
-use crate::observed_run::{self, Stepping};
-use crate::scene::SceneError;
-use crate::simulation::StopReason;
+use crate::run::SceneError;
+use crate::run::StopReason;
+use crate::run::divergence::{Divergence, Quantity};
+use crate::run::observed_run::{self, Stepping};
 use crate::vector::Vector;
 use std::ops::ControlFlow;
 

@@ -7,8 +7,8 @@ use super::pressure_poisson::{Correction, PressurePoisson};
 use super::scene::{SedimentPressure, SolidFraction};
 use super::shifting::find_shifts;
 use super::simulation::IncompressibleSimulation;
-use crate::divergence::{Divergence, Quantity};
 use crate::linear::{Criterion, NotConverged};
+use crate::run::divergence::{Divergence, Quantity};
 use crate::vector::Vector;
 
 /// Iterations after which a solve is given up.

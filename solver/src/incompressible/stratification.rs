@@ -5,7 +5,7 @@
 //! - overburden p′ = ∫_z φ (ρ_s − ρ_f) g cosθ dz `[Pa]`
 //! - room ∫ (1 − φ/φ_max) dz from the base, never below 0, for the mixing length l = κ √(1 − z/h) × room `[m]`
 
-use crate::turbulence::VON_KARMAN;
+use crate::material::turbulence::VON_KARMAN;
 
 /// φ over equal intervals of height, and its integrals at their centres.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,9 +1,18 @@
-//! Model A: weakly compressible SPH.
+//! Model A: weakly compressible SPH of one material, with the stress carried by each particle.
 //!
-//! `step` is one symplectic Euler step with the explicit stress update. An implicit viscous solve belongs beside it,
-//! between the forces and the new velocity.
+//! `step` is one symplectic Euler step, readable on a page.
 
+pub mod boundary;
 mod model;
+pub mod neighbours;
+pub mod numerics;
+pub mod operators;
+pub mod particles;
+mod records;
+pub mod scene;
+pub mod simulation;
+pub mod snapshot;
 mod step;
-
-pub(crate) use model::Model;
+pub mod terms;
+pub mod time_step;
+pub(crate) mod viscous_solve;

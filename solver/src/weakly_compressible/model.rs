@@ -1,18 +1,18 @@
 //! What stays the same from step to step, and the passes that it parameterises.
 
-use crate::boundary::Wall;
-use crate::boundary::wall_extrapolation::WallExtrapolation;
-use crate::equation_of_state::EquationOfState;
 use crate::kernel::Kernel;
 use crate::lanes::InstructionSet;
-use crate::neighbours::VerletList;
-use crate::numerics::{MomentumOperator, Numerics};
-use crate::operators::geometry::Geometry;
-use crate::rheology::Rheology;
-use crate::terms::continuity::{Continuity, GradientUse};
-use crate::terms::{momentum::Momentum, pairwise::Pairwise};
+use crate::material::equation_of_state::EquationOfState;
+use crate::material::rheology::Rheology;
 use crate::vector::Vector;
-use crate::viscous_solve::ViscousSolve;
+use crate::weakly_compressible::boundary::Wall;
+use crate::weakly_compressible::boundary::wall_extrapolation::WallExtrapolation;
+use crate::weakly_compressible::neighbours::VerletList;
+use crate::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use crate::weakly_compressible::operators::geometry::Geometry;
+use crate::weakly_compressible::terms::continuity::{Continuity, GradientUse};
+use crate::weakly_compressible::terms::{momentum::Momentum, pairwise::Pairwise};
+use crate::weakly_compressible::viscous_solve::ViscousSolve;
 
 /// Material, numerics and neighbour list: all that a pass needs beside the particles.
 #[derive(Debug)]

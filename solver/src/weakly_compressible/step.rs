@@ -1,12 +1,12 @@
 //! One time step of model A, readable on a page.
 
-use crate::boundary::contact;
-use crate::divergence::{Divergence, Quantity};
-use crate::numerics::{Contact, MomentumOperator, ViscousStep};
-use crate::simulation::Simulation;
-use crate::terms::continuity::GradientUse;
+use crate::run::divergence::{Divergence, Quantity};
 use crate::vector::Vector;
-use crate::viscous_solve::NotConverged;
+use crate::weakly_compressible::boundary::contact;
+use crate::weakly_compressible::numerics::{Contact, MomentumOperator, ViscousStep};
+use crate::weakly_compressible::simulation::Simulation;
+use crate::weakly_compressible::terms::continuity::GradientUse;
+use crate::weakly_compressible::viscous_solve::NotConverged;
 use rayon::prelude::*;
 
 /// A speed beyond this many sound speeds is a divergence `[-]`: weak compressibility has long been lost.

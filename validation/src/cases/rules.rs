@@ -1,10 +1,10 @@
 //! Rules that the parameters of several cases share.
 
 use crate::error::InputError;
-use bagnold_solver::boundary::Surface;
 use bagnold_solver::incompressible::{Continuity, MeanFlux, ProjectionNumerics};
-use bagnold_solver::numerics::{ChoiceProblem, Numerics};
-use bagnold_solver::rheology::Rheology;
+use bagnold_solver::material::rheology::Rheology;
+use bagnold_solver::weakly_compressible::boundary::Surface;
+use bagnold_solver::weakly_compressible::numerics::{ChoiceProblem, Numerics};
 
 /// A positive, finite value.
 pub(super) fn positive(field: &str, value: f64, remedy: &str) -> Result<(), InputError> {

@@ -10,7 +10,7 @@
 //! The drag laws are the solver's; its tests compare them with values computed by hand, and so do those here.
 
 use crate::metric::Confidence;
-use bagnold_solver::drag::DragLaw;
+use bagnold_solver::material::drag::DragLaw;
 
 /// How sure the project is of [`richardson_zaki_exponent`]: observed beside a run, never a gate.
 pub const RICHARDSON_ZAKI_CONFIDENCE: Confidence = Confidence::Unverified;

@@ -7,11 +7,11 @@
 //! implicit velocities begin with the push of the last step's pressure, which is taken back before the new one is sought.
 
 use super::Operators;
-use crate::divergence::{Divergence, Quantity};
 use crate::incompressible::numerics::MeanFlux;
 use crate::incompressible::phase::{LatticeSums, height_axis};
 use crate::incompressible::simulation::IncompressibleSimulation;
 use crate::linear::NotConverged;
+use crate::run::divergence::{Divergence, Quantity};
 use crate::vector::Vector;
 
 impl<const D: usize> IncompressibleSimulation<D> {

@@ -2,7 +2,7 @@
 
 use crate::incompressible::numerics::{Continuity, MeanFlux, PressureSource, SurfaceTreatment};
 use crate::incompressible::scene::{IncompressibleScene, SedimentPressure};
-use crate::scene::SceneError;
+use crate::run::SceneError;
 
 impl<const D: usize> IncompressibleScene<D> {
     /// What the mixture's continuity asks of the other choices.

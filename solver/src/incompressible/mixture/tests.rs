@@ -1,12 +1,12 @@
 use super::*;
-use crate::boundary::{AxisBoundary, Domain};
-use crate::drag::DragLaw;
+use crate::domain::{AxisBoundary, Domain};
 use crate::incompressible::phase::LatticeSums;
 use crate::incompressible::simulation::IncompressibleSimulation;
 use crate::incompressible::{
     Bed, Continuity, DragForm, Fluid, IncompressibleScene, MeanFlux, ParticleSet, Sediment, SedimentLaw,
     SedimentPressure, SedimentYield, SolidFraction, Stratification, Turbulence,
 };
+use crate::material::drag::DragLaw;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 

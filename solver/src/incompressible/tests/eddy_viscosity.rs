@@ -3,7 +3,7 @@
 use super::super::Turbulence;
 use super::super::simulation::IncompressibleSimulation;
 use super::water;
-use crate::turbulence::{MixingLength, MixingLengthShape, Smagorinsky};
+use crate::material::turbulence::{MixingLength, MixingLengthShape, Smagorinsky};
 use crate::vector::Vector;
 
 const SHEAR_RATE: f64 = 40.0;

@@ -8,8 +8,8 @@ use super::{
     Bed, DragForm, Fluid, IncompressibleScene, ParticleSet, ProjectionNumerics, Sediment, SedimentLaw,
     SedimentPressure, SedimentYield, SolidFraction, Turbulence,
 };
-use crate::boundary::{AxisBoundary, Domain};
-use crate::drag::DragLaw;
+use crate::domain::{AxisBoundary, Domain};
+use crate::material::drag::DragLaw;
 use crate::vector::Vector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;

@@ -5,7 +5,7 @@ use super::super::pairs::{Pairs, Periods, Sources};
 use super::super::phase::Phase;
 use super::super::simulation::IncompressibleSimulation;
 use super::{SPACING, grains, random, symmetric, water};
-use crate::boundary::{AxisBoundary, Domain};
+use crate::domain::{AxisBoundary, Domain};
 use crate::kernel::{Kernel, KernelShape};
 use crate::vector::Vector;
 use rand::RngExt;

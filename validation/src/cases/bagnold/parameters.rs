@@ -5,8 +5,8 @@ use crate::cases::layer::Preparation;
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::reference::BagnoldProfile;
-use bagnold_solver::numerics::Numerics;
-use bagnold_solver::rheology::{MuI, Rheology};
+use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::weakly_compressible::numerics::Numerics;
 use serde::{Deserialize, Serialize};
 
 /// How the layer starts.

@@ -6,8 +6,8 @@ use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::BagnoldProfile;
-use bagnold_solver::numerics::{Numerics, ViscousStep};
-use bagnold_solver::rheology::MuI;
+use bagnold_solver::material::rheology::MuI;
+use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 use serde::Serialize;
 
 /// What a run is for.

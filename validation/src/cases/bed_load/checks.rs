@@ -5,8 +5,8 @@ use super::runs::LAYER_CELL;
 use crate::cases::{bed_load_1d, rules};
 use crate::error::InputError;
 use crate::reference::bed_load_layer::{Closures, MixingLength};
-use bagnold_solver::drag::DragLaw;
-use bagnold_solver::turbulence::VON_KARMAN;
+use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::turbulence::VON_KARMAN;
 
 impl BedLoadParameters {
     pub(super) fn check(&self) -> Result<(), InputError> {

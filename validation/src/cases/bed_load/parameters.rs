@@ -2,8 +2,8 @@
 
 use crate::cases::channel::TurbulenceClosure;
 use crate::reference::bed_load_layer::Closures;
-use bagnold_solver::drag::DragLaw;
 use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
+use bagnold_solver::material::drag::DragLaw;
 use serde::{Deserialize, Serialize};
 
 /// Water and grains.

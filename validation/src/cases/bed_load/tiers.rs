@@ -4,9 +4,9 @@ use super::parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, St
 use crate::case::Tier;
 use crate::cases::channel::TurbulenceClosure;
 use crate::reference::bed_load_layer::Closures;
-use bagnold_solver::drag::DragLaw;
 use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
-use bagnold_solver::turbulence::MixingLengthShape;
+use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::turbulence::MixingLengthShape;
 
 /// Fitted to Wong & Parker at 2 and 5 %; 3 % is held out.
 pub(super) const FITTED: Yield = Yield { yield_stress: 5.1, viscosity: 1.67 };

@@ -9,7 +9,7 @@ use crate::error::InputError;
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
 use crate::reference::TransportFormula;
 use crate::reference::bed_load_layer::{Closures, LayerState, MixingLength};
-use bagnold_solver::drag::DragLaw;
+use bagnold_solver::material::drag::DragLaw;
 use serde::{Deserialize, Serialize};
 
 /// What each closure is replaced by, one at a time; empty lists for none.

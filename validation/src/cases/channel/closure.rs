@@ -3,7 +3,7 @@
 use crate::cases::rules;
 use crate::error::InputError;
 use bagnold_solver::incompressible::Turbulence;
-use bagnold_solver::turbulence::{MixingLength, MixingLengthShape, Smagorinsky};
+use bagnold_solver::material::turbulence::{MixingLength, MixingLengthShape, Smagorinsky};
 use serde::{Deserialize, Serialize};
 
 /// What mixes beyond the particles' own motion.

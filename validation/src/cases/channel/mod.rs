@@ -37,8 +37,8 @@ use crate::observe::{Frame, Recorded};
 use bagnold_solver::incompressible::{
     Bed, IncompressibleSimulation, ProjectionNumerics, Sediment, SolidFraction, Turbulence,
 };
-use bagnold_solver::scene::SceneError;
-use bagnold_solver::simulation::StopReason;
+use bagnold_solver::run::SceneError;
+use bagnold_solver::run::StopReason;
 use probe::ChannelProbe;
 use std::ops::ControlFlow;
 

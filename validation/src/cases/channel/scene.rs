@@ -1,7 +1,7 @@
 //! The scene of a channel.
 
 use super::Channel;
-use bagnold_solver::boundary::{AxisBoundary, Domain};
+use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{Fluid, IncompressibleScene, ParticleSet};
 use bagnold_solver::vector::Vector;
 use rand::{RngExt, SeedableRng};

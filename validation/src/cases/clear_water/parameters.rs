@@ -7,7 +7,7 @@ use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::RoughChannel;
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction};
-use bagnold_solver::turbulence::{MixingLengthShape, RoughWall};
+use bagnold_solver::material::turbulence::{MixingLengthShape, RoughWall};
 use serde::{Deserialize, Serialize};
 
 /// How long a flow is simulated.

@@ -1,8 +1,8 @@
 //! The grains before the collapse: displaced from a lattice, under hydrostatic pressure, at rest.
 
-use bagnold_solver::equation_of_state::EquationOfState;
-use bagnold_solver::scene::Flow;
+use bagnold_solver::material::equation_of_state::EquationOfState;
 use bagnold_solver::vector::{Tensor, Vector};
+use bagnold_solver::weakly_compressible::scene::Flow;
 use rand::{RngExt, SeedableRng};
 
 /// What the grains of a block have in common.

@@ -1,7 +1,7 @@
 //! Takes the pictures of a moving picture while a run goes on.
 
 use crate::observe::{Motion, MotionFrame};
-use bagnold_solver::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
 /// Most pictures of a run: what comes later is at rest.
 const MOST_FRAMES: usize = 60;

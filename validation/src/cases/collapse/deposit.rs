@@ -1,8 +1,8 @@
 //! What is measured of a spreading heap: thickness, front, heights, centroid and energies.
 
 use crate::observe::Motion;
-use bagnold_solver::snapshot::Snapshot;
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
 
 /// Width of a bin over the initial half width `[-]`: the same at every resolution.

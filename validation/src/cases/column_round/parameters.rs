@@ -5,8 +5,8 @@ use crate::cases::collapse::{ColumnRun, Geometry, Purpose};
 use crate::cases::column_planar::ColumnPlanarParameters;
 use crate::cases::rules;
 use crate::error::InputError;
-use bagnold_solver::numerics::Numerics;
-use bagnold_solver::rheology::{MuI, Rheology};
+use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::weakly_compressible::numerics::Numerics;
 use serde::{Deserialize, Serialize};
 
 /// One column.

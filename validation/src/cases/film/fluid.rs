@@ -1,7 +1,7 @@
 //! One fluid of the film, as the solver takes it and as the exact solution does.
 
 use crate::reference::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
-use bagnold_solver::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
+use bagnold_solver::material::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
 use serde::{Deserialize, Serialize};
 
 /// Which fluid.

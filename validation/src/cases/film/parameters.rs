@@ -9,8 +9,8 @@ use crate::cases::rules;
 use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::Incline;
-use bagnold_solver::numerics::Numerics;
-use bagnold_solver::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
+use bagnold_solver::material::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
+use bagnold_solver::weakly_compressible::numerics::Numerics;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the case.

@@ -6,9 +6,9 @@ use crate::cases::recording::Ending;
 use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::BagnoldProfile;
-use bagnold_solver::numerics::Numerics;
-use bagnold_solver::rheology::{MuI, Rheology};
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::weakly_compressible::numerics::Numerics;
+use bagnold_solver::weakly_compressible::simulation::Simulation;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 

@@ -5,8 +5,8 @@ use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::observe::Recorded;
-use bagnold_solver::numerics::Numerics;
-use bagnold_solver::rheology::{MuI, Newtonian, Rheology};
+use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
+use bagnold_solver::weakly_compressible::numerics::Numerics;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the case.

@@ -4,8 +4,8 @@ use crate::case::Tier;
 use crate::cases::collapse::SlopeRun;
 use crate::cases::rules;
 use crate::error::InputError;
-use bagnold_solver::numerics::{Numerics, ViscousStep};
-use bagnold_solver::rheology::{MuI, Rheology};
+use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the case.

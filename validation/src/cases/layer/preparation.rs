@@ -1,9 +1,10 @@
 //! How displaced particles come to rest before a run starts.
 
-use bagnold_solver::rheology::{Newtonian, Rheology};
-use bagnold_solver::scene::{Scene, SceneError};
-use bagnold_solver::simulation::Simulation;
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
+use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
+use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::simulation::Simulation;
 use serde::{Deserialize, Serialize};
 
 /// What happens before the start.

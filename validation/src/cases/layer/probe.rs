@@ -1,7 +1,7 @@
 //! What a layer leaves behind: time series of depth means, depth profiles averaged over a window, pressure noise.
 
 use super::{BINS, Layer};
-use bagnold_solver::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
 
 /// Depth means over time; every array has the shape `[samples]`.

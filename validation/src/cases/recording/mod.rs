@@ -4,8 +4,8 @@ mod incompressible;
 mod weakly_compressible;
 
 use crate::observe::{Frame, Outcome, Recorded, state_hash};
-use bagnold_solver::simulation::StopReason;
-use bagnold_solver::snapshot::Snapshot;
+use bagnold_solver::run::StopReason;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use std::time::Instant;
 
 /// A state of a simulation.

@@ -2,9 +2,9 @@
 
 use super::{Recordable, State};
 use crate::observe::Frame;
-use bagnold_solver::simulation::Simulation;
-use bagnold_solver::snapshot::Snapshot;
 use bagnold_solver::vector::{Vector, equivalent_shear_stress, shear_rate};
+use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
 impl<const D: usize> State for Snapshot<D> {
     fn bits(&self) -> Vec<u8> {

@@ -2,7 +2,7 @@
 
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::reference::{GrainForm, SettlingGrains, richardson_zaki_exponent};
-use bagnold_solver::drag::DragLaw;
+use bagnold_solver::material::drag::DragLaw;
 
 /// The laws of one grain alone that differ from each other, and who shares them.
 const ALONE: [(DragLaw, &str); 3] = [

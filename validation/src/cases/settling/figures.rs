@@ -7,7 +7,7 @@ use super::suspension::SuspensionRun;
 use super::{Record, drag_curves};
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
 use crate::reference::{GrainForm, richardson_zaki_exponent};
-use bagnold_solver::drag::DragLaw;
+use bagnold_solver::material::drag::DragLaw;
 
 /// The formulations that single grains have, in the order of their panels.
 const FORMULATIONS: [Formulation; 2] = [Formulation::Paper, Formulation::Stabilised];

@@ -6,8 +6,8 @@ use crate::case::Tier;
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::reference::{GrainForm, SettlingGrains};
-use bagnold_solver::drag::DragLaw;
 use bagnold_solver::incompressible::{PressureSource, ProjectionNumerics, SurfaceTreatment};
+use bagnold_solver::material::drag::DragLaw;
 use serde::{Deserialize, Serialize};
 
 /// The fluid.

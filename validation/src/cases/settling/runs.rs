@@ -6,8 +6,8 @@ use super::probe::SettlingObservation;
 use super::suspension::{self, SuspensionRun};
 use crate::case::{Progress, Run};
 use crate::observe::Recorded;
-use bagnold_solver::drag::DragLaw;
-use bagnold_solver::scene::SceneError;
+use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::run::SceneError;
 use serde::Serialize;
 
 /// One simulation.

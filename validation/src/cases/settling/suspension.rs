@@ -7,13 +7,13 @@ use crate::case::{Progress, Run};
 use crate::cases::channel::Lattice;
 use crate::observe::Recorded;
 use crate::reference::{GrainForm, SettlingGrains};
-use bagnold_solver::boundary::{AxisBoundary, Domain};
-use bagnold_solver::drag::DragLaw;
+use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
     Bed, Continuity, DragForm, DragSlip, Fluid, IncompressibleScene, MeanFlux, ParticleSet, ProjectionNumerics,
     Sediment, SedimentPressure, SolidFraction, Stratification, Turbulence,
 };
-use bagnold_solver::scene::SceneError;
+use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::Vector;
 use serde::Serialize;
 

@@ -1,6 +1,6 @@
 //! What closes the equations: friction and dilation of the grains, viscosity and mixing length of the water, drag.
 
-use bagnold_solver::drag::DragLaw;
+use bagnold_solver::material::drag::DragLaw;
 use serde::{Deserialize, Serialize};
 
 /// How far an eddy reaches.

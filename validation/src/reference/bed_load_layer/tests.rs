@@ -201,7 +201,7 @@ fn impossible_layers_are_refused() {
 #[test]
 fn what_does_not_settle_says_so() {
     // Gidaspow's law jumps at φ = 0.2: a cell there has no steady state
-    let closures = Closures { drag: bagnold_solver::drag::DragLaw::Gidaspow, ..Closures::default() };
+    let closures = Closures { drag: bagnold_solver::material::drag::DragLaw::Gidaspow, ..Closures::default() };
     let layer = BedLoadLayer { closures, ..layer(0.03, Grains::Dilating) };
     let error = layer.steady(Start::Rest).expect_err("swings for ever").to_string();
     assert!(error.contains("after 4000 time steps"), "{error}");

@@ -1,0 +1,70 @@
+//! Why a scene cannot be simulated.
+
+/// A scene that cannot be simulated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SceneError {
+    /// No flow particles.
+    #[error("the scene has no flow particles")]
+    Empty,
+    /// Arrays of different lengths.
+    #[error("the flow's {array} has {found} entries, but there are {expected} positions")]
+    Length {
+        /// Which array.
+        array: &'static str,
+        /// Its length.
+        found: usize,
+        /// The number of positions.
+        expected: usize,
+    },
+    /// A value that is not finite or not positive where it must be.
+    #[error("the {quantity} of particle {particle} is {value}, but must be {rule}")]
+    Value {
+        /// Which quantity.
+        quantity: &'static str,
+        /// Which particle.
+        particle: usize,
+        /// The value.
+        value: f64,
+        /// The rule.
+        rule: &'static str,
+    },
+    /// A parameter out of its range.
+    #[error("`{field}` is {value}, but must be {rule}; {remedy}")]
+    Parameter {
+        /// Which field.
+        field: &'static str,
+        /// The value.
+        value: f64,
+        /// The rule.
+        rule: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// Two choices that exclude each other.
+    #[error("`{field}` is {value}, but must be {rule}; {remedy}")]
+    Choice {
+        /// Which field.
+        field: &'static str,
+        /// The choice.
+        value: &'static str,
+        /// The rule.
+        rule: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A periodic axis shorter than the neighbour search radius.
+    #[error(
+        "the period along axis {axis} is {length} m, but must be at least {least} m, the reach of the kernel; make the domain longer or the particles smaller"
+    )]
+    Period {
+        /// Which axis.
+        axis: usize,
+        /// Its period.
+        length: f64,
+        /// The least that works.
+        least: f64,
+    },
+    /// More particles than the neighbour list can address.
+    #[error("the scene has {0} particles, more than the neighbour list can address")]
+    TooLarge(usize),
+}

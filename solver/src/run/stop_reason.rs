@@ -1,0 +1,14 @@
+//! How a run ends.
+
+use super::Divergence;
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum StopReason<const D: usize> {
+    /// Reached its end time.
+    Finished,
+    /// The observer asked to stop.
+    Stopped,
+    /// Diverged; the last good state is the last observed one.
+    Diverged(Divergence<D>),
+}

@@ -1,0 +1,189 @@
+//! Periodic and mirror images: copies of real particles behind a boundary of the domain.
+//!
+//! A free-slip wall or symmetry plane is a mirror: normal components of vectors, and the off-diagonal
+//! components of tensors that couple normal and tangent, change their sign.
+
+use crate::domain::{AxisBoundary, Domain};
+use crate::vector::{Tensor, Vector};
+
+/// One image: x = sign ∘ x_source + shift.
+#[derive(Debug, Clone, Copy)]
+struct Image<const D: usize> {
+    source: u32,
+    sign: Vector<D>,
+    shift: Vector<D>,
+}
+
+/// All images; image k stands at `first + k` in every array.
+#[derive(Debug)]
+pub(crate) struct Images<const D: usize> {
+    images: Vec<Image<D>>,
+    first: usize,
+}
+
+impl<const D: usize> Images<D> {
+    pub(crate) fn new() -> Self {
+        Self { images: Vec::new(), first: 0 }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.images.len()
+    }
+
+    /// The real particle behind image `k`.
+    pub(crate) fn source(&self, k: usize) -> usize {
+        self.images[k].source as usize
+    }
+
+    /// Finds the images of the real particles at `positions` within `reach` `[m]` of a boundary, axis by axis,
+    /// so that corners get the images of images.
+    pub(crate) fn rebuild(&mut self, domain: &Domain<D>, positions: &[Vector<D>], reach: f64) {
+        self.first = positions.len();
+        self.images.clear();
+        for (axis, boundary) in domain.axes.iter().enumerate() {
+            let before = self.images.len();
+            for index in 0..self.first + before {
+                let image = if index < self.first {
+                    Image { source: index as u32, sign: Vector::repeat(1.0), shift: Vector::zeros() }
+                } else {
+                    self.images[index - self.first]
+                };
+                let coordinate = image.sign[axis] * positions[image.source as usize][axis] + image.shift[axis];
+                let mut add = |sign: f64, shift: f64| {
+                    let mut other = image;
+                    other.sign[axis] *= sign;
+                    other.shift[axis] = sign * other.shift[axis] + shift;
+                    self.images.push(other);
+                };
+                match *boundary {
+                    AxisBoundary::Open => {}
+                    AxisBoundary::Periodic { lower, upper } => {
+                        if coordinate < lower + reach {
+                            add(1.0, upper - lower);
+                        }
+                        if coordinate > upper - reach {
+                            add(1.0, lower - upper);
+                        }
+                    }
+                    AxisBoundary::Mirror { lower, upper } => {
+                        if let Some(plane) = lower
+                            && coordinate < plane + reach
+                        {
+                            add(-1.0, 2.0 * plane);
+                        }
+                        if let Some(plane) = upper
+                            && coordinate > plane - reach
+                        {
+                            add(-1.0, 2.0 * plane);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// 1 for images with a change of sign, that is behind a mirror, 0 for others.
+    pub(crate) fn mark_mirrored(&self, field: &mut [f64]) {
+        for (slot, image) in field[self.first..].iter_mut().zip(&self.images) {
+            *slot = if image.sign.min() < 0.0 { 1.0 } else { 0.0 };
+        }
+    }
+
+    pub(crate) fn copy_positions(&self, field: &mut [Vector<D>]) {
+        self.copy(field, |value, image| image.sign.component_mul(value) + image.shift);
+    }
+
+    pub(crate) fn copy_vectors(&self, field: &mut [Vector<D>]) {
+        self.copy(field, |value, image| image.sign.component_mul(value));
+    }
+
+    pub(crate) fn copy_scalars(&self, field: &mut [f64]) {
+        self.copy(field, |value, _| *value);
+    }
+
+    pub(crate) fn copy_tensors(&self, field: &mut [Tensor<D>]) {
+        self.copy(field, |value, image| {
+            let mut copy = *value;
+            for i in 0..D {
+                for j in 0..D {
+                    copy[(i, j)] *= image.sign[i] * image.sign[j];
+                }
+            }
+            copy
+        });
+    }
+
+    /// Place, source and sign of every image.
+    pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, usize, &Vector<D>)> {
+        let first = self.first;
+        self.images.iter().enumerate().map(move |(k, image)| (first + k, image.source as usize, &image.sign))
+    }
+
+    fn copy<T: Copy>(&self, field: &mut [T], map: impl Fn(&T, &Image<D>) -> T) {
+        let (real, images) = field.split_at_mut(self.first);
+        for (slot, image) in images.iter_mut().zip(&self.images) {
+            *slot = map(&real[image.source as usize], image);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_corner_of_two_mirrors_has_three_images() {
+        let domain = Domain::<2> { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }; 2] };
+        let mut images = Images::new();
+        let mut positions = vec![Vector::<2>::new(0.1, 0.2)];
+        images.rebuild(&domain, &positions, 0.5);
+        positions.resize(1 + images.len(), Vector::zeros());
+        images.copy_positions(&mut positions);
+        let expected = [[-0.1, 0.2], [0.1, -0.2], [-0.1, -0.2]];
+        assert_eq!(images.len(), 3);
+        for place in expected {
+            assert!(positions[1..].iter().any(|p| (p - Vector::from(place)).norm() < 1e-15), "{place:?}");
+        }
+        let mut stress = vec![Tensor::<2>::new(1.0, 2.0, 2.0, 3.0); 4];
+        images.copy_tensors(&mut stress);
+        assert_eq!(stress[1], Tensor::<2>::new(1.0, -2.0, -2.0, 3.0));
+        assert_eq!(stress[3], Tensor::<2>::new(1.0, 2.0, 2.0, 3.0));
+    }
+
+    #[test]
+    fn a_particle_behind_a_mirror_becomes_its_image() {
+        let upper = AxisBoundary::Mirror { lower: None, upper: Some(2.0) };
+        let domain = Domain::<2> { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, upper] };
+        let (mut position, mut velocity) = (Vector::<2>::new(-0.1, 1.0), Vector::<2>::new(-3.0, 5.0));
+        let (mut gradient, mut stress) = (Tensor::<2>::new(1.0, 2.0, 3.0, 4.0), Tensor::<2>::new(1.0, 2.0, 2.0, -1.0));
+        domain.reflect(&mut position, &mut velocity, &mut gradient, &mut stress);
+        assert_eq!((position, velocity), (Vector::<2>::new(0.1, 1.0), Vector::<2>::new(3.0, 5.0)));
+        assert_eq!(
+            (gradient, stress),
+            (Tensor::<2>::new(1.0, -2.0, -3.0, 4.0), Tensor::<2>::new(1.0, -2.0, -2.0, -1.0))
+        );
+        position[1] = 2.3;
+        domain.reflect(&mut position, &mut velocity, &mut gradient, &mut stress);
+        assert!((position[1] - 1.7).abs() < 1e-15 && velocity[1] == -5.0 && stress[(0, 1)] == 2.0);
+        let before = (position, velocity);
+        domain.reflect(&mut position, &mut velocity, &mut gradient, &mut stress);
+        assert_eq!((position, velocity), before, "in front of both planes nothing happens");
+    }
+
+    #[test]
+    fn periodic_images_stand_one_period_away() {
+        let axes = [AxisBoundary::Periodic { lower: -1.0, upper: 2.0 }, AxisBoundary::Open];
+        let domain = Domain::<2> { axes };
+        let mut positions = vec![Vector::<2>::new(-0.9, 5.0), Vector::<2>::new(1.95, 4.0), Vector::<2>::new(0.5, 4.0)];
+        let mut images = Images::new();
+        images.rebuild(&domain, &positions, 0.2);
+        positions.resize(3 + images.len(), Vector::zeros());
+        images.copy_positions(&mut positions);
+        assert_eq!(images.len(), 2);
+        assert!((positions[3] - Vector::<2>::new(2.1, 5.0)).norm() < 1e-14);
+        assert!((positions[4] - Vector::<2>::new(-1.05, 4.0)).norm() < 1e-14);
+        let mut far = Vector::<2>::new(-7.5, 1.0);
+        domain.wrap(&mut far);
+        assert!((far[0] - 1.5).abs() < 1e-14);
+    }
+}

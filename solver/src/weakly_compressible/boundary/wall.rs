@@ -1,0 +1,212 @@
+//! Solid walls: planes filled with dummy particles, which stand still or travel with their wall.
+
+use crate::domain::{AxisBoundary, Domain};
+use crate::vector::Vector;
+use serde::{Deserialize, Serialize};
+
+/// How the dummy particles get their pressure, stress and velocity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WallTreatment {
+    /// Pressure, stress and velocity extrapolated from the flow (the recipe).
+    Extrapolated,
+    /// The paper's: Morris no-slip (18)–(20) with Adami pressure (21)–(23).
+    Paper,
+}
+
+/// Whether a wall holds the flow back along its surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Surface {
+    /// The flow sticks to it.
+    Rough,
+    /// The flow slips along it without friction.
+    Smooth,
+}
+
+/// A plane wall normal to one axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wall<const D: usize> {
+    /// Axis that the wall is normal to.
+    pub axis: usize,
+    /// Coordinate of its surface along that axis `[m]`.
+    pub surface: f64,
+    /// +1 where the flow lies above the surface, −1 where below `[-]`.
+    pub side: f64,
+    /// Velocity of the wall `[m/s]`.
+    pub velocity: Vector<D>,
+    /// Rough or smooth.
+    pub roughness: Surface,
+    /// How far the wall still moves at its velocity, taking its particles with it, before it stands still `[m]`. At 0
+    /// a rough wall with a velocity is a belt: it drags, and its particles stay.
+    pub travel: f64,
+    /// Lower and upper corner of the region in which a wall of finite size touches the flow `[m]`; it travels along.
+    pub region: Option<(Vector<D>, Vector<D>)>,
+}
+
+impl<const D: usize> Wall<D> {
+    /// A rough wall of unlimited size that stands still.
+    #[must_use]
+    pub fn still(axis: usize, surface: f64, side: f64) -> Self {
+        let velocity = Vector::zeros();
+        Self { axis, surface, side, velocity, roughness: Surface::Rough, travel: 0.0, region: None }
+    }
+
+    /// Moves the wall for a time `[s]`, stopping it where its way ends. Returns its displacement `[m]`.
+    pub(crate) fn advance(&mut self, time: f64) -> Vector<D> {
+        if self.travel <= 0.0 {
+            return Vector::zeros();
+        }
+        let way = self.velocity.norm() * time;
+        let share = (self.travel / way).min(1.0);
+        let displacement = self.velocity * (time * share);
+        self.surface += displacement[self.axis];
+        if let Some((lower, upper)) = &mut self.region {
+            *lower += displacement;
+            *upper += displacement;
+        }
+        self.travel -= way;
+        if self.travel <= 0.0 {
+            self.travel = 0.0;
+            self.velocity = Vector::zeros();
+        }
+        displacement
+    }
+
+    /// Whether a position is where the wall can touch it.
+    #[inline(always)]
+    #[must_use]
+    pub fn faces(&self, position: &Vector<D>) -> bool {
+        match &self.region {
+            None => true,
+            Some((lower, upper)) => {
+                let mut inside = true;
+                for axis in 0..D {
+                    inside &= position[axis] >= lower[axis] && position[axis] <= upper[axis];
+                }
+                inside
+            }
+        }
+    }
+
+    /// Unit normal into the flow `[-]`.
+    #[must_use]
+    pub fn normal(&self) -> Vector<D> {
+        let mut normal = Vector::zeros();
+        normal[self.axis] = self.side;
+        normal
+    }
+
+    /// Distance of a position from the surface `[m]`, positive on the flow's side.
+    #[inline(always)]
+    #[must_use]
+    pub fn distance(&self, position: &Vector<D>) -> f64 {
+        self.side * (position[self.axis] - self.surface)
+    }
+}
+
+/// One dummy particle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallParticle<const D: usize> {
+    /// Position `[m]`.
+    pub position: Vector<D>,
+    /// Index of its wall, the nearest where two meet.
+    pub wall: usize,
+}
+
+/// Fills the walls with `layers` rows of dummy particles at the flow's `spacing` `[m]`, the first row half a
+/// spacing behind the surface.
+///
+/// `extent` `[m]` gives lower and upper corner of the region that the flow can reach: walls extend along it,
+/// and around corners where walls meet. Periodic axes are filled over exactly one period.
+#[must_use]
+pub fn fill<const D: usize>(
+    walls: &[Wall<D>],
+    domain: &Domain<D>,
+    extent: (Vector<D>, Vector<D>),
+    spacing: f64,
+    layers: usize,
+) -> Vec<WallParticle<D>> {
+    let mut lower = extent.0;
+    let mut upper = extent.1;
+    let mut cells = [0usize; D];
+    for axis in 0..D {
+        let depth = layers as f64 * spacing;
+        match domain.axes[axis] {
+            AxisBoundary::Periodic { lower: start, upper: end } => (lower[axis], upper[axis]) = (start, end),
+            AxisBoundary::Mirror { lower: start, upper: end } => {
+                lower[axis] = start.unwrap_or(lower[axis]);
+                upper[axis] = end.unwrap_or(upper[axis]);
+            }
+            AxisBoundary::Open => {}
+        }
+        for wall in walls.iter().filter(|wall| wall.axis == axis) {
+            if wall.side > 0.0 {
+                lower[axis] = wall.surface - depth;
+            } else {
+                upper[axis] = wall.surface + depth;
+            }
+        }
+        cells[axis] = ((upper[axis] - lower[axis]) / spacing).round().max(1.0) as usize;
+    }
+    let mut particles = Vec::new();
+    let mut cell = [0usize; D];
+    loop {
+        let position = Vector::<D>::from_fn(|axis, _| {
+            let step = match domain.axes[axis] {
+                AxisBoundary::Periodic { .. } => (upper[axis] - lower[axis]) / cells[axis] as f64,
+                _ => spacing,
+            };
+            lower[axis] + (cell[axis] as f64 + 0.5) * step
+        });
+        // the nearest surface owns the particle; a position on the flow's side of every wall is no wall particle
+        let owner = walls
+            .iter()
+            .enumerate()
+            .filter(|(_, wall)| wall.distance(&position) < 0.0)
+            .min_by(|a, b| a.1.distance(&position).abs().total_cmp(&b.1.distance(&position).abs()));
+        if let Some((wall, _)) = owner {
+            particles.push(WallParticle { position, wall });
+        }
+        let mut axis = 0;
+        while axis < D {
+            cell[axis] += 1;
+            if cell[axis] < cells[axis] {
+                break;
+            }
+            cell[axis] = 0;
+            axis += 1;
+        }
+        if axis == D {
+            return particles;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_periodic_bed_has_its_first_row_half_a_spacing_below() {
+        let axes = [AxisBoundary::Periodic { lower: 0.0, upper: 1.0 }, AxisBoundary::Open];
+        let bed = Wall::<2>::still(1, 0.0, 1.0);
+        let extent = (Vector::<2>::new(0.0, 0.0), Vector::<2>::new(1.0, 2.0));
+        let particles = fill(&[bed], &Domain { axes }, extent, 0.1, 4);
+        assert_eq!(particles.len(), 40);
+        let top = particles.iter().map(|p| p.position[1]).fold(f64::NEG_INFINITY, f64::max);
+        assert!((top + 0.05).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_corner_is_filled_and_belongs_to_the_nearest_surface() {
+        let bed = Wall::<2>::still(1, 0.0, 1.0);
+        let left = Wall::<2>::still(0, 0.0, 1.0);
+        let extent = (Vector::<2>::zeros(), Vector::<2>::new(1.0, 1.0));
+        let particles = fill(&[bed, left], &Domain { axes: [AxisBoundary::Open; 2] }, extent, 0.1, 3);
+        // 13 × 13 cells less the 10 × 10 of the flow
+        assert_eq!(particles.len(), 69);
+        let deep = particles.iter().find(|p| (p.position - Vector::<2>::new(-0.25, -0.05)).norm() < 1e-9);
+        assert_eq!(deep.map(|p| p.wall), Some(0));
+    }
+}

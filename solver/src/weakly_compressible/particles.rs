@@ -1,0 +1,320 @@
+//! The particles as a structure of arrays: flow, walls, images and the sentinel, in this order.
+
+use crate::lanes::LANES;
+use crate::vector::{Tensor, Vector};
+use crate::weakly_compressible::boundary::{Images, Surface, Wall, wall::WallParticle};
+use crate::weakly_compressible::records::Records;
+use rayon::prelude::*;
+
+/// A far place for the sentinel, in units of the smoothing length `[-]`.
+const FAR: f64 = 1e9;
+
+/// All particle arrays.
+///
+/// Arrays of the first group have an entry for every particle (shape `[flow + wall + images + 1]`), arrays of the
+/// second for every flow particle (shape `[flow]`). The flow particles are kept sorted by cell.
+#[derive(Debug)]
+pub struct Particles<const D: usize> {
+    /// Positions `[m]`.
+    pub position: Vec<Vector<D>>,
+    /// Velocities `[m/s]`; on walls the extrapolated ones.
+    pub velocity: Vec<Vector<D>>,
+    /// Velocity gradients `[1/s]`.
+    pub velocity_gradient: Vec<Tensor<D>>,
+    /// Deviatoric stresses `[Pa]`; on walls the extrapolated ones.
+    pub stress: Vec<Tensor<D>>,
+    /// Densities `[kg/m³]`.
+    pub density: Vec<f64>,
+    /// Pressures `[Pa]`; on walls the extrapolated ones.
+    pub pressure: Vec<f64>,
+    /// Volumes m/ρ `[m^D]`; on walls Δ^D, zero for the sentinel.
+    pub volume: Vec<f64>,
+    /// Coefficient α of the artificial viscosity `[-]`.
+    pub artificial_viscosity: Vec<f64>,
+    /// Stress as the momentum equation takes it `[Pa]`: σE on flow particles, σ on walls.
+    pub(crate) flux: Vec<Tensor<D>>,
+    /// Corrected pressure gradients `[Pa/m]`.
+    pub(crate) pressure_gradient: Vec<Vector<D>>,
+    /// Apparent viscosities `[Pa·s]`, for the pairwise operators.
+    pub(crate) viscosity: Vec<f64>,
+    /// Normals of the walls into the flow `[-]`, zero on flow particles.
+    pub(crate) wall_normal: Vec<Vector<D>>,
+    /// Depths of wall particles behind their surface `[m]`.
+    pub(crate) wall_depth: Vec<f64>,
+    /// Velocities of the walls `[m/s]`.
+    pub(crate) wall_velocity: Vec<Vector<D>>,
+    /// 1 on particles of smooth walls, 0 elsewhere `[-]`.
+    pub(crate) wall_smoothness: Vec<f64>,
+    /// 1 on images behind a mirror, 0 elsewhere `[-]`.
+    pub(crate) mirrored: Vec<f64>,
+
+    /// Which particle this is: its place in the scene.
+    pub identity: Vec<u32>,
+    /// Masses `[kg]` (per metre of depth in 2-D).
+    pub mass: Vec<f64>,
+    /// Correction L for gradients `[-]`.
+    pub(crate) correction: Vec<Tensor<D>>,
+    /// Correction E for forces `[-]`.
+    pub(crate) force_correction: Vec<Tensor<D>>,
+    /// Accelerations `[m/s²]`.
+    pub(crate) acceleration: Vec<Vector<D>>,
+    /// The part of the accelerations that walls and mirrors cause `[m/s²]`.
+    pub(crate) support: Vec<Vector<D>>,
+    /// Impulse that walls, mirrors and contacts have given each particle since the start `[kg m/s]`.
+    pub(crate) support_impulse: Vec<Vector<D>>,
+
+    /// V_b F of every pair `[1/m²]`, chunk by chunk as in the neighbour list: made by the geometry pass, used by
+    /// the others, so that a step takes one square root a pair.
+    pub(crate) pair_weights: Vec<[f64; LANES]>,
+    /// What the geometry pass reads of a neighbour.
+    pub(crate) geometry_records: Records,
+    /// What the momentum pass reads of a neighbour.
+    pub(crate) momentum_records: Records,
+    /// What the continuity pass reads of a neighbour.
+    pub(crate) continuity_records: Records,
+    /// Buffer for pressure and stress of the walls, shape `[wall]`.
+    pub(crate) wall_stress: Vec<(f64, Tensor<D>)>,
+    /// Buffer for the extrapolated velocities of the walls, shape `[wall]`.
+    pub(crate) wall_velocity_fit: Vec<Vector<D>>,
+
+    /// Which wall a wall particle belongs to, shape `[wall]`.
+    wall: Vec<u32>,
+    flow: usize,
+}
+
+/// Applies a statement to every array of the first group.
+macro_rules! for_each_shared_array {
+    ($particles:ident, $array:ident => $body:expr) => {{
+        {
+            let $array = &mut $particles.position;
+            $body;
+        }
+        {
+            let $array = &mut $particles.velocity;
+            $body;
+        }
+        {
+            let $array = &mut $particles.velocity_gradient;
+            $body;
+        }
+        {
+            let $array = &mut $particles.stress;
+            $body;
+        }
+        {
+            let $array = &mut $particles.density;
+            $body;
+        }
+        {
+            let $array = &mut $particles.pressure;
+            $body;
+        }
+        {
+            let $array = &mut $particles.volume;
+            $body;
+        }
+        {
+            let $array = &mut $particles.artificial_viscosity;
+            $body;
+        }
+        {
+            let $array = &mut $particles.flux;
+            $body;
+        }
+        {
+            let $array = &mut $particles.pressure_gradient;
+            $body;
+        }
+        {
+            let $array = &mut $particles.viscosity;
+            $body;
+        }
+        {
+            let $array = &mut $particles.wall_normal;
+            $body;
+        }
+        {
+            let $array = &mut $particles.wall_depth;
+            $body;
+        }
+        {
+            let $array = &mut $particles.wall_velocity;
+            $body;
+        }
+        {
+            let $array = &mut $particles.wall_smoothness;
+            $body;
+        }
+        {
+            let $array = &mut $particles.mirrored;
+            $body;
+        }
+    }};
+}
+
+impl<const D: usize> Particles<D> {
+    /// Arrays for the flow given by positions, velocities, densities, masses and stresses, and for the walls.
+    pub(crate) fn new(
+        flow: &crate::weakly_compressible::scene::Flow<D>,
+        walls: &[Wall<D>],
+        wall_particles: &[WallParticle<D>],
+        spacing: f64,
+        reference_density: f64,
+    ) -> Self {
+        let (n, m) = (flow.position.len(), wall_particles.len());
+        let real = n + m;
+        let mut particles = Self {
+            position: flow.position.iter().copied().chain(wall_particles.iter().map(|w| w.position)).collect(),
+            velocity: flow.velocity.clone(),
+            velocity_gradient: vec![Tensor::zeros(); real],
+            stress: flow.stress.clone(),
+            density: flow.density.clone(),
+            pressure: vec![0.0; real],
+            volume: flow.mass.iter().zip(&flow.density).map(|(m, rho)| m / rho).collect(),
+            artificial_viscosity: vec![0.0; real],
+            flux: vec![Tensor::zeros(); real],
+            pressure_gradient: vec![Vector::zeros(); real],
+            viscosity: vec![0.0; real],
+            wall_normal: vec![Vector::zeros(); n],
+            wall_depth: vec![0.0; n],
+            wall_velocity: vec![Vector::zeros(); n],
+            wall_smoothness: vec![0.0; n],
+            mirrored: vec![0.0; real],
+            identity: (0..n as u32).collect(),
+            mass: flow.mass.clone(),
+            correction: vec![Tensor::identity(); n],
+            force_correction: vec![Tensor::identity(); n],
+            acceleration: vec![Vector::zeros(); n],
+            support: vec![Vector::zeros(); n],
+            support_impulse: vec![Vector::zeros(); n],
+            pair_weights: Vec::new(),
+            geometry_records: Records::new(crate::weakly_compressible::operators::geometry::values(D)),
+            momentum_records: Records::new(crate::weakly_compressible::terms::momentum::values(D)),
+            continuity_records: Records::new(crate::weakly_compressible::terms::continuity::values(D)),
+            wall_stress: vec![(0.0, Tensor::zeros()); m],
+            wall_velocity_fit: vec![Vector::zeros(); m],
+            wall: Vec::with_capacity(m),
+            flow: n,
+        };
+        particles.velocity.resize(real, Vector::zeros());
+        particles.stress.resize(real, Tensor::zeros());
+        particles.density.resize(real, reference_density);
+        particles.volume.resize(real, spacing.powi(D as i32));
+        for particle in wall_particles {
+            let wall = &walls[particle.wall];
+            particles.wall_normal.push(wall.normal());
+            particles.wall_depth.push(-wall.distance(&particle.position));
+            particles.wall_velocity.push(wall.velocity);
+            particles.wall_smoothness.push(if wall.roughness == Surface::Smooth { 1.0 } else { 0.0 });
+            particles.wall.push(particle.wall as u32);
+        }
+        particles
+    }
+
+    /// Moves the wall particles with their walls, which have been displaced `[m]` and now have these velocities.
+    pub(crate) fn move_walls(&mut self, walls: &[Wall<D>], displacements: &[Vector<D>]) {
+        for (offset, &wall) in self.wall.iter().enumerate() {
+            self.position[self.flow + offset] += displacements[wall as usize];
+            self.wall_velocity[self.flow + offset] = walls[wall as usize].velocity;
+        }
+    }
+
+    /// Number of flow particles.
+    #[must_use]
+    pub fn flow_count(&self) -> usize {
+        self.flow
+    }
+
+    /// Number of wall particles.
+    #[must_use]
+    pub fn wall_count(&self) -> usize {
+        self.wall.len()
+    }
+
+    /// Number of flow and wall particles.
+    #[must_use]
+    pub fn real_count(&self) -> usize {
+        self.flow + self.wall.len()
+    }
+
+    /// Drops images and sentinel.
+    pub(crate) fn keep_real(&mut self) {
+        let real = self.real_count();
+        for_each_shared_array!(self, array => array.truncate(real));
+    }
+
+    /// Makes room for images and sentinel and fills what never changes between two neighbour searches.
+    pub(crate) fn append_images(&mut self, images: &Images<D>) {
+        let total = self.real_count() + images.len() + 1;
+        // some head room, so that a slowly changing number of images does not allocate
+        for_each_shared_array!(self, array => {
+            if array.capacity() < total {
+                array.reserve_exact(total + total / 8 + 64 - array.len());
+            }
+            array.resize(total, nalgebra::zero());
+        });
+        images.copy_positions(&mut self.position);
+        images.copy_vectors(&mut self.velocity);
+        images.copy_tensors(&mut self.velocity_gradient);
+        images.copy_tensors(&mut self.stress);
+        images.copy_scalars(&mut self.density);
+        images.copy_scalars(&mut self.volume);
+        images.copy_scalars(&mut self.artificial_viscosity);
+        images.copy_vectors(&mut self.wall_normal);
+        images.copy_scalars(&mut self.wall_depth);
+        images.copy_vectors(&mut self.wall_velocity);
+        images.copy_scalars(&mut self.wall_smoothness);
+        images.mark_mirrored(&mut self.mirrored);
+        let sentinel = total - 1;
+        self.position[sentinel] = Vector::repeat(FAR);
+        self.density[sentinel] = 1.0;
+        self.viscosity[sentinel] = 1.0;
+    }
+
+    /// Sorts the flow particles into the given order: `order[new] = old`.
+    pub(crate) fn sort_flow(&mut self, order: &[u32], scratch: &mut SortScratch<D>) {
+        permute(&mut self.position, order, &mut scratch.vectors);
+        permute(&mut self.velocity, order, &mut scratch.vectors);
+        permute(&mut self.velocity_gradient, order, &mut scratch.tensors);
+        permute(&mut self.stress, order, &mut scratch.tensors);
+        permute(&mut self.density, order, &mut scratch.scalars);
+        permute(&mut self.volume, order, &mut scratch.scalars);
+        permute(&mut self.artificial_viscosity, order, &mut scratch.scalars);
+        permute(&mut self.viscosity, order, &mut scratch.scalars);
+        permute(&mut self.mass, order, &mut scratch.scalars);
+        permute(&mut self.support_impulse, order, &mut scratch.vectors);
+        permute(&mut self.identity, order, &mut scratch.identities);
+    }
+
+    /// Flow indices in the order of their identity.
+    #[must_use]
+    pub fn by_identity(&self) -> Vec<usize> {
+        let mut order = vec![0; self.flow];
+        for (index, &identity) in self.identity.iter().enumerate() {
+            order[identity as usize] = index;
+        }
+        order
+    }
+}
+
+/// Buffers of the sort, reused.
+#[derive(Debug)]
+pub(crate) struct SortScratch<const D: usize> {
+    vectors: Vec<Vector<D>>,
+    tensors: Vec<Tensor<D>>,
+    scalars: Vec<f64>,
+    identities: Vec<u32>,
+}
+
+impl<const D: usize> SortScratch<D> {
+    pub(crate) fn new() -> Self {
+        Self { vectors: Vec::new(), tensors: Vec::new(), scalars: Vec::new(), identities: Vec::new() }
+    }
+}
+
+fn permute<T: Copy + Send + Sync>(array: &mut [T], order: &[u32], scratch: &mut Vec<T>) {
+    let Some(&first) = array.first() else { return };
+    scratch.resize(order.len(), first);
+    (&mut scratch[..], order).into_par_iter().with_min_len(8192).for_each(|(new, &old)| *new = array[old as usize]);
+    array[..order.len()].copy_from_slice(scratch);
+}

@@ -1,0 +1,130 @@
+//! What a simulation starts from.
+
+use crate::domain::Domain;
+use crate::material::equation_of_state::EquationOfState;
+use crate::material::rheology::Rheology;
+use crate::run::SceneError;
+use crate::vector::{Tensor, Vector};
+use crate::weakly_compressible::boundary::{Wall, wall::WallParticle};
+use crate::weakly_compressible::numerics::Numerics;
+
+/// The flow particles at the start; all arrays have the shape `[particles]`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Flow<const D: usize> {
+    /// Positions `[m]`.
+    pub position: Vec<Vector<D>>,
+    /// Velocities `[m/s]`.
+    pub velocity: Vec<Vector<D>>,
+    /// Densities `[kg/m³]`.
+    pub density: Vec<f64>,
+    /// Masses `[kg]`, per metre of depth in 2-D.
+    pub mass: Vec<f64>,
+    /// Deviatoric stresses `[Pa]`.
+    pub stress: Vec<Tensor<D>>,
+}
+
+/// Material, geometry, numerics and initial state.
+#[derive(Debug, Clone)]
+pub struct Scene<const D: usize> {
+    /// Initial flow.
+    pub flow: Flow<D>,
+    /// Wall planes.
+    pub walls: Vec<Wall<D>>,
+    /// Wall particles, see [`crate::weakly_compressible::boundary::wall::fill`].
+    pub wall_particles: Vec<WallParticle<D>>,
+    /// Boundaries of the domain.
+    pub domain: Domain<D>,
+    /// Gravity `[m/s²]`.
+    pub gravity: Vector<D>,
+    /// Particle spacing Δ `[m]`.
+    pub spacing: f64,
+    /// Equation of state.
+    pub equation_of_state: EquationOfState,
+    /// Constitutive law.
+    pub rheology: Rheology,
+    /// Numerics.
+    pub numerics: Numerics,
+}
+
+impl<const D: usize> Scene<D> {
+    /// Largest list radius 2h (1 + skin) `[m]`.
+    #[must_use]
+    pub fn search_radius(&self) -> f64 {
+        2.0 * self.numerics.smoothing_ratio * self.spacing * (1.0 + self.numerics.verlet_skin)
+    }
+
+    /// Checks that the scene can be simulated.
+    ///
+    /// # Errors
+    /// The first rule that is broken.
+    pub fn check(&self) -> Result<(), SceneError> {
+        let expected = self.flow.position.len();
+        if expected == 0 {
+            return Err(SceneError::Empty);
+        }
+        if expected + self.wall_particles.len() > i32::MAX as usize / 64 {
+            return Err(SceneError::TooLarge(expected));
+        }
+        let lengths = [
+            ("velocity", self.flow.velocity.len()),
+            ("density", self.flow.density.len()),
+            ("mass", self.flow.mass.len()),
+            ("stress", self.flow.stress.len()),
+        ];
+        for (array, found) in lengths {
+            if found != expected {
+                return Err(SceneError::Length { array, found, expected });
+            }
+        }
+        let positive = |value: f64| value > 0.0 && value.is_finite();
+        let parameters = [
+            ("spacing", self.spacing),
+            ("reference_density", self.equation_of_state.reference_density),
+            ("bulk_modulus", self.equation_of_state.bulk_modulus),
+        ];
+        for (field, value) in parameters {
+            if !positive(value) {
+                let (rule, remedy) = ("positive and finite", "give it in SI units");
+                return Err(SceneError::Parameter { field, value, rule, remedy });
+            }
+        }
+        if let Some((field, value, rule, remedy)) =
+            self.numerics.parameter_problem().or_else(|| self.rheology.parameter_problem())
+        {
+            return Err(SceneError::Parameter { field, value, rule, remedy });
+        }
+        let mut surfaces = self.walls.iter().map(|wall| wall.roughness);
+        if let Some((field, value, rule, remedy)) = surfaces
+            .find_map(|roughness| self.numerics.wall_problem(roughness))
+            .or_else(|| self.numerics.step_problem(&self.rheology))
+        {
+            return Err(SceneError::Choice { field, value, rule, remedy });
+        }
+        for (particle, position) in self.flow.position.iter().enumerate() {
+            let finite = [
+                ("position", position.sum()),
+                ("velocity", self.flow.velocity[particle].sum()),
+                ("stress", self.flow.stress[particle].sum()),
+            ];
+            for (quantity, value) in finite {
+                if !value.is_finite() {
+                    return Err(SceneError::Value { quantity, particle, value, rule: "finite" });
+                }
+            }
+            for (quantity, value) in [("density", self.flow.density[particle]), ("mass", self.flow.mass[particle])] {
+                if !positive(value) {
+                    return Err(SceneError::Value { quantity, particle, value, rule: "positive and finite" });
+                }
+            }
+        }
+        for (axis, boundary) in self.domain.axes.iter().enumerate() {
+            if let crate::domain::AxisBoundary::Periodic { lower, upper } = boundary {
+                let (length, least) = (upper - lower, self.search_radius());
+                if length.is_nan() || length < least {
+                    return Err(SceneError::Period { axis, length, least });
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,63 @@
+//! A copy of the flow's state in the order of the scene, for observation, comparison and the last good state.
+
+use crate::vector::{Tensor, Vector};
+use crate::weakly_compressible::simulation::Simulation;
+
+/// Plain state; every array has the shape `[flow particles]`, ordered by identity.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Snapshot<const D: usize> {
+    /// Time `[s]`.
+    pub time: f64,
+    /// Positions `[m]`.
+    pub position: Vec<Vector<D>>,
+    /// Velocities `[m/s]`.
+    pub velocity: Vec<Vector<D>>,
+    /// Velocity gradients `[1/s]`.
+    pub velocity_gradient: Vec<Tensor<D>>,
+    /// Deviatoric stresses `[Pa]`.
+    pub stress: Vec<Tensor<D>>,
+    /// Densities `[kg/m³]`.
+    pub density: Vec<f64>,
+    /// Pressures `[Pa]`, from the densities.
+    pub pressure: Vec<f64>,
+    /// Masses `[kg]`.
+    pub mass: Vec<f64>,
+    /// Impulses that walls, mirror planes and contacts have given each particle since the start `[kg m/s]`; with the
+    /// single divergence only.
+    pub support_impulse: Vec<Vector<D>>,
+}
+
+impl<const D: usize> Snapshot<D> {
+    pub(crate) fn new(simulation: &Simulation<D>) -> Self {
+        let particles = simulation.particles();
+        let order = particles.by_identity();
+        fn pick<T: Copy>(array: &[T], order: &[usize]) -> Vec<T> {
+            order.iter().map(|&index| array[index]).collect()
+        }
+        let density = pick(&particles.density, &order);
+        Self {
+            time: simulation.time(),
+            position: pick(&particles.position, &order),
+            velocity: pick(&particles.velocity, &order),
+            velocity_gradient: pick(&particles.velocity_gradient, &order),
+            stress: pick(&particles.stress, &order),
+            pressure: density.iter().map(|&rho| simulation.equation_of_state().pressure(rho)).collect(),
+            density,
+            mass: pick(&particles.mass, &order),
+            support_impulse: pick(&particles.support_impulse, &order),
+        }
+    }
+
+    /// The state's bits, little endian, in a fixed order: equal bytes mean equal states to the last bit.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let vectors = self.position.iter().chain(&self.velocity).flat_map(|v| v.iter().copied());
+        let tensors = self.stress.iter().flat_map(|t| t.iter().copied());
+        std::iter::once(self.time)
+            .chain(vectors)
+            .chain(tensors)
+            .chain(self.density.iter().copied())
+            .flat_map(f64::to_le_bytes)
+            .collect()
+    }
+}

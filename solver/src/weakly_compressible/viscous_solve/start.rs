@@ -1,0 +1,191 @@
+//! The two passes before the iteration: all that stays over a solve, then the diagonal and the first residual.
+
+use super::ViscousSolve;
+use super::system::{Coefficients, GROUPS, LaneVector, Sums, Unknowns, ViscousSystem};
+use super::update::{add_lanes, load_columns, store_columns, store_record};
+use crate::lanes::algebra::{
+    accumulate, deviatoric_rate, difference, dot, invariant, load, load_tensor, load_vector, product, scaled_tensor,
+    zero_vector,
+};
+use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
+use crate::weakly_compressible::neighbours::BLOCK;
+use crate::weakly_compressible::operators::geometry;
+use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::records::{self, Records};
+use crate::weakly_compressible::terms::hourglass::WALL_FACTOR_LIMIT;
+use rayon::prelude::*;
+
+impl<const D: usize> ViscousSolve<'_, D> {
+    /// Pair vectors, coefficients, and what the diagonal needs of a neighbour in the place of its flux.
+    pub(super) fn prepare(&self, particles: &Particles<D>, system: &mut ViscousSystem<D>) {
+        (
+            system.coefficients.par_chunks_mut(GROUPS),
+            system.pair_vectors.par_chunks_mut(self.list.region()),
+            system.fluxes.blocks_mut(particles.flow_count(), BLOCK),
+        )
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(4)
+            .for_each(|(block, (coefficients, pair_vectors, stiffnesses))| {
+                self.instruction_set.run(CoefficientPass {
+                    constants: self,
+                    particles,
+                    block,
+                    coefficients,
+                    pair_vectors,
+                    stiffnesses,
+                });
+            });
+    }
+
+    /// Diagonal and residual; the increment starts from zero.
+    pub(super) fn residual_of_start(&self, particles: &Particles<D>, system: &mut ViscousSystem<D>) {
+        let (stiffnesses, pair_vectors) = (&system.fluxes, &system.pair_vectors);
+        (system.coefficients.par_chunks_mut(GROUPS), system.unknowns.par_chunks_mut(GROUPS), &mut system.sums)
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(4)
+            .for_each(|(block, (coefficients, unknowns, sums))| {
+                self.instruction_set.run(ResidualPass {
+                    constants: self,
+                    particles,
+                    stiffnesses,
+                    pair_vectors,
+                    block,
+                    coefficients,
+                    unknowns,
+                    sums,
+                });
+            });
+    }
+}
+
+struct CoefficientPass<'a, const D: usize> {
+    constants: &'a ViscousSolve<'a, D>,
+    particles: &'a Particles<D>,
+    block: usize,
+    coefficients: &'a mut [Coefficients<D>],
+    pair_vectors: &'a mut [LaneVector<D>],
+    stiffnesses: &'a mut [[f64; 4]],
+}
+
+impl<const D: usize> LanePass for CoefficientPass<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let Self { constants, particles, block, coefficients, pair_vectors, stiffnesses } = self;
+        let places = const { geometry::values(D).div_ceil(4) };
+        let region_start = block * constants.list.region();
+        let quads = const { (D * D).div_ceil(4) };
+        let nearest = V::splat(1e-6 * constants.smoothing_length);
+        let out = stiffnesses.chunks_mut(LANES * quads);
+        for (offset, (coefficients, stiffnesses)) in coefficients.iter_mut().zip(out).enumerate() {
+            let group = constants.list.group(block * GROUPS + offset);
+            let own = particles.geometry_records.load::<V>(places, &group.own);
+            let place = records::vector::<V, D>(&own, 0);
+            let volume = records::scalar(&own, D);
+            let mut closure = zero_vector::<V, D>();
+            let weights = &particles.pair_weights[group.first_pair..];
+            let (flow_weights, wall_weights) = weights.split_at(group.flow.len());
+            let stored = &mut pair_vectors[group.first_pair - region_start..];
+            for ((b, weight), stored) in group.flow.zip(flow_weights).zip(stored) {
+                let record = particles.geometry_records.load_start::<V>(places, const { D.div_ceil(4) }, &b);
+                let position = records::vector::<V, D>(&record, 0);
+                let mut pair = difference(&place, &position);
+                for i in 0..D {
+                    pair[i] = V::load(weight) * pair[i];
+                    stored[i] = pair[i].to_array();
+                }
+                accumulate(&mut closure, V::splat(1.0), &pair);
+            }
+            for (w, weight) in group.wall.zip(wall_weights) {
+                let record = particles.geometry_records.load_start::<V>(places, const { D.div_ceil(4) }, &w);
+                let position = records::vector::<V, D>(&record, 0);
+                let normal = gather_vectors::<V, D>(&particles.wall_normal, &w);
+                let depth: V = gather(&particles.wall_depth, &w);
+                let r = difference(&place, &position);
+                // (20); the distance of a to the surface is n·r − d_w
+                let distance = (dot(&normal, &r) - depth).max(nearest);
+                let factor = (V::splat(1.0) + depth / distance).min(V::splat(WALL_FACTOR_LIMIT));
+                // a smooth wall has no traction along it, and across it the pressure alone
+                let smoothness: V = gather(&particles.wall_smoothness, &w);
+                accumulate(&mut closure, V::load(weight) * factor * (V::splat(1.0) - smoothness), &r);
+            }
+            let first = block * BLOCK + offset * LANES;
+            let last = (first + LANES).min(particles.flow_count());
+            let correction = load_tensor::<V, D>(&particles.correction[first..last]);
+            let mut viscosity = load::<V>(&particles.viscosity[first..last]);
+            if constants.mixing_area > 0.0 {
+                let rate = deviatoric_rate(&load_tensor::<V, D>(&particles.velocity_gradient[first..last]));
+                let density = load::<V>(&particles.density[first..last]);
+                viscosity = viscosity + density * V::splat(constants.mixing_area) * invariant(2.0, &rate);
+            }
+            let stiffness = (viscosity / volume).sqrt();
+            store_record(&scaled_tensor(stiffness, &correction), stiffnesses);
+            coefficients.closure = store_columns(&closure);
+            for i in 0..D {
+                coefficients.correction[i] = store_columns(&correction[i]);
+            }
+            coefficients.twice_viscosity = (V::splat(2.0) * viscosity).to_array();
+            coefficients.mass = [1.0; LANES];
+            coefficients.mass[..last - first].copy_from_slice(&particles.mass[first..last]);
+            coefficients.impulse_volume = (V::splat(constants.time_step) * volume).to_array();
+        }
+    }
+}
+
+struct ResidualPass<'a, const D: usize> {
+    constants: &'a ViscousSolve<'a, D>,
+    particles: &'a Particles<D>,
+    stiffnesses: &'a Records,
+    pair_vectors: &'a [LaneVector<D>],
+    block: usize,
+    coefficients: &'a mut [Coefficients<D>],
+    unknowns: &'a mut [Unknowns<D>],
+    sums: &'a mut Sums,
+}
+
+impl<const D: usize> LanePass for ResidualPass<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let Self { constants, particles, stiffnesses, pair_vectors, block, coefficients, unknowns, sums } = self;
+        let quads = const { (D * D).div_ceil(4) };
+        let (mut residual_sum, mut descent) = (V::splat(0.0), V::splat(0.0));
+        for (offset, (coefficients, unknowns)) in coefficients.iter_mut().zip(unknowns).enumerate() {
+            let group = constants.list.group(block * GROUPS + offset);
+            let mut stiffness_sum = V::splat(0.0);
+            for (b, pair) in group.flow.zip(&pair_vectors[group.first_pair..]) {
+                let stiffness = records::tensor::<V, D>(&stiffnesses.load::<V>(quads, &b), 0);
+                let stretched = product(&stiffness, &load_columns(pair));
+                stiffness_sum = stiffness_sum + dot(&stretched, &stretched);
+            }
+            // The diagonal block of |dev sym (e_i ⊗ g)|² is ½ g² I + (½ − 1/D) g ⊗ g: in the plane a number, in space
+            // taken for its mean.
+            let share = 1.0 + (1.0 - 2.0 / D as f64) / D as f64;
+            let mut own = zero_vector::<V, D>();
+            for i in 0..D {
+                for j in 0..D {
+                    own[i] = own[i] + V::load(&coefficients.correction[i][j]) * V::load(&coefficients.closure[j]);
+                }
+            }
+            let impulse_volume = V::load(&coefficients.impulse_volume);
+            let volume = impulse_volume / V::splat(constants.time_step);
+            let mass = V::load(&coefficients.mass);
+            let stiffness =
+                V::splat(0.5) * V::load(&coefficients.twice_viscosity) * dot(&own, &own) + volume * stiffness_sum;
+            let inverse_diagonal = V::splat(1.0) / (mass + V::splat(share) * impulse_volume * stiffness);
+            coefficients.inverse_diagonal = inverse_diagonal.to_array();
+            let first = block * BLOCK + offset * LANES;
+            let last = (first + LANES).min(particles.flow_count());
+            let acceleration = load_vector::<V, D>(&particles.acceleration[first..last]);
+            for i in 0..D {
+                let residual = V::splat(constants.time_step) * mass * acceleration[i];
+                residual_sum = residual_sum + residual * residual / mass;
+                descent = descent + residual * residual * inverse_diagonal;
+                unknowns.residual[i] = residual.to_array();
+            }
+            unknowns.increment = [[0.0; LANES]; D];
+            unknowns.direction = [[0.0; LANES]; D];
+        }
+        *sums = Sums { residual: add_lanes(residual_sum), descent: add_lanes(descent), curvature: 0.0 };
+    }
+}

@@ -1,0 +1,184 @@
+//! What a solve keeps: coefficients and vectors in groups of eight particles, as the neighbour list has them, and
+//! records of what a pair loop reads of a neighbour.
+
+use super::lane;
+use crate::lanes::LANES;
+use crate::vector::{Tensor, Vector};
+use crate::weakly_compressible::boundary::Images;
+use crate::weakly_compressible::neighbours::BLOCK;
+use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::records::Records;
+
+/// Groups a block of the parallel loops.
+pub(super) const GROUPS: usize = BLOCK / LANES;
+
+/// A vector of eight particles.
+pub(super) type LaneVector<const D: usize> = [[f64; LANES]; D];
+
+/// Coefficients of eight particles.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Coefficients<const D: usize> {
+    /// Σ_b w r + Σ_w w β r `[1/m]`, the factor of the particle's own velocity in its gradient.
+    pub(super) closure: LaneVector<D>,
+    /// L `[-]`.
+    pub(super) correction: [LaneVector<D>; D],
+    /// 2 η `[Pa·s]`.
+    pub(super) twice_viscosity: [f64; LANES],
+    /// Masses `[kg]`; 1 where there is no particle.
+    pub(super) mass: [f64; LANES],
+    /// Δt V `[s m^D]`.
+    pub(super) impulse_volume: [f64; LANES],
+    /// One over the diagonal of M + Δt K `[1/kg]`.
+    pub(super) inverse_diagonal: [f64; LANES],
+}
+
+/// The vectors of the iteration for eight particles.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Unknowns<const D: usize> {
+    /// δ `[m/s]`.
+    pub(super) increment: LaneVector<D>,
+    /// Residual `[kg m/s]`.
+    pub(super) residual: LaneVector<D>,
+    /// Search direction `[m/s]`.
+    pub(super) direction: LaneVector<D>,
+    /// (M + Δt K) times the direction `[kg m/s]`.
+    pub(super) product: LaneVector<D>,
+}
+
+/// Sums over a block of [`BLOCK`] particles: each lane adds up its particles, then the lanes are added in order, and
+/// last the blocks, so that the bits depend neither on the threads nor on the instruction set.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Sums {
+    /// Σ r²/m `[kg m²/s²]`.
+    pub(super) residual: f64,
+    /// r·D⁻¹r.
+    pub(super) descent: f64,
+    /// p·(M + Δt K)p.
+    pub(super) curvature: f64,
+}
+
+/// Buffers of the solve, reused from step to step, and its counts.
+#[derive(Debug)]
+pub(crate) struct ViscousSystem<const D: usize> {
+    pub(super) coefficients: Vec<Coefficients<D>>,
+    pub(super) unknowns: Vec<Unknowns<D>>,
+    /// w r of every flow pair `[1/m]`, chunk by chunk as in the neighbour list.
+    pub(super) pair_vectors: Vec<LaneVector<D>>,
+    /// Velocity, or search direction, of every particle.
+    pub(super) velocities: Records,
+    /// s L of every flow particle and image; before the iteration √(η/V) L, for the diagonal.
+    pub(super) fluxes: Records,
+    pub(super) sums: Vec<Sums>,
+    iterations: u64,
+    residual: f64,
+}
+
+impl<const D: usize> ViscousSystem<D> {
+    pub(crate) fn new() -> Self {
+        Self {
+            coefficients: Vec::new(),
+            unknowns: Vec::new(),
+            pair_vectors: Vec::new(),
+            velocities: Records::new(D),
+            fluxes: Records::new(D * D),
+            sums: Vec::new(),
+            iterations: 0,
+            residual: 0.0,
+        }
+    }
+
+    /// Iterations of all solves.
+    pub(crate) fn iterations(&self) -> u64 {
+        self.iterations
+    }
+
+    /// Relative residual of the solve that failed `[-]`.
+    pub(crate) fn residual(&self) -> f64 {
+        self.residual
+    }
+
+    pub(super) fn count(&mut self, iterations: usize) {
+        self.iterations += iterations as u64;
+    }
+
+    pub(super) fn set_residual(&mut self, residual: f64) {
+        self.residual = residual;
+    }
+
+    /// Room for the particles and for neighbour lists with `region` chunks a block.
+    pub(super) fn resize(&mut self, particles: &Particles<D>, region: usize) {
+        let (flow, all) = (particles.flow_count(), particles.position.len());
+        let zero = [[0.0; LANES]; D];
+        let coefficients = Coefficients {
+            closure: zero,
+            correction: [zero; D],
+            twice_viscosity: [0.0; LANES],
+            mass: [1.0; LANES],
+            impulse_volume: [0.0; LANES],
+            inverse_diagonal: [1.0; LANES],
+        };
+        let unknowns = Unknowns { increment: zero, residual: zero, direction: zero, product: zero };
+        self.coefficients.resize(flow.div_ceil(LANES), coefficients);
+        self.unknowns.resize(flow.div_ceil(LANES), unknowns);
+        self.sums.resize(flow.div_ceil(BLOCK), Sums::default());
+        self.pair_vectors.resize(flow.div_ceil(BLOCK) * region, zero);
+        for records in [&mut self.velocities, &mut self.fluxes] {
+            records.resize(all);
+        }
+    }
+
+    /// Copies velocities to the images.
+    pub(super) fn copy_velocities(&mut self, images: &Images<D>) {
+        for (slot, source, sign) in images.entries() {
+            self.velocities.copy_signed(slot, source, sign.as_slice());
+        }
+    }
+
+    /// Copies fluxes to the images.
+    pub(super) fn copy_fluxes(&mut self, images: &Images<D>) {
+        copy_tensors(&mut self.fluxes, images);
+    }
+
+    /// A sum over all blocks, in order.
+    pub(super) fn sum(&self, part: impl Fn(&Sums) -> f64) -> f64 {
+        let mut sum = 0.0;
+        for block in &self.sums {
+            sum += part(block);
+        }
+        sum
+    }
+
+    /// The particle with the largest residual acceleration, or the first whose is not a number.
+    pub(super) fn worst(&self, flow: usize) -> usize {
+        let mut worst = (0, 0.0);
+        for index in 0..flow {
+            let (group, k) = (index / LANES, index % LANES);
+            let square = lane(&self.unknowns[group].residual, k).norm_squared();
+            if square.is_nan() {
+                return index;
+            }
+            let size = square / self.coefficients[group].mass[k];
+            if size > worst.1 {
+                worst = (index, size);
+            }
+        }
+        worst.0
+    }
+
+    /// Writes δ/Δt.
+    pub(super) fn write_accelerations(&self, accelerations: &mut [Vector<D>], time_step: f64) {
+        for (group, out) in self.unknowns.iter().zip(accelerations.chunks_mut(LANES)) {
+            for (k, acceleration) in out.iter_mut().enumerate() {
+                *acceleration = lane(&group.increment, k) / time_step;
+            }
+        }
+    }
+}
+
+fn copy_tensors<const D: usize>(records: &mut Records, images: &Images<D>) {
+    for (slot, source, sign) in images.entries() {
+        // row by row as in a record; symmetric, so that nalgebra's order by columns is the same
+        let signs: Tensor<D> = sign * sign.transpose();
+        records.copy_signed(slot, source, signs.as_slice());
+    }
+}

@@ -1,0 +1,252 @@
+use super::{NotConverged, ViscousSystem};
+use crate::domain::{AxisBoundary, Domain};
+use crate::lanes::LANES;
+use crate::material::equation_of_state::{EquationOfState, Tension};
+use crate::material::rheology::{Bingham, Rheology};
+use crate::run::divergence::Quantity;
+use crate::vector::{Tensor, Vector};
+use crate::weakly_compressible::boundary::{Wall, wall};
+use crate::weakly_compressible::numerics::{Numerics, ViscousStep};
+use crate::weakly_compressible::scene::{Flow, Scene};
+use crate::weakly_compressible::simulation::{Compiled, Simulation};
+use nalgebra::{DMatrix, DVector};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+const SPACING: f64 = 0.01;
+const DENSITY: f64 = 1500.0;
+/// Δt η/(ρ Δ²) is near 70: far beyond an explicit step `[s]`.
+const TIME_STEP: f64 = 1e-3;
+const LAW: Rheology =
+    Rheology::Bingham(Bingham { plastic_viscosity: 1e4, yield_stress: 2e4, regularisation_rate: 2.0 });
+
+fn symmetric(random: &mut Pcg64Mcg) -> f64 {
+    2.0 * random.random::<f64>() - 1.0
+}
+
+/// A moving patch of varying density and viscosity; `bed` puts it on a wall normal to the last axis.
+fn patch<const D: usize>(
+    cells: [usize; D],
+    axes: [AxisBoundary; D],
+    bed: bool,
+    jitter: f64,
+    tolerance: f64,
+) -> Simulation<D>
+where
+    Simulation<D>: Compiled<D>,
+{
+    let mut random = Pcg64Mcg::seed_from_u64(7);
+    let mut flow = Flow::default();
+    for index in 0..cells.iter().product() {
+        let mut rest = index;
+        flow.position.push(Vector::<D>::from_fn(|axis, _| {
+            let cell = rest % cells[axis];
+            rest /= cells[axis];
+            (cell as f64 + 0.5 + jitter * symmetric(&mut random)) * SPACING
+        }));
+        flow.velocity.push(Vector::from_fn(|_, _| 0.1 * symmetric(&mut random)));
+        flow.density.push(DENSITY * (1.003 + 0.002 * symmetric(&mut random)));
+        flow.mass.push(DENSITY * SPACING.powi(D as i32) * (1.0 + 0.05 * symmetric(&mut random)));
+        flow.stress.push(Tensor::zeros());
+    }
+    let domain = Domain { axes };
+    let walls: Vec<_> = bed.then_some(Wall::still(D - 1, 0.0, 1.0)).into_iter().collect();
+    let reach = Vector::<D>::from_fn(|axis, _| cells[axis] as f64 * SPACING);
+    let wall_particles = wall::fill(&walls, &domain, (Vector::zeros(), reach), SPACING, 4);
+    let equation_of_state = EquationOfState { reference_density: DENSITY, bulk_modulus: 6e5, tension: Tension::Cut };
+    Simulation::new(Scene {
+        flow,
+        walls,
+        wall_particles,
+        domain,
+        gravity: Vector::zeros(),
+        spacing: SPACING,
+        equation_of_state,
+        rheology: LAW,
+        numerics: Numerics { viscous_step: ViscousStep::Implicit, viscous_tolerance: tolerance, ..Numerics::default() },
+    })
+    .expect("a valid scene")
+}
+
+fn periodic(cells: usize) -> AxisBoundary {
+    AxisBoundary::Periodic { lower: 0.0, upper: cells as f64 * SPACING }
+}
+
+fn mirrors(cells: usize) -> AxisBoundary {
+    AxisBoundary::Mirror { lower: Some(0.0), upper: Some(cells as f64 * SPACING) }
+}
+
+/// The coefficients of the system at the patch's state.
+fn system<const D: usize>(patch: &Simulation<D>) -> ViscousSystem<D> {
+    let solve = patch.model.viscous_solve(TIME_STEP);
+    let mut system = ViscousSystem::new();
+    system.resize(&patch.particles, patch.model.list.region());
+    solve.prepare(&patch.particles, &mut system);
+    system.copy_fluxes(&patch.images);
+    solve.residual_of_start(&patch.particles, &mut system);
+    system
+}
+
+/// (M + Δt K) times a vector.
+fn product<const D: usize>(
+    patch: &Simulation<D>,
+    system: &mut ViscousSystem<D>,
+    vector: &[Vector<D>],
+) -> Vec<Vector<D>> {
+    let solve = patch.model.viscous_solve(TIME_STEP);
+    for (index, value) in vector.iter().enumerate() {
+        for i in 0..D {
+            system.unknowns[index / LANES].direction[i][index % LANES] = value[i];
+            system.unknowns[index / LANES].residual[i][index % LANES] = 0.0;
+        }
+    }
+    solve.next_direction(system, vector.len(), 1.0);
+    solve.product(system, vector.len(), &patch.images);
+    (0..vector.len()).map(|index| super::lane(&system.unknowns[index / LANES].product, index % LANES)).collect()
+}
+
+fn random_vector<const D: usize>(count: usize, seed: u64) -> Vec<Vector<D>> {
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    (0..count).map(|_| Vector::from_fn(|_, _| symmetric(&mut random))).collect()
+}
+
+fn scalar_product<const D: usize>(a: &[Vector<D>], b: &[Vector<D>]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+}
+
+fn momentum<const D: usize>(patch: &Simulation<D>, vector: &[Vector<D>]) -> Vec<Vector<D>> {
+    vector.iter().zip(&patch.particles.mass).map(|(v, m)| v * *m).collect()
+}
+
+fn check_symmetry<const D: usize>(patch: &Simulation<D>) {
+    let mut system = system(patch);
+    let count = patch.particles.flow_count();
+    for seed in 0..4 {
+        let (u, w) = (random_vector::<D>(count, seed), random_vector::<D>(count, seed + 100));
+        let (of_u, of_w) = (product(patch, &mut system, &u), product(patch, &mut system, &w));
+        let (left, right) = (scalar_product(&u, &of_w), scalar_product(&of_u, &w));
+        let size = (scalar_product(&u, &of_u) * scalar_product(&w, &of_w)).sqrt();
+        assert!((left - right).abs() < 1e-13 * size, "{left} and {right} of {size}");
+        let inertia = scalar_product(&u, &momentum(patch, &u));
+        assert!(scalar_product(&u, &of_u) > 5.0 * inertia, "the viscosity dominates");
+    }
+}
+
+#[test]
+fn the_operator_is_symmetric_at_walls_mirrors_and_periods() {
+    check_symmetry(&patch([9, 8], [mirrors(9), AxisBoundary::Open], true, 0.2, 0.1));
+    check_symmetry(&patch([9, 8], [periodic(9), AxisBoundary::Open], true, 0.2, 0.1));
+    check_symmetry(&patch([9, 8], [mirrors(9), mirrors(8)], false, 0.2, 0.1));
+    check_symmetry(&patch([6, 5, 6], [mirrors(6), periodic(5), AxisBoundary::Open], true, 0.2, 0.1));
+}
+
+#[test]
+fn the_operator_has_no_negative_direction() {
+    let patch = patch([5, 5], [mirrors(5), AxisBoundary::Open], true, 0.2, 0.1);
+    let matrix = assembled(&patch);
+    let mut viscous = matrix.clone();
+    for index in 0..patch.particles.flow_count() {
+        for i in 0..2 {
+            viscous[(2 * index + i, 2 * index + i)] -= patch.particles.mass[index];
+        }
+    }
+    let eigenvalues = viscous.symmetric_eigen().eigenvalues;
+    assert!(eigenvalues.min() > -1e-12 * eigenvalues.max() && eigenvalues.max() > 0.0, "{eigenvalues}");
+}
+
+/// M + Δt K, column by column.
+fn assembled(patch: &Simulation<2>) -> DMatrix<f64> {
+    let mut system = system(patch);
+    let count = patch.particles.flow_count();
+    let mut matrix = DMatrix::zeros(2 * count, 2 * count);
+    for column in 0..2 * count {
+        let mut unit = vec![Vector::<2>::zeros(); count];
+        unit[column / 2][column % 2] = 1.0;
+        for (row, value) in product(patch, &mut system, &unit).iter().enumerate() {
+            matrix[(2 * row, column)] = value[0];
+            matrix[(2 * row + 1, column)] = value[1];
+        }
+    }
+    matrix
+}
+
+#[test]
+fn the_diagonal_is_exact_in_the_plane() {
+    // eight cells: no particle shares a neighbour with its own image
+    let patch = patch([8, 8], [periodic(8), AxisBoundary::Open], true, 0.2, 0.1);
+    let (matrix, system) = (assembled(&patch), system(&patch));
+    for index in 0..patch.particles.flow_count() {
+        let diagonal = 1.0 / system.coefficients[index / LANES].inverse_diagonal[index % LANES];
+        for i in 0..2 {
+            let expected = matrix[(2 * index + i, 2 * index + i)];
+            assert!((diagonal - expected).abs() < 1e-12 * expected, "{diagonal} and {expected}");
+        }
+    }
+}
+
+#[test]
+fn the_solve_agrees_with_a_dense_one() {
+    let mut patch = patch([7, 6], [mirrors(7), AxisBoundary::Open], true, 0.2, 1e-10);
+    let count = patch.particles.flow_count();
+    let accelerations = random_vector::<2>(count, 3);
+    let impulses = momentum(&patch, &accelerations);
+    let right = DVector::from_iterator(2 * count, impulses.iter().flat_map(|v| [v[0], v[1]]));
+    let expected = assembled(&patch).cholesky().expect("a positive matrix").solve(&right);
+    let largest = expected.amax();
+    patch.particles.acceleration.copy_from_slice(&accelerations);
+    let solve = patch.model.viscous_solve(TIME_STEP);
+    solve.run(&mut patch.particles, &patch.images, &mut patch.viscous).expect("a solution");
+    for (index, found) in patch.particles.acceleration.iter().enumerate() {
+        let expected = Vector::<2>::new(expected[2 * index], expected[2 * index + 1]);
+        assert!((found - expected).norm() < 1e-7 * largest, "{found} and {expected}");
+        assert!((found - accelerations[index]).norm() > 1e-3, "the viscosity acts");
+    }
+    assert!((10..400).contains(&patch.viscous_iterations()));
+}
+
+#[test]
+fn the_viscous_forces_add_up_to_none_and_leave_a_translation_alone() {
+    fn check<const D: usize>(patch: &Simulation<D>) {
+        let mut system = system(patch);
+        let count = patch.particles.flow_count();
+        let forces = |system: &mut _, u: &[Vector<D>]| -> Vec<_> {
+            product(patch, system, u).iter().zip(momentum(patch, u)).map(|(a, b)| a - b).collect()
+        };
+        let found = forces(&mut system, &random_vector(count, 5));
+        let (sum, scale) = (found.iter().sum::<Vector<D>>().norm(), found.iter().map(Vector::norm).sum::<f64>());
+        assert!(scale > 0.0 && sum < 1e-13 * scale, "{sum} of {scale}");
+        let still = forces(&mut system, &vec![Vector::repeat(1.0); count]);
+        let largest = still.iter().map(Vector::norm).fold(0.0, f64::max);
+        assert!(largest < 1e-12 * scale / count as f64, "{largest} of {scale}");
+    }
+    check(&patch([9, 8], [periodic(9), periodic(8)], false, 0.2, 0.1));
+    check(&patch([6, 5, 5], [periodic(6), periodic(5), periodic(5)], false, 0.2, 0.1));
+}
+
+#[test]
+fn a_shear_flow_on_the_bed_dissipates_exactly_up_to_the_free_surface() {
+    let patch = patch([8, 10], [periodic(8), AxisBoundary::Open], true, 0.0, 0.1);
+    let mut system = system(&patch);
+    let rate = 3.0;
+    let particles = &patch.particles;
+    let count = particles.flow_count();
+    let shear: Vec<_> = particles.position[..count].iter().map(|x| Vector::<2>::new(rate * x[1], 0.0)).collect();
+    let found = product(&patch, &mut system, &shear);
+    let power = scalar_product(&shear, &found) - scalar_product(&shear, &momentum(&patch, &shear));
+    let expected: f64 = particles.viscosity.iter().zip(&particles.volume[..count]).map(|(eta, v)| eta * v).sum();
+    let expected = TIME_STEP * rate * rate * expected;
+    assert!((power / expected - 1.0).abs() < 1e-12, "{power} and {expected}");
+}
+
+#[test]
+fn a_force_that_is_no_number_is_refused_with_its_particle() {
+    let mut patch = patch([7, 6], [mirrors(7), AxisBoundary::Open], true, 0.2, 0.1);
+    patch.particles.acceleration.fill(Vector::zeros());
+    patch.particles.acceleration[11][1] = f64::NAN;
+    let solve = patch.model.viscous_solve(TIME_STEP);
+    let found = solve.run(&mut patch.particles, &patch.images, &mut patch.viscous);
+    assert_eq!(found, Err(NotConverged { worst: 11 }));
+    let divergence = patch.divergence(11, Quantity::ViscousResidual);
+    assert_eq!(divergence.particle, patch.particles.identity[11]);
+    assert!(divergence.value.is_nan() && divergence.to_string().contains("`viscous_tolerance`"), "{divergence}");
+}

@@ -1,0 +1,249 @@
+//! The passes of an iteration: search direction, fluxes of the direction, their divergence, and the descent.
+
+use super::ViscousSolve;
+use super::system::{Coefficients, GROUPS, LaneVector, Sums, Unknowns, ViscousSystem};
+use crate::lanes::algebra::{
+    accumulate, accumulate_outer, deviatoric_rate, matrix_product, product, scaled_tensor, zero_tensor, zero_vector,
+};
+use crate::lanes::{LANES, LanePass, Lanes};
+use crate::weakly_compressible::neighbours::{BLOCK, Group};
+use crate::weakly_compressible::records::{self, Records};
+use rayon::prelude::*;
+
+impl<const D: usize> ViscousSolve<'_, D> {
+    /// p ← D⁻¹ r + growth · p.
+    pub(super) fn next_direction(&self, system: &mut ViscousSystem<D>, flow: usize, growth: f64) {
+        let coefficients = &system.coefficients;
+        (system.unknowns.par_chunks_mut(GROUPS), system.velocities.blocks_mut(flow, BLOCK))
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(16)
+            .for_each(|(block, (unknowns, velocities))| {
+                let coefficients = &coefficients[block * GROUPS..];
+                self.instruction_set.run(DirectionPass { coefficients, unknowns, velocities, growth });
+            });
+    }
+
+    /// s L of the direction.
+    pub(super) fn fluxes(&self, system: &mut ViscousSystem<D>, flow: usize) {
+        let ViscousSystem { coefficients, velocities, pair_vectors, fluxes, .. } = system;
+        fluxes.blocks_mut(flow, BLOCK).enumerate().with_min_len(4).for_each(|(block, fluxes)| {
+            self.instruction_set.run(FluxPass {
+                constants: self,
+                coefficients: &coefficients[block * GROUPS..],
+                velocities,
+                pair_vectors,
+                block,
+                fluxes,
+            });
+        });
+    }
+
+    /// (M + Δt K) p and p·(M + Δt K) p.
+    pub(super) fn divergence(&self, system: &mut ViscousSystem<D>) {
+        let ViscousSystem { coefficients, unknowns, pair_vectors, fluxes, sums, .. } = system;
+        (unknowns.par_chunks_mut(GROUPS), sums).into_par_iter().enumerate().with_min_len(4).for_each(
+            |(block, (unknowns, sums))| {
+                self.instruction_set.run(DivergencePass {
+                    constants: self,
+                    coefficients: &coefficients[block * GROUPS..],
+                    fluxes,
+                    pair_vectors,
+                    block,
+                    unknowns,
+                    sums,
+                });
+            },
+        );
+    }
+
+    /// δ ← δ + step · p, r ← r − step · (M + Δt K) p.
+    pub(super) fn descend(&self, system: &mut ViscousSystem<D>, step: f64) {
+        let coefficients = &system.coefficients;
+        (system.unknowns.par_chunks_mut(GROUPS), &mut system.sums)
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(16)
+            .for_each(|(block, (unknowns, sums))| {
+                let coefficients = &coefficients[block * GROUPS..];
+                self.instruction_set.run(DescentPass { coefficients, unknowns, step, sums });
+            });
+    }
+}
+
+/// The sum of eight lanes, in order.
+#[inline(always)]
+pub(super) fn add_lanes<V: Lanes>(lanes: V) -> f64 {
+    let mut sum = 0.0;
+    for value in lanes.to_array() {
+        sum += value;
+    }
+    sum
+}
+
+/// A vector's components, each for eight particles.
+#[inline(always)]
+pub(super) fn store_columns<V: Lanes, const D: usize>(vector: &[V; D]) -> LaneVector<D> {
+    let mut columns = [[0.0; LANES]; D];
+    for i in 0..D {
+        columns[i] = vector[i].to_array();
+    }
+    columns
+}
+
+#[inline(always)]
+pub(super) fn load_columns<V: Lanes, const D: usize>(columns: &LaneVector<D>) -> [V; D] {
+    let mut vector = zero_vector::<V, D>();
+    for i in 0..D {
+        vector[i] = V::load(&columns[i]);
+    }
+    vector
+}
+
+/// Writes a tensor into the records of eight particles.
+#[inline(always)]
+pub(super) fn store_record<V: Lanes, const D: usize>(tensor: &[[V; D]; D], out: &mut [[f64; 4]]) {
+    let quads = const { (D * D).div_ceil(4) };
+    for quad in 0..quads {
+        let mut values = [V::splat(0.0); 4];
+        for (k, value) in values.iter_mut().enumerate() {
+            let place = 4 * quad + k;
+            if place < D * D {
+                *value = tensor[place / D][place % D];
+            }
+        }
+        V::store_quads(&values, out, quads, quad);
+    }
+}
+
+/// Fluxes of a group's own particles.
+#[inline(always)]
+fn flux_of<V: Lanes, const D: usize>(fluxes: &Records, group: &Group<'_>) -> [[V; D]; D] {
+    records::tensor(&fluxes.load::<V>(const { (D * D).div_ceil(4) }, &group.own), 0)
+}
+
+/// s_a L_a (Σ w r + Σ_w w β r).
+#[inline(always)]
+fn own_part<V: Lanes, const D: usize>(flux: &[[V; D]; D], closure: &LaneVector<D>) -> [V; D] {
+    product(flux, &load_columns(closure))
+}
+
+struct DirectionPass<'a, const D: usize> {
+    coefficients: &'a [Coefficients<D>],
+    unknowns: &'a mut [Unknowns<D>],
+    velocities: &'a mut [[f64; 4]],
+    growth: f64,
+}
+
+impl<const D: usize> LanePass for DirectionPass<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let records = self.velocities.chunks_mut(LANES);
+        for ((coefficients, unknowns), record) in self.coefficients.iter().zip(self.unknowns).zip(records) {
+            let mut quad = [V::splat(0.0); 4];
+            for i in 0..D {
+                let descent = V::load(&unknowns.residual[i]) * V::load(&coefficients.inverse_diagonal);
+                quad[i] = descent + V::splat(self.growth) * V::load(&unknowns.direction[i]);
+                unknowns.direction[i] = quad[i].to_array();
+            }
+            V::store_quads(&quad, record, 1, 0);
+        }
+    }
+}
+
+struct FluxPass<'a, const D: usize> {
+    constants: &'a ViscousSolve<'a, D>,
+    coefficients: &'a [Coefficients<D>],
+    velocities: &'a Records,
+    pair_vectors: &'a [LaneVector<D>],
+    block: usize,
+    fluxes: &'a mut [[f64; 4]],
+}
+
+impl<const D: usize> LanePass for FluxPass<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let Self { constants, coefficients, velocities, pair_vectors, block, fluxes } = self;
+        let records_of_group = const { LANES * (D * D).div_ceil(4) };
+        for (offset, (coefficients, out)) in coefficients.iter().zip(fluxes.chunks_mut(records_of_group)).enumerate() {
+            let group = constants.list.group(block * GROUPS + offset);
+            let own = records::vector::<V, D>(&velocities.load::<V>(1, &group.own), 0);
+            let mut gradient = zero_tensor::<V, D>();
+            for (b, pair) in group.flow.zip(&pair_vectors[group.first_pair..]) {
+                let velocity = records::vector::<V, D>(&velocities.load::<V>(1, &b), 0);
+                accumulate_outer(&mut gradient, V::splat(1.0), &velocity, &load_columns(pair));
+            }
+            let closure = load_columns::<V, D>(&coefficients.closure);
+            let mut correction = zero_tensor::<V, D>();
+            for i in 0..D {
+                accumulate(&mut gradient[i], -own[i], &closure);
+                correction[i] = load_columns(&coefficients.correction[i]);
+            }
+            let rate = deviatoric_rate(&matrix_product(&gradient, &correction));
+            let stress = scaled_tensor(V::load(&coefficients.twice_viscosity), &rate);
+            store_record(&matrix_product(&stress, &correction), out);
+        }
+    }
+}
+
+struct DivergencePass<'a, const D: usize> {
+    constants: &'a ViscousSolve<'a, D>,
+    coefficients: &'a [Coefficients<D>],
+    fluxes: &'a Records,
+    pair_vectors: &'a [LaneVector<D>],
+    block: usize,
+    unknowns: &'a mut [Unknowns<D>],
+    sums: &'a mut Sums,
+}
+
+impl<const D: usize> LanePass for DivergencePass<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let Self { constants, coefficients, fluxes, pair_vectors, block, unknowns, sums } = self;
+        let mut curvature = V::splat(0.0);
+        for (offset, (coefficients, unknowns)) in coefficients.iter().zip(unknowns).enumerate() {
+            let group = constants.list.group(block * GROUPS + offset);
+            let mut force = own_part(&flux_of(fluxes, &group), &coefficients.closure);
+            for (b, pair) in group.flow.zip(&pair_vectors[group.first_pair..]) {
+                let flux = records::tensor::<V, D>(&fluxes.load::<V>(const { (D * D).div_ceil(4) }, &b), 0);
+                accumulate(&mut force, V::splat(1.0), &product(&flux, &load_columns(pair)));
+            }
+            let (mass, volume) = (V::load(&coefficients.mass), V::load(&coefficients.impulse_volume));
+            for i in 0..D {
+                let direction = V::load(&unknowns.direction[i]);
+                let product = mass * direction - volume * force[i];
+                curvature = curvature + direction * product;
+                unknowns.product[i] = product.to_array();
+            }
+        }
+        sums.curvature = add_lanes(curvature);
+    }
+}
+
+struct DescentPass<'a, const D: usize> {
+    coefficients: &'a [Coefficients<D>],
+    unknowns: &'a mut [Unknowns<D>],
+    step: f64,
+    sums: &'a mut Sums,
+}
+
+impl<const D: usize> LanePass for DescentPass<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let step = V::splat(self.step);
+        let (mut residual_sum, mut descent) = (V::splat(0.0), V::splat(0.0));
+        for (coefficients, unknowns) in self.coefficients.iter().zip(self.unknowns) {
+            let (mass, inverse) = (V::load(&coefficients.mass), V::load(&coefficients.inverse_diagonal));
+            for i in 0..D {
+                let increment = V::load(&unknowns.increment[i]) + step * V::load(&unknowns.direction[i]);
+                let residual = V::load(&unknowns.residual[i]) - step * V::load(&unknowns.product[i]);
+                unknowns.increment[i] = increment.to_array();
+                unknowns.residual[i] = residual.to_array();
+                residual_sum = residual_sum + residual * residual / mass;
+                descent = descent + residual * residual * inverse;
+            }
+        }
+        self.sums.residual = add_lanes(residual_sum);
+        self.sums.descent = add_lanes(descent);
+    }
+}
