@@ -1,4 +1,4 @@
-//! Gives the crate a hash of everything that a stored result depends on.
+//! Gives the crate a hash of everything that a stored result depends on, and the tables of `reference-data`.
 
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
@@ -16,6 +16,11 @@ fn main() {
             add_file(&mut hash, &workspace, &file);
         }
     }
+    let tables = reference_tables(&package.join("reference-data"));
+    for (name, file) in &tables {
+        add(&mut hash, &format!("reference-data/{name}"), &std::fs::read(file).unwrap_or_default());
+    }
+    embed(&tables);
     for name in ["Cargo.lock", "Cargo.toml"] {
         let file = workspace.join(name);
         println!("cargo::rerun-if-changed={}", file.display());
@@ -37,6 +42,30 @@ fn main() {
     println!("cargo::rustc-env=BAGNOLD_PROFILE={} (opt-level {})", variable("PROFILE"), variable("OPT_LEVEL"));
     println!("cargo::rustc-env=BAGNOLD_TARGET_FEATURES={}", variable("CARGO_CFG_TARGET_FEATURE"));
     println!("cargo::rerun-if-changed=build.rs");
+}
+
+/// The CSV files of a folder by their names in it. In the workspace the folder is a link to the common one; in a package
+/// it is a copy.
+fn reference_tables(folder: &Path) -> Vec<(String, PathBuf)> {
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+    println!("cargo::rerun-if-changed={}", folder.display());
+    let is_table = |file: &PathBuf| file.extension().is_some_and(|extension| extension == "csv");
+    let name = |file: &PathBuf| file.strip_prefix(&folder).unwrap_or(file).to_string_lossy().replace('\\', "/");
+    sorted_files(&folder).into_iter().filter(is_table).map(|file| (name(&file), file)).collect()
+}
+
+/// Writes the tables as an array of names and texts that `reference/shipped.rs` includes.
+fn embed(tables: &[(String, PathBuf)]) {
+    let rows = tables.iter().fold(String::new(), |mut text, (name, file)| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "    ({name:?}, include_str!({file:?})),");
+        text
+    });
+    let text = format!("static FILES: [(&str, &str); {}] = [\n{rows}];\n", tables.len());
+    let out = PathBuf::from(std::env::var_os("OUT_DIR").unwrap_or_default()).join("reference_data.rs");
+    if let Err(error) = std::fs::write(&out, text) {
+        println!("cargo::error=failed to write {}: {error}", out.display());
+    }
 }
 
 /// All files below a folder by path. What cannot be read is left out: the compiler will complain about it.

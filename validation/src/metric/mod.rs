@@ -38,6 +38,8 @@ pub enum Confidence {
     High,
     /// Read in one document that quotes the original.
     Medium,
+    /// Sources conflict.
+    Low,
     /// Known in the field, no document at hand; never gates.
     Unverified,
 }

@@ -148,7 +148,7 @@ pub(super) fn glass_beads(degrees: f64) -> BagnoldProfile {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reference::MeasuredData;
+    use crate::reference::shipped_table;
 
     #[test]
     fn momentum_balance_holds_with_a_differentiated_velocity() {
@@ -169,8 +169,7 @@ mod tests {
 
     #[test]
     fn agrees_with_the_tabulated_quadrature() {
-        let text = include_str!("../../../reference-data/bagnold/steady.csv");
-        let table = MeasuredData::parse("steady.csv", text).expect("readable");
+        let table = shipped_table("bagnold/steady.csv").expect("readable");
         let column = |name: &str| table.numbers(name).expect("present").to_vec();
         let slopes = column("slope angle");
         assert_eq!(slopes.len(), 4);

@@ -1,8 +1,10 @@
-//! Published formulas of bed-load transport, as `reference-data/bed-load/README.md` lists them: fits to experiments,
+//! Published formulas of bed-load transport, which `reference-data/bed-load/formulas.csv` lists: fits to experiments,
 //! q* = c (τ* − τ*_c)^n with q* = q_s/√((s − 1) g d³), 0 below the critical Shields number τ*_c.
 
-use super::Kind;
+use super::shipped::read_shipped;
+use super::{MeasuredData, Origin, ReferenceError};
 use crate::metric::Confidence;
+use std::sync::LazyLock;
 
 /// A formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,6 +25,36 @@ pub enum TransportFormula {
 /// Müller with grains of 4 to 5.2 mm the median of measured over computed transport is 0.92.
 pub const HONEST_BAND: (f64, f64) = (0.5, 2.0);
 
+/// What the table says of a formula.
+#[derive(Debug, Clone, PartialEq)]
+struct Row {
+    source: String,
+    confidence: Confidence,
+    origin: Origin,
+    coefficient: f64,
+    critical: f64,
+    exponent: f64,
+}
+
+/// In the order of [`TransportFormula::ALL`].
+static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| read_shipped("bed-load/formulas.csv", rows));
+
+fn rows(table: &MeasuredData) -> Result<Vec<Row>, ReferenceError> {
+    let (sources, confidences) = (table.labels("source")?, table.confidences()?);
+    let row = |formula: TransportFormula| {
+        let row = table.row("formula", formula.key())?;
+        Ok(Row {
+            source: sources[row].clone(),
+            confidence: confidences[row],
+            origin: table.metadata.origin,
+            coefficient: table.numbers("coefficient")?[row],
+            critical: table.numbers("critical Shields number")?[row],
+            exponent: table.numbers("exponent")?[row],
+        })
+    };
+    TransportFormula::ALL.into_iter().map(row).collect()
+}
+
 impl TransportFormula {
     /// All formulas.
     pub const ALL: [Self; 5] =
@@ -31,13 +63,23 @@ impl TransportFormula {
     /// Coefficient c `[-]`, critical Shields number τ*_c `[-]` and exponent n `[-]`.
     #[must_use]
     pub fn parameters(self) -> (f64, f64, f64) {
+        let row = self.row();
+        (row.coefficient, row.critical, row.exponent)
+    }
+
+    /// Its name in the table.
+    fn key(self) -> &'static str {
         match self {
-            Self::MeyerPeterMuller => (8.0, 0.047, 1.5),
-            Self::WongParker => (4.93, 0.047, 1.6),
-            Self::WongParkerThreeHalves => (3.97, 0.0495, 1.5),
-            Self::Ribberink => (11.0, 0.05, 1.65),
-            Self::FernandezLuque => (5.7, 0.05, 1.5),
+            Self::MeyerPeterMuller => "meyer-peter-mueller",
+            Self::WongParker => "wong-parker-1.6",
+            Self::WongParkerThreeHalves => "wong-parker-1.5",
+            Self::Ribberink => "ribberink",
+            Self::FernandezLuque => "fernandez-luque",
         }
+    }
+
+    fn row(self) -> &'static Row {
+        &ROWS[self as usize]
     }
 
     /// Transport rate q* `[-]` at a Shields number τ* `[-]`.
@@ -51,51 +93,34 @@ impl TransportFormula {
     /// Authors, year and formula.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::MeyerPeterMuller => "Meyer-Peter & Müller 1948",
-            Self::WongParker => "Wong & Parker 2006, 4.93 (τ* − 0.047)^1.6",
-            Self::WongParkerThreeHalves => "Wong & Parker 2006, 3.97 (τ* − 0.0495)^1.5",
-            Self::Ribberink => "Ribberink 1998",
-            Self::FernandezLuque => "Fernandez Luque & van Beek 1976",
-        }
+        &self.row().source
     }
 
     /// What it is.
     #[must_use]
-    pub fn kind(self) -> Kind {
-        Kind::Fit
+    pub fn origin(self) -> Origin {
+        self.row().origin
     }
 
     /// How sure the project is of it: read in two or more documents, or in one besides the coefficients.
     #[must_use]
     pub fn confidence(self) -> Confidence {
-        match self {
-            Self::MeyerPeterMuller | Self::WongParker | Self::WongParkerThreeHalves => Confidence::High,
-            Self::Ribberink | Self::FernandezLuque => Confidence::Medium,
-        }
+        self.row().confidence
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reference::MeasuredData;
+    use crate::reference::shipped_table;
 
     #[test]
     fn formulas_give_the_printed_table() {
-        let text = include_str!("../../../reference-data/bed-load/transport.csv");
-        let table = MeasuredData::parse("transport.csv", text).expect("readable");
+        let table = shipped_table("bed-load/transport.csv").expect("readable");
         let names = table.labels("formula").expect("labels");
         let column = |name| table.numbers(name).expect("numbers");
         let (shields, transport) = (column("Shields number"), column("transport"));
-        let of = |name: &str| match name {
-            "meyer-peter-mueller" => TransportFormula::MeyerPeterMuller,
-            "wong-parker-1.6" => TransportFormula::WongParker,
-            "wong-parker-1.5" => TransportFormula::WongParkerThreeHalves,
-            "ribberink" => TransportFormula::Ribberink,
-            "fernandez-luque" => TransportFormula::FernandezLuque,
-            other => panic!("{other}"),
-        };
+        let of = |name: &str| TransportFormula::ALL.into_iter().find(|formula| formula.key() == name).expect(name);
         assert_eq!(names.len(), 15);
         for ((name, shields), printed) in names.iter().zip(shields).zip(transport) {
             // three digits after the point
@@ -111,7 +136,8 @@ mod tests {
             assert_eq!(formula.transport(critical), 0.0);
             assert_eq!(formula.transport(0.0), 0.0);
             assert!(formula.transport(critical + 1e-6) > 0.0);
-            assert_eq!(formula.kind(), Kind::Fit);
+            assert_eq!(formula.origin(), Origin::Fit);
+            assert_eq!(formula.origin().kind(), crate::metric::Kind::Validation);
             assert!(formula.confidence() != Confidence::Unverified, "{}", formula.name());
         }
     }

@@ -1,7 +1,10 @@
-//! Published laws of run-out and final height of granular columns, as `reference-data/column-planar/laws.csv` lists
-//! them. Lengths over the initial half width r_0, a = h_0/r_0.
+//! Published laws of run-out and final height of granular columns, which `laws.csv` of `reference-data/column-planar` and
+//! `column-round` list. Lengths over the initial half width r_0, a = h_0/r_0.
 
+use super::shipped::read_shipped;
+use super::{MeasuredData, ReferenceError};
 use crate::metric::Confidence;
+use std::sync::LazyLock;
 
 /// c a^n over a range of aspect ratios.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,91 +20,72 @@ pub struct Branch {
 }
 
 /// A law in branches, with gaps where its source gives none.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct CollapseLaw {
     /// Where it comes from.
-    pub source: &'static str,
+    pub source: String,
     /// How sure the project is of it.
     pub confidence: Confidence,
     /// Its branches in ascending order.
-    pub branches: &'static [Branch],
+    pub branches: Vec<Branch>,
+}
+
+/// The laws of one geometry; Lube's come first, in planar geometry Lagrée's second.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CollapseLaws {
+    /// Run-out (r_∞ − r_0)/r_0.
+    pub run_out: Vec<CollapseLaw>,
+    /// Final height h_∞/r_0.
+    pub height: Vec<CollapseLaw>,
 }
 
 /// Range in which the laws are drawn `[-]`.
 pub const DRAWN: (f64, f64) = (0.4, 25.0);
 
-const fn branch(from: f64, to: f64, coefficient: f64, exponent: f64) -> Branch {
-    Branch { from, to, coefficient, exponent }
+/// Planar columns on a horizontal bed.
+pub static PLANAR_COLLAPSE: LazyLock<CollapseLaws> =
+    LazyLock::new(|| read_shipped("column-planar/laws.csv", CollapseLaws::read));
+
+/// Round columns on a horizontal bed; no document at hand quotes their final height.
+pub static ROUND_COLLAPSE: LazyLock<CollapseLaws> =
+    LazyLock::new(|| read_shipped("column-round/laws.csv", CollapseLaws::read));
+
+/// Duration of a collapse from release to rest over √(h_0/g) `[-]`, with its source and confidence.
+pub static COLLAPSE_DURATION: LazyLock<(f64, String, Confidence)> = LazyLock::new(|| {
+    read_shipped("column-planar/statements.csv", |table| {
+        let value = table.number_of("statement", "duration", "value")?;
+        Ok((value, table.metadata.source.clone(), table.metadata.confidence))
+    })
+});
+
+impl CollapseLaws {
+    /// The laws of a table: rows of one quantity and source are branches of one law.
+    pub fn read(table: &MeasuredData) -> Result<Self, ReferenceError> {
+        let (quantities, sources) = (table.labels("quantity")?, table.labels("source")?);
+        let (confidences, to) = (table.confidences()?, table.upper_ends("to, or open")?);
+        let (from, coefficients) = (table.numbers("from")?, table.numbers("coefficient")?);
+        let exponents = table.numbers("exponent")?;
+        let mut laws = Self { run_out: Vec::new(), height: Vec::new() };
+        for (row, (quantity, source)) in quantities.iter().zip(sources).enumerate() {
+            let laws = match quantity.as_str() {
+                "run-out" => &mut laws.run_out,
+                "final height" => &mut laws.height,
+                other => return Err(table.bad_label("quantity", other, "run-out, final height")),
+            };
+            let branch =
+                Branch { from: from[row], to: to[row], coefficient: coefficients[row], exponent: exponents[row] };
+            match laws.iter_mut().find(|law| law.source == *source) {
+                Some(law) => law.branches.push(branch),
+                None => laws.push(CollapseLaw {
+                    source: source.clone(),
+                    confidence: confidences[row],
+                    branches: vec![branch],
+                }),
+            }
+        }
+        Ok(laws)
+    }
 }
-
-/// Run-out (r_∞ − r_0)/r_0 of planar columns on a horizontal bed.
-pub const PLANAR_RUN_OUT: [CollapseLaw; 5] = [
-    CollapseLaw {
-        source: "Lube et al. 2005, planar experiment",
-        confidence: Confidence::High,
-        branches: &[branch(0.0, 1.8, 1.2, 1.0), branch(2.8, f64::INFINITY, 1.9, 2.0 / 3.0)],
-    },
-    CollapseLaw {
-        source: "Lagrée et al. 2011, planar continuum μ(I)",
-        confidence: Confidence::Medium,
-        branches: &[branch(0.0, 7.0, 2.2, 1.0), branch(7.0, f64::INFINITY, 3.9, 0.7)],
-    },
-    CollapseLaw {
-        source: "Lajeunesse et al. 2005, planar channel",
-        confidence: Confidence::Medium,
-        branches: &[branch(0.0, 3.0, 1.8, 1.0), branch(3.0, f64::INFINITY, 2.3, 2.0 / 3.0)],
-    },
-    CollapseLaw {
-        source: "Bougouin & Lacaze 2018, planar experiment",
-        confidence: Confidence::Medium,
-        branches: &[branch(0.0, 2.0, 2.7, 1.0), branch(2.0, f64::INFINITY, 3.7, 0.64)],
-    },
-    CollapseLaw {
-        source: "Kumar 2015, planar DEM",
-        confidence: Confidence::High,
-        branches: &[branch(0.0, 2.7, 1.67, 1.0), branch(2.7, f64::INFINITY, 2.7, 2.0 / 3.0)],
-    },
-];
-
-/// Final height h_∞/r_0 of planar columns.
-pub const PLANAR_HEIGHT: [CollapseLaw; 3] = [
-    CollapseLaw {
-        source: "Lube et al. 2005, planar experiment",
-        confidence: Confidence::High,
-        branches: &[branch(0.0, 1.15, 1.0, 1.0), branch(1.15, f64::INFINITY, 1.0, 0.4)],
-    },
-    CollapseLaw {
-        source: "Lagrée et al. 2011, planar continuum μ(I)",
-        confidence: Confidence::Medium,
-        branches: &[branch(1.0, f64::INFINITY, 0.65, 0.35)],
-    },
-    CollapseLaw {
-        source: "Lajeunesse et al. 2005, planar channel",
-        confidence: Confidence::Medium,
-        branches: &[branch(0.0, 0.7, 1.0, 1.0), branch(0.7, f64::INFINITY, 1.0, 1.0 / 3.0)],
-    },
-];
-
-/// Run-out of round columns.
-pub const ROUND_RUN_OUT: [CollapseLaw; 2] = [
-    CollapseLaw {
-        source: "Lube et al. 2004, round experiment",
-        confidence: Confidence::High,
-        branches: &[branch(0.0, 1.7, 1.24, 1.0), branch(1.7, f64::INFINITY, 1.6, 0.5)],
-    },
-    CollapseLaw {
-        source: "Lajeunesse et al. 2004, round experiment (unverified)",
-        confidence: Confidence::Unverified,
-        branches: &[branch(0.74, f64::INFINITY, 2.0, 0.5)],
-    },
-];
-
-/// Final height of round columns; no document at hand quotes it.
-pub const ROUND_HEIGHT: [CollapseLaw; 1] = [CollapseLaw {
-    source: "Lube et al. 2004, round experiment (unverified)",
-    confidence: Confidence::Unverified,
-    branches: &[branch(0.0, 1.0, 1.0, 1.0), branch(1.0, f64::INFINITY, 0.88, 1.0 / 6.0)],
-}];
 
 impl CollapseLaw {
     /// The law's value at an aspect ratio; none in its gaps.
@@ -129,7 +113,7 @@ mod tests {
 
     #[test]
     fn lube_has_a_gap_between_his_branches() {
-        let lube = PLANAR_RUN_OUT[0];
+        let lube = &PLANAR_COLLAPSE.run_out[0];
         assert_eq!(lube.value(1.0), Some(1.2));
         assert_eq!(lube.value(2.0), None);
         assert!((lube.value(8.0).unwrap() - 7.6).abs() < 1e-12);
@@ -137,8 +121,27 @@ mod tests {
     }
 
     #[test]
+    fn the_laws_stand_in_their_order_with_all_branches() {
+        let counts = |laws: &CollapseLaws| (laws.run_out.len(), laws.height.len());
+        assert_eq!((counts(&PLANAR_COLLAPSE), counts(&ROUND_COLLAPSE)), ((5, 3), (2, 1)));
+        let all = [&PLANAR_COLLAPSE.run_out, &PLANAR_COLLAPSE.height, &ROUND_COLLAPSE.run_out, &ROUND_COLLAPSE.height];
+        for laws in all {
+            assert!(laws[0].source.starts_with("Lube"), "{}", laws[0].source);
+        }
+        for laws in &all[..2] {
+            assert!(laws[1].source.starts_with("Lagrée"), "{}", laws[1].source);
+        }
+        assert_eq!(COLLAPSE_DURATION.0, 3.0);
+        // thirds and sixths of the exponents, to the last bit
+        assert_eq!(PLANAR_COLLAPSE.run_out[4].branches[1].exponent, 2.0 / 3.0);
+        assert_eq!(PLANAR_COLLAPSE.height[2].branches[1].exponent, 1.0 / 3.0);
+        assert_eq!(ROUND_COLLAPSE.height[0].branches[1].exponent, 1.0 / 6.0);
+    }
+
+    #[test]
     fn the_branches_of_a_law_meet_within_its_scatter() {
-        for law in PLANAR_RUN_OUT.iter().chain(&PLANAR_HEIGHT).chain(&ROUND_RUN_OUT).chain(&ROUND_HEIGHT) {
+        let (planar, round) = (&*PLANAR_COLLAPSE, &*ROUND_COLLAPSE);
+        for law in planar.run_out.iter().chain(&planar.height).chain(&round.run_out).chain(&round.height) {
             for pair in law.branches.windows(2).filter(|pair| pair[0].to == pair[1].from) {
                 let at = |branch: &Branch| branch.coefficient * libm::pow(pair[0].to, branch.exponent);
                 let ratio = at(&pair[0]) / at(&pair[1]);

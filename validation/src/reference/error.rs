@@ -11,6 +11,12 @@ pub enum ReferenceError {
         /// The operating system's reason.
         source: std::io::Error,
     },
+    /// No table of this name belongs to the program.
+    #[error("read the reference data {name}: the program carries no such table")]
+    NotShipped {
+        /// The name asked for.
+        name: String,
+    },
     /// A metadata line is not `# key: value` with a known key and an allowed value.
     #[error("read the reference data {file}, line {line}: `{text}` {rule}")]
     Metadata {
@@ -71,6 +77,30 @@ pub enum ReferenceError {
         name: String,
         /// The names there are.
         known: String,
+    },
+    /// The table has no such row.
+    #[error("read the reference data {file}: no row has `{label}` in the column `{column}`; there are {known}")]
+    NoRow {
+        /// File as the caller named it.
+        file: String,
+        /// The column of labels.
+        column: String,
+        /// The label asked for.
+        label: String,
+        /// The labels there are.
+        known: String,
+    },
+    /// A label is none of those that its column may hold.
+    #[error("read the reference data {file}: `{label}` in the column `{column}` is not one of {allowed}")]
+    Label {
+        /// File as the caller named it.
+        file: String,
+        /// The column of labels.
+        column: String,
+        /// What stands there.
+        label: String,
+        /// What may stand there.
+        allowed: &'static str,
     },
     /// A parameter of a reference solution is outside its range.
     #[error("compute the reference solution: {field} is {value}, but must be {rule}")]

@@ -1,8 +1,8 @@
 //! Tests of the 1-D layer solver: exact limits, observed orders, tabulated times.
 
 use super::*;
-use crate::reference::MeasuredData;
 use crate::reference::bagnold_profile::glass_beads;
+use crate::reference::shipped_table;
 
 fn from_rest(degrees: f64, cells: usize, time_step: f64, duration: f64) -> (LayerTransient, TransientHistory) {
     let mut layer = LayerTransient::from_rest(glass_beads(degrees), cells, time_step).expect("accepted");
@@ -46,8 +46,7 @@ fn converges_with_first_order_in_the_time_step_and_second_in_the_cell() {
 
 #[test]
 fn reproduces_the_tabulated_transients() {
-    let text = include_str!("../../../reference-data/bagnold/transient.csv");
-    let table = MeasuredData::parse("transient.csv", text).expect("readable");
+    let table = shipped_table("bagnold/transient.csv").expect("readable");
     let columns = ["slope angle", "value", "uncertainty"].map(|name| table.numbers(name).expect("present"));
     let quantities = table.labels("quantity").expect("present");
     for (row, quantity) in quantities.iter().enumerate() {

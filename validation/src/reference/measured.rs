@@ -16,11 +16,12 @@
 //! holds labels.
 
 use super::ReferenceError;
+use crate::metric::{Confidence, Kind};
 use std::path::Path;
 
 /// Where a reference value comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum Origin {
     /// Exact for the model.
     Analytic,
     /// An independent numerical solution of the same model.
@@ -33,17 +34,15 @@ pub enum Kind {
     Statement,
 }
 
-/// How well a reference value is established.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Confidence {
-    /// Known in the field, no document at hand: never gates a result.
-    Unverified,
-    /// Sources conflict.
-    Low,
-    /// Read in one document that quotes the original.
-    Medium,
-    /// Read in two or more independent documents.
-    High,
+impl Origin {
+    /// What a verdict against such a value rests on.
+    #[must_use]
+    pub fn kind(self) -> Kind {
+        match self {
+            Self::Analytic | Self::Computed => Kind::Verification,
+            Self::Fit | Self::Measured | Self::Statement => Kind::Validation,
+        }
+    }
 }
 
 /// What the header of a reference file says.
@@ -53,9 +52,9 @@ pub struct Metadata {
     pub quantity: String,
     /// Unit of that quantity.
     pub unit: String,
-    /// Where the values come from.
-    pub kind: Kind,
-    /// How well they are established.
+    /// Where the values come from, `kind` in the file.
+    pub origin: Origin,
+    /// How well they are established; rows may say otherwise in a column `confidence`.
     pub confidence: Confidence,
     /// How far they may be off, in words; per-row figures stand in a column.
     pub uncertainty: String,
@@ -148,11 +147,70 @@ impl MeasuredData {
             .ok_or_else(|| self.no_column("label", name))
     }
 
+    /// The row whose label in a column is this one; the first, if there are several.
+    pub fn row(&self, column: &str, label: &str) -> Result<usize, ReferenceError> {
+        let labels = self.labels(column)?;
+        labels.iter().position(|own| own == label).ok_or_else(|| ReferenceError::NoRow {
+            file: self.file.clone(),
+            column: column.to_owned(),
+            label: label.to_owned(),
+            known: labels.join(", "),
+        })
+    }
+
+    /// The number of the row that a label names.
+    pub fn number_of(&self, column: &str, label: &str, number: &str) -> Result<f64, ReferenceError> {
+        let row = self.row(column, label)?;
+        Ok(self.numbers(number)?[row])
+    }
+
+    /// How sure the project is of each row: its word in a column `confidence`, or else the header's.
+    pub fn confidences(&self) -> Result<Vec<Confidence>, ReferenceError> {
+        let rows = match self.columns.first() {
+            Some(Column::Numbers { values, .. }) => values.len(),
+            Some(Column::Labels { values, .. }) => values.len(),
+            None => 0,
+        };
+        if !self.columns.iter().any(|column| column.name() == "confidence") {
+            return Ok(vec![self.metadata.confidence; rows]);
+        }
+        self.labels("confidence")?
+            .iter()
+            .map(|word| {
+                let found = CONFIDENCES.iter().find(|(known, _)| known == word).map(|(_, confidence)| *confidence);
+                found.ok_or_else(|| self.bad_label("confidence", word, "high, medium, low, unverified"))
+            })
+            .collect()
+    }
+
+    /// A label column whose labels are numbers or `open`, which stands for infinity: the upper ends of ranges.
+    pub fn upper_ends(&self, column: &str) -> Result<Vec<f64>, ReferenceError> {
+        let end = |label: &String| match label.as_str() {
+            "open" => Ok(f64::INFINITY),
+            text => match text.parse::<f64>() {
+                Ok(value) if value.is_finite() => Ok(value),
+                _ => Err(self.bad_label(column, text, "finite numbers and `open`")),
+            },
+        };
+        self.labels(column)?.iter().map(end).collect()
+    }
+
+    pub(super) fn bad_label(&self, column: &str, label: &str, allowed: &'static str) -> ReferenceError {
+        ReferenceError::Label { file: self.file.clone(), column: column.to_owned(), label: label.to_owned(), allowed }
+    }
+
     fn no_column(&self, kind: &'static str, name: &str) -> ReferenceError {
         let known: Vec<String> = self.columns.iter().map(|column| format!("`{}`", column.name())).collect();
         ReferenceError::NoColumn { file: self.file.clone(), kind, name: name.to_owned(), known: known.join(", ") }
     }
 }
+
+const CONFIDENCES: [(&str, Confidence); 4] = [
+    ("high", Confidence::High),
+    ("medium", Confidence::Medium),
+    ("low", Confidence::Low),
+    ("unverified", Confidence::Unverified),
+];
 
 const KEYS: [&str; 7] = ["quantity", "unit", "kind", "confidence", "uncertainty", "source", "licence"];
 
@@ -184,24 +242,18 @@ fn parse_metadata(file: &str, text: &str, header_lines: usize) -> Result<Metadat
         let slot = KEYS.iter().position(|known| *known == key);
         slot.and_then(|slot| found[slot].take()).ok_or(ReferenceError::MissingMetadata { file: file.to_owned(), key })
     };
-    let kinds = [
-        ("analytic", Kind::Analytic),
-        ("computed", Kind::Computed),
-        ("fit", Kind::Fit),
-        ("measured", Kind::Measured),
-        ("statement", Kind::Statement),
-    ];
-    let confidences = [
-        ("high", Confidence::High),
-        ("medium", Confidence::Medium),
-        ("low", Confidence::Low),
-        ("unverified", Confidence::Unverified),
+    let origins = [
+        ("analytic", Origin::Analytic),
+        ("computed", Origin::Computed),
+        ("fit", Origin::Fit),
+        ("measured", Origin::Measured),
+        ("statement", Origin::Statement),
     ];
     Ok(Metadata {
         quantity: take("quantity")?.1,
         unit: take("unit")?.1,
-        kind: choose(file, take("kind")?, &kinds)?,
-        confidence: choose(file, take("confidence")?, &confidences)?,
+        origin: choose(file, take("kind")?, &origins)?,
+        confidence: choose(file, take("confidence")?, &CONFIDENCES)?,
         uncertainty: take("uncertainty")?.1,
         source: take("source")?.1,
         licence: take("licence")?.1,

@@ -21,7 +21,7 @@ fn a_good_file_is_read_completely() {
     let data = MeasuredData::parse("data.csv", &text).expect("readable");
     assert_eq!(data.metadata.quantity, "velocity over depth");
     assert_eq!(data.metadata.source, "test: its own");
-    assert_eq!((data.metadata.kind, data.metadata.confidence), (Kind::Measured, Confidence::High));
+    assert_eq!((data.metadata.origin, data.metadata.confidence), (Origin::Measured, Confidence::High));
     assert_eq!(data.numbers("height").expect("present"), [0.001, 0.002]);
     assert_eq!(data.numbers("velocity").expect("present"), [0.012, -0.024]);
     assert_eq!(data.labels("run").expect("present"), ["a", "b, again"]);
@@ -94,18 +94,22 @@ fn a_file_that_is_absent_is_named() {
 }
 
 #[test]
-fn the_shipped_tables_are_readable() {
-    let shipped = [
-        include_str!("../../../reference-data/bagnold/friction.csv"),
-        include_str!("../../../reference-data/bagnold/thickness.csv"),
-        include_str!("../../../reference-data/bagnold/steady.csv"),
-        include_str!("../../../reference-data/bagnold/transient.csv"),
-    ];
-    for text in shipped {
-        let data = MeasuredData::parse("shipped.csv", text).expect("readable");
-        assert_ne!(data.metadata.confidence, Confidence::Unverified);
-    }
-    let friction = MeasuredData::parse("friction.csv", shipped[0]).expect("readable");
-    assert_eq!(friction.labels("material").expect("present"), ["glass beads", "sand"]);
-    assert_eq!(friction.numbers("static friction").expect("present"), [0.382, 0.509]);
+fn rows_are_found_by_their_labels_and_say_how_sure_they_are() {
+    let table = "law,confidence,\"to, or open\",c [-]\na,high,2.5,1\nb,low,open,4\n";
+    let data = MeasuredData::parse("data.csv", &format!("{HEADER}{table}")).expect("readable");
+    assert_eq!(data.number_of("law", "b", "c").expect("present"), 4.0);
+    assert_eq!(data.confidences().expect("words"), [Confidence::High, Confidence::Low]);
+    assert_eq!(data.upper_ends("to, or open").expect("ends"), [2.5, f64::INFINITY]);
+    assert_eq!(
+        data.row("law", "d").expect_err("absent").to_string(),
+        "read the reference data data.csv: no row has `d` in the column `law`; there are a, b"
+    );
+    assert_eq!(
+        data.upper_ends("law").expect_err("words").to_string(),
+        "read the reference data data.csv: `a` in the column `law` is not one of finite numbers and `open`"
+    );
+    let bad = MeasuredData::parse("data.csv", &format!("{HEADER}law,confidence\na,sure\n")).expect("readable");
+    assert!(bad.confidences().expect_err("no word").to_string().contains("`sure` in the column `confidence`"));
+    let plain = MeasuredData::parse("data.csv", &format!("{HEADER}y [m]\n1\n2\n")).expect("readable");
+    assert_eq!(plain.confidences().expect("the header's"), [Confidence::High; 2]);
 }

@@ -2,7 +2,10 @@
 //! published or measured data in CSV files.
 //!
 //! Nothing here uses the particle solver, so that agreement with it means something; of the solver's leaves only the drag
-//! laws are used, which have tests against values computed by hand.
+//! laws are used, which have tests against values computed by hand, and the parameters of μ(I) as a record.
+//!
+//! Numbers of papers stand in `reference-data/*/*.csv` with their provenance. The program carries these tables, reads each
+//! once, and no number of a paper is written in the code that uses it.
 
 mod bagnold_profile;
 pub mod bed_load_layer;
@@ -10,20 +13,26 @@ mod bed_load_transport;
 mod collapse_laws;
 mod error;
 mod film;
+mod grains;
+mod layer_statement;
 mod layer_transient;
 mod measured;
 mod measured_table;
 mod rough_channel;
 mod settling;
+mod shipped;
 mod slope_laws;
 
 pub use bagnold_profile::BagnoldProfile;
 pub use bed_load_transport::{HONEST_BAND, TransportFormula};
-pub use collapse_laws::{CollapseLaw, DRAWN, PLANAR_HEIGHT, PLANAR_RUN_OUT, ROUND_HEIGHT, ROUND_RUN_OUT};
+pub use collapse_laws::{COLLAPSE_DURATION, CollapseLaw, CollapseLaws, DRAWN, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 pub use error::ReferenceError;
 pub use film::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
+pub use grains::{FlowRule, GLASS_BEADS, GLASS_BEADS_FLOW_RULE, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};
+pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
 pub use layer_transient::{LayerProfile, LayerTransient, TransientHistory};
-pub use measured::{Column, Confidence, Kind, MeasuredData, Metadata};
+pub use measured::{Column, MeasuredData, Metadata, Origin};
 pub use rough_channel::RoughChannel;
-pub use settling::{GrainForm, RICHARDSON_ZAKI_CONFIDENCE, SettlingGrains, richardson_zaki_exponent};
-pub use slope_laws::{RoughIncline, slope_run_out};
+pub use settling::{GrainForm, SettlingGrains, richardson_zaki_confidence, richardson_zaki_exponent};
+pub use shipped::{shipped_table, shipped_tables};
+pub use slope_laws::{RoughIncline, SLOPE_EXPERIMENT, SlopeExperiment, slope_run_out};

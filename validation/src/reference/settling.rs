@@ -9,11 +9,32 @@
 //!
 //! The drag laws are the solver's; its tests compare them with values computed by hand, and so do those here.
 
+use super::shipped::read_shipped;
 use crate::metric::Confidence;
 use bagnold_solver::material::drag::DragLaw;
+use std::sync::LazyLock;
+
+/// Exponents c Rᵏ of ranges of Reynolds numbers.
+struct RichardsonZaki {
+    confidence: Confidence,
+    /// Upper end of the range, c and k.
+    ranges: Vec<(f64, f64, f64)>,
+}
+
+static RICHARDSON_ZAKI: LazyLock<RichardsonZaki> = LazyLock::new(|| {
+    read_shipped("settling/richardson-zaki.csv", |table| {
+        let (coefficients, exponents) = (table.numbers("coefficient")?, table.numbers("exponent")?);
+        let ends = table.upper_ends("up to, or open")?;
+        let ranges = ends.iter().zip(coefficients).zip(exponents).map(|((&end, &c), &k)| (end, c, k)).collect();
+        Ok(RichardsonZaki { confidence: table.metadata.confidence, ranges })
+    })
+});
 
 /// How sure the project is of [`richardson_zaki_exponent`]: observed beside a run, never a gate.
-pub const RICHARDSON_ZAKI_CONFIDENCE: Confidence = Confidence::Unverified;
+#[must_use]
+pub fn richardson_zaki_confidence() -> Confidence {
+    RICHARDSON_ZAKI.confidence
+}
 
 /// What a grain's submerged weight is compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -120,15 +141,12 @@ impl SettlingGrains {
 }
 
 /// Exponent n `[-]` of Richardson & Zaki (1954), u/u_t = (1 − φ)ⁿ, at the Reynolds number u_t d/ν `[-]` of a grain alone,
-/// in a vessel much wider than a grain. Confidence: [`RICHARDSON_ZAKI_CONFIDENCE`].
+/// in a vessel much wider than a grain. Confidence: [`richardson_zaki_confidence`].
 #[must_use]
 pub fn richardson_zaki_exponent(terminal_reynolds: f64) -> f64 {
-    match terminal_reynolds {
-        r if r < 0.2 => 4.65,
-        r if r < 1.0 => 4.35 * libm::pow(r, -0.03),
-        r if r < 500.0 => 4.45 * libm::pow(r, -0.1),
-        _ => 2.39,
-    }
+    let ranges = &RICHARDSON_ZAKI.ranges;
+    let found = ranges.iter().find(|range| terminal_reynolds < range.0).or(ranges.last());
+    found.map_or(f64::NAN, |&(_, coefficient, exponent)| coefficient * libm::pow(terminal_reynolds, exponent))
 }
 
 /// x ≥ 0 with f(x) = target ≥ 0 for an f that grows from f(0) = 0, to the last bit, by doubling an upper bound from
@@ -273,6 +291,21 @@ mod tests {
                 let drag = law.exchange_coefficient(solid_fraction, slip, 1e-3, 1000.0, 1e-6) * slip;
                 assert_close(Some(drag), solid_fraction * (1.0 - solid_fraction) * 15_696.0, 1e-13);
             }
+        }
+    }
+
+    #[test]
+    fn drag_laws_give_the_tabulated_coefficients() {
+        let table = crate::reference::shipped_table("settling/drag.csv").expect("readable");
+        let column = |name| table.numbers(name).expect("numbers");
+        let rows = column("Reynolds number").iter().zip(column("drag coefficient"));
+        for (name, (&reynolds, &expected)) in table.labels("law").expect("labels").iter().zip(rows) {
+            let law = DragLaw::ALL.into_iter().find(|law| law.name() == name).expect("a law");
+            let found = law.drag_coefficient(reynolds);
+            assert!(
+                found.is_some_and(|found| (found / expected - 1.0).abs() < 1e-6),
+                "{name} at {reynolds}: {found:?}"
+            );
         }
     }
 

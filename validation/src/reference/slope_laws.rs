@@ -2,8 +2,38 @@
 //!
 //! Angles in `[rad]`, lengths in the unit of what is given.
 
+use super::shipped::read_shipped;
+use crate::metric::Confidence;
+use std::sync::LazyLock;
+
+/// What is known of the experiment on a slope (Mangeney et al. 2010) and of the side walls of such channels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SlopeExperiment {
+    /// Coefficients k of the run-out law `[-]`: the lower and the upper quotation.
+    pub run_out_coefficients: (f64, f64),
+    /// How sure the project is of them.
+    pub confidence: Confidence,
+    /// Angle of repose of its beads `[°]`.
+    pub repose_angle: f64,
+    /// Friction that side walls add, over the ratio of height to width `[-]` (Ionescu et al. 2015).
+    pub side_wall_friction: f64,
+}
+
+/// The experiment, from `reference-data/incline-collapse`.
+pub static SLOPE_EXPERIMENT: LazyLock<SlopeExperiment> = LazyLock::new(|| {
+    let (run_out_coefficients, confidence) = read_shipped("incline-collapse/run-out.csv", |table| {
+        let coefficient = |quotation| table.number_of("quotation", quotation, "coefficient");
+        Ok(((coefficient("lower")?, coefficient("upper")?), table.metadata.confidence))
+    });
+    let repose_angle =
+        read_shipped("incline-collapse/experiment.csv", |table| table.number_of("what", "angle of repose", "value"));
+    let side_wall_friction =
+        read_shipped("incline-collapse/side-walls.csv", |table| table.number_of("part", "walls", "friction"));
+    SlopeExperiment { run_out_coefficients, confidence, repose_angle, side_wall_friction }
+});
+
 /// Displacement of the front of a collapse on a slope, x_f = h_0 · 2k/(tanδ − tanθ), with friction tanδ and a
-/// coefficient k of 0.4 to 0.5 (Mangeney et al. 2010, as two later works quote it). None from θ = δ on: no deposit.
+/// coefficient k (Mangeney et al. 2010, as two later works quote it). None from θ = δ on: no deposit.
 #[must_use]
 pub fn slope_run_out(initial_height: f64, slope_angle: f64, friction: f64, k: f64) -> Option<f64> {
     let excess = friction - libm::tan(slope_angle);
@@ -49,23 +79,41 @@ impl RoughIncline {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::reference::{GLASS_BEADS, GLASS_BEADS_FLOW_RULE, shipped_table};
 
-    const GLASS: RoughIncline =
-        RoughIncline { length_scale: 1.65 * 0.5e-3, static_friction: 0.382, limiting_friction: 0.643 };
+    fn glass() -> RoughIncline {
+        let law = GLASS_BEADS.law;
+        RoughIncline {
+            length_scale: GLASS_BEADS_FLOW_RULE.deposit_length * law.grain_diameter,
+            static_friction: law.static_friction,
+            limiting_friction: law.limiting_friction,
+        }
+    }
 
     #[test]
-    fn the_figures_of_the_model_notes_come_out() {
-        for (angle, flow, deposit) in
-            [(22.0_f64, 4.66e-2, 8.95e-3), (23.0, 3.46e-2, 4.24e-3), (24.0, 2.83e-2, 2.58e-3), (25.0, 2.41e-2, 1.73e-3)]
-        {
-            let found = (GLASS.flow_thickness(0.14, angle.to_radians()), GLASS.deposit_thickness(angle.to_radians()));
+    fn the_tabulated_thicknesses_come_out() {
+        let column =
+            |file: &str, name: &str| shipped_table(file).expect("readable").numbers(name).expect("there").to_vec();
+        let angles = column("flow-thickness/estimate.csv", "slope angle");
+        assert_eq!(angles, column("bagnold/thickness.csv", "slope angle"));
+        let flows = column("flow-thickness/estimate.csv", "flow thickness");
+        let deposits = column("bagnold/thickness.csv", "deposit thickness");
+        for ((angle, flow), deposit) in angles.into_iter().zip(flows).zip(deposits) {
+            let found =
+                (glass().flow_thickness(0.14, angle.to_radians()), glass().deposit_thickness(angle.to_radians()));
             let (Some(thickness), Some(left)) = found else { panic!("{found:?}") };
             assert!((thickness - flow).abs() < 1e-4, "{thickness} m at {angle}°");
-            assert!((left - deposit).abs() < 1e-5, "{left} m at {angle}°");
-            assert!((GLASS.stopping_angle(left).to_degrees() - angle).abs() < 1e-9);
+            assert!((left - 1e-3 * deposit).abs() < 1e-5, "{left} m at {angle}°");
+            assert!((glass().stopping_angle(left).to_degrees() - angle).abs() < 1e-9);
         }
-        assert_eq!(GLASS.deposit_thickness(0.3), None);
-        assert_eq!(GLASS.flow_thickness(0.14, 0.6), None);
+        assert_eq!(glass().deposit_thickness(0.3), None);
+        assert_eq!(glass().flow_thickness(0.14, 0.6), None);
+        // the paper: about 5 cm at 22°
+        let stated = column("flow-thickness/statements.csv", "thickness")[0];
+        let computed = glass().flow_thickness(0.14, 22f64.to_radians()).map(|thickness| 100.0 * thickness);
+        assert!(computed.is_some_and(|computed| (computed - stated).abs() < 0.5), "{computed:?}");
+        assert_eq!(SLOPE_EXPERIMENT.run_out_coefficients, (0.4, 0.5));
+        assert_eq!(SLOPE_EXPERIMENT.side_wall_friction, 0.18);
     }
 
     #[test]

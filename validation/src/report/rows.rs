@@ -171,6 +171,7 @@ fn confidence(confidence: Confidence) -> &'static str {
         Confidence::Exact => "exact",
         Confidence::High => "high confidence",
         Confidence::Medium => "medium confidence",
+        Confidence::Low => "low confidence: sources conflict",
         Confidence::Unverified => "unverified: never gates",
     }
 }

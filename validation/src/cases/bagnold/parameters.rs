@@ -4,7 +4,7 @@ use crate::case::Tier;
 use crate::cases::layer::Preparation;
 use crate::cases::rules;
 use crate::error::InputError;
-use crate::reference::BagnoldProfile;
+use crate::reference::{BagnoldProfile, GLASS_BEADS};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use serde::{Deserialize, Serialize};
@@ -115,7 +115,7 @@ impl BagnoldParameters {
         let quick = Self {
             layer_height: 0.01,
             gravity: 9.81,
-            solid_fraction: 0.6,
+            solid_fraction: GLASS_BEADS.solid_fraction,
             slope_angles: vec![22.0, 23.0, 24.0, 25.0],
             starts: vec![Start::Rest],
             resolution: 20,
@@ -132,13 +132,7 @@ impl BagnoldParameters {
             // at 20 rows the particles' agitation breaks the layer up before its mean reaches half the sound speed
             runaway_slope_angles: vec![],
             // glass beads of Table 1 (Forterre & Pouliquen 2003); I_0 from (41) at 25°, kept at every angle
-            material: MuI {
-                static_friction: 0.382,
-                limiting_friction: 0.643,
-                reference_inertia: 0.279,
-                grain_diameter: 0.5e-3,
-                grain_density: 2500.0,
-            },
+            material: GLASS_BEADS.law,
             regularisation_rate: 0.0,
             regularised_slope_angles: Vec::new(),
             regularised_rate: 0.01,

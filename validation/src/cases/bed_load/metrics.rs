@@ -36,7 +36,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
         let variant = fit::variant(&held);
         metrics.push(
             Metric::observed("held_out_transport_ratio", &variant, held.ratio, "-")
-                .against(Some(1.0), TransportFormula::WongParker.name(), Confidence::High)
+                .against(Some(1.0), TransportFormula::WongParker.name(), TransportFormula::WongParker.confidence())
                 .of_kind(Kind::Validation)
                 .gated(
                     Limit::Within(HONEST_BAND.0, HONEST_BAND.1),
@@ -71,7 +71,7 @@ pub(super) fn average(data: &BedLoadObservation, array: &[f64]) -> Estimate {
 fn transport(run: &BedLoadRun, record: &Recorded<BedLoadObservation>) -> Metric {
     let formula = TransportFormula::WongParker;
     observed("transport", &run.variant(), average(&record.data, &record.data.transport), 1.0, "-")
-        .against(Some(formula.transport(run.stream().shields_number())), formula.name(), Confidence::High)
+        .against(Some(formula.transport(run.stream().shields_number())), formula.name(), formula.confidence())
         .of_kind(Kind::Validation)
 }
 
@@ -123,7 +123,7 @@ fn printed(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoa
     let formula = TransportFormula::WongParker;
     metrics.push(
         Metric::observed("last_transport", &variant, last, "-")
-            .against(Some(formula.transport(run.stream().shields_number())), formula.name(), Confidence::High)
+            .against(Some(formula.transport(run.stream().shields_number())), formula.name(), formula.confidence())
             .of_kind(Kind::Validation)
             .with_snapshot_tolerance(0.2, 1e-3),
     );

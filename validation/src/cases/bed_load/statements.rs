@@ -11,7 +11,7 @@ use crate::case::Run;
 use crate::cases::channel;
 use crate::metric::{Confidence, Kind, Limit, Metric};
 use crate::observe::Recorded;
-use crate::reference::{HONEST_BAND, TransportFormula};
+use crate::reference::{HONEST_BAND, LAYER_STATEMENTS, TransportFormula};
 use crate::statistics::Segmented;
 
 pub(super) fn stabilised(
@@ -33,7 +33,7 @@ pub(super) fn stabilised(
         let reference = formula.transport(run.stream().shields_number());
         let ratio = observed("transport_ratio", &variant, average(data, &data.transport), 1.0 / reference, "-");
         let reason = "yield stress and viscosity are fitted to the two other slopes";
-        let metric = ratio.against(Some(1.0), formula.name(), Confidence::High).of_kind(Kind::Validation);
+        let metric = ratio.against(Some(1.0), formula.name(), formula.confidence()).of_kind(Kind::Validation);
         metrics.push(metric.gated(Limit::Within(HONEST_BAND.0, HONEST_BAND.1), reason));
     }
     let gated = |metric: Metric, limit, reason: &str| if judged { metric.gated(limit, reason) } else { metric };
@@ -82,14 +82,14 @@ fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoad
     let profile = &record.data.channel.profile;
     let count = profiles::number_of_layers(run, &profile.points());
     // of 2 % the paper says nothing
-    let published = match run.slope {
-        0.03 => Some(2.0),
-        0.05 => Some(3.0),
-        _ => None,
-    };
+    let published = LAYER_STATEMENTS.iter().find(|statement| statement.slope == run.slope);
     metrics.push(
         Metric::observed("number_of_layers", &variant, count as f64, "-")
-            .against(published, "statement of the paper: two layers at 3 %, three at 5 %", Confidence::Medium)
+            .against(
+                published.map(|statement| statement.layers),
+                "statement of the paper: two layers at 3 %, three at 5 %",
+                published.map_or(Confidence::Medium, |statement| statement.confidence),
+            )
             .of_kind(Kind::Validation)
             // a break more or less is no drift of the flow
             .with_snapshot_tolerance(0.0, 1.0),

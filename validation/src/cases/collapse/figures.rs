@@ -10,7 +10,7 @@ use super::{convergence, energy, scaling, stress_updates, velocity_profile};
 use crate::case::Run;
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel, Series};
 use crate::observe::{Frame, Recorded};
-use crate::reference::{CollapseLaw, PLANAR_HEIGHT, PLANAR_RUN_OUT, ROUND_HEIGHT, ROUND_RUN_OUT};
+use crate::reference::{CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
 pub(in crate::cases) fn all(records: &[Record]) -> Vec<Figure> {
     let laws: Vec<&Record> = records.iter().filter(|(run, _)| run.purpose == Purpose::Law).collect();
@@ -69,14 +69,18 @@ fn name(material: &str) -> String {
 fn scaling_figure(records: &[&Record]) -> Figure {
     let round = records.iter().any(|(run, _)| run.geometry == Geometry::Round);
     // the laws of the geometry, and Lube's of the other one: the paper compared planar runs with the round law
-    let run_out_laws: Vec<CollapseLaw> = if round {
-        ROUND_RUN_OUT.iter().chain(&PLANAR_RUN_OUT[..1]).copied().collect()
+    let (planar_laws, round_laws) = (&*PLANAR_COLLAPSE, &*ROUND_COLLAPSE);
+    let run_out_laws: Vec<&CollapseLaw> = if round {
+        round_laws.run_out.iter().chain(&planar_laws.run_out[..1]).collect()
     } else {
-        PLANAR_RUN_OUT.iter().chain(&ROUND_RUN_OUT[..1]).copied().collect()
+        planar_laws.run_out.iter().chain(&round_laws.run_out[..1]).collect()
     };
-    let height_laws: Vec<CollapseLaw> =
-        if round { ROUND_HEIGHT.iter().chain(&PLANAR_HEIGHT[..1]).copied().collect() } else { PLANAR_HEIGHT.to_vec() };
-    let panel = |label: &str, laws: &[CollapseLaw], measure: fn(&Collapse) -> f64, legend: bool| {
+    let height_laws: Vec<&CollapseLaw> = if round {
+        round_laws.height.iter().chain(&planar_laws.height[..1]).collect()
+    } else {
+        planar_laws.height.iter().collect()
+    };
+    let panel = |label: &str, laws: &[&CollapseLaw], measure: fn(&Collapse) -> f64, legend: bool| {
         let mut panel = Panel::new("", Axis::logarithmic("h0/r0 [-]"), Axis::logarithmic(label));
         for law in laws {
             // a source keeps its colour from panel to panel
@@ -84,7 +88,7 @@ fn scaling_figure(records: &[&Record]) -> Figure {
                 run_out_laws.iter().position(|other| other.source.split(',').next() == law.source.split(',').next());
             let slot = known.unwrap_or(run_out_laws.len());
             for (part, curve) in law.curves().into_iter().enumerate() {
-                let entry = if legend && part == 0 { law.source } else { "" };
+                let entry = if legend && part == 0 { law.source.as_str() } else { "" };
                 panel.series.push(Series::new(entry, Mark::Line, slot + 3, curve));
             }
         }

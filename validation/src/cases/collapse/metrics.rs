@@ -6,7 +6,7 @@ use super::convergence::relative_spread;
 use super::deposit::Collapse;
 use crate::case::Run;
 use crate::metric::{Confidence, Kind, Limit, Metric};
-use crate::reference::{CollapseLaw, PLANAR_HEIGHT, PLANAR_RUN_OUT, ROUND_HEIGHT, ROUND_RUN_OUT};
+use crate::reference::{COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
 const LUBE: usize = 0;
 const LAGREE: usize = 1;
@@ -35,12 +35,13 @@ pub(in crate::cases) fn all(records: &[Record]) -> Vec<Metric> {
 }
 
 /// The laws of run-out and height whose geometry a run has, and whose material it has or comes closest to.
-fn laws_of(run: &ColumnRun) -> (CollapseLaw, CollapseLaw) {
-    match run.geometry {
-        Geometry::Planar if run.family() == "lagree" => (PLANAR_RUN_OUT[LAGREE], PLANAR_HEIGHT[LAGREE]),
-        Geometry::Planar => (PLANAR_RUN_OUT[LUBE], PLANAR_HEIGHT[LUBE]),
-        Geometry::Round => (ROUND_RUN_OUT[LUBE], ROUND_HEIGHT[LUBE]),
-    }
+fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static CollapseLaw) {
+    let (laws, author) = match run.geometry {
+        Geometry::Planar if run.family() == "lagree" => (&*PLANAR_COLLAPSE, LAGREE),
+        Geometry::Planar => (&*PLANAR_COLLAPSE, LUBE),
+        Geometry::Round => (&*ROUND_COLLAPSE, LUBE),
+    };
+    (&laws.run_out[author], &laws.height[author])
 }
 
 /// Nothing is lost: no particle, no mass, no momentum.
@@ -86,7 +87,7 @@ fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse, sp
     let (run_out_law, height_law) = laws_of(run);
     let run_out = observed("run_out", collapse.run_out(), "-").against(
         run_out_law.value(a),
-        run_out_law.source,
+        &run_out_law.source,
         run_out_law.confidence,
     );
     metrics.push(match run_out_law.value(a) {
@@ -98,7 +99,7 @@ fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse, sp
     });
     let height = observed("final_height", collapse.final_height(), "-").against(
         height_law.value(a),
-        height_law.source,
+        &height_law.source,
         height_law.confidence,
     );
     metrics.push(match height_law.value(a) {
@@ -113,9 +114,9 @@ fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse, sp
         _ => height,
     });
     metrics.push(observed("stopping_time", collapse.stopping_time() / run.time_scale(), "√(h0/g)").against(
-        Some(3.0),
-        "about 3 √(h_0/g), Lajeunesse et al. 2005; 99 % of the front's way here",
-        Confidence::Medium,
+        Some(COLLAPSE_DURATION.0),
+        &format!("about {} √(h_0/g), {}; 99 % of the front's way here", COLLAPSE_DURATION.0, COLLAPSE_DURATION.1),
+        COLLAPSE_DURATION.2,
     ));
     metrics.push(
         Metric::observed("kinetic_energy_share", &variant, collapse.agitation(), "-")

@@ -4,6 +4,7 @@ use super::Record;
 use super::column::{Geometry, Purpose};
 use super::deposit::Collapse;
 use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::reference::PLANAR_COLLAPSE;
 use crate::statistics::{Exponent, power_law, student_quantile};
 
 /// Fewest tall columns that a power law is fitted to.
@@ -66,6 +67,15 @@ fn break_point(shallow: f64, tall: &Exponent) -> f64 {
     libm::pow(tall.coefficient / shallow, 1.0 / (1.0 - tall.value))
 }
 
+/// A break point against the middle of the gap between Lube's branches.
+fn against_lube(metric: Metric) -> Metric {
+    let lube = &PLANAR_COLLAPSE.run_out[0];
+    let [shallow, tall] = lube.branches.as_slice() else { return metric };
+    let source =
+        format!("between the branches of Lube et al. 2005, which end at {} and begin at {}", shallow.to, tall.from);
+    metric.against(Some(0.5 * (shallow.to + tall.from)), &source, lube.confidence)
+}
+
 pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     let records: Vec<&Record> = records.iter().collect();
     let mut metrics = Vec::new();
@@ -103,11 +113,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
             if quantity == "run_out"
                 && let Some(shallow) = shallow_coefficient(&records, material)
             {
-                metrics.push(observed("break_point", break_point(shallow, &scaling.law)).against(
-                    Some(2.3),
-                    "between the branches of Lube et al. 2005, which end at 1.8 and begin at 2.8",
-                    Confidence::High,
-                ));
+                metrics.push(against_lube(observed("break_point", break_point(shallow, &scaling.law))));
             }
         }
     }

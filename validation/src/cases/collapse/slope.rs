@@ -7,6 +7,7 @@ use crate::case::{Progress, Run};
 use crate::cases::recording::Ending;
 use crate::error::InputError;
 use crate::observe::{Frame, Recorded};
+use crate::reference::SLOPE_EXPERIMENT;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Rheology};
@@ -30,8 +31,6 @@ const INTERVAL: f64 = 0.02;
 const PICTURES: [f64; 4] = [0.0, 0.2, 0.4, 0.8];
 /// Time between the frames of the moving picture `[s]`.
 const FRAME_INTERVAL: f64 = 0.04;
-/// Friction that side walls add, over the ratio of height to width `[-]`.
-const SIDE_WALL_FRICTION: f64 = 0.18;
 /// Rows of particles through the gate: its two sides must not see each other.
 const GATE_ROWS: usize = 4;
 
@@ -114,7 +113,11 @@ impl SlopeRun {
     }
 
     fn side_wall_friction(&self) -> f64 {
-        if self.channel_width > 0.0 { SIDE_WALL_FRICTION * self.initial_height / self.channel_width } else { 0.0 }
+        if self.channel_width > 0.0 {
+            SLOPE_EXPERIMENT.side_wall_friction * self.initial_height / self.channel_width
+        } else {
+            0.0
+        }
     }
 
     fn rows(&self) -> usize {

@@ -4,6 +4,7 @@ use crate::case::Tier;
 use crate::cases::collapse::{ColumnRun, Geometry, Purpose};
 use crate::cases::rules;
 use crate::error::InputError;
+use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, TABLE_2_SAND};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 use serde::{Deserialize, Serialize};
@@ -106,7 +107,7 @@ pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
     ("sand.solid_fraction", "[-], bulk density over grain density"),
     ("sand.law.static_friction", "μ_s [-]"),
     ("sand.law.limiting_friction", "μ_2 [-]"),
-    ("sand.law.reference_inertia", "I_0 [-]; 2.65 as printed, 0.279 in other tables of the paper"),
+    ("sand.law.reference_inertia", "I_0 [-]; 2.65 as printed; 0.279 follows from (41) for the glass beads"),
     ("sand.law.grain_diameter", "D [m]"),
     ("sand.law.grain_density", "ρ_s [kg/m³]"),
     ("glass.aspect_ratios", "h_0/r_0 [-]; other fields as of the sand"),
@@ -156,41 +157,23 @@ impl ColumnPlanarParameters {
                 aspect_ratios: vec![0.7, 0.9, 1.5, 3.0],
                 half_width: 0.0972,
                 tall_half_width: 0.0292,
-                solid_fraction: 0.62,
-                law: MuI {
-                    static_friction: 0.589,
-                    limiting_friction: 1.248,
-                    reference_inertia: 2.65,
-                    grain_diameter: 0.32e-3,
-                    grain_density: 2600.0,
-                },
+                solid_fraction: TABLE_2_SAND.solid_fraction,
+                law: TABLE_2_SAND.law,
             },
             // Table 1; figures 7–9 are captioned glass beads
             glass: Columns {
                 aspect_ratios: Vec::new(),
                 half_width: 0.0972,
                 tall_half_width: 0.0292,
-                solid_fraction: 0.6,
-                law: MuI {
-                    static_friction: 0.382,
-                    limiting_friction: 0.643,
-                    reference_inertia: 0.279,
-                    grain_diameter: 0.5e-3,
-                    grain_density: 2500.0,
-                },
+                solid_fraction: GLASS_BEADS.solid_fraction,
+                law: GLASS_BEADS.law,
             },
             lagree: Columns {
                 aspect_ratios: vec![1.0],
                 half_width: 0.1,
                 tall_half_width: 0.1,
-                solid_fraction: 0.6,
-                law: MuI {
-                    static_friction: 0.32,
-                    limiting_friction: 0.60,
-                    reference_inertia: 0.4,
-                    grain_diameter: 2e-3,
-                    grain_density: 2500.0,
-                },
+                solid_fraction: LAGREE_GRAINS.solid_fraction,
+                law: LAGREE_GRAINS.law,
             },
             sand_inertias: Variants { values: Vec::new(), aspect_ratios: Vec::new() },
             lagree_diameters: Variants { values: Vec::new(), aspect_ratios: Vec::new() },
@@ -206,7 +189,10 @@ impl ColumnPlanarParameters {
             numerics: Numerics::default(),
         };
         let paper = Self {
-            sand_inertias: Variants { values: vec![0.279], aspect_ratios: vec![5.0, 7.0, 10.0, 14.0, 20.0] },
+            sand_inertias: Variants {
+                values: vec![GLASS_BEADS.law.reference_inertia],
+                aspect_ratios: vec![5.0, 7.0, 10.0, 14.0, 20.0],
+            },
             // D/r_0 = 0.01 and 0.04: the source does not say which
             lagree_diameters: Variants { values: vec![1e-3, 4e-3], aspect_ratios: vec![0.5, 1.0, 2.0, 3.0, 7.0] },
             sensitivity: Sensitivity {
@@ -273,7 +259,11 @@ impl ColumnPlanarParameters {
             }
         }
         for (index, &value) in self.sand_inertias.values.iter().enumerate() {
-            rules::positive(&format!("sand_inertias.values[{index}]"), value, "0.279 in other tables of the paper")?;
+            rules::positive(
+                &format!("sand_inertias.values[{index}]"),
+                value,
+                "0.279 follows from (41) for the glass beads",
+            )?;
         }
         for (index, &value) in self.lagree_diameters.values.iter().enumerate() {
             let field = format!("lagree_diameters.values[{index}]");

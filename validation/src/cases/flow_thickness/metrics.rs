@@ -5,7 +5,7 @@ use crate::case::Run;
 use crate::cases::collapse::metrics::conservation;
 use crate::cases::layer::LayerObservation;
 use crate::metric::{Confidence, Kind, Limit, Metric};
-use crate::reference::RoughIncline;
+use crate::reference::{GLASS_BEADS_FLOW_RULE, RoughIncline};
 
 /// Part of a steady flow's time series that its mean velocity is taken over, the last `[-]`.
 const WINDOW: f64 = 0.3;
@@ -40,7 +40,7 @@ pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> V
             None,
             "slope at which h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s) equals the thickness, less the angle found: what a \
              local law does not know",
-            Confidence::High,
+            GLASS_BEADS_FLOW_RULE.confidence,
         ));
     }
     flow_rule(&mut metrics, parameters, records);
@@ -132,7 +132,7 @@ fn flow_rule(metrics: &mut Vec<Metric>, parameters: &FlowThicknessParameters, re
     metrics.push(
         Metric::observed("flow_coefficient_published", "", measured, "-")
             .of_kind(Kind::Validation)
-            .against(Some(parameters.flow_coefficient), "Table 1, β of glass beads", Confidence::High)
+            .against(Some(parameters.flow_coefficient), "Table 1, β of glass beads", GLASS_BEADS_FLOW_RULE.confidence)
             .with_snapshot_tolerance(2e-3, 0.0),
     );
 }

@@ -6,6 +6,7 @@ use crate::case::Tier;
 use crate::cases::incline_collapse::InclineCollapseParameters;
 use crate::cases::rules;
 use crate::error::InputError;
+use crate::reference::GLASS_BEADS_FLOW_RULE;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the case.
@@ -66,8 +67,8 @@ impl FlowThicknessParameters {
         let quick = Self {
             collapse,
             stations: vec![0.5, 1.0, 1.5],
-            deposit_length: 1.65,
-            flow_coefficient: 0.136,
+            deposit_length: GLASS_BEADS_FLOW_RULE.deposit_length,
+            flow_coefficient: GLASS_BEADS_FLOW_RULE.flow_coefficient,
             rows: 12,
             columns: 10,
             stopping_thicknesses: vec![0.005],

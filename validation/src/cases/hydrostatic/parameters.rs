@@ -5,6 +5,7 @@ use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::observe::Recorded;
+use crate::reference::GLASS_BEADS;
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use serde::{Deserialize, Serialize};
@@ -70,16 +71,10 @@ impl HydrostaticParameters {
             seed: 1,
             preparation: Preparation::Settled,
             duration: 2.25,
-            solid_fraction: 0.6,
+            solid_fraction: GLASS_BEADS.solid_fraction,
             liquid_density: 1000.0,
             liquid: Newtonian { viscosity: 1e-3 },
-            grains: MuI {
-                static_friction: 0.382,
-                limiting_friction: 0.643,
-                reference_inertia: 0.279,
-                grain_diameter: 0.5e-3,
-                grain_density: 2500.0,
-            },
+            grains: GLASS_BEADS.law,
             numerics: Numerics::default(),
         };
         match tier {

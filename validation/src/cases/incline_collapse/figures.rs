@@ -1,17 +1,14 @@
 //! The case's figures.
 
 use super::Record;
-use super::metrics::COEFFICIENTS;
 use crate::cases::collapse::pictures::{View, animation, speeds};
 use crate::cases::collapse::{BIN_WIDTH, SlopeRun};
 use crate::figure::{Animation, Axis, Band, Field, Figure, Mark, Panel, Series};
 use crate::observe::Frame;
-use crate::reference::slope_run_out;
+use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
 
 /// Times at which thickness profiles are drawn `[s]`.
 const PROFILES: [f64; 6] = [0.0, 0.2, 0.4, 0.6, 0.8, 1.2];
-/// Friction of the experiment: beads with a repose angle of 23.5°.
-const EXPERIMENT: f64 = 23.5;
 /// The paper's scale of viscosities `[Pa·s]`.
 const PAPER_SCALE: (f64, f64) = (0.0, 1.5);
 
@@ -112,13 +109,15 @@ fn run_outs(records: &[Record]) -> Figure {
         let value = |angle: f64| slope_run_out(first.initial_height, angle.to_radians(), friction, k);
         angles.filter_map(|angle| Some((angle, value(angle)?))).filter(|(_, way)| *way < 6.0).collect()
     };
-    let (short, long) = (curve(friction, COEFFICIENTS.0), curve(friction, COEFFICIENTS.1));
+    let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
+    let (short, long) = (curve(friction, lower), curve(friction, upper));
     panel.bands.push(Band {
         label: "k = 0.4 to 0.5, tanδ = μ_s of the run".to_owned(),
         points: short.iter().zip(&long).map(|(a, b)| (a.0, a.1, b.1)).collect(),
     });
-    let experiment = libm::tan(EXPERIMENT.to_radians());
-    for (k, entry) in [(COEFFICIENTS.0, "k = 0.4 and 0.5, δ = 23.5° of the experiment"), (COEFFICIENTS.1, "")] {
+    let entry = format!("k = {lower} and {upper}, δ = {}° of the experiment", SLOPE_EXPERIMENT.repose_angle);
+    let experiment = libm::tan(SLOPE_EXPERIMENT.repose_angle.to_radians());
+    for (k, entry) in [(lower, entry.as_str()), (upper, "")] {
         panel.series.push(Series::new(entry, Mark::Reference, 0, curve(experiment, k)));
     }
     let points: Vec<(f64, f64)> = records

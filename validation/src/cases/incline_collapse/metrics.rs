@@ -4,11 +4,9 @@ use super::Record;
 use crate::case::Run;
 use crate::cases::collapse::metrics::conservation;
 use crate::metric::{Confidence, Kind, Limit, Metric};
-use crate::reference::slope_run_out;
+use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
 
-/// Coefficients k that the two quotations of the run-out law give `[-]`.
-pub(super) const COEFFICIENTS: (f64, f64) = (0.4, 0.5);
-/// What the gate allows beyond them `[-]`.
+/// What the gate allows beyond the band of the law's two quotations `[-]`.
 const MARGIN: f64 = 0.15;
 /// Times at which the front is told `[s]`.
 const FRONT_TIMES: [f64; 2] = [0.3, 0.4];
@@ -28,13 +26,14 @@ pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
     // the front's way from the gate
     let way = (data.run_out()) * run.reservoir_length;
     let law = |k: f64| slope_run_out(run.initial_height, angle, run.static_friction(), k);
+    let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
     if run.regularisation_rate.is_none()
-        && let (Some(short), Some(long)) = (law(COEFFICIENTS.0), law(COEFFICIENTS.1))
+        && let (Some(short), Some(long)) = (law(lower), law(upper))
     {
         let front = observed("front_displacement", &variant, way, "m").against(
             Some(0.5 * (short + long)),
-            "h_0 2k/(tanδ − tanθ), k = 0.4 to 0.5, tanδ = μ_s: Mangeney et al. 2010 as quoted",
-            Confidence::Medium,
+            &format!("h_0 2k/(tanδ − tanθ), k = {lower} to {upper}, tanδ = μ_s: Mangeney et al. 2010 as quoted"),
+            SLOPE_EXPERIMENT.confidence,
         );
         // on a horizontal bed the fit was not made for the paper's case
         metrics.push(if run.slope_angle > 0.0 && run.is_resolved() {

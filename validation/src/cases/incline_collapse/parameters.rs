@@ -4,6 +4,7 @@ use crate::case::Tier;
 use crate::cases::collapse::SlopeRun;
 use crate::cases::rules;
 use crate::error::InputError;
+use crate::reference::GLASS_BEADS;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 use serde::{Deserialize, Serialize};
@@ -97,15 +98,9 @@ impl InclineCollapseParameters {
             jitter: 0.05,
             seed: 1,
             duration: 4.0,
-            solid_fraction: 0.6,
+            solid_fraction: GLASS_BEADS.solid_fraction,
             // Table 1, glass beads
-            material: MuI {
-                static_friction: 0.382,
-                limiting_friction: 0.643,
-                reference_inertia: 0.279,
-                grain_diameter: 0.5e-3,
-                grain_density: 2500.0,
-            },
+            material: GLASS_BEADS.law,
             numerics: Numerics::default(),
         };
         let paper = Self {

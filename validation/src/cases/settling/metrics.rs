@@ -7,7 +7,7 @@ use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;
 use crate::case::Run;
 use crate::metric::{Confidence, Kind, Limit, Metric};
-use crate::reference::{RICHARDSON_ZAKI_CONFIDENCE, richardson_zaki_exponent};
+use crate::reference::{richardson_zaki_confidence, richardson_zaki_exponent};
 
 const ALONE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ½ for the planar form (30)";
 const SPHERE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ¾ for a sphere";
@@ -68,7 +68,7 @@ fn together(run: &SuspensionRun, data: &SettlingObservation) -> Vec<Metric> {
         metrics.push(
             Metric::observed("sinking_over_richardson_zaki", &variant, series.mean(&series.sinking).0 / published, "-")
                 .of_kind(Kind::Validation)
-                .against(Some(1.0), "Richardson & Zaki 1954, u/u_t = (1 − φ)ⁿ", RICHARDSON_ZAKI_CONFIDENCE)
+                .against(Some(1.0), "Richardson & Zaki 1954, u/u_t = (1 − φ)ⁿ", richardson_zaki_confidence())
                 .with_snapshot_tolerance(0.01, 0.0),
         );
     }

@@ -1,0 +1,110 @@
+//! Grains that papers tabulate, as `reference-data` lists them.
+
+use super::shipped::{read_shipped, shipped_table};
+use super::{MeasuredData, ReferenceError};
+use crate::metric::Confidence;
+use bagnold_solver::material::rheology::MuI;
+use std::sync::LazyLock;
+
+/// Grains with the μ(I) law that a paper gives them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PublishedGrains {
+    /// Constitutive law with diameter and density of the grains.
+    pub law: MuI,
+    /// Solid fraction φ `[-]`.
+    pub solid_fraction: f64,
+    /// How sure the project is of them.
+    pub confidence: Confidence,
+}
+
+/// Glass beads of Table 1 of the collapse paper, whose I_0 follows from (41).
+pub static GLASS_BEADS: LazyLock<PublishedGrains> = LazyLock::new(|| {
+    read_shipped("bagnold/friction.csv", |friction| {
+        let printed = |name| friction.number_of("material", "glass beads", name);
+        let more = shipped_table("bagnold/grains.csv")?;
+        let added = |name| more.number_of("material", "glass beads", name);
+        let law = MuI {
+            static_friction: printed("static friction")?,
+            limiting_friction: printed("limiting friction")?,
+            reference_inertia: added("reference inertia")?,
+            grain_diameter: printed("grain diameter")?,
+            grain_density: added("grain density")?,
+        };
+        Ok(PublishedGrains { law, solid_fraction: added("solid fraction")?, confidence: friction.metadata.confidence })
+    })
+});
+
+/// Sand of Table 2 of the collapse paper.
+pub static TABLE_2_SAND: LazyLock<PublishedGrains> =
+    LazyLock::new(|| read_shipped("column-planar/grains.csv", |table| PublishedGrains::read(table, "sand")));
+
+/// The continuum of Lagrée, Staron & Popinet 2011.
+pub static LAGREE_GRAINS: LazyLock<PublishedGrains> =
+    LazyLock::new(|| read_shipped("column-planar/grains.csv", |table| PublishedGrains::read(table, "Lagrée et al.")));
+
+/// How deposits and flows of the glass beads depend on their thickness.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlowRule {
+    /// Length scale L of h_stop over the grain diameter `[-]`.
+    pub deposit_length: f64,
+    /// β of Ū/√(g h) = β h/h_stop `[-]`.
+    pub flow_coefficient: f64,
+    /// How sure the project is of them.
+    pub confidence: Confidence,
+}
+
+/// The flow rule of the glass beads of Table 1.
+pub static GLASS_BEADS_FLOW_RULE: LazyLock<FlowRule> = LazyLock::new(|| {
+    read_shipped("bagnold/friction.csv", |friction| {
+        let printed = |name| friction.number_of("material", "glass beads", name);
+        Ok(FlowRule {
+            deposit_length: printed("length scale over diameter")?,
+            flow_coefficient: printed("flow-rule slope")?,
+            confidence: friction.metadata.confidence,
+        })
+    })
+});
+
+impl PublishedGrains {
+    /// The grains of a table with a row of this material.
+    pub fn read(table: &MeasuredData, material: &str) -> Result<Self, ReferenceError> {
+        let number = |name| table.number_of("material", material, name);
+        let law = MuI {
+            static_friction: number("static friction")?,
+            limiting_friction: number("limiting friction")?,
+            reference_inertia: number("reference inertia")?,
+            grain_diameter: number("grain diameter")?,
+            grain_density: number("grain density")?,
+        };
+        let confidence = table.confidences()?[table.row("material", material)?];
+        Ok(Self { law, solid_fraction: number("solid fraction")?, confidence })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_inertia_of_the_glass_beads_follows_from_their_flow_rule() {
+        // (41), I_0 = (5/2) β D/(L √(φ cosθ)) at 25°
+        let rule = *GLASS_BEADS_FLOW_RULE;
+        let root = (GLASS_BEADS.solid_fraction * libm::cos(25f64.to_radians())).sqrt();
+        let inertia = 2.5 * rule.flow_coefficient / (rule.deposit_length * root);
+        assert!((inertia - GLASS_BEADS.law.reference_inertia).abs() < 5e-4, "{inertia}");
+    }
+
+    #[test]
+    fn every_material_is_read_to_the_last_bit() {
+        let read = [*GLASS_BEADS, *TABLE_2_SAND, *LAGREE_GRAINS].map(|grains| grains.law.grain_diameter);
+        assert_eq!(read, [0.5e-3, 0.32e-3, 2e-3]);
+        assert_eq!(TABLE_2_SAND.law.limiting_friction, 1.248);
+        assert_eq!(LAGREE_GRAINS.solid_fraction, 0.6);
+        let table = shipped_table("column-planar/grains.csv").expect("readable");
+        let error = PublishedGrains::read(&table, "gravel").expect_err("absent").to_string();
+        assert!(
+            error.contains("no row has `gravel` in the column `material`; there are sand, Lagrée et al."),
+            "{error}"
+        );
+    }
+}
