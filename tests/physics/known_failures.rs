@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// The committed list.
 pub(crate) fn read() -> KnownFailures {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reports/baseline/known_failures.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots/known_failures.toml");
     KnownFailures::read(&path).unwrap_or_else(|error| panic!("failed to {error}"))
 }
 

@@ -159,9 +159,9 @@ pub struct Report {
     /// Folder to write.
     #[arg(long, value_name = "DIR", default_value = "reports")]
     pub out: PathBuf,
-    /// Make these results the baseline that later reports and tests are compared with.
+    /// Accept these values: later reports and the drift test are compared with them.
     #[arg(long)]
-    pub update_baseline: bool,
+    pub accept: bool,
     /// How to compute.
     #[command(flatten)]
     pub work: Work,

@@ -26,16 +26,16 @@ pub(super) fn report(
     let names: Vec<String> = cases.iter().map(|case| case.name().to_owned()).collect();
     let mut baseline = Baseline::default();
     for name in &names {
-        baseline.extend(Baseline::read(&baseline_folder(), name, command.tier)?);
+        baseline.extend(Baseline::read(&accepted_folder(), name, command.tier)?);
     }
     let started = Instant::now();
     let results = simulate(cases, &command.work.open_store(), quiet)?;
-    if command.update_baseline {
+    if command.accept {
         baseline = Baseline::default();
         let commit = provenance::commit();
         for result in &results {
             let fresh = Baseline::of(&result.name, &result.metrics);
-            fresh.write(&baseline_folder(), &result.name, command.tier)?;
+            fresh.write(&accepted_folder(), &result.name, command.tier)?;
             let made_by = (provenance::version(), commit.as_str());
             history::append(&history_file(), made_by, command.tier, &result.name, &result.metrics)?;
             baseline.extend(fresh);
@@ -109,9 +109,9 @@ fn reports_folder() -> PathBuf {
     provenance::workspace().map_or_else(|| PathBuf::from("reports"), |root| root.join("reports"))
 }
 
-/// The committed folder with baseline values and known failures.
-fn baseline_folder() -> PathBuf {
-    reports_folder().join("baseline")
+/// The committed folder with accepted values and known failures.
+fn accepted_folder() -> PathBuf {
+    provenance::workspace().map_or_else(|| PathBuf::from("snapshots"), |root| root.join("tests").join("snapshots"))
 }
 
 /// The committed figures over time.
@@ -119,9 +119,9 @@ fn history_file() -> PathBuf {
     reports_folder().join("history.csv")
 }
 
-/// The gates that are known to fail, from `reports/baseline/known_failures.toml`.
+/// The gates that are known to fail, from `tests/snapshots/known_failures.toml`.
 pub(super) fn known_failures() -> Result<KnownFailures, InputError> {
-    Ok(KnownFailures::read(&baseline_folder().join("known_failures.toml"))?)
+    Ok(KnownFailures::read(&accepted_folder().join("known_failures.toml"))?)
 }
 
 /// Whether a failing gate is listed, and fails as listed.

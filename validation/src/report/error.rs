@@ -30,7 +30,7 @@ pub enum ReportError {
     Template(#[from] minijinja::Error),
 }
 
-/// Why a committed file of `reports/baseline` was not read or written; the message completes "failed to …".
+/// Why a committed file of `tests/snapshots` was not read or written; the message completes "failed to …".
 #[derive(Debug, thiserror::Error)]
 pub enum BaselineError {
     /// The file could not be read.

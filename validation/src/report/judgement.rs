@@ -1,6 +1,6 @@
 //! Every metric against its gate, the baseline and the list of known failures; every run against divergence.
 
-use super::baseline::{Drift, Key};
+use super::accepted::{Drift, Key};
 use super::known_failures::{KnownFailure, Standing};
 use super::{CaseReport, Report};
 use crate::metric::{Kind, Metric, Verdict};
@@ -209,7 +209,7 @@ impl Judgement<'_> {
         match judged.drift {
             Drift::New => self.drift.new += 1,
             Drift::Unchanged { .. } => self.drift.unchanged += 1,
-            Drift::Drifted { .. } | Drift::UnitChanged { .. } => self.drift.drifted += 1,
+            Drift::Drifted { .. } | Drift::UnitChanged { .. } | Drift::VerdictChanged { .. } => self.drift.drifted += 1,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Gates that honest attempts did not reach. They stay red on the page, but only a change of them is an error.
 
-use super::baseline::{Key, snapshot_tolerance};
+use super::accepted::{Key, snapshot_tolerance};
 use super::error::BaselineError;
 use crate::metric::{Metric, Verdict};
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,7 @@ pub struct KnownFailure {
     pub reason: String,
 }
 
-/// The list of `reports/baseline/known_failures.toml`.
+/// The list of `tests/snapshots/known_failures.toml`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KnownFailures {

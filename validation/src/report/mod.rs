@@ -1,6 +1,6 @@
 //! Verdicts → one self-contained folder with a page, figures and the numbers behind them.
 
-pub mod baseline;
+pub mod accepted;
 mod error;
 pub mod history;
 pub mod judgement;
@@ -8,12 +8,13 @@ pub mod known_failures;
 pub mod number;
 mod page;
 mod rows;
+mod snapshot_text;
 mod view;
 
 #[cfg(test)]
 mod tests;
 
-pub use baseline::{Baseline, Drift, Key};
+pub use accepted::{Baseline, Drift, Key};
 pub use error::{BaselineError, ReportError};
 pub use judgement::{Judgement, judge};
 pub use known_failures::{KnownFailure, KnownFailures, Standing};

@@ -1,6 +1,6 @@
 //! The page: judged report → text → template.
 
-use super::baseline::tier_name;
+use super::accepted::tier_name;
 use super::judgement::{JudgedCase, Judgement, Severity, Tally};
 use super::number::{count, four_digits};
 use super::rows::{mark, note, rows, statement, vanished};

@@ -1,9 +1,10 @@
 //! One judged metric in words: the cells of its row and its line in the banner.
 
-use super::baseline::{Drift, Key};
+use super::accepted::{Drift, Key};
 use super::judgement::{Judged, Severity};
 use super::known_failures::Standing;
 use super::number::{four_digits, two_digits, with_unit};
+use super::snapshot_text::word;
 use super::view::{Mark, Row};
 use crate::metric::{Confidence, Kind, Limit, Metric, Verdict};
 
@@ -96,6 +97,7 @@ pub(super) fn statement(judged: &Judged<'_>) -> String {
             format!("{value}, baseline {} ± {}", with_unit(*baseline, &metric.unit), two_digits(*tolerance))
         }
         (Severity::Drifted, _, Drift::UnitChanged { unit }) => format!("{value}, baseline in {unit}"),
+        (Severity::Drifted, _, Drift::VerdictChanged { verdict }) => format!("{value}, verdict was {}", word(*verdict)),
         (_, Some(gate), _) => format!("{value}, limit {}", limit(gate.limit, &metric.unit)),
         _ => value,
     }
@@ -151,6 +153,7 @@ fn drift(judged: &Judged<'_>) -> (Mark, String, String) {
         }
         Drift::Drifted { change, baseline, .. } => (Mark::DRIFT, signed(*change), relative(*change, *baseline)),
         Drift::UnitChanged { unit } => (Mark::DRIFT, format!("unit was {unit}"), String::new()),
+        Drift::VerdictChanged { verdict } => (Mark::DRIFT, format!("verdict was {}", word(*verdict)), String::new()),
     }
 }
 

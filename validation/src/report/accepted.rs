@@ -1,0 +1,253 @@
+//! The accepted values, `tests/snapshots/TIER/CASE.snap`: what every metric was, and whether it has drifted since. The
+//! report and the drift test read the same files and compare in the same way.
+
+use super::error::BaselineError;
+use super::number::with_unit;
+use super::snapshot_text::{self, Line};
+use crate::case::Tier;
+use crate::figure::is_file_name;
+use crate::metric::{Metric, Verdict};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// Names one metric of one run of one case.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Key {
+    /// Case name.
+    pub case: String,
+    /// Metric name.
+    pub metric: String,
+    /// Variant.
+    pub variant: String,
+}
+
+impl Key {
+    /// The key of `metric` in `case`.
+    #[must_use]
+    pub fn of(case: &str, metric: &Metric) -> Self {
+        Self { case: case.to_owned(), metric: metric.name.clone(), variant: metric.variant.clone() }
+    }
+}
+
+/// Accepted values of any number of cases at one tier.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Baseline {
+    values: BTreeMap<Key, Entry>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Entry {
+    value: f64,
+    unit: String,
+    verdict: Verdict,
+    /// Its line in the file: metrics keep the order in which their case reports them.
+    line: usize,
+}
+
+/// How a metric relates to its baseline.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Drift {
+    /// There is no baseline value: nothing can have drifted.
+    New,
+    /// Within the metric's snapshot tolerance.
+    Unchanged {
+        /// value − baseline, in the metric's unit.
+        change: f64,
+        /// The baseline's value.
+        baseline: f64,
+    },
+    /// Outside it.
+    Drifted {
+        /// value − baseline, in the metric's unit; NaN where one of them is.
+        change: f64,
+        /// The baseline's value.
+        baseline: f64,
+        /// How far the value might have moved, in the metric's unit.
+        tolerance: f64,
+    },
+    /// The baseline is in another unit: it must be taken again.
+    UnitChanged {
+        /// The baseline's unit.
+        unit: String,
+    },
+    /// The value is within its tolerance, but its gate has changed sides, or has come or gone.
+    VerdictChanged {
+        /// The baseline's verdict.
+        verdict: Verdict,
+    },
+}
+
+impl Drift {
+    /// Whether this is a failed regression verdict.
+    #[must_use]
+    pub fn is_failure(&self) -> bool {
+        matches!(self, Self::Drifted { .. } | Self::UnitChanged { .. } | Self::VerdictChanged { .. })
+    }
+}
+
+impl Baseline {
+    /// The baseline that `metrics` of `case` would make.
+    #[must_use]
+    pub fn of(case: &str, metrics: &[Metric]) -> Self {
+        let entry = |line: usize, metric: &Metric| Entry {
+            value: snapshot_text::rounded(metric.value),
+            unit: metric.unit.clone(),
+            verdict: metric.verdict(),
+            line,
+        };
+        let values = metrics.iter().enumerate().map(|(line, metric)| (Key::of(case, metric), entry(line, metric)));
+        Self { values: values.collect() }
+    }
+
+    /// Adds the values of another case.
+    pub fn extend(&mut self, other: Self) {
+        self.values.extend(other.values);
+    }
+
+    /// Whether it holds no value.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// The value of `key`.
+    #[must_use]
+    pub fn value(&self, key: &Key) -> Option<f64> {
+        self.values.get(key).map(|entry| entry.value)
+    }
+
+    /// The path of a case's file in the folder of all accepted values.
+    #[must_use]
+    pub fn path(folder: &Path, case: &str, tier: Tier) -> PathBuf {
+        folder.join(tier_name(tier)).join(format!("{case}.snap"))
+    }
+
+    /// Reads the values of `case` from `folder`; a missing file is an empty baseline.
+    ///
+    /// # Errors
+    /// If the file is there but cannot be read, is malformed, or belongs to another case or tier.
+    pub fn read(folder: &Path, case: &str, tier: Tier) -> Result<Self, BaselineError> {
+        if !is_file_name(case) {
+            return Err(BaselineError::Name { name: case.to_owned() });
+        }
+        let path = Self::path(folder, case, tier);
+        let text = match std::fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
+            Err(source) => return Err(BaselineError::Read { path, source }),
+        };
+        let refuse = |message: String| BaselineError::Content { path: path.clone(), message };
+        let lines = snapshot_text::parse(&text, case, tier_name(tier)).map_err(refuse)?;
+        let mut read = Self::default();
+        for (line, row) in lines.into_iter().enumerate() {
+            let key = Key { case: case.to_owned(), metric: row.name.to_owned(), variant: row.variant.to_owned() };
+            let entry = Entry { value: row.value, unit: row.unit.to_owned(), verdict: row.verdict, line };
+            if read.values.insert(key, entry).is_some() {
+                return Err(refuse(format!("`{} | {}` stands there twice", row.name, row.variant)));
+            }
+        }
+        Ok(read)
+    }
+
+    /// Writes the values of `case` into `folder`, a line each, so that a change of one value is a diff of one line.
+    ///
+    /// # Errors
+    /// If the folder or file cannot be written.
+    pub fn write(&self, folder: &Path, case: &str, tier: Tier) -> Result<PathBuf, BaselineError> {
+        if !is_file_name(case) {
+            return Err(BaselineError::Name { name: case.to_owned() });
+        }
+        let path = Self::path(folder, case, tier);
+        let mut entries: Vec<(&Key, &Entry)> = self.values.iter().filter(|(key, _)| key.case == case).collect();
+        entries.sort_by_key(|(_, entry)| entry.line);
+        let lines = entries.into_iter().map(|(key, entry)| Line {
+            name: &key.metric,
+            variant: &key.variant,
+            value: entry.value,
+            unit: &entry.unit,
+            verdict: entry.verdict,
+        });
+        let text = snapshot_text::text(case, tier_name(tier), lines);
+        let write_error = |path: &Path, source| BaselineError::Write { path: path.to_owned(), source };
+        if let Some(parent) = path.parent() {
+            std::fs::create_dir_all(parent).map_err(|source| write_error(parent, source))?;
+        }
+        std::fs::write(&path, text).map_err(|source| write_error(&path, source))?;
+        Ok(path)
+    }
+
+    /// Whether `metric` of `case` has drifted: |value − baseline| > tolerance · |baseline| + floor, by more than the
+    /// rounding in the file; or its unit or verdict is another.
+    #[must_use]
+    pub fn drift(&self, case: &str, metric: &Metric) -> Drift {
+        let Some(entry) = self.values.get(&Key::of(case, metric)) else { return Drift::New };
+        if entry.unit != metric.unit {
+            return Drift::UnitChanged { unit: entry.unit.clone() };
+        }
+        let baseline = entry.value;
+        let change = metric.value - baseline;
+        let tolerance = snapshot_tolerance(metric, baseline) + snapshot_text::rounding(baseline);
+        let same = metric.value == baseline || (metric.value.is_nan() && baseline.is_nan());
+        if !same && (change.is_nan() || change.abs() > tolerance) {
+            return Drift::Drifted { change, baseline, tolerance };
+        }
+        if entry.verdict != metric.verdict() {
+            return Drift::VerdictChanged { verdict: entry.verdict };
+        }
+        Drift::Unchanged { change: if same { 0.0 } else { change }, baseline }
+    }
+
+    /// Everything in which `metrics` of `case` are not as accepted, a sentence each: drifted, new and vanished.
+    #[must_use]
+    pub fn differences(&self, case: &str, metrics: &[Metric]) -> Vec<String> {
+        let difference = |metric: &Metric| {
+            let what = match self.drift(case, metric) {
+                Drift::Unchanged { .. } => return None,
+                Drift::New => "is not among the accepted values".to_owned(),
+                Drift::UnitChanged { unit } => format!("was in {unit}, is in {}", metric.unit),
+                Drift::VerdictChanged { verdict } => {
+                    let word = snapshot_text::word;
+                    format!(
+                        "is within its tolerance, but the verdict was {}, is {}",
+                        word(verdict),
+                        word(metric.verdict())
+                    )
+                }
+                Drift::Drifted { change, baseline, tolerance } => format!(
+                    "was {}, is {}: change {change:.3e}, tolerance {tolerance:.3e}",
+                    with_unit(baseline, &metric.unit),
+                    with_unit(metric.value, &metric.unit),
+                ),
+            };
+            Some(format!("{} [{}] {what}", metric.name, metric.variant))
+        };
+        let vanished = self.vanished(case, metrics).into_iter();
+        let vanished = vanished.map(|key| format!("{} [{}] is no longer measured", key.metric, key.variant));
+        metrics.iter().filter_map(difference).chain(vanished).collect()
+    }
+
+    /// Baseline values of `case` that `metrics` no longer contain: a metric that vanishes is a regression too.
+    #[must_use]
+    pub fn vanished(&self, case: &str, metrics: &[Metric]) -> Vec<Key> {
+        let measured: BTreeSet<Key> = metrics.iter().map(|metric| Key::of(case, metric)).collect();
+        self.values.keys().filter(|key| key.case == case && !measured.contains(key)).cloned().collect()
+    }
+}
+
+/// How far `metric` may move from `from` before it counts as changed, in the metric's unit.
+pub(super) fn snapshot_tolerance(metric: &Metric, from: f64) -> f64 {
+    metric.snapshot_tolerance * from.abs() + metric.snapshot_floor
+}
+
+/// The tier's name in files and on the page.
+pub(super) fn tier_name(tier: Tier) -> &'static str {
+    match tier {
+        Tier::Quick => "quick",
+        Tier::Paper => "paper",
+        Tier::Fine => "fine",
+    }
+}
+
+#[cfg(test)]
+#[path = "accepted_tests.rs"]
+mod tests;

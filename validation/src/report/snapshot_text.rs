@@ -1,0 +1,144 @@
+//! Accepted values as text: a heading, and a line `name | variant | value | unit | verdict` for each metric.
+
+use crate::metric::Verdict;
+
+/// Significant figures of a value: far below any tolerance, and no noise of the last bits.
+const FIGURES: i32 = 9;
+
+/// What stands in the second line, so that a reader knows the columns.
+const COLUMNS: &str = "name | variant | value | unit | verdict";
+
+/// A line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Line<'a> {
+    pub(super) name: &'a str,
+    pub(super) variant: &'a str,
+    pub(super) value: f64,
+    pub(super) unit: &'a str,
+    pub(super) verdict: Verdict,
+}
+
+fn heading(case: &str, tier: &str) -> String {
+    format!("# {case}, {tier}: written by `bagnold report --accept`")
+}
+
+/// A file.
+pub(super) fn text<'a>(case: &str, tier: &str, lines: impl Iterator<Item = Line<'a>>) -> String {
+    let mut text = format!("{}\n{COLUMNS}\n", heading(case, tier));
+    for Line { name, variant, value, unit, verdict } in lines {
+        text += &format!("{name} | {variant} | {} | {unit} | {}\n", number(value), word(verdict));
+    }
+    text
+}
+
+/// The lines of a file; what is wrong with it, if it is no such file or that of another case or tier.
+pub(super) fn parse<'a>(text: &'a str, case: &str, tier: &str) -> Result<Vec<Line<'a>>, String> {
+    let mut lines = text.lines();
+    let (first, second) = (lines.next().unwrap_or_default(), lines.next().unwrap_or_default());
+    if first != heading(case, tier) {
+        return Err(format!("line 1 is {first:?} instead of {:?}", heading(case, tier)));
+    }
+    if second != COLUMNS {
+        return Err(format!("line 2 is {second:?} instead of {COLUMNS:?}"));
+    }
+    let line = |(index, text): (usize, &'a str)| {
+        parse_line(text).ok_or_else(|| format!("line {} is {text:?} instead of `{COLUMNS}`", index + 3))
+    };
+    lines.enumerate().map(line).collect()
+}
+
+fn parse_line(text: &str) -> Option<Line<'_>> {
+    let cells: Vec<&str> = text.split('|').map(str::trim).collect();
+    let &[name, variant, value, unit, verdict] = cells.as_slice() else { return None };
+    let verdict = [Verdict::Pass, Verdict::Fail, Verdict::Observed].into_iter().find(|own| word(*own) == verdict)?;
+    Some(Line { name, variant, value: value.parse().ok()?, unit, verdict })
+}
+
+/// The verdict's word in a file.
+pub(super) fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "pass",
+        Verdict::Fail => "fail",
+        Verdict::Observed => "observed",
+    }
+}
+
+/// The value that a file holds.
+pub(super) fn rounded(value: f64) -> f64 {
+    let decimals = usize::try_from(FIGURES - 1).unwrap_or(0);
+    format!("{value:.decimals$e}").parse().unwrap_or(value)
+}
+
+/// Half a unit of the last figure: what rounding may have taken from a value of the file.
+pub(super) fn rounding(value: f64) -> f64 {
+    exponent(value).map_or(0.0, |exponent| 0.5 * 10f64.powi(exponent + 1 - FIGURES))
+}
+
+fn exponent(value: f64) -> Option<i32> {
+    (value != 0.0 && value.is_finite())
+        .then(|| format!("{value:e}"))
+        .and_then(|text| text.split_once('e')?.1.parse().ok())
+}
+
+/// A rounded value such as `0.589234123`, `12.35` or `1.2e-6`.
+fn number(value: f64) -> String {
+    match exponent(value) {
+        Some(exponent) if !(-4..FIGURES).contains(&exponent) => format!("{value:e}"),
+        Some(_) => value.to_string(),
+        // without the sign of a negative zero
+        None if value == 0.0 => "0".to_owned(),
+        None => value.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(value: f64) -> Line<'static> {
+        Line { name: "velocity_l2", variant: "resolution=40", value, unit: "%", verdict: Verdict::Pass }
+    }
+
+    #[test]
+    fn values_have_nine_figures_and_are_read_back() {
+        for (value, written) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (0.552_191_234_56, "0.552191235"),
+            (9.999_999_999_6, "10"),
+            (-12.5, "-12.5"),
+            (123_456_789_012.0, "1.23456789e11"),
+            (0.000_012_345_678_912, "1.23456789e-5"),
+            (f64::NAN, "NaN"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(number(rounded(value)), written);
+            let file = text("film", "quick", [line(rounded(value))].into_iter());
+            let read = parse(&file, "film", "quick").expect("readable")[0].value;
+            assert!(read == rounded(value) || (read.is_nan() && value.is_nan()), "{value}: {read}");
+            assert!(!value.is_finite() || (read - value).abs() <= rounding(read), "{value}: {read}");
+        }
+    }
+
+    #[test]
+    fn a_file_is_a_heading_and_a_line_each() {
+        let file = text("film", "quick", [line(0.5)].into_iter());
+        assert_eq!(
+            file,
+            "# film, quick: written by `bagnold report --accept`\nname | variant | value | unit | verdict\n\
+             velocity_l2 | resolution=40 | 0.5 | % | pass\n"
+        );
+        assert_eq!(parse(&file, "film", "quick"), Ok(vec![line(0.5)]));
+        for (damaged, expected) in [
+            (file.replace("film", "bagnold"), "line 1"),
+            (file.replace("name |", "names |"), "line 2"),
+            (file.replace("pass", "passes"), "line 3"),
+            (file.replace("0.5", "half"), "line 3"),
+            (file.replace(" | %", ""), "line 3"),
+        ] {
+            let error = parse(&damaged, "film", "quick").expect_err("refused");
+            assert!(error.starts_with(expected), "{error}");
+        }
+        assert!(parse(&file, "film", "paper").is_err());
+    }
+}
