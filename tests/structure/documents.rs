@@ -1,0 +1,50 @@
+//! Lists that follow from the registry: README's table of cases, the folders of reference data.
+
+use crate::source::workspace;
+use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::reference::shipped_tables;
+
+fn registered() -> Vec<&'static str> {
+    REGISTRY.iter().map(|case| case.name()).collect()
+}
+
+fn text(path: &str) -> String {
+    std::fs::read_to_string(workspace().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// First cells of the rows of the table whose heading begins with these cells.
+fn first_cells(document: &str, heading: &str) -> Vec<String> {
+    let rows = document.lines().skip_while(|line| !line.starts_with(heading)).skip(2);
+    let rows = rows.take_while(|line| line.starts_with('|'));
+    rows.filter_map(|row| Some(row.split('|').nth(1)?.trim().trim_matches('`').to_owned())).collect()
+}
+
+#[test]
+fn readmes_table_of_cases_is_the_registry() {
+    assert_eq!(first_cells(&text("README.md"), "| case | what |"), registered());
+}
+
+#[test]
+fn every_case_has_a_folder_of_references_and_every_folder_a_case() {
+    let entries = std::fs::read_dir(workspace().join("reference-data")).expect("reference-data");
+    let entries = entries.map(|entry| entry.expect("an entry").path()).filter(|path| path.is_dir());
+    let mut folders: Vec<String> =
+        entries.map(|path| path.file_name().unwrap_or_default().to_string_lossy().into_owned()).collect();
+    folders.sort();
+    // the one-dimensional layer is compared with what bed load is
+    let mut cases: Vec<&str> = registered().into_iter().filter(|name| *name != "bed-load-1d").collect();
+    cases.sort_unstable();
+    assert_eq!(folders, cases);
+    for case in cases {
+        assert!(text(&format!("reference-data/{case}/README.md")).starts_with("# "), "{case}");
+    }
+}
+
+#[test]
+fn every_table_is_named_by_the_readme_beside_it() {
+    for (name, _) in shipped_tables() {
+        let (folder, file) = name.split_once('/').expect("a folder and a file");
+        let readme = text(&format!("reference-data/{folder}/README.md"));
+        assert!(readme.contains(&format!("`{file}`")), "reference-data/{folder}/README.md does not name {file}");
+    }
+}

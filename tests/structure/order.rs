@@ -1,0 +1,104 @@
+//! Dependencies run one way: what a folder may import, by its floor.
+
+use crate::imports::imports;
+use crate::source::{Source, sources};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Rooms of one floor, which may use each other as long as no circle arises; and whether they must not, as peers.
+struct Floor {
+    rooms: &'static [&'static str],
+    peers: bool,
+}
+
+const fn floor(rooms: &'static [&'static str]) -> Floor {
+    Floor { rooms, peers: false }
+}
+
+const fn peers(rooms: &'static [&'static str]) -> Floor {
+    Floor { rooms, peers: true }
+}
+
+/// `solver/src`, from the ground up.
+const SOLVER: &[Floor] = &[
+    floor(&["vector", "lanes", "kernel", "domain"]),
+    floor(&["material", "linear"]),
+    floor(&["run"]),
+    peers(&["weakly_compressible", "incompressible"]),
+];
+
+/// A file that imports what it must not.
+fn offence(source: &Source, line: usize, rule: &str) -> String {
+    format!("{}:{line} {rule}", source.path)
+}
+
+/// Everything in a crate that goes up a floor or over to a peer, and the circles that are left.
+fn offences(crate_src: &str, floors: &[Floor]) -> Vec<String> {
+    let height = |room: &str| floors.iter().position(|floor| floor.rooms.contains(&room));
+    let mut found = Vec::new();
+    let mut uses: BTreeMap<String, BTreeMap<String, String>> = BTreeMap::new();
+    for source in sources(crate_src) {
+        // the crate's root and the program see everything
+        let Some(room) = source.module.first() else { continue };
+        let Some(own) = height(room) else {
+            found.push(offence(&source, 1, &format!("belongs to `{room}`, which stands on no floor")));
+            continue;
+        };
+        for import in imports(&source) {
+            let Some(other) = import.path.first().filter(|other| *other != room) else { continue };
+            // what is no room is an item of the crate's root
+            let Some(theirs) = height(other) else { continue };
+            let place = offence(&source, import.line, &format!("imports `{}`", import.path.join("::")));
+            if theirs > own {
+                found.push(format!("{place}: `{other}` stands above `{room}`"));
+            } else if theirs == own && floors[own].peers {
+                found.push(format!("{place}: `{room}` and `{other}` are peers that do not know each other"));
+            }
+            uses.entry(room.clone()).or_default().entry(other.clone()).or_insert(place);
+        }
+    }
+    found.extend(circles(&uses));
+    found
+}
+
+/// Pairs of rooms that reach each other, with the line by which the first does.
+fn circles(uses: &BTreeMap<String, BTreeMap<String, String>>) -> Vec<String> {
+    let reached = |from: &str| {
+        let mut seen = BTreeSet::new();
+        let mut open = vec![from.to_owned()];
+        while let Some(room) = open.pop() {
+            for next in uses.get(&room).into_iter().flat_map(BTreeMap::keys) {
+                if seen.insert(next.clone()) {
+                    open.push(next.clone());
+                }
+            }
+        }
+        seen
+    };
+    let mut found = Vec::new();
+    for (room, others) in uses {
+        for (other, place) in others.iter().filter(|(other, _)| reached(other).contains(room)) {
+            found.push(format!("{place}: a circle, for `{other}` leads back to `{room}`"));
+        }
+    }
+    found
+}
+
+fn assert_none(offences: &[String]) {
+    assert!(offences.is_empty(), "against the order of ARCHITECTURE.md:\n{}", offences.join("\n"));
+}
+
+#[test]
+fn the_solver_depends_downwards_only() {
+    assert_none(&offences("solver/src", SOLVER));
+}
+
+#[test]
+fn a_circle_is_found_with_its_line() {
+    let edge = |to: &str| BTreeMap::from([(to.to_owned(), format!("a file that imports {to}"))]);
+    let mut uses = BTreeMap::from([("a".to_owned(), edge("b")), ("b".to_owned(), edge("c"))]);
+    assert!(circles(&uses).is_empty());
+    uses.insert("c".to_owned(), edge("a"));
+    let found = circles(&uses);
+    assert_eq!(found.len(), 3);
+    assert_eq!(found[0], "a file that imports b: a circle, for `b` leads back to `a`");
+}
