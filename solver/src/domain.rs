@@ -33,6 +33,13 @@ pub struct Domain<const D: usize> {
 }
 
 impl<const D: usize> Domain<D> {
+    /// A period along every axis, from a lower to an upper corner `[m]`.
+    #[must_use]
+    pub fn periodic(lower: [f64; D], upper: [f64; D]) -> Self {
+        let axes = std::array::from_fn(|axis| AxisBoundary::Periodic { lower: lower[axis], upper: upper[axis] });
+        Self { axes }
+    }
+
     /// Puts a position back into the period of every periodic axis.
     pub(crate) fn wrap(&self, position: &mut Vector<D>) {
         for (axis, boundary) in self.axes.iter().enumerate() {

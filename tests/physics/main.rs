@@ -32,25 +32,11 @@ macro_rules! cases {
     };
 }
 
-cases!(
-    hydrostatic,
-    film,
-    bagnold,
-    column_planar,
-    column_round,
-    incline_collapse,
-    flow_thickness,
-    still_water,
-    water_film,
-    clear_water,
-    settling,
-    bed_load_1d,
-    bed_load,
-);
+bagnold_validation::for_every_case!(cases);
 
 #[test]
 fn every_registered_case_is_tested() {
     let registered: Vec<&str> = REGISTRY.iter().map(|case| case.name()).collect();
     let tested: Vec<String> = TESTED.iter().map(|name| name.replace('_', "-")).collect();
-    assert_eq!(tested, registered, "add the case to `cases!` in tests/physics/main.rs");
+    assert_eq!(tested, registered, "a case is named as its module, with `-` for `_`");
 }

@@ -106,8 +106,7 @@ impl Reader<'_> {
 #[test]
 fn every_form_of_a_path_is_read() {
     let code = "use crate::a::{b::{C, D as E}, f};\nuse super::g;\nuse super::super::h::*;\npub(in crate::x) fn i() { crate::j::k(); }\n";
-    let source =
-        Source { path: String::new(), module: vec!["m".to_owned(), "n".to_owned()], code: code.to_owned() };
+    let source = Source { path: String::new(), module: vec!["m".to_owned(), "n".to_owned()], code: code.to_owned() };
     let read: Vec<(String, usize)> =
         imports(&source).into_iter().map(|import| (import.path.join("::"), import.line)).collect();
     let expected = [("a::b::C", 1), ("a::b::D", 1), ("a::f", 1), ("j::k", 4), ("m::g", 2), ("h", 3)];

@@ -118,11 +118,16 @@ fn every_number_of_the_models_has_a_reason() {
             let key = (file.clone(), literal.clone());
             unused.remove(&key);
             if !listed.contains(&key) {
-                complaints.push(format!("{}:{line} has the number {literal}, which literals.toml does not explain", source.path));
+                complaints.push(format!(
+                    "{}:{line} has the number {literal}, which literals.toml does not explain",
+                    source.path
+                ));
             }
         }
     }
-    complaints.extend(unused.iter().map(|(file, literal)| format!("literals.toml explains {literal} in {file}, where it is not")));
+    complaints.extend(
+        unused.iter().map(|(file, literal)| format!("literals.toml explains {literal} in {file}, where it is not")),
+    );
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
 }
 

@@ -1,6 +1,7 @@
 //! The structure of the workspace: who imports whom, where numbers stand, and lists that follow from the registry.
 
 mod documents;
+mod examples;
 mod imports;
 mod literals;
 mod order;

@@ -1,6 +1,6 @@
 //! What a simulation starts from.
 
-use crate::domain::Domain;
+use crate::domain::{AxisBoundary, Domain};
 use crate::material::equation_of_state::EquationOfState;
 use crate::material::rheology::Rheology;
 use crate::run::SceneError;
@@ -21,6 +21,21 @@ pub struct Flow<const D: usize> {
     pub mass: Vec<f64>,
     /// Deviatoric stresses `[Pa]`.
     pub stress: Vec<Tensor<D>>,
+}
+
+impl<const D: usize> Flow<D> {
+    /// Particles at rest without stress, of one density `[kg/m³]` and a share `spacing`^D of the volume each.
+    #[must_use]
+    pub fn at_rest(position: Vec<Vector<D>>, density: f64, spacing: f64) -> Self {
+        let count = position.len();
+        Self {
+            velocity: vec![Vector::zeros(); count],
+            density: vec![density; count],
+            mass: vec![density * (0..D).map(|_| spacing).product::<f64>(); count],
+            stress: vec![Tensor::zeros(); count],
+            position,
+        }
+    }
 }
 
 /// Material, geometry, numerics and initial state.
@@ -47,6 +62,22 @@ pub struct Scene<const D: usize> {
 }
 
 impl<const D: usize> Scene<D> {
+    /// A flow without walls, gravity or bounds, by default numerics; the fields refine it.
+    #[must_use]
+    pub fn unbounded(flow: Flow<D>, spacing: f64, equation_of_state: EquationOfState, rheology: Rheology) -> Self {
+        Self {
+            flow,
+            walls: Vec::new(),
+            wall_particles: Vec::new(),
+            domain: Domain { axes: [AxisBoundary::Open; D] },
+            gravity: Vector::zeros(),
+            spacing,
+            equation_of_state,
+            rheology,
+            numerics: Numerics::default(),
+        }
+    }
+
     /// Largest list radius 2h (1 + skin) `[m]`.
     #[must_use]
     pub fn search_radius(&self) -> f64 {

@@ -59,8 +59,11 @@ impl std::fmt::Display for Tier {
 pub trait Run: Serialize + Clone + Send + Sync {
     /// Full name of the run, `key=value,…` in the case's fixed order; unique within the case.
     fn variant(&self) -> String;
-    /// Expected cost in particle-steps, for scheduling the longest first and for the progress bar.
-    fn particle_steps(&self) -> f64;
+    /// Expected cost in particle-steps, for scheduling the longest first and for the progress bar; all alike, if nothing is
+    /// known.
+    fn particle_steps(&self) -> f64 {
+        1e6
+    }
 }
 
 /// How far a run has come; called often, must be cheap.
@@ -86,7 +89,9 @@ pub trait Case: Sync + 'static {
     /// One line for `bagnold list`.
     fn summary(&self) -> &'static str;
     /// A paragraph for the report: what is simulated and what it is judged against.
-    fn description(&self) -> &'static str;
+    fn description(&self) -> &'static str {
+        self.summary()
+    }
     /// Remarks for `bagnold show`: dotted TOML path and what stands there, with its unit.
     fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
         &[]
@@ -114,9 +119,11 @@ pub trait Case: Sync + 'static {
     /// Draws the observations.
     fn figures(
         &self,
-        parameters: &Self::Parameters,
-        records: &[(Self::Run, Recorded<Self::Observation>)],
-    ) -> Vec<Figure>;
+        _parameters: &Self::Parameters,
+        _records: &[(Self::Run, Recorded<Self::Observation>)],
+    ) -> Vec<Figure> {
+        Vec::new()
+    }
     /// Moving pictures of the observations; few cases have any.
     fn animations(
         &self,
@@ -128,7 +135,9 @@ pub trait Case: Sync + 'static {
     /// Tables for `run`'s output folder: profiles and time series.
     fn tables(
         &self,
-        parameters: &Self::Parameters,
-        records: &[(Self::Run, Recorded<Self::Observation>)],
-    ) -> Vec<crate::output::Table>;
+        _parameters: &Self::Parameters,
+        _records: &[(Self::Run, Recorded<Self::Observation>)],
+    ) -> Vec<crate::output::Table> {
+        Vec::new()
+    }
 }

@@ -1,4 +1,4 @@
-//! The canonical cases. A new case is one file or folder here and one line in [`REGISTRY`].
+//! The canonical cases. A new case is one file or folder here and one line in `registry!`.
 
 pub mod bagnold;
 pub mod bed_load;
@@ -13,7 +13,7 @@ pub mod flow_thickness;
 pub mod hydrostatic;
 pub mod incline_collapse;
 pub mod layer;
-mod recording;
+pub mod recording;
 mod rules;
 pub mod settling;
 pub mod still_water;
@@ -22,19 +22,34 @@ pub mod water_film;
 
 use crate::case::Registry;
 
-/// All cases, in the order of `bagnold list` and of the report.
-pub static REGISTRY: Registry = Registry::new(&[
-    &hydrostatic::Hydrostatic,
-    &film::Film,
-    &bagnold::Bagnold,
-    &column_planar::ColumnPlanar,
-    &column_round::ColumnRound,
-    &incline_collapse::InclineCollapse,
-    &flow_thickness::FlowThickness,
-    &still_water::StillWater,
-    &water_film::WaterFilm,
-    &clear_water::ClearWater,
-    &settling::Settling,
-    &bed_load_1d::BedLoad1d,
-    &bed_load::BedLoad,
-]);
+/// Makes the registry, and the macro by which tests have one module a case.
+macro_rules! registry {
+    ($mark:tt $($module:ident :: $case:ident),+ $(,)?) => {
+        /// All cases, in the order of `bagnold list` and of the report.
+        pub static REGISTRY: Registry = Registry::new(&[$(&$module::$case),+]);
+
+        /// Calls a macro with the modules of all cases, whose names are those of the cases with `_` for `-`.
+        #[macro_export]
+        macro_rules! for_every_case {
+            ($mark callback:ident) => {
+                $mark callback!($($module),+);
+            };
+        }
+    };
+}
+
+registry!($
+    hydrostatic::Hydrostatic,
+    film::Film,
+    bagnold::Bagnold,
+    column_planar::ColumnPlanar,
+    column_round::ColumnRound,
+    incline_collapse::InclineCollapse,
+    flow_thickness::FlowThickness,
+    still_water::StillWater,
+    water_film::WaterFilm,
+    clear_water::ClearWater,
+    settling::Settling,
+    bed_load_1d::BedLoad1d,
+    bed_load::BedLoad,
+);

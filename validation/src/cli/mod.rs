@@ -21,15 +21,22 @@ use crate::error::InputError;
 use crate::store::{Store, StorePolicy};
 use arguments::Work;
 use clap::Parser;
+use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
 /// The program: reads its arguments, prints on standard output and error.
 #[must_use]
 pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    program(REGISTRY, std::env::args_os())
+}
+
+/// The program with the cases of a registry, for crates with cases of their own. The first argument is the program's name.
+#[must_use]
+pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitCode {
+    let arguments = Arguments::parse_from(arguments);
     logging::start(arguments.verbose, arguments.quiet);
-    match execute(&arguments, REGISTRY, &mut std::io::stdout()) {
+    match execute(&arguments, registry, &mut std::io::stdout()) {
         Ok(exit) => exit.into(),
         Err(error) => {
             eprintln!("error: {error}");

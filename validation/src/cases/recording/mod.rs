@@ -1,15 +1,20 @@
 //! From a simulation that has ended to its record.
+//!
+//! [`record`] is all that a plain case needs; [`Ending`] is for those that observe on the way.
 
 mod incompressible;
 mod weakly_compressible;
 
+use crate::case::Progress;
 use crate::observe::{Frame, Outcome, Recorded, state_hash};
 use bagnold_solver::run::StopReason;
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 /// A state of a simulation.
-pub(super) trait State {
+pub trait State {
     /// Its bits in a fixed order.
     fn bits(&self) -> Vec<u8>;
     /// A picture of it, in the plane or in space.
@@ -17,7 +22,7 @@ pub(super) trait State {
 }
 
 /// A simulation that can be recorded.
-pub(super) trait Recordable {
+pub trait Recordable {
     /// Its states.
     type State: State;
     /// A copy of the present state.
@@ -30,29 +35,48 @@ pub(super) trait Recordable {
     fn time(&self) -> f64;
 }
 
+/// Runs a weakly compressible simulation up to a time `[s]` and records it, with the data that `measure` takes from the
+/// last state.
+pub fn record<const D: usize, O>(
+    simulation: &mut Simulation<D>,
+    end: f64,
+    progress: &dyn Progress,
+    measure: impl FnOnce(&Snapshot<D>) -> O,
+) -> Recorded<O>
+where
+    Simulation<D>: Compiled<D>,
+{
+    let started = Instant::now();
+    let mut last_good = simulation.snapshot();
+    let reason = simulation.run(end, 0.01 * end, |simulation| {
+        last_good = simulation.snapshot();
+        let particle_steps = simulation.steps() as f64 * last_good.mass.len() as f64;
+        progress.advance(simulation.time(), end, particle_steps);
+        ControlFlow::Continue(())
+    });
+    let criterion = String::new();
+    Ending { reason, last_good, criterion, may_diverge: false, frames: Vec::new(), started }.record(simulation, measure)
+}
+
 /// How a run ended, and what it left on its way.
-pub(super) struct Ending<const D: usize, S = Snapshot<D>> {
+pub struct Ending<const D: usize, S = Snapshot<D>> {
     /// Why it ended.
-    pub(super) reason: StopReason<D>,
+    pub reason: StopReason<D>,
     /// The state that was observed last.
-    pub(super) last_good: S,
+    pub last_good: S,
     /// The criterion by which the observer stops a run, in words.
-    pub(super) criterion: String,
+    pub criterion: String,
     /// Whether a divergence is a result and not an error.
-    pub(super) may_diverge: bool,
+    pub may_diverge: bool,
     /// Pictures on the way; the last state is added to them.
-    pub(super) frames: Vec<Frame>,
+    pub frames: Vec<Frame>,
     /// When the run was started.
-    pub(super) started: Instant,
+    pub started: Instant,
 }
 
 impl<const D: usize, S: State> Ending<D, S> {
     /// The record, with the data that `measure` takes from the last state: the last good one after a divergence.
-    pub(super) fn record<O>(
-        self,
-        simulation: &impl Recordable<State = S>,
-        measure: impl FnOnce(&S) -> O,
-    ) -> Recorded<O> {
+    pub fn record<O>(self, simulation: &impl Recordable<State = S>, measure: impl FnOnce(&S) -> O) -> Recorded<O> {
         let (outcome, end) = match self.reason {
             StopReason::Finished => (Outcome::Finished, simulation.state()),
             StopReason::Stopped => (Outcome::Stopped { criterion: self.criterion }, simulation.state()),

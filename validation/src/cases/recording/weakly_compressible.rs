@@ -38,7 +38,8 @@ impl<const D: usize> Recordable for Simulation<D> {
 
 impl Frame {
     /// A picture of the flow, in the plane or in space.
-    pub(in crate::cases) fn of_flow<const D: usize>(snapshot: &Snapshot<D>) -> Self {
+    #[must_use]
+    pub fn of_flow<const D: usize>(snapshot: &Snapshot<D>) -> Self {
         let flat = |v: &Vector<D>| [v[0], v[1], if D == 3 { v[2] } else { 0.0 }];
         Self {
             time: snapshot.time,
