@@ -1,7 +1,6 @@
 use super::{ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, Single, single};
 use crate::vector::Vector;
-use faer::linalg::solvers::Solve;
-use faer::{Mat, Side};
+use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
@@ -46,10 +45,10 @@ impl Dense {
         (0..self.rows).map(|a| (0..self.rows).map(|b| self.at(a, b)).sum()).collect()
     }
 
-    /// The solution for right sides in columns, by faer's Cholesky factors.
-    fn direct(&self, right_side: &Mat<f64>) -> Mat<f64> {
-        let matrix = Mat::from_fn(self.rows, self.rows, |a, b| self.at(a, b));
-        matrix.llt(Side::Lower).expect("a positive matrix").solve(right_side)
+    /// The solution for right sides in columns, by dense Cholesky factors.
+    fn direct(&self, right_side: &DMatrix<f64>) -> DMatrix<f64> {
+        let matrix = DMatrix::from_fn(self.rows, self.rows, |a, b| self.at(a, b));
+        matrix.cholesky().expect("a positive matrix").solve(right_side)
     }
 
     fn factors(&self) -> IncompleteCholesky {
@@ -103,7 +102,7 @@ fn numbers_agree_with_direct_factors() {
         let matrix = Dense::springs(rows, |a| 1.0 + a as f64, seed);
         let mut random = random(100 + seed);
         let right: Vec<f64> = (0..rows).map(|_| random.random::<f64>() - 0.5).collect();
-        let exact = matrix.direct(&Mat::from_fn(rows, 1, |a, _| right[a]));
+        let exact = matrix.direct(&DMatrix::from_fn(rows, 1, |a, _| right[a]));
         let mut found: Vec<f64> = (0..rows).map(|_| 10.0 * random.random::<f64>()).collect();
         assert_eq!(matrix.solve_numbers(&mut found, &right, TIGHT), Ok(()));
         let largest = (0..rows).map(|a| exact[(a, 0)].abs()).fold(0.0, f64::max);
@@ -122,7 +121,7 @@ fn vectors_agree_with_direct_factors_with_and_without_deflation() {
         let mut random = random(9);
         let right: Vec<Vector<3>> =
             (0..rows).map(|_| Vector::<3>::from_fn(|_, _| random.random::<f64>() - 0.3)).collect();
-        let exact = matrix.direct(&Mat::from_fn(rows, 3, |a, axis| right[a][axis]));
+        let exact = matrix.direct(&DMatrix::from_fn(rows, 3, |a, axis| right[a][axis]));
         let mut found = vec![Vector::zeros(); rows];
         matrix.solve(&mut found, &right, deflated, TIGHT).expect("a solution");
         let largest = right.iter().map(Vector::norm).fold(0.0, f64::max) / hold;
