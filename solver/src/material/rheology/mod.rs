@@ -3,24 +3,32 @@
 //! Two kinds of law share one enum: viscous laws (shear rate, pressure → viscosity) and plastic laws with a
 //! memory of the stress (trial stress → admissible stress). A new law is one file and one line in `laws!`.
 //!
+//! The pressure is what the model has: the weakly compressible one evaluates a law at the pressure of its equation of state
+//! and the local shear rate of a particle, the incompressible one at the load on the grains (their overburden, for the pore
+//! pressure carries no friction) and the rate of a particle or of a pair.
+//!
 //! Everywhere |γ̇| = √(2 ε′:ε′) `[1/s]` and τ = √(½ s:s) `[Pa]`, so that in simple shear |γ̇| = |du/dy| and
 //! τ = |s_xy|. A source that measures the strain rate by |S| = √(S:S) = |γ̇|/√2 means by its yield stress √2
 //! times the one here.
 
 mod bingham;
+mod coulomb_bingham;
 mod herschel_bulkley;
 mod mu_i;
 mod newtonian;
 mod parameter_range;
 mod regularisation;
 mod regularised_mu_i;
+mod root_mu_i;
 mod stress_update;
 
 pub use bingham::Bingham;
+pub use coulomb_bingham::CoulombBingham;
 pub use herschel_bulkley::HerschelBulkley;
 pub use mu_i::MuI;
 pub use newtonian::Newtonian;
 pub use regularised_mu_i::RegularisedMuI;
+pub use root_mu_i::RootMuI;
 
 use crate::lanes::algebra::{load_tensor, store_tensor};
 use crate::lanes::{LANES, Lanes, Real};
@@ -213,6 +221,6 @@ fn components<const D: usize>(tensor: &Tensor<D>) -> [[f64; D]; D] {
 }
 
 laws! {
-    viscous: [Newtonian, Bingham, HerschelBulkley, RegularisedMuI],
+    viscous: [Newtonian, Bingham, CoulombBingham, HerschelBulkley, RegularisedMuI, RootMuI],
     plastic: [MuI],
 }

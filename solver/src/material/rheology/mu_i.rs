@@ -23,6 +23,12 @@ use serde::{Deserialize, Serialize};
 /// Shear rate `[1/s]` below which the apparent viscosity no longer grows: a strain of 1e-6 in a second is rest.
 const REST_SHEAR_RATE: f64 = 1e-6;
 
+/// Shear rate γ̇_0 = I_0 √(p/ρ_s)/D `[1/s]` at which the inertial number (32) is the reference I_0 `[-]`.
+#[inline]
+pub(super) fn reference_rate(reference_inertia: f64, grain_diameter: f64, grain_density: f64, pressure: f64) -> f64 {
+    reference_inertia * (pressure / grain_density).sqrt() / grain_diameter
+}
+
 /// Dry grains with a true yield stress: elastic below μ_s p, μ(I) p in flow, no stress without pressure.
 #[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]

@@ -4,6 +4,7 @@
 //! At rest η = μ_s p/α_r + (μ_2 − μ_s) p/(ξ √p + α_r): finite, but tens of kPa·s for α_r = 0.01 1/s and p = 1 kPa,
 //! so that an explicit step is hundreds of times shorter than the acoustic one. For p ≤ 0 there is no stress.
 
+use super::mu_i::reference_rate;
 use super::regularisation::inverse_shear_rate;
 use super::{ParameterProblem, ViscousLaw, parameter_range};
 use serde::{Deserialize, Serialize};
@@ -51,7 +52,8 @@ impl ViscousLaw for RegularisedMuI {
         if pressure.is_nan() || pressure <= 0.0 {
             return 0.0;
         }
-        let rate_scale = self.reference_inertia * (pressure / self.grain_density).sqrt() / self.grain_diameter; // ξ √p
+        // ξ √p
+        let rate_scale = reference_rate(self.reference_inertia, self.grain_diameter, self.grain_density, pressure);
         self.static_friction * pressure * inverse_shear_rate(shear_rate, self.regularisation_rate)
             + (self.limiting_friction - self.static_friction) * pressure
                 / (rate_scale + shear_rate + self.regularisation_rate)

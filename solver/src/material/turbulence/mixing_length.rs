@@ -6,7 +6,7 @@
 //!   uniform free-surface flow, ρ u_*² (1 − z′/H), with the parabolic ν_t = κ u_* z′ (1 − z′/H);
 //! - linear: l = κ z′, right near the wall only: under the same stress the profile bends below the logarithm.
 
-use super::VON_KARMAN;
+use super::{VON_KARMAN, eddy_viscosity};
 use serde::{Deserialize, Serialize};
 
 /// How the mixing length goes with the distance from the wall.
@@ -47,8 +47,7 @@ impl MixingLength {
     #[inline]
     #[must_use]
     pub fn eddy_viscosity(&self, height: f64, depth: f64, shear_rate: f64) -> f64 {
-        let length = self.length(height, depth);
-        length * length * shear_rate
+        eddy_viscosity(self.length(height, depth), shear_rate)
     }
 }
 

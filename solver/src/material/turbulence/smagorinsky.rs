@@ -15,8 +15,7 @@ impl Smagorinsky {
     #[inline]
     #[must_use]
     pub fn eddy_viscosity(&self, spacing: f64, shear_rate: f64) -> f64 {
-        let mixing_length = self.coefficient * spacing;
-        mixing_length * mixing_length * shear_rate
+        super::eddy_viscosity(self.coefficient * spacing, shear_rate)
     }
 }
 
