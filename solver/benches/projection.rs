@@ -6,9 +6,10 @@
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
     Bed, DragForm, Fluid, IncompressibleScene, IncompressibleSimulation, ParticleSet, ProjectionNumerics, Sediment,
-    SedimentLaw, SedimentPressure, SedimentYield, SolidFraction, SolverCost, Turbulence,
+    SedimentLoad, SedimentPressure, SolidFraction, SolverCost, Turbulence,
 };
 use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
 use bagnold_solver::material::turbulence::{MixingLength, MixingLengthShape, RoughWall, VON_KARMAN};
 use bagnold_solver::vector::Vector;
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
@@ -69,15 +70,14 @@ fn scene(thickness: f64) -> IncompressibleScene<2> {
             smoothing_ratio: ProjectionNumerics::default().smoothing_ratio,
             density: 2600.0,
             grain_diameter: GRAIN,
-            law: SedimentLaw::Bingham(SedimentYield {
+            law: Rheology::CoulombBingham(CoulombBingham {
                 yield_stress: 7.4,
-                viscosity: 0.3,
-                overburden_friction: 0.6,
-                overburden_level: -GRAIN,
-                buoyant_weight: 1600.0 * GRAVITY,
+                friction: 0.6,
+                plastic_viscosity: 0.3,
                 regularisation_rate: 0.01,
                 largest_viscosity: 1e4,
             }),
+            load: SedimentLoad::Packed { level: -GRAIN, buoyant_weight: 1600.0 * GRAVITY },
             pressure: SedimentPressure::Incompressible,
             drag: DragLaw::MorsiAlexander,
             drag_form: DragForm::Grain(1.0),

@@ -3,8 +3,10 @@
 use crate::two_phases::{GRAIN, GRAVITY, SPACING, advance, bed, periodic_box, simulation, water};
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::incompressible::{
-    IncompressibleScene, IncompressibleSimulation, ParticleSet, SedimentLaw, SolidFraction, Stratification,
+    IncompressibleScene, IncompressibleSimulation, ParticleSet, SolidFraction, Strata, Stratification,
 };
+use bagnold_solver::material::rheology::Rheology;
+use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
 use bagnold_solver::run::divergence::Quantity;
 use bagnold_solver::vector::Vector;
 use rayon::ThreadPoolBuilder;
@@ -169,12 +171,24 @@ fn states_and_parameters_that_are_none() {
         "the velocity of particle 3 is inf, but must be finite"
     );
     let negative = |scene: &mut IncompressibleScene<2>| {
-        let SedimentLaw::Bingham(law) = &mut sediment(scene).law else { unreachable!("Bingham's law") };
+        let Rheology::CoulombBingham(law) = &mut sediment(scene).law else { unreachable!("Bingham's law") };
         law.yield_stress = -1.0;
     };
-    assert_eq!(message(negative), "`yield_stress` is -1, but must be 0 or positive, and finite; give it in SI units");
+    assert_eq!(
+        message(negative),
+        "`yield_stress` is -1, but must be finite and not negative; give the yield stress in Pa, or 0 for grains without cohesion"
+    );
     let full = |scene: &mut IncompressibleScene<2>| {
-        let layer = Stratification::new(0.0, 0.01, vec![0.6, 1.0, 0.0], 0.64, 15_696.0, 0.0, 0.03);
+        let layer = Stratification::of(Strata {
+            base: 0.0,
+            interval: 0.01,
+            solid_fraction: vec![0.6, 1.0, 0.0],
+            packing: 0.64,
+            buoyant_weight: 15_696.0,
+            bed_level: 0.0,
+            depth: 0.03,
+            suspension_viscosity: SuspensionViscosity::default(),
+        });
         scene.solid_fraction = SolidFraction::Given(layer);
     };
     assert_eq!(message(full), "`solid_fraction` is 1, but must be in [0, 1); grains fill 0 to 0.64 of the space");

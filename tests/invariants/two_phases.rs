@@ -3,9 +3,10 @@
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
     Bed, DragForm, Fluid, IncompressibleScene, IncompressibleSimulation, ParticleSet, ProjectionNumerics, Sediment,
-    SedimentLaw, SedimentPressure, SedimentYield, SolidFraction, Turbulence,
+    SedimentLoad, SedimentPressure, SolidFraction, Turbulence,
 };
 use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
 use bagnold_solver::vector::Vector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -87,15 +88,14 @@ fn grains(position: Vec<Vector<2>>) -> Sediment<2> {
         smoothing_ratio: ProjectionNumerics::default().smoothing_ratio,
         density: 2600.0,
         grain_diameter: GRAIN,
-        law: SedimentLaw::Bingham(SedimentYield {
+        law: Rheology::CoulombBingham(CoulombBingham {
             yield_stress: 5.0,
-            viscosity: 0.3,
-            overburden_friction: 0.6,
-            overburden_level: 0.0,
-            buoyant_weight: 1600.0 * GRAVITY,
+            friction: 0.6,
+            plastic_viscosity: 0.3,
             regularisation_rate: 0.01,
             largest_viscosity: 1e4,
         }),
+        load: SedimentLoad::Packed { level: 0.0, buoyant_weight: 1600.0 * GRAVITY },
         pressure: SedimentPressure::Incompressible,
         drag: DragLaw::MorsiAlexander,
         drag_form: DragForm::Grain(1.0),

@@ -1,43 +1,42 @@
 //! Incompressible flow of a fluid, alone or with a sediment that exchanges momentum with it by drag: model B.
 //!
 //! Reading order: [`scene`](IncompressibleScene), [`numerics`](ProjectionNumerics), then `step`, one step on a page, and
-//! from there `pairs`, `closure`, `velocity_solve`, `pressure_poisson` and `shifting`. Equation numbers are those of
-//! Kazemi et al., "Two-phase flow modelling of bed-load transport using a Lagrangian–Lagrangian model".
+//! from there `neighbours` and `phase` (who is near whom), `boundary` (surface and bed), `passes` (loops and what they
+//! store) with the formulas of a pair in `terms`, `velocity_solve` (implicit velocities) and `projection` (pressure and
+//! motion). Laws stand in [`material`](crate::material): a sediment's law is any
+//! [`Rheology`](crate::material::rheology::Rheology), at the load on its grains and the rate of a particle or pair.
+//! Equation numbers are those of Kazemi et al., "Two-phase flow modelling of bed-load transport using a
+//! Lagrangian–Lagrangian model".
 //!
 //! The bed lies normal to the last axis. Both phases are sets of particles of constant volume that may overlap in
 //! space. Within a phase, a pair's force is one coefficient times a difference of velocities, or a sum of pressures
 //! along the line between the two: equal and opposite, so that momentum closes to rounding.
 
-mod averaged_gradient;
-mod closure;
-mod drag_exchange;
-mod granular_pressure;
-mod grid;
-mod layers;
-mod mixture;
+mod boundary;
+mod failure;
+mod neighbours;
 mod numerics;
-mod pairs;
+mod passes;
 mod phase;
-mod pressure_links;
-mod pressure_poisson;
-mod rows;
+mod projection;
 mod scene;
-mod shifting;
 mod simulation;
 mod snapshot;
+mod state;
 mod step;
 mod stratification;
+mod terms;
 mod velocity_solve;
 
 #[cfg(test)]
 mod tests;
 
+pub(crate) use numerics::MOST_ITERATIONS;
 pub use numerics::{Continuity, DragSlip, MeanFlux, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment};
 pub use scene::{
-    Bed, DragForm, Fluid, GranularFriction, IncompressibleScene, ParticleSet, Sediment, SedimentLaw, SedimentPressure,
-    SedimentYield, SolidFraction, Turbulence,
+    Bed, DragForm, Fluid, IncompressibleScene, ParticleSet, Sediment, SedimentLoad, SedimentPressure, SolidFraction,
+    Turbulence,
 };
 pub use simulation::{IncompressibleSimulation, SolverCost};
 pub use snapshot::{IncompressibleSnapshot, PhaseSnapshot};
-pub(crate) use step::MOST_ITERATIONS;
-pub use stratification::Stratification;
+pub use stratification::{Strata, Stratification};

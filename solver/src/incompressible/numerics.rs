@@ -4,6 +4,9 @@
 use crate::material::rheology::ParameterProblem;
 use serde::{Deserialize, Serialize};
 
+/// Iterations after which a solve is given up: a bound on the machine's time, which no result depends on.
+pub(crate) const MOST_ITERATIONS: usize = 2000;
+
 /// What the pressure Poisson equation drives to zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -102,6 +105,30 @@ pub struct ProjectionNumerics {
     pub continuity: Continuity,
     /// The mixture's mean flux.
     pub mean_flux: MeanFlux,
+    /// Mean deficit of neighbours around a particle whose inverse makes it one beside the surface `[-]`.
+    pub surface_gain: f64,
+    /// Most that a particle is shifted in a step, in spacings `[-]`.
+    pub largest_shift: f64,
+    /// Norm of the correction of a velocity gradient beyond which the neighbours of a particle do not tell it `[-]`.
+    pub largest_correction: f64,
+    /// Least height of a particle above a wall that it sticks to, in spacings `[-]`.
+    pub least_wall_height: f64,
+    /// Largest velocity of a mirrored wall particle over its partner's `[-]`.
+    pub largest_mirror: f64,
+    /// Time over which velocity gradients of the sediment are averaged `[s]`: some ten passages of a grain in the fastest
+    /// shear.
+    pub rate_averaging_time: f64,
+    /// Spacings over which a particle is spread to either side in the mean solid fraction `[-]`: rows of grains that
+    /// dilate lie two apart, and their drag is that of the mean fraction, not of a row's.
+    pub fraction_spread: f64,
+    /// Least solid fraction of a sediment particle that is alone `[-]`, and mean fraction below which its drag is that of
+    /// a grain alone.
+    pub least_fraction: f64,
+    /// Σ V W of the fluid around a sediment particle below which its drag is not shared out in full `[-]`: where a
+    /// particle leaves the water, the force must fall with the water that there is.
+    pub least_fluid: f64,
+    /// Skin of the candidate search over the reach of the fluid's kernel `[-]`.
+    pub search_skin: f64,
     /// Relative residual of the pressure Poisson equation `[-]`.
     pub pressure_tolerance: f64,
     /// Relative residual of the implicit velocities `[-]`.
@@ -125,6 +152,16 @@ impl Default for ProjectionNumerics {
             drag_slip: DragSlip::Mean,
             continuity: Continuity::Fluid,
             mean_flux: MeanFlux::Free,
+            surface_gain: 8.0,
+            largest_shift: 0.05,
+            largest_correction: 30.0,
+            least_wall_height: 0.1,
+            largest_mirror: 6.0,
+            rate_averaging_time: 0.02,
+            fraction_spread: 2.0,
+            least_fraction: 1e-3,
+            least_fluid: 0.3,
+            search_skin: 0.3,
             pressure_tolerance: 1e-2,
             velocity_tolerance: 1e-6,
         }
@@ -160,6 +197,16 @@ impl ProjectionNumerics {
             ("reference_concentration", self.reference_concentration, 0.9..=1.1, "between 0.9 and 1.1"),
             ("surface_threshold", self.surface_threshold, 0.5..=0.99, "between 0.5 and 0.99"),
             ("shifting", self.shifting, 0.0..=10.0, "between 0 and 10"),
+            ("surface_gain", self.surface_gain, 1.0..=1e3, "between 1 and 1000"),
+            ("largest_shift", self.largest_shift, 0.0..=1.0, "between 0 and 1"),
+            ("largest_correction", self.largest_correction, 2.0..=1e6, "between 2 and 1e6"),
+            ("least_wall_height", self.least_wall_height, 1e-3..=0.5, "between 0.001 and 0.5"),
+            ("largest_mirror", self.largest_mirror, 1.0..=1e3, "between 1 and 1000"),
+            ("rate_averaging_time", self.rate_averaging_time, 1e-9..=1e3, "between 1e-9 and 1000"),
+            ("fraction_spread", self.fraction_spread, 0.1..=100.0, "between 0.1 and 100"),
+            ("least_fraction", self.least_fraction, 1e-9..=0.1, "between 1e-9 and 0.1"),
+            ("least_fluid", self.least_fluid, 1e-3..=1.0, "between 0.001 and 1"),
+            ("search_skin", self.search_skin, 0.01..=1.0, "between 0.01 and 1"),
             ("pressure_tolerance", self.pressure_tolerance, 1e-12..=0.5, "between 1e-12 and 0.5"),
             ("velocity_tolerance", self.velocity_tolerance, 1e-14..=0.1, "between 1e-14 and 0.1"),
         ];

@@ -2,7 +2,7 @@
 
 use crate::error::InputError;
 use bagnold_solver::incompressible::{Continuity, MeanFlux, ProjectionNumerics};
-use bagnold_solver::material::rheology::Rheology;
+use bagnold_solver::material::rheology::{ParameterProblem, Rheology};
 use bagnold_solver::weakly_compressible::boundary::Surface;
 use bagnold_solver::weakly_compressible::numerics::{ChoiceProblem, Numerics};
 
@@ -60,7 +60,12 @@ pub(super) fn columns(field: &str, value: usize, numerics: &Numerics) -> Result<
 
 /// The ranges of a constitutive law's own parameters.
 pub(super) fn material(path: &str, law: &Rheology) -> Result<(), InputError> {
-    law.parameter_problem().map_or(Ok(()), |(field, value, rule, remedy)| {
+    self::law(path, law.parameter_problem())
+}
+
+/// The ranges of any other law's parameters.
+pub(super) fn law(path: &str, problem: Option<ParameterProblem>) -> Result<(), InputError> {
+    problem.map_or(Ok(()), |(field, value, rule, remedy)| {
         Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
     })
 }

@@ -1,7 +1,9 @@
 //! What a closure makes of a uniform shear of displaced particles, where the corrected gradient is exact.
 
 use super::super::Turbulence;
+use super::super::passes::velocity_gradients::find_velocity_gradients;
 use super::super::simulation::IncompressibleSimulation;
+use super::super::state::State;
 use super::water;
 use crate::material::turbulence::{MixingLength, MixingLengthShape, Smagorinsky};
 use crate::vector::Vector;
@@ -15,12 +17,13 @@ fn eddy_viscosities(turbulence: Turbulence) -> Vec<(f64, f64)> {
     particles.velocity = particles.position.iter().map(|x| Vector::<2>::new(SHEAR_RATE * x[1], 0.0)).collect();
     scene.fluid.turbulence = turbulence;
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
-    simulation.measure();
-    simulation.fluid.find_velocity_gradients();
-    simulation.find_viscosities();
+    let State { scene, phases, search, exchange, viscosities, .. } = &mut simulation.state;
+    search.measure(&scene.domain, phases, exchange);
+    find_velocity_gradients(&mut phases.fluid, scene.numerics.largest_correction);
+    viscosities.find(scene, phases);
     let (density, molecular) = (1000.0, 1e-6);
     let eddy = |viscosity: &f64| viscosity / density - molecular;
-    simulation.fluid.position.iter().map(|x| x[1]).zip(simulation.fluid_viscosity.iter().map(eddy)).collect()
+    phases.fluid.position.iter().map(|x| x[1]).zip(viscosities.fluid.iter().map(eddy)).collect()
 }
 
 #[test]

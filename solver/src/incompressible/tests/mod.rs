@@ -5,11 +5,12 @@ mod pairs;
 mod pressure_operators;
 
 use super::{
-    Bed, DragForm, Fluid, IncompressibleScene, ParticleSet, ProjectionNumerics, Sediment, SedimentLaw,
-    SedimentPressure, SedimentYield, SolidFraction, Turbulence,
+    Bed, DragForm, Fluid, IncompressibleScene, ParticleSet, ProjectionNumerics, Sediment, SedimentLoad,
+    SedimentPressure, SolidFraction, Turbulence,
 };
 use crate::domain::{AxisBoundary, Domain};
 use crate::material::drag::DragLaw;
+use crate::material::rheology::{CoulombBingham, Rheology};
 use crate::vector::Vector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -73,15 +74,14 @@ fn grains(cells: [usize; 2], jitter: f64, seed: u64) -> Sediment<2> {
         smoothing_ratio: ProjectionNumerics::default().smoothing_ratio,
         density: 2600.0,
         grain_diameter: 2.0 * SPACING,
-        law: SedimentLaw::Bingham(SedimentYield {
+        law: Rheology::CoulombBingham(CoulombBingham {
             yield_stress: 1.0,
-            viscosity: 0.3,
-            overburden_friction: 0.0,
-            overburden_level: 0.0,
-            buoyant_weight: 0.0,
+            friction: 0.0,
+            plastic_viscosity: 0.3,
             regularisation_rate: 0.01,
             largest_viscosity: 1e4,
         }),
+        load: SedimentLoad::Packed { level: 0.0, buoyant_weight: 0.0 },
         pressure: SedimentPressure::Incompressible,
         drag: DragLaw::SchillerNaumann,
         drag_form: DragForm::Grain(1.0),

@@ -1,7 +1,6 @@
 //! Pairs against brute force: every pair of nearest images, with no cells and no wrapping.
 
-use super::super::grid::Grid;
-use super::super::pairs::{Pairs, Periods, Sources};
+use super::super::neighbours::{Grid, Pairs, Periods, Sources};
 use super::super::phase::Phase;
 use super::super::simulation::IncompressibleSimulation;
 use super::{SPACING, grains, random, symmetric, water};
@@ -126,25 +125,31 @@ fn check_phase(phase: &Phase<2>, domain: &Domain<2>, what: &str) {
 
 fn check_all(simulation: &IncompressibleSimulation<2>, what: &str) {
     let domain = simulation.scene().domain;
-    check_phase(&simulation.fluid, &domain, what);
-    if let Some(sediment) = &simulation.sediment {
+    check_phase(&simulation.state.phases.fluid, &domain, what);
+    if let Some(sediment) = &simulation.state.phases.sediment {
         check_phase(sediment, &domain, what);
-        let reach = simulation.exchange.reach();
+        let reach = simulation.state.exchange.reach();
         let kernel = Kernel::new(KernelShape::CubicSpline, 0.5 * reach);
-        let (fluid, grains) = (&simulation.fluid.position, &sediment.position);
+        let (fluid, grains) = (&simulation.state.phases.fluid.position, &sediment.position);
         let of = |targets, sources| by_force(targets, sources, Sources::Other, &domain, reach);
-        compare(&simulation.exchange.of_sediment, &of(grains, fluid), &kernel, what);
-        compare(&simulation.exchange.of_fluid, &of(fluid, grains), &kernel, what);
+        compare(&simulation.state.exchange.of_sediment, &of(grains, fluid), &kernel, what);
+        compare(&simulation.state.exchange.of_fluid, &of(fluid, grains), &kernel, what);
     }
+}
+
+/// Measures all pairs, after a search if one is due.
+fn measure(simulation: &mut IncompressibleSimulation<2>) {
+    let state = &mut simulation.state;
+    state.search.measure(&state.scene.domain, &mut state.phases, &mut state.exchange);
 }
 
 /// Moves all particles by a field of displacements and puts them back into their periods.
 fn displace(simulation: &mut IncompressibleSimulation<2>, field: impl Fn(&Vector<2>) -> Vector<2>) {
     let domain = simulation.scene().domain;
-    for phase in std::iter::once(&mut simulation.fluid).chain(&mut simulation.sediment) {
+    for phase in simulation.state.phases.all_mut() {
         for particle in 0..phase.len() {
-            let way = field(&phase.position[particle]);
-            phase.displace(particle, way);
+            let by = field(&phase.position[particle]);
+            phase.displace(particle, by);
             domain.wrap(&mut phase.position[particle]);
         }
     }
@@ -160,7 +165,7 @@ fn no_pair_is_missed_in_a_shear_across_a_period() {
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
     for step in 0..120 {
         displace(&mut simulation, |x| Vector::<2>::new(0.15 * x[1] / height, 0.03) * SPACING);
-        simulation.measure();
+        measure(&mut simulation);
         check_all(&simulation, &format!("step {step}"));
     }
     let searches = simulation.cost().searches;
@@ -174,7 +179,7 @@ fn no_pair_is_missed_when_a_drop_falls_onto_the_surface() {
     scene.fluid.particles.position.push(Vector::<2>::new(0.06, 0.40));
     scene.fluid.particles.velocity.push(Vector::zeros());
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
-    let drop = simulation.fluid.len() - 1;
+    let drop = simulation.state.phases.fluid.len() - 1;
     for step in 0..200 {
         displace(
             &mut simulation,
@@ -182,10 +187,10 @@ fn no_pair_is_missed_when_a_drop_falls_onto_the_surface() {
                 if x[1] > 0.09 { Vector::<2>::new(0.0, -0.2 * SPACING) } else { Vector::zeros() }
             },
         );
-        simulation.measure();
+        measure(&mut simulation);
         check_all(&simulation, &format!("step {step}"));
     }
-    assert!(simulation.fluid.free_pairs.of(drop).len() > 3, "the drop has arrived");
+    assert!(simulation.state.phases.fluid.free_pairs.of(drop).len() > 3, "the drop has arrived");
 }
 
 #[test]
@@ -204,9 +209,9 @@ fn no_pair_is_missed_within_a_step_of_a_run_with_strong_shear() {
     for step in 0..60 {
         simulation.step().expect("a step");
         let searches = simulation.cost().searches;
-        simulation.fluid.measure(&simulation.periods);
+        simulation.state.phases.fluid.measure(&simulation.state.search.periods);
         assert_eq!(simulation.cost().searches, searches, "measured from the candidates of the step");
-        check_phase(&simulation.fluid, &simulation.scene().domain, &format!("end of step {step}"));
+        check_phase(&simulation.state.phases.fluid, &simulation.scene().domain, &format!("end of step {step}"));
     }
     assert!(simulation.cost().searches > 10);
 }

@@ -1,8 +1,10 @@
 //! G = −Dᵀ, and A + s D G symmetric and positive, on disordered particles above a wall and with a surface.
 
+use super::super::boundary::find_surface;
 use super::super::numerics::SurfaceTreatment;
-use super::super::pressure_poisson::PressurePoisson;
+use super::super::projection::PressurePoisson;
 use super::super::simulation::IncompressibleSimulation;
+use super::super::state::State;
 use super::{random, symmetric, water};
 use crate::vector::Vector;
 
@@ -17,22 +19,22 @@ fn prepare(closed: bool, eliminated: bool, stabilisation: f64) -> Prepared {
     scene.numerics.stabilisation = stabilisation;
     scene.numerics.surface = if eliminated { SurfaceTreatment::Eliminated } else { SurfaceTreatment::Completed };
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
-    simulation.measure();
-    let numerics = simulation.scene().numerics;
-    simulation.fluid.find_surface(&numerics);
+    let State { scene, phases, search, exchange, .. } = &mut simulation.state;
+    search.measure(&scene.domain, phases, exchange);
+    find_surface(&mut phases.fluid, &scene.numerics);
     let mut poisson = PressurePoisson::new();
-    poisson.assemble(&simulation.fluid, &numerics);
+    poisson.assemble(&phases.fluid, &scene.numerics);
     Prepared { simulation, poisson, eliminated }
 }
 
 impl Prepared {
     fn rows(&self) -> usize {
-        self.simulation.fluid.len()
+        self.simulation.state.phases.fluid.len()
     }
 
     /// A field that is zero where it is no unknown.
     fn field(&self, mut value: impl FnMut(&Vector<2>) -> f64) -> Vec<f64> {
-        let phase = &self.simulation.fluid;
+        let phase = &self.simulation.state.phases.fluid;
         let known = |a: usize| self.eliminated && phase.at_surface[a];
         (0..self.rows()).map(|a| if known(a) { 0.0 } else { value(&phase.position[a]) }).collect()
     }
@@ -40,7 +42,7 @@ impl Prepared {
     fn apply(&self, p: &[f64]) -> Vec<f64> {
         let (mut product, mut gradient) = (vec![0.0; p.len()], vec![Vector::zeros(); p.len()]);
         let stabilisation = self.simulation.scene().numerics.stabilisation;
-        let surface = &self.simulation.fluid.at_surface;
+        let surface = &self.simulation.state.phases.fluid.at_surface;
         self.poisson.apply(p, &mut product, &mut gradient, surface, self.eliminated, stabilisation);
         product
     }
@@ -76,7 +78,7 @@ fn the_wall_turns_the_normal_velocity_only() {
     let down = vec![Vector::<2>::new(0.0, -1.0); prepared.rows()];
     let lowest = (0..prepared.rows())
         .min_by(|&a, &b| {
-            let height = |a: usize| prepared.simulation.fluid.position[a][1];
+            let height = |a: usize| prepared.simulation.state.phases.fluid.position[a][1];
             height(a).total_cmp(&height(b))
         })
         .expect("particles");

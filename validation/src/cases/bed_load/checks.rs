@@ -46,9 +46,13 @@ impl BedLoadParameters {
     fn check_grains(&self, path: &str, grains: &Grains) -> Result<(), InputError> {
         let field = |name: &str| format!("{path}.{name}");
         check_slopes(&field("slopes"), &grains.slopes)?;
-        let Yield { yield_stress, viscosity } = grains.material;
+        let Yield { yield_stress, viscosity, regularisation_rate, largest_viscosity } = grains.material;
         rules::between(&field("material.yield_stress"), yield_stress, 0.0, 1e6, "give it in Pa, or 0 for none")?;
         rules::between(&field("material.viscosity"), viscosity, 0.0, 1e4, "give it in Pa·s, or 0 for none")?;
+        let remedy = "give it in 1/s, well below the bed's rates, such as 0.01";
+        rules::positive(&field("material.regularisation_rate"), regularisation_rate, remedy)?;
+        let remedy = "give it in Pa·s, such as 1e4";
+        rules::positive(&field("material.largest_viscosity"), largest_viscosity, remedy)?;
         rules::between(&field("overburden_friction"), grains.overburden_friction, 0.0, 2.0, "0.6 for sand and gravel")?;
         grains.turbulence.check(&field("turbulence"))?;
         if grains.drag == DragLaw::Ergun {
@@ -84,6 +88,14 @@ impl BedLoadParameters {
         rules::between("continuum.held_depth", continuum.held_depth, 0.0, 0.9 * continuum.bed_depth, remedy)?;
         rules::between("continuum.smoothing_ratio", continuum.smoothing_ratio, 1.0, 3.0, "1.5 for dilating sediment")?;
         rules::between("continuum.sediment_jitter", continuum.sediment_jitter, 0.0, 0.5, "0.3 breaks the rows")?;
+        rules::between(
+            "continuum.least_fraction",
+            continuum.least_fraction,
+            1e-6,
+            0.1,
+            "0.002 leaves no row half empty",
+        )?;
+        rules::law("continuum.pressure_bounds", continuum.pressure_bounds.parameter_problem())?;
         bed_load_1d::closures("continuum.closures", &continuum.closures)?;
         let Closures { mixing_length, karman, .. } = continuum.closures;
         if mixing_length != MixingLength::Integral {

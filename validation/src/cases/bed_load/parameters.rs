@@ -3,6 +3,7 @@
 use crate::cases::channel::TurbulenceClosure;
 use crate::reference::bed_load_layer::Closures;
 use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
+use bagnold_solver::material::dilatancy::PressureBounds;
 use bagnold_solver::material::drag::DragLaw;
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +33,10 @@ pub struct Yield {
     pub yield_stress: f64,
     /// μ `[Pa·s]`.
     pub viscosity: f64,
+    /// Shear rate below which the bed creeps instead of standing still `[1/s]`.
+    pub regularisation_rate: f64,
+    /// Largest viscosity of the yield `[Pa·s]`: that of a deep bed at rest.
+    pub largest_viscosity: f64,
 }
 
 /// One particle a grain, over a bed whose pores hold water: `paper` as printed, `stabilised` by the recipe.
@@ -134,6 +139,10 @@ pub struct Continuum {
     pub length: f64,
     /// Closures of particles and of the layer.
     pub closures: Closures,
+    /// Solid fraction of the layer below which a row carries no sediment particle `[-]`.
+    pub least_fraction: f64,
+    /// Bounds of the pressure of dilating sediment.
+    pub pressure_bounds: PressureBounds,
     /// Smoothing length of dilating sediment over its spacing `[-]`.
     pub smoothing_ratio: f64,
     /// Largest random displacement of dilating sediment in spacings `[-]`.

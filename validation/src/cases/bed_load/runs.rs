@@ -98,7 +98,7 @@ pub(super) fn runs(parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
     for &yield_stress in &fit.yield_stresses {
         for &viscosity in &fit.viscosities {
             for &slope in &fit.slopes {
-                let material = Yield { yield_stress, viscosity };
+                let material = Yield { yield_stress, viscosity, ..stabilised.material };
                 let grains = Grains { material, ..alone(stabilised, slope) };
                 runs.push(new(Formulation::Fit(grains), slope, fit.duration, fit.averaging_time));
             }
@@ -124,7 +124,7 @@ impl Run for BedLoadRun {
             Formulation::Paper(_) => format!("formulation=paper,slope={slope}"),
             Formulation::Stabilised(_) => format!("formulation=stabilised,slope={slope}"),
             Formulation::Fit(grains) => {
-                let Yield { yield_stress, viscosity } = grains.material;
+                let Yield { yield_stress, viscosity, .. } = grains.material;
                 format!("formulation=fit,slope={slope},yield_stress={yield_stress},viscosity={viscosity}")
             }
             Formulation::Continuum { stage, pair_law, start, spacing, .. } => format!(

@@ -6,10 +6,9 @@ use crate::cases::channel::{Channel, Lattice, Until};
 use crate::reference::bed_load_layer::LayerState;
 use bagnold_solver::incompressible as solver;
 use bagnold_solver::incompressible::{Bed, ParticleSet, ProjectionNumerics, Sediment, Turbulence};
+use bagnold_solver::material::dilatancy::Dilatancy;
+use bagnold_solver::material::rheology::{CoulombBingham, Rheology, RootMuI};
 use bagnold_solver::vector::Vector;
-
-/// Solid fraction below which a row of the layer carries no sediment particle `[-]`.
-const LEAST_FRACTION: f64 = 2e-3;
 
 impl BedLoadRun {
     pub(super) fn grains_channel<'a>(&self, grains: &Grains, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Channel<'a> {
@@ -42,15 +41,14 @@ impl BedLoadRun {
             smoothing_ratio: grains.numerics.smoothing_ratio,
             density: grain_density,
             grain_diameter,
-            law: solver::SedimentLaw::Bingham(solver::SedimentYield {
+            law: Rheology::CoulombBingham(CoulombBingham {
                 yield_stress: grains.material.yield_stress,
-                viscosity: grains.material.viscosity,
-                overburden_friction: grains.overburden_friction,
-                overburden_level: -grain_diameter,
-                buoyant_weight,
-                regularisation_rate: 0.01,
-                largest_viscosity: 1e4,
+                friction: grains.overburden_friction,
+                plastic_viscosity: grains.material.viscosity,
+                regularisation_rate: grains.material.regularisation_rate,
+                largest_viscosity: grains.material.largest_viscosity,
             }),
+            load: solver::SedimentLoad::Packed { level: -grain_diameter, buoyant_weight },
             pressure: solver::SedimentPressure::Incompressible,
             drag: grains.drag,
             drag_form: solver::DragForm::Grain(grains.drag_factor),
@@ -89,15 +87,16 @@ impl BedLoadRun {
         let closures = &continuum.closures;
         let packing = closures.largest_fraction;
         let held = continuum.held_depth - continuum.bed_depth;
-        let stratification = solver::Stratification::new(
-            layer.face[0],
-            layer.cell_height,
-            layer.solid_fraction.clone(),
+        let stratification = solver::Stratification::of(solver::Strata {
+            base: layer.face[0],
+            interval: layer.cell_height,
+            solid_fraction: layer.solid_fraction.clone(),
             packing,
-            (grain_density - fluid_density) * gravity,
-            0.0,
+            buoyant_weight: (grain_density - fluid_density) * gravity,
+            bed_level: 0.0,
             depth,
-        );
+            suspension_viscosity: closures.suspension_viscosity,
+        });
         let lattice = Lattice { bottom: fluid.bottom - 3.0 * spacing, rows: fluid.rows + 3, ..fluid };
         let jitter = if stage == Stage::Dilating { continuum.sediment_jitter } else { 0.0 };
         let (mut free, mut wall, mut filling) = (ParticleSet::default(), Vec::new(), Vec::new());
@@ -114,9 +113,9 @@ impl BedLoadRun {
                 }
                 Stage::Porous | Stage::Frozen => point.solid_fraction,
             };
-            if site[1] < held || (stage == Stage::Porous && fraction > LEAST_FRACTION) {
+            if site[1] < held || (stage == Stage::Porous && fraction > continuum.least_fraction) {
                 wall.push(site);
-            } else if fraction > LEAST_FRACTION {
+            } else if fraction > continuum.least_fraction {
                 free.position.push(place);
                 free.velocity.push(Vector::<2>::new(share * point.grain_velocity, 0.0));
                 filling.push(fraction);
@@ -140,17 +139,27 @@ impl BedLoadRun {
             },
             density: grain_density,
             grain_diameter,
-            law: solver::SedimentLaw::MuI(solver::GranularFriction {
+            law: Rheology::RootMuI(RootMuI {
                 static_friction: closures.static_friction,
                 limiting_friction: closures.limiting_friction,
                 reference_inertia: closures.reference_inertia,
+                grain_diameter,
+                grain_density,
                 regularisation_rate: closures.regularisation_rate,
             }),
+            load: solver::SedimentLoad::Stratified,
             pressure: match stage {
                 Stage::Porous | Stage::Frozen => solver::SedimentPressure::AlongBed,
-                Stage::Dilating => {
-                    solver::SedimentPressure::Dilatant { dilation: closures.dilation, packing, fixed_filling: packing }
-                }
+                Stage::Dilating => solver::SedimentPressure::Dilatant {
+                    dilatancy: Dilatancy {
+                        dilation: closures.dilation,
+                        packing,
+                        grain_diameter,
+                        grain_density,
+                        bounds: continuum.pressure_bounds,
+                    },
+                    fixed_filling: packing,
+                },
             },
             drag: closures.drag,
             drag_form: solver::DragForm::Exchange,

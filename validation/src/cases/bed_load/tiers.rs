@@ -5,11 +5,13 @@ use crate::case::Tier;
 use crate::cases::channel::TurbulenceClosure;
 use crate::reference::bed_load_layer::Closures;
 use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
+use bagnold_solver::material::dilatancy::PressureBounds;
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::turbulence::MixingLengthShape;
 
 /// Fitted to Wong & Parker at 2 and 5 %; 3 % is held out.
-pub(super) const FITTED: Yield = Yield { yield_stress: 5.1, viscosity: 1.67 };
+pub(super) const FITTED: Yield =
+    Yield { yield_stress: 5.1, viscosity: 1.67, regularisation_rate: 0.01, largest_viscosity: 1e4 };
 
 impl BedLoadParameters {
     pub(super) fn of_tier(tier: Tier) -> Self {
@@ -32,7 +34,7 @@ impl BedLoadParameters {
         let paper = Grains {
             slopes: Vec::new(),
             // printed with |S| = √(S:S): 863 Pa in this norm; the bed is rigid with either
-            material: Yield { yield_stress: 1220.0, viscosity: 0.26 },
+            material: Yield { yield_stress: 1220.0, viscosity: 0.26, ..FITTED },
             overburden_friction: 0.0,
             bed_depth: 0.08,
             drag_smoothing_length: 6e-3,
@@ -69,6 +71,8 @@ impl BedLoadParameters {
                 held_depth: 0.004,
                 length: 0.01,
                 closures: Closures::default(),
+                least_fraction: 2e-3,
+                pressure_bounds: PressureBounds::default(),
                 smoothing_ratio: 1.5,
                 sediment_jitter: 0.3,
                 numerics: ProjectionNumerics { time_step: 1.5e-4, ..ProjectionNumerics::default() },

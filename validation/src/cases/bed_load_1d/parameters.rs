@@ -204,5 +204,6 @@ pub(in crate::cases) fn closures(path: &str, closures: &Closures) -> Result<(), 
     rules::between(&field("largest_fraction"), closures.largest_fraction, 0.1, 0.74, remedy)?;
     let remedy = "grains loosen in shear: give B, such as 0.31, or 0 for grains that do not";
     rules::between(&field("dilation"), closures.dilation, 0.0, 100.0, remedy)?;
+    rules::law(&field("suspension_viscosity"), closures.suspension_viscosity.parameter_problem())?;
     rules::positive(&field("karman"), closures.karman, "give κ, 0.41")
 }

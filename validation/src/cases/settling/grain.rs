@@ -8,10 +8,11 @@ use crate::observe::Recorded;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
-    Bed, DragForm, DragSlip, Fluid, IncompressibleScene, ParticleSet, ProjectionNumerics, Sediment, SedimentLaw,
-    SedimentPressure, SedimentYield, SolidFraction, Turbulence,
+    Bed, DragForm, DragSlip, Fluid, IncompressibleScene, ParticleSet, ProjectionNumerics, Sediment, SedimentLoad,
+    SedimentPressure, SolidFraction, Turbulence,
 };
 use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::Vector;
 use serde::{Deserialize, Serialize};
@@ -164,6 +165,7 @@ impl GrainRun {
                 density: self.grain_density,
                 grain_diameter: self.diameter,
                 law: WITHOUT_STRENGTH,
+                load: SedimentLoad::Stratified,
                 pressure: SedimentPressure::Incompressible,
                 drag: self.law,
                 drag_form: DragForm::Grain(1.0),
@@ -186,12 +188,4 @@ impl GrainRun {
 }
 
 /// Grains that do not touch: no stress between them.
-pub(super) const WITHOUT_STRENGTH: SedimentLaw = SedimentLaw::Bingham(SedimentYield {
-    yield_stress: 0.0,
-    viscosity: 0.0,
-    overburden_friction: 0.0,
-    overburden_level: 0.0,
-    buoyant_weight: 0.0,
-    regularisation_rate: 1.0,
-    largest_viscosity: 1.0,
-});
+pub(super) const WITHOUT_STRENGTH: Rheology = Rheology::Newtonian(Newtonian { viscosity: 0.0 });

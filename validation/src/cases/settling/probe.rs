@@ -225,7 +225,7 @@ struct Force {
 /// Momentum of both phases and the forces on them, per metre of width.
 fn momentum(simulation: &IncompressibleSimulation<2>) -> (Vector<2>, Force) {
     let (scene, material) = (simulation.scene(), sediment(simulation));
-    let fluid = (simulation.fluid().1, simulation.fluid_share(), &scene.fluid.gravity);
+    let fluid = (simulation.fluid().1, simulation.voidage(), &scene.fluid.gravity);
     let grains = (simulation.sediment().1, &material.filling[..], &material.gravity);
     let gradient = simulation.mean_pressure_gradient();
     let of = |(velocity, share, gravity): (&[Vector<2>], &[f64], &Vector<2>), density: f64, spacing: f64| {

@@ -10,9 +10,10 @@ use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
     Bed, Continuity, DragForm, DragSlip, Fluid, IncompressibleScene, MeanFlux, ParticleSet, ProjectionNumerics,
-    Sediment, SedimentPressure, SolidFraction, Stratification, Turbulence,
+    Sediment, SedimentLoad, SedimentPressure, SolidFraction, Strata, Stratification, Turbulence,
 };
 use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::Vector;
 use serde::Serialize;
@@ -158,21 +159,23 @@ impl SuspensionRun {
                 density: self.grain_density,
                 grain_diameter: self.diameter,
                 law: WITHOUT_STRENGTH,
+                load: SedimentLoad::Stratified,
                 pressure: SedimentPressure::None,
                 drag: self.law,
                 drag_form: DragForm::Exchange,
                 drag_smoothing_length: self.drag_smoothing_length,
                 gravity,
             }),
-            solid_fraction: SolidFraction::Given(Stratification::new(
-                0.0,
-                size[1],
-                vec![self.solid_fraction],
-                1.0,
+            solid_fraction: SolidFraction::Given(Stratification::of(Strata {
+                base: 0.0,
+                interval: size[1],
+                solid_fraction: vec![self.solid_fraction],
+                packing: 1.0,
                 buoyant_weight,
-                0.0,
-                size[1],
-            )),
+                bed_level: 0.0,
+                depth: size[1],
+                suspension_viscosity: SuspensionViscosity::default(),
+            })),
             domain: Domain { axes: [0, 1].map(|axis| AxisBoundary::Periodic { lower: 0.0, upper: size[axis] }) },
             numerics: self.numerics,
         }

@@ -2,6 +2,7 @@
 
 use crate::reference::shipped::read_shipped;
 use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
@@ -55,19 +56,14 @@ pub struct Closures {
     pub mixing_length: MixingLength,
     /// Kármán's κ `[-]`.
     pub karman: f64,
+    /// Viscosity of the water between grains.
+    pub suspension_viscosity: SuspensionViscosity,
 }
 
-/// What the literature gives.
-struct Literature {
-    closures: Closures,
-    /// ν_φ/ν = 1 + c φ/(1 − min(φ, φ_1)/φ_2): c, φ_1, φ_2 `[-]`.
-    suspension: (f64, f64, f64),
-}
-
-static LITERATURE: LazyLock<Literature> = LazyLock::new(|| {
+static LITERATURE: LazyLock<Closures> = LazyLock::new(|| {
     read_shipped("bed-load/closures.csv", |table| {
         let value = |name| table.number_of("closure", name, "value");
-        let closures = Closures {
+        Ok(Closures {
             static_friction: value("static friction")?,
             limiting_friction: value("limiting friction")?,
             reference_inertia: value("reference inertia")?,
@@ -77,10 +73,12 @@ static LITERATURE: LazyLock<Literature> = LazyLock::new(|| {
             drag: DragLaw::DiFelice,
             mixing_length: MixingLength::Integral,
             karman: value("Kármán constant")?,
-        };
-        let (coefficient, most) =
-            (value("suspension viscosity coefficient")?, value("suspension viscosity fraction at most")?);
-        Ok(Literature { closures, suspension: (coefficient, most, value("suspension viscosity pole")?) })
+            suspension_viscosity: SuspensionViscosity {
+                intrinsic: value("suspension viscosity coefficient")?,
+                largest_fraction: value("suspension viscosity pole")?,
+                bounded_from: value("suspension viscosity fraction at most")?,
+            },
+        })
     })
 });
 
@@ -89,7 +87,7 @@ const REGULARISATION_RATE: f64 = 5e-3;
 
 impl Default for Closures {
     fn default() -> Self {
-        LITERATURE.closures
+        *LITERATURE
     }
 }
 
@@ -124,9 +122,8 @@ impl Closures {
     }
 
     /// Stress of the water, (1 − φ) ρ_f [ν_φ + l² |γ|] γ with the viscosity ν_φ between grains.
-    pub(super) fn fluid_stress(rate: f64, density: f64, viscosity: f64, fraction: f64, length: f64) -> Stress {
-        let (coefficient, most, pole) = LITERATURE.suspension;
-        let suspension = viscosity * (1.0 + coefficient * fraction / (1.0 - fraction.min(most) / pole));
+    pub(super) fn fluid_stress(&self, rate: f64, density: f64, viscosity: f64, fraction: f64, length: f64) -> Stress {
+        let suspension = viscosity * self.suspension_viscosity.relative(fraction);
         let inertia = (1.0 - fraction) * density;
         let eddy = length * length * rate.abs();
         let secant = inertia * (suspension + eddy);
@@ -159,7 +156,7 @@ mod tests {
             let at = |rate| closures.grain_stress(rate, pressure, inertia_unit);
             let difference = (at(rate + step * rate).value - at(rate - step * rate).value) / (2.0 * step * rate);
             assert!((at(rate).tangent / difference - 1.0).abs() < 1e-6, "grains at {rate}");
-            let at = |rate| Closures::fluid_stress(rate, 1000.0, 1e-6, 0.2, 2e-3);
+            let at = |rate| closures.fluid_stress(rate, 1000.0, 1e-6, 0.2, 2e-3);
             let difference = (at(rate + step * rate).value - at(rate - step * rate).value) / (2.0 * step * rate);
             assert!((at(rate).tangent / difference - 1.0).abs() < 1e-6, "water at {rate}");
         }

@@ -9,7 +9,7 @@
 //! rate at once. Fractions that follow it slowly swing for ever in the topmost grains as soon as the cells are small.
 
 use super::block_tridiagonal::{Row, solve};
-use super::closures::{Closures, Stress};
+use super::closures::Stress;
 use super::dilation::Dilation;
 use super::profile::LayerState;
 use super::{BedLoadLayer, Grains, Start};
@@ -154,7 +154,7 @@ impl<'a> Column<'a> {
             let rate = self.rate(&self.fluid, face, 0);
             faces.length.push(length);
             let (density, viscosity) = (stream.fluid_density, stream.kinematic_viscosity);
-            faces.fluid.push(Closures::fluid_stress(rate, density, viscosity, fraction, length));
+            faces.fluid.push(closures.fluid_stress(rate, density, viscosity, fraction, length));
             let rate = self.rate(&self.grains, face, self.held);
             faces.grains.push(closures.grain_stress(rate, faces.pressure[face], stream.inertia_unit()));
         }

@@ -5,7 +5,7 @@ use crate::vector::Vector;
 
 /// Particles sorted by cell; the sort is stable, so the order is a function of the input alone.
 #[derive(Debug)]
-pub(super) struct Grid<const D: usize> {
+pub(crate) struct Grid<const D: usize> {
     lower: Vector<D>,
     inverse_size: Vector<D>,
     cells: [usize; D],
@@ -19,7 +19,7 @@ pub(super) struct Grid<const D: usize> {
 const MOST_CELLS: usize = 4096;
 
 impl<const D: usize> Grid<D> {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             lower: Vector::zeros(),
             inverse_size: Vector::zeros(),
@@ -32,7 +32,7 @@ impl<const D: usize> Grid<D> {
     }
 
     /// Sorts the particles into cells of at least `size` `[m]`.
-    pub(super) fn sort(&mut self, positions: &[Vector<D>], domain: &Domain<D>, size: f64) {
+    pub(crate) fn sort(&mut self, positions: &[Vector<D>], domain: &Domain<D>, size: f64) {
         for axis in 0..D {
             let (lower, upper) = match domain.axes[axis] {
                 AxisBoundary::Periodic { lower, upper } => (lower, upper),
@@ -74,7 +74,7 @@ impl<const D: usize> Grid<D> {
     }
 
     /// Calls `visit` for every particle in the cells around a position, each once.
-    pub(super) fn visit_near(&self, position: &Vector<D>, mut visit: impl FnMut(u32)) {
+    pub(crate) fn visit_near(&self, position: &Vector<D>, mut visit: impl FnMut(u32)) {
         let centre = self.coordinates(position);
         'offsets: for code in 0..3usize.pow(D as u32) {
             let mut rest = code;

@@ -5,39 +5,47 @@
 //! long as no two successive layers move apart by a skin. Layers without particles are left out of the succession, so
 //! that a drop above the surface is compared with the surface.
 
-use super::phase::{Phase, height_axis};
+use super::super::scene::height_axis;
 use crate::domain::{AxisBoundary, Domain};
 use crate::vector::Vector;
 
 /// More layers than this are one: a stray particle far away must not buy memory.
 const MOST_LAYERS: usize = 65_536;
 
+/// Where the particles of a phase stand, and where its free ones have gone since the last search `[m]`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Places<'a, const D: usize> {
+    pub(crate) free: &'a [Vector<D>],
+    pub(crate) fixed: &'a [Vector<D>],
+    pub(crate) travel: &'a [Vector<D>],
+}
+
 /// The layers of a search.
 #[derive(Debug)]
-pub(super) struct Layers<const D: usize> {
+pub(crate) struct Layers<const D: usize> {
     /// Layer of every free particle, phase after phase.
     layer: Vec<u32>,
     /// Whether fixed particles lie in a layer.
     held: Vec<bool>,
-    /// Smallest and largest way of a layer's particles `[m]`, not in order where there is none.
-    ways: Vec<(Vector<D>, Vector<D>)>,
+    /// Smallest and largest travel of a layer's particles `[m]`, not in order where there is none.
+    travels: Vec<(Vector<D>, Vector<D>)>,
     periodic: bool,
 }
 
 impl<const D: usize> Layers<D> {
-    pub(super) fn new() -> Self {
-        Self { layer: Vec::new(), held: Vec::new(), ways: Vec::new(), periodic: false }
+    pub(crate) fn new() -> Self {
+        Self { layer: Vec::new(), held: Vec::new(), travels: Vec::new(), periodic: false }
     }
 
     /// Sorts the particles of all phases into layers at least as thick as the longest reach and two skins `[m]`.
-    pub(super) fn sort<'a>(
+    pub(crate) fn sort<'a>(
         &mut self,
-        phases: impl Iterator<Item = &'a Phase<D>> + Clone,
+        phases: impl Iterator<Item = Places<'a, D>> + Clone,
         domain: &Domain<D>,
         thickness: f64,
     ) {
         let normal = height_axis(D);
-        let heights = phases.clone().flat_map(|phase| phase.position.iter().chain(&phase.wall)).map(|x| x[normal]);
+        let heights = phases.clone().flat_map(|phase| phase.free.iter().chain(phase.fixed)).map(|x| x[normal]);
         let (lower, upper) = match domain.axes[normal] {
             AxisBoundary::Periodic { lower, upper } => (lower, upper),
             AxisBoundary::Open | AxisBoundary::Mirror { .. } => {
@@ -53,43 +61,43 @@ impl<const D: usize> Layers<D> {
         if self.held.capacity() < count {
             // room for more: the highest particle may rise
             self.held.reserve(2 * count);
-            self.ways.reserve(2 * count);
+            self.travels.reserve(2 * count);
         }
         self.held.resize(count, false);
-        self.ways.resize(count, (Vector::zeros(), Vector::zeros()));
+        self.travels.resize(count, (Vector::zeros(), Vector::zeros()));
         self.layer.clear();
         for phase in phases {
-            self.layer.extend(phase.position.iter().map(|x| layer(x) as u32));
-            for x in &phase.wall {
+            self.layer.extend(phase.free.iter().map(|x| layer(x) as u32));
+            for x in phase.fixed {
                 self.held[layer(x)] = true;
             }
         }
     }
 
     /// Whether particles of the same layer or of successive ones have moved by `skin` `[m]` against each other.
-    pub(super) fn moved_apart<'a>(&mut self, phases: impl Iterator<Item = &'a Phase<D>>, skin: f64) -> bool {
+    pub(crate) fn moved_apart<'a>(&mut self, phases: impl Iterator<Item = Places<'a, D>>, skin: f64) -> bool {
         let none = (Vector::repeat(f64::INFINITY), Vector::repeat(f64::NEG_INFINITY));
-        for (way, &held) in self.ways.iter_mut().zip(&self.held) {
-            *way = if held { (Vector::zeros(), Vector::zeros()) } else { none };
+        for (travel, &held) in self.travels.iter_mut().zip(&self.held) {
+            *travel = if held { (Vector::zeros(), Vector::zeros()) } else { none };
         }
-        for (travel, &layer) in phases.flat_map(|phase| &phase.travel).zip(&self.layer) {
-            let (low, high) = &mut self.ways[layer as usize];
+        for (travel, &layer) in phases.flat_map(|phase| phase.travel).zip(&self.layer) {
+            let (low, high) = &mut self.travels[layer as usize];
             for axis in 0..D {
                 low[axis] = low[axis].min(travel[axis]);
                 high[axis] = high[axis].max(travel[axis]);
             }
         }
-        let mut filled = self.ways.iter().filter(|(low, high)| low[0] <= high[0]);
+        let mut filled = self.travels.iter().filter(|(low, high)| low[0] <= high[0]);
         let Some(&first) = filled.next() else { return false };
         let mut before = first;
-        let mut apart = |way: &(Vector<D>, Vector<D>)| {
-            let (low, high) = (way.0.inf(&before.0), way.1.sup(&before.1));
-            before = *way;
+        let mut apart = |travel: &(Vector<D>, Vector<D>)| {
+            let (low, high) = (travel.0.inf(&before.0), travel.1.sup(&before.1));
+            before = *travel;
             (high - low).norm_squared() >= skin * skin
         };
         let mut due = apart(&first);
-        for way in filled {
-            due |= apart(way);
+        for travel in filled {
+            due |= apart(travel);
         }
         due || (self.periodic && apart(&first))
     }

@@ -4,24 +4,31 @@
 //! number a pair, the same seen from both sides, so K is symmetric, the axes do not mix, and the exchange of momentum
 //! is equal and opposite. With the constant velocity deflated the total momentum closes to rounding.
 
+mod rows;
+
+pub(super) use rows::VelocityRows;
+
+use super::failure::Failure;
+use super::numerics::{MOST_ITERATIONS, ProjectionNumerics};
 use crate::linear::{ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, Single};
+use crate::run::divergence::Quantity;
 use crate::vector::Vector;
 
 /// Rows of M + Δt K: the fluid's free particles first, then the sediment's.
 #[derive(Debug)]
-pub(super) struct VelocitySystem<const D: usize> {
+pub(crate) struct VelocitySystem<const D: usize> {
     /// Δt k_ab `[kg]` of every pair.
-    pub(super) couplings: LaneRows<Single>,
+    pub(crate) couplings: LaneRows<Single>,
     /// m_a + Δt Σ k `[kg]`.
-    pub(super) diagonal: Vec<f64>,
+    pub(crate) diagonal: Vec<f64>,
     /// m_a, and what walls and the fixed bed hold, Δt Σ_w k_aw `[kg]`: the rows' sums.
-    pub(super) of_constant: Vec<f64>,
+    pub(crate) of_constant: Vec<f64>,
     /// m_a `[kg]`; of the fluid only its share of the space.
-    pub(super) inertia: Vec<f64>,
+    pub(crate) inertia: Vec<f64>,
     /// Momentum before the solve `[kg m/s]`.
-    pub(super) momentum: Vec<Vector<D>>,
+    pub(crate) momentum: Vec<Vector<D>>,
     /// u* `[m/s]`.
-    pub(super) velocity: Vec<Vector<D>>,
+    pub(crate) velocity: Vec<Vector<D>>,
     /// u* − uⁿ of the last solve `[m/s]`.
     change: Vec<Vector<D>>,
     factors: IncompleteCholesky,
@@ -29,7 +36,7 @@ pub(super) struct VelocitySystem<const D: usize> {
 }
 
 impl<const D: usize> VelocitySystem<D> {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             couplings: LaneRows::new(),
             diagonal: Vec::new(),
@@ -44,7 +51,7 @@ impl<const D: usize> VelocitySystem<D> {
     }
 
     /// Room for `rows` rows.
-    pub(super) fn resize(&mut self, rows: usize) {
+    pub(crate) fn resize(&mut self, rows: usize) {
         for array in [&mut self.diagonal, &mut self.of_constant, &mut self.inertia] {
             array.resize(rows, 0.0);
         }
@@ -53,7 +60,7 @@ impl<const D: usize> VelocitySystem<D> {
     }
 
     /// Iterations of all solves.
-    pub(super) fn iterations(&self) -> u64 {
+    pub(crate) fn iterations(&self) -> u64 {
         self.solver.iterations()
     }
 
@@ -62,16 +69,25 @@ impl<const D: usize> VelocitySystem<D> {
     ///
     /// # Errors
     /// A solve that did not reach its tolerance.
-    pub(super) fn solve(&mut self, criterion: Criterion) -> Result<(), NotConverged> {
+    pub(crate) fn solve(&mut self, numerics: &ProjectionNumerics) -> Result<(), Failure> {
+        let tolerance = numerics.velocity_tolerance;
+        let criterion = Criterion { tolerance, most_iterations: MOST_ITERATIONS };
         let (couplings, diagonal) = (&self.couplings, &self.diagonal);
-        self.factors.factorise(couplings.len(), couplings.stride(), &VelocityRows { couplings, diagonal });
+        self.factors.factorise(couplings.len(), couplings.stride(), &SolvedRows { couplings, diagonal });
         self.change.resize(self.velocity.len(), Vector::zeros());
         for (velocity, change) in self.velocity.iter_mut().zip(&mut self.change) {
             (*velocity, *change) = (*velocity + *change, *velocity);
         }
         let sums = Some(self.of_constant.as_slice());
-        self.solver.solve(&mut self.velocity, &self.momentum, &self.factors, sums, criterion, |u, product| {
-            couplings.subtract_from_diagonal(diagonal, u, product);
+        let solved =
+            self.solver.solve(&mut self.velocity, &self.momentum, &self.factors, sums, criterion, |u, product| {
+                couplings.subtract_from_diagonal(diagonal, u, product);
+            });
+        solved.map_err(|NotConverged { row, residual }| Failure {
+            row,
+            quantity: Quantity::VelocityResidual,
+            value: residual,
+            limits: (0.0, tolerance),
         })?;
         for (change, velocity) in self.change.iter_mut().zip(&self.velocity) {
             *change = velocity - *change;
@@ -81,12 +97,12 @@ impl<const D: usize> VelocitySystem<D> {
 }
 
 /// M + Δt K row by row.
-struct VelocityRows<'a> {
+struct SolvedRows<'a> {
     couplings: &'a LaneRows<Single>,
     diagonal: &'a [f64],
 }
 
-impl Rows for VelocityRows<'_> {
+impl Rows for SolvedRows<'_> {
     #[inline(always)]
     fn diagonal(&self, row: usize) -> f64 {
         self.diagonal[row]

@@ -16,17 +16,19 @@
 //! a while: at φ = ½ and a slip of 100 spacings a second uneven velocities grow by e in 0.08 s with two, in 0.13 s with three.
 //! Fluid particles keep their volume of the lattice, so that the form serves suspensions whose φ changes little.
 
-mod projection;
-mod requirements;
+mod step;
 #[cfg(test)]
 mod tests;
 
-use crate::incompressible::drag_exchange::DragExchange;
-use crate::incompressible::numerics::ProjectionNumerics;
-use crate::incompressible::pairs::LEAST_TASK;
+pub(crate) use step::Flux;
+
+use super::correction::Correction;
+use super::gauge::Gauge;
+use super::pressure_poisson::PressurePoisson;
+use crate::incompressible::neighbours::LEAST_TASK;
+use crate::incompressible::numerics::{MOST_ITERATIONS, ProjectionNumerics};
+use crate::incompressible::passes::drag_exchange::DragExchange;
 use crate::incompressible::phase::Phase;
-use crate::incompressible::pressure_poisson::{Correction, Level, PressurePoisson};
-use crate::incompressible::step::MOST_ITERATIONS;
 use crate::linear::{ConjugateGradient, Criterion, NotConverged};
 use crate::vector::Vector;
 use rayon::prelude::*;
@@ -36,7 +38,7 @@ const ROUNDING: f64 = 1e-13;
 
 /// What the solve needs beside the operators of the fluid, reused from step to step.
 #[derive(Debug)]
-pub(super) struct Mixture<const D: usize> {
+pub(crate) struct Mixture<const D: usize> {
     /// Grain volumes of the sediment, the free particles first and then the fixed `[m^D]`.
     grain_volume: Vec<f64>,
     /// Σ_j c_aj of every fluid particle `[1/m]`.
@@ -59,7 +61,7 @@ pub(super) struct Mixture<const D: usize> {
     /// Accelerations by all pressure of the last step, the fluid's particles first `[m/s²]`.
     push: Vec<Vector<D>>,
     /// Uniform pressure gradient of the last step `[Pa/m]`.
-    mean_gradient: Vector<D>,
+    pub(crate) mean_gradient: Vector<D>,
     solver: ConjugateGradient<f64>,
 }
 
@@ -67,7 +69,8 @@ pub(super) struct Mixture<const D: usize> {
 struct Operators<'a, const D: usize> {
     poisson: &'a PressurePoisson<D>,
     exchange: &'a DragExchange<D>,
-    share: &'a [f64],
+    /// s of every fluid particle `[-]`.
+    voidage: &'a [f64],
     /// Σ V (−F) x² of the cross kernel over a lattice of sediment, by which c_aj is divided `[-]`.
     lattice_gradient: f64,
     fluid_volume: f64,
@@ -75,7 +78,7 @@ struct Operators<'a, const D: usize> {
 }
 
 impl<const D: usize> Mixture<D> {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             grain_volume: Vec::new(),
             cross: Vec::new(),
@@ -96,7 +99,7 @@ impl<const D: usize> Mixture<D> {
     }
 
     /// Iterations of all solves.
-    pub(super) fn iterations(&self) -> u64 {
+    pub(crate) fn iterations(&self) -> u64 {
         self.solver.iterations()
     }
 
@@ -108,14 +111,14 @@ impl<const D: usize> Mixture<D> {
         }
         self.fluid_change.resize(count, Vector::zeros());
         self.sediment_change.resize(sediment.len(), Vector::zeros());
-        let share = operators.share;
+        let voidage = operators.voidage;
         let volume = operators.fluid_volume;
         self.fluid_mobility.clear();
-        self.fluid_mobility.extend(fluid.mass.iter().zip(share).map(|(mass, share)| volume / (mass * share)));
+        self.fluid_mobility.extend(fluid.mass.iter().zip(voidage).map(|(mass, s)| volume / (mass * s)));
         self.sediment_mobility.clear();
         self.sediment_mobility.extend(sediment.mass.iter().map(|mass| volume / mass));
         self.mobility.clear();
-        self.mobility.extend(share.iter().map(|share| share / fluid.density + (1.0 - share) / sediment.density));
+        self.mobility.extend(voidage.iter().map(|s| s / fluid.density + (1.0 - s) / sediment.density));
         self.cross.resize(count, Vector::zeros());
         let volumes = &self.grain_volume;
         self.cross.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, cross)| {
@@ -129,15 +132,15 @@ impl<const D: usize> Mixture<D> {
                     let b = link.source as usize;
                     total += link.laplacian;
                     compact += 0.5 * link.laplacian * (mobility[a] + mobility[b]);
-                    wide += share[a] * share[a] * link.gradient.norm_squared() * fluid_mobility[b];
+                    wide += voidage[a] * voidage[a] * link.gradient.norm_squared() * fluid_mobility[b];
                 }
                 // rounding is no surface
-                *held = if operators.poisson.level() == Level::Surface {
+                *held = if operators.poisson.gauge() == Gauge::Surface {
                     operators.poisson.diagonal(a) - total
                 } else {
                     0.0
                 };
-                let own = operators.poisson.own(a) * share[a] + cross[a];
+                let own = operators.poisson.own(a) * voidage[a] + cross[a];
                 wide += own.norm_squared() * fluid_mobility[a];
                 for (j, gradient) in operators.links(a, volumes) {
                     wide += sediment_mobility.get(j).map_or(0.0, |mobility| gradient.norm_squared() * mobility);
@@ -149,7 +152,7 @@ impl<const D: usize> Mixture<D> {
 
     /// (𝒟u)_a `[1/s]`.
     fn divergence(&self, operators: &Operators<'_, D>, a: usize, fluid: &[Vector<D>], sediment: &[Vector<D>]) -> f64 {
-        let of_fluid = operators.share[a] * operators.poisson.divergence(a, fluid) - self.cross[a].dot(&fluid[a]);
+        let of_fluid = operators.voidage[a] * operators.poisson.divergence(a, fluid) - self.cross[a].dot(&fluid[a]);
         operators
             .links(a, &self.grain_volume)
             .fold(of_fluid, |sum, (j, gradient)| sum + sediment.get(j).map_or(0.0, |velocity| gradient.dot(velocity)))
@@ -157,8 +160,8 @@ impl<const D: usize> Mixture<D> {
 
     /// Accelerations of both phases by a pressure `[Pa]`.
     fn find_changes(&mut self, operators: &Operators<'_, D>, p: &[f64]) {
-        for ((weighted, p), share) in self.weighted.iter_mut().zip(p).zip(operators.share) {
-            *weighted = share * p;
+        for ((weighted, p), s) in self.weighted.iter_mut().zip(p).zip(operators.voidage) {
+            *weighted = s * p;
         }
         let Self { weighted, cross, fluid_mobility, sediment_mobility, grain_volume, .. } = self;
         self.fluid_change.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, change)| {
@@ -204,10 +207,10 @@ impl<const D: usize> Mixture<D> {
         right_side.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, right)| {
             let missing = numerics.density_correction * Correction::Both.missing(fluid, a) / (time_step * time_step);
             let divergence = this.divergence(operators, a, predicted.0, predicted.1);
-            *right = -(divergence / time_step + operators.share[a] * missing);
+            *right = -(divergence / time_step + operators.voidage[a] * missing);
         });
-        let level = operators.poisson.level();
-        level.take_mean_out(&mut right_side);
+        let gauge = operators.poisson.gauge();
+        gauge.take_mean_out(&mut right_side);
         // a uniform flow on a lattice has no divergence but rounding, which no solve gets rid of
         let speed = predicted.0.iter().chain(predicted.1).fold(0.0_f64, |most, u| most.max(u.norm_squared())).sqrt();
         let rounding = ROUNDING * (speed / (fluid.spacing * time_step) + 1.0 / (time_step * time_step));
@@ -219,9 +222,9 @@ impl<const D: usize> Mixture<D> {
         let mut deviation = std::mem::take(&mut self.deviation);
         let inverse = std::mem::take(&mut self.inverse_diagonal);
         let outcome = solver.solve(&mut fluid.pressure, &right_side, &inverse, None, criterion, |p, product| {
-            level.apply(p, product, &mut deviation, |p, product| self.apply(operators, p, product));
+            gauge.apply(p, product, &mut deviation, |p, product| self.apply(operators, p, product));
         });
-        level.take_mean_out(&mut fluid.pressure);
+        gauge.take_mean_out(&mut fluid.pressure);
         (self.solver, self.deviation) = (solver, deviation);
         (self.inverse_diagonal, self.right_side) = (inverse, right_side);
         outcome?;

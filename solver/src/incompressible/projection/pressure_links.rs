@@ -6,18 +6,18 @@ use crate::vector::Vector;
 
 /// A pair of two free particles.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Link<const D: usize> {
-    pub(super) source: u32,
+pub(crate) struct Link<const D: usize> {
+    pub(crate) source: u32,
     /// g_ab `[1/m]`.
-    pub(super) gradient: Vector<D>,
+    pub(crate) gradient: Vector<D>,
     /// Coefficient of A, 2 V (−F) `[1/m²]`.
-    pub(super) laplacian: f64,
+    pub(crate) laplacian: f64,
 }
 
 /// Eight links, one a lane.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
-pub(super) struct LinkChunk<const D: usize> {
+pub(crate) struct LinkChunk<const D: usize> {
     gradient: [[f32; LANES]; D],
     laplacian: [f32; LANES],
 }
@@ -46,14 +46,14 @@ impl<const D: usize> Coefficients for LinkChunk<D> {
 }
 
 /// A P and G P of some rows.
-pub(super) struct FirstPass<'a, const D: usize> {
-    pub(super) links: &'a LaneRows<LinkChunk<D>>,
-    pub(super) own: &'a [Vector<D>],
-    pub(super) diagonal: &'a [f64],
-    pub(super) p: &'a [f64],
-    pub(super) first: usize,
-    pub(super) product: &'a mut [f64],
-    pub(super) gradient: &'a mut [Vector<D>],
+pub(crate) struct FirstPass<'a, const D: usize> {
+    pub(crate) links: &'a LaneRows<LinkChunk<D>>,
+    pub(crate) own: &'a [Vector<D>],
+    pub(crate) diagonal: &'a [f64],
+    pub(crate) p: &'a [f64],
+    pub(crate) first: usize,
+    pub(crate) product: &'a mut [f64],
+    pub(crate) gradient: &'a mut [Vector<D>],
 }
 
 impl<const D: usize> LanePass for FirstPass<'_, D> {
@@ -86,13 +86,13 @@ impl<const D: usize> LanePass for FirstPass<'_, D> {
 }
 
 /// Takes s times the divergence of the gradients away from some rows of the product.
-pub(super) struct SecondPass<'a, const D: usize> {
-    pub(super) links: &'a LaneRows<LinkChunk<D>>,
-    pub(super) own: &'a [Vector<D>],
-    pub(super) gradient: &'a [Vector<D>],
-    pub(super) first: usize,
-    pub(super) product: &'a mut [f64],
-    pub(super) stabilisation: f64,
+pub(crate) struct SecondPass<'a, const D: usize> {
+    pub(crate) links: &'a LaneRows<LinkChunk<D>>,
+    pub(crate) own: &'a [Vector<D>],
+    pub(crate) gradient: &'a [Vector<D>],
+    pub(crate) first: usize,
+    pub(crate) product: &'a mut [f64],
+    pub(crate) stabilisation: f64,
 }
 
 impl<const D: usize> LanePass for SecondPass<'_, D> {

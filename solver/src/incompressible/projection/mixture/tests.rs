@@ -3,10 +3,12 @@ use crate::domain::{AxisBoundary, Domain};
 use crate::incompressible::phase::LatticeSums;
 use crate::incompressible::simulation::IncompressibleSimulation;
 use crate::incompressible::{
-    Bed, Continuity, DragForm, Fluid, IncompressibleScene, MeanFlux, ParticleSet, Sediment, SedimentLaw,
-    SedimentPressure, SedimentYield, SolidFraction, Stratification, Turbulence,
+    Bed, Continuity, DragForm, Fluid, IncompressibleScene, MeanFlux, ParticleSet, Sediment, SedimentLoad,
+    SedimentPressure, SolidFraction, Strata, Stratification, Turbulence,
 };
 use crate::material::drag::DragLaw;
+use crate::material::rheology::{Newtonian, Rheology};
+use crate::material::suspension_viscosity::SuspensionViscosity;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -16,15 +18,7 @@ const ROWS: usize = 16;
 const FRACTION: f64 = 0.3;
 /// One wave over the height `[1/m]`.
 const WAVE_NUMBER: f64 = 2.0 * std::f64::consts::PI / (ROWS as f64 * SPACING);
-const LAWLESS: SedimentLaw = SedimentLaw::Bingham(SedimentYield {
-    yield_stress: 0.0,
-    viscosity: 0.0,
-    overburden_friction: 0.0,
-    overburden_level: 0.0,
-    buoyant_weight: 0.0,
-    regularisation_rate: 1.0,
-    largest_viscosity: 1.0,
-});
+const LAWLESS: Rheology = Rheology::Newtonian(Newtonian { viscosity: 0.0 });
 
 /// A displaced suspension in a periodic box, with velocities by place.
 fn suspension(
@@ -66,21 +60,23 @@ fn suspension(
             density: 2600.0,
             grain_diameter: SPACING,
             law: LAWLESS,
+            load: SedimentLoad::Stratified,
             pressure: SedimentPressure::None,
             drag: DragLaw::DiFelice,
             drag_form: DragForm::Exchange,
             drag_smoothing_length: 2.0 * SPACING,
             gravity,
         }),
-        solid_fraction: SolidFraction::Given(Stratification::new(
-            0.0,
-            height,
-            vec![FRACTION],
-            0.64,
-            1600.0 * 9.81,
-            0.0,
-            height,
-        )),
+        solid_fraction: SolidFraction::Given(Stratification::of(Strata {
+            base: 0.0,
+            interval: height,
+            solid_fraction: vec![FRACTION],
+            packing: 0.64,
+            buoyant_weight: 1600.0 * 9.81,
+            bed_level: 0.0,
+            depth: height,
+            suspension_viscosity: SuspensionViscosity::default(),
+        })),
         domain: Domain { axes: [length, height].map(|upper| AxisBoundary::Periodic { lower: 0.0, upper }) },
         numerics: ProjectionNumerics {
             time_step: 5e-4,
@@ -115,7 +111,7 @@ fn divergence(simulation: &IncompressibleSimulation<2>) -> (f64, f64) {
     let (fluid, sediment) = (simulation.fluid().1, simulation.sediment().1);
     let (mut wave, mut square) = (0.0, 0.0);
     for (a, place) in simulation.fluid().0.iter().enumerate() {
-        let value = simulation.mixture.divergence(&operators, a, fluid, sediment);
+        let value = simulation.state.projection.mixture.divergence(&operators, a, fluid, sediment);
         wave += 2.0 * value * (WAVE_NUMBER * place[1]).cos();
         square += value * value;
     }
@@ -124,10 +120,10 @@ fn divergence(simulation: &IncompressibleSimulation<2>) -> (f64, f64) {
 
 fn operators(simulation: &IncompressibleSimulation<2>) -> Operators<'_, 2> {
     Operators {
-        poisson: &simulation.fluid_poisson,
-        exchange: &simulation.exchange,
-        share: &simulation.fluid_share,
-        lattice_gradient: LatticeSums::of(simulation.exchange.kernel(), SPACING).gradient,
+        poisson: &simulation.state.projection.fluid,
+        exchange: &simulation.state.exchange,
+        voidage: &simulation.state.viscosities.voidage,
+        lattice_gradient: LatticeSums::of(simulation.state.exchange.kernel(), SPACING).gradient,
         fluid_volume: SPACING * SPACING,
         stabilisation: 0.5,
     }
@@ -159,7 +155,7 @@ fn operator_is_symmetric_and_positive() {
     let count = COLUMNS * ROWS;
     let mut field = || (0..count).map(|_| random.random::<f64>() - 0.5).collect::<Vec<f64>>();
     let (p, q) = (field(), field());
-    let mut mixture = std::mem::replace(&mut simulation.mixture, Mixture::new());
+    let mut mixture = std::mem::replace(&mut simulation.state.projection.mixture, Mixture::new());
     let operators = operators(&simulation);
     let (mut of_p, mut of_q) = (vec![0.0; count], vec![0.0; count]);
     mixture.apply(&operators, &p, &mut of_p);

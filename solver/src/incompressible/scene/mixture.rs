@@ -1,12 +1,12 @@
 //! Which scenes the mixture's continuity serves.
 
-use crate::incompressible::numerics::{Continuity, MeanFlux, PressureSource, SurfaceTreatment};
-use crate::incompressible::scene::{IncompressibleScene, SedimentPressure};
+use super::super::numerics::{Continuity, MeanFlux, PressureSource, SurfaceTreatment};
+use super::{IncompressibleScene, SedimentPressure};
 use crate::run::SceneError;
 
 impl<const D: usize> IncompressibleScene<D> {
     /// What the mixture's continuity asks of the other choices.
-    pub(in crate::incompressible) fn check_mixture(&self) -> Result<(), SceneError> {
+    pub(super) fn check_mixture(&self) -> Result<(), SceneError> {
         let numerics = &self.numerics;
         let choice = |field, value, rule, remedy| Err(SceneError::Choice { field, value, rule, remedy });
         if numerics.continuity == Continuity::Fluid {

@@ -18,11 +18,13 @@
 //! lifted until its lowest is 0, as it is below a surface: (13) draws particles together where P is negative, and
 //! nothing else keeps them apart.
 
-use super::numerics::{PressureSource, ProjectionNumerics, SurfaceTreatment};
-use super::pairs::LEAST_TASK;
-use super::phase::{Phase, height_axis};
+use super::super::neighbours::LEAST_TASK;
+use super::super::numerics::{MOST_ITERATIONS, PressureSource, ProjectionNumerics, SurfaceTreatment};
+use super::super::phase::Phase;
+use super::super::scene::height_axis;
+use super::correction::Correction;
+use super::gauge::Gauge;
 use super::pressure_links::{FirstPass, Link, LinkChunk, SecondPass};
-use super::step::MOST_ITERATIONS;
 use crate::lanes::LANES;
 use crate::linear::{
     ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, TASK_ROWS, single,
@@ -32,7 +34,7 @@ use rayon::prelude::*;
 
 /// Coefficients, reused from step to step.
 #[derive(Debug)]
-pub(super) struct PressurePoisson<const D: usize> {
+pub(crate) struct PressurePoisson<const D: usize> {
     links: LaneRows<LinkChunk<D>>,
     /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
     own: Vec<Vector<D>>,
@@ -42,52 +44,13 @@ pub(super) struct PressurePoisson<const D: usize> {
     /// A pressure less its mean, where there is no level.
     deviation: Vec<f64>,
     /// Whether a surface fixes the level of the pressure.
-    level: Level,
+    gauge: Gauge,
     factors: IncompleteCholesky,
     solver: ConjugateGradient<f64>,
 }
 
-/// What fixes the level of the pressure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Level {
-    /// A surface.
-    Surface,
-    /// Nothing.
-    Free,
-}
-
-impl Level {
-    /// Takes the mean out of a field where nothing fixes the level.
-    pub(super) fn take_mean_out(self, field: &mut [f64]) {
-        if self == Self::Free {
-            let mean = field.iter().sum::<f64>() / field.len() as f64;
-            field.iter_mut().for_each(|value| *value -= mean);
-        }
-    }
-
-    /// The operator among fields of mean zero where nothing fixes the level: symmetric, as it is.
-    pub(super) fn apply(
-        self,
-        p: &[f64],
-        product: &mut [f64],
-        deviation: &mut Vec<f64>,
-        operator: impl FnOnce(&[f64], &mut [f64]),
-    ) {
-        match self {
-            Self::Surface => operator(p, product),
-            Self::Free => {
-                deviation.clear();
-                deviation.extend_from_slice(p);
-                self.take_mean_out(deviation);
-                operator(deviation, product);
-                self.take_mean_out(product);
-            }
-        }
-    }
-}
-
 impl<const D: usize> PressurePoisson<D> {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             links: LaneRows::new(),
             own: Vec::new(),
@@ -95,19 +58,19 @@ impl<const D: usize> PressurePoisson<D> {
             right_side: Vec::new(),
             gradient: Vec::new(),
             deviation: Vec::new(),
-            level: Level::Surface,
+            gauge: Gauge::Surface,
             factors: IncompleteCholesky::default(),
             solver: ConjugateGradient::new(),
         }
     }
 
     /// Iterations of all solves.
-    pub(super) fn iterations(&self) -> u64 {
+    pub(crate) fn iterations(&self) -> u64 {
         self.solver.iterations()
     }
 
     /// Prepares the operators at the present positions.
-    pub(super) fn assemble(&mut self, phase: &Phase<D>, numerics: &ProjectionNumerics) {
+    pub(crate) fn assemble(&mut self, phase: &Phase<D>, numerics: &ProjectionNumerics) {
         let eliminated = numerics.surface == SurfaceTreatment::Eliminated;
         let count = phase.len();
         for array in [&mut self.diagonal, &mut self.right_side] {
@@ -163,12 +126,12 @@ impl<const D: usize> PressurePoisson<D> {
             SurfaceTreatment::Eliminated => phase.at_surface.contains(&true),
             SurfaceTreatment::Completed => phase.nearness.iter().any(|&nearness| nearness > 0.0),
         };
-        self.level = if has_surface { Level::Surface } else { Level::Free };
+        self.gauge = if has_surface { Gauge::Surface } else { Gauge::Free };
     }
 
     /// (D u)_a `[1/s]` of a velocity field.
     #[inline(always)]
-    pub(super) fn divergence(&self, a: usize, velocity: &[Vector<D>]) -> f64 {
+    pub(crate) fn divergence(&self, a: usize, velocity: &[Vector<D>]) -> f64 {
         let mut sum = -self.own[a].dot(&velocity[a]);
         for link in self.links(a) {
             sum += link.gradient.dot(&velocity[link.source as usize]);
@@ -178,7 +141,7 @@ impl<const D: usize> PressurePoisson<D> {
 
     /// (G P)_a `[Pa/m]`.
     #[inline(always)]
-    pub(super) fn gradient(&self, a: usize, pressure: &[f64]) -> Vector<D> {
+    pub(crate) fn gradient(&self, a: usize, pressure: &[f64]) -> Vector<D> {
         let mut sum = self.own[a] * pressure[a];
         for link in self.links(a) {
             sum += link.gradient * pressure[link.source as usize];
@@ -187,23 +150,23 @@ impl<const D: usize> PressurePoisson<D> {
     }
 
     /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
-    pub(super) fn own(&self, a: usize) -> Vector<D> {
+    pub(crate) fn own(&self, a: usize) -> Vector<D> {
         self.own[a]
     }
 
     /// The diagonal of A `[1/m²]`.
-    pub(super) fn diagonal(&self, a: usize) -> f64 {
+    pub(crate) fn diagonal(&self, a: usize) -> f64 {
         self.diagonal[a]
     }
 
     /// What fixes the level of the pressure.
-    pub(super) fn level(&self) -> Level {
-        self.level
+    pub(crate) fn gauge(&self) -> Gauge {
+        self.gauge
     }
 
     /// The links of a particle.
     #[inline(always)]
-    pub(super) fn links(&self, a: usize) -> impl Iterator<Item = Link<D>> {
+    pub(crate) fn links(&self, a: usize) -> impl Iterator<Item = Link<D>> {
         self.links.row(a).map(|(source, (gradient, laplacian))| Link { source, gradient, laplacian })
     }
 
@@ -211,7 +174,7 @@ impl<const D: usize> PressurePoisson<D> {
     ///
     /// # Errors
     /// A solve that did not reach its tolerance.
-    pub(super) fn solve(
+    pub(crate) fn solve(
         &mut self,
         phase: &mut Phase<D>,
         numerics: &ProjectionNumerics,
@@ -239,7 +202,7 @@ impl<const D: usize> PressurePoisson<D> {
                 *pressure = 0.0;
             }
         }
-        self.level.take_mean_out(&mut right_side);
+        self.gauge.take_mean_out(&mut right_side);
         let criterion = Criterion { tolerance: numerics.pressure_tolerance, most_iterations: MOST_ITERATIONS };
         let stabilisation = numerics.stabilisation;
         let mut solver = std::mem::replace(&mut self.solver, ConjugateGradient::new());
@@ -248,11 +211,11 @@ impl<const D: usize> PressurePoisson<D> {
         let mut factors = std::mem::take(&mut self.factors);
         factors.factorise(self.links.len(), self.links.stride(), &CompactRows(self));
         let outcome = solver.solve(&mut phase.pressure, &right_side, &factors, None, criterion, |p, product| {
-            self.level.apply(p, product, &mut deviation, |p, product| {
+            self.gauge.apply(p, product, &mut deviation, |p, product| {
                 self.apply(p, product, &mut gradient, &phase.at_surface, eliminated, stabilisation);
             });
         });
-        if self.level == Level::Free {
+        if self.gauge == Gauge::Free {
             let anchor = match numerics.pressure_source {
                 PressureSource::Divergence => phase.pressure.iter().sum::<f64>() / phase.len() as f64,
                 PressureSource::Density => phase.pressure.iter().copied().fold(f64::INFINITY, f64::min),
@@ -264,7 +227,7 @@ impl<const D: usize> PressurePoisson<D> {
         outcome
     }
 
-    pub(super) fn apply(
+    pub(crate) fn apply(
         &self,
         p: &[f64],
         product: &mut [f64],
@@ -309,26 +272,5 @@ impl<const D: usize> Rows for CompactRows<'_, D> {
     #[inline(always)]
     fn off_diagonal(&self, row: usize) -> impl Iterator<Item = (u32, f64)> {
         self.0.links(row).map(|link| (link.source, -link.laplacian))
-    }
-}
-
-/// Which density errors are corrected.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Correction {
-    /// Too dense and too thin alike.
-    Both,
-    /// Too dense only: what may come apart.
-    CompressionOnly,
-}
-
-impl Correction {
-    /// What a particle lacks of its density and is to be corrected `[-]`.
-    pub(super) fn missing<const D: usize>(self, phase: &Phase<D>, a: usize) -> f64 {
-        let missing = 1.0 - phase.concentration[a];
-        match self {
-            Self::Both if missing > 0.0 => missing * (1.0 - phase.nearness[a]),
-            Self::Both => missing,
-            Self::CompressionOnly => missing.min(0.0),
-        }
     }
 }

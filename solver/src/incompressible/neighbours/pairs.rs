@@ -2,19 +2,15 @@
 //! and from them, in every step, the pairs within reach with their kernel values.
 
 use super::grid::Grid;
-use crate::domain::{AxisBoundary, Domain};
+use super::{LEAST_TASK, Periods};
 use crate::kernel::Kernel;
-use crate::lanes::algebra::dot;
-use crate::lanes::{InstructionSet, LANES, LaneIndices, LanePass, Lanes, Real, gather_vectors};
+use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
-/// Particles a task of a parallel loop has at least.
-pub(super) const LEAST_TASK: usize = 512;
-
 /// Pairs of targets with sources, each target's in a row of its own; all rows are equally long.
 #[derive(Debug)]
-pub(super) struct Pairs<const D: usize> {
+pub(crate) struct Pairs<const D: usize> {
     /// A multiple of eight.
     stride: usize,
     /// Candidates of every target, and how many there are.
@@ -28,80 +24,20 @@ pub(super) struct Pairs<const D: usize> {
 
 /// One pair of a target a with a source b.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pair<const D: usize> {
+pub(crate) struct Pair<const D: usize> {
     /// Index of the source.
-    pub(super) source: u32,
+    pub(crate) source: u32,
     /// x_a − x_b of the nearest images `[m]`.
-    pub(super) separation: Vector<D>,
+    pub(crate) separation: Vector<D>,
     /// W `[1/m^D]`.
-    pub(super) value: f64,
+    pub(crate) value: f64,
     /// F = (1/r) dW/dr `[1/m^(D+2)]`, never positive.
-    pub(super) gradient: f64,
-}
-
-/// The separation of two particles by the shortest way.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Periods<const D: usize> {
-    length: Vector<D>,
-    inverse: Vector<D>,
-}
-
-impl<const D: usize> Periods<D> {
-    pub(super) fn of(domain: &Domain<D>) -> Self {
-        let length = Vector::from_fn(|axis, _| match domain.axes[axis] {
-            AxisBoundary::Periodic { lower, upper } => upper - lower,
-            AxisBoundary::Open | AxisBoundary::Mirror { .. } => 0.0,
-        });
-        Self { length, inverse: length.map(|l| if l > 0.0 { 1.0 / l } else { 0.0 }) }
-    }
-
-    /// Whether an axis has a period.
-    pub(super) fn has(&self, axis: usize) -> bool {
-        self.length[axis] > 0.0
-    }
-
-    #[inline(always)]
-    fn shortest<V: Real>(&self, mut separation: [V; D]) -> [V; D] {
-        let one = V::splat(1.0);
-        for axis in 0..D {
-            let turns = separation[axis] * V::splat(self.inverse[axis]);
-            let whole = one.where_less(V::splat(0.5), turns) - one.where_less(turns, V::splat(-0.5));
-            separation[axis] = separation[axis] - whole * V::splat(self.length[axis]);
-        }
-        separation
-    }
-
-    /// |x_a − x_b|² `[m²]` of the nearest images.
-    #[inline(always)]
-    fn distance_squared(&self, target: &Vector<D>, source: &Vector<D>) -> f64 {
-        dot_of(&self.shortest((target - source).into()))
-    }
-
-    /// x_a − x_b `[m]` of the nearest images and |x_a − x_b|² `[m²]` for eight sources.
-    #[inline(always)]
-    pub(super) fn separations<V: Lanes>(
-        &self,
-        target: &Vector<D>,
-        sources: &[Vector<D>],
-        candidates: &[u32; LANES],
-    ) -> ([V; D], V) {
-        let mut separation = gather_vectors::<V, D>(sources, &LaneIndices::new(candidates, sources.len()));
-        for axis in 0..D {
-            separation[axis] = V::splat(target[axis]) - separation[axis];
-        }
-        let separation = self.shortest(separation);
-        (separation, dot_of(&separation))
-    }
-}
-
-#[inline(always)]
-fn dot_of<V: Real, const D: usize>(separation: &[V; D]) -> V {
-    dot(separation, separation)
+    pub(crate) gradient: f64,
 }
 
 /// Whether the sources are the targets themselves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Sources {
+pub(crate) enum Sources {
     /// The same particles: none is its own neighbour.
     Same,
     /// Others.
@@ -109,7 +45,7 @@ pub(super) enum Sources {
 }
 
 impl<const D: usize> Pairs<D> {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             stride: LANES,
             candidate: Vec::new(),
@@ -121,7 +57,7 @@ impl<const D: usize> Pairs<D> {
     }
 
     /// Finds all candidates within `radius` `[m]`.
-    pub(super) fn search(
+    pub(crate) fn search(
         &mut self,
         targets: &[Vector<D>],
         sources: &[Vector<D>],
@@ -169,7 +105,7 @@ impl<const D: usize> Pairs<D> {
     }
 
     /// Measures the candidates and keeps those within the kernel's reach.
-    pub(super) fn measure(
+    pub(crate) fn measure(
         &mut self,
         targets: &[Vector<D>],
         sources: &[Vector<D>],
@@ -203,26 +139,26 @@ impl<const D: usize> Pairs<D> {
 
     /// The pairs of a target.
     #[inline(always)]
-    pub(super) fn of(&self, target: usize) -> &[Pair<D>] {
+    pub(crate) fn of(&self, target: usize) -> &[Pair<D>] {
         let start = target * self.stride;
         &self.entry[start..start + self.count[target] as usize]
     }
 
     /// The candidates of a target in eights, and how many there are: all sources within reach, and some more.
     #[inline(always)]
-    pub(super) fn candidates(&self, target: usize) -> (&[[u32; LANES]], usize) {
+    pub(crate) fn candidates(&self, target: usize) -> (&[[u32; LANES]], usize) {
         let start = target * self.stride;
         let count = self.candidates[target] as usize;
         (self.candidate[start..start + count.next_multiple_of(LANES)].as_chunks().0, count)
     }
 
     /// The instruction set of its passes.
-    pub(super) fn set(&self) -> InstructionSet {
+    pub(crate) fn set(&self) -> InstructionSet {
         self.set
     }
 
     /// Length of a row, in arrays that run parallel to the pairs too.
-    pub(super) fn stride(&self) -> usize {
+    pub(crate) fn stride(&self) -> usize {
         self.stride
     }
 }

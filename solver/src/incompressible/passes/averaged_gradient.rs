@@ -5,32 +5,29 @@
 //! norm keeps the shear and loses the noise, whose norm is not zero. It also loses shear where a moving layer is only
 //! some particles thick: at 2 % such grains come to rest.
 
-use super::pairs::{LEAST_TASK, Pair};
-use super::phase::Phase;
+use super::super::neighbours::{LEAST_TASK, Pair};
+use super::super::phase::Phase;
 use crate::vector::{Tensor, Vector, shear_rate};
 use rayon::prelude::*;
 
-/// Time over which velocity gradients are averaged `[s]`: some ten passages of a grain in the fastest shear.
-const AVERAGING_TIME: f64 = 0.02;
-
 /// Of the free sediment particles.
 #[derive(Debug, Default)]
-pub(super) struct AveragedGradient<const D: usize> {
+pub(crate) struct AveragedGradient<const D: usize> {
     /// ∇u averaged over time, then over neighbours `[1/s]`.
     over_time: Vec<Tensor<D>>,
     smoothed: Vec<Tensor<D>>,
 }
 
 impl<const D: usize> AveragedGradient<D> {
-    /// Takes the present gradients in.
-    pub(super) fn update(&mut self, sediment: &Phase<D>, time_step: f64) {
+    /// Takes the present gradients in, of a step `[s]`, into means over an averaging time `[s]`.
+    pub(crate) fn update(&mut self, sediment: &Phase<D>, time_step: f64, averaging_time: f64) {
         if self.over_time.len() != sediment.len() {
             self.over_time.clone_from(&sediment.velocity_gradient);
             self.smoothed.clone_from(&self.over_time);
         }
-        let share = (time_step / AVERAGING_TIME).min(1.0);
+        let part = (time_step / averaging_time).min(1.0);
         for (averaged, present) in self.over_time.iter_mut().zip(&sediment.velocity_gradient) {
-            *averaged += (present - *averaged) * share;
+            *averaged += (present - *averaged) * part;
         }
         let own = sediment.kernel.value(0.0);
         let over_time = &self.over_time;
@@ -45,12 +42,12 @@ impl<const D: usize> AveragedGradient<D> {
     }
 
     /// Shear rate of a particle `[1/s]`.
-    pub(super) fn shear_rate(&self, particle: usize) -> f64 {
+    pub(crate) fn shear_rate(&self, particle: usize) -> f64 {
         shear_rate(&self.smoothed[particle])
     }
 
     /// |ū_ab|/r of a pair, from the mean of both gradients; a wall has that of its partner `[1/s]`.
-    pub(super) fn pair_rate(&self, a: usize, b: Option<usize>, pair: &Pair<D>) -> f64 {
+    pub(crate) fn pair_rate(&self, a: usize, b: Option<usize>, pair: &Pair<D>) -> f64 {
         let gradient = match b {
             Some(b) => (self.smoothed[a] + self.smoothed[b]) * 0.5,
             None => self.smoothed[a],

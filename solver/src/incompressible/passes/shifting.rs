@@ -1,29 +1,28 @@
 //! Particle shifting: δr = −A h |u| Δt ∇C with C = Σ V W, after Xu et al. (2009) and Lind et al. (2012).
 //!
 //! In a shear flow particles line up along stream lines and leave gaps between; shifting fills them. None at the
-//! surface and beside it, where ∇C is that of the surface, and no more than a twentieth of a spacing.
+//! surface and beside it, where ∇C is that of the surface, and no more than a part of a spacing.
 
-use super::pairs::{LEAST_TASK, Periods};
-use super::phase::Phase;
+use super::super::neighbours::{LEAST_TASK, Periods};
+use super::super::numerics::ProjectionNumerics;
+use super::super::phase::Phase;
 use crate::lanes::{LANES, LanePass, Lanes};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
-/// Most that a particle is shifted in a step, in spacings `[-]`.
-const LARGEST_SHIFT: f64 = 0.05;
-
-/// Shifts of all particles `[m]` at a coefficient A `[-]`, at their present positions.
-pub(super) fn find_shifts<const D: usize>(
+/// Shifts of all particles `[m]` at their present positions.
+pub(crate) fn find_shifts<const D: usize>(
     phase: &Phase<D>,
     periods: &Periods<D>,
-    coefficient: f64,
+    numerics: &ProjectionNumerics,
     time_step: f64,
     shifts: &mut Vec<Vector<D>>,
 ) {
     shifts.resize(phase.len(), Vector::zeros());
     shifts.par_chunks_mut(LEAST_TASK).enumerate().for_each(|(task, shifts)| {
         let first = task * LEAST_TASK;
-        phase.free_pairs.set().run(Shift { phase, periods, scale: -coefficient * time_step, first, shifts });
+        let (scale, largest) = (-numerics.shifting * time_step, numerics.largest_shift * phase.spacing);
+        phase.free_pairs.set().run(Shift { phase, periods, scale, largest, first, shifts });
     });
 }
 
@@ -33,6 +32,8 @@ struct Shift<'a, const D: usize> {
     periods: &'a Periods<D>,
     /// −A Δt `[s]`.
     scale: f64,
+    /// Longest shift `[m]`.
+    largest: f64,
     first: usize,
     shifts: &'a mut [Vector<D>],
 }
@@ -43,7 +44,6 @@ impl<const D: usize> LanePass for Shift<'_, D> {
         let (phase, periods) = (self.phase, self.periods);
         let reach_squared = phase.kernel.support() * phase.kernel.support();
         let length = phase.kernel.smoothing_length();
-        let largest = LARGEST_SHIFT * phase.spacing;
         for (row, shift) in self.shifts.iter_mut().enumerate() {
             let a = self.first + row;
             *shift = Vector::zeros();
@@ -77,9 +77,9 @@ impl<const D: usize> LanePass for Shift<'_, D> {
             if beside_surface {
                 continue;
             }
-            let way = gradient * (self.scale * length * phase.velocity[a].norm());
-            let size = way.norm();
-            *shift = if size > largest { way * (largest / size) } else { way };
+            let full = gradient * (self.scale * length * phase.velocity[a].norm());
+            let size = full.norm();
+            *shift = if size > self.largest { full * (self.largest / size) } else { full };
         }
     }
 }

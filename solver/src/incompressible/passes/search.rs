@@ -1,0 +1,56 @@
+//! The search of candidate pairs, when one is due, and the measures of the pairs in every step.
+
+use super::super::neighbours::{Layers, Periods};
+use super::super::phase::{Phase, Phases};
+use super::drag_exchange::DragExchange;
+use crate::domain::Domain;
+
+/// When the next search is due, and how many there were.
+#[derive(Debug)]
+pub(crate) struct Search<const D: usize> {
+    pub(crate) periods: Periods<D>,
+    /// Skin over the reach of the fluid's kernel `[-]`.
+    skin: f64,
+    layers: Layers<D>,
+    pub(crate) searches: u64,
+}
+
+impl<const D: usize> Search<D> {
+    pub(crate) fn new(domain: &Domain<D>, skin: f64) -> Self {
+        Self { periods: Periods::of(domain), skin, layers: Layers::new(), searches: 0 }
+    }
+
+    /// Measures all pairs, after a search if one may be missing.
+    pub(crate) fn measure(&mut self, domain: &Domain<D>, phases: &mut Phases<D>, exchange: &mut DragExchange<D>) {
+        self.search_if_due(domain, phases, exchange);
+        phases.fluid.measure(&self.periods);
+        if let Some(sediment) = &mut phases.sediment {
+            sediment.measure(&self.periods);
+            exchange.measure(&phases.fluid, sediment, &self.periods);
+        }
+    }
+
+    /// Searches the candidates anew if a pair may be missing.
+    pub(crate) fn search_if_due(&mut self, domain: &Domain<D>, phases: &mut Phases<D>, exchange: &mut DragExchange<D>) {
+        let skin = self.skin * phases.fluid.kernel.support();
+        if self.layers.moved_apart(phases.all().map(Phase::places), skin) {
+            self.search(domain, phases, exchange);
+        }
+    }
+
+    /// Searches the candidates.
+    pub(crate) fn search(&mut self, domain: &Domain<D>, phases: &mut Phases<D>, exchange: &mut DragExchange<D>) {
+        let skin = self.skin * phases.fluid.kernel.support();
+        // cells are those of the period
+        phases.wrap(domain);
+        phases.fluid.search(domain, &self.periods, skin);
+        let mut reach = phases.fluid.kernel.support();
+        if let Some(sediment) = &mut phases.sediment {
+            sediment.search(domain, &self.periods, skin);
+            exchange.search(&phases.fluid, sediment, domain, &self.periods, skin);
+            reach = reach.max(sediment.kernel.support()).max(exchange.reach());
+        }
+        self.layers.sort(phases.all().map(Phase::places), domain, reach + 2.0 * skin);
+        self.searches += 1;
+    }
+}

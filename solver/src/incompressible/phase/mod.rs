@@ -1,0 +1,133 @@
+//! One phase: free particles, the wall particles below them, and what a step knows of both.
+
+mod lattice_sums;
+mod phases;
+
+pub(crate) use lattice_sums::LatticeSums;
+pub(crate) use phases::Phases;
+
+use super::neighbours::{Grid, Pairs, Periods, Places, Sources};
+use super::scene::ParticleSet;
+use crate::domain::Domain;
+use crate::kernel::{Kernel, KernelShape};
+use crate::vector::{Tensor, Vector};
+
+/// State and measures of one phase; arrays have the shape `[free particles]` unless said otherwise.
+#[derive(Debug)]
+pub(crate) struct Phase<const D: usize> {
+    pub(crate) position: Vec<Vector<D>>,
+    pub(crate) velocity: Vec<Vector<D>>,
+    /// Masses `[kg]`.
+    pub(crate) mass: Vec<f64>,
+    /// Volumes that the particles stand for in sums `[m^D]`.
+    pub(crate) volume: Vec<f64>,
+    pub(crate) pressure: Vec<f64>,
+    /// Fixed particles `[wall particles]`.
+    pub(crate) wall: Vec<Vector<D>>,
+    /// Volume of a particle on the lattice `[m^D]`.
+    pub(crate) lattice_volume: f64,
+    pub(crate) spacing: f64,
+    /// Density of the phase's material `[kg/m³]`.
+    pub(crate) density: f64,
+    pub(crate) kernel: Kernel<D>,
+    pub(crate) lattice: LatticeSums,
+    pub(crate) free_pairs: Pairs<D>,
+    pub(crate) wall_pairs: Pairs<D>,
+    /// Σ V W over that of the lattice `[-]`.
+    pub(crate) concentration: Vec<f64>,
+    pub(crate) at_surface: Vec<bool>,
+    /// What a particle lacks of neighbours, from 0 inside to 1 at the surface `[-]`; a smooth form of (31), because
+    /// particles that change sides in steps shake the column.
+    pub(crate) deficit: Vec<f64>,
+    /// 1 at the surface and beside it, 0 inside `[-]`.
+    pub(crate) nearness: Vec<f64>,
+    /// Σ V (−F) r²/D `[-]`: the sum of gradients that would be 1 in a continuum; the lattice's at the surface.
+    pub(crate) moment: Vec<f64>,
+    /// ∇u, corrected, over free particles `[1/s]`.
+    pub(crate) velocity_gradient: Vec<Tensor<D>>,
+    /// Displacement since the last search `[m]`.
+    pub(crate) travel: Vec<Vector<D>>,
+    grid: Grid<D>,
+}
+
+impl<const D: usize> Phase<D> {
+    pub(crate) fn new(
+        particles: &ParticleSet<D>,
+        wall: &[Vector<D>],
+        spacing: f64,
+        density: f64,
+        smoothing_ratio: f64,
+    ) -> Self {
+        let count = particles.position.len();
+        let kernel = Kernel::new(KernelShape::CubicSpline, smoothing_ratio * spacing);
+        let lattice_volume = spacing.powi(D as i32);
+        Self {
+            position: particles.position.clone(),
+            velocity: particles.velocity.clone(),
+            mass: vec![density * lattice_volume; count],
+            volume: vec![lattice_volume; count],
+            pressure: vec![0.0; count],
+            wall: wall.to_vec(),
+            lattice_volume,
+            spacing,
+            density,
+            lattice: LatticeSums::of(&kernel, spacing),
+            kernel,
+            free_pairs: Pairs::new(),
+            wall_pairs: Pairs::new(),
+            concentration: vec![1.0; count],
+            at_surface: vec![false; count],
+            moment: vec![1.0; count],
+            deficit: vec![0.0; count],
+            nearness: vec![0.0; count],
+            velocity_gradient: vec![Tensor::zeros(); count],
+            travel: vec![Vector::zeros(); count],
+            grid: Grid::new(),
+        }
+    }
+
+    /// The same phase with masses of a given filling of each particle `[-]`.
+    pub(crate) fn filled(mut self, filling: &[f64]) -> Self {
+        for (mass, filling) in self.mass.iter_mut().zip(filling) {
+            *mass *= filling;
+        }
+        self
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    /// Finds the candidates of the pairs within the phase.
+    pub(crate) fn search(&mut self, domain: &Domain<D>, periods: &Periods<D>, skin: f64) {
+        let radius = self.kernel.support() + skin;
+        self.grid.sort(&self.position, domain, radius);
+        self.free_pairs.search(&self.position, &self.position, Sources::Same, &self.grid, periods, radius);
+        self.grid.sort(&self.wall, domain, radius);
+        self.wall_pairs.search(&self.position, &self.wall, Sources::Other, &self.grid, periods, radius);
+        self.travel.fill(Vector::zeros());
+    }
+
+    /// Measures the pairs within the phase.
+    pub(crate) fn measure(&mut self, periods: &Periods<D>) {
+        self.free_pairs.measure(&self.position, &self.position, periods, &self.kernel);
+        self.wall_pairs.measure(&self.position, &self.wall, periods, &self.kernel);
+    }
+
+    /// Where the particles stand, for the judgement whether a search is due.
+    pub(crate) fn places(&self) -> Places<'_, D> {
+        Places { free: &self.position, fixed: &self.wall, travel: &self.travel }
+    }
+
+    /// Largest speed of a particle, squared `[m²/s²]`.
+    pub(crate) fn largest_speed_squared(&self) -> f64 {
+        self.velocity.iter().fold(0.0_f64, |most, v| most.max(v.norm_squared()))
+    }
+
+    /// Moves a particle.
+    #[inline(always)]
+    pub(crate) fn displace(&mut self, particle: usize, by: Vector<D>) {
+        self.position[particle] += by;
+        self.travel[particle] += by;
+    }
+}

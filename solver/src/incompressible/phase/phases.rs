@@ -1,0 +1,45 @@
+//! Both phases, and the rows that their free particles have in the velocity system.
+
+use super::Phase;
+use crate::domain::Domain;
+use crate::vector::Vector;
+
+/// The fluid and the sediment, if there is one.
+#[derive(Debug)]
+pub(crate) struct Phases<const D: usize> {
+    pub(crate) fluid: Phase<D>,
+    pub(crate) sediment: Option<Phase<D>>,
+}
+
+impl<const D: usize> Phases<D> {
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Phase<D>> + Clone {
+        std::iter::once(&self.fluid).chain(&self.sediment)
+    }
+
+    pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut Phase<D>> {
+        std::iter::once(&mut self.fluid).chain(&mut self.sediment)
+    }
+
+    /// Puts all particles back into their periods.
+    pub(crate) fn wrap(&mut self, domain: &Domain<D>) {
+        for phase in self.all_mut() {
+            for position in &mut phase.position {
+                domain.wrap(position);
+            }
+        }
+    }
+
+    /// Largest speed of any particle `[m/s]`.
+    pub(crate) fn largest_speed(&self) -> f64 {
+        self.all().map(Phase::largest_speed_squared).fold(0.0, f64::max).sqrt()
+    }
+
+    /// Position of a row of the velocity system `[m]`: the fluid's particles first, then the sediment's.
+    pub(crate) fn position(&self, row: usize) -> Vector<D> {
+        let free_fluid = self.fluid.len();
+        match &self.sediment {
+            Some(sediment) if row >= free_fluid => sediment.position[row - free_fluid],
+            _ => self.fluid.position[row.min(free_fluid - 1)],
+        }
+    }
+}

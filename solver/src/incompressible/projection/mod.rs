@@ -1,0 +1,104 @@
+//! From predicted velocities to those free of divergence, and the motion with them: a pressure for each phase, or one for
+//! the mixture.
+
+mod correction;
+mod gauge;
+mod mixture;
+mod motion;
+mod pressure_links;
+mod pressure_poisson;
+
+pub(super) use mixture::{Flux, Mixture};
+pub(super) use pressure_poisson::PressurePoisson;
+
+use super::boundary::find_surface;
+use super::failure::Failure;
+use super::neighbours::Periods;
+use super::numerics::{PressureSource, ProjectionNumerics};
+use super::phase::{Phase, Phases};
+use super::scene::{IncompressibleScene, SedimentPressure};
+use crate::linear::NotConverged;
+use crate::run::divergence::Quantity;
+use crate::vector::Vector;
+use correction::Correction;
+
+/// The pressure Poisson equations of a run, reused from step to step.
+#[derive(Debug)]
+pub(super) struct Projection<const D: usize> {
+    pub(super) fluid: PressurePoisson<D>,
+    pub(super) sediment: PressurePoisson<D>,
+    pub(super) mixture: Mixture<D>,
+}
+
+/// What the projection of one phase needs beside it.
+struct Prediction<'a, const D: usize> {
+    velocity: &'a [Vector<D>],
+    correction: Correction,
+    numerics: &'a ProjectionNumerics,
+    periods: &'a Periods<D>,
+    time_step: f64,
+}
+
+impl<const D: usize> Projection<D> {
+    pub(super) fn new() -> Self {
+        Self { fluid: PressurePoisson::new(), sediment: PressurePoisson::new(), mixture: Mixture::new() }
+    }
+
+    /// Makes the predicted velocities of each phase free of divergence and moves its particles.
+    pub(super) fn project_phases(
+        &mut self,
+        scene: &IncompressibleScene<D>,
+        phases: &mut Phases<D>,
+        predicted: &[Vector<D>],
+        periods: &Periods<D>,
+        time_step: f64,
+    ) -> Result<(), Failure> {
+        let Phases { fluid, sediment } = phases;
+        let (of_fluid, of_sediment) = predicted.split_at(fluid.len());
+        let first = fluid.len();
+        let numerics = &scene.numerics;
+        let prediction = |velocity, correction| Prediction { velocity, correction, numerics, periods, time_step };
+        project(fluid, &mut self.fluid, &prediction(of_fluid, Correction::Both))?;
+        let (Some(sediment), Some(material)) = (sediment, &scene.sediment) else { return Ok(()) };
+        let moved = match material.pressure {
+            SedimentPressure::Incompressible => {
+                project(sediment, &mut self.sediment, &prediction(of_sediment, Correction::CompressionOnly))
+            }
+            SedimentPressure::AlongBed => {
+                motion::slide(sediment, of_sediment, time_step);
+                Ok(())
+            }
+            SedimentPressure::None | SedimentPressure::Dilatant { .. } => {
+                motion::drift(sediment, of_sediment, time_step)
+                    .map_err(|(particle, spacings)| Failure::displacement(particle, spacings))
+            }
+        };
+        moved.map_err(|failure| Failure { row: first + failure.row, ..failure })
+    }
+}
+
+/// One phase; rows of a failure are its particles.
+fn project<const D: usize>(
+    phase: &mut Phase<D>,
+    poisson: &mut PressurePoisson<D>,
+    prediction: &Prediction<'_, D>,
+) -> Result<(), Failure> {
+    let &Prediction { velocity, correction, numerics, periods, time_step } = prediction;
+    if numerics.pressure_source == PressureSource::Density {
+        for (particle, velocity) in velocity.iter().enumerate() {
+            phase.displace(particle, velocity * time_step);
+        }
+        phase.measure(periods);
+        find_surface(phase, numerics);
+    }
+    poisson.assemble(phase, numerics);
+    let solved = poisson.solve(phase, numerics, velocity, correction, time_step);
+    solved.map_err(|not_converged| residual(not_converged, numerics))?;
+    motion::correct(phase, poisson, velocity, numerics.pressure_source, time_step)
+        .map_err(|(particle, spacings)| Failure::displacement(particle, spacings))
+}
+
+/// A pressure Poisson equation that was not solved to its tolerance.
+fn residual(NotConverged { row, residual }: NotConverged, numerics: &ProjectionNumerics) -> Failure {
+    Failure { row, quantity: Quantity::PressureResidual, value: residual, limits: (0.0, numerics.pressure_tolerance) }
+}

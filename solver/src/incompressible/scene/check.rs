@@ -1,0 +1,109 @@
+//! Which scenes can be simulated.
+
+use super::{IncompressibleScene, ParticleSet, Sediment, SedimentLoad, SedimentPressure};
+use crate::domain::AxisBoundary;
+use crate::material::rheology::ParameterProblem;
+use crate::run::SceneError;
+
+impl<const D: usize> IncompressibleScene<D> {
+    /// Checks that the scene can be simulated.
+    ///
+    /// # Errors
+    /// The first rule that is broken.
+    pub fn check(&self) -> Result<(), SceneError> {
+        let fluid = &self.fluid;
+        check_set(&fluid.particles)?;
+        refuse(self.numerics.parameter_problem())?;
+        let mut lengths = vec![("spacing", fluid.spacing), ("density", fluid.density)];
+        lengths.push(("kinematic_viscosity", fluid.kinematic_viscosity));
+        let mut least_period = 4.0 * self.numerics.smoothing_ratio * fluid.spacing;
+        if let Some(sediment) = &self.sediment {
+            lengths.extend(sediment.check()?);
+            least_period = least_period
+                .max(4.0 * sediment.smoothing_ratio * sediment.spacing)
+                .max(4.0 * sediment.drag_smoothing_length);
+        }
+        self.check_mixture()?;
+        if let Some(layer) = self.solid_fraction.stratification() {
+            let strata = layer.strata();
+            for &value in &strata.solid_fraction {
+                if !(0.0..1.0).contains(&value) {
+                    let (rule, remedy) = ("in [0, 1)", "grains fill 0 to 0.64 of the space");
+                    refuse(Some(("solid_fraction", value, rule, remedy)))?;
+                }
+            }
+            refuse(strata.suspension_viscosity.parameter_problem())?;
+            lengths.extend([("packing", strata.packing), ("interval", strata.interval), ("depth", strata.depth)]);
+        }
+        for (field, value) in lengths {
+            if !(value > 0.0 && value.is_finite()) {
+                refuse(Some((field, value, "positive and finite", "give it in SI units")))?;
+            }
+        }
+        self.check_periods(least_period)
+    }
+
+    /// No particle may see another one twice.
+    fn check_periods(&self, least: f64) -> Result<(), SceneError> {
+        for (axis, boundary) in self.domain.axes.iter().enumerate() {
+            if let AxisBoundary::Periodic { lower, upper } = boundary {
+                let length = upper - lower;
+                if length.is_nan() || length < least {
+                    return Err(SceneError::Period { axis, length, least });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<const D: usize> Sediment<D> {
+    /// Checks the sediment, but for what must be positive and finite, which is returned.
+    fn check(&self) -> Result<[(&'static str, f64); 5], SceneError> {
+        if self.wall.is_empty() || !self.particles.position.is_empty() {
+            check_set(&self.particles)?;
+        }
+        refuse(self.law.parameter_problem())?;
+        if let SedimentLoad::Packed { buoyant_weight, .. } = self.load
+            && !(buoyant_weight >= 0.0 && buoyant_weight.is_finite())
+        {
+            refuse(Some(("buoyant_weight", buoyant_weight, "0 or positive, and finite", "give it in SI units")))?;
+        }
+        if let SedimentPressure::Dilatant { dilatancy, .. } = self.pressure {
+            refuse(dilatancy.bounds.parameter_problem())?;
+        }
+        let (expected, found) = (self.particles.position.len(), self.filling.len());
+        if found != expected {
+            return Err(SceneError::Length { array: "filling", found, expected });
+        }
+        Ok([
+            ("sediment spacing", self.spacing),
+            ("sediment smoothing_ratio", self.smoothing_ratio),
+            ("sediment density", self.density),
+            ("grain_diameter", self.grain_diameter),
+            ("drag_smoothing_length", self.drag_smoothing_length),
+        ])
+    }
+}
+
+fn refuse(problem: Option<ParameterProblem>) -> Result<(), SceneError> {
+    problem.map_or(Ok(()), |(field, value, rule, remedy)| Err(SceneError::Parameter { field, value, rule, remedy }))
+}
+
+fn check_set<const D: usize>(particles: &ParticleSet<D>) -> Result<(), SceneError> {
+    let (expected, found) = (particles.position.len(), particles.velocity.len());
+    if expected == 0 {
+        return Err(SceneError::Empty);
+    }
+    if found != expected {
+        return Err(SceneError::Length { array: "velocity", found, expected });
+    }
+    for (particle, (position, velocity)) in particles.position.iter().zip(&particles.velocity).enumerate() {
+        for (quantity, value) in [("position", position.sum()), ("velocity", velocity.sum())] {
+            if !value.is_finite() {
+                return Err(SceneError::Value { quantity, particle, value, rule: "finite" });
+            }
+        }
+    }
+    Ok(())
+}

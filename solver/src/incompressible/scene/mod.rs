@@ -1,0 +1,134 @@
+//! What an incompressible simulation starts from.
+
+mod check;
+mod mixture;
+mod sediment;
+
+pub use sediment::{DragForm, Sediment, SedimentLoad, SedimentPressure};
+
+use super::numerics::ProjectionNumerics;
+use super::stratification::Stratification;
+use crate::domain::{AxisBoundary, Domain};
+use crate::material::turbulence::{MixingLength, RoughWall, Smagorinsky};
+use crate::vector::Vector;
+
+/// Axis that is normal to the bed in `D` dimensions.
+pub(crate) const fn height_axis(dimensions: usize) -> usize {
+    dimensions - 1
+}
+
+/// Free particles at the start; all arrays have the shape `[particles]`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ParticleSet<const D: usize> {
+    /// Positions `[m]`.
+    pub position: Vec<Vector<D>>,
+    /// Velocities `[m/s]`.
+    pub velocity: Vec<Vector<D>>,
+}
+
+/// What the fluid flows over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bed {
+    /// Nothing: wall particles, if there are any, hold it back along their normal only.
+    Slip,
+    /// A wall at this height `[m]` to which it sticks.
+    NoSlip(f64),
+    /// A rough wall at this height `[m]`, by its law.
+    Rough {
+        /// Height of the wall `[m]`.
+        level: f64,
+        /// Depth of the law's origin below it `[m]`.
+        origin_offset: f64,
+        /// The law.
+        law: RoughWall,
+    },
+}
+
+/// Closure of the turbulence.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Turbulence {
+    /// None.
+    Laminar,
+    /// A mixing length over the height above a level `[m]`.
+    MixingLength {
+        /// Level `[m]`.
+        level: f64,
+        /// Depth of the flow `[m]`.
+        depth: f64,
+        /// The law.
+        law: MixingLength,
+    },
+    /// Mixing below the scale of the particles.
+    Smagorinsky(Smagorinsky),
+    /// The mixing length of the [`Stratification`].
+    Stratified,
+}
+
+/// The fluid.
+#[derive(Debug, Clone)]
+pub struct Fluid<const D: usize> {
+    /// Free particles.
+    pub particles: ParticleSet<D>,
+    /// Wall particles `[m]`.
+    pub wall: Vec<Vector<D>>,
+    /// Particle spacing l_0 `[m]`.
+    pub spacing: f64,
+    /// Density `[kg/m³]`.
+    pub density: f64,
+    /// Kinematic viscosity ν `[m²/s]`.
+    pub kinematic_viscosity: f64,
+    /// Turbulence.
+    pub turbulence: Turbulence,
+    /// Bed.
+    pub bed: Bed,
+    /// Body force per mass `[m/s²]`.
+    pub gravity: Vector<D>,
+}
+
+/// How the phases share the space.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SolidFraction {
+    /// They overlap: grains displace no fluid.
+    Overlapping,
+    /// A given φ(z).
+    Given(Stratification),
+    /// φ(z) is the mean along the bed of the sediment particles, renewed at every step.
+    Averaged(Stratification),
+}
+
+impl SolidFraction {
+    /// The stratification, if there is one.
+    #[must_use]
+    pub fn stratification(&self) -> Option<&Stratification> {
+        match self {
+            Self::Overlapping => None,
+            Self::Given(stratification) | Self::Averaged(stratification) => Some(stratification),
+        }
+    }
+}
+
+/// Both phases and the numerics.
+#[derive(Debug, Clone)]
+pub struct IncompressibleScene<const D: usize> {
+    /// The fluid.
+    pub fluid: Fluid<D>,
+    /// The sediment.
+    pub sediment: Option<Sediment<D>>,
+    /// How the phases share the space.
+    pub solid_fraction: SolidFraction,
+    /// Boundaries: periodic or open.
+    pub domain: Domain<D>,
+    /// Numerics.
+    pub numerics: ProjectionNumerics,
+}
+
+impl<const D: usize> IncompressibleScene<D> {
+    /// Product of the periods along the bed: its area `[m]` in 2-D, `[m²]` in 3-D.
+    pub(super) fn bed_area(&self) -> f64 {
+        let along = self.domain.axes.iter().take(D - 1);
+        along.fold(1.0, |area, boundary| match boundary {
+            AxisBoundary::Periodic { lower, upper } => area * (upper - lower),
+            AxisBoundary::Open | AxisBoundary::Mirror { .. } => area,
+        })
+    }
+}

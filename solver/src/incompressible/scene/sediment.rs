@@ -1,0 +1,94 @@
+//! The sediment of an incompressible scene.
+
+use super::super::stratification::Stratification;
+use super::ParticleSet;
+use crate::material::dilatancy::Dilatancy;
+use crate::material::drag::DragLaw;
+use crate::material::rheology::Rheology;
+use crate::vector::Vector;
+
+/// What a law's pressure is: the load that the grains carry, for the pore pressure carries no friction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SedimentLoad {
+    /// The weight in the water of packed grains up to a level.
+    Packed {
+        /// Level above which there is no overburden `[m]`.
+        level: f64,
+        /// Buoyant weight of the grains `[Pa/m]`.
+        buoyant_weight: f64,
+    },
+    /// The overburden of the [`Stratification`]; none without one.
+    Stratified,
+}
+
+impl SedimentLoad {
+    /// Load `[Pa]` at a height `[m]`.
+    #[inline]
+    pub(in crate::incompressible) fn at(&self, height: f64, stratification: Option<&Stratification>) -> f64 {
+        match *self {
+            Self::Packed { level, buoyant_weight } => buoyant_weight * (level - height).max(0.0),
+            Self::Stratified => stratification.map_or(0.0, |layer| layer.at(height).overburden),
+        }
+    }
+}
+
+/// What keeps the sediment apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SedimentPressure {
+    /// A pressure Poisson equation of its own, (11): each grain is incompressible.
+    Incompressible,
+    /// Nothing: the particles move as fluid and gravity make them.
+    None,
+    /// Nothing: the particles move along the bed only, and keep the solid fraction that is given.
+    AlongBed,
+    /// The pressure of sheared grains, which makes them dilate.
+    Dilatant {
+        /// The law of the pressure.
+        dilatancy: Dilatancy,
+        /// Volume of grains in a fixed particle over its lattice volume `[-]`.
+        fixed_filling: f64,
+    },
+}
+
+/// Which force a sediment particle feels from the fluid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DragForm {
+    /// (30): one grain a particle, ½ C_d d |u_r| per mass of the fluid around it, times a factor `[-]`.
+    Grain(f64),
+    /// K of the law at the particle's solid fraction, per volume.
+    Exchange,
+}
+
+/// The sediment.
+#[derive(Debug, Clone)]
+pub struct Sediment<const D: usize> {
+    /// Free particles.
+    pub particles: ParticleSet<D>,
+    /// Volume of grains in each free particle over its lattice volume `[-]`, shape `[free particles]`; 1 is a grain that
+    /// fills its place.
+    pub filling: Vec<f64>,
+    /// Fixed grains `[m]`.
+    pub wall: Vec<Vector<D>>,
+    /// Particle spacing `[m]`.
+    pub spacing: f64,
+    /// Smoothing length over particle spacing of the sediment's kernel `[-]`.
+    pub smoothing_ratio: f64,
+    /// Density of a grain `[kg/m³]`.
+    pub density: f64,
+    /// Grain diameter `[m]`.
+    pub grain_diameter: f64,
+    /// How the grains resist a shear: any law, at the rate of a particle or pair and the load on it.
+    pub law: Rheology,
+    /// The load that stands for the law's pressure.
+    pub load: SedimentLoad,
+    /// Pressure.
+    pub pressure: SedimentPressure,
+    /// Drag law.
+    pub drag: DragLaw,
+    /// Its form.
+    pub drag_form: DragForm,
+    /// Smoothing length of the drag `[m]`.
+    pub drag_smoothing_length: f64,
+    /// Body force per mass, with buoyancy across the bed `[m/s²]`.
+    pub gravity: Vector<D>,
+}

@@ -1,0 +1,79 @@
+//! All that a run carries from step to step.
+
+use super::failure::Failure;
+use super::passes::averaged_gradient::AveragedGradient;
+use super::passes::drag_exchange::DragExchange;
+use super::passes::granular_pressure::GranularPressure;
+use super::passes::search::Search;
+use super::passes::viscosities::Viscosities;
+use super::phase::{Phase, Phases};
+use super::projection::Projection;
+use super::scene::IncompressibleScene;
+use super::velocity_solve::VelocitySystem;
+use crate::run::SceneError;
+use crate::run::divergence::Divergence;
+use crate::vector::Vector;
+
+/// Both phases, the storage of the passes, and the time.
+#[derive(Debug)]
+pub(super) struct State<const D: usize> {
+    pub(super) scene: IncompressibleScene<D>,
+    pub(super) phases: Phases<D>,
+    pub(super) exchange: DragExchange<D>,
+    pub(super) search: Search<D>,
+    pub(super) viscosities: Viscosities,
+    pub(super) granular: GranularPressure,
+    /// Averaged velocity gradients of the sediment.
+    pub(super) rates: AveragedGradient<D>,
+    pub(super) system: VelocitySystem<D>,
+    pub(super) projection: Projection<D>,
+    pub(super) shifts: Vec<Vector<D>>,
+    /// Time `[s]`.
+    pub(super) time: f64,
+    pub(super) steps: u64,
+    /// Δt of the last step, or the largest before the first `[s]`.
+    pub(super) last_step: f64,
+}
+
+impl<const D: usize> State<D> {
+    /// The state at the start of a scene, with its candidates searched.
+    ///
+    /// # Errors
+    /// A scene that breaks a rule.
+    pub(super) fn of(scene: IncompressibleScene<D>) -> Result<Self, SceneError> {
+        scene.check()?;
+        let (water, numerics) = (&scene.fluid, &scene.numerics);
+        let fluid = Phase::new(&water.particles, &water.wall, water.spacing, water.density, numerics.smoothing_ratio);
+        let sediment = scene.sediment.as_ref().map(|material| {
+            let (spacing, density) = (material.spacing, material.density);
+            Phase::new(&material.particles, &material.wall, spacing, density, material.smoothing_ratio)
+                .filled(&material.filling)
+        });
+        let phases = Phases { fluid, sediment };
+        let drag_length = scene.sediment.as_ref().map_or(water.spacing, |material| material.drag_smoothing_length);
+        let mut state = Self {
+            exchange: DragExchange::new(drag_length),
+            search: Search::new(&scene.domain, numerics.search_skin),
+            viscosities: Viscosities::new(&phases),
+            granular: GranularPressure::default(),
+            rates: AveragedGradient::default(),
+            system: VelocitySystem::new(),
+            projection: Projection::new(),
+            shifts: Vec::new(),
+            time: 0.0,
+            steps: 0,
+            last_step: numerics.time_step,
+            phases,
+            scene,
+        };
+        state.search.search(&state.scene.domain, &mut state.phases, &mut state.exchange);
+        Ok(state)
+    }
+
+    /// A failure with its place and time.
+    pub(super) fn divergence(&self, failure: Failure) -> Divergence<D> {
+        let Failure { row, quantity, value, limits } = failure;
+        let position = self.phases.position(row);
+        Divergence { time: self.time, step: self.steps, particle: row as u32, position, quantity, value, limits }
+    }
+}

@@ -1,0 +1,181 @@
+//! The rows of M + Δt K: viscous pairs of each phase, the bed's friction, the drag.
+
+use super::super::boundary;
+use super::super::neighbours::Pair;
+use super::super::passes::averaged_gradient::AveragedGradient;
+use super::super::passes::drag_exchange::DragExchange;
+use super::super::passes::viscosities::Viscosities;
+use super::super::phase::{Phase, Phases};
+use super::super::scene::{IncompressibleScene, Sediment, height_axis};
+use super::super::terms::drag_pair;
+use super::super::terms::viscous_pair::{self, End};
+use super::VelocitySystem;
+use crate::lanes::LANES;
+use crate::linear::{Row as Links, Single, single};
+use crate::vector::Vector;
+use rayon::prelude::*;
+
+/// A row while it is filled.
+struct Row<'a, 'b> {
+    links: &'a mut Links<'b, Single>,
+    coupled: f64,
+    held: f64,
+}
+
+impl Row<'_, '_> {
+    /// A pair with a free particle: Δt k_ab `[kg]`.
+    #[inline(always)]
+    fn couple(&mut self, partner: usize, coefficient: f64) {
+        let coefficient = single(coefficient);
+        self.links.push(partner as u32, coefficient);
+        self.coupled += coefficient;
+    }
+
+    /// A pair with what stands still.
+    #[inline(always)]
+    fn hold(&mut self, coefficient: f64) {
+        self.held += coefficient;
+    }
+}
+
+/// All that the rows of a step are made of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct VelocityRows<'a, const D: usize> {
+    pub(crate) scene: &'a IncompressibleScene<D>,
+    pub(crate) phases: &'a Phases<D>,
+    pub(crate) exchange: &'a DragExchange<D>,
+    pub(crate) viscosities: &'a Viscosities,
+    /// Averaged rates of the sediment.
+    pub(crate) rates: &'a AveragedGradient<D>,
+    /// Δt `[s]`.
+    pub(crate) time_step: f64,
+}
+
+/// What a row begins with.
+struct Begin<const D: usize> {
+    inertia: f64,
+    velocity: Vector<D>,
+    gravity: Vector<D>,
+}
+
+impl<const D: usize> VelocityRows<'_, D> {
+    /// Fills the rows of M + Δt K and the momenta before the solve.
+    pub(crate) fn assemble(&self, system: &mut VelocitySystem<D>) {
+        let Phases { fluid, sediment } = self.phases;
+        let rows = fluid.len() + sediment.as_ref().map_or(0, Phase::len);
+        let fluid_stride = fluid.free_pairs.stride() + self.exchange.of_fluid.stride();
+        let of_sediment = |s: &Phase<D>| s.free_pairs.stride() + self.exchange.of_sediment.stride();
+        let stride = fluid_stride.max(sediment.as_ref().map_or(0, of_sediment));
+        system.resize(rows);
+        let VelocitySystem { couplings, diagonal, of_constant, inertia, momentum, velocity, .. } = system;
+        let beside = (
+            diagonal.par_chunks_mut(LANES),
+            of_constant.par_chunks_mut(LANES),
+            inertia.par_chunks_mut(LANES),
+            momentum.par_chunks_mut(LANES),
+            velocity.par_chunks_mut(LANES),
+        );
+        couplings.fill(rows, stride, beside.into_par_iter(), |first, group, beside| {
+            let (diagonal, sum, inertia, momentum, velocity) = beside;
+            for lane in 0..diagonal.len() {
+                let (coupled, held, begin) = group.row(lane, |links| {
+                    let mut row = Row { links, coupled: 0.0, held: 0.0 };
+                    let begin = self.fill(first + lane, &mut row);
+                    (row.coupled, row.held, begin)
+                });
+                (inertia[lane], velocity[lane]) = (begin.inertia, begin.velocity);
+                sum[lane] = inertia[lane] + held;
+                diagonal[lane] = sum[lane] + coupled;
+                momentum[lane] = (velocity[lane] + begin.gravity * self.time_step) * inertia[lane];
+            }
+        });
+    }
+
+    fn fill(&self, index: usize, row: &mut Row<'_, '_>) -> Begin<D> {
+        let Phases { fluid, sediment } = self.phases;
+        match (sediment, &self.scene.sediment) {
+            (Some(sediment), Some(material)) if index >= fluid.len() => {
+                let a = index - fluid.len();
+                self.sediment_row(a, sediment, material, row);
+                Begin { inertia: sediment.mass[a], velocity: sediment.velocity[a], gravity: material.gravity }
+            }
+            _ => {
+                self.fluid_row(index, row);
+                let inertia = fluid.mass[index] * self.viscosities.voidage[index];
+                Begin { inertia, velocity: fluid.velocity[index], gravity: self.scene.fluid.gravity }
+            }
+        }
+    }
+
+    fn fluid_row(&self, a: usize, row: &mut Row<'_, '_>) {
+        let (fluid, viscosity) = (&self.phases.fluid, &self.viscosities.fluid);
+        for pair in fluid.free_pairs.of(a) {
+            let b = pair.source as usize;
+            let volumes = (fluid.volume[a], fluid.volume[b]);
+            let moments = fluid.moment[a] + fluid.moment[b];
+            let both = viscosity[a] + viscosity[b];
+            row.couple(b, viscous_pair::coefficient(self.time_step, volumes, moments, pair.gradient, both));
+        }
+        let Self { scene, time_step, .. } = *self;
+        row.hold(boundary::friction(scene.fluid.bed, fluid, a, viscosity[a], &scene.numerics, time_step));
+        let (Some(sediment), Some(material)) = (&self.phases.sediment, &scene.sediment) else { return };
+        for pair in self.exchange.of_fluid.of(a) {
+            let b = pair.source as usize;
+            let own = || sediment.velocity.get(b).copied().unwrap_or_else(Vector::zeros);
+            let slip = || (own() - fluid.velocity[a]).norm();
+            let factor = self.exchange.factor(b, material, slip, scene);
+            let coefficient = drag_pair::coefficient(time_step, fluid.mass[a], pair.value, factor);
+            if b < sediment.len() {
+                row.couple(fluid.len() + b, coefficient);
+            } else {
+                row.hold(coefficient);
+            }
+        }
+    }
+
+    fn sediment_row(&self, a: usize, sediment: &Phase<D>, material: &Sediment<D>, row: &mut Row<'_, '_>) {
+        let (fluid, viscosities) = (&self.phases.fluid, self.viscosities);
+        let end = |b: usize| End { load: viscosities.load[b], viscosity: viscosities.sediment[b] };
+        for pair in sediment.free_pairs.of(a) {
+            let b = pair.source as usize;
+            let volumes = (sediment.volume[a], sediment.volume[b]);
+            let moments = sediment.moment[a] + sediment.moment[b];
+            let difference = sediment.velocity[a] - sediment.velocity[b];
+            let both = self.pair_viscosity(material, (end(a), end(b)), (a, Some(b)), difference, pair);
+            row.couple(
+                fluid.len() + b,
+                viscous_pair::coefficient(self.time_step, volumes, moments, pair.gradient, both),
+            );
+        }
+        let layer = self.scene.solid_fraction.stratification();
+        for pair in sediment.wall_pairs.of(a) {
+            let volumes = (sediment.volume[a], sediment.lattice_volume);
+            let load = material.load.at(sediment.wall[pair.source as usize][height_axis(D)], layer);
+            let ends = (end(a), End { load, viscosity: viscosities.sediment[a] });
+            let both = self.pair_viscosity(material, ends, (a, None), sediment.velocity[a], pair);
+            let moments = 2.0 * sediment.moment[a];
+            row.hold(viscous_pair::coefficient(self.time_step, volumes, moments, pair.gradient, both));
+        }
+        for pair in self.exchange.of_sediment.of(a) {
+            let b = pair.source as usize;
+            let slip = || (fluid.velocity[b] - sediment.velocity[a]).norm();
+            let factor = self.exchange.factor(a, material, slip, self.scene);
+            row.couple(b, drag_pair::coefficient(self.time_step, fluid.mass[b], pair.value, factor));
+        }
+    }
+
+    /// η_a + η_b `[Pa·s]` of a sediment particle with another or with a wall, at a difference of velocities `[m/s]`.
+    #[inline]
+    fn pair_viscosity(
+        &self,
+        material: &Sediment<D>,
+        ends: (End, End),
+        (a, b): (usize, Option<usize>),
+        difference: Vector<D>,
+        pair: &Pair<D>,
+    ) -> f64 {
+        let own_rate = || (difference.norm_squared() / pair.separation.norm_squared()).sqrt();
+        let averaged_rate = || self.rates.pair_rate(a, b, pair);
+        viscous_pair::viscosities::<D>(&material.law, self.scene.numerics.pair_law, ends, own_rate, averaged_rate)
+    }
+}
