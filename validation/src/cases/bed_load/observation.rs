@@ -1,8 +1,9 @@
 //! What a run leaves behind.
 
 use super::runs::BedLoadRun;
-use crate::cases::channel::{BlockProfile, Channel, ChannelObservation};
+use crate::cases::channel::{BlockProfile, Channel, ChannelObservation, ProfilePoint};
 use crate::reference::bed_load_layer::LayerState;
+use crate::statistics::BLOCKS;
 use bagnold_solver::incompressible::IncompressibleSimulation;
 use bagnold_solver::vector::Vector;
 use serde::{Deserialize, Serialize};
@@ -12,18 +13,27 @@ use serde::{Deserialize, Serialize};
 pub struct BedLoadObservation {
     /// The water.
     pub channel: ChannelObservation,
-    /// q* at every sample `[-]`, and the mean velocity of the water above z = 0 `[m/s]`.
+    /// q* at every sample `[-]`.
     pub transport: Vec<f64>,
     /// Mean velocity of the water above z = 0 at every sample `[m/s]`.
     pub stream_velocity: Vec<f64>,
-    /// Velocities of the grains over the window, and volumes of grains in a particle `[m²]` in the place of pressures.
+    /// Velocities of the grains over the window; without pressures, which are all 0.
     pub sediment: BlockProfile,
-    /// Forces of the water on the grains over the window `[N/m]`, in the place of velocities.
-    pub drag: BlockProfile,
+    /// What the particles of the same bins and blocks of time carry, shape `[bins][blocks of time]`.
+    pub carried: Vec<Vec<Carried>>,
     /// Length of the period `[m]`.
     pub length: f64,
     /// The 1-D layer of a `continuum` run.
     pub layer: Option<LayerState>,
+}
+
+/// Sums over the samples (particles × times) of one bin in one block of time.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Carried {
+    /// Volumes of the grains in the particles `[m²]`.
+    pub volume: f64,
+    /// Forces of the water on the grains along the bed `[N/m]`.
+    pub force: f64,
 }
 
 /// Watches the grains at every sample.
@@ -67,8 +77,8 @@ impl Observer {
                 },
                 transport: Vec::new(),
                 stream_velocity: Vec::new(),
-                sediment: profile.clone(),
-                drag: profile,
+                carried: vec![vec![Carried::default(); BLOCKS]; bins],
+                sediment: profile,
                 length: channel.fluid.length(),
                 layer: None,
             },
@@ -96,10 +106,15 @@ impl Observer {
             let start = *self.window_start.get_or_insert(simulation.time());
             let share = (simulation.time() - start) / self.window;
             let none = vec![0.0; position.len()];
-            let volumes: Vec<f64> = masses.iter().map(|mass| mass / self.grain_density).collect();
-            data.sediment.observe(share, position, velocity, &volumes);
-            let drag: Vec<Vector<2>> = simulation.drag();
-            data.drag.observe(share, position, &drag, &none);
+            data.sediment.observe(share, position, velocity, &none);
+            let block = BlockProfile::block(share);
+            for ((x, mass), force) in position.iter().zip(masses).zip(simulation.drag()) {
+                if let Some(bin) = data.sediment.bin_at(x[1]) {
+                    let carried = &mut data.carried[bin][block];
+                    carried.volume += mass / self.grain_density;
+                    carried.force += force[0];
+                }
+            }
         }
     }
 
@@ -119,18 +134,26 @@ impl BedLoadObservation {
     /// Drag per volume over height: (z `[m]`, `[N/m³]`).
     #[must_use]
     pub fn drag_profile(&self) -> Vec<(f64, f64)> {
-        let times = self.drag.times as f64;
-        let volume = self.drag.bin * self.length;
-        let points = self.drag.points();
-        points.iter().map(|point| (point.height, point.velocity * point.samples / (times * volume))).collect()
+        self.per_volume(|carried| carried.force)
     }
 
     /// Solid fraction over height: (z `[m]`, φ `[-]`).
     #[must_use]
     pub fn solid_fraction(&self) -> Vec<(f64, f64)> {
+        self.per_volume(|carried| carried.volume)
+    }
+
+    /// Mean over time of what the particles of each bin carry, per volume of the bin, over height `[m]`.
+    fn per_volume(&self, part: impl Fn(&Carried) -> f64) -> Vec<(f64, f64)> {
         let times = self.sediment.times as f64;
         let volume = self.sediment.bin * self.length;
+        let sums = self.carried.iter().map(|blocks| blocks.iter().map(&part).fold(0.0, |sum, value| sum + value));
+        let filled =
+            self.sediment.sums.iter().zip(sums).filter(|(blocks, _)| blocks.iter().any(|sum| sum.samples > 0.0));
         let points = self.sediment.points();
-        points.iter().map(|point| (point.height, point.pressure * point.samples / (times * volume))).collect()
+        let mean = |(point, (_, sum)): (&ProfilePoint, (_, f64))| {
+            (point.height, sum / point.samples * point.samples / (times * volume))
+        };
+        points.iter().zip(filled).map(mean).collect()
     }
 }

@@ -54,19 +54,29 @@ impl BlockProfile {
     /// Adds a sample at `share` of the averaging window, 0 … 1: the particles' positions `[m]`, velocities `[m/s]` and
     /// pressures `[Pa]`. What lies outside of the bins is left out.
     pub fn observe(&mut self, share: f64, position: &[Vector<2>], velocity: &[Vector<2>], pressure: &[f64]) {
-        let block = ((share * BLOCKS as f64).max(0.0) as usize).min(BLOCKS - 1);
+        let block = Self::block(share);
         self.times += 1;
         for ((x, v), p) in position.iter().zip(velocity).zip(pressure) {
-            let bin = ((x[1] - self.bottom) / self.bin).floor();
-            if bin < 0.0 || bin >= self.sums.len() as f64 {
-                continue;
-            }
-            let sums = &mut self.sums[bin as usize][block];
+            let Some(bin) = self.bin_at(x[1]) else { continue };
+            let sums = &mut self.sums[bin][block];
             sums.samples += 1.0;
             sums.height += x[1];
             sums.velocity += v[0];
             sums.pressure += p;
         }
+    }
+
+    /// The block of time at `share` of the averaging window, 0 … 1.
+    #[must_use]
+    pub fn block(share: f64) -> usize {
+        ((share * BLOCKS as f64).max(0.0) as usize).min(BLOCKS - 1)
+    }
+
+    /// The bin that a height `[m]` lies in; none outside of the bins.
+    #[must_use]
+    pub fn bin_at(&self, height: f64) -> Option<usize> {
+        let bin = ((height - self.bottom) / self.bin).floor();
+        (bin >= 0.0 && bin < self.sums.len() as f64).then_some(bin as usize)
     }
 
     /// The bins that hold samples, from below.
