@@ -1,4 +1,9 @@
 //! What closes the equations: friction and dilation of the grains, viscosity and mixing length of the water, drag.
+//!
+//! The layer verifies a discretisation, so it may take from the solver's `material` what needs no discretising: the drag
+//! laws, the viscosity of suspensions, κ. Friction, dilation and mixing length it writes anew, in the form that its own
+//! method needs (a stress with its derivative, a march over the weight, a length that cases choose); tests compare each
+//! with the solver's law, so that a slip in either is seen.
 
 use crate::reference::shipped::read_shipped;
 use bagnold_solver::material::drag::DragLaw;
@@ -146,6 +151,8 @@ impl Closures {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bagnold_solver::material::rheology::{Rheology, RootMuI};
+    use bagnold_solver::material::turbulence::StratifiedMixingLength;
 
     #[test]
     fn tangents_are_derivatives() {
@@ -159,6 +166,34 @@ mod tests {
             let at = |rate| closures.fluid_stress(rate, 1000.0, 1e-6, 0.2, 2e-3);
             let difference = (at(rate + step * rate).value - at(rate - step * rate).value) / (2.0 * step * rate);
             assert!((at(rate).tangent / difference - 1.0).abs() < 1e-6, "water at {rate}");
+        }
+    }
+
+    #[test]
+    fn friction_is_that_of_the_law_in_the_solver() {
+        let closures = Closures::default();
+        let law = Rheology::RootMuI(RootMuI {
+            static_friction: closures.static_friction,
+            limiting_friction: closures.limiting_friction,
+            reference_inertia: closures.reference_inertia,
+            grain_diameter: 5e-3,
+            grain_density: 2600.0,
+            regularisation_rate: closures.regularisation_rate,
+        });
+        for (rate, pressure) in [(1e-4, 3.0), (5e-3, 50.0), (2.0, 1.0), (80.0, 120.0), (3.0, 0.0)] {
+            let stress = closures.grain_stress(rate, pressure, 5e-3 * 2600f64.sqrt()).value;
+            let expected = law.viscosity(rate, pressure) * rate;
+            assert!((stress - expected).abs() <= 1e-14 * expected, "{rate} 1/s, {pressure} Pa: {stress} or {expected}");
+        }
+    }
+
+    #[test]
+    fn the_mixing_length_is_that_of_the_law_in_the_solver() {
+        let (closures, law) = (Closures::default(), StratifiedMixingLength { packing: 0.6, depth: 0.046 });
+        for (height, room) in [(-0.003, 1e-5), (0.0, 4e-4), (0.02, 0.0205), (0.045, 0.04), (0.05, 0.05)] {
+            let expected = law.length(height, room);
+            let length = closures.mixing_length(height, 0.046, room);
+            assert!((length - expected).abs() <= 1e-15 * expected, "{height} m: {length} or {expected}");
         }
     }
 

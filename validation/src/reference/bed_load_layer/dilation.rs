@@ -60,6 +60,7 @@ fn share(below: f64, looseness: f64, half_weight: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bagnold_solver::material::dilatancy::{Dilatancy, PressureBounds};
 
     const BED: Dilation =
         Dilation { cell_height: 2.5e-4, weight: 376.0, submerged_weight: 15_696.0, largest_fraction: 0.6 };
@@ -87,6 +88,20 @@ mod tests {
         assert!(fraction[..159].iter().all(|fraction| *fraction == 0.6));
         assert!((fraction[159] / 0.6 - 0.7).abs() < 0.01, "{}", fraction[159]);
         assert!(fraction[160..].iter().all(|fraction| *fraction == 0.0));
+    }
+
+    /// x = φ/φ_max of a cell is the solver's law at the pressure in its middle.
+    #[test]
+    fn a_cell_has_the_fraction_of_the_law_in_the_solver() {
+        let (dilation, diameter, density) = (0.31, 5e-3, 2600.0_f64);
+        let bounds = PressureBounds::default();
+        let law = Dilatancy { dilation, packing: 0.6, grain_diameter: diameter, grain_density: density, bounds };
+        for (below, rate) in [(376.0, 0.4), (40.0, 30.0), (5.0, 3.0)] {
+            let share = share(below, dilation * rate * diameter * density.sqrt(), 1.177);
+            let pressure = below - 1.177 * share;
+            let expected = law.solid_fraction(rate * diameter * (density / pressure).sqrt());
+            assert!((0.6 * share - expected).abs() < 1e-14, "{below} Pa, {rate} 1/s: {} or {expected}", 0.6 * share);
+        }
     }
 
     #[test]

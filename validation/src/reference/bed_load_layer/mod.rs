@@ -11,8 +11,8 @@
 //!
 //! Both velocities vanish at the base, both stresses at z = h. Three ways to treat the grains ([`Grains`]) isolate what a
 //! two-phase program does: the flow over and through grains that rest (drag and turbulence), grains that move with a
-//! given fraction (friction and both momenta), and all of it. Finite volumes of second order, no particles; only the drag
-//! laws are shared with the solver. Agreement verifies discretisations; that the model is right needs experiments.
+//! given fraction (friction and both momenta), and all of it. Finite volumes of second order, no particles; of
+//! the solver's laws it shares drag, viscosity of suspensions and κ, and is compared with the others ([`Closures`]). Agreement verifies discretisations; that the model is right needs experiments.
 //!
 //! ```text
 //! let layer = BedLoadLayer { stream, closures: Closures::default(), grains: Grains::Dilating, cell_height: 2.5e-4 };
