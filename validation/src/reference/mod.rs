@@ -1,8 +1,9 @@
 //! What results are compared with: exact profiles, a 1-D solver that checks the particles independently, and
 //! published or measured data in CSV files.
 //!
-//! Nothing here uses the particle solver, so that agreement with it means something; of the solver's leaves only the drag
-//! laws are used, which have tests against values computed by hand, and the parameters of μ(I) as a record.
+//! Nothing here uses the particle solver, so that agreement with it means something; of the solver's `material` only
+//! the drag laws and the viscosity of suspensions are used, which have tests against values computed by hand, and the
+//! parameters of μ(I) as a record.
 //!
 //! Numbers of papers stand in `reference-data/*/*.csv` with their provenance. The program carries these tables, reads each
 //! once, and no number of a paper is written in the code that uses it.

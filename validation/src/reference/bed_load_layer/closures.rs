@@ -152,7 +152,7 @@ impl Closures {
 mod tests {
     use super::*;
     use bagnold_solver::material::rheology::{Rheology, RootMuI};
-    use bagnold_solver::material::turbulence::StratifiedMixingLength;
+    use bagnold_solver::material::turbulence::{StratifiedMixingLength, VON_KARMAN};
 
     #[test]
     fn tangents_are_derivatives() {
@@ -167,6 +167,13 @@ mod tests {
             let difference = (at(rate + step * rate).value - at(rate - step * rate).value) / (2.0 * step * rate);
             assert!((at(rate).tangent / difference - 1.0).abs() < 1e-6, "water at {rate}");
         }
+    }
+
+    #[test]
+    fn the_files_constants_are_the_solvers_defaults() {
+        let closures = Closures::default();
+        assert_eq!(closures.karman, VON_KARMAN);
+        assert_eq!(closures.suspension_viscosity, SuspensionViscosity::default());
     }
 
     #[test]
