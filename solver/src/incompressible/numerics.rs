@@ -1,11 +1,12 @@
 //! The numerical choices of an incompressible run; the default is the recipe, [`ProjectionNumerics::paper`] the
 //! bed-load paper's own set.
 
-use crate::material::rheology::ParameterProblem;
+use crate::parameter::{ParameterProblem, between, range_problem};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What the pressure Poisson equation drives to zero.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PressureSource {
     /// Divergence of the predicted velocity, with a weak correction of the density.
@@ -15,7 +16,7 @@ pub enum PressureSource {
 }
 
 /// What holds at the free surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SurfaceTreatment {
     /// Particles at the surface are unknowns; what is missing of their neighbours has P = 0.
@@ -25,7 +26,7 @@ pub enum SurfaceTreatment {
 }
 
 /// How a pair of sediment particles gets its viscosity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PairLaw {
     /// From the pair's own shear rate |u_ab|/r and the smaller load of the two: what lies on a weaker particle slides.
@@ -41,7 +42,7 @@ pub enum PairLaw {
 }
 
 /// Which slip between the phases a pair's drag is taken from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DragSlip {
     /// The velocity difference of the pair, as in (30).
@@ -51,7 +52,7 @@ pub enum DragSlip {
 }
 
 /// Which flux the pore pressure makes free of divergence.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Continuity {
     /// That of the fluid alone, ∇·u_f = 0.
@@ -61,7 +62,7 @@ pub enum Continuity {
 }
 
 /// What becomes of the mixture's mean flux along periods, which no pressure of the particles reaches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MeanFlux {
     /// Nothing: it follows from the forces.
@@ -70,29 +71,40 @@ pub enum MeanFlux {
     Zero,
 }
 
+/// What to do about numerics out of range.
+const DEFAULTS: &str = "see the default numerics with `bagnold show`";
+
 /// Numerical parameters of the projection step.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ProjectionNumerics {
     /// Smoothing length over particle spacing h/l_0 `[-]`, cubic spline.
+    #[schemars(transform = between(1.0, 2.0, DEFAULTS))]
     pub smoothing_ratio: f64,
     /// Largest time step `[s]`.
+    #[schemars(transform = between(1e-9, 1.0, DEFAULTS))]
     pub time_step: f64,
     /// Courant number of the largest speed `[-]`.
+    #[schemars(transform = between(1e-3, 0.5, DEFAULTS))]
     pub courant: f64,
     /// Share s of D G that is added to the compact Laplacian A of (12) `[-]`; 0 is the paper's operator.
+    #[schemars(transform = between(0.0, 10.0, DEFAULTS))]
     pub stabilisation: f64,
     /// Right-hand side of the pressure Poisson equation.
     pub pressure_source: PressureSource,
     /// Share γ of the density error that a step corrects beside the divergence `[-]`.
+    #[schemars(transform = between(0.0, 1.0, DEFAULTS))]
     pub density_correction: f64,
     /// Σ V W of relaxed particles at their reference density over that of the lattice `[-]`.
+    #[schemars(transform = between(0.9, 1.1, DEFAULTS))]
     pub reference_concentration: f64,
     /// β of the surface criterion (31) `[-]`.
+    #[schemars(transform = between(0.5, 0.99, DEFAULTS))]
     pub surface_threshold: f64,
     /// Treatment of the surface.
     pub surface: SurfaceTreatment,
     /// Coefficient of particle shifting in the fluid `[-]`; 0 switches it off.
+    #[schemars(transform = between(0.0, 10.0, DEFAULTS))]
     pub shifting: f64,
     /// Sediment pairs.
     pub pair_law: PairLaw,
@@ -103,8 +115,10 @@ pub struct ProjectionNumerics {
     /// The mixture's mean flux.
     pub mean_flux: MeanFlux,
     /// Relative residual of the pressure Poisson equation `[-]`.
+    #[schemars(transform = between(1e-12, 0.5, DEFAULTS))]
     pub pressure_tolerance: f64,
     /// Relative residual of the implicit velocities `[-]`.
+    #[schemars(transform = between(1e-14, 0.1, DEFAULTS))]
     pub velocity_tolerance: f64,
 }
 
@@ -148,23 +162,9 @@ impl ProjectionNumerics {
         }
     }
 
-    /// The first field that breaks its rule, as (field, value, rule, remedy).
+    /// The first field outside its range, if any.
     #[must_use]
     pub fn parameter_problem(&self) -> Option<ParameterProblem> {
-        let rules = [
-            ("smoothing_ratio", self.smoothing_ratio, 1.0..=2.0, "between 1 and 2"),
-            ("time_step", self.time_step, 1e-9..=1.0, "between 1e-9 and 1"),
-            ("courant", self.courant, 1e-3..=0.5, "between 0.001 and 0.5"),
-            ("stabilisation", self.stabilisation, 0.0..=10.0, "between 0 and 10"),
-            ("density_correction", self.density_correction, 0.0..=1.0, "between 0 and 1"),
-            ("reference_concentration", self.reference_concentration, 0.9..=1.1, "between 0.9 and 1.1"),
-            ("surface_threshold", self.surface_threshold, 0.5..=0.99, "between 0.5 and 0.99"),
-            ("shifting", self.shifting, 0.0..=10.0, "between 0 and 10"),
-            ("pressure_tolerance", self.pressure_tolerance, 1e-12..=0.5, "between 1e-12 and 0.5"),
-            ("velocity_tolerance", self.velocity_tolerance, 1e-14..=0.1, "between 1e-14 and 0.1"),
-        ];
-        let broken = rules.into_iter().find(|(_, value, range, _)| !range.contains(value))?;
-        let (field, value, _, rule) = broken;
-        Some((field, value, rule, "see the default numerics with `bagnold show`"))
+        range_problem(self)
     }
 }

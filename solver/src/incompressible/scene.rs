@@ -5,6 +5,7 @@ use super::stratification::Stratification;
 use crate::domain::{AxisBoundary, Domain};
 use crate::material::drag::DragLaw;
 use crate::material::turbulence::{MixingLength, RoughWall, Smagorinsky};
+use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 use crate::vector::Vector;
 
@@ -223,10 +224,12 @@ impl<const D: usize> IncompressibleScene<D> {
     pub fn check(&self) -> Result<(), SceneError> {
         let fluid = &self.fluid;
         check_set(&fluid.particles)?;
-        let parameter = |(field, value, rule, remedy)| Err(SceneError::Parameter { field, value, rule, remedy });
         if let Some(problem) = self.numerics.parameter_problem() {
-            return parameter(problem);
+            return Err(problem.into());
         }
+        let parameter = |(field, value, rule, remedy): (&str, f64, &str, &str)| {
+            Err(ParameterProblem::new(field, value, rule, remedy).into())
+        };
         let positive = |value: f64| value > 0.0 && value.is_finite();
         let mut values = vec![("spacing", fluid.spacing), ("density", fluid.density)];
         values.push(("kinematic_viscosity", fluid.kinematic_viscosity));
