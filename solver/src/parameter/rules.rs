@@ -7,11 +7,20 @@ use schemars::Schema;
 use schemars::transform::Transform;
 use serde_json::{Map, Value, json};
 
-/// A rule of a field's value, or of every value of a list.
+/// A rule of a field's value, or of values within it.
 #[derive(Debug, Clone)]
 pub struct Rule {
     keywords: Map<String, Value>,
-    of_each: bool,
+    /// From the field inwards.
+    within: Vec<Within>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Within {
+    /// Every value of a list or tuple.
+    Each,
+    /// One value of a tuple.
+    Entry(usize),
 }
 
 impl Rule {
@@ -19,7 +28,7 @@ impl Rule {
         let mut keywords: Map<String, Value> =
             keywords.into_iter().map(|(keyword, value)| (keyword.to_owned(), value)).collect();
         keywords.insert("x-remedy".to_owned(), remedy.into());
-        Self { keywords, of_each: false }
+        Self { keywords, within: Vec::new() }
     }
 
     /// The same rule with its own words, completing "must be …".
@@ -34,11 +43,25 @@ impl Transform for Rule {
     /// The first rule of a schema stands in its own keywords, in place of the bounds of the type; further ones, which
     /// are asked in their order, under `allOf`.
     fn transform(&mut self, schema: &mut Schema) {
-        let field = schema.ensure_object();
-        let place = match field.get_mut("items").filter(|_| self.of_each) {
-            Some(Value::Object(items)) => items,
-            _ => field,
-        };
+        self.add(schema.ensure_object(), &self.within);
+    }
+}
+
+impl Rule {
+    fn add(&self, place: &mut Map<String, Value>, within: &[Within]) {
+        if let Some((first, rest)) = within.split_first() {
+            if let (Within::Each, Some(Value::Object(items))) = (first, place.get_mut("items")) {
+                return self.add(items, rest);
+            }
+            let entries = place.get_mut("prefixItems").and_then(Value::as_array_mut).into_iter().flatten().enumerate();
+            for (index, entry) in entries.filter_map(|(index, entry)| Some((index, entry.as_object_mut()?))) {
+                match first {
+                    Within::Entry(only) if *only != index => {}
+                    _ => self.add(entry, rest),
+                }
+            }
+            return;
+        }
         if place.contains_key("x-remedy") {
             let further = place.entry("allOf").or_insert_with(|| json!([]));
             if let Value::Array(further) = further {
@@ -92,10 +115,18 @@ pub fn inside(lower: f64, upper: f64, remedy: &str) -> Rule {
     Rule::new([("exclusiveMinimum", number(lower)), ("exclusiveMaximum", number(upper))], remedy)
 }
 
-/// A rule of every value of a list.
+/// A rule of every value of a list or tuple.
 #[must_use]
-pub fn each(rule: Rule) -> Rule {
-    Rule { of_each: true, ..rule }
+pub fn each(mut rule: Rule) -> Rule {
+    rule.within.insert(0, Within::Each);
+    rule
+}
+
+/// A rule of one value of a tuple, by its place.
+#[must_use]
+pub fn entry(index: usize, mut rule: Rule) -> Rule {
+    rule.within.insert(0, Within::Entry(index));
+    rule
 }
 
 /// A list with at least one value; `words` completes "must be …", as "at least one slope".

@@ -5,6 +5,7 @@ use super::parameters::SettlingParameters;
 use super::probe::{Drag, Probe, SettlingObservation};
 use crate::case::{Progress, Run};
 use crate::cases::channel::Lattice;
+use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -13,7 +14,6 @@ use bagnold_solver::incompressible::{
     Sediment, SedimentPressure, SolidFraction, Stratification, Turbulence,
 };
 use bagnold_solver::material::drag::DragLaw;
-use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::Vector;
 use serde::Serialize;
 
@@ -93,12 +93,18 @@ fn relaxation_time(grains: SettlingGrains, law: DragLaw, solid_fraction: f64) ->
 }
 
 impl Run for SuspensionRun {
+    type Observation = SettlingObservation;
+
     fn variant(&self) -> String {
         format!("formulation=continuum,law={},solid_fraction={}", self.law.name(), self.solid_fraction)
     }
 
     fn particle_steps(&self) -> f64 {
         self.duration / self.numerics.time_step * (2 * self.columns * self.rows) as f64
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, InputError> {
+        Ok(Probe::run(self.scene(), Drag::OfMean, self.duration, progress)?)
     }
 }
 
@@ -176,9 +182,5 @@ impl SuspensionRun {
             domain: Domain { axes: [0, 1].map(|axis| AxisBoundary::Periodic { lower: 0.0, upper: size[axis] }) },
             numerics: self.numerics,
         }
-    }
-
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, SceneError> {
-        Probe::run(self.scene(), Drag::OfMean, self.duration, progress)
     }
 }
