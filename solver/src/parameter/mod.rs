@@ -32,6 +32,8 @@ mod tests;
 
 pub use check::{Fault, first_fault};
 pub use problem::ParameterProblem;
-pub use rules::{Rule, above, at_least, between, each, entry, filled, inside, not_negative, positive, unique, up_to};
+pub use rules::{
+    Rule, above, at_least, between, each, entry, filled, inside, not_negative, positive, unique, up_to, within,
+};
 pub use schema::{description, range_problem, schema_of};
 pub use shape::{Shape, Variant};

@@ -21,6 +21,8 @@ enum Within {
     Each,
     /// One value of a tuple.
     Entry(usize),
+    /// One field of a table.
+    Field(&'static str),
 }
 
 impl Rule {
@@ -50,8 +52,13 @@ impl Transform for Rule {
 impl Rule {
     fn add(&self, place: &mut Map<String, Value>, within: &[Within]) {
         if let Some((first, rest)) = within.split_first() {
-            if let (Within::Each, Some(Value::Object(items))) = (first, place.get_mut("items")) {
-                return self.add(items, rest);
+            let inner = match first {
+                Within::Each => place.get_mut("items"),
+                Within::Field(name) => place.get_mut("properties").and_then(|properties| properties.get_mut(name)),
+                Within::Entry(_) => None,
+            };
+            if let Some(Value::Object(inner)) = inner {
+                return self.add(inner, rest);
             }
             let entries = place.get_mut("prefixItems").and_then(Value::as_array_mut).into_iter().flatten().enumerate();
             for (index, entry) in entries.filter_map(|(index, entry)| Some((index, entry.as_object_mut()?))) {
@@ -119,6 +126,13 @@ pub fn inside(lower: f64, upper: f64, remedy: &str) -> Rule {
 #[must_use]
 pub fn each(mut rule: Rule) -> Rule {
     rule.within.insert(0, Within::Each);
+    rule
+}
+
+/// A rule of one field of a table, where the holder knows more than the table's own type.
+#[must_use]
+pub fn within(field: &'static str, mut rule: Rule) -> Rule {
+    rule.within.insert(0, Within::Field(field));
     rule
 }
 

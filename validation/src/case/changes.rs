@@ -61,12 +61,12 @@ fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> I
             arguments.clone().find(|(path, _)| path.strip_prefix(field).is_some_and(|rest| rest.starts_with('.')))
         && !find(defaults, field).is_some_and(Value::is_table)
     {
-        return unknown_path(case, &known, path, value);
+        return unknown_path(case, &[&known], path, value);
     }
     let exact = arguments.clone().find(|(path, _)| *path == fault.path());
     match (fault, exact) {
         (Fault::Unknown { known: beside, .. }, Some((path, value))) => {
-            unknown_path(case, &[beside, known].concat(), path, value)
+            unknown_path(case, &[&beside, &known], path, value)
         }
         (Fault::Kind { rule, choice, .. }, Some((path, value))) => InputError::SetValue {
             path: path.to_owned(),
@@ -85,11 +85,12 @@ fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> I
     }
 }
 
-fn unknown_path(case: &str, known: &[String], path: &str, value: &str) -> InputError {
+/// A path that does not exist; `known` are those that do, the ones beside it first.
+fn unknown_path(case: &str, known: &[&[String]], path: &str, value: &str) -> InputError {
     InputError::SetPath {
         path: path.to_owned(),
         value: value.to_owned(),
-        nearest: nearest(path, known.iter().map(String::as_str).filter(|other| *other != path)),
+        nearest: fault::nearest_path(path, known),
         case: case.to_owned(),
     }
 }
@@ -161,7 +162,7 @@ fn add_setting(case: &str, defaults: &Table, settings: &mut Table, argument: &st
         let inner = parent.entry(key).or_insert_with(|| Value::Table(Table::new()));
         parent = match inner {
             Value::Table(inner) => inner,
-            _ => return Err(unknown_path(case, &paths(defaults), path, text)),
+            _ => return Err(unknown_path(case, &[&paths(defaults)], path, text)),
         };
     }
     match (parent.get_mut(last), value_of(text)) {

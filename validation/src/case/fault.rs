@@ -15,7 +15,7 @@ pub(super) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> Input
     match fault {
         Fault::Unknown { path, known: beside } => InputError::UnknownField {
             file: None,
-            nearest: nearest(&path, beside.iter().chain(known).map(String::as_str).filter(|other| *other != path)),
+            nearest: nearest_path(&path, &[&beside, known]),
             field: path,
             case: case.to_owned(),
         },
@@ -33,4 +33,9 @@ pub(super) fn remedy(choice: Option<&(String, Vec<String>)>, case: &str) -> Stri
     choice
         .and_then(|(name, known)| nearest(name, known.iter().map(String::as_str)))
         .map_or_else(|| format!("`bagnold show {case}` prints a valid value"), |name| format!("did you mean `{name}`?"))
+}
+
+/// The path that is most like one that does not exist, from the first list that has any.
+pub(super) fn nearest_path(path: &str, known: &[&[String]]) -> Option<String> {
+    known.iter().find_map(|paths| nearest(path, paths.iter().map(String::as_str).filter(|other| *other != path)))
 }

@@ -1,4 +1,5 @@
 use super::*;
+use bagnold_solver::parameter::not_negative;
 use serde::Deserialize;
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -8,6 +9,7 @@ struct Layer {
     angles: Vec<f64>,
     grains: Grains,
     law: Law,
+    material: Material,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -31,6 +33,19 @@ enum Law {
     Bingham { viscosity: f64, yield_stress: f64 },
 }
 
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "law", rename_all = "kebab-case")]
+enum Material {
+    Newtonian {
+        #[schemars(transform = not_negative("give it in Pa·s"))]
+        viscosity: f64,
+    },
+    MuI {
+        static_friction: f64,
+        limiting_friction: f64,
+    },
+}
+
 fn layer() -> Layer {
     Layer {
         depth: 0.01,
@@ -38,6 +53,7 @@ fn layer() -> Layer {
         angles: vec![22.0, 24.0],
         grains: Grains { diameter: 1e-3, spread: None, packing: Packing::Lattice },
         law: Law::Newtonian { viscosity: 1.0 },
+        material: Material::MuI { static_friction: 0.4, limiting_friction: 0.6 },
     }
 }
 
@@ -65,6 +81,7 @@ fn a_file_and_settings_change_only_what_they_name() {
         angles: vec![20.0],
         grains: Grains { diameter: 2e-3, spread: Some(0.1), packing: Packing::Jittered },
         law: Law::Bingham { viscosity: 1.0, yield_stress: 3.0 },
+        ..layer()
     };
     assert_eq!(changed, expected);
 }
@@ -141,4 +158,38 @@ fn a_setting_takes_the_blame_for_its_field_only() {
     assert!(is_set(&settings, "angles[0]"));
     assert!(!is_set(&settings, "grains"));
     assert!(!is_set(&settings, "depth"));
+}
+
+#[test]
+fn another_law_takes_nothing_of_the_defaults_in_whatever_order_it_is_given() {
+    let newtonian = Layer { material: Material::Newtonian { viscosity: 2.0 }, ..layer() };
+    for settings in
+        [["material.law=newtonian", "material.viscosity=2"], ["material.viscosity=2", "material.law=newtonian"]]
+    {
+        assert_eq!(resolved("", &settings).as_ref(), Ok(&newtonian));
+    }
+    assert_eq!(resolved("[material]\nlaw = \"newtonian\"", &["material.viscosity=2"]), Ok(newtonian));
+    let steeper = Layer { material: Material::MuI { static_friction: 0.5, limiting_friction: 0.6 }, ..layer() };
+    assert_eq!(resolved("material.static_friction = 0.5", &[]).as_ref(), Ok(&steeper));
+    assert_eq!(resolved("", &["material.law=mu-i", "material.static_friction=0.5"]), Ok(steeper));
+}
+
+#[test]
+fn laws_that_do_not_exist_or_lack_a_parameter_are_refused() {
+    assert_eq!(
+        message("", &["material.law=newtonain"]),
+        "`--set material.law=newtonain`: `material.law` is newtonain, but must be one of `newtonian`, `mu-i`; did you mean `newtonian`?"
+    );
+    assert_eq!(
+        message("material.law = \"newtonian\"", &[]),
+        "layer.toml: `material.viscosity` is missing; `bagnold show layer` prints it with a valid value"
+    );
+    assert_eq!(
+        message("", &["material.law=newtonian", "material.viscosity=1", "material.static_friction=0.4"]),
+        "`--set material.static_friction=0.4`: unknown field `material.static_friction`; did you mean `material.viscosity`? `bagnold show layer` prints all fields"
+    );
+    assert_eq!(
+        message("", &["material.law=newtonian", "material.viscosity=-1"]),
+        "`material.viscosity` is -1, but must be finite and not negative; give it in Pa·s"
+    );
 }

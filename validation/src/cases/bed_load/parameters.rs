@@ -34,10 +34,10 @@ pub struct Materials {
 /// The yield of a bed of single grains.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Yield {
-    /// τ_y `[Pa]`.
+    /// Yield stress τ_y `[Pa]`, in the norm √(½ s:s).
     #[schemars(transform = between(0.0, 1e6, "give it in Pa, or 0 for none"))]
     pub yield_stress: f64,
-    /// μ `[Pa·s]`.
+    /// Plastic viscosity μ `[Pa·s]`.
     #[schemars(transform = between(0.0, 1e4, "give it in Pa·s, or 0 for none"))]
     pub viscosity: f64,
 }
@@ -45,12 +45,12 @@ pub struct Yield {
 /// One particle a grain, over a bed whose pores hold water: `paper` as printed, `stabilised` by the recipe.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Grains {
-    /// Slopes, one run each `[-]`; empty for none.
+    /// Slopes, tangents, one run each `[-]`; 0.03 is 3 %, empty for none.
     #[schemars(transform = each(rules::driving_slope()))]
     pub slopes: Vec<f64>,
     /// Yield stress and viscosity.
     pub material: Yield,
-    /// Friction on the overburden below the top row of grains `[-]`.
+    /// Friction on the weight of the grains below the top row `[-]`.
     #[schemars(transform = between(0.0, 2.0, "0.6 for sand and gravel"))]
     pub overburden_friction: f64,
     /// Depth of the bed `[m]`.
@@ -142,7 +142,7 @@ pub struct Continuum {
     /// Depth of the bed `[m]`.
     #[schemars(transform = positive("give it in metres, such as 0.016"))]
     pub bed_depth: f64,
-    /// Lowest part of the bed whose grains are held `[m]`.
+    /// Depth of the lowest part of the bed, whose grains are held `[m]`.
     pub held_depth: f64,
     /// Length of the period `[m]`.
     pub length: f64,
@@ -161,10 +161,10 @@ pub struct Continuum {
 /// The grid of yield stresses and viscosities that the fits interpolate in; empty for none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Fit {
-    /// τ_y `[Pa]`, rising.
+    /// Yield stresses τ_y of the grid `[Pa]`, rising; empty for none.
     #[schemars(transform = each(positive("give it in Pa")))]
     pub yield_stresses: Vec<f64>,
-    /// μ `[Pa·s]`, rising.
+    /// Plastic viscosities μ of the grid `[Pa·s]`, rising; empty for none.
     #[schemars(transform = each(positive("give it in Pa·s")))]
     pub viscosities: Vec<f64>,
     /// Slopes, three or more `[-]`; each is held out once.

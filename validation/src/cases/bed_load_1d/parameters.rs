@@ -30,7 +30,7 @@ pub struct Grain {
     /// Depth of the bed `[m]`.
     #[schemars(transform = positive("give it in metres, such as 0.04"))]
     pub bed_depth: f64,
-    /// Depth of the lowest part of the bed, whose grains are held `[m]`.
+    /// Depth of the lowest part of the bed, whose grains are held while water seeps through `[m]`.
     pub held_depth: f64,
     /// Density ρ_s `[kg/m³]`.
     #[schemars(transform = positive("give it in kg/m³, such as 2600"))]
@@ -53,13 +53,13 @@ pub struct BedLoad1dParameters {
     /// Height of a cell `[m]`.
     #[schemars(transform = positive("give it in metres, such as 2.5e-4"))]
     pub cell_height: f64,
-    /// Speed of the second start `[m/s]`; 0 for none.
+    /// Speed of the water and the upper grains in a second start `[m/s]`; 0 for none.
     #[schemars(transform = between(0.0, 100.0, "give it in m/s, or 0 for no second start"))]
     pub fast_start: f64,
-    /// Heights of cells for the order with dilation `[m]`, each half the one before; empty for none.
+    /// Heights of cells for the order with dilation `[m]`, three or more, each half the one before; empty for none.
     #[schemars(transform = each(positive("give it in metres, such as 2.5e-4")))]
     pub dilating_cell_heights: Vec<f64>,
-    /// The same with a given solid fraction.
+    /// The same with a given solid fraction `[m]`.
     #[schemars(transform = each(positive("give it in metres, such as 2.5e-4")))]
     pub frozen_cell_heights: Vec<f64>,
     /// The water.

@@ -46,7 +46,7 @@ pub struct ClearWaterParameters {
     /// Depth h `[m]`.
     #[schemars(transform = positive("give it in metres, such as 0.046"))]
     pub depth: f64,
-    /// Slopes i of the bed, one run each `[-]`.
+    /// Slopes i of the bed, tangents, one run each `[-]`; 0.03 is 3 %.
     #[schemars(transform = each(rules::driving_slope()))]
     #[schemars(transform = unique("name every slope once"))]
     #[schemars(transform = filled("at least one slope", "3 % is 0.03"))]
@@ -60,7 +60,7 @@ pub struct ClearWaterParameters {
     /// Kinematic viscosity `[m²/s]`.
     #[schemars(transform = positive("give it in m²/s; water has 1e-6"))]
     pub kinematic_viscosity: f64,
-    /// Equivalent sand roughness k_s of the bed `[m]`.
+    /// Equivalent sand roughness k_s of the bed `[m]`, about the grain diameter.
     #[schemars(transform = positive("give it in metres; about the grain diameter"))]
     pub sand_roughness: f64,
     /// Depth z_off of the wall law's origin below the bed `[m]`.

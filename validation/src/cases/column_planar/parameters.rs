@@ -34,7 +34,6 @@ pub struct Columns {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Variants {
     /// What that number is instead; empty for none.
-    #[schemars(transform = each(positive("I_0 is 0.279 in other tables of the paper; a diameter is in metres, such as 0.001")))]
     pub values: Vec<f64>,
     /// Aspect ratios of their columns `[-]`.
     #[schemars(transform = each(between(0.1, 100.0, "the published laws reach from 0.3 to 20")))]
@@ -47,10 +46,10 @@ pub struct Sensitivity {
     /// Aspect ratios `[-]`; empty for none.
     #[schemars(transform = each(between(0.1, 100.0, "the published laws reach from 0.3 to 20")))]
     pub aspect_ratios: Vec<f64>,
-    /// Particles over the half width.
+    /// Particles over the half width, for the grid convergence.
     #[schemars(transform = each(rules::rows()))]
     pub resolutions: Vec<usize>,
-    /// Seeds of each resolution; the first is the case's own.
+    /// Seeds of each resolution, three at the finest of several; the first is the case's own.
     pub seeds: Vec<u64>,
     /// Hourglass coefficients at which the first aspect ratio is repeated `[-]`; empty for none.
     #[schemars(transform = each(between(0.0, 2.0, "the recipe has 0.2")))]
@@ -63,7 +62,7 @@ pub struct Sensitivity {
 /// The regularised law with an implicit viscous step, beside the return mapping.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Regularised {
-    /// Aspect ratios of columns of the sand that are repeated with it `[-]`; empty for none.
+    /// Aspect ratios of columns of the sand that are repeated with it, implicitly, beside those of `sand` `[-]`; empty for none.
     #[schemars(transform = each(between(0.1, 100.0, "the published laws reach from 0.3 to 20")))]
     pub aspect_ratios: Vec<f64>,
     /// Rate α_r of (35) `[1/s]`.
@@ -91,15 +90,17 @@ pub struct ColumnPlanarParameters {
     /// Longest simulated time over √(h_0/g) `[-]`; a deposit at rest ends a run before.
     #[schemars(transform = between(0.1, 1000.0, "a column has come to rest after about 5"))]
     pub duration: f64,
-    /// The paper's sand.
+    /// The paper's sand; I_0 is 2.65 as printed, 0.279 in other tables of the paper.
     pub sand: Columns,
     /// The paper's glass beads, for figures 7–9.
     pub glass: Columns,
-    /// Grains of Lagrée, Staron & Popinet (2011).
+    /// Grains of Lagrée, Staron & Popinet (2011); the source does not say their diameter, here it is 0.02 r_0.
     pub lagree: Columns,
     /// Sand with other values of I_0 `[-]`.
+    #[schemars(transform = within("values", each(positive("0.279 in other tables of the paper"))))]
     pub sand_inertias: Variants,
     /// Grains of Lagrée et al. with other diameters `[m]`.
+    #[schemars(transform = within("values", each(positive("give it in metres, such as 0.001"))))]
     pub lagree_diameters: Variants,
     /// Grid convergence and hourglass control.
     pub sensitivity: Sensitivity,

@@ -32,7 +32,7 @@ pub struct FlowThicknessParameters {
     /// Thicknesses of the layers whose slope of arrest is sought `[m]`; empty for none.
     #[schemars(transform = each(positive("give it in metres, such as 0.01")))]
     pub stopping_thicknesses: Vec<f64>,
-    /// Slopes between which it is sought `[°]`.
+    /// Slopes between which it is sought `[°]`: layers stop at the first and flow at the second.
     #[schemars(transform = each(rules::slope_angle()))]
     pub stopping_bracket: (f64, f64),
     /// Width of the bracket that ends the search `[°]`.

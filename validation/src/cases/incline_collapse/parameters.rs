@@ -25,19 +25,19 @@ pub struct InclineCollapseParameters {
     pub reservoir_length: f64,
     /// Length of the channel from the back of the reservoir `[m]`.
     pub channel_length: f64,
-    /// Width of the channel `[m]`; 0 for no side walls.
+    /// Width W of the channel `[m]`, whose side walls add the friction 0.18 h_0/W; 0 for none.
     #[schemars(transform = not_negative("give it in metres, such as 0.1, or 0 for no side walls"))]
     pub channel_width: f64,
     /// Slopes `[°]`.
     #[schemars(transform = each(rules::slope_angle()))]
     pub slope_angles: Vec<f64>,
-    /// Speed of the gate `[m/s]`; 0 for no gate.
+    /// Speed of the gate, pulled up normal to the slope `[m/s]`; 1.3 in the paper, 2.3 in Ionescu et al. (2015), 0 for no gate.
     #[schemars(transform = between(0.0, 100.0, "the paper pulls it at 1.3 m/s; 0 is no gate"))]
     pub gate_speed: f64,
     /// Slope at which other gates are tried `[°]`.
     #[schemars(transform = rules::slope_angle())]
     pub gate_slope_angle: f64,
-    /// Speeds of the other gates `[m/s]`; 0 for no gate.
+    /// Speeds of the other gates `[m/s]`, 0 for no gate; empty for none.
     #[schemars(transform = each(between(0.0, 100.0, "the experiment pulls it at 2.3 m/s; 0 is no gate")))]
     pub other_gate_speeds: Vec<f64>,
     /// Slopes at which the collapse is repeated with the regularised viscosity (35), implicitly `[°]`.

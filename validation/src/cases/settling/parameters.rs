@@ -30,7 +30,7 @@ pub struct Grain {
     /// Diameter d `[m]`.
     #[schemars(transform = positive("give it in metres; 0.005 for 5 mm"))]
     pub diameter: f64,
-    /// Drag laws.
+    /// Drag laws; Ergun's has no grain alone; empty for none.
     pub laws: Vec<DragLaw>,
     /// Formulations.
     pub formulations: Vec<Formulation>,
@@ -44,7 +44,7 @@ pub struct Grain {
     /// Simulated time over the time u_t ρ_s/(2 (ρ_s − ρ_f) g) in which a grain gets to its terminal velocity `[-]`.
     #[schemars(transform = between(10.0, 1e4, "40 leaves a window of 24 to average over"))]
     pub relaxation_times: f64,
-    /// Largest random displacement of a fluid particle in spacings `[-]`.
+    /// Largest random displacement of a fluid particle in spacings `[-]`; the paper's density source wants a lattice.
     #[schemars(transform = between(0.0, 0.5, "0.001 breaks the symmetry of the lattice"))]
     pub jitter: f64,
 }
@@ -55,7 +55,7 @@ pub struct SuspendedGrains {
     /// Diameter d `[m]`.
     #[schemars(transform = positive("give it in metres; 0.001 for 1 mm"))]
     pub diameter: f64,
-    /// Drag laws.
+    /// Drag laws; Ergun's at φ ≥ 0.2 only; empty for none.
     pub laws: Vec<DragLaw>,
     /// Solid fractions φ `[-]`.
     #[schemars(transform = each(between(0.01, 0.64, "grains fill up to 0.64 of the space")))]
@@ -95,7 +95,7 @@ pub struct SettlingParameters {
     pub grain: Grain,
     /// A suspension.
     pub suspension: SuspendedGrains,
-    /// Numerics.
+    /// Numerics of the formulation "stabilised"; "paper" takes the paper's own, with these steps and tolerances.
     pub numerics: ProjectionNumerics,
 }
 

@@ -18,7 +18,7 @@ pub struct WaterFilmParameters {
     /// Depth h `[m]`.
     #[schemars(transform = positive("give it in metres, such as 0.046"))]
     pub depth: f64,
-    /// Slope i of the bed `[-]`.
+    /// Slope i of the bed, a tangent `[-]`; 0.03 is 3 %.
     #[schemars(transform = rules::driving_slope())]
     pub slope: f64,
     /// Gravity `[m/s²]`.
@@ -27,7 +27,7 @@ pub struct WaterFilmParameters {
     /// Density `[kg/m³]`.
     #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub density: f64,
-    /// Velocity at the surface, which sets the viscosity `[m/s]`.
+    /// Velocity u at the surface, which sets the viscosity g i h²/(2 u) `[m/s]`.
     #[schemars(transform = positive("give it in m/s, such as 0.5"))]
     pub surface_velocity: f64,
     /// Arrangements to run at `resolution`.

@@ -56,7 +56,7 @@ pub struct Closures {
     /// Dilation B in φ = φ_max/(1 + B I) `[-]`; 0 for none.
     #[schemars(transform = between(0.0, 100.0, "grains loosen in shear: give B, such as 0.31, or 0 for grains that do not"))]
     pub dilation: f64,
-    /// Drag law.
+    /// Drag law; Gidaspow's jumps at φ = 0.2 and gives no steady state.
     pub drag: DragLaw,
     /// Mixing length.
     pub mixing_length: MixingLength,
