@@ -1,7 +1,7 @@
 //! From defaults, a TOML file and `--set` to typed parameters, with errors that name the field.
 
 use super::fault;
-use crate::error::{InputError, nearest};
+use crate::error::InputError;
 use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
 use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};

@@ -6,7 +6,7 @@ use crate::cases::rules;
 use crate::error::InputError;
 use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, TABLE_2_SAND};
 use bagnold_solver::material::rheology::{MuI, Rheology};
-use bagnold_solver::parameter::{between, each, positive};
+use bagnold_solver::parameter::{between, each, positive, within};
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -90,14 +90,14 @@ pub struct ColumnPlanarParameters {
     /// Longest simulated time over √(h_0/g) `[-]`; a deposit at rest ends a run before.
     #[schemars(transform = between(0.1, 1000.0, "a column has come to rest after about 5"))]
     pub duration: f64,
-    /// The paper's sand; I_0 is 2.65 as printed, 0.279 in other tables of the paper.
+    /// The paper's sand; I_0 is 2.65 as printed, 0.279 follows from (41) for the glass beads.
     pub sand: Columns,
     /// The paper's glass beads, for figures 7–9.
     pub glass: Columns,
     /// Grains of Lagrée, Staron & Popinet (2011); the source does not say their diameter, here it is 0.02 r_0.
     pub lagree: Columns,
     /// Sand with other values of I_0 `[-]`.
-    #[schemars(transform = within("values", each(positive("0.279 in other tables of the paper"))))]
+    #[schemars(transform = within("values", each(positive("0.279 follows from (41) for the glass beads"))))]
     pub sand_inertias: Variants,
     /// Grains of Lagrée et al. with other diameters `[m]`.
     #[schemars(transform = within("values", each(positive("give it in metres, such as 0.001"))))]
