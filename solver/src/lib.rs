@@ -7,6 +7,7 @@
 pub mod domain;
 pub mod kernel;
 pub mod lanes;
+pub mod parameter;
 pub mod vector;
 
 mod linear;

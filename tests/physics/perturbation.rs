@@ -1,9 +1,9 @@
 //! The deterministic path of a collapse is not a matter of chance: a displacement of 1e-10 spacings changes nothing
 //! that is measured.
 
-use bagnold_validation::case::{Case, Progress, Tier};
+use bagnold_validation::case::{Parameters, Progress, Run, Tier};
 use bagnold_validation::cases::collapse::Collapse;
-use bagnold_validation::cases::column_planar::ColumnPlanar;
+use bagnold_validation::cases::column_planar::ColumnPlanarParameters;
 
 /// Relative change that the drift snapshots allow `[-]`.
 const TOLERANCE: f64 = 1e-3;
@@ -20,15 +20,15 @@ impl Progress for Unseen {
 
 /// The column a = 1 of Lagrée's grains from a lattice with displacements of this many spacings.
 fn collapse(jitter: f64) -> Collapse {
-    let mut parameters = ColumnPlanar.parameters(Tier::Quick);
+    let mut parameters = ColumnPlanarParameters::of_tier(Tier::Quick);
     parameters.jitter = jitter;
     parameters.sand.aspect_ratios.clear();
     parameters.lagree.aspect_ratios = vec![1.0];
     parameters.regularised.aspect_ratios.clear();
     parameters.sensitivity.aspect_ratios.clear();
-    let runs = ColumnPlanar.runs(&parameters);
+    let runs = parameters.runs();
     assert_eq!(runs.len(), 1);
-    ColumnPlanar.simulate(&runs[0], &Unseen).expect("a valid scene").data
+    runs[0].simulate(&Unseen).expect("a valid scene").data
 }
 
 #[test]

@@ -27,7 +27,7 @@ struct Entry {
 
 /// A number as it is written, and its line.
 fn literals(source: &Source) -> Vec<(String, usize)> {
-    let code = without_numerics_defaults(source);
+    let code = without_ranges(without_numerics_defaults(source));
     let bytes = code.as_bytes();
     let mut found = Vec::new();
     let mut at = 0;
@@ -73,6 +73,17 @@ fn value(text: &str) -> Option<f64> {
     let types = ["f64", "f32", "usize", "isize", "u64", "u32", "u16", "u8", "i64", "i32", "i16", "i8"];
     let bare = types.iter().find_map(|kind| plain.strip_suffix(kind)).unwrap_or(&plain);
     bare.parse().ok()
+}
+
+/// The code with the declared ranges of parameters blanked: `#[schemars(…)]`.
+fn without_ranges(mut code: String) -> String {
+    let starts: Vec<usize> = code.match_indices("#[schemars(").map(|hit| hit.0).collect();
+    for start in starts {
+        let end = code[start..].find("))]").map_or(code.len(), |length| start + length);
+        let blank: String = code[start..end].chars().map(|c| if c == '\n' { '\n' } else { ' ' }).collect();
+        code.replace_range(start..end, &blank);
+    }
+    code
 }
 
 /// The code with the tables of default numerics blanked: `impl Default for …` and the constructors of `numerics.rs`.

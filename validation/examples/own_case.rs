@@ -3,12 +3,14 @@
 
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
+use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::{domain::Domain, vector::Vector};
-use bagnold_validation::case::{Case, Progress, Registry, Run, Tier};
+use bagnold_validation::case::{Case, Parameters, Progress, Registry, Run, Tier};
 use bagnold_validation::metric::{Confidence, Limit, Metric};
 use bagnold_validation::{cases::recording::record, error::InputError, observe::Recorded};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -19,47 +21,39 @@ fn main() -> std::process::ExitCode {
 
 /// U = 1 m/s in a box of 1 m, 1000 kg/m³, over 0.2 s.
 struct ShearWave;
-/// Its parameters, which are its one run as well: particles over the box, kinematic viscosity ν `[m²/s]`.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// Its parameters, which are its one run as well.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 struct Wave {
+    /// Rows of particles over the box.
+    #[schemars(transform = between(10.0, 1000.0, "20 is quick"))]
     rows: usize,
+    /// Kinematic viscosity ν `[m²/s]`.
+    #[schemars(transform = positive("give it in m²/s, such as 0.05"))]
     viscosity: f64,
 }
 
-impl Run for Wave {
-    fn variant(&self) -> String {
-        format!("rows={}", self.rows)
+impl Parameters for Wave {
+    type Run = Self;
+    fn of_tier(tier: Tier) -> Self {
+        Self { rows: if tier == Tier::Quick { 20 } else { 40 }, viscosity: 0.05 }
+    }
+    fn runs(&self) -> Vec<Self> {
+        vec![self.clone()]
     }
 }
 
-impl Case for ShearWave {
-    type Parameters = Wave;
-    type Run = Wave;
+impl Run for Wave {
     type Observation = f64;
-    fn name(&self) -> &'static str {
-        "shear-wave"
+    fn variant(&self) -> String {
+        format!("rows={}", self.rows)
     }
-    fn summary(&self) -> &'static str {
-        "a shear wave that decays"
-    }
-    fn parameters(&self, tier: Tier) -> Wave {
-        Wave { rows: if tier == Tier::Quick { 20 } else { 40 }, viscosity: 0.05 }
-    }
-    fn check(&self, wave: &Wave) -> Result<(), InputError> {
-        let refusal = InputError::field("rows", wave.rows, "10 to 1000", "20 is quick");
-        (10..=1000).contains(&wave.rows).then_some(()).ok_or(refusal)
-    }
-    fn runs(&self, wave: &Wave) -> Vec<Wave> {
-        vec![wave.clone()]
-    }
-    fn simulate(&self, wave: &Wave, progress: &dyn Progress) -> Result<Recorded<f64>, InputError> {
-        let (n, spacing) = (wave.rows, 1.0 / wave.rows as f64);
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<f64>, InputError> {
+        let (n, spacing) = (self.rows, 1.0 / self.rows as f64);
         let place = |k: usize| Vector::<2>::new((k % n) as f64 + 0.5, (k / n) as f64 + 0.5) * spacing;
         let mut flow = Flow::at_rest((0..n * n).map(place).collect(), 1000.0, spacing);
         flow.velocity = flow.position.iter().map(|x| Vector::<2>::new((TAU * x[1]).sin(), 0.0)).collect();
         let liquid = EquationOfState { reference_density: 1000.0, bulk_modulus: 1e5, tension: Tension::Kept };
-        let law = Rheology::Newtonian(Newtonian { viscosity: 1000.0 * wave.viscosity });
+        let law = Rheology::Newtonian(Newtonian { viscosity: 1000.0 * self.viscosity });
         let domain = Domain::periodic([0.0; 2], [1.0; 2]);
         let mut simulation = Simulation::new(Scene { domain, ..Scene::unbounded(flow, spacing, liquid, law) })?;
         Ok(record(&mut simulation, 0.2, progress, |end| {
@@ -67,7 +61,13 @@ impl Case for ShearWave {
             waves.sum::<f64>() / (n * n) as f64
         }))
     }
-    fn metrics(&self, wave: &Wave, records: &[(Wave, Recorded<f64>)]) -> Vec<Metric> {
+}
+
+impl Case for ShearWave {
+    const NAME: &'static str = "shear-wave";
+    const SUMMARY: &'static str = "a shear wave that decays";
+    type Parameters = Wave;
+    fn metrics(wave: &Wave, records: &[(Wave, Recorded<f64>)]) -> Vec<Metric> {
         let error = |(run, record): &(Wave, Recorded<f64>)| {
             let left = record.data / (-wave.viscosity * TAU * TAU * record.simulated_time).exp();
             Metric::observed("amplitude_error", &run.variant(), 100.0 * (left - 1.0), "%")

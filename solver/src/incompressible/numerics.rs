@@ -1,14 +1,15 @@
 //! The numerical choices of an incompressible run; the default is the recipe, [`ProjectionNumerics::paper`] the
 //! bed-load paper's own set.
 
-use crate::material::rheology::ParameterProblem;
+use crate::parameter::{ParameterProblem, between, range_problem};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Iterations after which a solve is given up: a bound on the machine's time, which no result depends on.
 pub(crate) const MOST_ITERATIONS: usize = 2000;
 
 /// What the pressure Poisson equation drives to zero.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PressureSource {
     /// Divergence of the predicted velocity, with a weak correction of the density.
@@ -18,7 +19,7 @@ pub enum PressureSource {
 }
 
 /// What holds at the free surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SurfaceTreatment {
     /// Particles at the surface are unknowns; what is missing of their neighbours has P = 0.
@@ -28,7 +29,7 @@ pub enum SurfaceTreatment {
 }
 
 /// How a pair of sediment particles gets its viscosity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PairLaw {
     /// From the pair's own shear rate |u_ab|/r and the smaller load of the two: what lies on a weaker particle slides.
@@ -44,7 +45,7 @@ pub enum PairLaw {
 }
 
 /// Which slip between the phases a pair's drag is taken from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DragSlip {
     /// The velocity difference of the pair, as in (30).
@@ -54,7 +55,7 @@ pub enum DragSlip {
 }
 
 /// Which flux the pore pressure makes free of divergence.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Continuity {
     /// That of the fluid alone, ∇·u_f = 0.
@@ -64,7 +65,7 @@ pub enum Continuity {
 }
 
 /// What becomes of the mixture's mean flux along periods, which no pressure of the particles reaches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MeanFlux {
     /// Nothing: it follows from the forces.
@@ -73,29 +74,40 @@ pub enum MeanFlux {
     Zero,
 }
 
+/// What to do about numerics out of range.
+const DEFAULTS: &str = "see the default numerics with `bagnold show`";
+
 /// Numerical parameters of the projection step.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ProjectionNumerics {
     /// Smoothing length over particle spacing h/l_0 `[-]`, cubic spline.
+    #[schemars(transform = between(1.0, 2.0, DEFAULTS))]
     pub smoothing_ratio: f64,
     /// Largest time step `[s]`.
+    #[schemars(transform = between(1e-9, 1.0, DEFAULTS))]
     pub time_step: f64,
     /// Courant number of the largest speed `[-]`.
+    #[schemars(transform = between(1e-3, 0.5, DEFAULTS))]
     pub courant: f64,
     /// Share s of D G that is added to the compact Laplacian A of (12) `[-]`; 0 is the paper's operator.
+    #[schemars(transform = between(0.0, 10.0, DEFAULTS))]
     pub stabilisation: f64,
     /// Right-hand side of the pressure Poisson equation.
     pub pressure_source: PressureSource,
     /// Share γ of the density error that a step corrects beside the divergence `[-]`.
+    #[schemars(transform = between(0.0, 1.0, DEFAULTS))]
     pub density_correction: f64,
     /// Σ V W of relaxed particles at their reference density over that of the lattice `[-]`.
+    #[schemars(transform = between(0.9, 1.1, DEFAULTS))]
     pub reference_concentration: f64,
     /// β of the surface criterion (31) `[-]`.
+    #[schemars(transform = between(0.5, 0.99, DEFAULTS))]
     pub surface_threshold: f64,
     /// Treatment of the surface.
     pub surface: SurfaceTreatment,
     /// Coefficient of particle shifting in the fluid `[-]`; 0 switches it off.
+    #[schemars(transform = between(0.0, 10.0, DEFAULTS))]
     pub shifting: f64,
     /// Sediment pairs.
     pub pair_law: PairLaw,
@@ -106,32 +118,44 @@ pub struct ProjectionNumerics {
     /// The mixture's mean flux.
     pub mean_flux: MeanFlux,
     /// Mean deficit of neighbours around a particle whose inverse makes it one beside the surface `[-]`.
+    #[schemars(transform = between(1.0, 1e3, DEFAULTS))]
     pub surface_gain: f64,
     /// Most that a particle is shifted in a step, in spacings `[-]`.
+    #[schemars(transform = between(0.0, 1.0, DEFAULTS))]
     pub largest_shift: f64,
     /// Norm of the correction of a velocity gradient beyond which the neighbours of a particle do not tell it `[-]`.
+    #[schemars(transform = between(2.0, 1e6, DEFAULTS))]
     pub largest_correction: f64,
     /// Least height of a particle above a wall that it sticks to, in spacings `[-]`.
+    #[schemars(transform = between(1e-3, 0.5, DEFAULTS))]
     pub least_wall_height: f64,
     /// Largest velocity of a mirrored wall particle over its partner's `[-]`.
+    #[schemars(transform = between(1.0, 1e3, DEFAULTS))]
     pub largest_mirror: f64,
     /// Time over which velocity gradients of the sediment are averaged `[s]`: some ten passages of a grain in the fastest
     /// shear.
+    #[schemars(transform = between(1e-9, 1e3, DEFAULTS))]
     pub rate_averaging_time: f64,
     /// Spacings over which a particle is spread to either side in the mean solid fraction `[-]`: rows of grains that
     /// dilate lie two apart, and their drag is that of the mean fraction, not of a row's.
+    #[schemars(transform = between(0.1, 100.0, DEFAULTS))]
     pub fraction_spread: f64,
     /// Least solid fraction of a sediment particle that is alone `[-]`, and mean fraction below which its drag is that of
     /// a grain alone.
+    #[schemars(transform = between(1e-9, 0.1, DEFAULTS))]
     pub least_fraction: f64,
     /// Σ V W of the fluid around a sediment particle below which its drag is not shared out in full `[-]`: where a
     /// particle leaves the water, the force must fall with the water that there is.
+    #[schemars(transform = between(1e-3, 1.0, DEFAULTS))]
     pub least_fluid: f64,
     /// Skin of the candidate search over the reach of the fluid's kernel `[-]`.
+    #[schemars(transform = between(0.01, 1.0, DEFAULTS))]
     pub search_skin: f64,
     /// Relative residual of the pressure Poisson equation `[-]`.
+    #[schemars(transform = between(1e-12, 0.5, DEFAULTS))]
     pub pressure_tolerance: f64,
     /// Relative residual of the implicit velocities `[-]`.
+    #[schemars(transform = between(1e-14, 0.1, DEFAULTS))]
     pub velocity_tolerance: f64,
 }
 
@@ -185,33 +209,9 @@ impl ProjectionNumerics {
         }
     }
 
-    /// The first field that breaks its rule, as (field, value, rule, remedy).
+    /// The first field outside its range, if any.
     #[must_use]
     pub fn parameter_problem(&self) -> Option<ParameterProblem> {
-        let rules = [
-            ("smoothing_ratio", self.smoothing_ratio, 1.0..=2.0, "between 1 and 2"),
-            ("time_step", self.time_step, 1e-9..=1.0, "between 1e-9 and 1"),
-            ("courant", self.courant, 1e-3..=0.5, "between 0.001 and 0.5"),
-            ("stabilisation", self.stabilisation, 0.0..=10.0, "between 0 and 10"),
-            ("density_correction", self.density_correction, 0.0..=1.0, "between 0 and 1"),
-            ("reference_concentration", self.reference_concentration, 0.9..=1.1, "between 0.9 and 1.1"),
-            ("surface_threshold", self.surface_threshold, 0.5..=0.99, "between 0.5 and 0.99"),
-            ("shifting", self.shifting, 0.0..=10.0, "between 0 and 10"),
-            ("surface_gain", self.surface_gain, 1.0..=1e3, "between 1 and 1000"),
-            ("largest_shift", self.largest_shift, 0.0..=1.0, "between 0 and 1"),
-            ("largest_correction", self.largest_correction, 2.0..=1e6, "between 2 and 1e6"),
-            ("least_wall_height", self.least_wall_height, 1e-3..=0.5, "between 0.001 and 0.5"),
-            ("largest_mirror", self.largest_mirror, 1.0..=1e3, "between 1 and 1000"),
-            ("rate_averaging_time", self.rate_averaging_time, 1e-9..=1e3, "between 1e-9 and 1000"),
-            ("fraction_spread", self.fraction_spread, 0.1..=100.0, "between 0.1 and 100"),
-            ("least_fraction", self.least_fraction, 1e-9..=0.1, "between 1e-9 and 0.1"),
-            ("least_fluid", self.least_fluid, 1e-3..=1.0, "between 0.001 and 1"),
-            ("search_skin", self.search_skin, 0.01..=1.0, "between 0.01 and 1"),
-            ("pressure_tolerance", self.pressure_tolerance, 1e-12..=0.5, "between 1e-12 and 0.5"),
-            ("velocity_tolerance", self.velocity_tolerance, 1e-14..=0.1, "between 1e-14 and 0.1"),
-        ];
-        let broken = rules.into_iter().find(|(_, value, range, _)| !range.contains(value))?;
-        let (field, value, _, rule) = broken;
-        Some((field, value, rule, "see the default numerics with `bagnold show`"))
+        range_problem(self)
     }
 }

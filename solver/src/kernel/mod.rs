@@ -6,10 +6,11 @@ mod cubic_spline;
 mod wendland;
 
 use crate::lanes::{Lanes, Real};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Which kernel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum KernelShape {
     /// Cubic B-spline, the papers' kernel.

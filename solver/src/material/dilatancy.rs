@@ -8,6 +8,8 @@
 //! open a bed and keeps a single fast particle from exploding, and packed grains are elastic, p′ + K (φ − φ_max), if that
 //! is more. At rest they so carry the load at φ_max, and none once they are looser by p′/K.
 
+use crate::parameter::{ParameterProblem, between, range_problem};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How grains dilate.
@@ -26,17 +28,21 @@ pub struct Dilatancy {
 }
 
 /// What keeps the pressure of grains that carry a load within reason.
-#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct PressureBounds {
     /// Stiffness K = dp/dφ of packed grains `[Pa]`, ≥ 0: under a load p′ a bed at rest is looser than φ_max by at most
     /// p′/K, some thousandths.
+    #[schemars(transform = between(0.0, 1e9, "1e4 Pa for a bed of some centimetres"))]
     pub stiffness: f64,
     /// Least φ_max − φ `[-]` that the pressure is divided by, > 0.
+    #[schemars(transform = between(1e-6, 0.5, "0.02 is three per cent of φ_max"))]
     pub least_room: f64,
     /// Largest pressure of sheared grains over the load, a `[-]`, ≥ 1.
+    #[schemars(transform = between(1.0, 1e6, "2 opens a bed"))]
     pub largest_load_ratio: f64,
     /// Pressure b `[Pa]` that sheared grains may have beyond that, ≥ 0: what separates grains without a load.
+    #[schemars(transform = between(0.0, 1e9, "20 Pa parts grains without a load"))]
     pub largest_excess: f64,
 }
 
@@ -49,21 +55,8 @@ impl Default for PressureBounds {
 impl PressureBounds {
     /// The first parameter outside its range, if any.
     #[must_use]
-    pub fn parameter_problem(&self) -> Option<crate::material::rheology::ParameterProblem> {
-        let rules = [
-            ("stiffness", self.stiffness, 0.0..=1e9, "between 0 and 1e9", "1e4 Pa for a bed of some centimetres"),
-            ("least_room", self.least_room, 1e-6..=0.5, "between 1e-6 and 0.5", "0.02 is three per cent of φ_max"),
-            ("largest_load_ratio", self.largest_load_ratio, 1.0..=1e6, "between 1 and 1e6", "2 opens a bed"),
-            (
-                "largest_excess",
-                self.largest_excess,
-                0.0..=1e9,
-                "between 0 and 1e9",
-                "20 Pa parts grains without a load",
-            ),
-        ];
-        let (field, value, _, rule, remedy) = rules.into_iter().find(|(_, value, range, ..)| !range.contains(value))?;
-        Some((field, value, rule, remedy))
+    pub fn parameter_problem(&self) -> Option<ParameterProblem> {
+        range_problem(self)
     }
 }
 
@@ -140,10 +133,10 @@ mod tests {
     fn bounds_that_bound_nothing_are_refused() {
         let bounds = PressureBounds::default();
         assert!(bounds.parameter_problem().is_none());
-        let field = |bounds: PressureBounds| bounds.parameter_problem().map(|problem| problem.0);
-        assert_eq!(field(PressureBounds { least_room: 0.0, ..bounds }), Some("least_room"));
-        assert_eq!(field(PressureBounds { stiffness: f64::NAN, ..bounds }), Some("stiffness"));
-        assert_eq!(field(PressureBounds { largest_load_ratio: 0.5, ..bounds }), Some("largest_load_ratio"));
-        assert_eq!(field(PressureBounds { largest_excess: -1.0, ..bounds }), Some("largest_excess"));
+        let field = |bounds: PressureBounds| bounds.parameter_problem().map(|problem| problem.field);
+        assert_eq!(field(PressureBounds { least_room: 0.0, ..bounds }), Some("least_room".to_owned()));
+        assert_eq!(field(PressureBounds { stiffness: f64::NAN, ..bounds }), Some("stiffness".to_owned()));
+        assert_eq!(field(PressureBounds { largest_load_ratio: 0.5, ..bounds }), Some("largest_load_ratio".to_owned()));
+        assert_eq!(field(PressureBounds { largest_excess: -1.0, ..bounds }), Some("largest_excess".to_owned()));
     }
 }

@@ -4,15 +4,19 @@
 //! 188301, as two-phase Eulerian codes take it: Einstein's 1 + 5/2 φ for few grains, and a pole at φ_m that φ_b keeps
 //! away from. Only the law's own grains count; friction between them is a rheology.
 
+use crate::parameter::{ParameterProblem, between, range_problem};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Relative viscosity of a suspension.
-#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct SuspensionViscosity {
     /// Intrinsic viscosity a `[-]`, ≥ 0: 5/2 of spheres (Einstein 1906); 0 for a fluid that does not feel the grains.
+    #[schemars(transform = between(0.0, 100.0, "2.5 for spheres"))]
     pub intrinsic: f64,
     /// Solid fraction φ_m `[-]` of the pole, above φ_b.
+    #[schemars(transform = between(0.1, 1.0, "0.62 for grains"))]
     pub largest_fraction: f64,
     /// Solid fraction φ_b `[-]` from which on the denominator no longer falls.
     pub bounded_from: f64,
@@ -34,19 +38,16 @@ impl SuspensionViscosity {
 
     /// The first parameter outside its range, if any.
     #[must_use]
-    pub fn parameter_problem(&self) -> Option<crate::material::rheology::ParameterProblem> {
-        let Self { intrinsic, largest_fraction, bounded_from } = *self;
-        let within = |low: f64, value: f64, high: f64| value >= low && value <= high;
-        if !within(0.0, intrinsic, 100.0) {
-            return Some(("intrinsic", intrinsic, "between 0 and 100", "2.5 for spheres"));
-        }
-        if !within(0.1, largest_fraction, 1.0) {
-            return Some(("largest_fraction", largest_fraction, "between 0.1 and 1", "0.62 for grains"));
-        }
-        if !within(0.0, bounded_from, 0.999 * largest_fraction) {
-            return Some(("bounded_from", bounded_from, "from 0 to below largest_fraction", "0.59 below 0.62"));
-        }
-        None
+    pub fn parameter_problem(&self) -> Option<ParameterProblem> {
+        range_problem(self).or_else(|| self.pole_problem())
+    }
+
+    /// The rule between the fractions.
+    #[must_use]
+    pub fn pole_problem(&self) -> Option<ParameterProblem> {
+        let bounded = (0.0..=0.999 * self.largest_fraction).contains(&self.bounded_from);
+        let (rule, remedy) = ("from 0 to below largest_fraction", "0.59 below 0.62");
+        (!bounded).then(|| ParameterProblem::new("bounded_from", self.bounded_from, rule, remedy))
     }
 }
 
@@ -76,9 +77,9 @@ mod tests {
     fn a_pole_within_the_range_is_refused() {
         let law = SuspensionViscosity::default();
         assert!(law.parameter_problem().is_none());
-        let field = |law: SuspensionViscosity| law.parameter_problem().map(|problem| problem.0);
-        assert_eq!(field(SuspensionViscosity { bounded_from: 0.62, ..law }), Some("bounded_from"));
-        assert_eq!(field(SuspensionViscosity { intrinsic: f64::NAN, ..law }), Some("intrinsic"));
-        assert_eq!(field(SuspensionViscosity { largest_fraction: 0.0, ..law }), Some("largest_fraction"));
+        let field = |law: SuspensionViscosity| law.parameter_problem().map(|problem| problem.field);
+        assert_eq!(field(SuspensionViscosity { bounded_from: 0.62, ..law }), Some("bounded_from".to_owned()));
+        assert_eq!(field(SuspensionViscosity { intrinsic: f64::NAN, ..law }), Some("intrinsic".to_owned()));
+        assert_eq!(field(SuspensionViscosity { largest_fraction: 0.0, ..law }), Some("largest_fraction".to_owned()));
     }
 }

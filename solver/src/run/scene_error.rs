@@ -1,5 +1,7 @@
 //! Why a scene cannot be simulated.
 
+use crate::parameter::ParameterProblem;
+
 /// A scene that cannot be simulated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SceneError {
@@ -28,30 +30,9 @@ pub enum SceneError {
         /// The rule.
         rule: &'static str,
     },
-    /// A parameter out of its range.
-    #[error("`{field}` is {value}, but must be {rule}; {remedy}")]
-    Parameter {
-        /// Which field.
-        field: &'static str,
-        /// The value.
-        value: f64,
-        /// The rule.
-        rule: &'static str,
-        /// What to do.
-        remedy: &'static str,
-    },
-    /// Two choices that exclude each other.
-    #[error("`{field}` is {value}, but must be {rule}; {remedy}")]
-    Choice {
-        /// Which field.
-        field: &'static str,
-        /// The choice.
-        value: &'static str,
-        /// The rule.
-        rule: &'static str,
-        /// What to do.
-        remedy: &'static str,
-    },
+    /// A parameter out of its range, or a choice that another one excludes.
+    #[error(transparent)]
+    Parameter(#[from] ParameterProblem),
     /// A periodic axis shorter than the neighbour search radius.
     #[error(
         "the period along axis {axis} is {length} m, but must be at least {least} m, the reach of the kernel; make the domain longer or the particles smaller"

@@ -2,11 +2,13 @@
 
 use crate::kernel::KernelShape;
 use crate::material::rheology::Rheology;
+use crate::parameter::{ParameterProblem, between, range_problem, up_to};
 use crate::weakly_compressible::boundary::{Surface, WallTreatment};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Which discrete momentum equation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MomentumOperator {
     /// One divergence of the whole stress with the kernel correction of each particle (default).
@@ -20,7 +22,7 @@ pub enum MomentumOperator {
 }
 
 /// How the artificial viscosity's coefficient is chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ViscositySwitch {
     /// The same everywhere.
@@ -30,7 +32,7 @@ pub enum ViscositySwitch {
 }
 
 /// Whether particles very near a wall are stopped from approaching it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Contact {
     /// Within half a spacing.
@@ -40,7 +42,7 @@ pub enum Contact {
 }
 
 /// How a viscous law's stress enters the momentum equation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ViscousStep {
     /// At the old velocity, with the bound ρh²/η of (29) on the time step. Laws by return mapping know no other.
@@ -49,13 +51,17 @@ pub enum ViscousStep {
     Implicit,
 }
 
+/// What to do about numerics out of range.
+const DEFAULTS: &str = "see the default numerics with `bagnold show`";
+
 /// Numerical parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Numerics {
     /// Smoothing kernel.
     pub kernel: KernelShape,
     /// Smoothing length over particle spacing h/Δ `[-]`.
+    #[schemars(transform = between(1.0, 2.5, DEFAULTS))]
     pub smoothing_ratio: f64,
     /// Discrete momentum equation.
     pub momentum_operator: MomentumOperator,
@@ -64,36 +70,44 @@ pub struct Numerics {
     /// Contact insurance at walls.
     pub contact: Contact,
     /// σ of the density–pressure coupling (27) `[-]`; 0 switches it off.
+    #[schemars(transform = between(0.0, 10.0, DEFAULTS))]
     pub density_coupling: f64,
     /// α_Π of the artificial viscosity (15) `[-]`.
+    #[schemars(transform = between(0.0, 2.0, DEFAULTS))]
     pub artificial_viscosity: f64,
     /// Switch of the artificial viscosity.
     pub viscosity_switch: ViscositySwitch,
     /// C_s of the eddy viscosity (5) `[-]`; 0 switches it off.
+    #[schemars(transform = between(0.0, 1.0, DEFAULTS))]
     pub smagorinsky_constant: f64,
     /// Coefficient of the velocity hourglass control `[-]`.
+    #[schemars(transform = between(0.0, 2.0, DEFAULTS))]
     pub hourglass: f64,
     /// Damping ζ of elastic shear below the yield, as a viscosity ζ ρ0 c_s h `[-]`; none where the material yields.
+    #[schemars(transform = between(0.0, 1.0, DEFAULTS))]
     pub elastic_damping: f64,
     /// Elastic shear modulus over bulk modulus G/K `[-]`, for laws with a yield by return mapping.
+    #[schemars(transform = up_to(1.5, DEFAULTS))]
     pub shear_modulus_ratio: f64,
     /// Courant number of the sound speed `[-]`.
+    #[schemars(transform = up_to(1.0, DEFAULTS))]
     pub acoustic_courant: f64,
     /// Courant number of the flow speed `[-]`.
+    #[schemars(transform = up_to(1.0, DEFAULTS))]
     pub advective_courant: f64,
     /// Coefficient of the explicit viscous bound ρh²/η `[-]`.
+    #[schemars(transform = up_to(1.0, DEFAULTS))]
     pub viscous_courant: f64,
     /// Explicit or implicit viscous stress.
     pub viscous_step: ViscousStep,
     /// Share of the net acceleration that an implicit viscous step may leave without its viscous answer `[-]`, both as
     /// root mean squares.
+    #[schemars(transform = between(1e-10, 0.5, DEFAULTS))]
     pub viscous_tolerance: f64,
     /// Skin of the neighbour list over the kernel's support `[-]`.
+    #[schemars(transform = up_to(1.0, DEFAULTS))]
     pub verlet_skin: f64,
 }
-
-/// A choice that another one excludes: the field's name, its value, the rule it breaks, and what to do about it.
-pub type ChoiceProblem = (&'static str, &'static str, &'static str, &'static str);
 
 impl Default for Numerics {
     fn default() -> Self {
@@ -152,35 +166,34 @@ impl Numerics {
     /// The choice that a wall with this surface excludes: only the single divergence with extrapolated walls knows
     /// smooth ones.
     #[must_use]
-    pub fn wall_problem(&self, roughness: Surface) -> Option<ChoiceProblem> {
+    pub fn wall_problem(&self, roughness: Surface) -> Option<ParameterProblem> {
         if roughness == Surface::Rough {
             return None;
         }
         if let Some(operator) = self.pairwise_operator() {
-            return Some((
+            return Some(ParameterProblem::new(
                 "momentum_operator",
                 operator,
                 "\"single-divergence\" or \"uncorrected-divergence\" with a smooth wall, such as a gate",
                 "the pairwise operators know rough walls only; choose one of these, or leave the gate out",
             ));
         }
-        (self.wall_treatment == WallTreatment::Paper).then_some((
-            "wall_treatment",
-            "paper",
-            "\"extrapolated\" with a smooth wall, such as a gate",
-            "the paper's walls are rough; choose this, or leave the gate out",
-        ))
+        (self.wall_treatment == WallTreatment::Paper).then(|| {
+            let rule = "\"extrapolated\" with a smooth wall, such as a gate";
+            let remedy = "the paper's walls are rough; choose this, or leave the gate out";
+            ParameterProblem::new("wall_treatment", "paper", rule, remedy)
+        })
     }
 
     /// The choice that goes neither with the law nor with the momentum operator: an implicit step needs a viscosity and
     /// the divergence whose transpose it is solved with.
     #[must_use]
-    pub fn step_problem(&self, law: &Rheology) -> Option<ChoiceProblem> {
+    pub fn step_problem(&self, law: &Rheology) -> Option<ParameterProblem> {
         if self.viscous_step == ViscousStep::Explicit {
             return None;
         }
         if law.is_plastic() {
-            return Some((
+            return Some(ParameterProblem::new(
                 "viscous_step",
                 "implicit",
                 "explicit with a law by return mapping",
@@ -188,62 +201,14 @@ impl Numerics {
             ));
         }
         self.pairwise_operator().map(|_| {
-            (
-                "viscous_step",
-                "implicit",
-                "explicit with the pairwise momentum operators",
-                "choose the operator \"single-divergence\", or \"explicit\"",
-            )
+            let remedy = "choose the operator \"single-divergence\", or \"explicit\"";
+            ParameterProblem::new("viscous_step", "implicit", "explicit with the pairwise momentum operators", remedy)
         })
     }
 
-    /// The first field that breaks its rule, as (field, value, rule, remedy).
+    /// The first field outside its range, if any.
     #[must_use]
-    pub fn parameter_problem(&self) -> Option<(&'static str, f64, &'static str, &'static str)> {
-        let within = |value: f64, lower: f64, upper: f64| value >= lower && value <= upper;
-        let positive = |value: f64, upper: f64| value > 0.0 && value <= upper;
-        let rules = [
-            ("smoothing_ratio", self.smoothing_ratio, within(self.smoothing_ratio, 1.0, 2.5), "between 1 and 2.5"),
-            ("density_coupling", self.density_coupling, within(self.density_coupling, 0.0, 10.0), "between 0 and 10"),
-            (
-                "artificial_viscosity",
-                self.artificial_viscosity,
-                within(self.artificial_viscosity, 0.0, 2.0),
-                "between 0 and 2",
-            ),
-            (
-                "smagorinsky_constant",
-                self.smagorinsky_constant,
-                within(self.smagorinsky_constant, 0.0, 1.0),
-                "between 0 and 1",
-            ),
-            ("hourglass", self.hourglass, within(self.hourglass, 0.0, 2.0), "between 0 and 2"),
-            ("elastic_damping", self.elastic_damping, within(self.elastic_damping, 0.0, 1.0), "between 0 and 1"),
-            (
-                "shear_modulus_ratio",
-                self.shear_modulus_ratio,
-                positive(self.shear_modulus_ratio, 1.5),
-                "above 0 and at most 1.5",
-            ),
-            ("acoustic_courant", self.acoustic_courant, positive(self.acoustic_courant, 1.0), "above 0 and at most 1"),
-            (
-                "advective_courant",
-                self.advective_courant,
-                positive(self.advective_courant, 1.0),
-                "above 0 and at most 1",
-            ),
-            ("viscous_courant", self.viscous_courant, positive(self.viscous_courant, 1.0), "above 0 and at most 1"),
-            (
-                "viscous_tolerance",
-                self.viscous_tolerance,
-                within(self.viscous_tolerance, 1e-10, 0.5),
-                "between 1e-10 and 0.5",
-            ),
-            ("verlet_skin", self.verlet_skin, positive(self.verlet_skin, 1.0), "above 0 and at most 1"),
-        ];
-        rules
-            .into_iter()
-            .find(|(_, _, holds, _)| !holds)
-            .map(|(field, value, _, rule)| (field, value, rule, "see the default numerics with `bagnold show`"))
+    pub fn parameter_problem(&self) -> Option<ParameterProblem> {
+        range_problem(self)
     }
 }

@@ -3,6 +3,7 @@
 use crate::domain::{AxisBoundary, Domain};
 use crate::material::equation_of_state::EquationOfState;
 use crate::material::rheology::Rheology;
+use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::boundary::{Wall, wall::WallParticle};
@@ -116,20 +117,18 @@ impl<const D: usize> Scene<D> {
         for (field, value) in parameters {
             if !positive(value) {
                 let (rule, remedy) = ("positive and finite", "give it in SI units");
-                return Err(SceneError::Parameter { field, value, rule, remedy });
+                return Err(ParameterProblem::new(field, value, rule, remedy).into());
             }
         }
-        if let Some((field, value, rule, remedy)) =
-            self.numerics.parameter_problem().or_else(|| self.rheology.parameter_problem())
-        {
-            return Err(SceneError::Parameter { field, value, rule, remedy });
-        }
         let mut surfaces = self.walls.iter().map(|wall| wall.roughness);
-        if let Some((field, value, rule, remedy)) = surfaces
-            .find_map(|roughness| self.numerics.wall_problem(roughness))
-            .or_else(|| self.numerics.step_problem(&self.rheology))
-        {
-            return Err(SceneError::Choice { field, value, rule, remedy });
+        let problem = self
+            .numerics
+            .parameter_problem()
+            .or_else(|| self.rheology.parameter_problem())
+            .or_else(|| surfaces.find_map(|roughness| self.numerics.wall_problem(roughness)))
+            .or_else(|| self.numerics.step_problem(&self.rheology));
+        if let Some(problem) = problem {
+            return Err(problem.into());
         }
         for (particle, position) in self.flow.position.iter().enumerate() {
             let finite = [

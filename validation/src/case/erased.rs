@@ -1,11 +1,13 @@
 //! Cases without their types: what the command line, the report and the tests work with.
 
-use super::parameters::{Changes, is_set, resolve, table_of};
+use super::changes::{Changes, is_set, resolve, table_of};
+use super::notes::notes;
 use super::result::{CaseResult, RunSummary, microseconds_each};
-use super::{Case, CaseFile, Progress, Run, Tier};
+use super::{Case, CaseFile, Parameters, Progress, RecordOf, Run, RunOf, Tier, schema};
 use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::store::Store;
+use bagnold_solver::parameter::schema_of;
 use sha2::{Digest, Sha256};
 use std::sync::OnceLock;
 
@@ -17,6 +19,8 @@ pub trait AnyCase: Sync {
     fn summary(&self) -> &'static str;
     /// The tier's parameters as a complete, commented file for `bagnold run`.
     fn show(&self, tier: Tier) -> String;
+    /// The JSON Schema (2020-12) of a case file, with the tier's parameters as defaults.
+    fn schema(&self, tier: Tier) -> serde_json::Value;
     /// Types and checks a tier's parameters with the user's changes.
     ///
     /// # Errors
@@ -49,26 +53,32 @@ pub trait Prepared: Send + Sync {
 
 impl<C: Case> AnyCase for C {
     fn name(&self) -> &'static str {
-        Case::name(self)
+        C::NAME
     }
 
     fn summary(&self) -> &'static str {
-        Case::summary(self)
+        C::SUMMARY
     }
 
     fn show(&self, tier: Tier) -> String {
-        file_text(self, tier, &self.parameters(tier))
+        file_text::<C>(tier, &C::Parameters::of_tier(tier))
+    }
+
+    fn schema(&self, tier: Tier) -> serde_json::Value {
+        let defaults = table_of(&C::Parameters::of_tier(tier));
+        schema::of_file(C::NAME, C::SUMMARY, tier, schema_of::<C::Parameters>(), &defaults)
     }
 
     fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, InputError> {
-        let defaults = self.parameters(tier);
-        let parameters = resolve(Case::name(self), &defaults, changes)?;
-        self.check(&parameters).map_err(|error| match (&changes.file, error.field_path()) {
+        let defaults = C::Parameters::of_tier(tier);
+        let parameters = resolve(C::NAME, &defaults, changes)?;
+        parameters.check().map_err(|error| match (&changes.file, error.field_path()) {
             (Some((file, _)), Some(field)) if !is_set(changes.settings, field) => error.in_file(file),
             _ => error,
         })?;
-        if self.runs(&parameters).is_empty() {
-            return Err(InputError::NothingToRun { case: Case::name(self).to_owned() });
+        let runs = parameters.runs();
+        if runs.is_empty() {
+            return Err(InputError::NothingToRun { case: C::NAME.to_owned() });
         }
         let changed = table_of(&parameters) != table_of(&defaults);
         Ok(Box::new(Plan::<C> {
@@ -76,31 +86,29 @@ impl<C: Case> AnyCase for C {
             command: if changed {
                 "bagnold run case.toml".to_owned()
             } else {
-                format!("bagnold run {} --tier {tier}", Case::name(self))
+                format!("bagnold run {} --tier {tier}", C::NAME)
             },
-            parameters_toml: file_text(self, tier, &parameters),
-            slots: self.runs(&parameters).into_iter().map(|run| (run, OnceLock::new())).collect(),
+            parameters_toml: file_text::<C>(tier, &parameters),
+            slots: runs.into_iter().map(|run| (run, OnceLock::new())).collect(),
             parameters,
-            case: self,
         }))
     }
 }
 
 /// A run and, once it is done, its record and whether that came from the store.
-type Slot<C> = (<C as Case>::Run, OnceLock<(Recorded<<C as Case>::Observation>, bool)>);
+type Slot<R> = (R, OnceLock<(Recorded<<R as Run>::Observation>, bool)>);
 
 struct Plan<C: Case> {
-    case: &'static C,
     tier: Tier,
     parameters: C::Parameters,
     parameters_toml: String,
     command: String,
-    slots: Vec<Slot<C>>,
+    slots: Vec<Slot<RunOf<C::Parameters>>>,
 }
 
 impl<C: Case> Prepared for Plan<C> {
     fn name(&self) -> &'static str {
-        Case::name(self.case)
+        C::NAME
     }
 
     fn parameters_toml(&self) -> &str {
@@ -130,7 +138,7 @@ impl<C: Case> Prepared for Plan<C> {
             slot.get_or_init(|| (record, true));
             return Ok(());
         }
-        let record = self.case.simulate(description, progress)?;
+        let record = description.simulate(progress)?;
         if let Some(key) = &key {
             store.keep(key, &record);
         }
@@ -140,21 +148,20 @@ impl<C: Case> Prepared for Plan<C> {
 
     fn finish(self: Box<Self>) -> CaseResult {
         let plan = *self;
-        let (summaries, records): (Vec<RunSummary>, Vec<_>) = plan
+        let (summaries, records): (Vec<RunSummary>, Vec<RecordOf<C::Parameters>>) = plan
             .slots
             .into_iter()
             .filter_map(|(run, slot)| slot.into_inner().map(|(record, from_store)| (run, record, from_store)))
             .map(|(run, record, from_store)| (summary(&run, &record, from_store), (run, record)))
             .unzip();
-        let case = plan.case;
-        let metrics = case.metrics(&plan.parameters, &records);
-        let figures = case.figures(&plan.parameters, &records);
-        let animations = case.animations(&plan.parameters, &records);
-        let tables = case.tables(&plan.parameters, &records);
+        let metrics = C::metrics(&plan.parameters, &records);
+        let figures = C::figures(&plan.parameters, &records);
+        let animations = C::animations(&plan.parameters, &records);
+        let tables = C::tables(&plan.parameters, &records);
         CaseResult {
-            name: Case::name(case).to_owned(),
-            summary: Case::summary(case).to_owned(),
-            description: case.description().to_owned(),
+            name: C::NAME.to_owned(),
+            summary: C::SUMMARY.to_owned(),
+            description: C::DESCRIPTION.to_owned(),
             tier: plan.tier,
             parameters_toml: plan.parameters_toml,
             command: plan.command,
@@ -169,12 +176,12 @@ impl<C: Case> Prepared for Plan<C> {
     }
 }
 
-fn file_text<C: Case>(case: &C, tier: Tier, parameters: &C::Parameters) -> String {
+fn file_text<C: Case>(tier: Tier, parameters: &C::Parameters) -> String {
     let text = toml::to_string(parameters).expect("a case's parameters are structs that TOML can hold");
-    CaseFile::text(case.name(), tier, &text, case.field_notes())
+    CaseFile::text(C::NAME, tier, &text, &notes(schema_of::<C::Parameters>(), &table_of(parameters)))
 }
 
-fn summary<R: Run, O>(run: &R, record: &Recorded<O>, from_store: bool) -> RunSummary {
+fn summary<R: Run>(run: &R, record: &Recorded<R::Observation>, from_store: bool) -> RunSummary {
     RunSummary {
         variant: run.variant(),
         outcome: record.outcome.clone(),

@@ -1,128 +1,41 @@
-//! What serde and TOML say about a bad field, put into a user's words.
+//! What the checker says of a field, put into a user's words.
 
-use super::parameters::{find, paths};
 use crate::error::{InputError, nearest};
-use serde::de::DeserializeOwned;
-use std::ops::Range;
-use toml::de::{DeTable, DeValue};
-use toml::{Table, Value};
+use bagnold_solver::parameter::{Fault, ParameterProblem};
 
-/// One bad field, by its dotted path.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Fault {
-    /// The type has no such field; `known` are its neighbours where the parser told them.
-    Unknown { path: String, known: Vec<String> },
-    /// The type needs this field.
-    Missing { path: String },
-    /// The value has the wrong type or is outside it.
-    Value { path: String, rule: String, remedy: Option<String> },
+/// A parameter that is out of its range, or excludes another choice.
+impl From<ParameterProblem> for InputError {
+    fn from(problem: ParameterProblem) -> Self {
+        Self::field(&problem.field, problem.value, &problem.rule, &problem.remedy)
+    }
 }
 
-impl Fault {
-    /// Types a table. The parser tells the place of an error by its span only, so the table goes through
-    /// a text in which every value is inside its key's span.
-    pub(super) fn catch<P: DeserializeOwned>(table: &Table) -> Result<P, Self> {
-        let text: String =
-            table.iter().map(|(key, value)| format!("{} = {value}\n", Value::String(key.clone()))).collect();
-        toml::from_str(&text).map_err(|error| Self::from_toml(&error, &text))
-    }
-
-    fn from_toml(error: &toml::de::Error, text: &str) -> Self {
-        let path = error.span().map_or_else(String::new, |span| path_at(text, &span));
-        let below = |parent: &str, name: &str| match parent {
-            "" => name.to_owned(),
-            _ => format!("{parent}.{name}"),
-        };
-        let message = error.message();
-        let names = quoted(message);
-        match names.split_first() {
-            Some((_, known)) if message.starts_with("unknown field") => {
-                let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
-                Self::Unknown { known: known.iter().map(|name| below(parent, name)).collect(), path }
-            }
-            Some((name, _)) if message.starts_with("missing field") => Self::Missing { path: below(&path, name) },
-            Some((name, known)) if message.starts_with("unknown variant") => Self::Value {
-                path,
-                rule: choices(known),
-                remedy: nearest(name, known.iter().copied()).map(|name| format!("did you mean `{name}`?")),
-            },
-            _ => Self::Value { path, rule: rule(message), remedy: None },
+/// The error for a fault in the parameters of `case`; `known` are all paths that it has.
+pub(super) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> InputError {
+    match fault {
+        Fault::Unknown { path, known: beside } => InputError::UnknownField {
+            file: None,
+            nearest: nearest_path(&path, &[&beside, known]),
+            field: path,
+            case: case.to_owned(),
+        },
+        Fault::Missing { path } => InputError::MissingField { file: None, field: path, case: case.to_owned() },
+        Fault::Kind { path, value, rule, choice } => {
+            let value = value.unwrap_or_else(|| "not valid".to_owned());
+            InputError::field(&path, value, &rule, &remedy(choice.as_ref(), case))
         }
-    }
-
-    /// The error for parameters of `case` that were read into `table`.
-    pub(super) fn in_parameters(self, case: &str, table: &Table) -> InputError {
-        match self {
-            Self::Unknown { path, known } => {
-                let known = if known.is_empty() { paths(table) } else { known };
-                let others = known.iter().map(String::as_str).filter(|other| *other != path);
-                InputError::UnknownField {
-                    file: None,
-                    nearest: nearest(&path, others),
-                    field: path,
-                    case: case.to_owned(),
-                }
-            }
-            Self::Missing { path } => InputError::MissingField { file: None, field: path, case: case.to_owned() },
-            Self::Value { path, rule, remedy } => InputError::Field {
-                file: None,
-                value: find(table, &path)
-                    .map(ToString::to_string)
-                    .filter(|text| !text.contains('\n'))
-                    .unwrap_or_else(|| "not valid".to_owned()),
-                rule,
-                remedy: remedy.unwrap_or_else(|| format!("`bagnold show {case}` prints a valid value")),
-                field: path,
-            },
-        }
+        Fault::Range(problem) => problem.into(),
     }
 }
 
-/// The dotted path of the innermost field whose key or value covers a span.
-fn path_at(text: &str, span: &Range<usize>) -> String {
-    let mut path = Vec::new();
-    if let Ok(document) = DeTable::parse(text) {
-        let mut table = document.get_ref();
-        while let Some((key, value)) =
-            table.iter().find(|(key, value)| key.span().start <= span.start && span.end <= value.span().end)
-        {
-            path.push(key.get_ref().to_string());
-            match value.get_ref() {
-                DeValue::Table(inner) => table = inner,
-                _ => break,
-            }
-        }
-    }
-    path.join(".")
+/// What to do about a value of the wrong type: the nearest of an enum's names, or a look at a valid value.
+pub(super) fn remedy(choice: Option<&(String, Vec<String>)>, case: &str) -> String {
+    choice
+        .and_then(|(name, known)| nearest(name, known.iter().map(String::as_str)))
+        .map_or_else(|| format!("`bagnold show {case}` prints a valid value"), |name| format!("did you mean `{name}`?"))
 }
 
-/// The names between backquotes.
-fn quoted(message: &str) -> Vec<&str> {
-    message.split('`').skip(1).step_by(2).collect()
-}
-
-fn choices(known: &[&str]) -> String {
-    let quoted: Vec<String> = known.iter().map(|name| format!("`{name}`")).collect();
-    match quoted.as_slice() {
-        [only] => only.clone(),
-        _ => format!("one of {}", quoted.join(", ")),
-    }
-}
-
-/// The rule that the value breaks, completing "must be …", without the words of Rust's type system.
-fn rule(message: &str) -> String {
-    let Some((_, expected)) = message.split_once(", expected ") else {
-        return message.to_owned();
-    };
-    match expected {
-        "f32" | "f64" => "a number",
-        "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number that is not negative",
-        "i8" | "i16" | "i32" | "i64" | "isize" => "a whole number",
-        "a boolean" => "true or false",
-        "a string" | "string only" => "a string",
-        "a sequence" => "an array in brackets, such as [1.0, 2.0] or [\"newtonian\"]",
-        structure if structure.starts_with("struct ") => "a table of fields",
-        other => other,
-    }
-    .to_owned()
+/// The path that is most like one that does not exist, from the first list that has any.
+pub(super) fn nearest_path(path: &str, known: &[&[String]]) -> Option<String> {
+    known.iter().find_map(|paths| nearest(path, paths.iter().map(String::as_str).filter(|other| *other != path)))
 }

@@ -2,6 +2,7 @@
 
 use super::Tier;
 use crate::error::{InputError, nearest};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
@@ -56,22 +57,25 @@ impl CaseFile {
 
     /// The text of a complete file: the parameters in the order of their struct, each with its note.
     #[must_use]
-    pub(super) fn text(case: &str, tier: Tier, parameters: &str, notes: &[(&str, &str)]) -> String {
+    pub(super) fn text(case: &str, tier: Tier, parameters: &str, notes: &BTreeMap<String, String>) -> String {
         let mut text = format!("case = \"{case}\"\ntier = \"{tier}\"\n");
         if !parameters.starts_with('[') {
             text.push('\n');
         }
         let mut section = String::new();
         for line in parameters.lines() {
-            if let Some(name) = line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
-                section = format!("{name}.");
+            let path = if line.starts_with('[') {
+                section = line.trim_matches(['[', ']']).to_owned();
                 if !text.ends_with("\n\n") {
                     text.push('\n');
                 }
-            }
+                Some(section.clone())
+            } else {
+                let key = line.split_once(" = ").map(|(key, _)| key);
+                key.map(|key| if section.is_empty() { key.to_owned() } else { format!("{section}.{key}") })
+            };
             text.push_str(line);
-            let path = line.split_once(" = ").map(|(key, _)| format!("{section}{key}"));
-            if let Some((_, note)) = path.and_then(|path| notes.iter().find(|(field, _)| *field == path)) {
+            if let Some(note) = path.and_then(|path| notes.get(&path)) {
                 text.push_str("  # ");
                 text.push_str(note);
             }
@@ -130,11 +134,13 @@ mod tests {
             "film",
             Tier::Paper,
             "depth = 0.01\n\n[fluid]\ndensity = 1000.0\n",
-            &[("depth", "height of the layer [m]"), ("fluid.density", "[kg/m³]")],
+            &[("depth", "height of the layer [m]"), ("fluid", "water"), ("fluid.density", "[kg/m³]")]
+                .map(|(path, note)| (path.to_owned(), note.to_owned()))
+                .into(),
         );
         assert_eq!(
             text,
-            "case = \"film\"\ntier = \"paper\"\n\ndepth = 0.01  # height of the layer [m]\n\n[fluid]\ndensity = 1000.0  # [kg/m³]\n"
+            "case = \"film\"\ntier = \"paper\"\n\ndepth = 0.01  # height of the layer [m]\n\n[fluid]  # water\ndensity = 1000.0  # [kg/m³]\n"
         );
     }
 }

@@ -1,19 +1,21 @@
 //! What a case is: typed parameters → independent runs → observations → metrics and figures.
 
+mod changes;
 mod erased;
 mod fault;
 mod file;
-mod parameters;
+mod notes;
 #[cfg(test)]
 pub(crate) mod pendulum;
 mod registry;
 mod result;
 mod schedule;
+mod schema;
 
+pub use changes::Changes;
 pub use erased::{AnyCase, Prepared};
 pub use file::CaseFile;
 pub(crate) use file::position;
-pub use parameters::Changes;
 pub use registry::Registry;
 pub use result::{CaseResult, RunSummary};
 pub use schedule::{Monitor, Silent, execute, share_out};
@@ -22,10 +24,11 @@ use crate::error::InputError;
 use crate::figure::{Animation, Figure};
 use crate::metric::Metric;
 use crate::observe::Recorded;
+use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};
 
 /// How much a case may cost.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, serde::Deserialize, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, serde::Deserialize, JsonSchema, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum Tier {
     /// Seconds a case.
@@ -54,9 +57,32 @@ impl std::fmt::Display for Tier {
     }
 }
 
+/// The parameters of a case, each declared once: a field with its doc comment, unit and range (`bagnold_solver::parameter`).
+/// The top-level names `case` and `tier` are taken by the file format.
+pub trait Parameters: Serialize + DeserializeOwned + JsonSchema + Clone + Send + Sync + 'static {
+    /// One independent simulation.
+    type Run: Run;
+
+    /// A tier's parameters.
+    fn of_tier(tier: Tier) -> Self;
+    /// The rules between fields; called once every field is in its own range.
+    ///
+    /// # Errors
+    /// The first field that breaks a rule, by its dotted TOML path.
+    fn check(&self) -> Result<(), InputError> {
+        Ok(())
+    }
+    /// The independent simulations that these parameters ask for, in report order.
+    fn runs(&self) -> Vec<Self::Run>;
+}
+
 /// One independent simulation of a case. Its serialised form is its identity in the store, so it
 /// holds everything that the simulation depends on.
 pub trait Run: Serialize + Clone + Send + Sync {
+    /// What it leaves behind: plain data, stored and shared by tests and report. Stored as postcard,
+    /// which needs serde's plain derive: no untagged or internally tagged enums, no `flatten`.
+    type Observation: Serialize + DeserializeOwned + Send + Sync;
+
     /// Full name of the run, `key=value,…` in the case's fixed order; unique within the case.
     fn variant(&self) -> String;
     /// Expected cost in particle-steps, for scheduling the longest first and for the progress bar; all alike, if nothing is
@@ -64,6 +90,11 @@ pub trait Run: Serialize + Clone + Send + Sync {
     fn particle_steps(&self) -> f64 {
         1e6
     }
+    /// Simulates it. A divergence is part of the record, not an error.
+    ///
+    /// # Errors
+    /// Parameters whose combination gives no valid scene.
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Self::Observation>, InputError>;
 }
 
 /// How far a run has come; called often, must be cheap.
@@ -72,72 +103,35 @@ pub trait Progress: Sync {
     fn advance(&self, simulated: f64, total: f64, particle_steps: f64);
 }
 
+/// A run of a case with these parameters.
+pub type RunOf<P> = <P as Parameters>::Run;
+
+/// A run with what it left behind.
+pub type RecordOf<P> = (RunOf<P>, Recorded<<RunOf<P> as Run>::Observation>);
+
 /// A canonical case. Implementors hold no state: everything comes from the parameters.
 pub trait Case: Sync + 'static {
-    /// Typed parameters; every struct refuses unknown fields. The top-level names `case` and `tier`
-    /// are taken by the file format. Enums are tagged externally (serde's default), so that a file
-    /// can replace one choice by another.
-    type Parameters: Serialize + DeserializeOwned + Clone + Send + Sync;
-    /// One independent simulation.
-    type Run: Run;
-    /// What a run leaves behind: plain data, stored and shared by tests and report. Stored as postcard,
-    /// which needs serde's plain derive: no untagged or internally tagged enums, no `flatten`.
-    type Observation: Serialize + DeserializeOwned + Send + Sync;
-
     /// Name on the command line and in files, kebab-case.
-    fn name(&self) -> &'static str;
+    const NAME: &'static str;
     /// One line for `bagnold list`.
-    fn summary(&self) -> &'static str;
+    const SUMMARY: &'static str;
     /// A paragraph for the report: what is simulated and what it is judged against.
-    fn description(&self) -> &'static str {
-        self.summary()
-    }
-    /// Remarks for `bagnold show`: dotted TOML path and what stands there, with its unit.
-    fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
-        &[]
-    }
-    /// The tier's parameters.
-    fn parameters(&self, tier: Tier) -> Self::Parameters;
-    /// Checks ranges; the error names the field (dotted TOML path), the value, the rule and the remedy.
-    ///
-    /// # Errors
-    /// The first field that breaks a rule.
-    fn check(&self, parameters: &Self::Parameters) -> Result<(), InputError>;
-    /// The independent simulations that these parameters ask for, in report order.
-    fn runs(&self, parameters: &Self::Parameters) -> Vec<Self::Run>;
-    /// Simulates one run. A divergence is part of the record, not an error.
-    ///
-    /// # Errors
-    /// Parameters whose combination gives no valid scene.
-    fn simulate(&self, run: &Self::Run, progress: &dyn Progress) -> Result<Recorded<Self::Observation>, InputError>;
+    const DESCRIPTION: &'static str = Self::SUMMARY;
+    /// Typed parameters.
+    type Parameters: Parameters;
+
     /// Judges the observations.
-    fn metrics(
-        &self,
-        parameters: &Self::Parameters,
-        records: &[(Self::Run, Recorded<Self::Observation>)],
-    ) -> Vec<Metric>;
+    fn metrics(parameters: &Self::Parameters, records: &[RecordOf<Self::Parameters>]) -> Vec<Metric>;
     /// Draws the observations.
-    fn figures(
-        &self,
-        _parameters: &Self::Parameters,
-        _records: &[(Self::Run, Recorded<Self::Observation>)],
-    ) -> Vec<Figure> {
+    fn figures(_: &Self::Parameters, _: &[RecordOf<Self::Parameters>]) -> Vec<Figure> {
         Vec::new()
     }
     /// Moving pictures of the observations; few cases have any.
-    fn animations(
-        &self,
-        _parameters: &Self::Parameters,
-        _records: &[(Self::Run, Recorded<Self::Observation>)],
-    ) -> Vec<Animation> {
+    fn animations(_: &Self::Parameters, _: &[RecordOf<Self::Parameters>]) -> Vec<Animation> {
         Vec::new()
     }
     /// Tables for `run`'s output folder: profiles and time series.
-    fn tables(
-        &self,
-        _parameters: &Self::Parameters,
-        _records: &[(Self::Run, Recorded<Self::Observation>)],
-    ) -> Vec<crate::output::Table> {
+    fn tables(_: &Self::Parameters, _: &[RecordOf<Self::Parameters>]) -> Vec<crate::output::Table> {
         Vec::new()
     }
 }

@@ -1,11 +1,13 @@
 //! A case for this crate's own tests: a damped pendulum, cheap and with an exact solution.
 
-use super::{Case, Progress, Registry, Run, Tier};
+use super::{Case, Progress, RecordOf, Registry, Run, Tier};
 use crate::error::InputError;
 use crate::figure::Figure;
 use crate::metric::{Confidence, Limit, Metric};
 use crate::observe::{Frame, Outcome, Recorded};
 use crate::output::Table;
+use bagnold_solver::parameter::{inside, positive};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub(crate) static REGISTRY: Registry = Registry::new(&[&Pendulum]);
@@ -13,18 +15,20 @@ pub(crate) static REGISTRY: Registry = Registry::new(&[&Pendulum]);
 #[derive(Debug)]
 pub(crate) struct Pendulum;
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct Parameters {
+    /// Start `[°]`.
+    #[schemars(transform = inside(-90.0, 90.0, "give it in degrees").in_words("inside (−90°, 90°)"))]
     slope_angle: f64,
     steps: Vec<u64>,
     limit: f64,
     grain: Grain,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 struct Grain {
+    /// `[m]`.
+    #[schemars(transform = positive("give it in metres").in_words("positive"))]
     diameter: f64,
     damping: f64,
 }
@@ -37,73 +41,32 @@ pub(crate) struct Swing {
 }
 
 impl Run for Swing {
+    type Observation = Vec<f64>;
+
     fn variant(&self) -> String {
         format!("steps={}", self.steps)
     }
     fn particle_steps(&self) -> f64 {
         self.steps as f64
     }
-}
-
-impl Case for Pendulum {
-    type Parameters = Parameters;
-    type Run = Swing;
-    type Observation = Vec<f64>;
-
-    fn name(&self) -> &'static str {
-        "pendulum"
-    }
-    fn summary(&self) -> &'static str {
-        "damped pendulum for tests"
-    }
-    fn description(&self) -> &'static str {
-        "An overdamped pendulum against its exponential decay."
-    }
-    fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
-        &[("slope_angle", "start [°]"), ("grain.diameter", "[m]")]
-    }
-    fn parameters(&self, tier: Tier) -> Parameters {
-        let finest = if tier == Tier::Quick { 40 } else { 400 };
-        Parameters {
-            slope_angle: 10.0,
-            steps: vec![20, finest],
-            limit: 0.05,
-            grain: Grain { diameter: 1e-3, damping: 1.0 },
-        }
-    }
-    fn check(&self, parameters: &Parameters) -> Result<(), InputError> {
-        let diameter = parameters.grain.diameter;
-        if !(diameter > 0.0 && diameter.is_finite()) {
-            return Err(InputError::field("grain.diameter", diameter, "positive", "give it in metres"));
-        }
-        if !(parameters.slope_angle > -90.0 && parameters.slope_angle < 90.0) {
-            let rule = "inside (−90°, 90°)";
-            return Err(InputError::field("slope_angle", parameters.slope_angle, rule, "give it in degrees"));
-        }
-        Ok(())
-    }
-    fn runs(&self, parameters: &Parameters) -> Vec<Swing> {
-        let swing = |&steps: &u64| Swing { steps, damping: parameters.grain.damping, angle: parameters.slope_angle };
-        parameters.steps.iter().map(swing).collect()
-    }
-    fn simulate(&self, run: &Swing, progress: &dyn Progress) -> Result<Recorded<Vec<f64>>, InputError> {
-        if run.steps == 0 {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Vec<f64>>, InputError> {
+        if self.steps == 0 {
             return Err(InputError::field("steps", 0, "positive", "take more steps"));
         }
-        let interval = 1.0 / run.steps as f64;
-        let mut angle = vec![run.angle];
-        for step in 0..run.steps {
+        let interval = 1.0 / self.steps as f64;
+        let mut angle = vec![self.angle];
+        for step in 0..self.steps {
             let last = angle[angle.len() - 1];
-            angle.push(last - interval * run.damping * last);
+            angle.push(last - interval * self.damping * last);
             progress.advance(step as f64 * interval, 1.0, step as f64);
         }
         let end = angle[angle.len() - 1];
-        let diverged = Outcome::Diverged { message: "particle 0 left".to_owned(), expected: run.damping > 1e6 };
+        let diverged = Outcome::Diverged { message: "particle 0 left".to_owned(), expected: self.damping > 1e6 };
         Ok(Recorded {
             outcome: if end.abs() <= 1e3 { Outcome::Finished } else { diverged },
             state_hash: format!("{:016x}", end.to_bits()),
             particles: 1,
-            steps: run.steps,
+            steps: self.steps,
             simulated_time: 1.0,
             wall_seconds: 1e-6,
             threads: rayon::current_num_threads(),
@@ -116,7 +79,28 @@ impl Case for Pendulum {
             data: angle,
         })
     }
-    fn metrics(&self, parameters: &Parameters, records: &[(Swing, Recorded<Vec<f64>>)]) -> Vec<Metric> {
+}
+
+impl super::Parameters for Parameters {
+    type Run = Swing;
+
+    fn of_tier(tier: Tier) -> Self {
+        let finest = if tier == Tier::Quick { 40 } else { 400 };
+        Self { slope_angle: 10.0, steps: vec![20, finest], limit: 0.05, grain: Grain { diameter: 1e-3, damping: 1.0 } }
+    }
+    fn runs(&self) -> Vec<Swing> {
+        let swing = |&steps: &u64| Swing { steps, damping: self.grain.damping, angle: self.slope_angle };
+        self.steps.iter().map(swing).collect()
+    }
+}
+
+impl Case for Pendulum {
+    const NAME: &'static str = "pendulum";
+    const SUMMARY: &'static str = "damped pendulum for tests";
+    const DESCRIPTION: &'static str = "An overdamped pendulum against its exponential decay.";
+    type Parameters = Parameters;
+
+    fn metrics(parameters: &Parameters, records: &[RecordOf<Parameters>]) -> Vec<Metric> {
         records
             .iter()
             .map(|(run, record)| {
@@ -128,10 +112,10 @@ impl Case for Pendulum {
             })
             .collect()
     }
-    fn figures(&self, _parameters: &Parameters, _records: &[(Swing, Recorded<Vec<f64>>)]) -> Vec<Figure> {
+    fn figures(_parameters: &Parameters, _records: &[RecordOf<Parameters>]) -> Vec<Figure> {
         Vec::new()
     }
-    fn tables(&self, _parameters: &Parameters, records: &[(Swing, Recorded<Vec<f64>>)]) -> Vec<Table> {
+    fn tables(_parameters: &Parameters, records: &[RecordOf<Parameters>]) -> Vec<Table> {
         let rows = records.iter().flat_map(|(_, record)| &record.data).map(|&angle| vec![angle]).collect();
         vec![Table { name: "angle".to_owned(), columns: vec!["angle [rad]".to_owned()], rows }]
     }

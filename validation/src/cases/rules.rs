@@ -1,18 +1,34 @@
-//! Rules that the parameters of several cases share.
+//! Rules that the parameters of several cases share: those of a field alone, and those between fields.
 
 use crate::error::InputError;
 use bagnold_solver::incompressible::{Continuity, MeanFlux, ProjectionNumerics};
-use bagnold_solver::material::rheology::{ParameterProblem, Rheology};
+use bagnold_solver::material::rheology::Rheology;
+use bagnold_solver::parameter::{self, ParameterProblem, Rule, inside, positive, up_to};
 use bagnold_solver::weakly_compressible::boundary::Surface;
-use bagnold_solver::weakly_compressible::numerics::{ChoiceProblem, Numerics};
+use bagnold_solver::weakly_compressible::numerics::Numerics;
 
-/// A positive, finite value.
-pub(super) fn positive(field: &str, value: f64, remedy: &str) -> Result<(), InputError> {
-    if value > 0.0 && value.is_finite() {
-        return Ok(());
-    }
-    Err(InputError::field(field, value, "positive and finite", remedy))
+/// Gravity `[m/s²]`.
+pub(super) fn gravity() -> Rule {
+    positive("give it in m/s², such as 9.81")
 }
+
+/// Rows of particles over a layer.
+pub(super) fn rows() -> Rule {
+    parameter::between(4.0, 1000.0, ROWS)
+}
+
+/// A slope angle `[°]`.
+pub(super) fn slope_angle() -> Rule {
+    inside(-90.0, 90.0, "give the angle between the slope and the horizontal in degrees").in_words("inside (−90°, 90°)")
+}
+
+/// Slope i of a bed that drives a flow `[-]`.
+pub(super) fn driving_slope() -> Rule {
+    let remedy = "without a slope there is no friction velocity √(g h i); give its tangent, such as 0.03 for 3 %";
+    up_to(0.2, remedy).in_words("positive and at most 0.2")
+}
+
+const ROWS: &str = "20 is quick, 40 is accurate";
 
 /// A value in [lower, upper].
 pub(super) fn between(field: &str, value: f64, lower: f64, upper: f64, remedy: &str) -> Result<(), InputError> {
@@ -27,25 +43,9 @@ fn shown(bound: f64) -> f64 {
     format!("{bound:.9e}").parse().unwrap_or(bound)
 }
 
-/// A slope angle `[°]`.
-pub(super) fn slope_angle(field: &str, value: f64) -> Result<(), InputError> {
-    if value > -90.0 && value < 90.0 {
-        return Ok(());
-    }
-    Err(InputError::field(
-        field,
-        value,
-        "inside (−90°, 90°)",
-        "give the angle between the slope and the horizontal in degrees",
-    ))
-}
-
-/// Rows of particles over a layer.
-pub(super) fn rows(field: &str, value: usize) -> Result<(), InputError> {
-    if (4..=1000).contains(&value) {
-        return Ok(());
-    }
-    Err(InputError::field(field, value, "between 4 and 1000", "20 is quick, 40 is accurate"))
+/// Rows of particles over a layer, where 0 would mean none.
+pub(super) fn row_count(field: &str, value: usize) -> Result<(), InputError> {
+    between(field, value as f64, 4.0, 1000.0, ROWS)
 }
 
 /// Columns of particles along a period: the kernel with its skin must fit into it.
@@ -58,30 +58,13 @@ pub(super) fn columns(field: &str, value: usize, numerics: &Numerics) -> Result<
     Err(InputError::field(field, value, &rule, "the period must hold the reach of the kernel; 12 is quick"))
 }
 
-/// The ranges of a constitutive law's own parameters.
+/// The rules between a constitutive law's own parameters.
 pub(super) fn material(path: &str, law: &Rheology) -> Result<(), InputError> {
-    self::law(path, law.parameter_problem())
+    refuse(path, law.parameter_problem())
 }
 
-/// The ranges of any other law's parameters.
-pub(super) fn law(path: &str, problem: Option<ParameterProblem>) -> Result<(), InputError> {
-    problem.map_or(Ok(()), |(field, value, rule, remedy)| {
-        Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
-    })
-}
-
-/// The ranges of the numerics.
-pub(super) fn numerics(path: &str, numerics: &Numerics) -> Result<(), InputError> {
-    numerics.parameter_problem().map_or(Ok(()), |(field, value, rule, remedy)| {
-        Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
-    })
-}
-
-/// The ranges of the numerics of the incompressible solver.
+/// The continuity of the incompressible solver, which a case's own runs choose.
 pub(super) fn projection(path: &str, numerics: &ProjectionNumerics) -> Result<(), InputError> {
-    numerics.parameter_problem().map_or(Ok(()), |(field, value, rule, remedy)| {
-        Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
-    })?;
     let remedy = "only suspensions share their pressure, and `settling` chooses it for them";
     let refused = |field: &str, value, rule| Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy));
     match (numerics.continuity, numerics.mean_flux) {
@@ -93,12 +76,12 @@ pub(super) fn projection(path: &str, numerics: &ProjectionNumerics) -> Result<()
 
 /// The viscous step that a law allows.
 pub(super) fn viscous_step(path: &str, numerics: &Numerics, law: &Rheology) -> Result<(), InputError> {
-    choice(path, numerics.step_problem(law))
+    refuse(path, numerics.step_problem(law))
 }
 
 /// The operators and walls that a gate allows.
 pub(super) fn gate(path: &str, numerics: &Numerics) -> Result<(), InputError> {
-    choice(path, numerics.wall_problem(Surface::Smooth))
+    refuse(path, numerics.wall_problem(Surface::Smooth))
 }
 
 /// The operators that the implicit runs allow which a list of the parameters asks for.
@@ -123,17 +106,6 @@ pub(super) fn channel_columns(field: &str, value: usize, numerics: &ProjectionNu
     Err(InputError::field(field, value, &rule, "the period must hold twice the reach of the kernel; 12 is quick"))
 }
 
-/// Slope i of a bed that drives a flow.
-pub(super) fn driving_slope(field: &str, value: f64) -> Result<(), InputError> {
-    if value > 0.0 && value <= 0.2 {
-        return Ok(());
-    }
-    let remedy = "without a slope there is no friction velocity √(g h i); give its tangent, such as 0.03 for 3 %";
-    Err(InputError::field(field, value, "positive and at most 0.2", remedy))
-}
-
-fn choice(path: &str, problem: Option<ChoiceProblem>) -> Result<(), InputError> {
-    problem.map_or(Ok(()), |(field, value, rule, remedy)| {
-        Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy))
-    })
+pub(super) fn refuse(path: &str, problem: Option<ParameterProblem>) -> Result<(), InputError> {
+    problem.map_or(Ok(()), |problem| Err(problem.within(path).into()))
 }

@@ -102,6 +102,8 @@ pub enum Command {
     List,
     /// Print a case's parameters as a TOML file that `run` takes.
     Show(Show),
+    /// Print the JSON Schema of a case's TOML file, with which editors complete and check it.
+    Schema(Show),
     /// Simulate one case and judge it.
     Run(Run),
     /// Simulate many cases and write one page about them.
@@ -112,7 +114,7 @@ pub enum Command {
     Sweep(Box<Sweep>),
 }
 
-/// `bagnold show`
+/// `bagnold show` and `bagnold schema`
 #[derive(Debug, Args)]
 pub struct Show {
     /// Name of a case, see `bagnold list`.

@@ -62,6 +62,10 @@ pub fn execute(arguments: &Arguments, registry: Registry, output: &mut (dyn Writ
             say(output, &registry.find(&show.case)?.show(show.tier));
             Ok(Exit::Held)
         }
+        Command::Schema(show) => {
+            say(output, &format!("{:#}\n", registry.find(&show.case)?.schema(show.tier)));
+            Ok(Exit::Held)
+        }
         Command::Run(command) => in_pool(&command.work, || run::run(command, registry, arguments.quiet, output)),
         Command::Calibrate(command) => {
             in_pool(&command.work, || calibrate::run(command, registry, arguments.quiet, output))

@@ -2,7 +2,7 @@
 
 use super::{IncompressibleScene, ParticleSet, Sediment, SedimentLoad, SedimentPressure};
 use crate::domain::AxisBoundary;
-use crate::material::rheology::ParameterProblem;
+use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 
 impl<const D: usize> IncompressibleScene<D> {
@@ -29,7 +29,7 @@ impl<const D: usize> IncompressibleScene<D> {
             for &value in &strata.solid_fraction {
                 if !(0.0..1.0).contains(&value) {
                     let (rule, remedy) = ("in [0, 1)", "grains fill 0 to 0.64 of the space");
-                    refuse(Some(("solid_fraction", value, rule, remedy)))?;
+                    refuse(Some(ParameterProblem::new("solid_fraction", value, rule, remedy)))?;
                 }
             }
             refuse(strata.suspension_viscosity.parameter_problem())?;
@@ -37,7 +37,7 @@ impl<const D: usize> IncompressibleScene<D> {
         }
         for (field, value) in lengths {
             if !(value > 0.0 && value.is_finite()) {
-                refuse(Some((field, value, "positive and finite", "give it in SI units")))?;
+                refuse(Some(ParameterProblem::new(field, value, "positive and finite", "give it in SI units")))?;
             }
         }
         self.check_periods(least_period)
@@ -67,7 +67,8 @@ impl<const D: usize> Sediment<D> {
         if let SedimentLoad::Packed { buoyant_weight, .. } = self.load
             && !(buoyant_weight >= 0.0 && buoyant_weight.is_finite())
         {
-            refuse(Some(("buoyant_weight", buoyant_weight, "0 or positive, and finite", "give it in SI units")))?;
+            let (rule, remedy) = ("0 or positive, and finite", "give it in SI units");
+            refuse(Some(ParameterProblem::new("buoyant_weight", buoyant_weight, rule, remedy)))?;
         }
         if let SedimentPressure::Dilatant { dilatancy, .. } = self.pressure {
             refuse(dilatancy.bounds.parameter_problem())?;
@@ -87,7 +88,7 @@ impl<const D: usize> Sediment<D> {
 }
 
 fn refuse(problem: Option<ParameterProblem>) -> Result<(), SceneError> {
-    problem.map_or(Ok(()), |(field, value, rule, remedy)| Err(SceneError::Parameter { field, value, rule, remedy }))
+    problem.map_or(Ok(()), |problem| Err(problem.into()))
 }
 
 fn check_set<const D: usize>(particles: &ParticleSet<D>) -> Result<(), SceneError> {

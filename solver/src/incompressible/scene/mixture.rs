@@ -2,13 +2,14 @@
 
 use super::super::numerics::{Continuity, MeanFlux, PressureSource, SurfaceTreatment};
 use super::{IncompressibleScene, SedimentPressure};
+use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 
 impl<const D: usize> IncompressibleScene<D> {
     /// What the mixture's continuity asks of the other choices.
     pub(super) fn check_mixture(&self) -> Result<(), SceneError> {
         let numerics = &self.numerics;
-        let choice = |field, value, rule, remedy| Err(SceneError::Choice { field, value, rule, remedy });
+        let choice = |field, value, rule, remedy| Err(ParameterProblem::new(field, value, rule, remedy).into());
         if numerics.continuity == Continuity::Fluid {
             return match numerics.mean_flux {
                 MeanFlux::Free => Ok(()),

@@ -28,12 +28,13 @@ mod wen_yu;
 #[cfg(test)]
 mod tests;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 use suspension::Suspension;
 
 /// A drag law, chosen by name, for example `drag = "di-felice"`.
-#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[serde(rename_all = "kebab-case")]
 pub enum DragLaw {
     /// Morsi & Alexander (1972): one grain, a table of fits up to R = 50 000.

@@ -3,44 +3,25 @@
 //! η = μ + τ_y (1 − exp(−|γ̇|/γ_r))/|γ̇|, with |γ̇| = √(2 ε′:ε′). Limits: μ + τ_y/γ_r at rest, μ at high rates.
 //! Equation (21) of the bed-load model writes s = (τ_Y/|S| + 2μ) S with |S| = √(S:S) = |γ̇|/√2: its τ_Y is √2 τ_y.
 
+use super::ViscousLaw;
 use super::regularisation::inverse_shear_rate;
-use super::{ParameterProblem, ViscousLaw, parameter_range};
+use crate::parameter::{above, not_negative};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A viscous material that creeps very slowly, instead of standing still, below a yield stress.
-#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Bingham {
-    /// Yield stress τ_y `[Pa]`, ≥ 0, in the norm √(½ s:s): the shear stress at which simple shear begins.
+    /// Yield stress τ_y `[Pa]` in the norm √(½ s:s): the shear stress at which simple shear begins.
+    #[schemars(transform = not_negative("give the yield stress in Pa, or 0 for a liquid"))]
     pub yield_stress: f64,
-    /// Plastic viscosity μ `[Pa·s]`, ≥ 0: the slope of τ over |γ̇| in flow.
+    /// Plastic viscosity μ `[Pa·s]`: the slope of τ over |γ̇| in flow.
+    #[schemars(transform = not_negative("give the viscosity of the flowing material in Pa·s"))]
     pub plastic_viscosity: f64,
-    /// Regularisation rate γ_r `[1/s]`, > 0: well below the shear rates of interest.
+    /// Regularisation rate γ_r `[1/s]`: well below the shear rates of interest.
+    #[schemars(transform = above(0.0, "give about 1/100 of the typical shear rate in 1/s"))]
     pub regularisation_rate: f64,
-}
-
-impl Bingham {
-    pub(super) fn parameter_problem(&self) -> Option<ParameterProblem> {
-        parameter_range::not_negative(
-            "yield_stress",
-            self.yield_stress,
-            "give the yield stress in Pa, or 0 for a liquid",
-        )
-        .or_else(|| {
-            parameter_range::not_negative(
-                "plastic_viscosity",
-                self.plastic_viscosity,
-                "give the viscosity of the flowing material in Pa·s",
-            )
-        })
-        .or_else(|| {
-            parameter_range::positive(
-                "regularisation_rate",
-                self.regularisation_rate,
-                "give about 1/100 of the typical shear rate in 1/s",
-            )
-        })
-    }
 }
 
 impl ViscousLaw for Bingham {

@@ -9,23 +9,30 @@
 //! Limits: τ_y + μ_c p over γ_r at rest, where η_max does not bound it; μ at high rates; Bingham's law for μ_c = 0. Equation
 //! (21) writes |S| = √(S:S) = |γ̇|/√2: its τ_Y is √2 τ_y. A negative pressure counts as none.
 
+use super::ViscousLaw;
 use super::regularisation::inverse_shear_rate_by_one_division;
-use super::{ParameterProblem, ViscousLaw, parameter_range};
+use crate::parameter::{not_negative, positive};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A viscous material that creeps below a yield stress with cohesion and friction.
-#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct CoulombBingham {
-    /// Yield stress τ_y `[Pa]` without pressure, ≥ 0, in the norm √(½ s:s).
+    /// Yield stress τ_y `[Pa]` without pressure, in the norm √(½ s:s).
+    #[schemars(transform = not_negative("give the yield stress in Pa, or 0 for grains without cohesion"))]
     pub yield_stress: f64,
-    /// Coulomb friction μ_c `[-]` on the pressure, ≥ 0; 0 is Bingham's law.
+    /// Coulomb friction μ_c `[-]` on the pressure; 0 is Bingham's law.
+    #[schemars(transform = not_negative("0.6 for sand and gravel, 0 for none"))]
     pub friction: f64,
-    /// Plastic viscosity μ `[Pa·s]`, ≥ 0: the slope of τ over |γ̇| in flow.
+    /// Plastic viscosity μ `[Pa·s]`: the slope of τ over |γ̇| in flow.
+    #[schemars(transform = not_negative("give the viscosity of the flowing material in Pa·s"))]
     pub plastic_viscosity: f64,
-    /// Regularisation rate γ_r `[1/s]`, > 0: below it the material creeps.
+    /// Regularisation rate γ_r `[1/s]`: below it the material creeps.
+    #[schemars(transform = positive("give about 1/100 of the typical shear rate in 1/s"))]
     pub regularisation_rate: f64,
-    /// Largest viscosity η_max `[Pa·s]` of the yield, > 0: what a deep bed at rest is bounded by.
+    /// Largest viscosity η_max `[Pa·s]` of the yield: what a deep bed at rest is bounded by.
+    #[schemars(transform = positive("give a viscosity in Pa·s at which the bed stands still, such as 1e4"))]
     pub largest_viscosity: f64,
 }
 
@@ -35,36 +42,6 @@ impl CoulombBingham {
     #[must_use]
     pub fn yield_stress_at(&self, pressure: f64) -> f64 {
         self.yield_stress + self.friction * pressure.max(0.0)
-    }
-
-    pub(super) fn parameter_problem(&self) -> Option<ParameterProblem> {
-        parameter_range::not_negative(
-            "yield_stress",
-            self.yield_stress,
-            "give the yield stress in Pa, or 0 for grains without cohesion",
-        )
-        .or_else(|| parameter_range::not_negative("friction", self.friction, "0.6 for sand and gravel, 0 for none"))
-        .or_else(|| {
-            parameter_range::not_negative(
-                "plastic_viscosity",
-                self.plastic_viscosity,
-                "give the viscosity of the flowing material in Pa·s",
-            )
-        })
-        .or_else(|| {
-            parameter_range::positive(
-                "regularisation_rate",
-                self.regularisation_rate,
-                "give about 1/100 of the typical shear rate in 1/s",
-            )
-        })
-        .or_else(|| {
-            parameter_range::positive(
-                "largest_viscosity",
-                self.largest_viscosity,
-                "give a viscosity in Pa·s at which the bed stands still, such as 1e4",
-            )
-        })
     }
 }
 

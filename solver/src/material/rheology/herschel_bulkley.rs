@@ -6,53 +6,34 @@
 //! - n > 1: η_K = K min(|γ̇|, γ_max)^{n−1} with γ_max = 1000 1/s. A thickening law has no largest viscosity of
 //!   its own and hence no explicit time step; laboratory flows under gravity stay below γ_max.
 
+use super::ViscousLaw;
 use super::regularisation::inverse_shear_rate;
-use super::{ParameterProblem, ViscousLaw, parameter_range};
+use crate::parameter::{above, not_negative, up_to};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Shear rate γ_max `[1/s]` above which a thickening consistency (n > 1) no longer grows.
 const THICKENING_LIMIT: f64 = 1000.0;
 
 /// A yield-stress material whose flow curve is a power law.
-#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct HerschelBulkley {
-    /// Yield stress τ_y `[Pa]`, ≥ 0, in the norm √(½ s:s).
+    /// Yield stress τ_y `[Pa]` in the norm √(½ s:s).
+    #[schemars(transform = not_negative("give the yield stress in Pa, or 0 for a power-law liquid"))]
     pub yield_stress: f64,
-    /// Consistency K `[Pa·sⁿ]`, ≥ 0.
+    /// Consistency K `[Pa·sⁿ]`.
+    #[schemars(transform = not_negative("give the consistency in Pa·sⁿ"))]
     pub consistency: f64,
-    /// Flow index n `[-]`, in (0, 2]: thinning below 1, thickening above.
+    /// Flow index n `[-]`: thinning below 1, thickening above.
+    #[schemars(transform = up_to(2.0, "give the exponent of the shear rate; 1 is a Bingham plastic"))]
     pub flow_index: f64,
-    /// Regularisation rate γ_r `[1/s]`, > 0: well below the shear rates of interest.
+    /// Regularisation rate γ_r `[1/s]`: well below the shear rates of interest.
+    #[schemars(transform = above(0.0, "give about 1/100 of the typical shear rate in 1/s"))]
     pub regularisation_rate: f64,
 }
 
 impl HerschelBulkley {
-    pub(super) fn parameter_problem(&self) -> Option<ParameterProblem> {
-        parameter_range::not_negative(
-            "yield_stress",
-            self.yield_stress,
-            "give the yield stress in Pa, or 0 for a power-law liquid",
-        )
-        .or_else(|| parameter_range::not_negative("consistency", self.consistency, "give the consistency in Pa·sⁿ"))
-        .or_else(|| {
-            let in_range = self.flow_index > 0.0 && self.flow_index <= 2.0;
-            (!in_range).then_some((
-                "flow_index",
-                self.flow_index,
-                "must lie in (0, 2]",
-                "give the exponent of the shear rate; 1 is a Bingham plastic",
-            ))
-        })
-        .or_else(|| {
-            parameter_range::positive(
-                "regularisation_rate",
-                self.regularisation_rate,
-                "give about 1/100 of the typical shear rate in 1/s",
-            )
-        })
-    }
-
     /// The bounded consistency part η_K `[Pa·s]` at a shear rate `[1/s]`.
     #[inline]
     fn consistency_viscosity(&self, shear_rate: f64) -> f64 {

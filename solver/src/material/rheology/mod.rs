@@ -16,11 +16,12 @@ mod coulomb_bingham;
 mod herschel_bulkley;
 mod mu_i;
 mod newtonian;
-mod parameter_range;
 mod regularisation;
 mod regularised_mu_i;
 mod root_mu_i;
 mod stress_update;
+#[cfg(test)]
+mod tests;
 
 pub use bingham::Bingham;
 pub use coulomb_bingham::CoulombBingham;
@@ -32,11 +33,10 @@ pub use root_mu_i::RootMuI;
 
 use crate::lanes::algebra::{load_tensor, store_tensor};
 use crate::lanes::{LANES, Lanes, Real};
+use crate::parameter::{ParameterProblem, range_problem};
 use crate::vector::Tensor;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// A parameter outside its range: the field's name, its value, the rule it breaks, and what to do about it.
-pub type ParameterProblem = (&'static str, f64, &'static str, &'static str);
 
 /// A law whose deviatoric stress follows from the present strain rate alone: s = 2 η(|γ̇|, p) ε′.
 pub trait ViscousLaw {
@@ -77,7 +77,7 @@ pub trait PlasticLaw {
 macro_rules! laws {
     (viscous: [$($viscous:ident),* $(,)?], plastic: [$($plastic:ident),* $(,)?] $(,)?) => {
         /// The constitutive law of one material, chosen by its `law` key, for example `law = "mu-i"`.
-        #[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
+        #[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
         #[serde(tag = "law", rename_all = "kebab-case")]
         pub enum Rheology {
             $(#[doc = concat!("Viscous: [`", stringify!($viscous), "`].")] $viscous($viscous),)*
@@ -196,16 +196,31 @@ macro_rules! laws {
                 }
             }
 
-            /// The first parameter outside its range, if any.
-            #[must_use]
-            pub fn parameter_problem(&self) -> Option<ParameterProblem> {
-                match self {
-                    $(Self::$viscous(law) => law.parameter_problem(),)*
-                    $(Self::$plastic(law) => law.parameter_problem(),)*
-                }
-            }
         }
     };
+}
+
+impl Rheology {
+    /// The first parameter outside its range, or a pair of them that makes no law, if any.
+    #[must_use]
+    pub fn parameter_problem(&self) -> Option<ParameterProblem> {
+        range_problem(self).or_else(|| match self {
+            Self::MuI(law) => law.friction_problem(),
+            Self::RegularisedMuI(law) => law.friction_problem(),
+            Self::RootMuI(law) => law.friction_problem(),
+            Self::Newtonian(_) | Self::Bingham(_) | Self::CoulombBingham(_) | Self::HerschelBulkley(_) => None,
+        })
+    }
+}
+
+/// Friction (31) that falls with the rate is refused: μ_s ≤ μ_2.
+fn rising_friction(static_friction: f64, limiting_friction: f64) -> Option<ParameterProblem> {
+    // Written so that NaN is refused.
+    let rises = limiting_friction >= static_friction && limiting_friction.is_finite();
+    (!rises).then(|| {
+        let remedy = "give the friction of fast flow, or static_friction itself for a law without rate dependence";
+        ParameterProblem::new("limiting_friction", limiting_friction, "finite and at least static_friction", remedy)
+    })
 }
 
 /// The components of a tensor, indexed `[row][column]`.

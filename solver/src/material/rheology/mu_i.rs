@@ -16,8 +16,10 @@
 //! It is taken as τ = 2H/(B + √(B² − 4H)), free of cancellation. The discriminant is written as
 //! B² − 4H = (τ* + A − S_2)² + 4 A (S_2 − S_0), which rounding cannot make negative. For μ_2 = μ_s this is τ = S_0.
 
-use super::{ParameterProblem, PlasticLaw, RegularisedMuI, parameter_range};
+use super::{PlasticLaw, RegularisedMuI, rising_friction};
 use crate::lanes::Real;
+use crate::parameter::{ParameterProblem, above};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Shear rate `[1/s]` below which the apparent viscosity no longer grows: a strain of 1e-6 in a second is rest.
@@ -30,18 +32,22 @@ pub(super) fn reference_rate(reference_inertia: f64, grain_diameter: f64, grain_
 }
 
 /// Dry grains with a true yield stress: elastic below μ_s p, μ(I) p in flow, no stress without pressure.
-#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct MuI {
-    /// Friction coefficient μ_s `[-]` of slow flow, > 0.
+    /// Friction coefficient μ_s `[-]` of slow flow.
+    #[schemars(transform = above(0.0, "give the tangent of the angle at which grains stop; 0.382 for glass beads"))]
     pub static_friction: f64,
     /// Friction coefficient μ_2 `[-]` that fast flow tends to, ≥ μ_s.
     pub limiting_friction: f64,
-    /// Inertial number I_0 `[-]` at which friction is midway between μ_s and μ_2, > 0.
+    /// Inertial number I_0 `[-]` at which friction is midway between μ_s and μ_2.
+    #[schemars(transform = above(0.0, "give the inertial number where friction is midway; 0.279 for glass beads"))]
     pub reference_inertia: f64,
-    /// Grain diameter D `[m]`, > 0.
+    /// Grain diameter D `[m]`.
+    #[schemars(transform = above(0.0, "give the diameter in metres; 0.0005 for 0.5 mm"))]
     pub grain_diameter: f64,
-    /// Density ρ_s `[kg/m³]` of a grain, not of the bulk, > 0.
+    /// Density ρ_s `[kg/m³]` of a grain, not of the bulk.
+    #[schemars(transform = above(0.0, "give the density of a grain in kg/m³, not of the bulk; 2500 for glass"))]
     pub grain_density: f64,
 }
 
@@ -88,14 +94,8 @@ impl MuI {
         }
     }
 
-    pub(super) fn parameter_problem(&self) -> Option<ParameterProblem> {
-        parameter_range::friction(
-            self.static_friction,
-            self.limiting_friction,
-            self.reference_inertia,
-            self.grain_diameter,
-            self.grain_density,
-        )
+    pub(super) fn friction_problem(&self) -> Option<ParameterProblem> {
+        rising_friction(self.static_friction, self.limiting_friction)
     }
 }
 

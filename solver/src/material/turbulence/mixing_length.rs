@@ -7,10 +7,12 @@
 //! - linear: l = κ z′, right near the wall only: under the same stress the profile bends below the logarithm.
 
 use super::{VON_KARMAN, eddy_viscosity};
+use crate::parameter::not_negative;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How the mixing length goes with the distance from the wall.
-#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[serde(rename_all = "kebab-case")]
 pub enum MixingLengthShape {
     /// l = κ z′ √(1 − z′/H): the eddy viscosity of a logarithmic profile is a parabola over the depth.
@@ -20,12 +22,13 @@ pub enum MixingLengthShape {
 }
 
 /// Mixing in proportion to the distance from a bed.
-#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct MixingLength {
     /// Shape over the depth.
     pub shape: MixingLengthShape,
-    /// Depth z_off `[m]` of the wall law's origin below the nominal bed, ≥ 0: a fraction of a grain diameter.
+    /// Depth z_off `[m]` of the wall law's origin below the nominal bed: a fraction of a grain diameter.
+    #[schemars(transform = not_negative("a fraction of a grain diameter"))]
     pub origin_offset: f64,
 }
 

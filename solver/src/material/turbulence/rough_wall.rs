@@ -9,16 +9,19 @@
 //! with ln = 1, so that it never exceeds ρ (κ u)².
 
 use super::VON_KARMAN;
+use crate::parameter::positive;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Smallest ln(z′/z_0) `[-]` that a stress is taken with.
 const SMALLEST_LOGARITHM: f64 = 1.0;
 
 /// A rough wall under a turbulent flow.
-#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct RoughWall {
-    /// Equivalent sand roughness k_s `[m]`, > 0: about a grain diameter on a flat bed.
+    /// Equivalent sand roughness k_s `[m]`: about a grain diameter on a flat bed.
+    #[schemars(transform = positive("give it in metres; about the grain diameter"))]
     pub sand_roughness: f64,
 }
 

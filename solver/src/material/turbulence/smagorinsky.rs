@@ -1,12 +1,15 @@
 //! Smagorinsky's eddy viscosity, equation (5): ν_s = (C_s Δ)² |γ̇| with |γ̇| = √(2 ε:ε).
 
+use crate::parameter::between;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Sub-particle-scale mixing in proportion to the local shear rate.
-#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Smagorinsky {
-    /// Coefficient C_s `[-]`, 0.07 … 0.25; 0 switches the closure off.
+    /// Coefficient C_s `[-]`; 0 switches the closure off.
+    #[schemars(transform = between(0.0, 1.0, "0.07 to 0.25 are usual; 0 is laminar flow"))]
     pub coefficient: f64,
 }
 

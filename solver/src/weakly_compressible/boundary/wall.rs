@@ -2,10 +2,11 @@
 
 use crate::domain::{AxisBoundary, Domain};
 use crate::vector::Vector;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How the dummy particles get their pressure, stress and velocity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum WallTreatment {
     /// Pressure, stress and velocity extrapolated from the flow (the recipe).
@@ -15,7 +16,7 @@ pub enum WallTreatment {
 }
 
 /// Whether a wall holds the flow back along its surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Surface {
     /// The flow sticks to it.

@@ -8,12 +8,9 @@ mod runs;
 pub use parameters::{Arrangement, BagnoldParameters, Start};
 pub use runs::{BagnoldRun, Purpose};
 
-use super::layer::LayerObservation;
-use crate::case::{Case, Progress, Tier};
-use crate::error::InputError;
+use crate::case::{Case, RecordOf};
 use crate::figure::Figure;
 use crate::metric::Metric;
-use crate::observe::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -21,61 +18,31 @@ use crate::output::Table;
 pub struct Bagnold;
 
 /// A run with what it left behind.
-type Record = (BagnoldRun, Recorded<LayerObservation>);
+type Record = RecordOf<BagnoldParameters>;
 
 impl Case for Bagnold {
+    const NAME: &'static str = "bagnold";
+    const SUMMARY: &'static str =
+        "μ(I) grains on an incline: Bagnold's velocity profile, its approach, arrest below and runaway above";
+    const DESCRIPTION: &'static str = "A layer of glass beads with the μ(I) rheology on an incline, periodic along the slope, over a no-slip bed. \
+        From rest the displaced particles are settled first and carry the shear stress of the static friction limit. \
+        Between the static and the limiting friction angle the steady velocity follows Bagnold's profile (36)–(37), \
+        exact for the model; the way to it from rest is compared with an independent one-dimensional solver. \
+        Below that band the layer must come to rest, above it must accelerate without end. \
+        Bagnold's flow makes an error of the friction coefficient eight (25°) to twenty (22°) times as large in the \
+        velocity (dln I/dln μ), so the implied stress error \
+        |μ(I)/tanθ − 1| stands beside the velocity error.";
     type Parameters = BagnoldParameters;
-    type Run = BagnoldRun;
-    type Observation = LayerObservation;
 
-    fn name(&self) -> &'static str {
-        "bagnold"
-    }
-
-    fn summary(&self) -> &'static str {
-        "μ(I) grains on an incline: Bagnold's velocity profile, its approach, arrest below and runaway above"
-    }
-
-    fn description(&self) -> &'static str {
-        "A layer of glass beads with the μ(I) rheology on an incline, periodic along the slope, over a no-slip bed. \
-         From rest the displaced particles are settled first and carry the shear stress of the static friction limit. \
-         Between the static and the limiting friction angle the steady velocity follows Bagnold's profile (36)–(37), \
-         exact for the model; the way to it from rest is compared with an independent one-dimensional solver. \
-         Below that band the layer must come to rest, above it must accelerate without end. \
-         Bagnold's flow makes an error of the friction coefficient eight (25°) to twenty (22°) times as large in the \
-         velocity (dln I/dln μ), so the implied stress error \
-         |μ(I)/tanθ − 1| stands beside the velocity error."
-    }
-
-    fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
-        parameters::FIELD_NOTES
-    }
-
-    fn parameters(&self, tier: Tier) -> BagnoldParameters {
-        BagnoldParameters::of_tier(tier)
-    }
-
-    fn check(&self, parameters: &BagnoldParameters) -> Result<(), InputError> {
-        parameters.check()
-    }
-
-    fn runs(&self, parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
-        runs::all(parameters)
-    }
-
-    fn simulate(&self, run: &BagnoldRun, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
-        run.simulate(progress)
-    }
-
-    fn metrics(&self, parameters: &BagnoldParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(parameters, records)
     }
 
-    fn figures(&self, parameters: &BagnoldParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Figure> {
         figures::all(parameters, records)
     }
 
-    fn tables(&self, _: &BagnoldParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &BagnoldParameters, records: &[Record]) -> Vec<Table> {
         records
             .iter()
             .flat_map(|(run, record)| super::layer::tables(&crate::case::Run::variant(run), &record.data))

@@ -1,16 +1,19 @@
 //! The case's parameters and their tiers.
 
-use crate::case::Tier;
+use super::runs::{self, BagnoldRun};
+use crate::case::{Parameters, Tier};
 use crate::cases::layer::Preparation;
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::reference::{BagnoldProfile, GLASS_BEADS};
 use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::parameter::{between, each, positive};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How the layer starts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Start {
     /// At rest, with the shear stress at its static limit.
@@ -20,7 +23,7 @@ pub enum Start {
 }
 
 /// How the particles are arranged at the start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Arrangement {
     /// On a square lattice.
@@ -30,51 +33,66 @@ pub enum Arrangement {
 }
 
 /// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BagnoldParameters {
     /// Layer height h `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.01"))]
     pub layer_height: f64,
     /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Solid fraction φ `[-]`: the bulk density is φ times the grain density.
+    #[schemars(transform = between(0.0, 0.74, "grains fill 0.5 to 0.64 of the space"))]
     pub solid_fraction: f64,
-    /// Slope angles of the steady runs `[°]`.
+    /// Slope angles of the steady runs `[°]`, between the friction angles of the material.
+    #[schemars(transform = each(rules::slope_angle()))]
     pub slope_angles: Vec<f64>,
     /// Starts of the steady runs.
     pub starts: Vec<Start>,
     /// Rows of particles over the layer in the steady runs.
+    #[schemars(transform = rules::rows())]
     pub resolution: usize,
     /// Columns of particles along the period.
     pub columns: usize,
     /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// What happens before the start.
     pub preparation: Preparation,
-    /// Simulated time over the recipe's `[-]`.
+    /// Simulated time over the recipe's, 3.5 … 5 s at 22 … 25° for 10 mm `[-]`.
+    #[schemars(transform = positive("1 runs as long as the reference figures need"))]
     pub duration_factor: f64,
     /// Averaging window before the end `[s]`.
+    #[schemars(transform = positive("give it in seconds, such as 0.5"))]
     pub averaging_time: f64,
     /// Slope angle of the convergence study `[°]`.
+    #[schemars(transform = rules::slope_angle())]
     pub convergence_slope_angle: f64,
     /// Rows of the convergence study, lattice and jittered; empty for none.
+    #[schemars(transform = each(rules::rows()))]
     pub convergence_resolutions: Vec<usize>,
     /// Slope angles below the band of steady flow `[°]`; each starts with the profile of `arrest_start_angle`.
+    #[schemars(transform = each(rules::slope_angle()))]
     pub arrest_slope_angles: Vec<f64>,
     /// Slope angle whose profile the arresting layers start with `[°]`.
+    #[schemars(transform = rules::slope_angle())]
     pub arrest_start_angle: f64,
     /// Slope angles above the band `[°]`, from rest.
+    #[schemars(transform = each(rules::slope_angle()))]
     pub runaway_slope_angles: Vec<f64>,
     /// Material.
     pub material: MuI,
     /// Rate α_r `[1/s]` of the regularised viscosity (35), taken as `numerics.viscous_step` says; 0 for the return
     /// mapping.
+    #[schemars(transform = between(0.0, 1e6, "0 takes the return mapping"))]
     pub regularisation_rate: f64,
     /// Slopes repeated with (35) and an implicit step, from the profile `[°]`; empty for none.
+    #[schemars(transform = each(rules::slope_angle()))]
     pub regularised_slope_angles: Vec<f64>,
     /// Its rate α_r `[1/s]`.
+    #[schemars(transform = positive("0.01 1/s in the paper"))]
     pub regularised_rate: f64,
     /// Numerics.
     pub numerics: Numerics,
@@ -83,35 +101,10 @@ pub struct BagnoldParameters {
 /// Simulated time of an arresting layer of 10 mm `[s]`, the shortest of all runs.
 pub(super) const ARREST_DURATION: f64 = 1.5;
 
-pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
-    ("layer_height", "[m]"),
-    ("gravity", "[m/s²]"),
-    ("solid_fraction", "[-], bulk density over grain density"),
-    ("slope_angles", "[°], steady runs"),
-    ("starts", "\"rest\" and \"profile\""),
-    ("resolution", "rows of particles over the layer"),
-    ("columns", "columns of particles along the period"),
-    ("jitter", "[-], largest random displacement in spacings"),
-    ("preparation", "\"settled\" or \"none\""),
-    ("duration_factor", "[-], simulated time over 3.5 … 5 s at 22 … 25° for 10 mm"),
-    ("averaging_time", "[s], window before the end"),
-    ("convergence_slope_angle", "[°]"),
-    ("convergence_resolutions", "rows; empty for no study"),
-    ("arrest_slope_angles", "[°], below the band of steady flow"),
-    ("arrest_start_angle", "[°], whose profile the arresting layers start with"),
-    ("runaway_slope_angles", "[°], above the band"),
-    ("regularised_slope_angles", "[°], repeated with the viscosity (35) and an implicit step; empty for none"),
-    ("regularised_rate", "[1/s], of these"),
-    ("regularisation_rate", "[1/s], of the viscosity (35), see numerics.viscous_step; 0 for the return mapping"),
-    ("material.static_friction", "μ_s [-]"),
-    ("material.limiting_friction", "μ_2 [-]"),
-    ("material.reference_inertia", "I_0 [-]"),
-    ("material.grain_diameter", "D [m]"),
-    ("material.grain_density", "ρ_s [kg/m³]"),
-];
+impl Parameters for BagnoldParameters {
+    type Run = BagnoldRun;
 
-impl BagnoldParameters {
-    pub(super) fn of_tier(tier: Tier) -> Self {
+    fn of_tier(tier: Tier) -> Self {
         let quick = Self {
             layer_height: 0.01,
             gravity: 9.81,
@@ -159,37 +152,12 @@ impl BagnoldParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
-        rules::positive("layer_height", self.layer_height, "give it in metres, such as 0.01")?;
-        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
-        rules::between("solid_fraction", self.solid_fraction, 0.0, 0.74, "grains fill 0.5 to 0.64 of the space")?;
-        rules::between("jitter", self.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
-        rules::positive("duration_factor", self.duration_factor, "1 runs as long as the reference figures need")?;
-        rules::positive("averaging_time", self.averaging_time, "give it in seconds, such as 0.5")?;
+    fn check(&self) -> Result<(), InputError> {
         let shortest = ARREST_DURATION * self.duration_scale();
         let remedy = "the window must fit into the shortest run: choose a shorter one or a larger `duration_factor`";
         rules::between("averaging_time", self.averaging_time, 0.0, shortest, remedy)?;
-        rules::between("regularisation_rate", self.regularisation_rate, 0.0, 1e6, "0 takes the return mapping")?;
-        rules::positive("regularised_rate", self.regularised_rate, "0.01 1/s in the paper")?;
-        let angles = [
-            ("slope_angles", &self.slope_angles),
-            ("arrest_slope_angles", &self.arrest_slope_angles),
-            ("runaway_slope_angles", &self.runaway_slope_angles),
-        ];
-        for (field, values) in angles {
-            for (index, &angle) in values.iter().enumerate() {
-                rules::slope_angle(&format!("{field}[{index}]"), angle)?;
-            }
-        }
-        rules::slope_angle("convergence_slope_angle", self.convergence_slope_angle)?;
-        rules::slope_angle("arrest_start_angle", self.arrest_start_angle)?;
-        for (index, &rows) in self.convergence_resolutions.iter().enumerate() {
-            rules::rows(&format!("convergence_resolutions[{index}]"), rows)?;
-        }
-        rules::rows("resolution", self.resolution)?;
         rules::columns("columns", self.columns, &self.numerics)?;
         rules::material("material", &Rheology::MuI(self.material))?;
-        rules::numerics("numerics", &self.numerics)?;
         rules::viscous_step("numerics", &self.numerics, &law(&self.material, self.regularisation_rate))?;
         if !self.regularised_slope_angles.is_empty() {
             rules::implicit_runs("numerics", &self.numerics, "regularised_slope_angles")?;
@@ -222,6 +190,12 @@ impl BagnoldParameters {
         Ok(())
     }
 
+    fn runs(&self) -> Vec<BagnoldRun> {
+        runs::all(self)
+    }
+}
+
+impl BagnoldParameters {
     /// How long the runs are over those of a layer of 10 mm: (h/10 mm)^1.5 is how the time to the steady state grows.
     pub(super) fn duration_scale(&self) -> f64 {
         self.duration_factor * libm::pow(self.layer_height / 0.01, 1.5)

@@ -139,6 +139,8 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
 }
 
 impl Run for BagnoldRun {
+    type Observation = LayerObservation;
+
     fn variant(&self) -> String {
         let start = match self.start {
             Start::Rest => "rest".to_owned(),
@@ -165,6 +167,17 @@ impl Run for BagnoldRun {
         // a runaway layer stops long before its time is up
         let share = if self.purpose == Purpose::Runaway { 0.4 } else { 1.0 };
         share * layer.expected_steps() * (self.resolution * self.columns) as f64
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+        let start = self.start_profile();
+        let moving = self.start == Start::Profile;
+        let velocity = |y: f64| if moving { start.velocity(y).unwrap_or(0.0) } else { 0.0 };
+        // A layer tilted until it fails carries the static friction when it starts. From no stress at all it would
+        // first fall freely until the elastic shear is wound up, which at 22° is a sixth of its steady velocity.
+        let friction = self.material.static_friction.min(libm::tan(self.slope_angle.to_radians()));
+        let shear_stress = |y: f64| if moving { start.shear_stress(y) } else { friction * start.pressure(y) };
+        Ok(self.layer(&velocity, &shear_stress).run(progress)?)
     }
 }
 
@@ -240,16 +253,5 @@ impl BagnoldRun {
             frames: 2,
             may_diverge: false,
         }
-    }
-
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
-        let start = self.start_profile();
-        let moving = self.start == Start::Profile;
-        let velocity = |y: f64| if moving { start.velocity(y).unwrap_or(0.0) } else { 0.0 };
-        // A layer tilted until it fails carries the static friction when it starts. From no stress at all it would
-        // first fall freely until the elastic shear is wound up, which at 22° is a sixth of its steady velocity.
-        let friction = self.material.static_friction.min(libm::tan(self.slope_angle.to_radians()));
-        let shear_stress = |y: f64| if moving { start.shear_stress(y) } else { friction * start.pressure(y) };
-        Ok(self.layer(&velocity, &shear_stress).run(progress)?)
     }
 }

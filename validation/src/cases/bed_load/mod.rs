@@ -16,12 +16,10 @@ pub use observation::BedLoadObservation;
 pub use parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns, Yield};
 pub use runs::{BedLoadRun, Formulation};
 
-use crate::case::{Case, Progress, Run, Tier};
+use crate::case::{Case, RecordOf, Run};
 use crate::cases::channel;
-use crate::error::InputError;
 use crate::figure::Figure;
 use crate::metric::Metric;
-use crate::observe::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -29,59 +27,28 @@ use crate::output::Table;
 pub struct BedLoad;
 
 /// A run with what it left behind.
-type Record = (BedLoadRun, Recorded<BedLoadObservation>);
+type Record = RecordOf<BedLoadParameters>;
 
 impl Case for BedLoad {
+    const NAME: &'static str = "bed-load";
+    const SUMMARY: &'static str = "water over a bed that moves: profiles, drag and transport, in three formulations";
+    const DESCRIPTION: &'static str = "Turbulent water over a bed of 5 mm grains. `stabilised` has one particle a grain, a yield stress that grows with \
+        the grains' weight, and two parameters that are fitted on two slopes and judged on the third. `continuum` \
+        resolves the grains' layer by its solid fraction, with literature closures and nothing fitted; it is verified \
+        against the 1-D layer of bed-load-1d in three stages: grains at rest, grains that move at a given fraction, grains \
+        that dilate. `paper` is the set-up as printed, which fails in documented ways: its metrics are observations. The \
+        quick tier is too short to be stationary and says so: it judges conservation.";
     type Parameters = BedLoadParameters;
-    type Run = BedLoadRun;
-    type Observation = BedLoadObservation;
 
-    fn name(&self) -> &'static str {
-        "bed-load"
-    }
-
-    fn summary(&self) -> &'static str {
-        "water over a bed that moves: profiles, drag and transport, in three formulations"
-    }
-
-    fn description(&self) -> &'static str {
-        "Turbulent water over a bed of 5 mm grains. `stabilised` has one particle a grain, a yield stress that grows with \
-         the grains' weight, and two parameters that are fitted on two slopes and judged on the third. `continuum` \
-         resolves the grains' layer by its solid fraction, with literature closures and nothing fitted; it is verified \
-         against the 1-D layer of bed-load-1d in three stages: grains at rest, grains that move at a given fraction, grains \
-         that dilate. `paper` is the set-up as printed, which fails in documented ways: its metrics are observations. The \
-         quick tier is too short to be stationary and says so: it judges conservation."
-    }
-
-    fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
-        parameters::FIELD_NOTES
-    }
-
-    fn parameters(&self, tier: Tier) -> BedLoadParameters {
-        BedLoadParameters::of_tier(tier)
-    }
-
-    fn check(&self, parameters: &BedLoadParameters) -> Result<(), InputError> {
-        parameters.check()
-    }
-
-    fn runs(&self, parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
-        runs::runs(parameters)
-    }
-
-    fn simulate(&self, run: &BedLoadRun, progress: &dyn Progress) -> Result<Recorded<BedLoadObservation>, InputError> {
-        run.simulate(progress)
-    }
-
-    fn metrics(&self, _: &BedLoadParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &BedLoadParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(&self, _: &BedLoadParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &BedLoadParameters, records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(&self, _: &BedLoadParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &BedLoadParameters, records: &[Record]) -> Vec<Table> {
         let of_run = |(run, record): &Record| {
             let variant = run.variant();
             let mut tables = channel::tables(&variant, &record.data.channel);

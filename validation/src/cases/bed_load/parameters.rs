@@ -1,59 +1,71 @@
 //! Parameters.
 
 use crate::cases::channel::TurbulenceClosure;
+use crate::cases::rules;
 use crate::reference::bed_load_layer::Closures;
 use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
 use bagnold_solver::material::dilatancy::PressureBounds;
 use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::parameter::{between, each, positive};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Water and grains.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Materials {
     /// Depth h of the water above the bed `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.046"))]
     pub depth: f64,
     /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Density of the water `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub fluid_density: f64,
     /// Kinematic viscosity of the water `[m²/s]`.
+    #[schemars(transform = positive("give it in m²/s; water has 1e-6"))]
     pub kinematic_viscosity: f64,
     /// Density of the grains `[kg/m³]`.
     pub grain_density: f64,
     /// Diameter of the grains `[m]`.
+    #[schemars(transform = positive("give it in metres; 0.005 for 5 mm"))]
     pub grain_diameter: f64,
 }
 
 /// The yield of a bed of single grains.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Yield {
-    /// τ_y `[Pa]`.
+    /// Yield stress τ_y `[Pa]`, in the norm √(½ s:s).
+    #[schemars(transform = between(0.0, 1e6, "give it in Pa, or 0 for none"))]
     pub yield_stress: f64,
-    /// μ `[Pa·s]`.
+    /// Plastic viscosity μ `[Pa·s]`.
+    #[schemars(transform = between(0.0, 1e4, "give it in Pa·s, or 0 for none"))]
     pub viscosity: f64,
     /// Shear rate below which the bed creeps instead of standing still `[1/s]`.
+    #[schemars(transform = positive("give it in 1/s, well below the bed's rates, such as 0.01"))]
     pub regularisation_rate: f64,
     /// Largest viscosity of the yield `[Pa·s]`: that of a deep bed at rest.
+    #[schemars(transform = positive("give it in Pa·s, such as 1e4"))]
     pub largest_viscosity: f64,
 }
 
 /// One particle a grain, over a bed whose pores hold water: `paper` as printed, `stabilised` by the recipe.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Grains {
-    /// Slopes, one run each `[-]`; empty for none.
+    /// Slopes, tangents, one run each `[-]`; 0.03 is 3 %, empty for none.
+    #[schemars(transform = each(rules::driving_slope()))]
     pub slopes: Vec<f64>,
     /// Yield stress and viscosity.
     pub material: Yield,
-    /// Friction on the overburden below the top row of grains `[-]`.
+    /// Friction on the weight of the grains below the top row `[-]`.
+    #[schemars(transform = between(0.0, 2.0, "0.6 for sand and gravel"))]
     pub overburden_friction: f64,
     /// Depth of the bed `[m]`.
     pub bed_depth: f64,
     /// Length of the period `[m]`.
     pub length: f64,
     /// Spacing of the water's particles `[m]`.
+    #[schemars(transform = positive("give it in metres; 0.002 for the paper's"))]
     pub spacing: f64,
     /// Closure of the water's turbulence above the bed.
     pub turbulence: TurbulenceClosure,
@@ -62,10 +74,12 @@ pub struct Grains {
     /// Drag law.
     pub drag: DragLaw,
     /// Factor of the drag `[-]`.
+    #[schemars(transform = between(0.0, 10.0, "1 is the drag law's"))]
     pub drag_factor: f64,
     /// Smoothing length of the drag `[m]`.
     pub drag_smoothing_length: f64,
     /// Simulated time `[s]`.
+    #[schemars(transform = between(0.1, 1e4, "a few seconds, more to be stationary"))]
     pub duration: f64,
     /// Averaging window before its end `[s]`.
     pub averaging_time: f64,
@@ -74,7 +88,7 @@ pub struct Grains {
 }
 
 /// How much of the 1-D layer the grains of a `continuum` run are given.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stage {
     /// They rest at the layer's solid fraction.
@@ -106,34 +120,36 @@ impl Stage {
 }
 
 /// Runs of one stage.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StageRuns {
     /// Stage.
     pub stage: Stage,
     /// Slopes `[-]`.
+    #[schemars(transform = each(rules::driving_slope()))]
     pub slopes: Vec<f64>,
     /// Pair laws.
     pub pair_laws: Vec<PairLaw>,
     /// Velocities at the start over those of the 1-D layer `[-]`.
+    #[schemars(transform = each(between(0.0, 3.0, "1 starts as the 1-D layer flows")))]
     pub starts: Vec<f64>,
     /// Spacings of the particles of both phases `[m]`.
     pub spacings: Vec<f64>,
     /// Simulated time `[s]`.
+    #[schemars(transform = between(0.1, 1e4, "a few seconds, more to be stationary"))]
     pub duration: f64,
     /// Averaging window before its end `[s]`.
     pub averaging_time: f64,
 }
 
 /// Volume fractions, literature closures, nothing fitted.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Continuum {
     /// Runs.
     pub runs: Vec<StageRuns>,
     /// Depth of the bed `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.016"))]
     pub bed_depth: f64,
-    /// Lowest part of the bed whose grains are held `[m]`.
+    /// Depth of the lowest part of the bed, whose grains are held `[m]`.
     pub held_depth: f64,
     /// Length of the period `[m]`.
     pub length: f64,
@@ -144,32 +160,36 @@ pub struct Continuum {
     /// Bounds of the pressure of dilating sediment.
     pub pressure_bounds: PressureBounds,
     /// Smoothing length of dilating sediment over its spacing `[-]`.
+    #[schemars(transform = between(1.0, 3.0, "1.5 for dilating sediment"))]
     pub smoothing_ratio: f64,
     /// Largest random displacement of dilating sediment in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.3 breaks the rows"))]
     pub sediment_jitter: f64,
     /// Numerics at a spacing of 1 mm; the time step goes with the spacing.
     pub numerics: ProjectionNumerics,
 }
 
 /// The grid of yield stresses and viscosities that the fits interpolate in; empty for none.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Fit {
-    /// τ_y `[Pa]`, rising.
+    /// Yield stresses τ_y of the grid `[Pa]`, rising; empty for none.
+    #[schemars(transform = each(positive("give it in Pa")))]
     pub yield_stresses: Vec<f64>,
-    /// μ `[Pa·s]`, rising.
+    /// Plastic viscosities μ of the grid `[Pa·s]`, rising; empty for none.
+    #[schemars(transform = each(positive("give it in Pa·s")))]
     pub viscosities: Vec<f64>,
     /// Slopes, three or more `[-]`; each is held out once.
+    #[schemars(transform = each(rules::driving_slope()))]
     pub slopes: Vec<f64>,
     /// Simulated time `[s]`.
+    #[schemars(transform = between(0.1, 1e4, "a few seconds, more to be stationary"))]
     pub duration: f64,
     /// Averaging window before its end `[s]`.
     pub averaging_time: f64,
 }
 
 /// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BedLoadParameters {
     /// Water and grains.
     pub materials: Materials,
@@ -182,31 +202,8 @@ pub struct BedLoadParameters {
     /// Fits of `stabilised`.
     pub fit: Fit,
     /// Largest random displacement of a fluid particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.001 breaks the lattice without waves"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
 }
-
-pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
-    ("materials.depth", "[m], of the water above the bed"),
-    ("materials.grain_diameter", "[m]"),
-    ("stabilised.slopes", "[-], tangents: 0.03 is 3 %, one run each"),
-    ("stabilised.material.yield_stress", "[Pa], in the norm √(½ s:s)"),
-    ("stabilised.material.viscosity", "[Pa·s]"),
-    ("stabilised.overburden_friction", "[-], on the weight of the grains below the top row"),
-    ("stabilised.turbulence", "`mixing_length` or `smagorinsky`"),
-    ("stabilised.drag_smoothing_length", "[m]"),
-    ("stabilised.duration", "[s]"),
-    ("stabilised.averaging_time", "[s], before the end"),
-    ("continuum.runs.stage", "\"porous\", \"frozen\" or \"dilating\""),
-    ("stabilised.material.regularisation_rate", "[1/s], below it the bed creeps"),
-    ("stabilised.material.largest_viscosity", "[Pa·s], of the yield: a deep bed at rest"),
-    ("continuum.least_fraction", "[-], a row of the layer below it carries no sediment particle"),
-    ("continuum.pressure_bounds.stiffness", "[Pa], dp/dφ of packed grains"),
-    ("continuum.pressure_bounds.least_room", "[-], least φ_max − φ"),
-    ("continuum.pressure_bounds.largest_load_ratio", "[-], largest pressure of sheared grains over their load"),
-    ("continuum.pressure_bounds.largest_excess", "[Pa], and beyond that"),
-    ("continuum.held_depth", "[m], lowest part of the bed, whose grains are held"),
-    ("fit.yield_stresses", "[Pa], with fit.viscosities [Pa·s] the grid of the fits; empty for none"),
-    ("jitter", "[-], largest random displacement in spacings"),
-];

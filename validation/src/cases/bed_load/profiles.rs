@@ -182,7 +182,7 @@ mod tests {
     use super::super::parameters::BedLoadParameters;
     use super::super::runs::runs;
     use super::*;
-    use crate::case::Tier;
+    use crate::case::{Parameters, Tier};
 
     #[test]
     fn clear_water_has_one_layer_of_the_slope_one() {

@@ -118,6 +118,8 @@ pub(super) fn pair_law_name(law: PairLaw) -> &'static str {
 }
 
 impl Run for BedLoadRun {
+    type Observation = BedLoadObservation;
+
     fn variant(&self) -> String {
         let slope = self.slope;
         match &self.formulation {
@@ -147,6 +149,33 @@ impl Run for BedLoadRun {
             }
         };
         particles * self.duration / step
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadObservation>, InputError> {
+        let layer = self.layer()?;
+        let law = self.clear_water();
+        let start = |z: f64| match (&layer, &self.formulation) {
+            (Some(layer), Formulation::Continuum { start, .. }) => start * layer.at(z).fluid_velocity,
+            _ if z > 0.0 => 0.9 * law.velocity(z),
+            _ => 0.0,
+        };
+        let channel = match &self.formulation {
+            Formulation::Paper(grains) | Formulation::Stabilised(grains) | Formulation::Fit(grains) => {
+                self.grains_channel(grains, &start)
+            }
+            Formulation::Continuum { continuum, stage, pair_law, start: share, spacing } => {
+                let Some(layer) = &layer else { return Err(no_layer()) };
+                let numerics = ProjectionNumerics {
+                    pair_law: *pair_law,
+                    time_step: continuum.numerics.time_step * spacing / 1e-3,
+                    ..continuum.numerics
+                };
+                self.continuum_channel(continuum, *stage, (*share, *spacing), numerics, layer, &start)
+            }
+        };
+        let mut observer = Observer::new(self, &channel);
+        let record = channel.run_observed(progress, |simulation, in_window| observer.observe(simulation, in_window))?;
+        Ok(record.map(|channel| observer.finish(channel, layer.as_ref())))
     }
 }
 
@@ -201,33 +230,6 @@ impl BedLoadRun {
             }
         };
         Ok(Some(state))
-    }
-
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadObservation>, InputError> {
-        let layer = self.layer()?;
-        let law = self.clear_water();
-        let start = |z: f64| match (&layer, &self.formulation) {
-            (Some(layer), Formulation::Continuum { start, .. }) => start * layer.at(z).fluid_velocity,
-            _ if z > 0.0 => 0.9 * law.velocity(z),
-            _ => 0.0,
-        };
-        let channel = match &self.formulation {
-            Formulation::Paper(grains) | Formulation::Stabilised(grains) | Formulation::Fit(grains) => {
-                self.grains_channel(grains, &start)
-            }
-            Formulation::Continuum { continuum, stage, pair_law, start: share, spacing } => {
-                let Some(layer) = &layer else { return Err(no_layer()) };
-                let numerics = ProjectionNumerics {
-                    pair_law: *pair_law,
-                    time_step: continuum.numerics.time_step * spacing / 1e-3,
-                    ..continuum.numerics
-                };
-                self.continuum_channel(continuum, *stage, (*share, *spacing), numerics, layer, &start)
-            }
-        };
-        let mut observer = Observer::new(self, &channel);
-        let record = channel.run_observed(progress, |simulation, in_window| observer.observe(simulation, in_window))?;
-        Ok(record.map(|channel| observer.finish(channel, layer.as_ref())))
     }
 
     /// Clear water over a fixed bed of the same grains.

@@ -1,8 +1,10 @@
 //! What each tier runs.
 
 use super::parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns, Yield};
-use crate::case::Tier;
+use super::runs::{self, BedLoadRun};
+use crate::case::{Parameters, Tier};
 use crate::cases::channel::TurbulenceClosure;
+use crate::error::InputError;
 use crate::reference::bed_load_layer::Closures;
 use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
 use bagnold_solver::material::dilatancy::PressureBounds;
@@ -13,8 +15,10 @@ use bagnold_solver::material::turbulence::MixingLengthShape;
 pub(super) const FITTED: Yield =
     Yield { yield_stress: 5.1, viscosity: 1.67, regularisation_rate: 0.01, largest_viscosity: 1e4 };
 
-impl BedLoadParameters {
-    pub(super) fn of_tier(tier: Tier) -> Self {
+impl Parameters for BedLoadParameters {
+    type Run = BedLoadRun;
+
+    fn of_tier(tier: Tier) -> Self {
         let stabilised = Grains {
             slopes: vec![0.03],
             material: FITTED,
@@ -131,5 +135,13 @@ impl BedLoadParameters {
                 ..quick
             },
         }
+    }
+
+    fn check(&self) -> Result<(), InputError> {
+        self.check_combinations()
+    }
+
+    fn runs(&self) -> Vec<BedLoadRun> {
+        runs::runs(self)
     }
 }

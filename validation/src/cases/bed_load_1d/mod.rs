@@ -11,11 +11,9 @@ pub use parameters::{BedLoad1dParameters, Grain, Water};
 pub use runs::{BedLoad1dRun, LayerObservation, Purpose};
 pub use sensitivities::Sensitivities;
 
-use crate::case::{Case, Progress, Run, Tier};
-use crate::error::InputError;
+use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
 use crate::metric::Metric;
-use crate::observe::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -23,60 +21,30 @@ use crate::output::Table;
 pub struct BedLoad1d;
 
 /// A run with what it left behind.
-type Record = (BedLoad1dRun, Recorded<LayerObservation>);
+type Record = RecordOf<BedLoad1dParameters>;
 
 impl Case for BedLoad1d {
+    const NAME: &'static str = "bed-load-1d";
+    const SUMMARY: &'static str =
+        "bed load over the depth, two phases with closures of the literature, without particles";
+    const DESCRIPTION: &'static str = "Water flows down a slope over a bed of grains and drags the upper ones along. Both phases are continua over the \
+        depth: grains with μ(I), a solid fraction that falls with I, and drag; water with a mixing length that grows \
+        where grains leave it room. No parameter is fitted. The transport is judged against a formula that was fitted \
+        to flume experiments, on three slopes; that the steady state is one, is reached, balances and converges is \
+        verified. The solver uses no particles and is the reference for two-phase particles with the same closures: it \
+        shares their physics, so that agreement of the two verifies and does not validate. Sensitivities (paper tier) \
+        tell which closure the transport hangs on.";
     type Parameters = BedLoad1dParameters;
-    type Run = BedLoad1dRun;
-    type Observation = LayerObservation;
 
-    fn name(&self) -> &'static str {
-        "bed-load-1d"
-    }
-
-    fn summary(&self) -> &'static str {
-        "bed load over the depth, two phases with closures of the literature, without particles"
-    }
-
-    fn description(&self) -> &'static str {
-        "Water flows down a slope over a bed of grains and drags the upper ones along. Both phases are continua over the \
-         depth: grains with μ(I), a solid fraction that falls with I, and drag; water with a mixing length that grows \
-         where grains leave it room. No parameter is fitted. The transport is judged against a formula that was fitted \
-         to flume experiments, on three slopes; that the steady state is one, is reached, balances and converges is \
-         verified. The solver uses no particles and is the reference for two-phase particles with the same closures: it \
-         shares their physics, so that agreement of the two verifies and does not validate. Sensitivities (paper tier) \
-         tell which closure the transport hangs on."
-    }
-
-    fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
-        parameters::FIELD_NOTES
-    }
-
-    fn parameters(&self, tier: Tier) -> BedLoad1dParameters {
-        BedLoad1dParameters::of_tier(tier)
-    }
-
-    fn check(&self, parameters: &BedLoad1dParameters) -> Result<(), InputError> {
-        parameters.check()
-    }
-
-    fn runs(&self, parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
-        runs::all(parameters)
-    }
-
-    fn simulate(&self, run: &BedLoad1dRun, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
-        run.simulate(progress)
-    }
-
-    fn metrics(&self, _: &BedLoad1dParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &BedLoad1dParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(&self, _: &BedLoad1dParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &BedLoad1dParameters, records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(&self, _: &BedLoad1dParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &BedLoad1dParameters, records: &[Record]) -> Vec<Table> {
         records.iter().filter(|(run, _)| run.purpose == Purpose::Literature).map(profile_table).collect()
     }
 }

@@ -1,53 +1,66 @@
 //! Parameters and tiers.
 
+use super::runs::{self, BedLoad1dRun};
 use super::sensitivities::Sensitivities;
-use crate::case::Tier;
+use crate::case::{Parameters, Tier};
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::reference::bed_load_layer::{Closures, Stream};
+use bagnold_solver::parameter::{between, each, positive};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The water.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Water {
     /// Depth h above the bed `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.046"))]
     pub depth: f64,
     /// Density ρ_f `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub density: f64,
     /// Kinematic viscosity ν `[m²/s]`.
+    #[schemars(transform = positive("give it in m²/s, 1e-6 for water"))]
     pub kinematic_viscosity: f64,
 }
 
 /// The grains.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Grain {
     /// Depth of the bed `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.04"))]
     pub bed_depth: f64,
-    /// Depth of the lowest part of the bed, whose grains are held `[m]`.
+    /// Depth of the lowest part of the bed, whose grains are held while water seeps through `[m]`.
     pub held_depth: f64,
     /// Density ρ_s `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 2600"))]
     pub density: f64,
     /// Diameter d `[m]`.
+    #[schemars(transform = positive("give it in metres; 0.005 for 5 mm"))]
     pub diameter: f64,
 }
 
 /// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BedLoad1dParameters {
     /// Slopes tanθ `[-]`.
+    #[schemars(transform = each(positive("give tanθ, such as 0.03; without a slope nothing flows")))]
+    #[schemars(transform = each(between(0.0, 0.2, "on steeper slopes the bed itself would slide")))]
     pub slopes: Vec<f64>,
     /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Height of a cell `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 2.5e-4"))]
     pub cell_height: f64,
-    /// Speed of the second start `[m/s]`; 0 for none.
+    /// Speed of the water and the upper grains in a second start `[m/s]`; 0 for none.
+    #[schemars(transform = between(0.0, 100.0, "give it in m/s, or 0 for no second start"))]
     pub fast_start: f64,
-    /// Heights of cells for the order with dilation `[m]`, each half the one before; empty for none.
+    /// Heights of cells for the order with dilation `[m]`, three or more, each half the one before; empty for none.
+    #[schemars(transform = each(positive("give it in metres, such as 2.5e-4")))]
     pub dilating_cell_heights: Vec<f64>,
-    /// The same with a given solid fraction.
+    /// The same with a given solid fraction `[m]`.
+    #[schemars(transform = each(positive("give it in metres, such as 2.5e-4")))]
     pub frozen_cell_heights: Vec<f64>,
     /// The water.
     pub water: Water,
@@ -59,37 +72,10 @@ pub struct BedLoad1dParameters {
     pub sensitivities: Sensitivities,
 }
 
-pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
-    ("slopes", "tanθ [-]"),
-    ("gravity", "[m/s²]"),
-    ("cell_height", "[m]"),
-    ("fast_start", "[m/s], speed of the water and the upper grains in a second start; 0 for none"),
-    ("dilating_cell_heights", "[m], three or more, each half the one before, for the order; empty for none"),
-    ("frozen_cell_heights", "[m], the same with a given solid fraction"),
-    ("water.depth", "h [m]"),
-    ("water.density", "ρ_f [kg/m³]"),
-    ("water.kinematic_viscosity", "ν [m²/s]"),
-    ("grains.bed_depth", "[m]"),
-    ("grains.held_depth", "[m], lowest part of the bed, whose grains are held while water seeps through"),
-    ("grains.density", "ρ_s [kg/m³]"),
-    ("grains.diameter", "d [m]"),
-    ("closures.static_friction", "μ_s [-]"),
-    ("closures.limiting_friction", "μ_2 [-]"),
-    ("closures.reference_inertia", "I_0 [-]"),
-    ("closures.regularisation_rate", "γ_r [1/s], below it friction falls to zero"),
-    ("closures.largest_fraction", "φ_max [-]"),
-    ("closures.dilation", "B [-] in φ = φ_max/(1 + B I)"),
-    (
-        "closures.drag",
-        "\"di-felice\", \"wen-yu\", \"ergun\", \"schiller-naumann\" or \"morsi-alexander\"; \"gidaspow\" jumps at φ = 0.2 and gives no steady state",
-    ),
-    ("closures.mixing_length", "\"integral\", \"root\", \"linear\" or \"none\""),
-    ("closures.karman", "κ [-]"),
-    ("sensitivities.drag", "laws to be compared"),
-];
+impl Parameters for BedLoad1dParameters {
+    type Run = BedLoad1dRun;
 
-impl BedLoad1dParameters {
-    pub(super) fn of_tier(tier: Tier) -> Self {
+    fn of_tier(tier: Tier) -> Self {
         let quick = Self {
             slopes: vec![0.02, 0.03, 0.05],
             gravity: 9.81,
@@ -115,44 +101,14 @@ impl BedLoad1dParameters {
         }
     }
 
-    /// The stream on a slope tanθ.
-    pub(super) fn stream(&self, slope: f64) -> Stream {
-        Stream {
-            slope,
-            flow_depth: self.water.depth,
-            bed_depth: self.grains.bed_depth,
-            held_depth: self.grains.held_depth,
-            gravity: self.gravity,
-            fluid_density: self.water.density,
-            kinematic_viscosity: self.water.kinematic_viscosity,
-            grain_density: self.grains.density,
-            grain_diameter: self.grains.diameter,
-        }
-    }
-
-    pub(super) fn check(&self) -> Result<(), InputError> {
-        for (index, &slope) in self.slopes.iter().enumerate() {
-            let field = format!("slopes[{index}]");
-            rules::positive(&field, slope, "give tanθ, such as 0.03; without a slope nothing flows")?;
-            rules::between(&field, slope, 0.0, 0.2, "on steeper slopes the bed itself would slide")?;
-        }
-        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
-        let Water { depth, density, kinematic_viscosity } = self.water;
-        rules::positive("water.depth", depth, "give it in metres, such as 0.046")?;
-        rules::positive("water.density", density, "give it in kg/m³, such as 1000")?;
-        rules::positive("water.kinematic_viscosity", kinematic_viscosity, "give it in m²/s, 1e-6 for water")?;
+    fn check(&self) -> Result<(), InputError> {
         let grains = &self.grains;
-        rules::positive("grains.bed_depth", grains.bed_depth, "give it in metres, such as 0.04")?;
         let remedy = "hold less than the whole bed, or 0 for none";
         rules::between("grains.held_depth", grains.held_depth, 0.0, 0.9 * grains.bed_depth, remedy)?;
-        rules::positive("grains.diameter", grains.diameter, "give it in metres; 0.005 for 5 mm")?;
-        rules::positive("grains.density", grains.density, "give it in kg/m³, such as 2600")?;
-        if grains.density <= density {
-            let rule = "greater than the density of the water";
-            let remedy = "grains that float are no bed load";
+        if grains.density <= self.water.density {
+            let (rule, remedy) = ("greater than the density of the water", "grains that float are no bed load");
             return Err(InputError::field("grains.density", grains.density, rule, remedy));
         }
-        rules::between("fast_start", self.fast_start, 0.0, 100.0, "give it in m/s, or 0 for no second start")?;
         closures("closures", &self.closures)?;
         self.cells("cell_height", self.cell_height)?;
         for (name, heights) in
@@ -170,9 +126,29 @@ impl BedLoad1dParameters {
         self.sensitivities.check(self)
     }
 
+    fn runs(&self) -> Vec<BedLoad1dRun> {
+        runs::all(self)
+    }
+}
+
+impl BedLoad1dParameters {
+    /// The stream on a slope tanθ.
+    pub(super) fn stream(&self, slope: f64) -> Stream {
+        Stream {
+            slope,
+            flow_depth: self.water.depth,
+            bed_depth: self.grains.bed_depth,
+            held_depth: self.grains.held_depth,
+            gravity: self.gravity,
+            fluid_density: self.water.density,
+            kinematic_viscosity: self.water.kinematic_viscosity,
+            grain_density: self.grains.density,
+            grain_diameter: self.grains.diameter,
+        }
+    }
+
     /// A height of cells that divides all depths.
     pub(super) fn cells(&self, field: &str, height: f64) -> Result<(), InputError> {
-        rules::positive(field, height, "give it in metres, such as 2.5e-4")?;
         let depths = [self.water.depth, self.grains.bed_depth, self.grains.held_depth];
         let fits = |depth: &f64| (depth / height - (depth / height).round()).abs() < 1e-6;
         if depths.iter().all(fits) && depths[0] / height >= 10.0 && (depths[0] + depths[1]) / height <= 1e5 {
@@ -188,22 +164,13 @@ impl BedLoad1dParameters {
     }
 }
 
-/// Rules of the closures.
+/// The rule between the closures.
 pub(in crate::cases) fn closures(path: &str, closures: &Closures) -> Result<(), InputError> {
-    let field = |name: &str| format!("{path}.{name}");
-    rules::positive(&field("static_friction"), closures.static_friction, "give μ_s, such as 0.35")?;
-    rules::positive(&field("limiting_friction"), closures.limiting_friction, "give μ_2, such as 0.97")?;
-    if closures.limiting_friction <= closures.static_friction {
-        let rule = "greater than the static friction";
-        let remedy = "friction grows from μ_s at rest to μ_2 in fast shear";
-        return Err(InputError::field(&field("limiting_friction"), closures.limiting_friction, rule, remedy));
+    rules::refuse(&format!("{path}.suspension_viscosity"), closures.suspension_viscosity.pole_problem())?;
+    if closures.limiting_friction > closures.static_friction {
+        return Ok(());
     }
-    rules::positive(&field("reference_inertia"), closures.reference_inertia, "give I_0, such as 0.69")?;
-    rules::positive(&field("regularisation_rate"), closures.regularisation_rate, "give it in 1/s, such as 5e-3")?;
-    let remedy = "grains at rest fill 0.5 to 0.64 of the space";
-    rules::between(&field("largest_fraction"), closures.largest_fraction, 0.1, 0.74, remedy)?;
-    let remedy = "grains loosen in shear: give B, such as 0.31, or 0 for grains that do not";
-    rules::between(&field("dilation"), closures.dilation, 0.0, 100.0, remedy)?;
-    rules::law(&field("suspension_viscosity"), closures.suspension_viscosity.parameter_problem())?;
-    rules::positive(&field("karman"), closures.karman, "give κ, 0.41")
+    let remedy = "friction grows from μ_s at rest to μ_2 in fast shear";
+    let field = format!("{path}.limiting_friction");
+    Err(InputError::field(&field, closures.limiting_friction, "greater than the static friction", remedy))
 }

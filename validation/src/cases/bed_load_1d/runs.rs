@@ -83,6 +83,8 @@ pub(super) fn all(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
 }
 
 impl Run for BedLoad1dRun {
+    type Observation = LayerObservation;
+
     fn variant(&self) -> String {
         let purpose = match self.purpose {
             Purpose::Literature => "start=rest".to_owned(),
@@ -97,19 +99,8 @@ impl Run for BedLoad1dRun {
     fn particle_steps(&self) -> f64 {
         USUAL_STEPS * (self.stream.flow_depth + self.stream.bed_depth) / self.cell_height
     }
-}
 
-impl BedLoad1dRun {
-    /// The layer.
-    fn layer(&self) -> Result<BedLoadLayer, ReferenceError> {
-        let grains = match self.purpose {
-            Purpose::FrozenOrder => Grains::Frozen(smooth_bed(&self.stream, self.closures.largest_fraction)?),
-            _ => Grains::Dilating,
-        };
-        Ok(BedLoadLayer { stream: self.stream, closures: self.closures, grains, cell_height: self.cell_height })
-    }
-
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
         let started = Instant::now();
         let start = match self.purpose {
             Purpose::FastStart(speed) => Start::Moving(speed),
@@ -141,6 +132,17 @@ impl BedLoad1dRun {
                 fraction_change: approach.fraction_change,
             },
         })
+    }
+}
+
+impl BedLoad1dRun {
+    /// The layer.
+    fn layer(&self) -> Result<BedLoadLayer, ReferenceError> {
+        let grains = match self.purpose {
+            Purpose::FrozenOrder => Grains::Frozen(smooth_bed(&self.stream, self.closures.largest_fraction)?),
+            _ => Grains::Dilating,
+        };
+        Ok(BedLoadLayer { stream: self.stream, closures: self.closures, grains, cell_height: self.cell_height })
     }
 }
 

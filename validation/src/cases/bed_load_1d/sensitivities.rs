@@ -10,23 +10,30 @@ use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
 use crate::reference::TransportFormula;
 use crate::reference::bed_load_layer::{Closures, LayerState, MixingLength};
 use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::parameter::{between, each, positive};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What each closure is replaced by, one at a time; empty lists for none.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Sensitivities {
     /// μ_2 `[-]`.
+    #[schemars(transform = each(positive("give μ_2, such as 0.97")))]
     pub limiting_friction: Vec<f64>,
     /// μ_s `[-]`.
+    #[schemars(transform = each(positive("give μ_s, such as 0.35")))]
     pub static_friction: Vec<f64>,
     /// I_0 `[-]`.
+    #[schemars(transform = each(positive("give I_0, such as 0.69")))]
     pub reference_inertia: Vec<f64>,
     /// φ_max `[-]`.
+    #[schemars(transform = each(between(0.1, 0.74, "grains at rest fill 0.5 to 0.64 of the space")))]
     pub largest_fraction: Vec<f64>,
     /// B `[-]`.
+    #[schemars(transform = each(between(0.0, 100.0, "grains loosen in shear: give B, such as 0.31, or 0 for grains that do not")))]
     pub dilation: Vec<f64>,
     /// Heights of cells `[m]`.
+    #[schemars(transform = each(positive("give it in metres, such as 2.5e-4")))]
     pub cell_height: Vec<f64>,
     /// Drag laws.
     pub drag: Vec<DragLaw>,

@@ -1,14 +1,13 @@
 //! The closure of a channel's turbulence, as a case file chooses it.
 
-use crate::cases::rules;
-use crate::error::InputError;
 use bagnold_solver::incompressible::Turbulence;
 use bagnold_solver::material::turbulence::{MixingLength, MixingLengthShape, Smagorinsky};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What mixes beyond the particles' own motion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum TurbulenceClosure {
     /// Prandtl's mixing length over the height above the bed.
     MixingLength {
@@ -28,20 +27,6 @@ impl TurbulenceClosure {
                 Turbulence::MixingLength { level: 0.0, depth, law: MixingLength { shape, origin_offset } }
             }
             Self::Smagorinsky(law) => Turbulence::Smagorinsky(law),
-        }
-    }
-
-    /// Checks the coefficient.
-    ///
-    /// # Errors
-    /// A coefficient out of range.
-    pub fn check(self, field: &str) -> Result<(), InputError> {
-        match self {
-            Self::MixingLength { .. } => Ok(()),
-            Self::Smagorinsky(law) => {
-                let field = format!("{field}.smagorinsky.coefficient");
-                rules::between(&field, law.coefficient, 0.0, 1.0, "0.07 to 0.25 are usual; 0 is laminar flow")
-            }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{Progress, Run, Tier};
+use crate::case::{Parameters, Progress, Run, Tier};
 use crate::cases::channel::{Channel, ChannelObservation, Lattice, TurbulenceClosure, Until};
 use crate::cases::rules;
 use crate::error::InputError;
@@ -8,15 +8,18 @@ use crate::observe::Recorded;
 use crate::reference::RoughChannel;
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction};
 use bagnold_solver::material::turbulence::{MixingLengthShape, RoughWall};
+use bagnold_solver::parameter::{between, each, filled, positive, unique};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How long a flow is simulated.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Period {
     /// For a fixed time; nothing is claimed about stationarity.
     Fixed {
         /// Simulated time `[s]`.
+        #[schemars(transform = between(0.5, 1e4, "a few seconds, more to be stationary"))]
         duration: f64,
         /// Averaging window before the end `[s]`.
         averaging_time: f64,
@@ -24,45 +27,58 @@ pub enum Period {
     /// Until the depth mean changes little over U/(2 g i), then for an averaging window.
     Stationary {
         /// Largest relative change `[-]`.
+        #[schemars(transform = between(1e-5, 0.1, "0.005 is half a per cent"))]
         tolerance: f64,
         /// Times in a row.
+        #[schemars(transform = between(1.0, 20.0, "3 tells a steady flow from a turning point"))]
         checks: usize,
         /// Time at which averaging begins all the same, over U/(2 g i) of the logarithmic law `[-]`.
         at_most: f64,
         /// Averaging window over the same `[-]`.
+        #[schemars(transform = between(0.5, 1e3, "8 hold as many blocks"))]
         averaging_times: f64,
     },
 }
 
 /// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ClearWaterParameters {
     /// Depth h `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.046"))]
     pub depth: f64,
-    /// Slopes i of the bed, one run each `[-]`.
+    /// Slopes i of the bed, tangents, one run each `[-]`; 0.03 is 3 %.
+    #[schemars(transform = each(rules::driving_slope()))]
+    #[schemars(transform = unique("name every slope once"))]
+    #[schemars(transform = filled("at least one slope", "3 % is 0.03"))]
     pub slopes: Vec<f64>,
     /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Density `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub density: f64,
     /// Kinematic viscosity `[m²/s]`.
+    #[schemars(transform = positive("give it in m²/s; water has 1e-6"))]
     pub kinematic_viscosity: f64,
-    /// Equivalent sand roughness k_s of the bed `[m]`.
+    /// Equivalent sand roughness k_s of the bed `[m]`, about the grain diameter.
+    #[schemars(transform = positive("give it in metres; about the grain diameter"))]
     pub sand_roughness: f64,
     /// Depth z_off of the wall law's origin below the bed `[m]`.
     pub origin_offset: f64,
     /// Closure of the turbulence; the logarithmic law belongs to the parabolic mixing length.
     pub turbulence: TurbulenceClosure,
     /// Rows of particles over the depth.
+    #[schemars(transform = rules::rows())]
     pub resolution: usize,
     /// Columns of particles along the period.
     pub columns: usize,
     /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// Initial velocity over the logarithmic law's `[-]`.
+    #[schemars(transform = between(0.1, 3.0, "1 starts from the logarithmic law"))]
     pub start_share: f64,
     /// How long.
     pub period: Period,
@@ -70,33 +86,10 @@ pub struct ClearWaterParameters {
     pub numerics: ProjectionNumerics,
 }
 
-pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
-    ("depth", "[m]"),
-    ("slopes", "[-], tangents: 0.03 is 3 %, one run each"),
-    ("gravity", "[m/s²]"),
-    ("density", "[kg/m³]"),
-    ("kinematic_viscosity", "[m²/s]"),
-    ("sand_roughness", "k_s [m], about the grain diameter"),
-    ("origin_offset", "z_off [m], of the wall law below the bed"),
-    ("turbulence", "`mixing_length` or `smagorinsky`"),
-    ("turbulence.mixing_length.shape", "\"parabolic\" or \"linear\"; the logarithmic law belongs to the first"),
-    ("turbulence.smagorinsky.coefficient", "C_s [-]"),
-    ("resolution", "rows of particles over the depth"),
-    ("columns", "columns of particles along the period"),
-    ("jitter", "[-], largest random displacement in spacings"),
-    ("start_share", "[-], initial velocity over the logarithmic law's"),
-    ("period", "`fixed` or `stationary`"),
-    ("period.fixed.duration", "[s]"),
-    ("period.fixed.averaging_time", "[s], before the end"),
-    ("period.stationary.tolerance", "[-], change of the depth mean over U/(2 g i)"),
-    ("period.stationary.checks", "times in a row"),
-    ("period.stationary.at_most", "[-], over U/(2 g i): averaging begins all the same"),
-    ("period.stationary.averaging_times", "[-], over U/(2 g i)"),
-    ("numerics.time_step", "[s], the largest"),
-];
+impl Parameters for ClearWaterParameters {
+    type Run = ClearWaterRun;
 
-impl ClearWaterParameters {
-    pub(super) fn of_tier(tier: Tier) -> Self {
+    fn of_tier(tier: Tier) -> Self {
         let quick = Self {
             depth: 0.046,
             slopes: vec![0.03],
@@ -133,49 +126,44 @@ impl ClearWaterParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
-        rules::positive("depth", self.depth, "give it in metres, such as 0.046")?;
-        if self.slopes.is_empty() {
-            return Err(InputError::field("slopes", "[]", "at least one slope", "3 % is 0.03"));
-        }
-        for (index, &slope) in self.slopes.iter().enumerate() {
-            let field = format!("slopes[{index}]");
-            rules::driving_slope(&field, slope)?;
-            if self.slopes[..index].contains(&slope) {
-                return Err(InputError::field(&field, slope, "unlike the others", "name every slope once"));
-            }
-        }
-        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
-        rules::positive("density", self.density, "give it in kg/m³, such as 1000")?;
-        rules::positive("kinematic_viscosity", self.kinematic_viscosity, "give it in m²/s; water has 1e-6")?;
+    fn check(&self) -> Result<(), InputError> {
         rules::between("origin_offset", self.origin_offset, 0.0, 0.1 * self.depth, "a fraction of a grain diameter")?;
-        rules::rows("resolution", self.resolution)?;
-        rules::positive("sand_roughness", self.sand_roughness, "give it in metres; about the grain diameter")?;
         let first_row = 0.5 * self.depth / self.resolution as f64 + self.origin_offset;
         let remedy = "the logarithmic law begins at k_s/30, which must lie below the first row of particles";
         rules::between("sand_roughness", self.sand_roughness, 0.0, 30.0 * first_row, remedy)?;
-        self.turbulence.check("turbulence")?;
         rules::channel_columns("columns", self.columns, &self.numerics)?;
-        rules::between("jitter", self.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
-        rules::between("start_share", self.start_share, 0.1, 3.0, "1 starts from the logarithmic law")?;
         match self.period {
             Period::Fixed { duration, averaging_time } => {
-                rules::between("period.fixed.duration", duration, 0.5, 1e4, "a few seconds, more to be stationary")?;
                 let field = "period.fixed.averaging_time";
                 rules::between(field, averaging_time, 0.2, 0.5 * duration, "the window lies in the second half")?;
             }
-            Period::Stationary { tolerance, checks, at_most, averaging_times } => {
-                let field = |name: &str| format!("period.stationary.{name}");
-                rules::between(&field("tolerance"), tolerance, 1e-5, 0.1, "0.005 is half a per cent")?;
-                if !(1..=20).contains(&checks) {
-                    let (rule, remedy) = ("between 1 and 20", "3 tells a steady flow from a turning point");
-                    return Err(InputError::field(&field("checks"), checks, rule, remedy));
-                }
-                rules::between(&field("at_most"), at_most, checks as f64, 1e3, "25 suffice from 80 % of the law")?;
-                rules::between(&field("averaging_times"), averaging_times, 0.5, 1e3, "8 hold as many blocks")?;
+            Period::Stationary { checks, at_most, .. } => {
+                let field = "period.stationary.at_most";
+                rules::between(field, at_most, checks as f64, 1e3, "25 suffice from 80 % of the law")?;
             }
         }
         rules::projection("numerics", &self.numerics)
+    }
+
+    fn runs(&self) -> Vec<ClearWaterRun> {
+        let new = |&slope: &f64| ClearWaterRun {
+            slope,
+            resolution: self.resolution,
+            period: self.period,
+            depth: self.depth,
+            gravity: self.gravity,
+            density: self.density,
+            kinematic_viscosity: self.kinematic_viscosity,
+            sand_roughness: self.sand_roughness,
+            origin_offset: self.origin_offset,
+            turbulence: self.turbulence,
+            columns: self.columns,
+            jitter: self.jitter,
+            seed: self.seed,
+            start_share: self.start_share,
+            numerics: self.numerics,
+        };
+        self.slopes.iter().map(new).collect()
     }
 }
 
@@ -202,34 +190,20 @@ pub struct ClearWaterRun {
     numerics: ProjectionNumerics,
 }
 
-pub(super) fn runs(parameters: &ClearWaterParameters) -> Vec<ClearWaterRun> {
-    let new = |&slope: &f64| ClearWaterRun {
-        slope,
-        resolution: parameters.resolution,
-        period: parameters.period,
-        depth: parameters.depth,
-        gravity: parameters.gravity,
-        density: parameters.density,
-        kinematic_viscosity: parameters.kinematic_viscosity,
-        sand_roughness: parameters.sand_roughness,
-        origin_offset: parameters.origin_offset,
-        turbulence: parameters.turbulence,
-        columns: parameters.columns,
-        jitter: parameters.jitter,
-        seed: parameters.seed,
-        start_share: parameters.start_share,
-        numerics: parameters.numerics,
-    };
-    parameters.slopes.iter().map(new).collect()
-}
-
 impl Run for ClearWaterRun {
+    type Observation = ChannelObservation;
+
     fn variant(&self) -> String {
         format!("slope={},resolution={}", self.slope, self.resolution)
     }
 
     fn particle_steps(&self) -> f64 {
         self.channel(&|_| 0.0).expected_steps() * (self.resolution * self.columns) as f64
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
+        let law = self.reference();
+        Ok(self.channel(&|z| self.start_share * law.velocity(z)).run(progress)?)
     }
 }
 
@@ -284,10 +258,5 @@ impl ClearWaterRun {
             frames: 2,
             may_diverge: false,
         }
-    }
-
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
-        let law = self.reference();
-        Ok(self.channel(&|z| self.start_share * law.velocity(z)).run(progress)?)
     }
 }

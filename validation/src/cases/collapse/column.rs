@@ -97,6 +97,8 @@ pub struct ColumnRun {
 }
 
 impl Run for ColumnRun {
+    type Observation = Collapse;
+
     fn variant(&self) -> String {
         let column =
             format!("material={},aspect_ratio={},resolution={}", self.material, self.aspect_ratio, self.resolution);
@@ -115,6 +117,13 @@ impl Run for ColumnRun {
         // most columns rest well before their time is up
         let expected = 5.0_f64.min(self.duration) * self.time_scale() / step;
         expected * self.particles()
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError> {
+        match self.geometry {
+            Geometry::Planar => self.run::<2>(progress),
+            Geometry::Round => self.run::<3>(progress),
+        }
     }
 }
 
@@ -267,13 +276,6 @@ impl ColumnRun {
                 None => Rheology::MuI(self.law),
             },
             numerics: self.numerics,
-        }
-    }
-
-    pub(in crate::cases) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError> {
-        match self.geometry {
-            Geometry::Planar => self.run::<2>(progress),
-            Geometry::Round => self.run::<3>(progress),
         }
     }
 

@@ -72,6 +72,8 @@ pub struct SlopeCollapse {
 }
 
 impl Run for SlopeRun {
+    type Observation = SlopeCollapse;
+
     fn variant(&self) -> String {
         let gate = if self.gate_speed > 0.0 { self.gate_speed.to_string() } else { "none".to_owned() };
         let collapse = format!("slope_angle={},gate={gate},resolution={}", self.slope_angle, self.resolution);
@@ -84,6 +86,55 @@ impl Run for SlopeRun {
     fn particle_steps(&self) -> f64 {
         let step = self.numerics.acoustic_courant * self.numerics.smoothing_ratio * self.spacing() / self.sound_speed();
         self.duration / step * self.particles()
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, InputError> {
+        let started = std::time::Instant::now();
+        let mut simulation = Simulation::new(self.scene())?;
+        let particles = simulation.particles().flow_count();
+        let mut surveyor = Surveyor {
+            half_width: self.reservoir_length,
+            spacing: self.spacing(),
+            gravity: self.gravity(),
+            bed_end: self.channel_length,
+            collapse: Collapse::default(),
+        };
+        let r = self.reservoir_length;
+        let mut camera = Camera::new(FRAME_INTERVAL, self.spacing());
+        let mut thickness = Vec::new();
+        let mut frames = Vec::new();
+        let mut last_good = simulation.snapshot();
+        let end_of_channel = self.channel_length - 0.5 * self.reservoir_length;
+        let reason = simulation.run(self.duration, INTERVAL, |simulation| {
+            let snapshot = simulation.snapshot();
+            let profile = surveyor.observe(&snapshot);
+            camera.watch(&snapshot, profile.iter().map(|(x, h)| (x * r, h * r)), front(&profile) * r);
+            thickness.push(profile.iter().map(|bin| bin.1).collect());
+            if PICTURES.get(frames.len()).is_some_and(|&time| snapshot.time >= time) {
+                frames.push(Frame::of_flow(&snapshot));
+            }
+            progress.advance(snapshot.time, self.duration, simulation.steps() as f64 * particles as f64);
+            let rests = snapshot.time > EARLIEST_REST && surveyor.agitation() < AT_REST;
+            let arrived = snapshot.position.iter().any(|x| x[0] > end_of_channel);
+            last_good = snapshot;
+            if rests || arrived { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let ending = Ending {
+            reason,
+            last_good,
+            criterion: format!(
+                "the deposit rests (kinetic energy below {AT_REST:.0e} of the energy released), or a grain nears the end \
+                 of the channel"
+            ),
+            may_diverge: false,
+            frames,
+            started,
+        };
+        Ok(ending.record(&simulation, |end| {
+            let mut collapse = surveyor.finish(end);
+            collapse.motion = camera.motion;
+            SlopeCollapse { collapse, thickness }
+        }))
     }
 }
 
@@ -201,55 +252,6 @@ impl SlopeRun {
             },
             numerics: self.numerics,
         }
-    }
-
-    pub(in crate::cases) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, InputError> {
-        let started = std::time::Instant::now();
-        let mut simulation = Simulation::new(self.scene())?;
-        let particles = simulation.particles().flow_count();
-        let mut surveyor = Surveyor {
-            half_width: self.reservoir_length,
-            spacing: self.spacing(),
-            gravity: self.gravity(),
-            bed_end: self.channel_length,
-            collapse: Collapse::default(),
-        };
-        let r = self.reservoir_length;
-        let mut camera = Camera::new(FRAME_INTERVAL, self.spacing());
-        let mut thickness = Vec::new();
-        let mut frames = Vec::new();
-        let mut last_good = simulation.snapshot();
-        let end_of_channel = self.channel_length - 0.5 * self.reservoir_length;
-        let reason = simulation.run(self.duration, INTERVAL, |simulation| {
-            let snapshot = simulation.snapshot();
-            let profile = surveyor.observe(&snapshot);
-            camera.watch(&snapshot, profile.iter().map(|(x, h)| (x * r, h * r)), front(&profile) * r);
-            thickness.push(profile.iter().map(|bin| bin.1).collect());
-            if PICTURES.get(frames.len()).is_some_and(|&time| snapshot.time >= time) {
-                frames.push(Frame::of_flow(&snapshot));
-            }
-            progress.advance(snapshot.time, self.duration, simulation.steps() as f64 * particles as f64);
-            let rests = snapshot.time > EARLIEST_REST && surveyor.agitation() < AT_REST;
-            let arrived = snapshot.position.iter().any(|x| x[0] > end_of_channel);
-            last_good = snapshot;
-            if rests || arrived { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
-        let ending = Ending {
-            reason,
-            last_good,
-            criterion: format!(
-                "the deposit rests (kinetic energy below {AT_REST:.0e} of the energy released), or a grain nears the end \
-                 of the channel"
-            ),
-            may_diverge: false,
-            frames,
-            started,
-        };
-        Ok(ending.record(&simulation, |end| {
-            let mut collapse = surveyor.finish(end);
-            collapse.motion = camera.motion;
-            SlopeCollapse { collapse, thickness }
-        }))
     }
 }
 

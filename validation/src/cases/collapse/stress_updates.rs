@@ -95,13 +95,13 @@ pub(super) fn figure(records: &[Record]) -> Option<Figure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Case, Tier};
-    use crate::cases::column_planar::ColumnPlanar;
+    use crate::case::{Parameters, Tier};
+    use crate::cases::column_planar::ColumnPlanarParameters;
     use crate::observe::{Outcome, Recorded};
 
     /// The metrics' names of columns of sand with these aspect ratios and of regularised ones with a = 1.
     fn names(sand: &[f64]) -> Vec<String> {
-        let mut parameters = ColumnPlanar.parameters(Tier::Quick);
+        let mut parameters = ColumnPlanarParameters::of_tier(Tier::Quick);
         parameters.sand.aspect_ratios = sand.to_vec();
         parameters.regularised.aspect_ratios = vec![1.0];
         let record = Recorded {
@@ -115,8 +115,7 @@ mod tests {
             frames: Vec::new(),
             data: Collapse { deposit: vec![(0.05, 0.5), (2.95, 0.03), (3.05, 0.01)], ..Collapse::default() },
         };
-        let records: Vec<Record> =
-            ColumnPlanar.runs(&parameters).into_iter().map(|run| (run, record.clone())).collect();
+        let records: Vec<Record> = parameters.runs().into_iter().map(|run| (run, record.clone())).collect();
         let metrics = metrics(&records);
         assert!(metrics.iter().all(|metric| metric.name != "run_out" || (metric.value - 2.0).abs() < 1e-12));
         metrics.into_iter().map(|metric| metric.name).collect()

@@ -1,91 +1,106 @@
 //! The case's parameters and their tiers.
 
-use crate::case::Tier;
-use crate::cases::collapse::{ColumnRun, Geometry, Purpose};
+use crate::case::{Parameters, Tier};
+use crate::cases::collapse::{self, ColumnRun, Geometry, Purpose};
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, TABLE_2_SAND};
 use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::parameter::{between, each, positive, within};
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Grains and the columns that are made of them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Columns {
     /// Aspect ratios a = h_0/r_0 `[-]`; empty for none.
+    #[schemars(transform = each(between(0.1, 100.0, "the published laws reach from 0.3 to 20")))]
     pub aspect_ratios: Vec<f64>,
     /// Half width r_0 of columns up to an aspect ratio of 3 `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.1"))]
     pub half_width: f64,
     /// Half width of taller columns `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.03"))]
     pub tall_half_width: f64,
     /// Solid fraction φ `[-]`: the bulk density is φ times the grain density.
+    #[schemars(transform = between(0.01, 0.74, "grains fill 0.5 to 0.64 of the space"))]
     pub solid_fraction: f64,
     /// Constitutive law.
     pub law: MuI,
 }
 
 /// Columns of grains that differ from others in one number.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Variants {
     /// What that number is instead; empty for none.
     pub values: Vec<f64>,
     /// Aspect ratios of their columns `[-]`.
+    #[schemars(transform = each(between(0.1, 100.0, "the published laws reach from 0.3 to 20")))]
     pub aspect_ratios: Vec<f64>,
 }
 
 /// How far results depend on what should not matter, for the grains of Lagrée et al.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Sensitivity {
     /// Aspect ratios `[-]`; empty for none.
+    #[schemars(transform = each(between(0.1, 100.0, "the published laws reach from 0.3 to 20")))]
     pub aspect_ratios: Vec<f64>,
-    /// Particles over the half width.
+    /// Particles over the half width, for the grid convergence.
+    #[schemars(transform = each(rules::rows()))]
     pub resolutions: Vec<usize>,
-    /// Seeds of each resolution; the first is the case's own.
+    /// Seeds of each resolution, three at the finest of several; the first is the case's own.
     pub seeds: Vec<u64>,
     /// Hourglass coefficients at which the first aspect ratio is repeated `[-]`; empty for none.
+    #[schemars(transform = each(between(0.0, 2.0, "the recipe has 0.2")))]
     pub hourglass: Vec<f64>,
     /// Particles over the half width of these.
+    #[schemars(transform = each(rules::rows()))]
     pub hourglass_resolutions: Vec<usize>,
 }
 
 /// The regularised law with an implicit viscous step, beside the return mapping.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Regularised {
-    /// Aspect ratios of columns of the sand that are repeated with it `[-]`; empty for none.
+    /// Aspect ratios of columns of the sand that are repeated with it, implicitly, beside those of `sand` `[-]`; empty for none.
+    #[schemars(transform = each(between(0.1, 100.0, "the published laws reach from 0.3 to 20")))]
     pub aspect_ratios: Vec<f64>,
     /// Rate α_r of (35) `[1/s]`.
+    #[schemars(transform = positive("0.01 1/s in the paper"))]
     pub rate: f64,
 }
 
 /// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ColumnPlanarParameters {
     /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Particles over the half width, aspect ratios up to 5.
+    #[schemars(transform = rules::rows())]
     pub resolution: usize,
     /// Particles over the half width, taller columns.
+    #[schemars(transform = rules::rows())]
     pub tall_resolution: usize,
     /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.05 breaks the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// Longest simulated time over √(h_0/g) `[-]`; a deposit at rest ends a run before.
+    #[schemars(transform = between(0.1, 1000.0, "a column has come to rest after about 5"))]
     pub duration: f64,
-    /// The paper's sand.
+    /// The paper's sand; I_0 is 2.65 as printed, 0.279 follows from (41) for the glass beads.
     pub sand: Columns,
     /// The paper's glass beads, for figures 7–9.
     pub glass: Columns,
-    /// Grains of Lagrée, Staron & Popinet (2011).
+    /// Grains of Lagrée, Staron & Popinet (2011); the source does not say their diameter, here it is 0.02 r_0.
     pub lagree: Columns,
     /// Sand with other values of I_0 `[-]`.
+    #[schemars(transform = within("values", each(positive("0.279 follows from (41) for the glass beads"))))]
     pub sand_inertias: Variants,
     /// Grains of Lagrée et al. with other diameters `[m]`.
+    #[schemars(transform = within("values", each(positive("give it in metres, such as 0.001"))))]
     pub lagree_diameters: Variants,
     /// Grid convergence and hourglass control.
     pub sensitivity: Sensitivity,
@@ -94,38 +109,6 @@ pub struct ColumnPlanarParameters {
     /// Numerics.
     pub numerics: Numerics,
 }
-
-pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
-    ("gravity", "[m/s²]"),
-    ("resolution", "particles over the half width, aspect ratios up to 5"),
-    ("tall_resolution", "the same for taller columns"),
-    ("jitter", "[-], largest random displacement in spacings"),
-    ("duration", "[-], longest simulated time over √(h_0/g)"),
-    ("sand.aspect_ratios", "h_0/r_0 [-]"),
-    ("sand.half_width", "r_0 [m] up to an aspect ratio of 3"),
-    ("sand.tall_half_width", "r_0 [m] of taller columns"),
-    ("sand.solid_fraction", "[-], bulk density over grain density"),
-    ("sand.law.static_friction", "μ_s [-]"),
-    ("sand.law.limiting_friction", "μ_2 [-]"),
-    ("sand.law.reference_inertia", "I_0 [-]; 2.65 as printed; 0.279 follows from (41) for the glass beads"),
-    ("sand.law.grain_diameter", "D [m]"),
-    ("sand.law.grain_density", "ρ_s [kg/m³]"),
-    ("glass.aspect_ratios", "h_0/r_0 [-]; other fields as of the sand"),
-    ("lagree.aspect_ratios", "h_0/r_0 [-]"),
-    ("lagree.half_width", "r_0 [m]"),
-    ("lagree.tall_half_width", "r_0 [m], the same at every aspect ratio"),
-    ("sand_inertias.values", "I_0 [-] of further columns of sand; empty for none"),
-    ("lagree_diameters.values", "D [m] of further columns of Lagrée's grains; empty for none"),
-    ("sensitivity.resolutions", "particles over r_0, for the grid convergence of Lagrée's grains"),
-    ("sensitivity.seeds", "of each resolution; three at the finest of several"),
-    ("sensitivity.hourglass", "[-], coefficients at which the first of these columns is repeated"),
-    (
-        "regularised.aspect_ratios",
-        "h_0/r_0 [-] of columns of sand with (35), implicitly; compared with those of sand.aspect_ratios",
-    ),
-    ("regularised.rate", "α_r [1/s]"),
-    ("lagree.law.grain_diameter", "D [m]; the source does not say, here D/r_0 = 0.02"),
-];
 
 /// Aspect ratio above which a column is narrower and coarser: the paper's own division of half widths.
 const TALL: f64 = 3.0;
@@ -143,8 +126,10 @@ fn shown_times(aspect_ratio: f64) -> Vec<f64> {
     SHOWN.iter().find(|shown| shown.0 == aspect_ratio).map_or(Vec::new(), |shown| shown.1.to_vec())
 }
 
-impl ColumnPlanarParameters {
-    pub(in crate::cases) fn of_tier(tier: Tier) -> Self {
+impl Parameters for ColumnPlanarParameters {
+    type Run = ColumnRun;
+
+    fn of_tier(tier: Tier) -> Self {
         let quick = Self {
             gravity: 9.81,
             resolution: 20,
@@ -219,71 +204,95 @@ impl ColumnPlanarParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
-        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
-        rules::rows("resolution", self.resolution)?;
-        rules::rows("tall_resolution", self.tall_resolution)?;
-        rules::between("jitter", self.jitter, 0.0, 0.5, "0.05 breaks the lattice without overlaps")?;
-        rules::between("duration", self.duration, 0.1, 1000.0, "a column has come to rest after about 5")?;
+    fn check(&self) -> Result<(), InputError> {
         for (name, columns) in self.materials() {
-            for (index, &ratio) in columns.aspect_ratios.iter().enumerate() {
-                let field = format!("{name}.aspect_ratios[{index}]");
-                rules::between(&field, ratio, 0.1, 100.0, "the published laws reach from 0.3 to 20")?;
-            }
-            rules::positive(&format!("{name}.half_width"), columns.half_width, "give it in metres, such as 0.1")?;
-            let field = format!("{name}.tall_half_width");
-            rules::positive(&field, columns.tall_half_width, "give it in metres, such as 0.03")?;
-            let field = format!("{name}.solid_fraction");
-            rules::between(&field, columns.solid_fraction, 0.01, 0.74, "grains fill 0.5 to 0.64 of the space")?;
             rules::material(&format!("{name}.law"), &Rheology::MuI(columns.law))?;
         }
-        self.check_variants()?;
-        rules::numerics("numerics", &self.numerics)?;
         if !self.regularised.aspect_ratios.is_empty() {
             rules::implicit_runs("numerics", &self.numerics, "regularised.aspect_ratios")?;
         }
-        rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.sand.law))
+        rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.sand.law))?;
+        collapse::check_size(&self.runs(), |run| match run.purpose {
+            Purpose::Convergence => "sensitivity.resolutions".to_owned(),
+            Purpose::Hourglass => "sensitivity.hourglass_resolutions".to_owned(),
+            Purpose::Law | Purpose::Regularised => self.resolution_field(run.aspect_ratio).to_owned(),
+        })
     }
 
-    fn check_variants(&self) -> Result<(), InputError> {
-        let ratios = [
-            ("sand_inertias", &self.sand_inertias.aspect_ratios),
-            ("lagree_diameters", &self.lagree_diameters.aspect_ratios),
-            ("sensitivity", &self.sensitivity.aspect_ratios),
-            ("regularised", &self.regularised.aspect_ratios),
-        ];
-        for (name, ratios) in ratios {
-            for (index, &ratio) in ratios.iter().enumerate() {
-                let field = format!("{name}.aspect_ratios[{index}]");
-                rules::between(&field, ratio, 0.1, 100.0, "the published laws reach from 0.3 to 20")?;
-            }
+    fn runs(&self) -> Vec<ColumnRun> {
+        let column = |material: &str, columns: &Columns, aspect_ratio: f64| ColumnRun {
+            purpose: Purpose::Law,
+            geometry: Geometry::Planar,
+            material: material.to_owned(),
+            aspect_ratio,
+            resolution: self.resolution_of(aspect_ratio),
+            half_width: columns.half_width_of(aspect_ratio),
+            law: columns.law,
+            regularisation_rate: None,
+            gravity: self.gravity,
+            solid_fraction: columns.solid_fraction,
+            jitter: self.jitter,
+            seed: self.seed,
+            duration: self.duration,
+            shown_times: if material == "sand" || material == "glass" { shown_times(aspect_ratio) } else { Vec::new() },
+            numerics: self.numerics,
+        };
+        let mut runs = Vec::new();
+        for (material, columns) in self.materials() {
+            runs.extend(columns.aspect_ratios.iter().map(|&aspect_ratio| column(material, columns, aspect_ratio)));
         }
-        for (index, &value) in self.sand_inertias.values.iter().enumerate() {
-            rules::positive(
-                &format!("sand_inertias.values[{index}]"),
-                value,
-                "0.279 follows from (41) for the glass beads",
-            )?;
+        let (sand, lagree) = (&self.sand, &self.lagree);
+        for &reference_inertia in &self.sand_inertias.values {
+            let columns = Columns { law: MuI { reference_inertia, ..sand.law }, ..sand.clone() };
+            let material = format!("sand_inertia_{reference_inertia}");
+            runs.extend(self.sand_inertias.aspect_ratios.iter().map(|&ratio| column(&material, &columns, ratio)));
         }
-        for (index, &value) in self.lagree_diameters.values.iter().enumerate() {
-            let field = format!("lagree_diameters.values[{index}]");
-            rules::positive(&field, value, "give it in metres, such as 0.001")?;
+        for &grain_diameter in &self.lagree_diameters.values {
+            let columns = Columns { law: MuI { grain_diameter, ..lagree.law }, ..lagree.clone() };
+            let material = format!("lagree_diameter_{grain_diameter}");
+            runs.extend(self.lagree_diameters.aspect_ratios.iter().map(|&ratio| column(&material, &columns, ratio)));
         }
         let study = &self.sensitivity;
-        for (name, resolutions) in
-            [("resolutions", &study.resolutions), ("hourglass_resolutions", &study.hourglass_resolutions)]
-        {
-            for (index, &resolution) in resolutions.iter().enumerate() {
-                rules::rows(&format!("sensitivity.{name}[{index}]"), resolution)?;
+        let finest = study.resolutions.iter().copied().max().unwrap_or(0);
+        for &ratio in &study.aspect_ratios {
+            for &resolution in &study.resolutions {
+                let seeds = study.seeds.iter().take(if resolution == finest && study.resolutions.len() > 1 {
+                    FINEST_SEEDS
+                } else {
+                    usize::MAX
+                });
+                for &seed in seeds {
+                    let own = column("lagree", lagree, ratio);
+                    // the column that is there for the laws is one of its ensemble
+                    let known =
+                        resolution == own.resolution && seed == own.seed && lagree.aspect_ratios.contains(&ratio);
+                    if !known {
+                        runs.push(ColumnRun { purpose: Purpose::Convergence, resolution, seed, ..own });
+                    }
+                }
             }
         }
-        for (index, &coefficient) in study.hourglass.iter().enumerate() {
-            let remedy = "the recipe has 0.2";
-            rules::between(&format!("sensitivity.hourglass[{index}]"), coefficient, 0.0, 2.0, remedy)?;
+        for &ratio in study.aspect_ratios.iter().take(1) {
+            for &resolution in &study.hourglass_resolutions {
+                runs.extend(study.hourglass.iter().map(|&hourglass| {
+                    let numerics = Numerics { hourglass, ..self.numerics };
+                    ColumnRun { purpose: Purpose::Hourglass, resolution, numerics, ..column("lagree", lagree, ratio) }
+                }));
+            }
         }
-        rules::positive("regularised.rate", self.regularised.rate, "0.01 1/s in the paper")
+        runs.extend(self.regularised.aspect_ratios.iter().map(|&ratio| ColumnRun {
+            purpose: Purpose::Regularised,
+            regularisation_rate: Some(self.regularised.rate),
+            duration: REGULARISED_DURATION.min(self.duration),
+            numerics: Numerics { viscous_step: ViscousStep::Implicit, ..self.numerics },
+            shown_times: Vec::new(),
+            ..column("sand", sand, ratio)
+        }));
+        runs
     }
+}
 
+impl ColumnPlanarParameters {
     /// The materials with their names.
     pub(super) fn materials(&self) -> [(&'static str, &Columns); 3] {
         [("sand", &self.sand), ("glass", &self.glass), ("lagree", &self.lagree)]
@@ -305,75 +314,4 @@ impl Columns {
     pub(super) fn half_width_of(&self, aspect_ratio: f64) -> f64 {
         if aspect_ratio > TALL { self.tall_half_width } else { self.half_width }
     }
-}
-
-pub(super) fn runs(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
-    let column = |material: &str, columns: &Columns, aspect_ratio: f64| ColumnRun {
-        purpose: Purpose::Law,
-        geometry: Geometry::Planar,
-        material: material.to_owned(),
-        aspect_ratio,
-        resolution: parameters.resolution_of(aspect_ratio),
-        half_width: columns.half_width_of(aspect_ratio),
-        law: columns.law,
-        regularisation_rate: None,
-        gravity: parameters.gravity,
-        solid_fraction: columns.solid_fraction,
-        jitter: parameters.jitter,
-        seed: parameters.seed,
-        duration: parameters.duration,
-        shown_times: if material == "sand" || material == "glass" { shown_times(aspect_ratio) } else { Vec::new() },
-        numerics: parameters.numerics,
-    };
-    let mut runs = Vec::new();
-    for (material, columns) in parameters.materials() {
-        runs.extend(columns.aspect_ratios.iter().map(|&aspect_ratio| column(material, columns, aspect_ratio)));
-    }
-    let (sand, lagree) = (&parameters.sand, &parameters.lagree);
-    for &reference_inertia in &parameters.sand_inertias.values {
-        let columns = Columns { law: MuI { reference_inertia, ..sand.law }, ..sand.clone() };
-        let material = format!("sand_inertia_{reference_inertia}");
-        runs.extend(parameters.sand_inertias.aspect_ratios.iter().map(|&ratio| column(&material, &columns, ratio)));
-    }
-    for &grain_diameter in &parameters.lagree_diameters.values {
-        let columns = Columns { law: MuI { grain_diameter, ..lagree.law }, ..lagree.clone() };
-        let material = format!("lagree_diameter_{grain_diameter}");
-        runs.extend(parameters.lagree_diameters.aspect_ratios.iter().map(|&ratio| column(&material, &columns, ratio)));
-    }
-    let study = &parameters.sensitivity;
-    let finest = study.resolutions.iter().copied().max().unwrap_or(0);
-    for &ratio in &study.aspect_ratios {
-        for &resolution in &study.resolutions {
-            let seeds = study.seeds.iter().take(if resolution == finest && study.resolutions.len() > 1 {
-                FINEST_SEEDS
-            } else {
-                usize::MAX
-            });
-            for &seed in seeds {
-                let own = column("lagree", lagree, ratio);
-                // the column that is there for the laws is one of its ensemble
-                let known = resolution == own.resolution && seed == own.seed && lagree.aspect_ratios.contains(&ratio);
-                if !known {
-                    runs.push(ColumnRun { purpose: Purpose::Convergence, resolution, seed, ..own });
-                }
-            }
-        }
-    }
-    for &ratio in study.aspect_ratios.iter().take(1) {
-        for &resolution in &study.hourglass_resolutions {
-            runs.extend(study.hourglass.iter().map(|&hourglass| {
-                let numerics = Numerics { hourglass, ..parameters.numerics };
-                ColumnRun { purpose: Purpose::Hourglass, resolution, numerics, ..column("lagree", lagree, ratio) }
-            }));
-        }
-    }
-    runs.extend(parameters.regularised.aspect_ratios.iter().map(|&ratio| ColumnRun {
-        purpose: Purpose::Regularised,
-        regularisation_rate: Some(parameters.regularised.rate),
-        duration: REGULARISED_DURATION.min(parameters.duration),
-        numerics: Numerics { viscous_step: ViscousStep::Implicit, ..parameters.numerics },
-        shown_times: Vec::new(),
-        ..column("sand", sand, ratio)
-    }));
-    runs
 }

@@ -1,39 +1,46 @@
 //! The case's parameters and their tiers.
 
-use crate::case::Tier;
-use crate::cases::collapse::{ColumnRun, Geometry, Purpose};
+use crate::case::{Parameters, Tier};
+use crate::cases::collapse::{self, ColumnRun, Geometry, Purpose};
 use crate::cases::column_planar::ColumnPlanarParameters;
 use crate::cases::rules;
 use crate::error::InputError;
 use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// One column.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RoundColumn {
     /// a = h_0/r_0 `[-]`.
+    #[schemars(transform = between(0.1, 100.0, "the published laws reach from 0.3 to 20"))]
     pub aspect_ratio: f64,
     /// Particles over the radius.
+    #[schemars(transform = rules::rows())]
     pub resolution: usize,
 }
 
 /// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ColumnRoundParameters {
     /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Radius r_0 `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.1"))]
     pub radius: f64,
     /// Solid fraction φ `[-]`.
+    #[schemars(transform = between(0.01, 0.74, "grains fill 0.5 to 0.64 of the space"))]
     pub solid_fraction: f64,
     /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.05 breaks the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// Longest simulated time over √(h_0/g) `[-]`.
+    #[schemars(transform = between(0.1, 1000.0, "a column has come to rest after about 5"))]
     pub duration: f64,
     /// Columns to run.
     pub columns: Vec<RoundColumn>,
@@ -43,21 +50,10 @@ pub struct ColumnRoundParameters {
     pub numerics: Numerics,
 }
 
-pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
-    ("gravity", "[m/s²]"),
-    ("radius", "r_0 [m]"),
-    ("solid_fraction", "[-], bulk density over grain density"),
-    ("jitter", "[-], largest random displacement in spacings"),
-    ("duration", "[-], longest simulated time over √(h_0/g)"),
-    ("sand.static_friction", "μ_s [-]"),
-    ("sand.limiting_friction", "μ_2 [-]"),
-    ("sand.reference_inertia", "I_0 [-]"),
-    ("sand.grain_diameter", "D [m]"),
-    ("sand.grain_density", "ρ_s [kg/m³]"),
-];
+impl Parameters for ColumnRoundParameters {
+    type Run = ColumnRun;
 
-impl ColumnRoundParameters {
-    pub(super) fn of_tier(tier: Tier) -> Self {
+    fn of_tier(tier: Tier) -> Self {
         // the sand, and so its table, are those of the planar columns
         let planar = ColumnPlanarParameters::of_tier(tier);
         let columns = |pairs: &[(f64, usize)]| {
@@ -82,41 +78,34 @@ impl ColumnRoundParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
-        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
-        rules::positive("radius", self.radius, "give it in metres, such as 0.1")?;
-        rules::between("solid_fraction", self.solid_fraction, 0.01, 0.74, "grains fill 0.5 to 0.64 of the space")?;
-        rules::between("jitter", self.jitter, 0.0, 0.5, "0.05 breaks the lattice without overlaps")?;
-        rules::between("duration", self.duration, 0.1, 1000.0, "a column has come to rest after about 5")?;
-        for (index, column) in self.columns.iter().enumerate() {
-            let field = |name: &str| format!("columns[{index}].{name}");
-            let remedy = "the published laws reach from 0.3 to 20";
-            rules::between(&field("aspect_ratio"), column.aspect_ratio, 0.1, 100.0, remedy)?;
-            rules::rows(&field("resolution"), column.resolution)?;
-        }
+    fn check(&self) -> Result<(), InputError> {
         rules::material("sand", &Rheology::MuI(self.sand))?;
-        rules::numerics("numerics", &self.numerics)?;
-        rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.sand))
+        rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.sand))?;
+        collapse::check_size(&self.runs(), |run| {
+            let is_it =
+                |column: &RoundColumn| column.aspect_ratio == run.aspect_ratio && column.resolution == run.resolution;
+            format!("columns[{}].resolution", self.columns.iter().position(is_it).unwrap_or(0))
+        })
     }
-}
 
-pub(super) fn runs(parameters: &ColumnRoundParameters) -> Vec<ColumnRun> {
-    let run = |column: &RoundColumn| ColumnRun {
-        purpose: Purpose::Law,
-        geometry: Geometry::Round,
-        material: "sand".to_owned(),
-        aspect_ratio: column.aspect_ratio,
-        resolution: column.resolution,
-        half_width: parameters.radius,
-        law: parameters.sand,
-        regularisation_rate: None,
-        gravity: parameters.gravity,
-        solid_fraction: parameters.solid_fraction,
-        jitter: parameters.jitter,
-        seed: parameters.seed,
-        duration: parameters.duration,
-        shown_times: Vec::new(),
-        numerics: parameters.numerics,
-    };
-    parameters.columns.iter().map(run).collect()
+    fn runs(&self) -> Vec<ColumnRun> {
+        let run = |column: &RoundColumn| ColumnRun {
+            purpose: Purpose::Law,
+            geometry: Geometry::Round,
+            material: "sand".to_owned(),
+            aspect_ratio: column.aspect_ratio,
+            resolution: column.resolution,
+            half_width: self.radius,
+            law: self.sand,
+            regularisation_rate: None,
+            gravity: self.gravity,
+            solid_fraction: self.solid_fraction,
+            jitter: self.jitter,
+            seed: self.seed,
+            duration: self.duration,
+            shown_times: Vec::new(),
+            numerics: self.numerics,
+        };
+        self.columns.iter().map(run).collect()
+    }
 }

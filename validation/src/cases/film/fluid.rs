@@ -2,10 +2,11 @@
 
 use crate::reference::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
 use bagnold_solver::material::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Which fluid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FluidKind {
     /// Newtonian.

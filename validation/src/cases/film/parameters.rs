@@ -2,7 +2,7 @@
 
 use super::comparison::NumericsSet;
 use super::fluid::{Fluid, FluidKind};
-use crate::case::{Progress, Run, Tier};
+use crate::case::{Parameters, Progress, Run, Tier};
 use crate::cases::bagnold::Arrangement;
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::cases::rules;
@@ -10,40 +10,51 @@ use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::Incline;
 use bagnold_solver::material::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
+use bagnold_solver::parameter::{between, each, positive};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FilmParameters {
     /// Layer height h `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.01"))]
     pub layer_height: f64,
     /// Slope angle `[°]`.
+    #[schemars(transform = rules::slope_angle())]
+    #[schemars(transform = between(0.1, 89.0, "a film needs a slope to flow down"))]
     pub slope_angle: f64,
     /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Density `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub density: f64,
     /// Fluids to run.
     pub fluids: Vec<FluidKind>,
     /// Rows of particles over the layer.
+    #[schemars(transform = rules::rows())]
     pub resolution: usize,
     /// Columns of particles along the period.
     pub columns: usize,
     /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// What happens before the start.
     pub preparation: Preparation,
     /// Rows of the Newtonian convergence study on the lattice; empty for none.
+    #[schemars(transform = each(rules::rows()))]
     pub convergence_resolutions: Vec<usize>,
     /// Rows of the Newtonian film that compares other operators and walls with the default; 0 for none.
     pub comparison_resolution: usize,
     /// Simulated time of the Newtonian film, from rest, over ρh²/η `[-]`.
+    #[schemars(transform = positive("5 leaves less than 0.01 % of the approach"))]
     pub relaxation_times: f64,
     /// Simulated time of the yield-stress films, from the exact profile, over ρh²/η `[-]`.
+    #[schemars(transform = positive("1 lets the errors of the start decay"))]
     pub yield_relaxation_times: f64,
     /// Newtonian fluid.
     pub newtonian: Newtonian,
@@ -55,32 +66,10 @@ pub struct FilmParameters {
     pub numerics: Numerics,
 }
 
-pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
-    ("layer_height", "[m]"),
-    ("slope_angle", "[°]"),
-    ("gravity", "[m/s²]"),
-    ("density", "[kg/m³]"),
-    ("fluids", "\"newtonian\", \"bingham\" and \"herschel_bulkley\""),
-    ("resolution", "rows of particles over the layer"),
-    ("columns", "columns of particles along the period"),
-    ("jitter", "[-], largest random displacement in spacings"),
-    ("preparation", "\"settled\" or \"none\""),
-    ("convergence_resolutions", "rows of the Newtonian study; empty for none"),
-    ("comparison_resolution", "rows of the Newtonian film with other operators and walls; 0 for none"),
-    ("relaxation_times", "[-], simulated time over ρh²/η, Newtonian from rest"),
-    ("yield_relaxation_times", "[-], the same for yield stresses, from the exact profile"),
-    ("newtonian.viscosity", "[Pa·s]"),
-    ("bingham.yield_stress", "[Pa]"),
-    ("bingham.plastic_viscosity", "[Pa·s]"),
-    ("bingham.regularisation_rate", "[1/s], Papanastasiou's"),
-    ("herschel_bulkley.yield_stress", "[Pa]"),
-    ("herschel_bulkley.consistency", "[Pa·s^n]"),
-    ("herschel_bulkley.flow_index", "n [-]"),
-    ("herschel_bulkley.regularisation_rate", "[1/s]"),
-];
+impl Parameters for FilmParameters {
+    type Run = FilmRun;
 
-impl FilmParameters {
-    pub(super) fn of_tier(tier: Tier) -> Self {
+    fn of_tier(tier: Tier) -> Self {
         let quick = Self {
             layer_height: 0.01,
             slope_angle: 10.0,
@@ -115,30 +104,15 @@ impl FilmParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
-        rules::positive("layer_height", self.layer_height, "give it in metres, such as 0.01")?;
-        rules::slope_angle("slope_angle", self.slope_angle)?;
-        rules::between("slope_angle", self.slope_angle, 0.1, 89.0, "a film needs a slope to flow down")?;
-        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
-        rules::positive("density", self.density, "give it in kg/m³, such as 1000")?;
-        rules::rows("resolution", self.resolution)?;
-        for (index, &rows) in self.convergence_resolutions.iter().enumerate() {
-            rules::rows(&format!("convergence_resolutions[{index}]"), rows)?;
-        }
+    fn check(&self) -> Result<(), InputError> {
         if self.comparison_resolution > 0 {
-            rules::rows("comparison_resolution", self.comparison_resolution)?;
+            rules::row_count("comparison_resolution", self.comparison_resolution)?;
             let widest = NumericsSet::OTHERS.map(|set| set.numerics(self.numerics));
             for numerics in &widest {
                 rules::columns("columns", self.columns, numerics)?;
             }
         }
         rules::columns("columns", self.columns, &self.numerics)?;
-        rules::between("jitter", self.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
-        rules::positive("relaxation_times", self.relaxation_times, "5 leaves less than 0.01 % of the approach")?;
-        rules::positive("yield_relaxation_times", self.yield_relaxation_times, "1 lets the errors of the start decay")?;
-        rules::material("newtonian", &Rheology::Newtonian(self.newtonian))?;
-        rules::material("bingham", &Rheology::Bingham(self.bingham))?;
-        rules::material("herschel_bulkley", &Rheology::HerschelBulkley(self.herschel_bulkley))?;
         let base = self.incline().shear_stress(0.0);
         let fluids = [
             ("bingham.yield_stress", self.bingham.yield_stress),
@@ -148,10 +122,50 @@ impl FilmParameters {
             let remedy = format!("the shear stress at the bed is {base:.3} Pa: above it nothing flows");
             rules::between(field, yield_stress, 0.0, 0.95 * base, &remedy)?;
         }
-        rules::numerics("numerics", &self.numerics)?;
         rules::viscous_step("numerics", &self.numerics, &Rheology::Newtonian(self.newtonian))
     }
 
+    fn runs(&self) -> Vec<FilmRun> {
+        let new = |kind, particles, resolution, numerics_set: NumericsSet| FilmRun {
+            fluid: self.fluid(kind),
+            particles,
+            resolution,
+            numerics_set,
+            layer_height: self.layer_height,
+            slope_angle: self.slope_angle,
+            gravity: self.gravity,
+            density: self.density,
+            columns: self.columns,
+            jitter: if particles == Arrangement::Lattice { 0.0 } else { self.jitter },
+            seed: self.seed,
+            preparation: self.preparation,
+            relaxation_times: match kind {
+                FluidKind::Newtonian => self.relaxation_times,
+                _ => self.yield_relaxation_times,
+            },
+            numerics: numerics_set.numerics(self.numerics),
+        };
+        let mut runs = Vec::new();
+        for &kind in &self.fluids {
+            runs.push(new(kind, Arrangement::Jittered, self.resolution, NumericsSet::Default));
+            if kind == FluidKind::Newtonian {
+                let study = self.convergence_resolutions.iter();
+                runs.extend(study.map(|&rows| new(kind, Arrangement::Lattice, rows, NumericsSet::Default)));
+            }
+        }
+        if self.comparison_resolution > 0 && self.fluids.contains(&FluidKind::Newtonian) {
+            let other = |set| new(FluidKind::Newtonian, Arrangement::Jittered, self.comparison_resolution, set);
+            // the default is compared at the same resolution, which the profile may have run already
+            if self.comparison_resolution != self.resolution {
+                runs.push(other(NumericsSet::Default));
+            }
+            runs.extend(NumericsSet::OTHERS.map(other));
+        }
+        runs
+    }
+}
+
+impl FilmParameters {
     fn incline(&self) -> Incline {
         Incline {
             layer_height: self.layer_height,
@@ -193,46 +207,9 @@ pub struct FilmRun {
     numerics: Numerics,
 }
 
-pub(super) fn runs(parameters: &FilmParameters) -> Vec<FilmRun> {
-    let new = |kind, particles, resolution, numerics_set: NumericsSet| FilmRun {
-        fluid: parameters.fluid(kind),
-        particles,
-        resolution,
-        numerics_set,
-        layer_height: parameters.layer_height,
-        slope_angle: parameters.slope_angle,
-        gravity: parameters.gravity,
-        density: parameters.density,
-        columns: parameters.columns,
-        jitter: if particles == Arrangement::Lattice { 0.0 } else { parameters.jitter },
-        seed: parameters.seed,
-        preparation: parameters.preparation,
-        relaxation_times: match kind {
-            FluidKind::Newtonian => parameters.relaxation_times,
-            _ => parameters.yield_relaxation_times,
-        },
-        numerics: numerics_set.numerics(parameters.numerics),
-    };
-    let mut runs = Vec::new();
-    for &kind in &parameters.fluids {
-        runs.push(new(kind, Arrangement::Jittered, parameters.resolution, NumericsSet::Default));
-        if kind == FluidKind::Newtonian {
-            let study = parameters.convergence_resolutions.iter();
-            runs.extend(study.map(|&rows| new(kind, Arrangement::Lattice, rows, NumericsSet::Default)));
-        }
-    }
-    if parameters.comparison_resolution > 0 && parameters.fluids.contains(&FluidKind::Newtonian) {
-        let other = |set| new(FluidKind::Newtonian, Arrangement::Jittered, parameters.comparison_resolution, set);
-        // the default is compared at the same resolution, which the profile may have run already
-        if parameters.comparison_resolution != parameters.resolution {
-            runs.push(other(NumericsSet::Default));
-        }
-        runs.extend(NumericsSet::OTHERS.map(other));
-    }
-    runs
-}
-
 impl Run for FilmRun {
+    type Observation = LayerObservation;
+
     fn variant(&self) -> String {
         let fluid = match self.fluid.kind() {
             FluidKind::Newtonian => "newtonian",
@@ -249,6 +226,13 @@ impl Run for FilmRun {
 
     fn particle_steps(&self) -> f64 {
         self.layer(&|_| 0.0).expected_steps() * (self.resolution * self.columns) as f64
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+        let moving = self.fluid.kind() != FluidKind::Newtonian;
+        let incline = self.incline();
+        let velocity = |y: f64| if moving { self.fluid.velocity(incline, y) } else { 0.0 };
+        Ok(self.layer(&velocity).run(progress)?)
     }
 }
 
@@ -307,12 +291,5 @@ impl FilmRun {
             // (13) is known to go unstable on displaced particles; that is shown, and no error of the run
             may_diverge: self.numerics_set != NumericsSet::Default,
         }
-    }
-
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
-        let moving = self.fluid.kind() != FluidKind::Newtonian;
-        let incline = self.incline();
-        let velocity = |y: f64| if moving { self.fluid.velocity(incline, y) } else { 0.0 };
-        Ok(self.layer(&velocity).run(progress)?)
     }
 }

@@ -10,7 +10,7 @@ pub use start_stop::{Fate, LayerAtSlope, StartStop, StartStopRun, Trial};
 
 use super::collapse::{SlopeCollapse, SlopeRun};
 use super::layer::LayerObservation;
-use crate::case::{Case, Progress, Run, Tier};
+use crate::case::{Case, Progress, RecordOf, Run};
 use crate::error::InputError;
 use crate::figure::Figure;
 use crate::metric::Metric;
@@ -55,9 +55,11 @@ pub enum FlowThicknessObservation {
     Steady(LayerObservation),
 }
 
-type Record = (FlowThicknessRun, Recorded<FlowThicknessObservation>);
+type Record = RecordOf<FlowThicknessParameters>;
 
 impl Run for FlowThicknessRun {
+    type Observation = FlowThicknessObservation;
+
     fn variant(&self) -> String {
         match self {
             Self::Collapse(run) => run.variant(),
@@ -76,72 +78,41 @@ impl Run for FlowThicknessRun {
             Self::Steady(run) => run.layer.particle_steps(),
         }
     }
-}
 
-impl Case for FlowThickness {
-    type Parameters = FlowThicknessParameters;
-    type Run = FlowThicknessRun;
-    type Observation = FlowThicknessObservation;
-
-    fn name(&self) -> &'static str {
-        "flow-thickness"
-    }
-
-    fn summary(&self) -> &'static str {
-        "thickness of flow on a slope, the slope at which a layer stops, and the flow rule"
-    }
-
-    fn description(&self) -> &'static str {
-        "Three questions about thickness. (i) How thick is the flow of a collapse half a metre and more down the slope? \
-         Thickness is the volume of the grains in a bin of 2 cm over the bin's width, as in incline-collapse; the paper's \
-         h_s (44), reconstructed from (40), (41) and (43), is drawn beside. (ii) At which slope does a layer of given \
-         thickness stop? Layers start with the steady profile of a steeper slope, and the slope is bisected. The local \
-         μ(I) law stops every layer at tanθ = μ_s whatever its thickness; in experiments thin layers stop on steeper \
-         slopes, h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s). The difference is the known limit of a local law, not an error \
-         of the solver. (iii) Does the mean velocity of steady flows follow (42), Ū/√(gh) = β h/h_stop? With (41) this is \
-         an identity of the law, so it verifies the solver and says nothing about grains."
-    }
-
-    fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
-        parameters::FIELD_NOTES
-    }
-
-    fn parameters(&self, tier: Tier) -> FlowThicknessParameters {
-        FlowThicknessParameters::of_tier(tier)
-    }
-
-    fn check(&self, parameters: &FlowThicknessParameters) -> Result<(), InputError> {
-        parameters.check()
-    }
-
-    fn runs(&self, parameters: &FlowThicknessParameters) -> Vec<FlowThicknessRun> {
-        parameters::runs(parameters)
-    }
-
-    fn simulate(
-        &self,
-        run: &FlowThicknessRun,
-        progress: &dyn Progress,
-    ) -> Result<Recorded<FlowThicknessObservation>, InputError> {
-        Ok(match run {
-            FlowThicknessRun::Collapse(run) => run.simulate(progress)?.map(FlowThicknessObservation::Collapse),
-            FlowThicknessRun::StartStop(run) => run.simulate(progress)?.map(FlowThicknessObservation::StartStop),
-            FlowThicknessRun::Steady(run) => {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<FlowThicknessObservation>, InputError> {
+        Ok(match self {
+            Self::Collapse(run) => run.simulate(progress)?.map(FlowThicknessObservation::Collapse),
+            Self::StartStop(run) => run.simulate(progress)?.map(FlowThicknessObservation::StartStop),
+            Self::Steady(run) => {
                 let start = start_stop::Motion::of(run.layer.profile(run.slope_angle));
                 run.layer.layer(run.slope_angle, &start).run(progress)?.map(FlowThicknessObservation::Steady)
             }
         })
     }
+}
 
-    fn metrics(&self, parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Metric> {
+impl Case for FlowThickness {
+    const NAME: &'static str = "flow-thickness";
+    const SUMMARY: &'static str = "thickness of flow on a slope, the slope at which a layer stops, and the flow rule";
+    const DESCRIPTION: &'static str = "Three questions about thickness. (i) How thick is the flow of a collapse half a metre and more down the slope? \
+        Thickness is the volume of the grains in a bin of 2 cm over the bin's width, as in incline-collapse; the paper's \
+        h_s (44), reconstructed from (40), (41) and (43), is drawn beside. (ii) At which slope does a layer of given \
+        thickness stop? Layers start with the steady profile of a steeper slope, and the slope is bisected. The local \
+        μ(I) law stops every layer at tanθ = μ_s whatever its thickness; in experiments thin layers stop on steeper \
+        slopes, h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s). The difference is the known limit of a local law, not an error \
+        of the solver. (iii) Does the mean velocity of steady flows follow (42), Ū/√(gh) = β h/h_stop? With (41) this is \
+        an identity of the law, so it verifies the solver and says nothing about grains.";
+    type Parameters = FlowThicknessParameters;
+
+    fn metrics(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(parameters, records)
     }
 
-    fn figures(&self, parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Figure> {
         figures::all(parameters, records)
     }
 
-    fn tables(&self, _: &FlowThicknessParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &FlowThicknessParameters, records: &[Record]) -> Vec<Table> {
         records.iter().filter_map(trials).collect()
     }
 }

@@ -2,62 +2,60 @@
 
 use super::start_stop::{LayerAtSlope, StartStopRun};
 use super::{FlowThicknessRun, SteadyRun};
-use crate::case::Tier;
+use crate::case::{Parameters, Tier};
 use crate::cases::incline_collapse::InclineCollapseParameters;
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::reference::GLASS_BEADS_FLOW_RULE;
+use bagnold_solver::parameter::{between, each, entry, positive};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FlowThicknessParameters {
     /// The collapses whose thickness is followed; grains and numerics of the layers as well.
     pub collapse: InclineCollapseParameters,
     /// Places at which the thickness is followed, from the back of the reservoir `[m]`.
     pub stations: Vec<f64>,
     /// Length scale L of the deposit law over the grain diameter `[-]`.
+    #[schemars(transform = positive("1.65 for glass beads, 2.03 for sand"))]
     pub deposit_length: f64,
     /// Flow coefficient β of (42) `[-]`.
+    #[schemars(transform = positive("0.136 for glass beads, 0.65 for sand"))]
     pub flow_coefficient: f64,
     /// Rows of particles over a layer.
+    #[schemars(transform = rules::rows())]
     pub rows: usize,
     /// Columns of particles along its period.
     pub columns: usize,
     /// Thicknesses of the layers whose slope of arrest is sought `[m]`; empty for none.
+    #[schemars(transform = each(positive("give it in metres, such as 0.01")))]
     pub stopping_thicknesses: Vec<f64>,
-    /// Slopes between which it is sought `[°]`.
+    /// Slopes between which it is sought `[°]`: layers stop at the first and flow at the second.
+    #[schemars(transform = each(rules::slope_angle()))]
     pub stopping_bracket: (f64, f64),
     /// Width of the bracket that ends the search `[°]`.
+    #[schemars(transform = between(1e-3, 90.0, "0.25° takes about six trials"))]
     pub stopping_tolerance: f64,
     /// Longest simulated time of a trial `[s]`.
+    #[schemars(transform = between(0.01, 1000.0, "10 s is enough for thin layers"))]
     pub stopping_duration: f64,
     /// Slope whose steady profile a trial starts with `[°]`.
+    #[schemars(transform = rules::slope_angle())]
     pub start_angle: f64,
     /// Steady flows: (thickness `[m]`, slope `[°]`); empty for none.
+    #[schemars(transform = each(entry(0, positive("give it in metres, such as 0.01"))))]
     pub steady_flows: Vec<(f64, f64)>,
     /// Simulated time of a steady flow `[s]`.
+    #[schemars(transform = between(0.01, 1000.0, "1 s shows a steady flow"))]
     pub steady_duration: f64,
 }
 
-pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
-    ("stations", "[m], from the back of the reservoir"),
-    ("deposit_length", "L/D [-]"),
-    ("flow_coefficient", "β [-]"),
-    ("rows", "particles over the thickness of a layer"),
-    ("columns", "particles along the period of a layer"),
-    ("stopping_thicknesses", "[m], layers whose slope of arrest is sought; empty for none"),
-    ("stopping_bracket", "[°], must stop at the first slope and flow at the second"),
-    ("stopping_tolerance", "[°], width of the final bracket"),
-    ("stopping_duration", "[s], longest time of a trial"),
-    ("start_angle", "[°], its steady profile starts every trial"),
-    ("steady_flows", "[m] and [°], thickness and slope; empty for none"),
-    ("steady_duration", "[s]"),
-];
+impl Parameters for FlowThicknessParameters {
+    type Run = FlowThicknessRun;
 
-impl FlowThicknessParameters {
-    pub(super) fn of_tier(tier: Tier) -> Self {
+    fn of_tier(tier: Tier) -> Self {
         let collapse = InclineCollapseParameters {
             slope_angles: if tier == Tier::Quick { vec![24.0] } else { vec![22.0, 23.0, 24.0, 25.0] },
             other_gate_speeds: Vec::new(),
@@ -99,26 +97,16 @@ impl FlowThicknessParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), InputError> {
         self.collapse.check().map_err(|error| error.within("collapse"))?;
         for (index, &station) in self.stations.iter().enumerate() {
             let field = format!("stations[{index}]");
             let remedy = "a station lies in the channel, in metres from the back of the reservoir";
             rules::between(&field, station, 0.0, self.collapse.channel_length, remedy)?;
         }
-        rules::positive("deposit_length", self.deposit_length, "1.65 for glass beads, 2.03 for sand")?;
-        rules::positive("flow_coefficient", self.flow_coefficient, "0.136 for glass beads, 0.65 for sand")?;
-        rules::rows("rows", self.rows)?;
         rules::columns("columns", self.columns, &self.collapse.numerics)?;
-        for (index, &thickness) in self.stopping_thicknesses.iter().enumerate() {
-            rules::positive(&format!("stopping_thicknesses[{index}]"), thickness, "give it in metres, such as 0.01")?;
-        }
         let (lower, upper) = self.stopping_bracket;
-        rules::slope_angle("stopping_bracket[0]", lower)?;
         rules::between("stopping_bracket[1]", upper, lower, 89.0, "give the gentler slope first")?;
-        rules::between("stopping_tolerance", self.stopping_tolerance, 1e-3, 90.0, "0.25° takes about six trials")?;
-        rules::between("stopping_duration", self.stopping_duration, 0.01, 1000.0, "10 s is enough for thin layers")?;
-        rules::slope_angle("start_angle", self.start_angle)?;
         let friction_angle = |friction: f64| libm::atan(friction).to_degrees();
         let grains = &self.collapse.material;
         let (gentlest, steepest) = (friction_angle(grains.static_friction), friction_angle(grains.limiting_friction));
@@ -126,14 +114,35 @@ impl FlowThicknessParameters {
             let remedy = "trials start with a steady flow, which is between arctan μ_s and arctan μ_2 only";
             rules::between("start_angle", self.start_angle, gentlest, steepest, remedy)?;
         }
-        for (index, &(thickness, angle)) in self.steady_flows.iter().enumerate() {
-            rules::positive(&format!("steady_flows[{index}][0]"), thickness, "give it in metres, such as 0.01")?;
+        for (index, &(_, angle)) in self.steady_flows.iter().enumerate() {
             let remedy = "a flow is steady between the friction angles arctan μ_s and arctan μ_2 only";
             rules::between(&format!("steady_flows[{index}][1]"), angle, gentlest, steepest, remedy)?;
         }
-        rules::between("steady_duration", self.steady_duration, 0.01, 1000.0, "1 s shows a steady flow")
+        Ok(())
     }
 
+    fn runs(&self) -> Vec<FlowThicknessRun> {
+        let collapse = &self.collapse;
+        let collapses = collapse
+            .slope_angles
+            .iter()
+            .map(|&angle| FlowThicknessRun::Collapse(collapse.run(angle, collapse.gate_speed)));
+        let searches = self.stopping_thicknesses.iter().map(|&thickness| {
+            FlowThicknessRun::StartStop(StartStopRun {
+                layer: self.layer(thickness, self.stopping_duration),
+                bracket: self.stopping_bracket,
+                tolerance: self.stopping_tolerance,
+                start_angle: self.start_angle,
+            })
+        });
+        let flows = self.steady_flows.iter().map(|&(thickness, slope_angle)| {
+            FlowThicknessRun::Steady(SteadyRun { layer: self.layer(thickness, self.steady_duration), slope_angle })
+        });
+        collapses.chain(searches).chain(flows).collect()
+    }
+}
+
+impl FlowThicknessParameters {
     fn layer(&self, thickness: f64, duration: f64) -> LayerAtSlope {
         let collapse = &self.collapse;
         LayerAtSlope {
@@ -149,25 +158,4 @@ impl FlowThicknessParameters {
             numerics: collapse.numerics,
         }
     }
-}
-
-pub(super) fn runs(parameters: &FlowThicknessParameters) -> Vec<FlowThicknessRun> {
-    let collapse = &parameters.collapse;
-    let collapses =
-        collapse.slope_angles.iter().map(|&angle| FlowThicknessRun::Collapse(collapse.run(angle, collapse.gate_speed)));
-    let searches = parameters.stopping_thicknesses.iter().map(|&thickness| {
-        FlowThicknessRun::StartStop(StartStopRun {
-            layer: parameters.layer(thickness, parameters.stopping_duration),
-            bracket: parameters.stopping_bracket,
-            tolerance: parameters.stopping_tolerance,
-            start_angle: parameters.start_angle,
-        })
-    });
-    let flows = parameters.steady_flows.iter().map(|&(thickness, slope_angle)| {
-        FlowThicknessRun::Steady(SteadyRun {
-            layer: parameters.layer(thickness, parameters.steady_duration),
-            slope_angle,
-        })
-    });
-    collapses.chain(searches).chain(flows).collect()
 }

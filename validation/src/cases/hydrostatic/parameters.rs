@@ -1,38 +1,46 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{Progress, Run, Tier};
+use crate::case::{Parameters, Progress, Run, Tier};
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::GLASS_BEADS;
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
+use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HydrostaticParameters {
     /// Layer height H `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.1"))]
     pub layer_height: f64,
     /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Rows of particles over the layer.
+    #[schemars(transform = rules::rows())]
     pub resolution: usize,
     /// Columns of particles along the period.
     pub columns: usize,
     /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// What happens before the start.
     pub preparation: Preparation,
     /// Simulated time `[s]`.
+    #[schemars(transform = between(2.2, 1e4, "drift is measured over 0.4 s about 1 s and about 2 s"))]
     pub duration: f64,
     /// Bulk density of the grains' layer over the grain density `[-]`.
+    #[schemars(transform = between(0.0, 0.74, "grains fill 0.5 to 0.64 of the space"))]
     pub solid_fraction: f64,
     /// Density of the liquid `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub liquid_density: f64,
     /// The liquid.
     pub liquid: Newtonian,
@@ -42,26 +50,10 @@ pub struct HydrostaticParameters {
     pub numerics: Numerics,
 }
 
-pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
-    ("layer_height", "[m]"),
-    ("gravity", "[m/s²]"),
-    ("resolution", "rows of particles over the layer"),
-    ("columns", "columns of particles along the period"),
-    ("jitter", "[-], largest random displacement in spacings"),
-    ("preparation", "\"settled\" or \"none\""),
-    ("duration", "[s]"),
-    ("solid_fraction", "[-], bulk density over grain density"),
-    ("liquid_density", "[kg/m³]"),
-    ("liquid.viscosity", "[Pa·s]"),
-    ("grains.static_friction", "μ_s [-]"),
-    ("grains.limiting_friction", "μ_2 [-]"),
-    ("grains.reference_inertia", "I_0 [-]"),
-    ("grains.grain_diameter", "D [m]"),
-    ("grains.grain_density", "ρ_s [kg/m³]"),
-];
+impl Parameters for HydrostaticParameters {
+    type Run = HydrostaticRun;
 
-impl HydrostaticParameters {
-    pub(super) fn of_tier(tier: Tier) -> Self {
+    fn of_tier(tier: Tier) -> Self {
         let quick = Self {
             layer_height: 0.1,
             gravity: 9.81,
@@ -84,19 +76,45 @@ impl HydrostaticParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
-        rules::positive("layer_height", self.layer_height, "give it in metres, such as 0.1")?;
-        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
-        rules::rows("resolution", self.resolution)?;
+    fn check(&self) -> Result<(), InputError> {
         rules::columns("columns", self.columns, &self.numerics)?;
-        rules::between("jitter", self.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
-        rules::between("duration", self.duration, 2.2, 1e4, "drift is measured over 0.4 s about 1 s and about 2 s")?;
-        rules::between("solid_fraction", self.solid_fraction, 0.0, 0.74, "grains fill 0.5 to 0.64 of the space")?;
-        rules::positive("liquid_density", self.liquid_density, "give it in kg/m³, such as 1000")?;
-        rules::material("liquid", &Rheology::Newtonian(self.liquid))?;
         rules::material("grains", &Rheology::MuI(self.grains))?;
-        rules::numerics("numerics", &self.numerics)?;
         rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.grains))
+    }
+
+    fn runs(&self) -> Vec<HydrostaticRun> {
+        let new = |material, density_coupling| {
+            let (rheology, density, static_friction) = match material {
+                MaterialKind::Newtonian => (Rheology::Newtonian(self.liquid), self.liquid_density, 0.0),
+                MaterialKind::MuI => (
+                    Rheology::MuI(self.grains),
+                    self.solid_fraction * self.grains.grain_density,
+                    self.grains.static_friction,
+                ),
+            };
+            HydrostaticRun {
+                material,
+                density_coupling,
+                layer_height: self.layer_height,
+                gravity: self.gravity,
+                density,
+                static_friction,
+                resolution: self.resolution,
+                columns: self.columns,
+                jitter: self.jitter,
+                seed: self.seed,
+                preparation: self.preparation,
+                duration: self.duration,
+                rheology,
+                numerics: Numerics { density_coupling, ..self.numerics },
+            }
+        };
+        let coupling = self.numerics.density_coupling;
+        let mut runs = vec![new(MaterialKind::Newtonian, coupling), new(MaterialKind::MuI, coupling)];
+        if coupling > 0.0 {
+            runs.extend([new(MaterialKind::Newtonian, 0.0), new(MaterialKind::MuI, 0.0)]);
+        }
+        runs
     }
 }
 
@@ -135,42 +153,9 @@ pub struct HydrostaticRun {
     numerics: Numerics,
 }
 
-pub(super) fn runs(parameters: &HydrostaticParameters) -> Vec<HydrostaticRun> {
-    let new = |material, density_coupling| {
-        let (rheology, density, static_friction) = match material {
-            MaterialKind::Newtonian => (Rheology::Newtonian(parameters.liquid), parameters.liquid_density, 0.0),
-            MaterialKind::MuI => (
-                Rheology::MuI(parameters.grains),
-                parameters.solid_fraction * parameters.grains.grain_density,
-                parameters.grains.static_friction,
-            ),
-        };
-        HydrostaticRun {
-            material,
-            density_coupling,
-            layer_height: parameters.layer_height,
-            gravity: parameters.gravity,
-            density,
-            static_friction,
-            resolution: parameters.resolution,
-            columns: parameters.columns,
-            jitter: parameters.jitter,
-            seed: parameters.seed,
-            preparation: parameters.preparation,
-            duration: parameters.duration,
-            rheology,
-            numerics: Numerics { density_coupling, ..parameters.numerics },
-        }
-    };
-    let coupling = parameters.numerics.density_coupling;
-    let mut runs = vec![new(MaterialKind::Newtonian, coupling), new(MaterialKind::MuI, coupling)];
-    if coupling > 0.0 {
-        runs.extend([new(MaterialKind::Newtonian, 0.0), new(MaterialKind::MuI, 0.0)]);
-    }
-    runs
-}
-
 impl Run for HydrostaticRun {
+    type Observation = LayerObservation;
+
     fn variant(&self) -> String {
         let material = match self.material {
             MaterialKind::Newtonian => "newtonian",
@@ -181,6 +166,10 @@ impl Run for HydrostaticRun {
 
     fn particle_steps(&self) -> f64 {
         self.layer().expected_steps() * (self.resolution * self.columns) as f64
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+        Ok(self.layer().run(progress)?)
     }
 }
 
@@ -214,9 +203,5 @@ impl HydrostaticRun {
     #[must_use]
     pub fn pressure(&self, y: f64) -> f64 {
         self.layer().hydrostatic_pressure(y)
-    }
-
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
-        Ok(self.layer().run(progress)?)
     }
 }

@@ -6,76 +6,43 @@ mod parameters;
 
 pub use parameters::InclineCollapseParameters;
 
-use super::collapse::{SlopeCollapse, SlopeRun};
-use crate::case::{Case, Progress, Run, Tier};
-use crate::error::InputError;
+use crate::case::{Case, RecordOf, Run};
 use crate::figure::{Animation, Figure};
 use crate::metric::Metric;
-use crate::observe::Recorded;
 use crate::output::Table;
 
 /// The case.
 #[derive(Debug)]
 pub struct InclineCollapse;
 
-type Record = (SlopeRun, Recorded<SlopeCollapse>);
+type Record = RecordOf<InclineCollapseParameters>;
 
 impl Case for InclineCollapse {
+    const NAME: &'static str = "incline-collapse";
+    const SUMMARY: &'static str =
+        "grains released by a gate on a slope: front, thickness and final run-out against experiments";
+    const DESCRIPTION: &'static str = "A reservoir of glass beads (14 cm high, 20 cm long, smooth back) stands behind a smooth gate on a rough slope. \
+        The gate is pulled up normal to the slope and the grains run down the channel. Below the friction angle they \
+        come to rest, and the front's way from the gate is compared with x_f = h_0 2k/(tanδ − tanθ), k = 0.4 to 0.5, the \
+        fit of Mangeney et al. (2010) as later works quote it, taken with tanδ = μ_s of the run. Above the friction \
+        angle the local μ(I) law knows no deposit: the flow thins as long as the channel lasts. The front is where the \
+        thickness (volume per bin of 0.1 r_0, each particle spread over a spacing to either side) first falls below \
+        0.02 r_0.";
     type Parameters = InclineCollapseParameters;
-    type Run = SlopeRun;
-    type Observation = SlopeCollapse;
 
-    fn name(&self) -> &'static str {
-        "incline-collapse"
-    }
-
-    fn summary(&self) -> &'static str {
-        "grains released by a gate on a slope: front, thickness and final run-out against experiments"
-    }
-
-    fn description(&self) -> &'static str {
-        "A reservoir of glass beads (14 cm high, 20 cm long, smooth back) stands behind a smooth gate on a rough slope. \
-         The gate is pulled up normal to the slope and the grains run down the channel. Below the friction angle they \
-         come to rest, and the front's way from the gate is compared with x_f = h_0 2k/(tanδ − tanθ), k = 0.4 to 0.5, the \
-         fit of Mangeney et al. (2010) as later works quote it, taken with tanδ = μ_s of the run. Above the friction \
-         angle the local μ(I) law knows no deposit: the flow thins as long as the channel lasts. The front is where the \
-         thickness (volume per bin of 0.1 r_0, each particle spread over a spacing to either side) first falls below \
-         0.02 r_0."
-    }
-
-    fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
-        parameters::FIELD_NOTES
-    }
-
-    fn parameters(&self, tier: Tier) -> InclineCollapseParameters {
-        InclineCollapseParameters::of_tier(tier)
-    }
-
-    fn check(&self, parameters: &InclineCollapseParameters) -> Result<(), InputError> {
-        parameters.check()
-    }
-
-    fn runs(&self, parameters: &InclineCollapseParameters) -> Vec<SlopeRun> {
-        parameters::runs(parameters)
-    }
-
-    fn simulate(&self, run: &SlopeRun, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, InputError> {
-        run.simulate(progress)
-    }
-
-    fn metrics(&self, _: &InclineCollapseParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Metric> {
         records.iter().flat_map(metrics::of_run).collect()
     }
 
-    fn figures(&self, _: &InclineCollapseParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn animations(&self, _: &InclineCollapseParameters, records: &[Record]) -> Vec<Animation> {
+    fn animations(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Animation> {
         figures::animations(records)
     }
 
-    fn tables(&self, _: &InclineCollapseParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Table> {
         records.iter().map(table).collect()
     }
 }

@@ -1,49 +1,64 @@
 //! The case's parameters and their tiers.
 
-use crate::case::Tier;
+use crate::case::{Parameters, Tier};
 use crate::cases::collapse::SlopeRun;
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::reference::GLASS_BEADS;
 use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::parameter::{between, each, not_negative, positive};
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct InclineCollapseParameters {
     /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Height of the reservoir h_0 `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.14"))]
     pub initial_height: f64,
     /// Length of the reservoir r_0 `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.2"))]
     pub reservoir_length: f64,
     /// Length of the channel from the back of the reservoir `[m]`.
     pub channel_length: f64,
-    /// Width of the channel `[m]`; 0 for no side walls.
+    /// Width W of the channel `[m]`, whose side walls add the friction 0.18 h_0/W; 0 for none.
+    #[schemars(transform = not_negative("give it in metres, such as 0.1, or 0 for no side walls"))]
     pub channel_width: f64,
     /// Slopes `[°]`.
+    #[schemars(transform = each(rules::slope_angle()))]
     pub slope_angles: Vec<f64>,
-    /// Speed of the gate `[m/s]`; 0 for no gate.
+    /// Speed of the gate, pulled up normal to the slope `[m/s]`; 1.3 in the paper, 2.3 in Ionescu et al. (2015), 0 for no gate.
+    #[schemars(transform = between(0.0, 100.0, "the paper pulls it at 1.3 m/s; 0 is no gate"))]
     pub gate_speed: f64,
     /// Slope at which other gates are tried `[°]`.
+    #[schemars(transform = rules::slope_angle())]
     pub gate_slope_angle: f64,
-    /// Speeds of the other gates `[m/s]`; 0 for no gate.
+    /// Speeds of the other gates `[m/s]`, 0 for no gate; empty for none.
+    #[schemars(transform = each(between(0.0, 100.0, "the experiment pulls it at 2.3 m/s; 0 is no gate")))]
     pub other_gate_speeds: Vec<f64>,
     /// Slopes at which the collapse is repeated with the regularised viscosity (35), implicitly `[°]`.
+    #[schemars(transform = each(rules::slope_angle()))]
     pub regularised_slope_angles: Vec<f64>,
     /// Its rate α_r `[1/s]`.
+    #[schemars(transform = positive("0.01 1/s in the paper"))]
     pub regularisation_rate: f64,
     /// Particles over the length of the reservoir.
+    #[schemars(transform = rules::rows())]
     pub resolution: usize,
     /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.05 breaks the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// Longest simulated time `[s]`; a deposit at rest ends a run before.
+    #[schemars(transform = between(0.01, 1000.0, "deposits on mild slopes rest after about 1.5 s"))]
     pub duration: f64,
     /// Solid fraction φ `[-]`.
+    #[schemars(transform = between(0.01, 0.74, "grains fill 0.5 to 0.64 of the space"))]
     pub solid_fraction: f64,
     /// Grains.
     pub material: MuI,
@@ -54,34 +69,10 @@ pub struct InclineCollapseParameters {
 /// Longest time of a regularised collapse `[s]`: it never rests.
 const REGULARISED_DURATION: f64 = 2.0;
 
-pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
-    ("gravity", "[m/s²]"),
-    ("initial_height", "h_0 [m]"),
-    ("reservoir_length", "r_0 [m]"),
-    ("channel_length", "[m], from the back of the reservoir"),
-    ("channel_width", "[m], adds the friction 0.18 h_0/W of the side walls; 0 for none"),
-    ("slope_angles", "[°]"),
-    ("gate_speed", "[m/s], pulled up normal to the slope; 0 for no gate. 1.3 in the paper, 2.3 in Ionescu et al. 2015"),
-    ("gate_slope_angle", "[°], slope at which other gates are tried"),
-    ("other_gate_speeds", "[m/s]; empty for none"),
-    (
-        "regularised_slope_angles",
-        "[°], repeated with the regularised viscosity (35) and an implicit step; empty for none",
-    ),
-    ("regularisation_rate", "α_r [1/s] of these"),
-    ("resolution", "particles over the length of the reservoir"),
-    ("jitter", "[-], largest random displacement in spacings"),
-    ("duration", "[s], longest simulated time"),
-    ("solid_fraction", "[-], bulk density over grain density"),
-    ("material.static_friction", "μ_s [-]"),
-    ("material.limiting_friction", "μ_2 [-]"),
-    ("material.reference_inertia", "I_0 [-]"),
-    ("material.grain_diameter", "D [m]"),
-    ("material.grain_density", "ρ_s [kg/m³]"),
-];
+impl Parameters for InclineCollapseParameters {
+    type Run = SlopeRun;
 
-impl InclineCollapseParameters {
-    pub(in crate::cases) fn of_tier(tier: Tier) -> Self {
+    fn of_tier(tier: Tier) -> Self {
         let quick = Self {
             gravity: 9.81,
             initial_height: 0.14,
@@ -117,39 +108,10 @@ impl InclineCollapseParameters {
         }
     }
 
-    pub(in crate::cases) fn check(&self) -> Result<(), InputError> {
-        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
-        let lengths = [
-            ("initial_height", self.initial_height, "give it in metres, such as 0.14"),
-            ("reservoir_length", self.reservoir_length, "give it in metres, such as 0.2"),
-        ];
-        for (field, value, remedy) in lengths {
-            rules::positive(field, value, remedy)?;
-        }
+    fn check(&self) -> Result<(), InputError> {
         let (least, most) = (3.0 * self.reservoir_length, 1000.0 * self.reservoir_length);
         let remedy = "the channel must hold the reservoir, the gate and the run-out";
         rules::between("channel_length", self.channel_length, least, most, remedy)?;
-        if self.channel_width != 0.0 {
-            rules::positive(
-                "channel_width",
-                self.channel_width,
-                "give it in metres, such as 0.1, or 0 for no side walls",
-            )?;
-        }
-        for (index, &angle) in self.slope_angles.iter().enumerate() {
-            rules::slope_angle(&format!("slope_angles[{index}]"), angle)?;
-        }
-        rules::slope_angle("gate_slope_angle", self.gate_slope_angle)?;
-        rules::between("gate_speed", self.gate_speed, 0.0, 100.0, "the paper pulls it at 1.3 m/s; 0 is no gate")?;
-        for (index, &speed) in self.other_gate_speeds.iter().enumerate() {
-            let field = format!("other_gate_speeds[{index}]");
-            rules::between(&field, speed, 0.0, 100.0, "the experiment pulls it at 2.3 m/s; 0 is no gate")?;
-        }
-        for (index, &angle) in self.regularised_slope_angles.iter().enumerate() {
-            rules::slope_angle(&format!("regularised_slope_angles[{index}]"), angle)?;
-        }
-        rules::positive("regularisation_rate", self.regularisation_rate, "0.01 1/s in the paper")?;
-        rules::rows("resolution", self.resolution)?;
         let rows = (self.initial_height / self.reservoir_length * self.resolution as f64).round();
         if !(4.0..=1000.0).contains(&rows) {
             let rule = "such that the reservoir is 4 to 1000 rows of particles high";
@@ -159,12 +121,8 @@ impl InclineCollapseParameters {
             );
             return Err(InputError::field("resolution", self.resolution, rule, &remedy));
         }
-        rules::between("jitter", self.jitter, 0.0, 0.5, "0.05 breaks the lattice without overlaps")?;
-        rules::between("duration", self.duration, 0.01, 1000.0, "deposits on mild slopes rest after about 1.5 s")?;
-        rules::between("solid_fraction", self.solid_fraction, 0.01, 0.74, "grains fill 0.5 to 0.64 of the space")?;
         rules::material("material", &Rheology::MuI(self.material))?;
-        rules::numerics("numerics", &self.numerics)?;
-        if runs(self).iter().any(|run| run.gate_speed > 0.0) {
+        if self.runs().iter().any(|run| run.gate_speed > 0.0) {
             rules::gate("numerics", &self.numerics)?;
         }
         if !self.regularised_slope_angles.is_empty() {
@@ -173,6 +131,21 @@ impl InclineCollapseParameters {
         rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.material))
     }
 
+    fn runs(&self) -> Vec<SlopeRun> {
+        let slopes = self.slope_angles.iter().map(|&angle| self.run(angle, self.gate_speed));
+        let gates = self.other_gate_speeds.iter().filter(|&&speed| speed != self.gate_speed);
+        let gates = gates.map(|&speed| self.run(self.gate_slope_angle, speed));
+        let regularised = self.regularised_slope_angles.iter().map(|&angle| SlopeRun {
+            regularisation_rate: Some(self.regularisation_rate),
+            duration: REGULARISED_DURATION.min(self.duration),
+            numerics: Numerics { viscous_step: ViscousStep::Implicit, ..self.numerics },
+            ..self.run(angle, self.gate_speed)
+        });
+        slopes.chain(gates).chain(regularised).collect()
+    }
+}
+
+impl InclineCollapseParameters {
     /// A run at a slope `[°]` with a gate `[m/s]`.
     pub(in crate::cases) fn run(&self, slope_angle: f64, gate_speed: f64) -> SlopeRun {
         SlopeRun {
@@ -193,17 +166,4 @@ impl InclineCollapseParameters {
             numerics: self.numerics,
         }
     }
-}
-
-pub(super) fn runs(parameters: &InclineCollapseParameters) -> Vec<SlopeRun> {
-    let slopes = parameters.slope_angles.iter().map(|&angle| parameters.run(angle, parameters.gate_speed));
-    let gates = parameters.other_gate_speeds.iter().filter(|&&speed| speed != parameters.gate_speed);
-    let gates = gates.map(|&speed| parameters.run(parameters.gate_slope_angle, speed));
-    let regularised = parameters.regularised_slope_angles.iter().map(|&angle| SlopeRun {
-        regularisation_rate: Some(parameters.regularisation_rate),
-        duration: REGULARISED_DURATION.min(parameters.duration),
-        numerics: Numerics { viscous_step: ViscousStep::Implicit, ..parameters.numerics },
-        ..parameters.run(angle, parameters.gate_speed)
-    });
-    slopes.chain(gates).chain(regularised).collect()
 }

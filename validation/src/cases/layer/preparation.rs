@@ -5,10 +5,11 @@ use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What happens before the start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Preparation {
     /// The displaced particles settle without friction and without flowing.

@@ -4,6 +4,7 @@ use super::parameters::SettlingParameters;
 use super::probe::{Drag, Probe, SettlingObservation};
 use crate::case::{Progress, Run};
 use crate::cases::channel::Lattice;
+use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -13,12 +14,12 @@ use bagnold_solver::incompressible::{
 };
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
-use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::Vector;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A formulation of the two-phase model that knows single grains.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Formulation {
     /// The bed-load paper's operators, drag from the slip of each pair.
@@ -103,12 +104,22 @@ fn relaxation_time(grains: SettlingGrains, law: DragLaw) -> f64 {
 }
 
 impl Run for GrainRun {
+    type Observation = SettlingObservation;
+
     fn variant(&self) -> String {
         format!("formulation={},law={}", self.formulation.name(), self.law.name())
     }
 
     fn particle_steps(&self) -> f64 {
         self.duration / self.numerics.time_step * (self.columns * self.rows + 1) as f64
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, InputError> {
+        let slip = match self.numerics.drag_slip {
+            DragSlip::Pair => Drag::OfPairs,
+            DragSlip::Mean => Drag::OfMean,
+        };
+        Ok(Probe::run(self.scene(), slip, self.duration, progress)?)
     }
 }
 
@@ -176,14 +187,6 @@ impl GrainRun {
             domain: Domain { axes: [0, 1].map(|axis| AxisBoundary::Periodic { lower: 0.0, upper: size[axis] }) },
             numerics: self.numerics,
         }
-    }
-
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, SceneError> {
-        let slip = match self.numerics.drag_slip {
-            DragSlip::Pair => Drag::OfPairs,
-            DragSlip::Mean => Drag::OfMean,
-        };
-        Probe::run(self.scene(), slip, self.duration, progress)
     }
 }
 

@@ -15,11 +15,9 @@ pub use probe::{SettlingObservation, SettlingSeries};
 pub use runs::SettlingRun;
 pub use suspension::SuspensionRun;
 
-use crate::case::{Case, Progress, Run, Tier};
-use crate::error::InputError;
+use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
 use crate::metric::Metric;
-use crate::observe::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -27,72 +25,37 @@ use crate::output::Table;
 pub struct Settling;
 
 /// A run with what it left behind.
-type Record = (SettlingRun, Recorded<SettlingObservation>);
+type Record = RecordOf<SettlingParameters>;
 
 impl Case for Settling {
+    const NAME: &'static str = "settling";
+    const SUMMARY: &'static str = "a grain alone and a uniform suspension sink in a fluid, by every drag law";
+    const DESCRIPTION: &'static str = "One grain sinks through a box of fluid that is periodic in both directions and that is pushed up by as much as \
+        the grain weighs. Its slip against the fluid around it, in the mean over a window after the start, must be the \
+        root of the balance of submerged weight and drag; the momentum of both phases must close in every step to \
+        rounding. Formulation paper: the bed-load paper's operators and the drag from each pair's own slip; stabilised: \
+        the default operators and the drag from the grain's slip against the mean of the fluid around it. The slip that \
+        is judged is the one that the drag is taken from: in the mean form |⟨u_f⟩ − u_s|, in the pair form the U whose \
+        drag is the mean of the pairs' drag, C_d(U) U² = |⟨C_d |u_ba| u_ba⟩|. Where the fluid moves unevenly within the \
+        kernel U lies above the slip of the means, by half the variance in Newton's regime; that one and the root mean \
+        square are observed. Formulation continuum: a uniform suspension sinks in a periodic column under the full \
+        gravity. One pore pressure makes the flux of the mixture free of divergence and pushes both phases, and a \
+        uniform pressure gradient takes out its mean, as the floor of a vessel does. Slip and sinking velocity must be \
+        those of the balance of the submerged weight and K; at φ = 0.002 they are those of a sphere alone. The solid \
+        fraction is given and stays uniform: with slip and without a stress between the grains, two phases of one \
+        pressure are unstable at short waves. The kernel of the drag, two or three spacings wide, holds them back for \
+        the time of a run, not for ever; the unevenness of the grains' velocities is observed.";
     type Parameters = SettlingParameters;
-    type Run = SettlingRun;
-    type Observation = SettlingObservation;
 
-    fn name(&self) -> &'static str {
-        "settling"
-    }
-
-    fn summary(&self) -> &'static str {
-        "a grain alone and a uniform suspension sink in a fluid, by every drag law"
-    }
-
-    fn description(&self) -> &'static str {
-        "One grain sinks through a box of fluid that is periodic in both directions and that is pushed up by as much as \
-         the grain weighs. Its slip against the fluid around it, in the mean over a window after the start, must be the \
-         root of the balance of submerged weight and drag; the momentum of both phases must close in every step to \
-         rounding. Formulation paper: the bed-load paper's operators and the drag from each pair's own slip; stabilised: \
-         the default operators and the drag from the grain's slip against the mean of the fluid around it. The slip that \
-         is judged is the one that the drag is taken from: in the mean form |⟨u_f⟩ − u_s|, in the pair form the U whose \
-         drag is the mean of the pairs' drag, C_d(U) U² = |⟨C_d |u_ba| u_ba⟩|. Where the fluid moves unevenly within the \
-         kernel U lies above the slip of the means, by half the variance in Newton's regime; that one and the root mean \
-         square are observed. Formulation continuum: a uniform suspension sinks in a periodic column under the full \
-         gravity. One pore pressure makes the flux of the mixture free of divergence and pushes both phases, and a \
-         uniform pressure gradient takes out its mean, as the floor of a vessel does. Slip and sinking velocity must be \
-         those of the balance of the submerged weight and K; at φ = 0.002 they are those of a sphere alone. The solid \
-         fraction is given and stays uniform: with slip and without a stress between the grains, two phases of one \
-         pressure are unstable at short waves. The kernel of the drag, two or three spacings wide, holds them back for \
-         the time of a run, not for ever; the unevenness of the grains' velocities is observed."
-    }
-
-    fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
-        parameters::FIELD_NOTES
-    }
-
-    fn parameters(&self, tier: Tier) -> SettlingParameters {
-        SettlingParameters::of_tier(tier)
-    }
-
-    fn check(&self, parameters: &SettlingParameters) -> Result<(), InputError> {
-        parameters.check()
-    }
-
-    fn runs(&self, parameters: &SettlingParameters) -> Vec<SettlingRun> {
-        runs::all(parameters)
-    }
-
-    fn simulate(
-        &self,
-        run: &SettlingRun,
-        progress: &dyn Progress,
-    ) -> Result<Recorded<SettlingObservation>, InputError> {
-        Ok(run.simulate(progress)?)
-    }
-
-    fn metrics(&self, _: &SettlingParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &SettlingParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(&self, _: &SettlingParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &SettlingParameters, records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(&self, _: &SettlingParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &SettlingParameters, records: &[Record]) -> Vec<Table> {
         records.iter().map(|(run, record)| record.data.series.table(&run.variant())).collect()
     }
 }

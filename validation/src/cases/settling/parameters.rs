@@ -1,32 +1,36 @@
 //! Parameters and tiers.
 
 use super::grain::Formulation;
+use super::runs::{self, SettlingRun};
 use super::suspension::{LEAST_BED, covers};
-use crate::case::Tier;
+use crate::case::{Parameters, Tier};
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::incompressible::{PressureSource, ProjectionNumerics, SurfaceTreatment};
 use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::parameter::{between, each, positive};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The fluid.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Water {
     /// Density ρ_f `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub density: f64,
     /// Kinematic viscosity ν `[m²/s]`.
+    #[schemars(transform = positive("give it in m²/s, 1e-6 for water"))]
     pub kinematic_viscosity: f64,
 }
 
 /// A grain alone in a periodic box of fluid, whose particles are as large as the grain.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Grain {
     /// Diameter d `[m]`.
+    #[schemars(transform = positive("give it in metres; 0.005 for 5 mm"))]
     pub diameter: f64,
-    /// Drag laws.
+    /// Drag laws; Ergun's has no grain alone; empty for none.
     pub laws: Vec<DragLaw>,
     /// Formulations.
     pub formulations: Vec<Formulation>,
@@ -35,44 +39,53 @@ pub struct Grain {
     /// Height of the box in diameters.
     pub rows: usize,
     /// Smoothing length of the drag in diameters `[-]`.
+    #[schemars(transform = between(1.0, 10.0, "the drag needs some fluid around the grain"))]
     pub drag_smoothing_ratio: f64,
     /// Simulated time over the time u_t ρ_s/(2 (ρ_s − ρ_f) g) in which a grain gets to its terminal velocity `[-]`.
+    #[schemars(transform = between(10.0, 1e4, "40 leaves a window of 24 to average over"))]
     pub relaxation_times: f64,
-    /// Largest random displacement of a fluid particle in spacings `[-]`.
+    /// Largest random displacement of a fluid particle in spacings `[-]`; the paper's density source wants a lattice.
+    #[schemars(transform = between(0.0, 0.5, "0.001 breaks the symmetry of the lattice"))]
     pub jitter: f64,
 }
 
 /// A uniform suspension in a periodic column, whose particles are as large as its grains.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SuspendedGrains {
     /// Diameter d `[m]`.
+    #[schemars(transform = positive("give it in metres; 0.001 for 1 mm"))]
     pub diameter: f64,
-    /// Drag laws.
+    /// Drag laws; Ergun's at φ ≥ 0.2 only; empty for none.
     pub laws: Vec<DragLaw>,
     /// Solid fractions φ `[-]`.
+    #[schemars(transform = each(between(0.01, 0.64, "grains fill up to 0.64 of the space")))]
     pub solid_fractions: Vec<f64>,
     /// Solid fraction that stands for a grain alone `[-]`; 0 for none.
+    #[schemars(transform = between(0.0, 0.005, "0.002 hinders by less than 1 %; 0 for none"))]
     pub dilute_fraction: f64,
     /// Length of the column in diameters.
     pub columns: usize,
     /// Height of the column in diameters.
     pub rows: usize,
     /// Smoothing length of the drag in diameters `[-]`.
+    #[schemars(transform = between(1.0, 10.0, "a kernel of 2 to 3 spacings holds short waves back"))]
     pub drag_smoothing_ratio: f64,
     /// Simulated time over |u_r| ρ_s/((ρ_s − ρ_f) g) `[-]`.
+    #[schemars(transform = between(10.0, 1e4, "12 leave a window of 7 to average over"))]
     pub relaxation_times: f64,
     /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
     pub jitter: f64,
 }
 
 /// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SettlingParameters {
     /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Density of the grains ρ_s `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 2600"))]
     pub grain_density: f64,
     /// Seed of the displacements.
     pub seed: u64,
@@ -82,37 +95,14 @@ pub struct SettlingParameters {
     pub grain: Grain,
     /// A suspension.
     pub suspension: SuspendedGrains,
-    /// Numerics.
+    /// Numerics of the formulation "stabilised"; "paper" takes the paper's own, with these steps and tolerances.
     pub numerics: ProjectionNumerics,
 }
 
-pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
-    ("gravity", "[m/s²]"),
-    ("grain_density", "ρ_s [kg/m³]"),
-    ("water.density", "ρ_f [kg/m³]"),
-    ("water.kinematic_viscosity", "ν [m²/s]"),
-    ("grain.diameter", "d [m]"),
-    ("grain.laws", "any drag law but \"ergun\", which has no grain alone; empty for none"),
-    ("grain.formulations", "\"paper\" and \"stabilised\""),
-    ("grain.columns", "length of the box in diameters"),
-    ("grain.rows", "height of the box in diameters"),
-    ("grain.drag_smoothing_ratio", "h/d [-] of the drag's kernel"),
-    ("grain.relaxation_times", "[-], simulated time over u_t ρ_s/(2 (ρ_s − ρ_f) g)"),
-    ("grain.jitter", "[-], largest random displacement in spacings; the paper's density source wants a lattice"),
-    ("suspension.diameter", "d [m]"),
-    ("suspension.laws", "any drag law; \"ergun\" at φ ≥ 0.2 only; empty for none"),
-    ("suspension.solid_fractions", "φ [-]"),
-    ("suspension.dilute_fraction", "φ [-] that stands for a grain alone; 0 for none"),
-    ("suspension.columns", "length of the column in diameters"),
-    ("suspension.rows", "height of the column in diameters"),
-    ("suspension.drag_smoothing_ratio", "h/d [-] of the drag's kernel"),
-    ("suspension.relaxation_times", "[-], simulated time over |u_r| ρ_s/((ρ_s − ρ_f) g)"),
-    ("suspension.jitter", "[-], largest random displacement in spacings"),
-    ("numerics", "of \"stabilised\"; \"paper\" takes the paper's own, with these steps and tolerances"),
-];
+impl Parameters for SettlingParameters {
+    type Run = SettlingRun;
 
-impl SettlingParameters {
-    pub(super) fn of_tier(tier: Tier) -> Self {
+    fn of_tier(tier: Tier) -> Self {
         let quick = Self {
             gravity: 9.81,
             grain_density: 2600.0,
@@ -167,6 +157,23 @@ impl SettlingParameters {
         }
     }
 
+    fn check(&self) -> Result<(), InputError> {
+        if self.grain_density <= self.water.density {
+            let (rule, remedy) = ("greater than the density of the water", "grains that float do not settle");
+            return Err(InputError::field("grain_density", self.grain_density, rule, remedy));
+        }
+        rules::projection("numerics", &self.numerics)?;
+        self.check_operators()?;
+        self.check_grain()?;
+        self.check_suspension()
+    }
+
+    fn runs(&self) -> Vec<SettlingRun> {
+        runs::all(self)
+    }
+}
+
+impl SettlingParameters {
     /// Grains of a diameter `[m]` in the fluid.
     pub(super) fn grains(&self, diameter: f64) -> SettlingGrains {
         SettlingGrains {
@@ -176,27 +183,6 @@ impl SettlingParameters {
             kinematic_viscosity: self.water.kinematic_viscosity,
             gravity: self.gravity,
         }
-    }
-
-    pub(super) fn check(&self) -> Result<(), InputError> {
-        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
-        rules::positive("grain_density", self.grain_density, "give it in kg/m³, such as 2600")?;
-        rules::positive("water.density", self.water.density, "give it in kg/m³, such as 1000")?;
-        let viscosity = self.water.kinematic_viscosity;
-        rules::positive("water.kinematic_viscosity", viscosity, "give it in m²/s, 1e-6 for water")?;
-        if self.grain_density <= self.water.density {
-            let rule = "greater than the density of the water";
-            return Err(InputError::field(
-                "grain_density",
-                self.grain_density,
-                rule,
-                "grains that float do not settle",
-            ));
-        }
-        rules::projection("numerics", &self.numerics)?;
-        self.check_operators()?;
-        self.check_grain()?;
-        self.check_suspension()
     }
 
     /// The operators that suspensions allow.
@@ -218,13 +204,7 @@ impl SettlingParameters {
 
     fn check_grain(&self) -> Result<(), InputError> {
         let grain = &self.grain;
-        rules::positive("grain.diameter", grain.diameter, "give it in metres; 0.005 for 5 mm")?;
-        let reach = grain.drag_smoothing_ratio;
-        rules::between("grain.drag_smoothing_ratio", reach, 1.0, 10.0, "the drag needs some fluid around the grain")?;
-        self.periods(reach, [("grain.columns", grain.columns), ("grain.rows", grain.rows)])?;
-        rules::between("grain.jitter", grain.jitter, 0.0, 0.5, "0.001 breaks the symmetry of the lattice")?;
-        let remedy = "40 leaves a window of 24 to average over";
-        rules::between("grain.relaxation_times", grain.relaxation_times, 10.0, 1e4, remedy)?;
+        self.periods(grain.drag_smoothing_ratio, [("grain.columns", grain.columns), ("grain.rows", grain.rows)])?;
         for (index, &law) in grain.laws.iter().enumerate() {
             if self.grains(grain.diameter).terminal_velocity(law, GrainForm::Planar).is_none() {
                 let field = format!("grain.laws[{index}]");
@@ -251,20 +231,8 @@ impl SettlingParameters {
 
     fn check_suspension(&self) -> Result<(), InputError> {
         let suspension = &self.suspension;
-        rules::positive("suspension.diameter", suspension.diameter, "give it in metres; 0.001 for 1 mm")?;
         let reach = suspension.drag_smoothing_ratio;
-        let remedy = "a kernel of 2 to 3 spacings holds short waves back";
-        rules::between("suspension.drag_smoothing_ratio", reach, 1.0, 10.0, remedy)?;
         self.periods(reach, [("suspension.columns", suspension.columns), ("suspension.rows", suspension.rows)])?;
-        rules::between("suspension.jitter", suspension.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
-        let remedy = "12 leave a window of 7 to average over";
-        rules::between("suspension.relaxation_times", suspension.relaxation_times, 10.0, 1e4, remedy)?;
-        let remedy = "0.002 hinders by less than 1 %; 0 for none";
-        rules::between("suspension.dilute_fraction", suspension.dilute_fraction, 0.0, 0.005, remedy)?;
-        for (index, &fraction) in suspension.solid_fractions.iter().enumerate() {
-            let field = format!("suspension.solid_fractions[{index}]");
-            rules::between(&field, fraction, 0.01, 0.64, "grains fill up to 0.64 of the space")?;
-        }
         for (index, &law) in suspension.laws.iter().enumerate() {
             let field = format!("suspension.laws[{index}]");
             let judged = suspension.solid_fractions.iter().any(|&fraction| covers(law, fraction));

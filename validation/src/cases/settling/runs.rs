@@ -5,9 +5,9 @@ use super::parameters::SettlingParameters;
 use super::probe::SettlingObservation;
 use super::suspension::{self, SuspensionRun};
 use crate::case::{Progress, Run};
+use crate::error::InputError;
 use crate::observe::Recorded;
 use bagnold_solver::material::drag::DragLaw;
-use bagnold_solver::run::SceneError;
 use serde::Serialize;
 
 /// One simulation.
@@ -26,6 +26,8 @@ pub(super) fn all(parameters: &SettlingParameters) -> Vec<SettlingRun> {
 }
 
 impl Run for SettlingRun {
+    type Observation = SettlingObservation;
+
     fn variant(&self) -> String {
         match self {
             Self::Grain(run) => run.variant(),
@@ -37,6 +39,13 @@ impl Run for SettlingRun {
         match self {
             Self::Grain(run) => run.particle_steps(),
             Self::Suspension(run) => run.particle_steps(),
+        }
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, InputError> {
+        match self {
+            Self::Grain(run) => run.simulate(progress),
+            Self::Suspension(run) => run.simulate(progress),
         }
     }
 }
@@ -57,13 +66,6 @@ impl SettlingRun {
         match self {
             Self::Grain(run) => run.terminal_velocity(),
             Self::Suspension(run) => run.slip(),
-        }
-    }
-
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, SceneError> {
-        match self {
-            Self::Grain(run) => run.simulate(progress),
-            Self::Suspension(run) => run.simulate(progress),
         }
     }
 }

@@ -5,6 +5,7 @@ use super::parameters::SettlingParameters;
 use super::probe::{Drag, Probe, SettlingObservation};
 use crate::case::{Progress, Run};
 use crate::cases::channel::Lattice;
+use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -14,7 +15,6 @@ use bagnold_solver::incompressible::{
 };
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
-use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::Vector;
 use serde::Serialize;
 
@@ -94,12 +94,18 @@ fn relaxation_time(grains: SettlingGrains, law: DragLaw, solid_fraction: f64) ->
 }
 
 impl Run for SuspensionRun {
+    type Observation = SettlingObservation;
+
     fn variant(&self) -> String {
         format!("formulation=continuum,law={},solid_fraction={}", self.law.name(), self.solid_fraction)
     }
 
     fn particle_steps(&self) -> f64 {
         self.duration / self.numerics.time_step * (2 * self.columns * self.rows) as f64
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, InputError> {
+        Ok(Probe::run(self.scene(), Drag::OfMean, self.duration, progress)?)
     }
 }
 
@@ -179,9 +185,5 @@ impl SuspensionRun {
             domain: Domain { axes: [0, 1].map(|axis| AxisBoundary::Periodic { lower: 0.0, upper: size[axis] }) },
             numerics: self.numerics,
         }
-    }
-
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, SceneError> {
-        Probe::run(self.scene(), Drag::OfMean, self.duration, progress)
     }
 }

@@ -1,63 +1,62 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{Progress, Run, Tier};
+use crate::case::{Parameters, Progress, Run, Tier};
 use crate::cases::channel::{Channel, ChannelObservation, Lattice, Until};
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::observe::Recorded;
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction, Turbulence};
+use bagnold_solver::parameter::{between, each, filled, positive, unique};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StillWaterParameters {
     /// Depth h `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.046"))]
     pub depth: f64,
     /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Density `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub density: f64,
     /// Kinematic viscosity `[m²/s]`.
+    #[schemars(transform = positive("give it in m²/s; water has 1e-6"))]
     pub kinematic_viscosity: f64,
     /// Rows of particles over the depth.
+    #[schemars(transform = rules::rows())]
     pub resolution: usize,
     /// Columns of particles along the period.
     pub columns: usize,
     /// Largest random displacement of a particle in spacings, one run each `[-]`.
+    #[schemars(transform = each(between(0.0, 0.5, "0.1 breaks the lattice without overlaps")))]
+    #[schemars(transform = unique("name every displacement once"))]
+    #[schemars(transform = filled("at least one displacement", "0.1 breaks the lattice"))]
     pub jitters: Vec<f64>,
     /// Displacements of the runs without stabilisation `[-]`; empty for none.
+    #[schemars(transform = each(between(0.0, 0.5, "0.1 breaks the lattice without overlaps")))]
+    #[schemars(transform = unique("name every displacement once"))]
     pub unstabilised_jitters: Vec<f64>,
     /// Seed of the displacements.
     pub seed: u64,
     /// Simulated time `[s]`.
+    #[schemars(transform = between(0.5, 1e4, "20 s bring the water to rest"))]
     pub duration: f64,
     /// Averaging window before the end `[s]`.
     pub averaging_time: f64,
     /// Simulated time without stabilisation `[s]`.
+    #[schemars(transform = between(0.1, 1e3, "half a second is enough to blow up"))]
     pub unstabilised_duration: f64,
     /// Numerics.
     pub numerics: ProjectionNumerics,
 }
 
-pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
-    ("depth", "[m]"),
-    ("gravity", "[m/s²]"),
-    ("density", "[kg/m³]"),
-    ("kinematic_viscosity", "[m²/s]"),
-    ("resolution", "rows of particles over the depth"),
-    ("columns", "columns of particles along the period"),
-    ("jitters", "[-], largest random displacements in spacings, one run each"),
-    ("unstabilised_jitters", "[-], of the runs without stabilisation; empty for none"),
-    ("duration", "[s]"),
-    ("averaging_time", "[s], before the end"),
-    ("unstabilised_duration", "[s]"),
-    ("numerics.time_step", "[s], the largest"),
-    ("numerics.stabilisation", "[-], 0 is the paper's operator"),
-];
+impl Parameters for StillWaterParameters {
+    type Run = StillWaterRun;
 
-impl StillWaterParameters {
-    pub(super) fn of_tier(tier: Tier) -> Self {
+    fn of_tier(tier: Tier) -> Self {
         let quick = Self {
             depth: 0.046,
             gravity: 9.81,
@@ -92,37 +91,38 @@ impl StillWaterParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
-        rules::positive("depth", self.depth, "give it in metres, such as 0.046")?;
-        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
-        rules::positive("density", self.density, "give it in kg/m³, such as 1000")?;
-        rules::positive("kinematic_viscosity", self.kinematic_viscosity, "give it in m²/s; water has 1e-6")?;
-        rules::rows("resolution", self.resolution)?;
+    fn check(&self) -> Result<(), InputError> {
         rules::channel_columns("columns", self.columns, &self.numerics)?;
-        for (field, jitters) in [("jitters", &self.jitters), ("unstabilised_jitters", &self.unstabilised_jitters)] {
-            for (index, &jitter) in jitters.iter().enumerate() {
-                let field = format!("{field}[{index}]");
-                rules::between(&field, jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
-                let equal = jitters[..index].contains(&jitter);
-                if equal {
-                    return Err(InputError::field(&field, jitter, "unlike the others", "name every displacement once"));
-                }
-            }
-        }
-        if self.jitters.is_empty() {
-            return Err(InputError::field("jitters", "[]", "at least one displacement", "0.1 breaks the lattice"));
-        }
-        rules::between("duration", self.duration, 0.5, 1e4, "20 s bring the water to rest")?;
         let longest = 0.5 * self.duration;
         rules::between("averaging_time", self.averaging_time, 0.2, longest, "the window lies in the second half")?;
-        rules::between(
-            "unstabilised_duration",
-            self.unstabilised_duration,
-            0.1,
-            1e3,
-            "half a second is enough to blow up",
-        )?;
         rules::projection("numerics", &self.numerics)
+    }
+
+    fn runs(&self) -> Vec<StillWaterRun> {
+        let new = |jitter, unstabilised| StillWaterRun {
+            jitter,
+            resolution: self.resolution,
+            depth: self.depth,
+            gravity: self.gravity,
+            density: self.density,
+            duration: if unstabilised { self.unstabilised_duration } else { self.duration },
+            unstabilised,
+            kinematic_viscosity: self.kinematic_viscosity,
+            columns: self.columns,
+            seed: self.seed,
+            averaging_time: if unstabilised { 0.5 * self.unstabilised_duration } else { self.averaging_time },
+            numerics: if unstabilised {
+                ProjectionNumerics { stabilisation: 0.0, ..self.numerics }
+            } else {
+                self.numerics
+            },
+        };
+        let mut runs: Vec<StillWaterRun> = self.jitters.iter().map(|&jitter| new(jitter, false)).collect();
+        // where nothing is stabilised, there is nothing to compare
+        if self.numerics.stabilisation > 0.0 {
+            runs.extend(self.unstabilised_jitters.iter().map(|&jitter| new(jitter, true)));
+        }
+        runs
     }
 }
 
@@ -150,40 +150,19 @@ pub struct StillWaterRun {
     numerics: ProjectionNumerics,
 }
 
-pub(super) fn runs(parameters: &StillWaterParameters) -> Vec<StillWaterRun> {
-    let new = |jitter, unstabilised| StillWaterRun {
-        jitter,
-        resolution: parameters.resolution,
-        depth: parameters.depth,
-        gravity: parameters.gravity,
-        density: parameters.density,
-        duration: if unstabilised { parameters.unstabilised_duration } else { parameters.duration },
-        unstabilised,
-        kinematic_viscosity: parameters.kinematic_viscosity,
-        columns: parameters.columns,
-        seed: parameters.seed,
-        averaging_time: if unstabilised { 0.5 * parameters.unstabilised_duration } else { parameters.averaging_time },
-        numerics: if unstabilised {
-            ProjectionNumerics { stabilisation: 0.0, ..parameters.numerics }
-        } else {
-            parameters.numerics
-        },
-    };
-    let mut runs: Vec<StillWaterRun> = parameters.jitters.iter().map(|&jitter| new(jitter, false)).collect();
-    // where nothing is stabilised, there is nothing to compare
-    if parameters.numerics.stabilisation > 0.0 {
-        runs.extend(parameters.unstabilised_jitters.iter().map(|&jitter| new(jitter, true)));
-    }
-    runs
-}
-
 impl Run for StillWaterRun {
+    type Observation = ChannelObservation;
+
     fn variant(&self) -> String {
         format!("jitter={},stabilisation={},resolution={}", self.jitter, self.numerics.stabilisation, self.resolution)
     }
 
     fn particle_steps(&self) -> f64 {
         self.channel().expected_steps() * (self.resolution * self.columns) as f64
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
+        Ok(self.channel().run(progress)?)
     }
 }
 
@@ -216,9 +195,5 @@ impl StillWaterRun {
             frames: 2,
             may_diverge: self.unstabilised,
         }
-    }
-
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
-        Ok(self.channel().run(progress)?)
     }
 }

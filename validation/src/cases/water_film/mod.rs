@@ -6,12 +6,10 @@ mod parameters;
 
 pub use parameters::{WaterFilmParameters, WaterFilmRun};
 
-use super::channel::{self, ChannelObservation};
-use crate::case::{Case, Progress, Run, Tier};
-use crate::error::InputError;
+use super::channel;
+use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
 use crate::metric::Metric;
-use crate::observe::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -19,62 +17,28 @@ use crate::output::Table;
 pub struct WaterFilm;
 
 /// A run with what it left behind.
-type Record = (WaterFilmRun, Recorded<ChannelObservation>);
+type Record = RecordOf<WaterFilmParameters>;
 
 impl Case for WaterFilm {
+    const NAME: &'static str = "water-film";
+    const SUMMARY: &'static str =
+        "a laminar film by the incompressible model against its exact profile, with the order of convergence";
+    const DESCRIPTION: &'static str = "A Newtonian film down a slope of 3 % over a bed that it sticks to, by the incompressible projection step. The \
+        viscosity is chosen for a surface velocity of 0.5 m/s at a depth of 46 mm: Reynolds number 37, Froude number \
+        0.74, far from water and laminar, so that an exact profile exists. The film starts from it and must keep it for \
+        several relaxation times 4h²/(π²ν): what remains is the error of the wall, of the viscous pairs and of the depth \
+        that the particles take.";
     type Parameters = WaterFilmParameters;
-    type Run = WaterFilmRun;
-    type Observation = ChannelObservation;
 
-    fn name(&self) -> &'static str {
-        "water-film"
-    }
-
-    fn summary(&self) -> &'static str {
-        "a laminar film by the incompressible model against its exact profile, with the order of convergence"
-    }
-
-    fn description(&self) -> &'static str {
-        "A Newtonian film down a slope of 3 % over a bed that it sticks to, by the incompressible projection step. The \
-         viscosity is chosen for a surface velocity of 0.5 m/s at a depth of 46 mm: Reynolds number 37, Froude number \
-         0.74, far from water and laminar, so that an exact profile exists. The film starts from it and must keep it for \
-         several relaxation times 4h²/(π²ν): what remains is the error of the wall, of the viscous pairs and of the depth \
-         that the particles take."
-    }
-
-    fn field_notes(&self) -> &'static [(&'static str, &'static str)] {
-        parameters::FIELD_NOTES
-    }
-
-    fn parameters(&self, tier: Tier) -> WaterFilmParameters {
-        WaterFilmParameters::of_tier(tier)
-    }
-
-    fn check(&self, parameters: &WaterFilmParameters) -> Result<(), InputError> {
-        parameters.check()
-    }
-
-    fn runs(&self, parameters: &WaterFilmParameters) -> Vec<WaterFilmRun> {
-        parameters::runs(parameters)
-    }
-
-    fn simulate(
-        &self,
-        run: &WaterFilmRun,
-        progress: &dyn Progress,
-    ) -> Result<Recorded<ChannelObservation>, InputError> {
-        run.simulate(progress)
-    }
-
-    fn metrics(&self, _: &WaterFilmParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &WaterFilmParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(&self, _: &WaterFilmParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &WaterFilmParameters, records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(&self, _: &WaterFilmParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &WaterFilmParameters, records: &[Record]) -> Vec<Table> {
         records.iter().flat_map(|(run, record)| channel::tables(&run.variant(), &record.data)).collect()
     }
 }

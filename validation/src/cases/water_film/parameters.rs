@@ -1,6 +1,6 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{Progress, Run, Tier};
+use crate::case::{Parameters, Progress, Run, Tier};
 use crate::cases::bagnold::Arrangement;
 use crate::cases::channel::{Channel, ChannelObservation, Lattice, Until};
 use crate::cases::rules;
@@ -8,35 +8,48 @@ use crate::error::InputError;
 use crate::observe::Recorded;
 use crate::reference::{Incline, NewtonianFilm};
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction, Turbulence};
+use bagnold_solver::parameter::{between, each, filled, positive, unique};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WaterFilmParameters {
     /// Depth h `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.046"))]
     pub depth: f64,
-    /// Slope i of the bed `[-]`.
+    /// Slope i of the bed, a tangent `[-]`; 0.03 is 3 %.
+    #[schemars(transform = rules::driving_slope())]
     pub slope: f64,
     /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Density `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub density: f64,
-    /// Velocity at the surface, which sets the viscosity `[m/s]`.
+    /// Velocity u at the surface, which sets the viscosity g i h²/(2 u) `[m/s]`.
+    #[schemars(transform = positive("give it in m/s, such as 0.5"))]
     pub surface_velocity: f64,
     /// Arrangements to run at `resolution`.
+    #[schemars(transform = filled("one or both of \"lattice\" and \"jittered\"", "name every arrangement once"))]
+    #[schemars(transform = unique("name every arrangement once"))]
     pub arrangements: Vec<Arrangement>,
     /// Rows of particles over the depth.
+    #[schemars(transform = rules::rows())]
     pub resolution: usize,
     /// Columns of particles along the period.
     pub columns: usize,
     /// Largest random displacement of a jittered particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// Rows of the convergence study on the lattice; empty for none.
+    #[schemars(transform = each(rules::rows()))]
+    #[schemars(transform = unique("name every number of rows once"))]
     pub convergence_resolutions: Vec<usize>,
     /// Simulated time over 4h²/(π²ν) `[-]`.
+    #[schemars(transform = between(0.5, 1e3, "4 leave 2 % of the start's error"))]
     pub relaxation_times: f64,
     /// Averaging window before the end over the same `[-]`.
     pub averaging_times: f64,
@@ -44,24 +57,10 @@ pub struct WaterFilmParameters {
     pub numerics: ProjectionNumerics,
 }
 
-pub(super) const FIELD_NOTES: &[(&str, &str)] = &[
-    ("depth", "[m]"),
-    ("slope", "[-], tangent: 0.03 is 3 %"),
-    ("gravity", "[m/s²]"),
-    ("density", "[kg/m³]"),
-    ("surface_velocity", "[m/s], sets the viscosity g i h²/(2 u)"),
-    ("arrangements", "\"lattice\" and \"jittered\", at `resolution`"),
-    ("resolution", "rows of particles over the depth"),
-    ("columns", "columns of particles along the period"),
-    ("jitter", "[-], largest random displacement in spacings"),
-    ("convergence_resolutions", "rows of the study on the lattice; empty for none"),
-    ("relaxation_times", "[-], simulated time over 4h²/(π²ν)"),
-    ("averaging_times", "[-], window before the end over the same"),
-    ("numerics.time_step", "[s], at `resolution` rows; in proportion to the spacing at others"),
-];
+impl Parameters for WaterFilmParameters {
+    type Run = WaterFilmRun;
 
-impl WaterFilmParameters {
-    pub(super) fn of_tier(tier: Tier) -> Self {
+    fn of_tier(tier: Tier) -> Self {
         let quick = Self {
             depth: 0.046,
             slope: 0.03,
@@ -93,32 +92,38 @@ impl WaterFilmParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
-        rules::positive("depth", self.depth, "give it in metres, such as 0.046")?;
-        rules::driving_slope("slope", self.slope)?;
-        rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
-        rules::positive("density", self.density, "give it in kg/m³, such as 1000")?;
-        rules::positive("surface_velocity", self.surface_velocity, "give it in m/s, such as 0.5")?;
-        let arrangements = &self.arrangements;
-        if arrangements.is_empty() || (arrangements.len() > 1 && arrangements[1..].contains(&arrangements[0])) {
-            let shown = format!("{arrangements:?}").to_lowercase();
-            let rule = "one or both of \"lattice\" and \"jittered\"";
-            return Err(InputError::field("arrangements", shown, rule, "name every arrangement once"));
-        }
-        rules::rows("resolution", self.resolution)?;
-        for (index, &rows) in self.convergence_resolutions.iter().enumerate() {
-            let field = format!("convergence_resolutions[{index}]");
-            rules::rows(&field, rows)?;
-            if self.convergence_resolutions[..index].contains(&rows) {
-                return Err(InputError::field(&field, rows, "unlike the others", "name every number of rows once"));
-            }
-        }
+    fn check(&self) -> Result<(), InputError> {
         rules::channel_columns("columns", self.columns, &self.numerics)?;
-        rules::between("jitter", self.jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
-        rules::between("relaxation_times", self.relaxation_times, 0.5, 1e3, "4 leave 2 % of the start's error")?;
         let longest = 0.5 * self.relaxation_times;
         rules::between("averaging_times", self.averaging_times, 0.2, longest, "the window lies in the second half")?;
         rules::projection("numerics", &self.numerics)
+    }
+
+    fn runs(&self) -> Vec<WaterFilmRun> {
+        let new = |particles, resolution: usize| WaterFilmRun {
+            particles,
+            resolution,
+            depth: self.depth,
+            slope: self.slope,
+            gravity: self.gravity,
+            density: self.density,
+            surface_velocity: self.surface_velocity,
+            columns: self.columns,
+            jitter: if particles == Arrangement::Lattice { 0.0 } else { self.jitter },
+            seed: self.seed,
+            relaxation_times: self.relaxation_times,
+            averaging_times: self.averaging_times,
+            numerics: ProjectionNumerics {
+                time_step: self.numerics.time_step * self.resolution as f64 / resolution as f64,
+                ..self.numerics
+            },
+        };
+        let mut runs: Vec<WaterFilmRun> =
+            self.arrangements.iter().map(|&particles| new(particles, self.resolution)).collect();
+        let is_run = |rows: usize| self.arrangements.contains(&Arrangement::Lattice) && rows == self.resolution;
+        let study = self.convergence_resolutions.iter().filter(|&&rows| !is_run(rows));
+        runs.extend(study.map(|&rows| new(Arrangement::Lattice, rows)));
+        runs
     }
 }
 
@@ -147,34 +152,9 @@ pub struct WaterFilmRun {
     numerics: ProjectionNumerics,
 }
 
-pub(super) fn runs(parameters: &WaterFilmParameters) -> Vec<WaterFilmRun> {
-    let new = |particles, resolution: usize| WaterFilmRun {
-        particles,
-        resolution,
-        depth: parameters.depth,
-        slope: parameters.slope,
-        gravity: parameters.gravity,
-        density: parameters.density,
-        surface_velocity: parameters.surface_velocity,
-        columns: parameters.columns,
-        jitter: if particles == Arrangement::Lattice { 0.0 } else { parameters.jitter },
-        seed: parameters.seed,
-        relaxation_times: parameters.relaxation_times,
-        averaging_times: parameters.averaging_times,
-        numerics: ProjectionNumerics {
-            time_step: parameters.numerics.time_step * parameters.resolution as f64 / resolution as f64,
-            ..parameters.numerics
-        },
-    };
-    let mut runs: Vec<WaterFilmRun> =
-        parameters.arrangements.iter().map(|&particles| new(particles, parameters.resolution)).collect();
-    let is_run = |rows: usize| parameters.arrangements.contains(&Arrangement::Lattice) && rows == parameters.resolution;
-    let study = parameters.convergence_resolutions.iter().filter(|&&rows| !is_run(rows));
-    runs.extend(study.map(|&rows| new(Arrangement::Lattice, rows)));
-    runs
-}
-
 impl Run for WaterFilmRun {
+    type Observation = ChannelObservation;
+
     fn variant(&self) -> String {
         let particles = match self.particles {
             Arrangement::Lattice => "lattice",
@@ -185,6 +165,11 @@ impl Run for WaterFilmRun {
 
     fn particle_steps(&self) -> f64 {
         self.channel(&|_| 0.0).expected_steps() * (self.resolution * self.columns) as f64
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
+        let film = self.film(self.depth);
+        Ok(self.channel(&|z| film.velocity(z)).run(progress)?)
     }
 }
 
@@ -241,10 +226,5 @@ impl WaterFilmRun {
             frames: 2,
             may_diverge: false,
         }
-    }
-
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
-        let film = self.film(self.depth);
-        Ok(self.channel(&|z| film.velocity(z)).run(progress)?)
     }
 }

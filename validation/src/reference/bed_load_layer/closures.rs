@@ -8,11 +8,13 @@
 use crate::reference::shipped::read_shipped;
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
+use bagnold_solver::parameter::{between, positive};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
 /// How far an eddy reaches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MixingLength {
     /// No turbulence.
@@ -40,26 +42,32 @@ impl MixingLength {
 }
 
 /// All closures; the default is the literature's set for bed load (Maurin et al. 2016, as used in sedFoam's tutorial).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Closures {
     /// Static friction μ_s `[-]`.
+    #[schemars(transform = positive("give μ_s, such as 0.35"))]
     pub static_friction: f64,
     /// Limiting friction μ_2 `[-]`.
+    #[schemars(transform = positive("give μ_2, such as 0.97"))]
     pub limiting_friction: f64,
     /// Reference inertia I_0 `[-]`.
+    #[schemars(transform = positive("give I_0, such as 0.69"))]
     pub reference_inertia: f64,
     /// Rate γ_r `[1/s]` below which friction falls to zero.
+    #[schemars(transform = positive("give it in 1/s, such as 5e-3"))]
     pub regularisation_rate: f64,
     /// Solid fraction φ_max of grains without shear `[-]`.
+    #[schemars(transform = between(0.1, 0.74, "grains at rest fill 0.5 to 0.64 of the space"))]
     pub largest_fraction: f64,
     /// Dilation B in φ = φ_max/(1 + B I) `[-]`; 0 for none.
+    #[schemars(transform = between(0.0, 100.0, "grains loosen in shear: give B, such as 0.31, or 0 for grains that do not"))]
     pub dilation: f64,
-    /// Drag law.
+    /// Drag law; Gidaspow's jumps at φ = 0.2 and gives no steady state.
     pub drag: DragLaw,
     /// Mixing length.
     pub mixing_length: MixingLength,
     /// Kármán's κ `[-]`.
+    #[schemars(transform = positive("give κ, 0.41"))]
     pub karman: f64,
     /// Viscosity of the water between grains.
     pub suspension_viscosity: SuspensionViscosity,

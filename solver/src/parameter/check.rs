@@ -1,0 +1,259 @@
+//! The one checker: a tree of values along a schema. TOML's values keep NaN and infinity, JSON's do not.
+
+use super::{ParameterProblem, Shape, Variant};
+use serde_json::Value as Schema;
+use toml::{Table, Value};
+
+/// What is wrong with one field; paths are dotted, with the index in a list: `slopes[1]`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Fault {
+    /// There is no such field.
+    Unknown {
+        /// Its path.
+        path: String,
+        /// The paths of the fields beside it.
+        known: Vec<String>,
+    },
+    /// The field is absent.
+    Missing {
+        /// Its path.
+        path: String,
+    },
+    /// The value is not of the field's type.
+    Kind {
+        /// Its path.
+        path: String,
+        /// The value as written; none if it takes more than a line.
+        value: Option<String>,
+        /// What it must be, completing "must be …".
+        rule: String,
+        /// The name that is none of an enum's, and the enum's names.
+        choice: Option<(String, Vec<String>)>,
+    },
+    /// The value is of the right type, but outside its range.
+    Range(ParameterProblem),
+}
+
+impl Fault {
+    /// The dotted path of the field.
+    #[must_use]
+    pub fn path(&self) -> &str {
+        match self {
+            Self::Unknown { path, .. } | Self::Missing { path } | Self::Kind { path, .. } => path,
+            Self::Range(problem) => &problem.field,
+        }
+    }
+}
+
+/// The first fault of a value, in the order in which the fields are declared.
+#[must_use]
+pub fn first_fault(schema: &Schema, value: &Value) -> Option<Fault> {
+    Place { path: String::new() }.fault(schema, value)
+}
+
+/// Where the checker stands.
+struct Place {
+    path: String,
+}
+
+impl Place {
+    fn below(&self, name: &str) -> Self {
+        Self { path: if self.path.is_empty() { name.to_owned() } else { format!("{}.{name}", self.path) } }
+    }
+
+    fn at(&self, index: usize) -> Self {
+        Self { path: format!("{}[{index}]", self.path) }
+    }
+
+    fn fault(self, schema: &Schema, value: &Value) -> Option<Fault> {
+        let fault = match (Shape::of(schema), value) {
+            (Shape::Any, _)
+            | (Shape::Number, Value::Float(_) | Value::Integer(_))
+            | (Shape::Integer { signed: true }, Value::Integer(_))
+            | (Shape::Text, Value::String(_))
+            | (Shape::Flag, Value::Boolean(_)) => None,
+            (Shape::Integer { signed: false }, Value::Integer(value)) if *value >= 0 => None,
+            (Shape::Fields { properties, required }, Value::Table(table)) => {
+                self.fault_of_fields(properties, &required, table)
+            }
+            (Shape::List(items), Value::Array(values)) => {
+                values.iter().enumerate().find_map(|(index, value)| self.at(index).fault(items, value))
+            }
+            (Shape::Tuple(items), Value::Array(values)) if items.len() == values.len() => {
+                let mut pairs = items.iter().zip(values).enumerate();
+                pairs.find_map(|(index, (schema, value))| self.at(index).fault(schema, value))
+            }
+            (shape @ (Shape::Choice(_) | Shape::Tagged { .. }), _) => self.fault_of_choice(&shape, value),
+            (shape, _) => Some(self.wrong(value, kind_in_words(&shape))),
+        };
+        fault.or_else(|| self.out_of_range(schema, value))
+    }
+
+    fn fault_of_fields(
+        &self,
+        properties: &serde_json::Map<String, Schema>,
+        required: &[&str],
+        table: &Table,
+    ) -> Option<Fault> {
+        let unknown = table.keys().find(|key| !properties.contains_key(*key)).map(|key| Fault::Unknown {
+            path: self.below(key).path,
+            known: properties.keys().map(|name| self.below(name).path).collect(),
+        });
+        unknown.or_else(|| {
+            properties.iter().find_map(|(name, schema)| match table.get(name) {
+                Some(value) => self.below(name).fault(schema, value),
+                None if required.contains(&name.as_str()) => Some(Fault::Missing { path: self.below(name).path }),
+                None => None,
+            })
+        })
+    }
+
+    fn fault_of_choice(&self, shape: &Shape<'_>, value: &Value) -> Option<Fault> {
+        if let Some(variant) = shape.chosen(value) {
+            return match (shape, variant.content, value) {
+                (Shape::Tagged { .. }, Some(content), _) => Self { path: self.path.clone() }.fault(content, value),
+                (_, Some(content), Value::Table(table)) => {
+                    table.iter().find_map(|(name, value)| self.below(name).fault(content, value))
+                }
+                (_, None, Value::String(_)) => None,
+                (_, Some(_), _) => Some(self.wrong(value, "a table of fields".to_owned())),
+                (_, None, _) => Some(self.wrong(value, format!("the name \"{}\" alone", variant.name))),
+            };
+        }
+        match shape {
+            Shape::Choice(variants) => match value {
+                Value::Table(table) if table.len() == 1 => {
+                    table.iter().find_map(|(name, value)| Some(self.below(name).no_choice(variants, name, value)))
+                }
+                Value::String(name) => Some(self.no_choice(variants, name, value)),
+                _ => Some(self.wrong(value, one_of(variants))),
+            },
+            Shape::Tagged { tag, variants, open } => match value.get(tag) {
+                Some(Value::String(_)) if *open => None,
+                Some(Value::String(name)) => Some(self.below(tag).no_choice(variants, name, &value[*tag])),
+                Some(other) => Some(self.below(tag).wrong(other, one_of(variants))),
+                None if value.is_table() => Some(Fault::Missing { path: self.below(tag).path }),
+                None => Some(self.wrong(value, "a table of fields".to_owned())),
+            },
+            _ => None,
+        }
+    }
+
+    fn no_choice(&self, variants: &[Variant<'_>], name: &str, value: &Value) -> Fault {
+        let names = variants.iter().map(|variant| variant.name.to_owned()).collect();
+        Fault::Kind {
+            path: self.path.clone(),
+            value: shown(value),
+            rule: one_of(variants),
+            choice: Some((name.to_owned(), names)),
+        }
+    }
+
+    fn wrong(&self, value: &Value, rule: String) -> Fault {
+        Fault::Kind { path: self.path.clone(), value: shown(value), rule, choice: None }
+    }
+
+    /// The first rule that the value breaks: the schema's own, then those under `allOf`.
+    fn out_of_range(&self, schema: &Schema, value: &Value) -> Option<Fault> {
+        let further = schema.get("allOf").and_then(Schema::as_array).into_iter().flatten();
+        std::iter::once(schema).chain(further).find_map(|rule| {
+            let (path, shown, words) = match value {
+                Value::Float(number) => (self.path.clone(), number.to_string(), broken_bound(rule, *number)?),
+                Value::Integer(number) => (self.path.clone(), number.to_string(), broken_bound(rule, *number as f64)?),
+                Value::Array(values) => {
+                    let (index, words) = broken_list(rule, values)?;
+                    match index {
+                        Some(index) => (self.at(index).path, bare(&values[index]), words),
+                        None => (self.path.clone(), bare(value), words),
+                    }
+                }
+                _ => return None,
+            };
+            let word = |key: &str| rule.get(key).and_then(Schema::as_str);
+            let remedy = word("x-remedy").unwrap_or("see the default with `bagnold show`");
+            let words = word("x-rule").map_or(words, str::to_owned);
+            Some(Fault::Range(ParameterProblem::new(&path, shown, &words, remedy)))
+        })
+    }
+}
+
+/// The bounds that a number breaks, in words.
+fn broken_bound(rule: &Schema, value: f64) -> Option<String> {
+    let bound = |key: &str| rule.get(key).and_then(Schema::as_f64);
+    let (least, above) = (bound("minimum"), bound("exclusiveMinimum"));
+    let (most, below) = (bound("maximum"), bound("exclusiveMaximum"));
+    let finite = rule.get("x-finite").is_some_and(|finite| finite == true);
+    // Written so that NaN lies in no range.
+    let holds = least.is_none_or(|bound| value >= bound)
+        && above.is_none_or(|bound| value > bound)
+        && most.is_none_or(|bound| value <= bound)
+        && below.is_none_or(|bound| value < bound)
+        && (!finite || value.is_finite());
+    (!holds).then(|| match (least, above, most, below) {
+        (Some(least), _, Some(most), _) => format!("between {} and {}", number(least), number(most)),
+        (_, Some(above), Some(most), _) => format!("above {} and at most {}", number(above), number(most)),
+        (_, Some(above), _, Some(below)) => format!("inside ({}, {})", number(above), number(below)),
+        (_, Some(above), ..) => format!("finite and greater than {}", number(above)),
+        (Some(0.0), ..) if finite => "finite and not negative".to_owned(),
+        (Some(least), ..) => format!("at least {}", number(least)),
+        (.., Some(most), _) => format!("at most {}", number(most)),
+        (.., Some(below)) => format!("below {}", number(below)),
+        (None, None, None, None) => "finite".to_owned(),
+    })
+}
+
+/// The rule that a list breaks, with the entry that does.
+fn broken_list(rule: &Schema, values: &[Value]) -> Option<(Option<usize>, String)> {
+    let least = rule.get("minItems").and_then(Schema::as_u64).unwrap_or(0);
+    if (values.len() as u64) < least {
+        return Some((None, format!("a list of at least {least}")));
+    }
+    let unique = rule.get("uniqueItems").is_some_and(|unique| unique == true);
+    let twin = (0..values.len()).find(|&index| unique && values[..index].contains(&values[index]))?;
+    Some((Some(twin), "unlike the others".to_owned()))
+}
+
+/// What a value of a shape is called, without the words of Rust's type system.
+fn kind_in_words(shape: &Shape<'_>) -> String {
+    match shape {
+        Shape::Fields { .. } | Shape::Tagged { .. } => "a table of fields",
+        Shape::Choice(variants) => return one_of(variants),
+        Shape::List(_) => "an array in brackets, such as [1.0, 2.0] or [\"newtonian\"]",
+        Shape::Tuple(items) => return format!("an array of {} values", items.len()),
+        Shape::Number => "a number",
+        Shape::Integer { signed: false } => "a whole number that is not negative",
+        Shape::Integer { signed: true } => "a whole number",
+        Shape::Text => "a string",
+        Shape::Flag => "true or false",
+        Shape::Any => "a value",
+    }
+    .to_owned()
+}
+
+fn one_of(variants: &[Variant<'_>]) -> String {
+    let quoted: Vec<String> = variants.iter().map(|variant| format!("`{}`", variant.name)).collect();
+    match quoted.as_slice() {
+        [only] => only.clone(),
+        _ => format!("one of {}", quoted.join(", ")),
+    }
+}
+
+/// A bound with the fewest digits: 1e-9, 0.5, 1000000.
+fn number(bound: f64) -> String {
+    let text = format!("{bound:?}");
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+}
+
+/// A value as TOML writes it, if that takes one line.
+fn shown(value: &Value) -> Option<String> {
+    Some(value.to_string()).filter(|text| !text.contains('\n'))
+}
+
+/// A value in a message on its range: a name without its quotes.
+fn bare(value: &Value) -> String {
+    match value {
+        Value::String(name) => name.clone(),
+        Value::Float(number) => number.to_string(),
+        other => other.to_string(),
+    }
+}

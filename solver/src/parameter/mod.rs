@@ -1,0 +1,39 @@
+//! A parameter is declared once, on its field: the doc comment with the unit, the type, and the rule of its range.
+//!
+//! `#[derive(JsonSchema)]` makes a JSON Schema (2020-12) of a struct; a [`Rule`] as a field's `transform` adds the range
+//! and what to do about a value outside it. One checker, [`first_fault`], walks values along that schema:
+//!
+//! ```
+//! use bagnold_solver::parameter::{positive, range_problem};
+//!
+//! /// A wall.
+//! #[derive(serde::Serialize, schemars::JsonSchema)]
+//! struct Wall {
+//!     /// Sand roughness k_s `[m]`.
+//!     #[schemars(transform = positive("give it in metres"))]
+//!     sand_roughness: f64,
+//! }
+//! let problem = range_problem(&Wall { sand_roughness: -0.005 }).expect("refused");
+//! assert_eq!(
+//!     problem.to_string(),
+//!     "`sand_roughness` is -0.005, but must be positive and finite; give it in metres"
+//! );
+//! ```
+//!
+//! A rule that compares fields is a function of the struct that holds them.
+
+mod check;
+mod problem;
+mod rules;
+mod schema;
+mod shape;
+#[cfg(test)]
+mod tests;
+
+pub use check::{Fault, first_fault};
+pub use problem::ParameterProblem;
+pub use rules::{
+    Rule, above, at_least, between, each, entry, filled, inside, not_negative, positive, unique, up_to, within,
+};
+pub use schema::{description, range_problem, schema_of};
+pub use shape::{Shape, Variant};

@@ -1,0 +1,206 @@
+//! From defaults, a TOML file and `--set` to typed parameters, with errors that name the field.
+
+use super::fault;
+use crate::error::InputError;
+use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
+use schemars::JsonSchema;
+use serde::{Serialize, de::DeserializeOwned};
+use serde_json::Value as Schema;
+use std::path::Path;
+use toml::{Table, Value};
+
+/// What the user asks to differ from a tier's parameters.
+#[derive(Debug, Clone, Default)]
+pub struct Changes<'a> {
+    /// A file's fields, without `case` and `tier`, and where it stands.
+    pub file: Option<(&'a Path, Table)>,
+    /// `path=value` arguments, applied in order after the file.
+    pub settings: &'a [String],
+}
+
+/// The parameters as a TOML table.
+pub(super) fn table_of<P: Serialize>(parameters: &P) -> Table {
+    Table::try_from(parameters).expect("a case's parameters are structs that TOML can hold")
+}
+
+/// Lays the changes over the defaults, checks each field along the schema, and types the result.
+pub(super) fn resolve<P>(case: &str, defaults: &P, changes: &Changes<'_>) -> Result<P, InputError>
+where
+    P: Serialize + DeserializeOwned + JsonSchema + 'static,
+{
+    let schema = schema_of::<P>();
+    let defaults = table_of(defaults);
+    let mut table = defaults.clone();
+    if let Some((_, fields)) = &changes.file {
+        overlay(schema, &mut table, fields);
+    }
+    let mut settings = Table::new();
+    for argument in changes.settings {
+        add_setting(case, &defaults, &mut settings, argument)?;
+    }
+    // Together, so that a law and its parameters may come in any order.
+    overlay(schema, &mut table, &settings);
+    let value = Value::Table(table);
+    match first_fault(schema, &value) {
+        Some(fault) => Err(blame(fault, case, &defaults, changes)),
+        // What no schema can tell, such as whether a law of the user's own is known.
+        None => value.try_into().map_err(|error: toml::de::Error| {
+            let remedy = format!("`bagnold show {case}` prints valid ones");
+            InputError::field("parameters", "not valid", error.message(), &remedy)
+        }),
+    }
+}
+
+/// The error for a fault: that of the `--set` which gives the field, else of the file.
+fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> InputError {
+    let known = paths(defaults);
+    let arguments = changes.settings.iter().rev().filter_map(|argument| parts(argument));
+    // A path that leads through a value: `depth.x` makes `depth` a table, and no number.
+    if let Fault::Kind { path: field, .. } = &fault
+        && let Some((path, value)) =
+            arguments.clone().find(|(path, _)| path.strip_prefix(field).is_some_and(|rest| rest.starts_with('.')))
+        && !find(defaults, field).is_some_and(Value::is_table)
+    {
+        return unknown_path(case, &[&known], path, value);
+    }
+    let exact = arguments.clone().find(|(path, _)| *path == fault.path());
+    match (fault, exact) {
+        (Fault::Unknown { known: beside, .. }, Some((path, value))) => {
+            unknown_path(case, &[&beside, &known], path, value)
+        }
+        (Fault::Kind { rule, choice, .. }, Some((path, value))) => InputError::SetValue {
+            path: path.to_owned(),
+            value: value.to_owned(),
+            rule,
+            remedy: fault::remedy(choice.as_ref(), case),
+        },
+        (fault, _) => {
+            let set = is_set(changes.settings, fault.path());
+            let error = fault::in_parameters(fault, case, &known);
+            match &changes.file {
+                Some((file, _)) if !set => error.in_file(file),
+                _ => error,
+            }
+        }
+    }
+}
+
+/// A path that does not exist; `known` are those that do, the ones beside it first.
+fn unknown_path(case: &str, known: &[&[String]], path: &str, value: &str) -> InputError {
+    InputError::SetPath {
+        path: path.to_owned(),
+        value: value.to_owned(),
+        nearest: fault::nearest_path(path, known),
+        case: case.to_owned(),
+    }
+}
+
+/// Whether one of the `--set` arguments gives `field`, so that the file is not to blame for its value.
+pub(super) fn is_set(settings: &[String], field: &str) -> bool {
+    settings
+        .iter()
+        .filter_map(|argument| parts(argument))
+        .any(|(path, _)| field == path || field.strip_prefix(path).is_some_and(|rest| rest.starts_with(['.', '['])))
+}
+
+/// Path and value of a `--set` argument.
+fn parts(argument: &str) -> Option<(&str, &str)> {
+    argument.split_once('=').map(|(path, value)| (path.trim(), value.trim()))
+}
+
+/// Lays `changes` over `table`: tables field by field, everything else whole; another choice of an enum replaces the
+/// table's, whose fields are not its own.
+fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
+    let shape = Shape::of(schema);
+    if is_other_choice(&shape, table, changes) {
+        table.clone_from(changes);
+        return;
+    }
+    let chosen = shape.chosen(&Value::Table(changes.clone())).or_else(|| shape.chosen(&Value::Table(table.clone())));
+    let content = |key: &str| match &shape {
+        Shape::Choice(_) => chosen.filter(|variant| variant.name == key).and_then(|variant| variant.content),
+        Shape::Tagged { .. } => chosen.and_then(|variant| variant.content?.get("properties")?.get(key)),
+        Shape::Fields { properties, .. } => properties.get(key),
+        _ => None,
+    };
+    for (key, change) in changes {
+        match (table.get_mut(key), change) {
+            (Some(Value::Table(inner)), Value::Table(changed)) => {
+                overlay(content(key).unwrap_or(&Schema::Null), inner, changed);
+            }
+            _ => {
+                table.insert(key.clone(), change.clone());
+            }
+        }
+    }
+}
+
+/// Whether `changes` picks another variant of an enum than `table`.
+fn is_other_choice(shape: &Shape<'_>, table: &Table, changes: &Table) -> bool {
+    match shape {
+        Shape::Choice(_) => !changes.keys().any(|key| table.contains_key(key)),
+        Shape::Tagged { tag, .. } => changes.get(*tag).is_some_and(|choice| table.get(*tag) != Some(choice)),
+        _ => false,
+    }
+}
+
+/// Adds one `path=value` to the table of all that are set; later ones win.
+fn add_setting(case: &str, defaults: &Table, settings: &mut Table, argument: &str) -> Result<(), InputError> {
+    let Some((path, text)) = parts(argument).filter(|(path, text)| !path.is_empty() && !text.is_empty()) else {
+        let example = paths(defaults)
+            .into_iter()
+            .find_map(|path| {
+                find(defaults, &path).filter(|value| !value.is_table()).map(|value| format!("{path}={value}"))
+            })
+            .unwrap_or_else(|| "path=value".to_owned());
+        return Err(InputError::SetForm { argument: argument.to_owned(), example });
+    };
+    let mut keys: Vec<&str> = path.split('.').collect();
+    let last = keys.pop().unwrap_or(path);
+    let mut parent = settings;
+    for key in keys {
+        let inner = parent.entry(key).or_insert_with(|| Value::Table(Table::new()));
+        parent = match inner {
+            Value::Table(inner) => inner,
+            _ => return Err(unknown_path(case, &[&paths(defaults)], path, text)),
+        };
+    }
+    match (parent.get_mut(last), value_of(text)) {
+        (Some(Value::Table(inner)), Value::Table(change)) => overlay(&Schema::Null, inner, &change),
+        (_, value) => {
+            parent.insert(last.to_owned(), value);
+        }
+    }
+    Ok(())
+}
+
+/// A TOML value; what is not TOML is a word that the shell took the quotes from.
+fn value_of(text: &str) -> Value {
+    toml::from_str::<Table>(&format!("value = {text}"))
+        .ok()
+        // More than one key means that the text smuggled in a line of its own.
+        .filter(|table| table.len() == 1)
+        .and_then(|mut table| table.remove("value"))
+        .unwrap_or_else(|| Value::String(text.to_owned()))
+}
+
+/// All dotted paths of a table, parents first.
+fn paths(table: &Table) -> Vec<String> {
+    table
+        .iter()
+        .flat_map(|(key, value)| {
+            let inner = value.as_table().map(paths).unwrap_or_default();
+            std::iter::once(key.clone()).chain(inner.into_iter().map(move |path| format!("{key}.{path}")))
+        })
+        .collect()
+}
+
+/// The value at a dotted path.
+fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+    let mut keys = path.split('.');
+    let first = table.get(keys.next()?)?;
+    keys.try_fold(first, |value, key| value.as_table()?.get(key))
+}
+
+#[cfg(test)]
+mod tests;

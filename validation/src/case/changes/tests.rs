@@ -1,0 +1,195 @@
+use super::*;
+use bagnold_solver::parameter::not_negative;
+use serde::Deserialize;
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+struct Layer {
+    depth: f64,
+    rows: usize,
+    angles: Vec<f64>,
+    grains: Grains,
+    law: Law,
+    material: Material,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+struct Grains {
+    diameter: f64,
+    spread: Option<f64>,
+    packing: Packing,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum Packing {
+    Lattice,
+    Jittered,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum Law {
+    Newtonian { viscosity: f64 },
+    Bingham { viscosity: f64, yield_stress: f64 },
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "law", rename_all = "kebab-case")]
+enum Material {
+    Newtonian {
+        #[schemars(transform = not_negative("give it in Pa·s"))]
+        viscosity: f64,
+    },
+    MuI {
+        static_friction: f64,
+        limiting_friction: f64,
+    },
+}
+
+fn layer() -> Layer {
+    Layer {
+        depth: 0.01,
+        rows: 20,
+        angles: vec![22.0, 24.0],
+        grains: Grains { diameter: 1e-3, spread: None, packing: Packing::Lattice },
+        law: Law::Newtonian { viscosity: 1.0 },
+        material: Material::MuI { static_friction: 0.4, limiting_friction: 0.6 },
+    }
+}
+
+fn resolved(file: &str, settings: &[&str]) -> Result<Layer, String> {
+    let settings: Vec<String> = settings.iter().map(|&text| text.to_owned()).collect();
+    let fields = toml::from_str(file).expect("test TOML");
+    let changes = Changes { file: Some((Path::new("layer.toml"), fields)), settings: &settings };
+    resolve("layer", &layer(), &changes).map_err(|error| error.to_string())
+}
+
+fn message(file: &str, settings: &[&str]) -> String {
+    resolved(file, settings).expect_err("bad input must be refused")
+}
+
+#[test]
+fn a_file_and_settings_change_only_what_they_name() {
+    let changed = resolved(
+        "angles = [20]\ngrains.diameter = 2e-3\nlaw.bingham = { viscosity = 1, yield_stress = 2 }",
+        &["rows=40", "grains.packing=jittered", "grains.spread=0.1", "law.bingham.yield_stress=3"],
+    )
+    .expect("valid changes");
+    let expected = Layer {
+        depth: 0.01,
+        rows: 40,
+        angles: vec![20.0],
+        grains: Grains { diameter: 2e-3, spread: Some(0.1), packing: Packing::Jittered },
+        law: Law::Bingham { viscosity: 1.0, yield_stress: 3.0 },
+        ..layer()
+    };
+    assert_eq!(changed, expected);
+}
+
+#[test]
+fn unknown_fields_are_refused_with_the_nearest_name() {
+    assert_eq!(
+        message("dept = 0.02", &[]),
+        "layer.toml: unknown field `dept`; did you mean `depth`? `bagnold show layer` prints all fields"
+    );
+    assert_eq!(
+        message("[grains]\ndiametre = 0.002", &[]),
+        "layer.toml: unknown field `grains.diametre`; did you mean `grains.diameter`? `bagnold show layer` prints all fields"
+    );
+    assert_eq!(message("xyz = 1", &[]), "layer.toml: unknown field `xyz`; `bagnold show layer` prints all fields");
+}
+
+#[test]
+fn wrong_values_are_refused_with_the_type_they_should_have() {
+    assert_eq!(
+        message("depth = \"deep\"", &[]),
+        "layer.toml: `depth` is \"deep\", but must be a number; `bagnold show layer` prints a valid value"
+    );
+    assert_eq!(
+        message("rows = -3", &[]),
+        "layer.toml: `rows` is -3, but must be a whole number that is not negative; `bagnold show layer` prints a valid value"
+    );
+    assert_eq!(
+        message("grains.packing = \"latice\"", &[]),
+        "layer.toml: `grains.packing` is \"latice\", but must be one of `lattice`, `jittered`; did you mean `lattice`?"
+    );
+    assert_eq!(
+        message("law.bingham = { viscosity = 1, yield_stress = true }", &[]),
+        "layer.toml: `law.bingham.yield_stress` is true, but must be a number; `bagnold show layer` prints a valid value"
+    );
+    assert_eq!(
+        message("law.binghm.viscosity = 1", &[]),
+        "layer.toml: `law.binghm` is { viscosity = 1 }, but must be one of `newtonian`, `bingham`; did you mean `bingham`?"
+    );
+    assert_eq!(
+        message("law.bingham.viscosity = 1", &[]),
+        "layer.toml: `law.bingham.yield_stress` is missing; `bagnold show layer` prints it with a valid value"
+    );
+}
+
+#[test]
+fn settings_of_a_wrong_form_path_or_type_are_refused() {
+    assert_eq!(
+        message("", &["depth"]),
+        "`--set depth` must have the form path=value; for example `--set angles=[22.0, 24.0]`"
+    );
+    assert_eq!(
+        message("", &["grains.diametre=0.002"]),
+        "`--set grains.diametre=0.002`: unknown field `grains.diametre`; did you mean `grains.diameter`? `bagnold show layer` prints all fields"
+    );
+    assert_eq!(
+        message("", &["depth.x=1"]),
+        "`--set depth.x=1`: unknown field `depth.x`; did you mean `depth`? `bagnold show layer` prints all fields"
+    );
+    assert_eq!(
+        message("", &["rows=many"]),
+        "`--set rows=many`: `rows` is many, but must be a whole number that is not negative; `bagnold show layer` prints a valid value"
+    );
+    assert_eq!(
+        message("", &["rows=1\ndepth=3"]),
+        "`--set rows=1\ndepth=3`: `rows` is 1\ndepth=3, but must be a whole number that is not negative; `bagnold show layer` prints a valid value"
+    );
+}
+
+#[test]
+fn a_setting_takes_the_blame_for_its_field_only() {
+    let settings = ["grains.diameter=1".to_owned(), "angles=[1]".to_owned()];
+    assert!(is_set(&settings, "grains.diameter"));
+    assert!(is_set(&settings, "angles[0]"));
+    assert!(!is_set(&settings, "grains"));
+    assert!(!is_set(&settings, "depth"));
+}
+
+#[test]
+fn another_law_takes_nothing_of_the_defaults_in_whatever_order_it_is_given() {
+    let newtonian = Layer { material: Material::Newtonian { viscosity: 2.0 }, ..layer() };
+    for settings in
+        [["material.law=newtonian", "material.viscosity=2"], ["material.viscosity=2", "material.law=newtonian"]]
+    {
+        assert_eq!(resolved("", &settings).as_ref(), Ok(&newtonian));
+    }
+    assert_eq!(resolved("[material]\nlaw = \"newtonian\"", &["material.viscosity=2"]), Ok(newtonian));
+    let steeper = Layer { material: Material::MuI { static_friction: 0.5, limiting_friction: 0.6 }, ..layer() };
+    assert_eq!(resolved("material.static_friction = 0.5", &[]).as_ref(), Ok(&steeper));
+    assert_eq!(resolved("", &["material.law=mu-i", "material.static_friction=0.5"]), Ok(steeper));
+}
+
+#[test]
+fn laws_that_do_not_exist_or_lack_a_parameter_are_refused() {
+    assert_eq!(
+        message("", &["material.law=newtonain"]),
+        "`--set material.law=newtonain`: `material.law` is newtonain, but must be one of `newtonian`, `mu-i`; did you mean `newtonian`?"
+    );
+    assert_eq!(
+        message("material.law = \"newtonian\"", &[]),
+        "layer.toml: `material.viscosity` is missing; `bagnold show layer` prints it with a valid value"
+    );
+    assert_eq!(
+        message("", &["material.law=newtonian", "material.viscosity=1", "material.static_friction=0.4"]),
+        "`--set material.static_friction=0.4`: unknown field `material.static_friction`; did you mean `material.viscosity`? `bagnold show layer` prints all fields"
+    );
+    assert_eq!(
+        message("", &["material.law=newtonian", "material.viscosity=-1"]),
+        "`material.viscosity` is -1, but must be finite and not negative; give it in Pa·s"
+    );
+}
