@@ -13,7 +13,7 @@
 //! along the line between the two: equal and opposite, so that momentum closes to rounding.
 
 mod boundary;
-mod failure;
+mod divergence;
 mod neighbours;
 mod numerics;
 mod passes;

@@ -3,6 +3,7 @@
 //! `step` is one symplectic Euler step, readable on a page.
 
 pub mod boundary;
+pub mod divergence;
 mod model;
 pub mod neighbours;
 pub mod numerics;

@@ -5,14 +5,13 @@ use crate::kernel::Kernel;
 use crate::lanes::InstructionSet;
 use crate::material::equation_of_state::EquationOfState;
 use crate::material::rheology::Rheology;
-use crate::run::SceneError;
-use crate::run::StopReason;
-use crate::run::divergence::{Divergence, Quantity};
 use crate::run::observed_run::{self, Stepping};
+use crate::run::{Divergence, SceneError, StopReason};
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::Images;
+use crate::weakly_compressible::divergence::Quantity;
 use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::neighbours::{CellGrid, VerletList};
+use crate::weakly_compressible::neighbours::{CellGrid, LARGEST_ROW, VerletList};
 use crate::weakly_compressible::numerics::ViscositySwitch;
 use crate::weakly_compressible::particles::{Particles, SortScratch};
 use crate::weakly_compressible::scene::Scene;
@@ -169,16 +168,7 @@ impl<const D: usize> Simulation<D> {
             viscous: ViscousSystem::new(),
         };
         let crowded = |divergence: Divergence<D>| SceneError::Value {
-            quantity: match divergence.quantity {
-                Quantity::Neighbours => "number of neighbours",
-                Quantity::Density => "density",
-                Quantity::Speed => "speed",
-                Quantity::ViscousResidual => "viscous step",
-                Quantity::VelocityResidual
-                | Quantity::PressureResidual
-                | Quantity::Displacement
-                | Quantity::Reynolds => "incompressible step",
-            },
+            quantity: divergence.quantity,
             particle: divergence.particle as usize,
             value: divergence.value,
             rule: "in the range that the model allows",
@@ -294,27 +284,16 @@ impl<const D: usize> Simulation<D> {
         self.model.numerics.verlet_skin * self.model.kernel.support()
     }
 
-    pub(crate) fn divergence(&self, index: usize, quantity: Quantity) -> Divergence<D> {
-        let density = self.model.equation_of_state.reference_density;
-        let (value, limits) = match quantity {
-            Quantity::Speed => {
-                (self.particles.velocity[index].norm(), (0.0, 3.0 * self.model.equation_of_state.sound_speed()))
-            }
-            Quantity::Density => (self.particles.density[index], (0.02 * density, 2.0 * density)),
-            Quantity::Neighbours => (1024.0, (0.0, 1024.0)),
-            Quantity::ViscousResidual => (self.viscous.residual(), (0.0, self.model.numerics.viscous_tolerance)),
-            Quantity::VelocityResidual | Quantity::PressureResidual | Quantity::Displacement | Quantity::Reynolds => {
-                (f64::NAN, (0.0, 0.0))
-            }
-        };
+    pub(crate) fn divergence(&self, index: usize, quantity: Quantity, value: f64) -> Divergence<D> {
         Divergence {
             time: self.time,
             step: self.steps,
             particle: self.particles.identity.get(index).copied().unwrap_or(index as u32),
             position: self.particles.position[index],
-            quantity,
+            quantity: quantity.name(),
             value,
-            limits,
+            unit: quantity.unit(),
+            rule: quantity.rule(),
         }
     }
 
@@ -356,6 +335,8 @@ impl<const D: usize> Simulation<D> {
             self.model.list.rebuild(&particles.position, flow, real, radius, grids, self.model.instruction_set);
         self.displacement = 0.0;
         self.searches += 1;
-        filled.map_err(|crowded| self.divergence(crowded, Quantity::Neighbours))
+        filled.map_err(|crowded| {
+            self.divergence(crowded, Quantity::Neighbours { limit: LARGEST_ROW }, LARGEST_ROW as f64)
+        })
     }
 }

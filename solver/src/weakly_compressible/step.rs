@@ -1,16 +1,14 @@
 //! One time step of model A, readable on a page.
 
-use crate::run::divergence::{Divergence, Quantity};
+use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::contact;
+use crate::weakly_compressible::divergence::{DENSITY_RANGE, LARGEST_MACH_NUMBER, Quantity};
 use crate::weakly_compressible::numerics::{Contact, MomentumOperator, ViscousStep};
 use crate::weakly_compressible::simulation::Simulation;
 use crate::weakly_compressible::terms::continuity::GradientUse;
-use crate::weakly_compressible::viscous_solve::NotConverged;
+use crate::weakly_compressible::viscous_solve::{MOST_ITERATIONS, NotConverged};
 use rayon::prelude::*;
-
-/// A speed beyond this many sound speeds is a divergence `[-]`: weak compressibility has long been lost.
-const LARGEST_MACH_NUMBER: f64 = 3.0;
 
 impl<const D: usize> Simulation<D> {
     /// Symplectic Euler: forces at (x, v)ⁿ → vⁿ⁺¹ → ρⁿ⁺¹, sⁿ⁺¹ → xⁿ⁺¹.
@@ -80,13 +78,18 @@ impl<const D: usize> Simulation<D> {
         let solve = self.model.viscous_solve(time_step);
         match solve.run(&mut self.particles, &self.images, &mut self.viscous) {
             Ok(()) => Ok(()),
-            Err(NotConverged { worst }) => Err(self.divergence(worst, Quantity::ViscousResidual)),
+            Err(NotConverged { worst }) => {
+                let tolerance = self.model.numerics.viscous_tolerance;
+                let quantity = Quantity::ViscousResidual { tolerance, most_iterations: MOST_ITERATIONS };
+                Err(self.divergence(worst, quantity, self.viscous.residual()))
+            }
         }
     }
 
     fn update_velocity(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
         let flow = self.particles.flow_count();
-        let limit = (LARGEST_MACH_NUMBER * self.model.equation_of_state.sound_speed()).powi(2);
+        let largest_speed = LARGEST_MACH_NUMBER * self.model.equation_of_state.sound_speed();
+        let limit = largest_speed.powi(2);
         let range = match self.model.numerics.contact {
             Contact::HalfSpacing => 0.5 * self.model.spacing,
             Contact::None => f64::NEG_INFINITY,
@@ -116,7 +119,8 @@ impl<const D: usize> Simulation<D> {
             .reduce(|| (0.0, usize::MAX), |a, b| (a.0.max(b.0), a.1.min(b.1)));
         self.largest_speed = largest.sqrt();
         if bad != usize::MAX {
-            return Err(self.divergence(bad, Quantity::Speed));
+            let speed = self.particles.velocity[bad].norm();
+            return Err(self.divergence(bad, Quantity::Speed { limit: largest_speed }, speed));
         }
         Ok(())
     }
@@ -131,7 +135,11 @@ impl<const D: usize> Simulation<D> {
             _ => extremes.kinematic_viscosity,
         };
         match extremes.bad_density {
-            Some(bad) => Err(self.divergence(bad, Quantity::Density)),
+            Some(bad) => {
+                let density = self.model.equation_of_state.reference_density;
+                let limits = (DENSITY_RANGE.0 * density, DENSITY_RANGE.1 * density);
+                Err(self.divergence(bad, Quantity::Density { limits }, self.particles.density[bad]))
+            }
             None => Ok(()),
         }
     }

@@ -60,7 +60,8 @@ pub struct VerletList {
 /// Particles a block of the parallel loops.
 pub(crate) const BLOCK: usize = 256;
 const GROUPS: usize = BLOCK / LANES;
-const LARGEST_ROW: usize = 1024;
+/// Neighbours that a row of the list can hold.
+pub(crate) const LARGEST_ROW: usize = 1024;
 
 impl VerletList {
     /// Group `index` of eight flow particles: those from 8 `index` on.

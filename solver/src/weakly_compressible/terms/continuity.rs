@@ -12,6 +12,7 @@ use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::material::equation_of_state::EquationOfState;
 use crate::material::rheology::Rheology;
 use crate::vector::{Tensor, shear_rate};
+use crate::weakly_compressible::divergence::DENSITY_RANGE;
 use crate::weakly_compressible::neighbours::{Group, VerletList};
 use crate::weakly_compressible::numerics::ViscositySwitch;
 use crate::weakly_compressible::particles::Particles;
@@ -76,9 +77,6 @@ impl Extremes {
         Self { kinematic_viscosity: self.kinematic_viscosity.max(other.kinematic_viscosity), bad_density }
     }
 }
-
-/// Range of ρ/ρ0 beyond which a run has diverged `[-]`: dry grains may fly apart, nothing may be crushed.
-const DENSITY_RANGE: (f64, f64) = (0.02, 2.0);
 
 struct Output<'a, const D: usize> {
     density: &'a mut [f64],

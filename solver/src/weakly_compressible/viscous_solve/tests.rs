@@ -1,11 +1,11 @@
-use super::{NotConverged, ViscousSystem};
+use super::{MOST_ITERATIONS, NotConverged, ViscousSystem};
 use crate::domain::{AxisBoundary, Domain};
 use crate::lanes::LANES;
 use crate::material::equation_of_state::{EquationOfState, Tension};
 use crate::material::rheology::{Bingham, Rheology};
-use crate::run::divergence::Quantity;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::boundary::{Wall, wall};
+use crate::weakly_compressible::divergence::Quantity;
 use crate::weakly_compressible::numerics::{Numerics, ViscousStep};
 use crate::weakly_compressible::scene::{Flow, Scene};
 use crate::weakly_compressible::simulation::{Compiled, Simulation};
@@ -246,7 +246,8 @@ fn a_force_that_is_no_number_is_refused_with_its_particle() {
     let solve = patch.model.viscous_solve(TIME_STEP);
     let found = solve.run(&mut patch.particles, &patch.images, &mut patch.viscous);
     assert_eq!(found, Err(NotConverged { worst: 11 }));
-    let divergence = patch.divergence(11, Quantity::ViscousResidual);
+    let quantity = Quantity::ViscousResidual { tolerance: 0.1, most_iterations: MOST_ITERATIONS };
+    let divergence = patch.divergence(11, quantity, patch.viscous.residual());
     assert_eq!(divergence.particle, patch.particles.identity[11]);
     assert!(divergence.value.is_nan() && divergence.to_string().contains("`viscous_tolerance`"), "{divergence}");
 }
