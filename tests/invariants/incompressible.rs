@@ -5,12 +5,8 @@ use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::incompressible::{
     IncompressibleScene, IncompressibleSimulation, ParticleSet, SolidFraction, Strata, Stratification,
 };
-<<<<<<< HEAD
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
-use bagnold_solver::run::divergence::Quantity;
-=======
->>>>>>> 2696d07 (A divergence is a frame that each model fills: the loop of a run no longer knows the quantities and limits of both)
 use bagnold_solver::vector::Vector;
 use rayon::ThreadPoolBuilder;
 

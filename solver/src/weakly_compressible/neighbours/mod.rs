@@ -5,5 +5,5 @@ mod cell_grid;
 mod verlet_list;
 
 pub(crate) use cell_grid::CellGrid;
-pub(crate) use verlet_list::{BLOCK, Group, LARGEST_ROW};
+pub(crate) use verlet_list::{BLOCK, LARGEST_ROW, NeighbourGroup};
 pub use verlet_list::{Row, VerletList};

@@ -13,7 +13,7 @@ use std::ops::Range;
 
 /// Eight particles and their neighbours.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Group<'a> {
+pub(crate) struct NeighbourGroup<'a> {
     /// The particles themselves.
     pub(crate) own: LaneIndices<'a>,
     /// Flow neighbours and their images.
@@ -67,13 +67,13 @@ impl VerletList {
     /// Group `index` of eight flow particles: those from 8 `index` on.
     #[inline(always)]
     #[must_use]
-    pub(crate) fn group(&self, index: usize) -> Group<'_> {
+    pub(crate) fn group(&self, index: usize) -> NeighbourGroup<'_> {
         let Extent { start, flow, wall, has_images } = self.extents[index];
         let first_pair = start as usize + 1;
         let wall_start = first_pair + flow as usize;
         let mut own = self.indices.part(first_pair - 1..first_pair);
         let Some(own) = own.next() else { unreachable!("a part of one chunk") };
-        Group {
+        NeighbourGroup {
             own,
             flow: self.indices.part(first_pair..wall_start),
             wall: self.indices.part(wall_start..wall_start + wall as usize),

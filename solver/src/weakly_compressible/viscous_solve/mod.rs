@@ -37,11 +37,11 @@ mod tests;
 
 pub(crate) use system::ViscousSystem;
 
-use crate::lanes::InstructionSet;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::Images;
-use crate::weakly_compressible::neighbours::VerletList;
+use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::passes::PairData;
 
 /// Iterations after which a solve is given up.
 pub(crate) const MOST_ITERATIONS: usize = 1000;
@@ -56,12 +56,8 @@ pub(crate) struct NotConverged {
 /// The constants of a step's solve.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ViscousSolve<'a, const D: usize> {
-    pub(crate) list: &'a VerletList,
-    pub(crate) instruction_set: InstructionSet,
-    /// (C_s Δ)² `[m²]` of the eddy viscosity (5).
-    pub(crate) mixing_area: f64,
-    pub(crate) smoothing_length: f64,
-    pub(crate) tolerance: f64,
+    pub(crate) model: &'a Model<D>,
+    pub(crate) pairs: &'a PairData<D>,
     pub(crate) time_step: f64,
 }
 
@@ -76,12 +72,13 @@ impl<const D: usize> ViscousSolve<'_, D> {
         images: &Images<D>,
         system: &mut ViscousSystem<D>,
     ) -> Result<(), NotConverged> {
-        system.resize(particles, self.list.region());
+        system.resize(particles, self.model.list.region());
         self.prepare(particles, system);
-        system.copy_fluxes(images);
+        system.copy_stresses(images);
         self.residual_of_start(particles, system);
         let start = system.sum(|sums| sums.residual);
-        let goal = self.tolerance * self.tolerance * start;
+        let tolerance = self.model.numerics.viscous_tolerance;
+        let goal = tolerance * tolerance * start;
         let mut residual = start;
         let mut descent = system.sum(|sums| sums.descent);
         let mut growth = 0.0;
@@ -109,8 +106,8 @@ impl<const D: usize> ViscousSolve<'_, D> {
     /// (M + Δt K) times the direction.
     fn product(&self, system: &mut ViscousSystem<D>, flow: usize, images: &Images<D>) {
         system.copy_velocities(images);
-        self.fluxes(system, flow);
-        system.copy_fluxes(images);
+        self.stresses(system, flow);
+        system.copy_stresses(images);
         self.divergence(system);
     }
 }

@@ -7,7 +7,7 @@ use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::boundary::Images;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::records::Records;
+use crate::weakly_compressible::passes::records::Records;
 
 /// Groups a block of the parallel loops.
 pub(super) const GROUPS: usize = BLOCK / LANES;
@@ -67,7 +67,7 @@ pub(crate) struct ViscousSystem<const D: usize> {
     /// Velocity, or search direction, of every particle.
     pub(super) velocities: Records,
     /// s L of every flow particle and image; before the iteration √(η/V) L, for the diagonal.
-    pub(super) fluxes: Records,
+    pub(super) stresses: Records,
     pub(super) sums: Vec<Sums>,
     iterations: u64,
     residual: f64,
@@ -80,7 +80,7 @@ impl<const D: usize> ViscousSystem<D> {
             unknowns: Vec::new(),
             pair_vectors: Vec::new(),
             velocities: Records::new(D),
-            fluxes: Records::new(D * D),
+            stresses: Records::new(D * D),
             sums: Vec::new(),
             iterations: 0,
             residual: 0.0,
@@ -122,7 +122,7 @@ impl<const D: usize> ViscousSystem<D> {
         self.unknowns.resize(flow.div_ceil(LANES), unknowns);
         self.sums.resize(flow.div_ceil(BLOCK), Sums::default());
         self.pair_vectors.resize(flow.div_ceil(BLOCK) * region, zero);
-        for records in [&mut self.velocities, &mut self.fluxes] {
+        for records in [&mut self.velocities, &mut self.stresses] {
             records.resize(all);
         }
     }
@@ -134,9 +134,9 @@ impl<const D: usize> ViscousSystem<D> {
         }
     }
 
-    /// Copies fluxes to the images.
-    pub(super) fn copy_fluxes(&mut self, images: &Images<D>) {
-        copy_tensors(&mut self.fluxes, images);
+    /// Copies stresses to the images.
+    pub(super) fn copy_stresses(&mut self, images: &Images<D>) {
+        copy_tensors(&mut self.stresses, images);
     }
 
     /// A sum over all blocks, in order.
