@@ -37,6 +37,7 @@ mod tests;
 
 pub(crate) use system::ViscousSystem;
 
+use crate::linear::{Descent, Stalled, descend};
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::Images;
 use crate::weakly_compressible::model::Model;
@@ -78,27 +79,19 @@ impl<const D: usize> ViscousSolve<'_, D> {
         self.residual_of_start(particles, system);
         let start = system.sum(|sums| sums.residual);
         let tolerance = self.model.numerics.viscous_tolerance;
-        let goal = tolerance * tolerance * start;
-        let mut residual = start;
-        let mut descent = system.sum(|sums| sums.descent);
-        let mut growth = 0.0;
-        let mut iterations = 0;
-        while residual > goal || residual.is_nan() {
-            if iterations == MOST_ITERATIONS || !residual.is_finite() {
-                system.set_residual((residual / start).sqrt());
-                return Err(NotConverged { worst: system.worst(particles.flow_count()) });
+        let flow = particles.flow_count();
+        let solved = descend(
+            &mut Iteration { solve: self, system, images, flow },
+            tolerance * tolerance * start,
+            MOST_ITERATIONS,
+        );
+        match solved {
+            Ok(iterations) => system.count(iterations),
+            Err(Stalled { square }) => {
+                system.set_residual((square / start).sqrt());
+                return Err(NotConverged { worst: system.worst(flow) });
             }
-            self.next_direction(system, particles.flow_count(), growth);
-            self.product(system, particles.flow_count(), images);
-            let curvature = system.sum(|sums| sums.curvature);
-            self.descend(system, descent / curvature);
-            let next = system.sum(|sums| sums.descent);
-            residual = system.sum(|sums| sums.residual);
-            growth = next / descent;
-            descent = next;
-            iterations += 1;
         }
-        system.count(iterations);
         system.write_accelerations(&mut particles.acceleration, self.time_step);
         Ok(())
     }
@@ -109,6 +102,37 @@ impl<const D: usize> ViscousSolve<'_, D> {
         self.stresses(system, flow);
         system.copy_stresses(images);
         self.divergence(system);
+    }
+}
+
+/// The iteration; its sums are taken on the way, by the passes that make what they add up.
+struct Iteration<'a, const D: usize> {
+    solve: &'a ViscousSolve<'a, D>,
+    system: &'a mut ViscousSystem<D>,
+    images: &'a Images<D>,
+    flow: usize,
+}
+
+impl<const D: usize> Descent for Iteration<'_, D> {
+    fn square(&mut self) -> f64 {
+        self.system.sum(|sums| sums.residual)
+    }
+
+    fn descent(&mut self) -> f64 {
+        self.system.sum(|sums| sums.descent)
+    }
+
+    fn turn(&mut self, growth: f64) {
+        self.solve.next_direction(self.system, self.flow, growth);
+    }
+
+    fn curvature(&mut self) -> f64 {
+        self.solve.product(self.system, self.flow, self.images);
+        self.system.sum(|sums| sums.curvature)
+    }
+
+    fn advance(&mut self, step: f64) {
+        self.solve.descend(self.system, step);
     }
 }
 

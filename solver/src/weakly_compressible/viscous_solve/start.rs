@@ -1,7 +1,7 @@
 //! The two passes before the iteration: all that stays over a solve, then the diagonal and the first residual.
 
 use super::ViscousSolve;
-use super::system::{Coefficients, GROUPS, LaneVector, Sums, Unknowns, ViscousSystem};
+use super::system::{BlockSums, Coefficients, GROUPS, LaneVector, Unknowns, ViscousSystem};
 use super::update::{add_lanes, load_columns, store_columns, store_record};
 use crate::lanes::algebra::{
     accumulate, deviatoric_rate, difference, dot, invariant, load, load_tensor, load_vector, product, scaled_tensor,
@@ -141,7 +141,7 @@ struct ResidualPass<'a, const D: usize> {
     block: usize,
     coefficients: &'a mut [Coefficients<D>],
     unknowns: &'a mut [Unknowns<D>],
-    sums: &'a mut Sums,
+    sums: &'a mut BlockSums,
 }
 
 impl<const D: usize> LanePass for ResidualPass<'_, D> {
@@ -186,6 +186,6 @@ impl<const D: usize> LanePass for ResidualPass<'_, D> {
             unknowns.increment = [[0.0; LANES]; D];
             unknowns.direction = [[0.0; LANES]; D];
         }
-        *sums = Sums { residual: add_lanes(residual_sum), descent: add_lanes(descent), curvature: 0.0 };
+        *sums = BlockSums { residual: add_lanes(residual_sum), descent: add_lanes(descent), curvature: 0.0 };
     }
 }

@@ -48,7 +48,7 @@ pub(super) struct Unknowns<const D: usize> {
 /// Sums over a block of [`BLOCK`] particles: each lane adds up its particles, then the lanes are added in order, and
 /// last the blocks, so that the bits depend neither on the threads nor on the instruction set.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Sums {
+pub(super) struct BlockSums {
     /// Σ r²/m `[kg m²/s²]`.
     pub(super) residual: f64,
     /// r·D⁻¹r.
@@ -68,7 +68,7 @@ pub(crate) struct ViscousSystem<const D: usize> {
     pub(super) velocities: Records,
     /// s L of every flow particle and image; before the iteration √(η/V) L, for the diagonal.
     pub(super) stresses: Records,
-    pub(super) sums: Vec<Sums>,
+    pub(super) sums: Vec<BlockSums>,
     iterations: u64,
     residual: f64,
 }
@@ -120,7 +120,7 @@ impl<const D: usize> ViscousSystem<D> {
         let unknowns = Unknowns { increment: zero, residual: zero, direction: zero, product: zero };
         self.coefficients.resize(flow.div_ceil(LANES), coefficients);
         self.unknowns.resize(flow.div_ceil(LANES), unknowns);
-        self.sums.resize(flow.div_ceil(BLOCK), Sums::default());
+        self.sums.resize(flow.div_ceil(BLOCK), BlockSums::default());
         self.pair_vectors.resize(flow.div_ceil(BLOCK) * region, zero);
         for records in [&mut self.velocities, &mut self.stresses] {
             records.resize(all);
@@ -140,7 +140,7 @@ impl<const D: usize> ViscousSystem<D> {
     }
 
     /// A sum over all blocks, in order.
-    pub(super) fn sum(&self, part: impl Fn(&Sums) -> f64) -> f64 {
+    pub(super) fn sum(&self, part: impl Fn(&BlockSums) -> f64) -> f64 {
         let mut sum = 0.0;
         for block in &self.sums {
             sum += part(block);

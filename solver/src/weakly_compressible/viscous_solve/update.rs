@@ -1,7 +1,7 @@
 //! The passes of an iteration: search direction, stresses of the direction, their divergence, and the descent.
 
 use super::ViscousSolve;
-use super::system::{Coefficients, GROUPS, LaneVector, Sums, Unknowns, ViscousSystem};
+use super::system::{BlockSums, Coefficients, GROUPS, LaneVector, Unknowns, ViscousSystem};
 use crate::lanes::algebra::{
     accumulate, accumulate_outer, deviatoric_rate, matrix_product, product, scaled_tensor, zero_tensor, zero_vector,
 };
@@ -194,7 +194,7 @@ struct DivergencePass<'a, const D: usize> {
     pair_vectors: &'a [LaneVector<D>],
     block: usize,
     unknowns: &'a mut [Unknowns<D>],
-    sums: &'a mut Sums,
+    sums: &'a mut BlockSums,
 }
 
 impl<const D: usize> LanePass for DivergencePass<'_, D> {
@@ -225,7 +225,7 @@ struct DescentPass<'a, const D: usize> {
     coefficients: &'a [Coefficients<D>],
     unknowns: &'a mut [Unknowns<D>],
     step: f64,
-    sums: &'a mut Sums,
+    sums: &'a mut BlockSums,
 }
 
 impl<const D: usize> LanePass for DescentPass<'_, D> {
