@@ -87,7 +87,7 @@ fn write<const D: usize>(particles: &Particles<D>, inverse_density: f64, index: 
     record.vector(&particles.position[index]);
     record.vector(if wall { &particles.wall_velocity[index] } else { &particles.velocity[index] });
     record.scalar(if wall { particles.wall_depth[index] } else { particles.density[index] });
-    record.scalar((particles.pressure[index].max(0.0) * inverse_density).sqrt());
+    record.scalar(hourglass::pressure_speed(particles.pressure[index], inverse_density));
     record.scalar(if wall { particles.wall_smoothness[index] } else { particles.artificial_viscosity[index] });
     record.tensor(&particles.corrected_stress[index]);
     if wall {

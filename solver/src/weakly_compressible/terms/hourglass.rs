@@ -7,6 +7,13 @@
 use crate::lanes::Lanes;
 use crate::lanes::algebra::{difference, dot, product, sum_of};
 
+/// √(p/ρ0) `[m/s]` of a pressure `[Pa]`, from 1/ρ0 `[m³/kg]`.
+#[inline(always)]
+#[must_use]
+pub fn pressure_speed(pressure: f64, inverse_density: f64) -> f64 {
+    (pressure.max(0.0) * inverse_density).sqrt()
+}
+
 /// 2 ν_ab `[m²/s]`: `strength` is k h `[m]`, `speed_sum` √(p_a/ρ0) + √(p_b/ρ0) `[m/s]`.
 #[inline(always)]
 pub fn twice_viscosity<V: Lanes>(strength: f64, speed_sum: V) -> V {
