@@ -31,7 +31,6 @@ mod velocity_solve;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use numerics::MOST_ITERATIONS;
 pub use numerics::{Continuity, DragSlip, MeanFlux, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment};
 pub use scene::{
     Bed, DragForm, Fluid, IncompressibleScene, ParticleSet, Sediment, SedimentLoad, SedimentPressure, SolidFraction,
