@@ -7,7 +7,6 @@ use bagnold_solver::incompressible::{
 };
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
-use bagnold_solver::run::divergence::Quantity;
 use bagnold_solver::vector::Vector;
 use rayon::ThreadPoolBuilder;
 
@@ -112,7 +111,7 @@ fn a_grain_beyond_the_drag_table_ends_the_run() {
     sediment.filling = vec![1.0];
     let fluid = scene.fluid.particles.position.len();
     let divergence = simulation(scene).step().expect_err("R = 20 · 0.004/1e-6");
-    assert_eq!((divergence.quantity, divergence.particle as usize), (Quantity::Reynolds, fluid));
+    assert_eq!((divergence.quantity, divergence.particle as usize), ("Reynolds number", fluid));
     assert_eq!(
         divergence.to_string(),
         "diverged at t = 0.000000 s (step 0): the Reynolds number of particle 256 at (1.6000e-2, 1.6000e-2) m is \

@@ -6,6 +6,7 @@ mod free_fall;
 mod incompressible;
 mod momentum_balance;
 mod neighbour_list;
+mod open_law;
 mod patches;
 mod scene_errors;
 mod stopping;

@@ -13,7 +13,7 @@
 //! along the line between the two: equal and opposite, so that momentum closes to rounding.
 
 mod boundary;
-mod failure;
+mod divergence;
 mod neighbours;
 mod numerics;
 mod passes;
@@ -31,7 +31,6 @@ mod velocity_solve;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use numerics::MOST_ITERATIONS;
 pub use numerics::{Continuity, DragSlip, MeanFlux, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment};
 pub use scene::{
     Bed, DragForm, Fluid, IncompressibleScene, ParticleSet, Sediment, SedimentLoad, SedimentPressure, SolidFraction,

@@ -1,6 +1,6 @@
 //! All that a run carries from step to step.
 
-use super::failure::Failure;
+use super::divergence::Failure;
 use super::passes::averaged_gradient::AveragedGradient;
 use super::passes::drag_exchange::DragExchange;
 use super::passes::granular_pressure::GranularPressure;
@@ -10,8 +10,8 @@ use super::phase::{Phase, Phases};
 use super::projection::Projection;
 use super::scene::IncompressibleScene;
 use super::velocity_solve::VelocitySystem;
+use crate::run::Divergence;
 use crate::run::SceneError;
-use crate::run::divergence::Divergence;
 use crate::vector::Vector;
 
 /// Both phases, the storage of the passes, and the time.
@@ -72,8 +72,17 @@ impl<const D: usize> State<D> {
 
     /// A failure with its place and time.
     pub(super) fn divergence(&self, failure: Failure) -> Divergence<D> {
-        let Failure { row, quantity, value, limits } = failure;
+        let Failure { row, quantity, value, limit } = failure;
         let position = self.phases.position(row);
-        Divergence { time: self.time, step: self.steps, particle: row as u32, position, quantity, value, limits }
+        Divergence {
+            time: self.time,
+            step: self.steps,
+            particle: row as u32,
+            position,
+            quantity: quantity.name(),
+            value,
+            unit: quantity.unit(),
+            rule: quantity.rule(limit),
+        }
     }
 }

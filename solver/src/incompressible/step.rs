@@ -1,7 +1,7 @@
 //! One step: pairs, surface, gradients, laws, implicit velocities of both phases, pressure and motion, shifting.
 
 use super::boundary::find_surface;
-use super::failure::Failure;
+use super::divergence::Failure;
 use super::numerics::{Continuity, PairLaw, ProjectionNumerics};
 use super::passes::granular_pressure::{Dilating, average_fraction};
 use super::passes::shifting::find_shifts;
@@ -11,7 +11,7 @@ use super::projection::Flux;
 use super::scene::SolidFraction;
 use super::state::State;
 use super::velocity_solve::VelocityRows;
-use crate::run::divergence::Divergence;
+use crate::run::Divergence;
 
 /// Takes a step of at most the time step of the numerics.
 pub(super) fn step<const D: usize>(state: &mut State<D>) -> Result<(), Divergence<D>> {

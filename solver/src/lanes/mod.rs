@@ -51,6 +51,24 @@ pub trait Lanes: Real {
     fn to_array(self) -> [f64; LANES];
 }
 
+/// [`Real::lane_by_lane`] of the back ends.
+#[inline(always)]
+fn lane_by_lane<V: Lanes, const N: usize>(values: [V; N], function: &dyn Fn([f64; N]) -> f64) -> V {
+    let mut arguments = [[0.0; LANES]; N];
+    for n in 0..N {
+        arguments[n] = values[n].to_array();
+    }
+    let mut lanes = [0.0; LANES];
+    for lane in 0..LANES {
+        let mut argument = [0.0; N];
+        for n in 0..N {
+            argument[n] = arguments[n][lane];
+        }
+        lanes[lane] = function(argument);
+    }
+    V::load(&lanes)
+}
+
 /// A flat view of an array of equal records of f64; made by the gather functions only.
 #[derive(Debug, Clone, Copy)]
 pub struct FlatRecords<'a> {

@@ -72,6 +72,10 @@ impl Real for Portable {
         }
         Self(lanes)
     }
+
+    fn lane_by_lane<const N: usize>(values: [Self; N], function: &dyn Fn([f64; N]) -> f64) -> Self {
+        super::lane_by_lane(values, function)
+    }
 }
 
 impl Lanes for Portable {

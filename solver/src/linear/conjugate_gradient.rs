@@ -4,6 +4,7 @@
 //! Every residual is then orthogonal to the constant. If the unknowns are velocities and the rows forces, that is the
 //! total momentum: it closes to rounding, whatever the tolerance.
 
+use super::descent::{Descent, Stalled, descend};
 use super::reductions::{Unknown, dot, weighted_square};
 
 /// What a residual is turned into a direction with.
@@ -110,44 +111,63 @@ impl<T: Unknown> ConjugateGradient<T> {
             return Ok(());
         }
         let goal = criterion.tolerance * criterion.tolerance * scale;
-        let mut square = weighted_square(&self.residual, weights);
-        let mut iterations = 0;
-        let mut before = 0.0;
-        while square > goal || square.is_nan() {
-            preconditioner.apply(&self.residual, &mut self.preconditioned);
-            let descent = dot(&self.residual, &self.preconditioned);
-            if iterations == criterion.most_iterations || !descent.is_finite() {
-                return Err(self.failure(square / scale));
+        let mut iteration = Iteration { buffers: &mut *self, unknown, preconditioner, deflation, apply };
+        match descend(&mut iteration, goal, criterion.most_iterations) {
+            Ok(iterations) => {
+                self.iterations += iterations as u64;
+                Ok(())
             }
-            let growth = if iterations > 0 { descent / before } else { 0.0 };
-            before = descent;
-            let lift = deflation.map_or(T::ZERO, |(image, inverse)| {
-                let overlap = self.preconditioned.iter().zip(image).fold(T::ZERO, |sum, (z, a)| sum + *z * *a);
-                overlap * inverse
-            });
-            for (direction, z) in self.direction.iter_mut().zip(&self.preconditioned) {
-                *direction = (*z - lift) + *direction * growth;
+            Err(Stalled { square }) => {
+                Err(NotConverged { row: worst(&self.residual), residual: (square / scale).sqrt() })
             }
-            apply(&self.direction, &mut self.product);
-            let curvature = dot(&self.direction, &self.product);
-            if curvature.is_nan() || curvature <= 0.0 {
-                // not a positive operator: the residual is still a number and tells where
-                return Err(self.failure(square / scale));
-            }
-            let step = descent / curvature;
-            for row in 0..rows {
-                unknown[row] = unknown[row] + self.direction[row] * step;
-                self.residual[row] = self.residual[row] - self.product[row] * step;
-            }
-            square = weighted_square(&self.residual, weights);
-            iterations += 1;
         }
-        self.iterations += iterations as u64;
-        Ok(())
+    }
+}
+
+/// The vectors of a solve, its operator and what is deflated: the operator times the constant vector, and one over its
+/// sum.
+struct Iteration<'a, T, P, A> {
+    buffers: &'a mut ConjugateGradient<T>,
+    unknown: &'a mut [T],
+    preconditioner: &'a P,
+    deflation: Option<(&'a [f64], f64)>,
+    apply: A,
+}
+
+impl<T: Unknown, P: Preconditioner, A: FnMut(&[T], &mut [T])> Descent for Iteration<'_, T, P, A> {
+    fn square(&mut self) -> f64 {
+        weighted_square(&self.buffers.residual, self.preconditioner.weights())
     }
 
-    fn failure(&self, square: f64) -> NotConverged {
-        NotConverged { row: worst(&self.residual), residual: square.sqrt() }
+    fn descent(&mut self) -> f64 {
+        let ConjugateGradient { residual, preconditioned, .. } = &mut *self.buffers;
+        self.preconditioner.apply(residual, preconditioned);
+        dot(residual, preconditioned)
+    }
+
+    fn turn(&mut self, growth: f64) {
+        let ConjugateGradient { direction, preconditioned, .. } = &mut *self.buffers;
+        let lift = self.deflation.map_or(T::ZERO, |(image, inverse)| {
+            let overlap = preconditioned.iter().zip(image).fold(T::ZERO, |sum, (z, a)| sum + *z * *a);
+            overlap * inverse
+        });
+        for (direction, z) in direction.iter_mut().zip(preconditioned) {
+            *direction = (*z - lift) + *direction * growth;
+        }
+    }
+
+    fn curvature(&mut self) -> f64 {
+        let ConjugateGradient { direction, product, .. } = &mut *self.buffers;
+        (self.apply)(direction, product);
+        dot(direction, product)
+    }
+
+    fn advance(&mut self, step: f64) {
+        let ConjugateGradient { residual, direction, product, .. } = &mut *self.buffers;
+        for row in 0..self.unknown.len() {
+            self.unknown[row] = self.unknown[row] + direction[row] * step;
+            residual[row] = residual[row] - product[row] * step;
+        }
     }
 }
 

@@ -76,7 +76,7 @@ pub(crate) struct LaneRows<C> {
 }
 
 /// A group while it is filled.
-pub(crate) struct Group<'a, C> {
+pub(crate) struct RowGroup<'a, C> {
     columns: &'a mut [[u32; LANES]],
     coefficients: &'a mut [C],
     filled: &'a mut [u32],
@@ -100,7 +100,7 @@ impl<C: Coefficients> Row<'_, C> {
     }
 }
 
-impl<C: Coefficients> Group<'_, C> {
+impl<C: Coefficients> RowGroup<'_, C> {
     /// Lets `fill` fill the row of a lane.
     #[inline(always)]
     pub(crate) fn row<R>(&mut self, lane: usize, fill: impl FnOnce(&mut Row<'_, C>) -> R) -> R {
@@ -143,7 +143,7 @@ impl<C: Coefficients> LaneRows<C> {
         rows: usize,
         stride: usize,
         beside: impl IndexedParallelIterator<Item = S>,
-        fill: impl Fn(usize, &mut Group<'_, C>, S) + Sync,
+        fill: impl Fn(usize, &mut RowGroup<'_, C>, S) + Sync,
     ) {
         let groups = rows.div_ceil(LANES);
         (self.rows, self.stride) = (rows, stride);
@@ -160,7 +160,7 @@ impl<C: Coefficients> LaneRows<C> {
                 .enumerate()
                 .with_min_len(FILLED_GROUPS)
                 .for_each(|(group, ((columns, coefficients), filled, width, beside))| {
-                    let mut rows_of_group = Group { columns, coefficients, filled };
+                    let mut rows_of_group = RowGroup { columns, coefficients, filled };
                     fill(group * LANES, &mut rows_of_group, beside);
                     *width = rows_of_group.pad(group * LANES, rows);
                 });

@@ -1,6 +1,7 @@
 //! Linear systems with symmetric, positive definite operators that are given by their products.
 
 mod conjugate_gradient;
+mod descent;
 mod incomplete_cholesky;
 mod lane_rows;
 mod reductions;
@@ -9,5 +10,6 @@ mod reductions;
 mod tests;
 
 pub(crate) use conjugate_gradient::{ConjugateGradient, Criterion, NotConverged};
+pub(crate) use descent::{Descent, Stalled, descend};
 pub(crate) use incomplete_cholesky::{IncompleteCholesky, Rows};
 pub(crate) use lane_rows::{Coefficients, LaneRows, Row, Single, TASK_ROWS, single};

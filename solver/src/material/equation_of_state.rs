@@ -48,6 +48,13 @@ impl EquationOfState {
         self.reference_density * (pressure / self.bulk_modulus + 1.0)
     }
 
+    /// The same in the order of rounding that the pairwise operators have for their wall partners.
+    #[inline(always)]
+    #[must_use]
+    pub fn density_of_wall<R: Real>(&self, pressure: R) -> R {
+        R::splat(self.reference_density) + pressure * R::splat(self.reference_density / self.bulk_modulus)
+    }
+
     /// Speed of sound c = √(K/ρ0) `[m/s]`.
     #[inline(always)]
     #[must_use]

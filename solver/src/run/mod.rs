@@ -1,6 +1,6 @@
 //! What the runs of both models have in common: the loop, how it ends, and how it goes wrong.
 
-pub mod divergence;
+mod divergence;
 pub(crate) mod observed_run;
 mod scene_error;
 mod stop_reason;

@@ -1,7 +1,6 @@
 //! The loop of a run: steps until an end time, with an observer on the way.
 
-use crate::run::StopReason;
-use crate::run::divergence::Divergence;
+use crate::run::{Divergence, StopReason};
 use std::ops::ControlFlow;
 
 /// What can be run.

@@ -1,17 +1,20 @@
 //! Model A: weakly compressible SPH of one material, with the stress carried by each particle.
 //!
-//! `step` is one symplectic Euler step, readable on a page.
+//! Reading order: [`scene`] and [`numerics`], then `step`, one symplectic Euler step on a page. A step calls `passes`, the
+//! loops over neighbours, and what those sum up are [`terms`], the formulas of one physical idea each.
 
 pub mod boundary;
+pub mod divergence;
 mod model;
 pub mod neighbours;
 pub mod numerics;
-pub mod operators;
 pub mod particles;
-mod records;
+mod passes;
 pub mod scene;
+mod search;
 pub mod simulation;
 pub mod snapshot;
+mod state;
 mod step;
 pub mod terms;
 pub mod time_step;

@@ -1,9 +1,8 @@
 //! The particles as a structure of arrays: flow, walls, images and the sentinel, in this order.
 
-use crate::lanes::LANES;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::boundary::{Images, Surface, Wall, wall::WallParticle};
-use crate::weakly_compressible::records::Records;
+use crate::weakly_compressible::scene::Flow;
 use rayon::prelude::*;
 
 /// A far place for the sentinel, in units of the smoothing length `[-]`.
@@ -32,7 +31,7 @@ pub struct Particles<const D: usize> {
     /// Coefficient α of the artificial viscosity `[-]`.
     pub artificial_viscosity: Vec<f64>,
     /// Stress as the momentum equation takes it `[Pa]`: σE on flow particles, σ on walls.
-    pub(crate) flux: Vec<Tensor<D>>,
+    pub(crate) corrected_stress: Vec<Tensor<D>>,
     /// Corrected pressure gradients `[Pa/m]`.
     pub(crate) pressure_gradient: Vec<Vector<D>>,
     /// Apparent viscosities `[Pa·s]`, for the pairwise operators.
@@ -63,20 +62,6 @@ pub struct Particles<const D: usize> {
     /// Impulse that walls, mirrors and contacts have given each particle since the start `[kg m/s]`.
     pub(crate) support_impulse: Vec<Vector<D>>,
 
-    /// V_b F of every pair `[1/m²]`, chunk by chunk as in the neighbour list: made by the geometry pass, used by
-    /// the others, so that a step takes one square root a pair.
-    pub(crate) pair_weights: Vec<[f64; LANES]>,
-    /// What the geometry pass reads of a neighbour.
-    pub(crate) geometry_records: Records,
-    /// What the momentum pass reads of a neighbour.
-    pub(crate) momentum_records: Records,
-    /// What the continuity pass reads of a neighbour.
-    pub(crate) continuity_records: Records,
-    /// Buffer for pressure and stress of the walls, shape `[wall]`.
-    pub(crate) wall_stress: Vec<(f64, Tensor<D>)>,
-    /// Buffer for the extrapolated velocities of the walls, shape `[wall]`.
-    pub(crate) wall_velocity_fit: Vec<Vector<D>>,
-
     /// Which wall a wall particle belongs to, shape `[wall]`.
     wall: Vec<u32>,
     flow: usize,
@@ -84,78 +69,23 @@ pub struct Particles<const D: usize> {
 
 /// Applies a statement to every array of the first group.
 macro_rules! for_each_shared_array {
-    ($particles:ident, $array:ident => $body:expr) => {{
-        {
-            let $array = &mut $particles.position;
+    ($particles:ident, $array:ident => $body:expr) => {
+        for_each_shared_array!($particles, $array => $body, of position velocity velocity_gradient stress density
+            pressure volume artificial_viscosity corrected_stress pressure_gradient viscosity wall_normal wall_depth
+            wall_velocity wall_smoothness mirrored)
+    };
+    ($particles:ident, $array:ident => $body:expr, of $($field:ident)*) => {
+        $({
+            let $array = &mut $particles.$field;
             $body;
-        }
-        {
-            let $array = &mut $particles.velocity;
-            $body;
-        }
-        {
-            let $array = &mut $particles.velocity_gradient;
-            $body;
-        }
-        {
-            let $array = &mut $particles.stress;
-            $body;
-        }
-        {
-            let $array = &mut $particles.density;
-            $body;
-        }
-        {
-            let $array = &mut $particles.pressure;
-            $body;
-        }
-        {
-            let $array = &mut $particles.volume;
-            $body;
-        }
-        {
-            let $array = &mut $particles.artificial_viscosity;
-            $body;
-        }
-        {
-            let $array = &mut $particles.flux;
-            $body;
-        }
-        {
-            let $array = &mut $particles.pressure_gradient;
-            $body;
-        }
-        {
-            let $array = &mut $particles.viscosity;
-            $body;
-        }
-        {
-            let $array = &mut $particles.wall_normal;
-            $body;
-        }
-        {
-            let $array = &mut $particles.wall_depth;
-            $body;
-        }
-        {
-            let $array = &mut $particles.wall_velocity;
-            $body;
-        }
-        {
-            let $array = &mut $particles.wall_smoothness;
-            $body;
-        }
-        {
-            let $array = &mut $particles.mirrored;
-            $body;
-        }
-    }};
+        })*
+    };
 }
 
 impl<const D: usize> Particles<D> {
     /// Arrays for the flow given by positions, velocities, densities, masses and stresses, and for the walls.
     pub(crate) fn new(
-        flow: &crate::weakly_compressible::scene::Flow<D>,
+        flow: &Flow<D>,
         walls: &[Wall<D>],
         wall_particles: &[WallParticle<D>],
         spacing: f64,
@@ -172,7 +102,7 @@ impl<const D: usize> Particles<D> {
             pressure: vec![0.0; real],
             volume: flow.mass.iter().zip(&flow.density).map(|(m, rho)| m / rho).collect(),
             artificial_viscosity: vec![0.0; real],
-            flux: vec![Tensor::zeros(); real],
+            corrected_stress: vec![Tensor::zeros(); real],
             pressure_gradient: vec![Vector::zeros(); real],
             viscosity: vec![0.0; real],
             wall_normal: vec![Vector::zeros(); n],
@@ -187,12 +117,6 @@ impl<const D: usize> Particles<D> {
             acceleration: vec![Vector::zeros(); n],
             support: vec![Vector::zeros(); n],
             support_impulse: vec![Vector::zeros(); n],
-            pair_weights: Vec::new(),
-            geometry_records: Records::new(crate::weakly_compressible::operators::geometry::values(D)),
-            momentum_records: Records::new(crate::weakly_compressible::terms::momentum::values(D)),
-            continuity_records: Records::new(crate::weakly_compressible::terms::continuity::values(D)),
-            wall_stress: vec![(0.0, Tensor::zeros()); m],
-            wall_velocity_fit: vec![Vector::zeros(); m],
             wall: Vec::with_capacity(m),
             flow: n,
         };

@@ -1,7 +1,8 @@
 //! A copy of the flow's state in the order of the scene, for observation, comparison and the last good state.
 
+use crate::material::equation_of_state::EquationOfState;
 use crate::vector::{Tensor, Vector};
-use crate::weakly_compressible::simulation::Simulation;
+use crate::weakly_compressible::particles::Particles;
 
 /// Plain state; every array has the shape `[flow particles]`, ordered by identity.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -28,20 +29,19 @@ pub struct Snapshot<const D: usize> {
 }
 
 impl<const D: usize> Snapshot<D> {
-    pub(crate) fn new(simulation: &Simulation<D>) -> Self {
-        let particles = simulation.particles();
+    pub(crate) fn new(time: f64, particles: &Particles<D>, equation_of_state: &EquationOfState) -> Self {
         let order = particles.by_identity();
         fn pick<T: Copy>(array: &[T], order: &[usize]) -> Vec<T> {
             order.iter().map(|&index| array[index]).collect()
         }
         let density = pick(&particles.density, &order);
         Self {
-            time: simulation.time(),
+            time,
             position: pick(&particles.position, &order),
             velocity: pick(&particles.velocity, &order),
             velocity_gradient: pick(&particles.velocity_gradient, &order),
             stress: pick(&particles.stress, &order),
-            pressure: density.iter().map(|&rho| simulation.equation_of_state().pressure(rho)).collect(),
+            pressure: density.iter().map(|&rho| equation_of_state.pressure(rho)).collect(),
             density,
             mass: pick(&particles.mass, &order),
             support_impulse: pick(&particles.support_impulse, &order),

@@ -1,18 +1,17 @@
 //! One time step of model A, readable on a page.
 
-use crate::run::divergence::{Divergence, Quantity};
+use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::contact;
+use crate::weakly_compressible::divergence::{DENSITY_RANGE, LARGEST_MACH_NUMBER, Quantity};
+use crate::weakly_compressible::model::GradientUse;
 use crate::weakly_compressible::numerics::{Contact, MomentumOperator, ViscousStep};
-use crate::weakly_compressible::simulation::Simulation;
-use crate::weakly_compressible::terms::continuity::GradientUse;
-use crate::weakly_compressible::viscous_solve::NotConverged;
+use crate::weakly_compressible::passes::{continuity, geometry, momentum, pairwise, wall_stress, wall_velocity};
+use crate::weakly_compressible::state::State;
+use crate::weakly_compressible::viscous_solve::{MOST_ITERATIONS, NotConverged, ViscousSolve};
 use rayon::prelude::*;
 
-/// A speed beyond this many sound speeds is a divergence `[-]`: weak compressibility has long been lost.
-const LARGEST_MACH_NUMBER: f64 = 3.0;
-
-impl<const D: usize> Simulation<D> {
+impl<const D: usize> State<D> {
     /// Symplectic Euler: forces at (x, v)ⁿ → vⁿ⁺¹ → ρⁿ⁺¹, sⁿ⁺¹ → xⁿ⁺¹.
     pub(crate) fn advance(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
         self.update_pressure();
@@ -20,28 +19,28 @@ impl<const D: usize> Simulation<D> {
         self.images.copy_scalars(&mut self.particles.volume);
         self.images.copy_scalars(&mut self.particles.density);
         self.images.copy_tensors(&mut self.particles.stress);
-        self.model.walls().stress(&mut self.particles);
+        wall_stress::run(&self.model, &mut self.particles, &mut self.pairs);
         self.images.copy_scalars(&mut self.particles.pressure);
         match self.model.numerics.momentum_operator {
             MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence => {
-                self.model.geometry().run(&mut self.particles);
+                geometry::run(&self.model, &mut self.particles, &mut self.pairs);
                 self.images.copy_vectors(&mut self.particles.pressure_gradient);
-                self.images.copy_tensors(&mut self.particles.flux);
+                self.images.copy_tensors(&mut self.particles.corrected_stress);
                 self.images.copy_tensors(&mut self.particles.velocity_gradient);
                 self.images.copy_scalars(&mut self.particles.artificial_viscosity);
-                self.model.momentum().run(&mut self.particles);
+                momentum::run(&self.model, &mut self.particles, &mut self.pairs);
                 if self.model.numerics.viscous_step == ViscousStep::Implicit {
                     self.accelerate_by_viscosity(time_step)?;
                 }
             }
             MomentumOperator::Pairwise | MomentumOperator::PairwiseCorrected => {
                 if self.model.gradient_use() != GradientUse::None {
-                    self.model.geometry().run(&mut self.particles);
+                    geometry::run(&self.model, &mut self.particles, &mut self.pairs);
                     self.images.copy_vectors(&mut self.particles.pressure_gradient);
                 }
                 self.images.copy_scalars(&mut self.particles.viscosity);
                 self.images.copy_scalars(&mut self.particles.artificial_viscosity);
-                self.model.pairwise().run(&mut self.particles);
+                pairwise::run(&self.model, &mut self.particles, &mut self.pairs);
             }
         }
         self.update_velocity(time_step)?;
@@ -55,9 +54,9 @@ impl<const D: usize> Simulation<D> {
         self.update_pressure();
         self.images.copy_scalars(&mut self.particles.pressure);
         self.images.copy_scalars(&mut self.particles.volume);
-        self.model.walls().stress(&mut self.particles);
+        wall_stress::run(&self.model, &mut self.particles, &mut self.pairs);
         self.images.copy_scalars(&mut self.particles.pressure);
-        self.model.geometry().run(&mut self.particles);
+        geometry::run(&self.model, &mut self.particles, &mut self.pairs);
         self.largest_speed = self.particles.velocity.iter().fold(0.0_f64, |most, v| most.max(v.norm()));
         self.update_density_and_stress(0.0)
     }
@@ -77,21 +76,26 @@ impl<const D: usize> Simulation<D> {
 
     /// Accelerations that answer to the viscosity at the new velocity.
     fn accelerate_by_viscosity(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
-        let solve = self.model.viscous_solve(time_step);
+        let solve = ViscousSolve { model: &self.model, pairs: &self.pairs, time_step };
         match solve.run(&mut self.particles, &self.images, &mut self.viscous) {
             Ok(()) => Ok(()),
-            Err(NotConverged { worst }) => Err(self.divergence(worst, Quantity::ViscousResidual)),
+            Err(NotConverged { worst }) => {
+                let tolerance = self.model.numerics.viscous_tolerance;
+                let quantity = Quantity::ViscousResidual { tolerance, most_iterations: MOST_ITERATIONS };
+                Err(self.divergence(worst, quantity, self.viscous.residual()))
+            }
         }
     }
 
     fn update_velocity(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
         let flow = self.particles.flow_count();
-        let limit = (LARGEST_MACH_NUMBER * self.model.equation_of_state.sound_speed()).powi(2);
+        let largest_speed = LARGEST_MACH_NUMBER * self.model.equation_of_state.sound_speed();
+        let limit = largest_speed.powi(2);
         let range = match self.model.numerics.contact {
             Contact::HalfSpacing => 0.5 * self.model.spacing,
             Contact::None => f64::NEG_INFINITY,
         };
-        let (walls, friction) = (&self.model.wall_planes, self.model.contact_friction);
+        let (walls, friction) = (&self.walls, self.model.contact_friction);
         let particles = &mut self.particles;
         let (largest, bad) = (
             &mut particles.velocity[..flow],
@@ -116,37 +120,42 @@ impl<const D: usize> Simulation<D> {
             .reduce(|| (0.0, usize::MAX), |a, b| (a.0.max(b.0), a.1.min(b.1)));
         self.largest_speed = largest.sqrt();
         if bad != usize::MAX {
-            return Err(self.divergence(bad, Quantity::Speed));
+            let speed = self.particles.velocity[bad].norm();
+            return Err(self.divergence(bad, Quantity::Speed { limit: largest_speed }, speed));
         }
         Ok(())
     }
 
     fn update_density_and_stress(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
         self.images.copy_vectors(&mut self.particles.velocity);
-        self.model.walls().velocity(&mut self.particles);
+        wall_velocity::run(&self.model, &mut self.particles, &mut self.pairs);
         self.images.copy_vectors(&mut self.particles.velocity);
-        let extremes = self.model.continuity(time_step).run(&mut self.particles);
+        let extremes = continuity::run(&self.model, &mut self.particles, &mut self.pairs, time_step);
         self.kinematic_viscosity = match self.model.gradient_use() {
             GradientUse::None => self.particles.viscosity[0] / self.model.equation_of_state.reference_density,
             _ => extremes.kinematic_viscosity,
         };
         match extremes.bad_density {
-            Some(bad) => Err(self.divergence(bad, Quantity::Density)),
+            Some(bad) => {
+                let density = self.model.equation_of_state.reference_density;
+                let limits = (DENSITY_RANGE.0 * density, DENSITY_RANGE.1 * density);
+                Err(self.divergence(bad, Quantity::Density { limits }, self.particles.density[bad]))
+            }
             None => Ok(()),
         }
     }
 
     /// Moves the walls that travel; returns the speed of the fastest `[m/s]`.
     fn move_walls(&mut self, time_step: f64) -> f64 {
-        if self.model.wall_planes.iter().all(|wall| wall.travel <= 0.0) {
+        if self.walls.iter().all(|wall| wall.travel <= 0.0) {
             return 0.0;
         }
         let mut fastest = 0.0_f64;
-        for (wall, displacement) in self.model.wall_planes.iter_mut().zip(&mut self.wall_displacements) {
+        for (wall, displacement) in self.walls.iter_mut().zip(&mut self.wall_displacements) {
             fastest = fastest.max(if wall.travel > 0.0 { wall.velocity.norm() } else { 0.0 });
             *displacement = wall.advance(time_step);
         }
-        self.particles.move_walls(&self.model.wall_planes, &self.wall_displacements);
+        self.particles.move_walls(&self.walls, &self.wall_displacements);
         self.images.copy_vectors(&mut self.particles.wall_velocity);
         fastest
     }

@@ -3,7 +3,7 @@
 //! The slip is the pair's own, as printed, or that of the grain against the mean of the fluid around it, which the shear
 //! within the kernel does not enlarge.
 
-use super::super::failure::Failure;
+use super::super::divergence::{Failure, Quantity};
 use super::super::neighbours::{Grid, LEAST_TASK, Pairs, Periods, Sources};
 use super::super::numerics::DragSlip;
 use super::super::phase::Phase;
@@ -11,7 +11,6 @@ use super::super::scene::{DragForm, IncompressibleScene, Sediment, SolidFraction
 use super::super::terms::drag_pair;
 use crate::domain::Domain;
 use crate::kernel::{Kernel, KernelShape};
-use crate::run::divergence::Quantity;
 use crate::vector::Vector;
 use rayon::prelude::*;
 
@@ -148,8 +147,8 @@ impl<const D: usize> DragExchange<D> {
         if range.contains(&reynolds) {
             return Ok(());
         }
-        let limits = (*range.start(), *range.end());
-        Err(Failure { row: first_row + grain, quantity: Quantity::Reynolds, value: reynolds, limits })
+        let (row, limit) = (first_row + grain, *range.end());
+        Err(Failure { row, quantity: Quantity::Reynolds, value: reynolds, limit })
     }
 }
 

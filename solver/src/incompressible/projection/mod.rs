@@ -12,13 +12,12 @@ pub(super) use mixture::{Flux, Mixture};
 pub(super) use pressure_poisson::PressurePoisson;
 
 use super::boundary::find_surface;
-use super::failure::Failure;
+use super::divergence::{Failure, Quantity};
 use super::neighbours::Periods;
 use super::numerics::{PressureSource, ProjectionNumerics};
 use super::phase::{Phase, Phases};
 use super::scene::{IncompressibleScene, SedimentPressure};
 use crate::linear::NotConverged;
-use crate::run::divergence::Quantity;
 use crate::vector::Vector;
 use correction::Correction;
 
@@ -100,5 +99,5 @@ fn project<const D: usize>(
 
 /// A pressure Poisson equation that was not solved to its tolerance.
 fn residual(NotConverged { row, residual }: NotConverged, numerics: &ProjectionNumerics) -> Failure {
-    Failure { row, quantity: Quantity::PressureResidual, value: residual, limits: (0.0, numerics.pressure_tolerance) }
+    Failure { row, quantity: Quantity::PressureResidual, value: residual, limit: numerics.pressure_tolerance }
 }

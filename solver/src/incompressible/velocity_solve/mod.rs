@@ -8,10 +8,9 @@ mod rows;
 
 pub(super) use rows::VelocityRows;
 
-use super::failure::Failure;
+use super::divergence::{Failure, Quantity};
 use super::numerics::{MOST_ITERATIONS, ProjectionNumerics};
 use crate::linear::{ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, Single};
-use crate::run::divergence::Quantity;
 use crate::vector::Vector;
 
 /// Rows of M + Δt K: the fluid's free particles first, then the sediment's.
@@ -87,7 +86,7 @@ impl<const D: usize> VelocitySystem<D> {
             row,
             quantity: Quantity::VelocityResidual,
             value: residual,
-            limits: (0.0, tolerance),
+            limit: tolerance,
         })?;
         for (change, velocity) in self.change.iter_mut().zip(&self.velocity) {
             *change = velocity - *change;

@@ -1,7 +1,8 @@
 //! Constitutive laws. A law knows nothing of particles: it turns a local state into a deviatoric stress.
 //!
 //! Two kinds of law share one enum: viscous laws (shear rate, pressure → viscosity) and plastic laws with a
-//! memory of the stress (trial stress → admissible stress). A new law is one file and one line in `laws!`.
+//! memory of the stress (trial stress → admissible stress). A new law is one file and one line in `laws!`, or, without a
+//! fork, a type of a user's own crate that [`open::register`] makes known by its name.
 //!
 //! The pressure is what the model has: the weakly compressible one evaluates a law at the pressure of its equation of state
 //! and the local shear rate of a particle, the incompressible one at the load on the grains (their overburden, for the pore
@@ -10,12 +11,26 @@
 //! Everywhere |γ̇| = √(2 ε′:ε′) `[1/s]` and τ = √(½ s:s) `[Pa]`, so that in simple shear |γ̇| = |du/dy| and
 //! τ = |s_xy|. A source that measures the strain rate by |S| = √(S:S) = |γ̇|/√2 means by its yield stress √2
 //! times the one here.
+//!
+//! # A law with a field of its own
+//!
+//! Some laws carry more than the stress, such as a fluidity that diffuses. Such a field is numerical state like the stress
+//! and belongs where the stress is: an array of all particles in the model's `particles`, sorted and copied to images
+//! with it (a scalar, so images and mirrors take it unchanged). Its law declares the initial value, the source terms as a
+//! function of the local state, and what it is at a rough and at a smooth wall; it is advanced in the pass that advances
+//! the stress, before it, because the return mapping takes the new value; its Laplacian is a pass of its own with the
+//! weights of pairs that all passes share; and `wall_stress` extrapolates it to the wall particles, odd where it
+//! vanishes at the surface, even where its gradient does. The law sees it in [`TrialStress`], which can grow a field
+//! without breaking a law that does not look at it; and no law need have a yield surface: one whose
+//! [`PlasticLaw::yield_stress`] is 0 returns every trial stress, and gives its friction at walls in
+//! [`PlasticLaw::contact_friction`].
 
 mod bingham;
 mod coulomb_bingham;
 mod herschel_bulkley;
 mod mu_i;
 mod newtonian;
+pub mod open;
 mod regularisation;
 mod regularised_mu_i;
 mod root_mu_i;
@@ -30,6 +45,8 @@ pub use mu_i::MuI;
 pub use newtonian::Newtonian;
 pub use regularised_mu_i::RegularisedMuI;
 pub use root_mu_i::RootMuI;
+
+use open::{OpenPlastic, OpenViscous};
 
 use crate::lanes::algebra::{load_tensor, store_tensor};
 use crate::lanes::{LANES, Lanes, Real};
@@ -52,22 +69,42 @@ pub trait ViscousLaw {
     }
 }
 
+/// The state that a return mapping starts from: that of an elastic step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct TrialStress<R> {
+    /// Equivalent shear stress of the elastic trial `[Pa]`.
+    pub shear_stress: R,
+    /// Pressure `[Pa]`.
+    pub pressure: R,
+    /// Elastic shear modulus `[Pa]`.
+    pub shear_modulus: f64,
+    /// Time step `[s]`.
+    pub time_step: f64,
+}
+
+impl<R> TrialStress<R> {
+    /// A trial from shear stress, pressure and shear modulus `[Pa]` and a time step `[s]`.
+    #[inline(always)]
+    pub fn new(shear_stress: R, pressure: R, shear_modulus: f64, time_step: f64) -> Self {
+        Self { shear_stress, pressure, shear_modulus, time_step }
+    }
+}
+
 /// A law that carries the stress along: elastic up to a yield stress, then a plastic shear rate.
 ///
 /// The formulas of the stress update are written for any [`Real`], a single value or eight lanes.
 pub trait PlasticLaw {
-    /// Equivalent shear stress `[Pa]` at the end of a time step `[s]` whose elastic trial gives
-    /// `trial_shear_stress` `[Pa]`, at a pressure `[Pa]` and a shear modulus `[Pa]`: the trial up to the yield stress.
-    fn admissible_shear_stress<R: Real>(
-        &self,
-        trial_shear_stress: R,
-        pressure: R,
-        shear_modulus: f64,
-        time_step: f64,
-    ) -> R;
+    /// Equivalent shear stress `[Pa]` at the end of a time step: the trial up to the yield stress.
+    fn admissible_shear_stress<R: Real>(&self, trial: &TrialStress<R>) -> R;
 
     /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]`; 0 without pressure.
     fn yield_stress<R: Real>(&self, pressure: R) -> R;
+
+    /// Friction coefficient `[-]` of a contact with a rough wall: that of the yield stress.
+    fn contact_friction(&self) -> f64 {
+        self.yield_stress(1.0)
+    }
 
     /// Apparent viscosity τ/|γ̇| `[Pa·s]` of the steady flow at a shear rate `[1/s]` and a pressure `[Pa]`;
     /// finite also at rest. For diagnostics: the stress update does not use it.
@@ -75,10 +112,50 @@ pub trait PlasticLaw {
 }
 
 macro_rules! laws {
-    (viscous: [$($viscous:ident),* $(,)?], plastic: [$($plastic:ident),* $(,)?] $(,)?) => {
-        /// The constitutive law of one material, chosen by its `law` key, for example `law = "mu-i"`.
+    (
+        viscous: [$($viscous:ident = $viscous_name:literal),* $(,)?],
+        plastic: [$($plastic:ident = $plastic_name:literal),* $(,)?] $(,)?
+    ) => {
+        rheology!(viscous: [$($viscous,)* OpenViscous], plastic: [$($plastic,)* OpenPlastic]);
+
+        /// The laws of this crate as files have them.
         #[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
-        #[serde(tag = "law", rename_all = "kebab-case")]
+        #[serde(tag = "law")]
+        enum BuiltIn {
+            $(#[serde(rename = $viscous_name)] $viscous($viscous),)*
+            $(#[serde(rename = $plastic_name)] $plastic($plastic),)*
+        }
+
+        /// Their names.
+        const BUILT_IN_NAMES: &[&str] = &[$($viscous_name,)* $($plastic_name,)*];
+
+        impl From<BuiltIn> for Rheology {
+            fn from(law: BuiltIn) -> Self {
+                match law {
+                    $(BuiltIn::$viscous(law) => Self::$viscous(law),)*
+                    $(BuiltIn::$plastic(law) => Self::$plastic(law),)*
+                }
+            }
+        }
+
+        impl Rheology {
+            /// The law as files have it, or the one of a user's own crate.
+            fn written(&self) -> Result<BuiltIn, open::Written> {
+                match *self {
+                    $(Self::$viscous(law) => Ok(BuiltIn::$viscous(law)),)*
+                    $(Self::$plastic(law) => Ok(BuiltIn::$plastic(law)),)*
+                    Self::OpenViscous(law) => Err(law.written()),
+                    Self::OpenPlastic(law) => Err(law.written()),
+                }
+            }
+        }
+    };
+}
+
+macro_rules! rheology {
+    (viscous: [$($viscous:ident),*], plastic: [$($plastic:ident),*]) => {
+        /// The constitutive law of one material, chosen by its `law` key, for example `law = "mu-i"`.
+        #[derive(Clone, Copy, Debug, PartialEq)]
         pub enum Rheology {
             $(#[doc = concat!("Viscous: [`", stringify!($viscous), "`].")] $viscous($viscous),)*
             $(#[doc = concat!("Plastic: [`", stringify!($plastic), "`].")] $plastic($plastic),)*
@@ -192,7 +269,7 @@ macro_rules! laws {
             pub fn contact_friction(&self) -> f64 {
                 match self {
                     $(Self::$viscous(law) => law.contact_friction(),)*
-                    $(Self::$plastic(law) => law.yield_stress(1.0),)*
+                    $(Self::$plastic(law) => law.contact_friction(),)*
                 }
             }
 
@@ -209,6 +286,8 @@ impl Rheology {
             Self::RegularisedMuI(law) => law.friction_problem(),
             Self::RootMuI(law) => law.friction_problem(),
             Self::Newtonian(_) | Self::Bingham(_) | Self::CoulombBingham(_) | Self::HerschelBulkley(_) => None,
+            // the maker of an open law has judged its parameters
+            Self::OpenViscous(_) | Self::OpenPlastic(_) => None,
         })
     }
 }
@@ -236,6 +315,13 @@ fn components<const D: usize>(tensor: &Tensor<D>) -> [[f64; D]; D] {
 }
 
 laws! {
-    viscous: [Newtonian, Bingham, CoulombBingham, HerschelBulkley, RegularisedMuI, RootMuI],
-    plastic: [MuI],
+    viscous: [
+        Newtonian = "newtonian",
+        Bingham = "bingham",
+        CoulombBingham = "coulomb-bingham",
+        HerschelBulkley = "herschel-bulkley",
+        RegularisedMuI = "regularised-mu-i",
+        RootMuI = "root-mu-i",
+    ],
+    plastic: [MuI = "mu-i"],
 }

@@ -16,7 +16,7 @@
 //! It is taken as τ = 2H/(B + √(B² − 4H)), free of cancellation. The discriminant is written as
 //! B² − 4H = (τ* + A − S_2)² + 4 A (S_2 − S_0), which rounding cannot make negative. For μ_2 = μ_s this is τ = S_0.
 
-use super::{PlasticLaw, RegularisedMuI, rising_friction};
+use super::{PlasticLaw, RegularisedMuI, TrialStress, rising_friction};
 use crate::lanes::Real;
 use crate::parameter::{ParameterProblem, above};
 use schemars::JsonSchema;
@@ -101,14 +101,9 @@ impl MuI {
 
 impl PlasticLaw for MuI {
     #[inline(always)]
-    fn admissible_shear_stress<R: Real>(
-        &self,
-        trial_shear_stress: R,
-        pressure: R,
-        shear_modulus: f64,
-        time_step: f64,
-    ) -> R {
-        let pressure = pressure.max(R::splat(0.0));
+    fn admissible_shear_stress<R: Real>(&self, trial: &TrialStress<R>) -> R {
+        let TrialStress { shear_stress: trial_shear_stress, shear_modulus, time_step, .. } = *trial;
+        let pressure = trial.pressure.max(R::splat(0.0));
         let static_stress = R::splat(self.static_friction) * pressure; // S_0
         let limiting_stress = R::splat(self.limiting_friction) * pressure; // S_2
         // A = G Δt ξ √p, where ξ √p is the shear rate at which I = I_0
@@ -186,7 +181,7 @@ mod tests {
             let trial = law.static_friction * pressure * (1.0 + libm::exp(random.random_range(-9.0..3.0)));
             let modulus = libm::exp(random.random_range(5.0..14.0));
             let step = libm::exp(random.random_range(-14.0..-5.0));
-            let closed = law.admissible_shear_stress(trial, pressure, modulus, step);
+            let closed = law.admissible_shear_stress(&TrialStress::new(trial, pressure, modulus, step));
             let bisected = bisected_stress(&law, trial, pressure, modulus, step);
             assert!((closed - bisected).abs() < 1e-11 * bisected, "{closed} against {bisected} for {law:?}");
             assert!(
@@ -198,9 +193,9 @@ mod tests {
 
     #[test]
     fn stays_elastic_below_yield_and_carries_nothing_without_pressure() {
-        assert_eq!(GLASS.admissible_shear_stress(38.0, 100.0, 1e5, 1e-4), 38.0);
+        assert_eq!(GLASS.admissible_shear_stress(&TrialStress::new(38.0, 100.0, 1e5, 1e-4)), 38.0);
         for pressure in [0.0, -10.0, f64::NAN] {
-            assert_eq!(GLASS.admissible_shear_stress(38.0, pressure, 1e5, 1e-4), 0.0);
+            assert_eq!(GLASS.admissible_shear_stress(&TrialStress::new(38.0, pressure, 1e5, 1e-4)), 0.0);
             assert_eq!(GLASS.viscosity(1.0, pressure), 0.0);
         }
         assert_eq!(GLASS.yield_stress(-10.0), 0.0);
@@ -209,7 +204,7 @@ mod tests {
     #[test]
     fn without_rate_dependence_the_stress_returns_to_the_yield_stress() {
         let law = MuI { limiting_friction: 0.382, ..GLASS };
-        let stress = law.admissible_shear_stress(500.0, 100.0, 1e5, 1e-4);
+        let stress = law.admissible_shear_stress(&TrialStress::new(500.0, 100.0, 1e5, 1e-4));
         assert!((stress - 38.2).abs() < 1e-11);
     }
 

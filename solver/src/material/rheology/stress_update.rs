@@ -1,6 +1,6 @@
 //! From a scalar law to a stress tensor: the viscous stress, and the elastic trial with radial return.
 
-use super::{PlasticLaw, ViscousLaw};
+use super::{PlasticLaw, TrialStress, ViscousLaw};
 use crate::lanes::Real;
 use crate::lanes::algebra::{accumulate, deviatoric_rate, invariant, matrix_product};
 use crate::vector::{Tensor, deviator, double_contraction, strain_rate};
@@ -45,7 +45,8 @@ pub(super) fn plastic<R: Real, L: PlasticLaw, const D: usize>(
     let (ahead, behind) = (matrix_product(&spin, &trial), matrix_product(&trial, &spin));
     let trial_shear_stress = invariant(0.5, &trial);
     let yield_stress = law.yield_stress(pressure);
-    let admissible = law.admissible_shear_stress(trial_shear_stress, pressure, shear_modulus, time_step);
+    let admissible =
+        law.admissible_shear_stress(&TrialStress::new(trial_shear_stress, pressure, shear_modulus, time_step));
     let scale = admissible / trial_shear_stress;
     let mut stress = trial;
     for i in 0..D {

@@ -10,6 +10,8 @@ pub use rough_wall::RoughWall;
 pub use smagorinsky::Smagorinsky;
 pub use stratified::StratifiedMixingLength;
 
+use crate::lanes::Real;
+
 /// Von Kármán's constant κ `[-]`.
 pub const VON_KARMAN: f64 = 0.41;
 
@@ -17,5 +19,13 @@ pub const VON_KARMAN: f64 = 0.41;
 #[inline]
 #[must_use]
 pub fn eddy_viscosity(mixing_length: f64, shear_rate: f64) -> f64 {
-    mixing_length * mixing_length * shear_rate
+    // times 1 changes no bit
+    dynamic_eddy_viscosity(1.0, mixing_length * mixing_length, shear_rate)
+}
+
+/// The same as a dynamic viscosity ρ l² |γ̇| `[Pa·s]`, at a density `[kg/m³]` and the square of the mixing length `[m²]`.
+#[inline(always)]
+#[must_use]
+pub fn dynamic_eddy_viscosity<R: Real>(density: R, mixing_area: f64, shear_rate: R) -> R {
+    density * R::splat(mixing_area) * shear_rate
 }

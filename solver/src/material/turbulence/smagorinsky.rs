@@ -14,11 +14,18 @@ pub struct Smagorinsky {
 }
 
 impl Smagorinsky {
+    /// Mixing length C_s Δ `[m]` at a particle spacing Δ `[m]`.
+    #[inline]
+    #[must_use]
+    pub fn mixing_length(&self, spacing: f64) -> f64 {
+        self.coefficient * spacing
+    }
+
     /// Kinematic eddy viscosity ν_s `[m²/s]` at a particle spacing Δ `[m]` and a shear rate `[1/s]`.
     #[inline]
     #[must_use]
     pub fn eddy_viscosity(&self, spacing: f64, shear_rate: f64) -> f64 {
-        super::eddy_viscosity(self.coefficient * spacing, shear_rate)
+        super::eddy_viscosity(self.mixing_length(spacing), shear_rate)
     }
 }
 

@@ -4,7 +4,6 @@ pub mod contact;
 pub mod gate;
 mod images;
 pub mod wall;
-pub mod wall_extrapolation;
 
 pub(crate) use images::Images;
 pub use wall::{Surface, Wall, WallTreatment};

@@ -53,20 +53,20 @@ impl<const D: usize> Wall<D> {
         Self { axis, surface, side, velocity, roughness: Surface::Rough, travel: 0.0, region: None }
     }
 
-    /// Moves the wall for a time `[s]`, stopping it where its way ends. Returns its displacement `[m]`.
+    /// Moves the wall for a time `[s]`, stopping it where its travel ends. Returns its displacement `[m]`.
     pub(crate) fn advance(&mut self, time: f64) -> Vector<D> {
         if self.travel <= 0.0 {
             return Vector::zeros();
         }
-        let way = self.velocity.norm() * time;
-        let share = (self.travel / way).min(1.0);
-        let displacement = self.velocity * (time * share);
+        let distance = self.velocity.norm() * time;
+        let part = (self.travel / distance).min(1.0);
+        let displacement = self.velocity * (time * part);
         self.surface += displacement[self.axis];
         if let Some((lower, upper)) = &mut self.region {
             *lower += displacement;
             *upper += displacement;
         }
-        self.travel -= way;
+        self.travel -= distance;
         if self.travel <= 0.0 {
             self.travel = 0.0;
             self.velocity = Vector::zeros();
@@ -128,28 +128,9 @@ pub fn fill<const D: usize>(
     spacing: f64,
     layers: usize,
 ) -> Vec<WallParticle<D>> {
-    let mut lower = extent.0;
-    let mut upper = extent.1;
-    let mut cells = [0usize; D];
-    for axis in 0..D {
-        let depth = layers as f64 * spacing;
-        match domain.axes[axis] {
-            AxisBoundary::Periodic { lower: start, upper: end } => (lower[axis], upper[axis]) = (start, end),
-            AxisBoundary::Mirror { lower: start, upper: end } => {
-                lower[axis] = start.unwrap_or(lower[axis]);
-                upper[axis] = end.unwrap_or(upper[axis]);
-            }
-            AxisBoundary::Open => {}
-        }
-        for wall in walls.iter().filter(|wall| wall.axis == axis) {
-            if wall.side > 0.0 {
-                lower[axis] = wall.surface - depth;
-            } else {
-                upper[axis] = wall.surface + depth;
-            }
-        }
-        cells[axis] = ((upper[axis] - lower[axis]) / spacing).round().max(1.0) as usize;
-    }
+    let (lower, upper) = filled_extent(walls, domain, extent, layers as f64 * spacing);
+    let cells: [usize; D] =
+        std::array::from_fn(|axis| ((upper[axis] - lower[axis]) / spacing).round().max(1.0) as usize);
     let mut particles = Vec::new();
     let mut cell = [0usize; D];
     loop {
@@ -182,6 +163,34 @@ pub fn fill<const D: usize>(
             return particles;
         }
     }
+}
+
+/// Lower and upper corner `[m]` of what walls of a `depth` `[m]` fill together with the flow between them.
+fn filled_extent<const D: usize>(
+    walls: &[Wall<D>],
+    domain: &Domain<D>,
+    extent: (Vector<D>, Vector<D>),
+    depth: f64,
+) -> (Vector<D>, Vector<D>) {
+    let (mut lower, mut upper) = extent;
+    for axis in 0..D {
+        match domain.axes[axis] {
+            AxisBoundary::Periodic { lower: start, upper: end } => (lower[axis], upper[axis]) = (start, end),
+            AxisBoundary::Mirror { lower: start, upper: end } => {
+                lower[axis] = start.unwrap_or(lower[axis]);
+                upper[axis] = end.unwrap_or(upper[axis]);
+            }
+            AxisBoundary::Open => {}
+        }
+        for wall in walls.iter().filter(|wall| wall.axis == axis) {
+            if wall.side > 0.0 {
+                lower[axis] = wall.surface - depth;
+            } else {
+                upper[axis] = wall.surface + depth;
+            }
+        }
+    }
+    (lower, upper)
 }
 
 #[cfg(test)]

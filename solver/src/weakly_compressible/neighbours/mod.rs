@@ -1,9 +1,11 @@
-//! Neighbour search: a cell grid that fills a Verlet list of fixed stride.
+//! Neighbour search: a cell grid that fills a Verlet list, in groups of eight particles.
 
+mod block_search;
 pub mod brute_force;
 mod cell_grid;
 mod verlet_list;
 
+pub(crate) use block_search::{BLOCK, LARGEST_ROW};
 pub(crate) use cell_grid::CellGrid;
-pub(crate) use verlet_list::{BLOCK, Group};
+pub(crate) use verlet_list::NeighbourGroup;
 pub use verlet_list::{Row, VerletList};

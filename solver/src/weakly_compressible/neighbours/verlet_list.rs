@@ -6,14 +6,14 @@
 //! particle of no volume, whose contributions are exactly zero. Wall particles have flow neighbours only.
 
 use super::CellGrid;
-use crate::lanes::{CheckedIndices, InstructionSet, LANES, LaneChunks, LaneIndices, LanePass, Lanes};
+use super::block_search::{BlockSearch, Extent, GROUPS, Search};
+use crate::lanes::{CheckedIndices, InstructionSet, LANES, LaneChunks, LaneIndices};
 use crate::vector::Vector;
 use rayon::prelude::*;
-use std::ops::Range;
 
 /// Eight particles and their neighbours.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Group<'a> {
+pub(crate) struct NeighbourGroup<'a> {
     /// The particles themselves.
     pub(crate) own: LaneIndices<'a>,
     /// Flow neighbours and their images.
@@ -37,14 +37,6 @@ pub struct Row {
     pub wall: Vec<u32>,
 }
 
-#[derive(Debug, Clone, Copy, Default)]
-struct Extent {
-    start: u32,
-    flow: u16,
-    wall: u16,
-    has_images: bool,
-}
-
 /// The neighbour list of all real particles: groups of the flow, then groups of the walls.
 #[derive(Debug, Default)]
 pub struct VerletList {
@@ -57,22 +49,17 @@ pub struct VerletList {
     region: usize,
 }
 
-/// Particles a block of the parallel loops.
-pub(crate) const BLOCK: usize = 256;
-const GROUPS: usize = BLOCK / LANES;
-const LARGEST_ROW: usize = 1024;
-
 impl VerletList {
     /// Group `index` of eight flow particles: those from 8 `index` on.
     #[inline(always)]
     #[must_use]
-    pub(crate) fn group(&self, index: usize) -> Group<'_> {
+    pub(crate) fn group(&self, index: usize) -> NeighbourGroup<'_> {
         let Extent { start, flow, wall, has_images } = self.extents[index];
         let first_pair = start as usize + 1;
         let wall_start = first_pair + flow as usize;
         let mut own = self.indices.part(first_pair - 1..first_pair);
         let Some(own) = own.next() else { unreachable!("a part of one chunk") };
-        Group {
+        NeighbourGroup {
             own,
             flow: self.indices.part(first_pair..wall_start),
             wall: self.indices.part(wall_start..wall_start + wall as usize),
@@ -158,141 +145,6 @@ impl VerletList {
             }
             self.region = needed + needed / 8;
         }
-    }
-}
-
-#[derive(Clone, Copy)]
-struct Search<'a, const D: usize> {
-    positions: &'a [Vector<D>],
-    flow: usize,
-    real: usize,
-    radius: f64,
-    grids: (&'a CellGrid<D>, &'a CellGrid<D>),
-    sentinel: u32,
-}
-
-/// Neighbours of one particle as they are found; what is packed last may reach a chunk beyond the largest row.
-type FoundRow = [u32; LARGEST_ROW + LANES];
-
-/// The search for a block of groups.
-struct BlockSearch<'a, const D: usize> {
-    search: Search<'a, D>,
-    block: usize,
-    region: usize,
-    chunks: &'a mut [[u32; LANES]],
-    extents: &'a mut [Extent],
-    /// Chunks that the block needs, and its first particle that has too many neighbours.
-    result: &'a mut (usize, usize),
-}
-
-impl<const D: usize> LanePass for BlockSearch<'_, D> {
-    /// Fills the groups as far as they fit.
-    #[inline(always)]
-    fn run<V: Lanes>(self) {
-        let Self { search, block, region, chunks, extents, result } = self;
-        let mut rows: [FoundRow; LANES] = [[0; LARGEST_ROW + LANES]; LANES];
-        let (mut used, mut crowded) = (0, usize::MAX);
-        for (offset, extent) in extents.iter_mut().enumerate() {
-            let own = search.particles(block * GROUPS + offset);
-            let place = used;
-            used += 1;
-            if let Some(chunk) = chunks.get_mut(place) {
-                *chunk = own;
-            }
-            let mut parts = [0; 2];
-            let mut has_images = false;
-            for part in 0..2 {
-                let grid = if part == 0 { search.grids.0 } else { search.grids.1 };
-                let mut found = [0; LANES];
-                let mut longest = 0;
-                for lane in 0..LANES {
-                    let particle = own[lane];
-                    // no walls for the padding and for walls
-                    if particle != search.sentinel && (part == 0 || (particle as usize) < search.flow) {
-                        found[lane] = search.row::<V>(particle, grid, &mut rows[lane]);
-                    }
-                    if found[lane] > LARGEST_ROW {
-                        crowded = crowded.min(particle as usize);
-                        found[lane] = LARGEST_ROW;
-                    }
-                    longest = if found[lane] > longest { found[lane] } else { longest };
-                    if part == 0 {
-                        for &index in &rows[lane][..found[lane]] {
-                            has_images |= index as usize >= search.real;
-                        }
-                    }
-                }
-                for lane in 0..LANES {
-                    rows[lane][found[lane]..longest].fill(search.sentinel);
-                }
-                if let Some(target) = chunks.get_mut(used..used + longest) {
-                    for (k, chunk) in target.iter_mut().enumerate() {
-                        for lane in 0..LANES {
-                            chunk[lane] = rows[lane][k];
-                        }
-                    }
-                }
-                parts[part] = longest;
-                used += longest;
-            }
-            *extent = Extent {
-                start: (block * region + place) as u32,
-                flow: parts[0] as u16,
-                wall: parts[1] as u16,
-                has_images,
-            };
-        }
-        // nothing of an older list stays behind; a block that did not fit is filled again
-        let rest = if used <= chunks.len() { used } else { 0 };
-        chunks[rest..].fill([search.sentinel; LANES]);
-        *result = (used, crowded);
-    }
-}
-
-impl<const D: usize> Search<'_, D> {
-    /// The particles of a group, padded with the sentinel.
-    fn particles(&self, group: usize) -> [u32; LANES] {
-        let flow_groups = self.flow.div_ceil(LANES);
-        let range: Range<usize> = if group < flow_groups {
-            LANES * group..self.flow
-        } else {
-            self.flow + LANES * (group - flow_groups)..self.real
-        };
-        let mut own = [self.sentinel; LANES];
-        for (slot, particle) in own.iter_mut().zip(range) {
-            *slot = particle as u32;
-        }
-        own
-    }
-
-    /// Writes the neighbours of one particle in a grid and returns their number; what does not fit is counted but
-    /// not kept.
-    #[inline(always)]
-    fn row<V: Lanes>(&self, particle: u32, grid: &CellGrid<D>, row: &mut FoundRow) -> usize {
-        let centre = self.positions[particle as usize];
-        let limit = V::splat(self.radius * self.radius);
-        let mut found = 0usize;
-        let (ranges, count) = grid.ranges(&centre);
-        for range in &ranges[..count] {
-            let mut start = range.start;
-            while start < range.end {
-                let mut distance_squared = V::splat(0.0);
-                for axis in 0..D {
-                    let Some(coordinates) = grid.coordinates[axis][start..].first_chunk() else { unreachable!() };
-                    let difference = V::splat(centre[axis]) - V::load(coordinates);
-                    distance_squared = distance_squared + difference * difference;
-                }
-                let Some(indices) = grid.index[start..].first_chunk() else { unreachable!() };
-                let near = distance_squared.less_mask(limit);
-                let left = range.end - start;
-                let inside = if left < LANES { (1 << left) - 1 } else { (1 << LANES) - 1 };
-                let slot = if found < LARGEST_ROW { found } else { LARGEST_ROW };
-                let Some(out) = row[slot..].first_chunk_mut() else { unreachable!() };
-                found += V::pack(indices, near & inside, particle, out);
-                start += LANES;
-            }
-        }
-        found
     }
 }
 

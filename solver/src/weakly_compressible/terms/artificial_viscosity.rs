@@ -9,6 +9,12 @@ pub const SWITCH_HIGHEST: f64 = 1.0;
 /// σ in the switch's decay time ς = h/(σ c) `[-]`, Morris & Monaghan's 0.1.
 const DECAY: f64 = 0.1;
 
+/// α h c `[m²/s]` of a pair whose particles have coefficients of their own, `speed_length` being h c `[m²/s]`.
+#[inline(always)]
+pub fn mean_strength<V: Lanes>(alpha_a: V, alpha_b: V, speed_length: f64) -> V {
+    (alpha_b + alpha_a) * V::splat(0.5 * speed_length)
+}
+
 /// −Π_ab F-free part of (15): α h c (r·v)⁻ / (ρ̄ r²) `[m⁵/(kg s²)]`, to be multiplied by m_b ∇W.
 ///
 /// `strength` is α h c `[m²/s]`, `approach` r_ab·v_ab `[m²/s]`, `inverse` 1/(ρ̄ (r² + δ²)) `[m/kg]`.

@@ -5,10 +5,14 @@
 //! it vanishes with the pressure, so that a loose particle flies freely. Not in the paper; antisymmetric in a and b.
 
 use crate::lanes::Lanes;
-use crate::lanes::algebra::{dot, sum_of};
+use crate::lanes::algebra::{difference, dot, product, sum_of};
 
-/// Largest ratio of the velocity difference at a wall to the flow particle's velocity `[-]`.
-pub const WALL_FACTOR_LIMIT: f64 = 6.0;
+/// √(p/ρ0) `[m/s]` of a pressure `[Pa]`, from 1/ρ0 `[m³/kg]`.
+#[inline(always)]
+#[must_use]
+pub fn pressure_speed(pressure: f64, inverse_density: f64) -> f64 {
+    (pressure.max(0.0) * inverse_density).sqrt()
+}
 
 /// 2 ν_ab `[m²/s]`: `strength` is k h `[m]`, `speed_sum` √(p_a/ρ0) + √(p_b/ρ0) `[m/s]`.
 #[inline(always)]
@@ -30,4 +34,22 @@ pub fn unexplained<V: Lanes, const D: usize>(
         lanes[i] = velocity_difference[i] - half * dot(&sum_of(&gradient_a[i], &gradient_b[i]), r);
     }
     lanes
+}
+
+/// The same at a wall, whose gradient is that of a: `slip` is β (v_a − v_wall) `[m/s]`. A smooth wall (`smoothness` 1)
+/// resists along its normal only.
+#[inline(always)]
+pub fn unexplained_at_wall<V: Lanes, const D: usize>(
+    slip: &[V; D],
+    gradient_a: &[[V; D]; D],
+    r: &[V; D],
+    normal: &[V; D],
+    smoothness: V,
+) -> [V; D] {
+    let mut unexplained = difference(slip, &product(gradient_a, r));
+    let along_normal = dot(&unexplained, normal);
+    for i in 0..D {
+        unexplained[i] = unexplained[i] + smoothness * (along_normal * normal[i] - unexplained[i]);
+    }
+    unexplained
 }

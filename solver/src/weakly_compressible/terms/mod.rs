@@ -1,8 +1,14 @@
-//! Pair sums: one physical term a file, fused into as few loops as the data flow allows.
+//! The formulas of one physical idea each, for eight pairs or eight particles at once. A term knows neither particles nor
+//! lists nor laws: a pass gives it numbers.
 
 pub mod artificial_viscosity;
-pub(crate) mod continuity;
+pub mod continuity;
 pub mod density_coupling;
 pub mod hourglass;
-pub(crate) mod momentum;
-pub(crate) mod pairwise;
+pub mod kernel_correction;
+pub mod pair_distance;
+pub mod pair_viscosity;
+pub mod pressure_force;
+pub mod stress_divergence;
+pub mod wall_extrapolation;
+pub mod wall_slip;

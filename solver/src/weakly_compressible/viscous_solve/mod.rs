@@ -37,11 +37,12 @@ mod tests;
 
 pub(crate) use system::ViscousSystem;
 
-use crate::lanes::InstructionSet;
+use crate::linear::{Descent, Stalled, descend};
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::Images;
-use crate::weakly_compressible::neighbours::VerletList;
+use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::passes::PairData;
 
 /// Iterations after which a solve is given up.
 pub(crate) const MOST_ITERATIONS: usize = 1000;
@@ -56,12 +57,8 @@ pub(crate) struct NotConverged {
 /// The constants of a step's solve.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ViscousSolve<'a, const D: usize> {
-    pub(crate) list: &'a VerletList,
-    pub(crate) instruction_set: InstructionSet,
-    /// (C_s Δ)² `[m²]` of the eddy viscosity (5).
-    pub(crate) mixing_area: f64,
-    pub(crate) smoothing_length: f64,
-    pub(crate) tolerance: f64,
+    pub(crate) model: &'a Model<D>,
+    pub(crate) pairs: &'a PairData<D>,
     pub(crate) time_step: f64,
 }
 
@@ -76,32 +73,25 @@ impl<const D: usize> ViscousSolve<'_, D> {
         images: &Images<D>,
         system: &mut ViscousSystem<D>,
     ) -> Result<(), NotConverged> {
-        system.resize(particles, self.list.region());
+        system.resize(particles, self.model.list.region());
         self.prepare(particles, system);
-        system.copy_fluxes(images);
+        system.copy_stresses(images);
         self.residual_of_start(particles, system);
         let start = system.sum(|sums| sums.residual);
-        let goal = self.tolerance * self.tolerance * start;
-        let mut residual = start;
-        let mut descent = system.sum(|sums| sums.descent);
-        let mut growth = 0.0;
-        let mut iterations = 0;
-        while residual > goal || residual.is_nan() {
-            if iterations == MOST_ITERATIONS || !residual.is_finite() {
-                system.set_residual((residual / start).sqrt());
-                return Err(NotConverged { worst: system.worst(particles.flow_count()) });
+        let tolerance = self.model.numerics.viscous_tolerance;
+        let flow = particles.flow_count();
+        let solved = descend(
+            &mut Iteration { solve: self, system, images, flow },
+            tolerance * tolerance * start,
+            MOST_ITERATIONS,
+        );
+        match solved {
+            Ok(iterations) => system.count(iterations),
+            Err(Stalled { square }) => {
+                system.set_residual((square / start).sqrt());
+                return Err(NotConverged { worst: system.worst(flow) });
             }
-            self.next_direction(system, particles.flow_count(), growth);
-            self.product(system, particles.flow_count(), images);
-            let curvature = system.sum(|sums| sums.curvature);
-            self.descend(system, descent / curvature);
-            let next = system.sum(|sums| sums.descent);
-            residual = system.sum(|sums| sums.residual);
-            growth = next / descent;
-            descent = next;
-            iterations += 1;
         }
-        system.count(iterations);
         system.write_accelerations(&mut particles.acceleration, self.time_step);
         Ok(())
     }
@@ -109,9 +99,40 @@ impl<const D: usize> ViscousSolve<'_, D> {
     /// (M + Δt K) times the direction.
     fn product(&self, system: &mut ViscousSystem<D>, flow: usize, images: &Images<D>) {
         system.copy_velocities(images);
-        self.fluxes(system, flow);
-        system.copy_fluxes(images);
+        self.stresses(system, flow);
+        system.copy_stresses(images);
         self.divergence(system);
+    }
+}
+
+/// The iteration; its sums are taken on the way, by the passes that make what they add up.
+struct Iteration<'a, const D: usize> {
+    solve: &'a ViscousSolve<'a, D>,
+    system: &'a mut ViscousSystem<D>,
+    images: &'a Images<D>,
+    flow: usize,
+}
+
+impl<const D: usize> Descent for Iteration<'_, D> {
+    fn square(&mut self) -> f64 {
+        self.system.sum(|sums| sums.residual)
+    }
+
+    fn descent(&mut self) -> f64 {
+        self.system.sum(|sums| sums.descent)
+    }
+
+    fn turn(&mut self, growth: f64) {
+        self.solve.next_direction(self.system, self.flow, growth);
+    }
+
+    fn curvature(&mut self) -> f64 {
+        self.solve.product(self.system, self.flow, self.images);
+        self.system.sum(|sums| sums.curvature)
+    }
+
+    fn advance(&mut self, step: f64) {
+        self.solve.descend(self.system, step);
     }
 }
 

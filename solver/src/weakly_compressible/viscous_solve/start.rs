@@ -1,33 +1,34 @@
 //! The two passes before the iteration: all that stays over a solve, then the diagonal and the first residual.
 
 use super::ViscousSolve;
-use super::system::{Coefficients, GROUPS, LaneVector, Sums, Unknowns, ViscousSystem};
+use super::system::{BlockSums, Coefficients, GROUPS, LaneVector, Unknowns, ViscousSystem};
 use super::update::{add_lanes, load_columns, store_columns, store_record};
 use crate::lanes::algebra::{
     accumulate, deviatoric_rate, difference, dot, invariant, load, load_tensor, load_vector, product, scaled_tensor,
     zero_vector,
 };
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
+use crate::material::turbulence::dynamic_eddy_viscosity;
 use crate::weakly_compressible::neighbours::BLOCK;
-use crate::weakly_compressible::operators::geometry;
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::records::{self, Records};
-use crate::weakly_compressible::terms::hourglass::WALL_FACTOR_LIMIT;
+use crate::weakly_compressible::passes::geometry;
+use crate::weakly_compressible::passes::records::{self, Records};
+use crate::weakly_compressible::terms::wall_slip;
 use rayon::prelude::*;
 
 impl<const D: usize> ViscousSolve<'_, D> {
-    /// Pair vectors, coefficients, and what the diagonal needs of a neighbour in the place of its flux.
+    /// Pair vectors, coefficients, and what the diagonal needs of a neighbour in the place of its stress.
     pub(super) fn prepare(&self, particles: &Particles<D>, system: &mut ViscousSystem<D>) {
         (
             system.coefficients.par_chunks_mut(GROUPS),
-            system.pair_vectors.par_chunks_mut(self.list.region()),
-            system.fluxes.blocks_mut(particles.flow_count(), BLOCK),
+            system.pair_vectors.par_chunks_mut(self.model.list.region()),
+            system.stresses.blocks_mut(particles.flow_count(), BLOCK),
         )
             .into_par_iter()
             .enumerate()
             .with_min_len(4)
             .for_each(|(block, (coefficients, pair_vectors, stiffnesses))| {
-                self.instruction_set.run(CoefficientPass {
+                self.model.instruction_set.run(CoefficientPass {
                     constants: self,
                     particles,
                     block,
@@ -40,13 +41,13 @@ impl<const D: usize> ViscousSolve<'_, D> {
 
     /// Diagonal and residual; the increment starts from zero.
     pub(super) fn residual_of_start(&self, particles: &Particles<D>, system: &mut ViscousSystem<D>) {
-        let (stiffnesses, pair_vectors) = (&system.fluxes, &system.pair_vectors);
+        let (stiffnesses, pair_vectors) = (&system.stresses, &system.pair_vectors);
         (system.coefficients.par_chunks_mut(GROUPS), system.unknowns.par_chunks_mut(GROUPS), &mut system.sums)
             .into_par_iter()
             .enumerate()
             .with_min_len(4)
             .for_each(|(block, (coefficients, unknowns, sums))| {
-                self.instruction_set.run(ResidualPass {
+                self.model.instruction_set.run(ResidualPass {
                     constants: self,
                     particles,
                     stiffnesses,
@@ -74,21 +75,22 @@ impl<const D: usize> LanePass for CoefficientPass<'_, D> {
     fn run<V: Lanes>(self) {
         let Self { constants, particles, block, coefficients, pair_vectors, stiffnesses } = self;
         let places = const { geometry::values(D).div_ceil(4) };
-        let region_start = block * constants.list.region();
+        let region_start = block * constants.model.list.region();
         let quads = const { (D * D).div_ceil(4) };
-        let nearest = V::splat(1e-6 * constants.smoothing_length);
+        let smoothing_length = constants.model.kernel.smoothing_length();
+        let mixing_area = constants.model.mixing_area();
         let out = stiffnesses.chunks_mut(LANES * quads);
         for (offset, (coefficients, stiffnesses)) in coefficients.iter_mut().zip(out).enumerate() {
-            let group = constants.list.group(block * GROUPS + offset);
-            let own = particles.geometry_records.load::<V>(places, &group.own);
+            let group = constants.model.list.group(block * GROUPS + offset);
+            let own = constants.pairs.geometry.load::<V>(places, &group.own);
             let place = records::vector::<V, D>(&own, 0);
             let volume = records::scalar(&own, D);
             let mut closure = zero_vector::<V, D>();
-            let weights = &particles.pair_weights[group.first_pair..];
+            let weights = &constants.pairs.weights[group.first_pair..];
             let (flow_weights, wall_weights) = weights.split_at(group.flow.len());
             let stored = &mut pair_vectors[group.first_pair - region_start..];
             for ((b, weight), stored) in group.flow.zip(flow_weights).zip(stored) {
-                let record = particles.geometry_records.load_start::<V>(places, const { D.div_ceil(4) }, &b);
+                let record = constants.pairs.geometry.load_start::<V>(places, const { D.div_ceil(4) }, &b);
                 let position = records::vector::<V, D>(&record, 0);
                 let mut pair = difference(&place, &position);
                 for i in 0..D {
@@ -98,14 +100,12 @@ impl<const D: usize> LanePass for CoefficientPass<'_, D> {
                 accumulate(&mut closure, V::splat(1.0), &pair);
             }
             for (w, weight) in group.wall.zip(wall_weights) {
-                let record = particles.geometry_records.load_start::<V>(places, const { D.div_ceil(4) }, &w);
+                let record = constants.pairs.geometry.load_start::<V>(places, const { D.div_ceil(4) }, &w);
                 let position = records::vector::<V, D>(&record, 0);
                 let normal = gather_vectors::<V, D>(&particles.wall_normal, &w);
                 let depth: V = gather(&particles.wall_depth, &w);
                 let r = difference(&place, &position);
-                // (20); the distance of a to the surface is n·r − d_w
-                let distance = (dot(&normal, &r) - depth).max(nearest);
-                let factor = (V::splat(1.0) + depth / distance).min(V::splat(WALL_FACTOR_LIMIT));
+                let factor = wall_slip::factor(&r, &normal, depth, smoothing_length, wall_slip::LIMIT);
                 // a smooth wall has no traction along it, and across it the pressure alone
                 let smoothness: V = gather(&particles.wall_smoothness, &w);
                 accumulate(&mut closure, V::load(weight) * factor * (V::splat(1.0) - smoothness), &r);
@@ -114,10 +114,10 @@ impl<const D: usize> LanePass for CoefficientPass<'_, D> {
             let last = (first + LANES).min(particles.flow_count());
             let correction = load_tensor::<V, D>(&particles.correction[first..last]);
             let mut viscosity = load::<V>(&particles.viscosity[first..last]);
-            if constants.mixing_area > 0.0 {
+            if mixing_area > 0.0 {
                 let rate = deviatoric_rate(&load_tensor::<V, D>(&particles.velocity_gradient[first..last]));
                 let density = load::<V>(&particles.density[first..last]);
-                viscosity = viscosity + density * V::splat(constants.mixing_area) * invariant(2.0, &rate);
+                viscosity = viscosity + dynamic_eddy_viscosity(density, mixing_area, invariant(2.0, &rate));
             }
             let stiffness = (viscosity / volume).sqrt();
             store_record(&scaled_tensor(stiffness, &correction), stiffnesses);
@@ -141,7 +141,7 @@ struct ResidualPass<'a, const D: usize> {
     block: usize,
     coefficients: &'a mut [Coefficients<D>],
     unknowns: &'a mut [Unknowns<D>],
-    sums: &'a mut Sums,
+    sums: &'a mut BlockSums,
 }
 
 impl<const D: usize> LanePass for ResidualPass<'_, D> {
@@ -151,7 +151,7 @@ impl<const D: usize> LanePass for ResidualPass<'_, D> {
         let quads = const { (D * D).div_ceil(4) };
         let (mut residual_sum, mut descent) = (V::splat(0.0), V::splat(0.0));
         for (offset, (coefficients, unknowns)) in coefficients.iter_mut().zip(unknowns).enumerate() {
-            let group = constants.list.group(block * GROUPS + offset);
+            let group = constants.model.list.group(block * GROUPS + offset);
             let mut stiffness_sum = V::splat(0.0);
             for (b, pair) in group.flow.zip(&pair_vectors[group.first_pair..]) {
                 let stiffness = records::tensor::<V, D>(&stiffnesses.load::<V>(quads, &b), 0);
@@ -186,6 +186,6 @@ impl<const D: usize> LanePass for ResidualPass<'_, D> {
             unknowns.increment = [[0.0; LANES]; D];
             unknowns.direction = [[0.0; LANES]; D];
         }
-        *sums = Sums { residual: add_lanes(residual_sum), descent: add_lanes(descent), curvature: 0.0 };
+        *sums = BlockSums { residual: add_lanes(residual_sum), descent: add_lanes(descent), curvature: 0.0 };
     }
 }

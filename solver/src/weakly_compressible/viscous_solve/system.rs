@@ -7,7 +7,7 @@ use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::boundary::Images;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::records::Records;
+use crate::weakly_compressible::passes::records::Records;
 
 /// Groups a block of the parallel loops.
 pub(super) const GROUPS: usize = BLOCK / LANES;
@@ -48,7 +48,7 @@ pub(super) struct Unknowns<const D: usize> {
 /// Sums over a block of [`BLOCK`] particles: each lane adds up its particles, then the lanes are added in order, and
 /// last the blocks, so that the bits depend neither on the threads nor on the instruction set.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Sums {
+pub(super) struct BlockSums {
     /// Σ r²/m `[kg m²/s²]`.
     pub(super) residual: f64,
     /// r·D⁻¹r.
@@ -67,8 +67,8 @@ pub(crate) struct ViscousSystem<const D: usize> {
     /// Velocity, or search direction, of every particle.
     pub(super) velocities: Records,
     /// s L of every flow particle and image; before the iteration √(η/V) L, for the diagonal.
-    pub(super) fluxes: Records,
-    pub(super) sums: Vec<Sums>,
+    pub(super) stresses: Records,
+    pub(super) sums: Vec<BlockSums>,
     iterations: u64,
     residual: f64,
 }
@@ -80,7 +80,7 @@ impl<const D: usize> ViscousSystem<D> {
             unknowns: Vec::new(),
             pair_vectors: Vec::new(),
             velocities: Records::new(D),
-            fluxes: Records::new(D * D),
+            stresses: Records::new(D * D),
             sums: Vec::new(),
             iterations: 0,
             residual: 0.0,
@@ -120,9 +120,9 @@ impl<const D: usize> ViscousSystem<D> {
         let unknowns = Unknowns { increment: zero, residual: zero, direction: zero, product: zero };
         self.coefficients.resize(flow.div_ceil(LANES), coefficients);
         self.unknowns.resize(flow.div_ceil(LANES), unknowns);
-        self.sums.resize(flow.div_ceil(BLOCK), Sums::default());
+        self.sums.resize(flow.div_ceil(BLOCK), BlockSums::default());
         self.pair_vectors.resize(flow.div_ceil(BLOCK) * region, zero);
-        for records in [&mut self.velocities, &mut self.fluxes] {
+        for records in [&mut self.velocities, &mut self.stresses] {
             records.resize(all);
         }
     }
@@ -134,13 +134,13 @@ impl<const D: usize> ViscousSystem<D> {
         }
     }
 
-    /// Copies fluxes to the images.
-    pub(super) fn copy_fluxes(&mut self, images: &Images<D>) {
-        copy_tensors(&mut self.fluxes, images);
+    /// Copies stresses to the images.
+    pub(super) fn copy_stresses(&mut self, images: &Images<D>) {
+        copy_tensors(&mut self.stresses, images);
     }
 
     /// A sum over all blocks, in order.
-    pub(super) fn sum(&self, part: impl Fn(&Sums) -> f64) -> f64 {
+    pub(super) fn sum(&self, part: impl Fn(&BlockSums) -> f64) -> f64 {
         let mut sum = 0.0;
         for block in &self.sums {
             sum += part(block);

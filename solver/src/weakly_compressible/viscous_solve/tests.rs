@@ -1,14 +1,15 @@
-use super::{NotConverged, ViscousSystem};
+use super::{MOST_ITERATIONS, NotConverged, ViscousSolve, ViscousSystem};
 use crate::domain::{AxisBoundary, Domain};
 use crate::lanes::LANES;
 use crate::material::equation_of_state::{EquationOfState, Tension};
 use crate::material::rheology::{Bingham, Rheology};
-use crate::run::divergence::Quantity;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::boundary::{Wall, wall};
+use crate::weakly_compressible::divergence::Quantity;
 use crate::weakly_compressible::numerics::{Numerics, ViscousStep};
 use crate::weakly_compressible::scene::{Flow, Scene};
 use crate::weakly_compressible::simulation::{Compiled, Simulation};
+use crate::weakly_compressible::state::State;
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -25,13 +26,7 @@ fn symmetric(random: &mut Pcg64Mcg) -> f64 {
 }
 
 /// A moving patch of varying density and viscosity; `bed` puts it on a wall normal to the last axis.
-fn patch<const D: usize>(
-    cells: [usize; D],
-    axes: [AxisBoundary; D],
-    bed: bool,
-    jitter: f64,
-    tolerance: f64,
-) -> Simulation<D>
+fn patch<const D: usize>(cells: [usize; D], axes: [AxisBoundary; D], bed: bool, jitter: f64, tolerance: f64) -> State<D>
 where
     Simulation<D>: Compiled<D>,
 {
@@ -66,6 +61,7 @@ where
         numerics: Numerics { viscous_step: ViscousStep::Implicit, viscous_tolerance: tolerance, ..Numerics::default() },
     })
     .expect("a valid scene")
+    .state
 }
 
 fn periodic(cells: usize) -> AxisBoundary {
@@ -77,23 +73,19 @@ fn mirrors(cells: usize) -> AxisBoundary {
 }
 
 /// The coefficients of the system at the patch's state.
-fn system<const D: usize>(patch: &Simulation<D>) -> ViscousSystem<D> {
-    let solve = patch.model.viscous_solve(TIME_STEP);
+fn system<const D: usize>(patch: &State<D>) -> ViscousSystem<D> {
+    let solve = ViscousSolve { model: &patch.model, pairs: &patch.pairs, time_step: TIME_STEP };
     let mut system = ViscousSystem::new();
     system.resize(&patch.particles, patch.model.list.region());
     solve.prepare(&patch.particles, &mut system);
-    system.copy_fluxes(&patch.images);
+    system.copy_stresses(&patch.images);
     solve.residual_of_start(&patch.particles, &mut system);
     system
 }
 
 /// (M + Δt K) times a vector.
-fn product<const D: usize>(
-    patch: &Simulation<D>,
-    system: &mut ViscousSystem<D>,
-    vector: &[Vector<D>],
-) -> Vec<Vector<D>> {
-    let solve = patch.model.viscous_solve(TIME_STEP);
+fn product<const D: usize>(patch: &State<D>, system: &mut ViscousSystem<D>, vector: &[Vector<D>]) -> Vec<Vector<D>> {
+    let solve = ViscousSolve { model: &patch.model, pairs: &patch.pairs, time_step: TIME_STEP };
     for (index, value) in vector.iter().enumerate() {
         for i in 0..D {
             system.unknowns[index / LANES].direction[i][index % LANES] = value[i];
@@ -114,11 +106,11 @@ fn scalar_product<const D: usize>(a: &[Vector<D>], b: &[Vector<D>]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
 }
 
-fn momentum<const D: usize>(patch: &Simulation<D>, vector: &[Vector<D>]) -> Vec<Vector<D>> {
+fn momentum<const D: usize>(patch: &State<D>, vector: &[Vector<D>]) -> Vec<Vector<D>> {
     vector.iter().zip(&patch.particles.mass).map(|(v, m)| v * *m).collect()
 }
 
-fn check_symmetry<const D: usize>(patch: &Simulation<D>) {
+fn check_symmetry<const D: usize>(patch: &State<D>) {
     let mut system = system(patch);
     let count = patch.particles.flow_count();
     for seed in 0..4 {
@@ -155,7 +147,7 @@ fn the_operator_has_no_negative_direction() {
 }
 
 /// M + Δt K, column by column.
-fn assembled(patch: &Simulation<2>) -> DMatrix<f64> {
+fn assembled(patch: &State<2>) -> DMatrix<f64> {
     let mut system = system(patch);
     let count = patch.particles.flow_count();
     let mut matrix = DMatrix::zeros(2 * count, 2 * count);
@@ -194,19 +186,19 @@ fn the_solve_agrees_with_a_dense_one() {
     let expected = assembled(&patch).cholesky().expect("a positive matrix").solve(&right);
     let largest = expected.amax();
     patch.particles.acceleration.copy_from_slice(&accelerations);
-    let solve = patch.model.viscous_solve(TIME_STEP);
+    let solve = ViscousSolve { model: &patch.model, pairs: &patch.pairs, time_step: TIME_STEP };
     solve.run(&mut patch.particles, &patch.images, &mut patch.viscous).expect("a solution");
     for (index, found) in patch.particles.acceleration.iter().enumerate() {
         let expected = Vector::<2>::new(expected[2 * index], expected[2 * index + 1]);
         assert!((found - expected).norm() < 1e-7 * largest, "{found} and {expected}");
         assert!((found - accelerations[index]).norm() > 1e-3, "the viscosity acts");
     }
-    assert!((10..400).contains(&patch.viscous_iterations()));
+    assert!((10..400).contains(&patch.viscous.iterations()));
 }
 
 #[test]
 fn the_viscous_forces_add_up_to_none_and_leave_a_translation_alone() {
-    fn check<const D: usize>(patch: &Simulation<D>) {
+    fn check<const D: usize>(patch: &State<D>) {
         let mut system = system(patch);
         let count = patch.particles.flow_count();
         let forces = |system: &mut _, u: &[Vector<D>]| -> Vec<_> {
@@ -243,10 +235,11 @@ fn a_force_that_is_no_number_is_refused_with_its_particle() {
     let mut patch = patch([7, 6], [mirrors(7), AxisBoundary::Open], true, 0.2, 0.1);
     patch.particles.acceleration.fill(Vector::zeros());
     patch.particles.acceleration[11][1] = f64::NAN;
-    let solve = patch.model.viscous_solve(TIME_STEP);
+    let solve = ViscousSolve { model: &patch.model, pairs: &patch.pairs, time_step: TIME_STEP };
     let found = solve.run(&mut patch.particles, &patch.images, &mut patch.viscous);
     assert_eq!(found, Err(NotConverged { worst: 11 }));
-    let divergence = patch.divergence(11, Quantity::ViscousResidual);
+    let quantity = Quantity::ViscousResidual { tolerance: 0.1, most_iterations: MOST_ITERATIONS };
+    let divergence = patch.divergence(11, quantity, patch.viscous.residual());
     assert_eq!(divergence.particle, patch.particles.identity[11]);
     assert!(divergence.value.is_nan() && divergence.to_string().contains("`viscous_tolerance`"), "{divergence}");
 }

@@ -1,13 +1,13 @@
-//! The passes of an iteration: search direction, fluxes of the direction, their divergence, and the descent.
+//! The passes of an iteration: search direction, stresses of the direction, their divergence, and the descent.
 
 use super::ViscousSolve;
-use super::system::{Coefficients, GROUPS, LaneVector, Sums, Unknowns, ViscousSystem};
+use super::system::{BlockSums, Coefficients, GROUPS, LaneVector, Unknowns, ViscousSystem};
 use crate::lanes::algebra::{
     accumulate, accumulate_outer, deviatoric_rate, matrix_product, product, scaled_tensor, zero_tensor, zero_vector,
 };
 use crate::lanes::{LANES, LanePass, Lanes};
-use crate::weakly_compressible::neighbours::{BLOCK, Group};
-use crate::weakly_compressible::records::{self, Records};
+use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
+use crate::weakly_compressible::passes::records::{self, Records};
 use rayon::prelude::*;
 
 impl<const D: usize> ViscousSolve<'_, D> {
@@ -20,34 +20,34 @@ impl<const D: usize> ViscousSolve<'_, D> {
             .with_min_len(16)
             .for_each(|(block, (unknowns, velocities))| {
                 let coefficients = &coefficients[block * GROUPS..];
-                self.instruction_set.run(DirectionPass { coefficients, unknowns, velocities, growth });
+                self.model.instruction_set.run(DirectionPass { coefficients, unknowns, velocities, growth });
             });
     }
 
     /// s L of the direction.
-    pub(super) fn fluxes(&self, system: &mut ViscousSystem<D>, flow: usize) {
-        let ViscousSystem { coefficients, velocities, pair_vectors, fluxes, .. } = system;
-        fluxes.blocks_mut(flow, BLOCK).enumerate().with_min_len(4).for_each(|(block, fluxes)| {
-            self.instruction_set.run(FluxPass {
+    pub(super) fn stresses(&self, system: &mut ViscousSystem<D>, flow: usize) {
+        let ViscousSystem { coefficients, velocities, pair_vectors, stresses, .. } = system;
+        stresses.blocks_mut(flow, BLOCK).enumerate().with_min_len(4).for_each(|(block, stresses)| {
+            self.model.instruction_set.run(StressPass {
                 constants: self,
                 coefficients: &coefficients[block * GROUPS..],
                 velocities,
                 pair_vectors,
                 block,
-                fluxes,
+                stresses,
             });
         });
     }
 
     /// (M + Δt K) p and p·(M + Δt K) p.
     pub(super) fn divergence(&self, system: &mut ViscousSystem<D>) {
-        let ViscousSystem { coefficients, unknowns, pair_vectors, fluxes, sums, .. } = system;
+        let ViscousSystem { coefficients, unknowns, pair_vectors, stresses, sums, .. } = system;
         (unknowns.par_chunks_mut(GROUPS), sums).into_par_iter().enumerate().with_min_len(4).for_each(
             |(block, (unknowns, sums))| {
-                self.instruction_set.run(DivergencePass {
+                self.model.instruction_set.run(DivergencePass {
                     constants: self,
                     coefficients: &coefficients[block * GROUPS..],
-                    fluxes,
+                    stresses,
                     pair_vectors,
                     block,
                     unknowns,
@@ -66,7 +66,7 @@ impl<const D: usize> ViscousSolve<'_, D> {
             .with_min_len(16)
             .for_each(|(block, (unknowns, sums))| {
                 let coefficients = &coefficients[block * GROUPS..];
-                self.instruction_set.run(DescentPass { coefficients, unknowns, step, sums });
+                self.model.instruction_set.run(DescentPass { coefficients, unknowns, step, sums });
             });
     }
 }
@@ -116,16 +116,16 @@ pub(super) fn store_record<V: Lanes, const D: usize>(tensor: &[[V; D]; D], out: 
     }
 }
 
-/// Fluxes of a group's own particles.
+/// Stresses of a group's own particles.
 #[inline(always)]
-fn flux_of<V: Lanes, const D: usize>(fluxes: &Records, group: &Group<'_>) -> [[V; D]; D] {
-    records::tensor(&fluxes.load::<V>(const { (D * D).div_ceil(4) }, &group.own), 0)
+fn stress_of<V: Lanes, const D: usize>(stresses: &Records, group: &NeighbourGroup<'_>) -> [[V; D]; D] {
+    records::tensor(&stresses.load::<V>(const { (D * D).div_ceil(4) }, &group.own), 0)
 }
 
 /// s_a L_a (Σ w r + Σ_w w β r).
 #[inline(always)]
-fn own_part<V: Lanes, const D: usize>(flux: &[[V; D]; D], closure: &LaneVector<D>) -> [V; D] {
-    product(flux, &load_columns(closure))
+fn own_part<V: Lanes, const D: usize>(stress: &[[V; D]; D], closure: &LaneVector<D>) -> [V; D] {
+    product(stress, &load_columns(closure))
 }
 
 struct DirectionPass<'a, const D: usize> {
@@ -151,22 +151,23 @@ impl<const D: usize> LanePass for DirectionPass<'_, D> {
     }
 }
 
-struct FluxPass<'a, const D: usize> {
+struct StressPass<'a, const D: usize> {
     constants: &'a ViscousSolve<'a, D>,
     coefficients: &'a [Coefficients<D>],
     velocities: &'a Records,
     pair_vectors: &'a [LaneVector<D>],
     block: usize,
-    fluxes: &'a mut [[f64; 4]],
+    stresses: &'a mut [[f64; 4]],
 }
 
-impl<const D: usize> LanePass for FluxPass<'_, D> {
+impl<const D: usize> LanePass for StressPass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { constants, coefficients, velocities, pair_vectors, block, fluxes } = self;
+        let Self { constants, coefficients, velocities, pair_vectors, block, stresses } = self;
         let records_of_group = const { LANES * (D * D).div_ceil(4) };
-        for (offset, (coefficients, out)) in coefficients.iter().zip(fluxes.chunks_mut(records_of_group)).enumerate() {
-            let group = constants.list.group(block * GROUPS + offset);
+        for (offset, (coefficients, out)) in coefficients.iter().zip(stresses.chunks_mut(records_of_group)).enumerate()
+        {
+            let group = constants.model.list.group(block * GROUPS + offset);
             let own = records::vector::<V, D>(&velocities.load::<V>(1, &group.own), 0);
             let mut gradient = zero_tensor::<V, D>();
             for (b, pair) in group.flow.zip(&pair_vectors[group.first_pair..]) {
@@ -189,24 +190,24 @@ impl<const D: usize> LanePass for FluxPass<'_, D> {
 struct DivergencePass<'a, const D: usize> {
     constants: &'a ViscousSolve<'a, D>,
     coefficients: &'a [Coefficients<D>],
-    fluxes: &'a Records,
+    stresses: &'a Records,
     pair_vectors: &'a [LaneVector<D>],
     block: usize,
     unknowns: &'a mut [Unknowns<D>],
-    sums: &'a mut Sums,
+    sums: &'a mut BlockSums,
 }
 
 impl<const D: usize> LanePass for DivergencePass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { constants, coefficients, fluxes, pair_vectors, block, unknowns, sums } = self;
+        let Self { constants, coefficients, stresses, pair_vectors, block, unknowns, sums } = self;
         let mut curvature = V::splat(0.0);
         for (offset, (coefficients, unknowns)) in coefficients.iter().zip(unknowns).enumerate() {
-            let group = constants.list.group(block * GROUPS + offset);
-            let mut force = own_part(&flux_of(fluxes, &group), &coefficients.closure);
+            let group = constants.model.list.group(block * GROUPS + offset);
+            let mut force = own_part(&stress_of(stresses, &group), &coefficients.closure);
             for (b, pair) in group.flow.zip(&pair_vectors[group.first_pair..]) {
-                let flux = records::tensor::<V, D>(&fluxes.load::<V>(const { (D * D).div_ceil(4) }, &b), 0);
-                accumulate(&mut force, V::splat(1.0), &product(&flux, &load_columns(pair)));
+                let stress = records::tensor::<V, D>(&stresses.load::<V>(const { (D * D).div_ceil(4) }, &b), 0);
+                accumulate(&mut force, V::splat(1.0), &product(&stress, &load_columns(pair)));
             }
             let (mass, volume) = (V::load(&coefficients.mass), V::load(&coefficients.impulse_volume));
             for i in 0..D {
@@ -224,7 +225,7 @@ struct DescentPass<'a, const D: usize> {
     coefficients: &'a [Coefficients<D>],
     unknowns: &'a mut [Unknowns<D>],
     step: f64,
-    sums: &'a mut Sums,
+    sums: &'a mut BlockSums,
 }
 
 impl<const D: usize> LanePass for DescentPass<'_, D> {

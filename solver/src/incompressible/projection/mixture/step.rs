@@ -7,7 +7,7 @@
 //! implicit velocities begin with the push of the last step's pressure, which is taken back before the new one is sought.
 
 use super::{Mixture, Operators};
-use crate::incompressible::failure::Failure;
+use crate::incompressible::divergence::Failure;
 use crate::incompressible::neighbours::Periods;
 use crate::incompressible::numerics::MeanFlux;
 use crate::incompressible::passes::drag_exchange::DragExchange;

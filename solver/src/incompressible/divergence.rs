@@ -1,0 +1,71 @@
+//! What can leave its range in an incompressible run, and the rules. A failed step, as the passes see it, is a row of the
+//! velocity system and such a quantity, without a place and a time.
+
+use super::numerics::MOST_ITERATIONS;
+
+/// The quantity that left its range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Quantity {
+    /// Residual of the implicit velocities over its right-hand side.
+    VelocityResidual,
+    /// Residual of the pressure Poisson equation over its right-hand side.
+    PressureResidual,
+    /// Way of a particle in one step, in spacings, or not a number.
+    Displacement,
+    /// Reynolds number of a grain outside the range of its drag law.
+    Reynolds,
+}
+
+impl Quantity {
+    /// Its name in messages.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::VelocityResidual => "implicit velocity",
+            Self::PressureResidual => "pressure Poisson equation",
+            Self::Displacement => "way in one step",
+            Self::Reynolds => "Reynolds number",
+        }
+    }
+
+    /// Its unit, or what is counted.
+    pub(super) fn unit(self) -> &'static str {
+        match self {
+            Self::VelocityResidual | Self::PressureResidual => "(residual over its right-hand side)",
+            Self::Displacement => "spacings",
+            Self::Reynolds => "of a grain",
+        }
+    }
+
+    /// The rule that it broke, as it follows the value in a message; `limit` is the largest value allowed.
+    pub(super) fn rule(self, limit: f64) -> String {
+        match self {
+            Self::VelocityResidual | Self::PressureResidual => {
+                format!(" after at most {MOST_ITERATIONS} iterations, above the tolerance of {limit:.1e}")
+            }
+            Self::Displacement => {
+                ", above the 1 that the model allows; the run needs a smaller time step, or its choice of operators is \
+                                   unstable"
+                    .to_owned()
+            }
+            Self::Reynolds => format!(", above the {limit:.4e} at which its drag law ends"),
+        }
+    }
+}
+
+/// What left its range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Failure {
+    /// Row of the velocity system: the fluid's free particles first, then the sediment's.
+    pub(super) row: usize,
+    pub(super) quantity: Quantity,
+    pub(super) value: f64,
+    /// Largest value allowed.
+    pub(super) limit: f64,
+}
+
+impl Failure {
+    /// A particle that would move by more than its spacing in a step, or by no number, in spacings `[-]`.
+    pub(super) fn displacement(row: usize, spacings: f64) -> Self {
+        Self { row, quantity: Quantity::Displacement, value: spacings, limit: 1.0 }
+    }
+}

@@ -1,0 +1,172 @@
+//! Laws of a user's own crate, in f64 and boxed: slower than the built-in ones, which are compiled for lanes.
+//!
+//! ```
+//! use bagnold_solver::material::rheology::open::{OpenLaw, Parameters, RegistrationError, register};
+//! use bagnold_solver::material::rheology::{Rheology, ViscousLaw};
+//!
+//! #[derive(Debug, serde::Deserialize)]
+//! #[serde(deny_unknown_fields)]
+//! struct PowerLaw {
+//!     consistency: f64,
+//!     flow_index: f64,
+//! }
+//!
+//! impl ViscousLaw for PowerLaw {
+//!     fn viscosity(&self, shear_rate: f64, _pressure: f64) -> f64 {
+//!         self.consistency * shear_rate.max(0.01).powf(self.flow_index - 1.0)
+//!     }
+//!     fn largest_viscosity(&self, pressure: f64) -> f64 {
+//!         self.viscosity(0.0, pressure)
+//!     }
+//! }
+//!
+//! register("power-law", |parameters: &Parameters| Ok(OpenLaw::viscous(parameters.read::<PowerLaw>()?)))?;
+//! let law = Rheology::open("power-law", &[("consistency", 2.0), ("flow_index", 0.5)])?;
+//! assert_eq!(law.viscosity(4.0, 0.0), 1.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! From then on `law = "power-law"` finds it wherever a [`Rheology`] is read.
+
+mod registry;
+mod table;
+
+#[cfg(test)]
+mod tests;
+
+pub use registry::{Maker, OpenLawError, RegistrationError, register, registered};
+pub use table::Parameters;
+pub(super) use table::Written;
+
+use super::{PlasticLaw, TrialStress, ViscousLaw};
+use crate::lanes::Real;
+use std::fmt::Debug;
+
+/// A plastic law in f64: what [`PlasticLaw`] asks for, with the same meaning.
+pub trait OpenPlasticLaw: Debug + Send + Sync {
+    /// Equivalent shear stress `[Pa]` at the end of a time step: the trial up to the yield stress.
+    fn admissible_shear_stress(&self, trial: &TrialStress<f64>) -> f64;
+
+    /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]`; 0 without pressure.
+    fn yield_stress(&self, pressure: f64) -> f64;
+
+    /// Apparent viscosity τ/|γ̇| `[Pa·s]` of the steady flow at a shear rate `[1/s]` and a pressure `[Pa]`; finite also
+    /// at rest.
+    fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64;
+
+    /// Friction coefficient `[-]` of a contact with a rough wall: that of the yield stress.
+    fn contact_friction(&self) -> f64 {
+        self.yield_stress(1.0)
+    }
+}
+
+/// A viscous law that can be shared between threads.
+trait OpenViscousLaw: ViscousLaw + Debug + Send + Sync {}
+
+impl<L: ViscousLaw + Debug + Send + Sync> OpenViscousLaw for L {}
+
+/// A law of a user's own crate, of one of the two kinds.
+#[derive(Debug)]
+pub struct OpenLaw(Kind);
+
+#[derive(Debug)]
+enum Kind {
+    Viscous(Box<dyn OpenViscousLaw>),
+    Plastic(Box<dyn OpenPlasticLaw>),
+}
+
+impl OpenLaw {
+    /// A law whose stress follows from the present strain rate alone.
+    pub fn viscous(law: impl ViscousLaw + Debug + Send + Sync + 'static) -> Self {
+        Self(Kind::Viscous(Box::new(law)))
+    }
+
+    /// A law that carries the stress along.
+    pub fn plastic(law: impl OpenPlasticLaw + 'static) -> Self {
+        Self(Kind::Plastic(Box::new(law)))
+    }
+}
+
+/// A law with its name and its parameters, made once for the life of the program.
+#[derive(Debug)]
+struct Instance<L: ?Sized + 'static> {
+    name: &'static str,
+    parameters: Parameters,
+    law: Box<L>,
+}
+
+macro_rules! open_law {
+    ($(#[$doc:meta])* $name:ident, $law:ident) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy)]
+        pub struct $name(&'static Instance<dyn $law>);
+
+        impl $name {
+            /// The name that its `law` key has.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                self.0.name
+            }
+
+            /// Its parameters.
+            #[must_use]
+            pub fn parameters(self) -> &'static Parameters {
+                &self.0.parameters
+            }
+
+            pub(super) fn written(self) -> Written {
+                Written { name: self.0.name, parameters: &self.0.parameters }
+            }
+        }
+
+        impl PartialEq for $name {
+            fn eq(&self, other: &Self) -> bool {
+                self.0.name == other.0.name && self.0.parameters == other.0.parameters
+            }
+        }
+    };
+}
+
+open_law! {
+    /// A registered viscous law with its parameters.
+    OpenViscous, OpenViscousLaw
+}
+open_law! {
+    /// A registered plastic law with its parameters.
+    OpenPlastic, OpenPlasticLaw
+}
+
+impl ViscousLaw for OpenViscous {
+    fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64 {
+        self.0.law.viscosity(shear_rate, pressure)
+    }
+
+    fn largest_viscosity(&self, pressure: f64) -> f64 {
+        self.0.law.largest_viscosity(pressure)
+    }
+
+    fn contact_friction(&self) -> f64 {
+        self.0.law.contact_friction()
+    }
+}
+
+impl PlasticLaw for OpenPlastic {
+    fn admissible_shear_stress<R: Real>(&self, trial: &TrialStress<R>) -> R {
+        let &TrialStress { shear_modulus, time_step, .. } = trial;
+        R::lane_by_lane([trial.shear_stress, trial.pressure], &|[shear_stress, pressure]| {
+            self.0.law.admissible_shear_stress(&TrialStress::new(shear_stress, pressure, shear_modulus, time_step))
+        })
+    }
+
+    fn yield_stress<R: Real>(&self, pressure: R) -> R {
+        R::lane_by_lane([pressure], &|[pressure]| self.0.law.yield_stress(pressure))
+    }
+
+    fn contact_friction(&self) -> f64 {
+        self.0.law.contact_friction()
+    }
+
+    fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64 {
+        self.0.law.viscosity(shear_rate, pressure)
+    }
+}

@@ -1,0 +1,72 @@
+//! What can leave its range in a weakly compressible run, and the rules.
+
+/// A speed beyond this many sound speeds is a divergence `[-]`: weak compressibility has long been lost.
+pub(crate) const LARGEST_MACH_NUMBER: f64 = 3.0;
+/// Range of ρ/ρ0 beyond which a run has diverged `[-]`: dry grains may fly apart, nothing may be crushed.
+pub(crate) const DENSITY_RANGE: (f64, f64) = (0.02, 2.0);
+
+/// The quantity that left its range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Quantity {
+    /// Speed above three sound speeds `[m/s]`, or not a number.
+    Speed {
+        /// Three sound speeds `[m/s]`.
+        limit: f64,
+    },
+    /// Density below 0.02 or above 2 reference densities, or not a number.
+    Density {
+        /// Smallest and largest that are allowed `[kg/m³]`.
+        limits: (f64, f64),
+    },
+    /// More neighbours than a list row can hold.
+    Neighbours {
+        /// As many as it can hold.
+        limit: usize,
+    },
+    /// Residual of an implicit viscous step over its start; the particle is the one with the largest.
+    ViscousResidual {
+        /// `viscous_tolerance` `[-]`.
+        tolerance: f64,
+        /// Iterations after which a solve is given up.
+        most_iterations: usize,
+    },
+}
+
+impl Quantity {
+    /// Its name in messages.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Speed { .. } => "speed",
+            Self::Density { .. } => "density",
+            Self::Neighbours { .. } => "number of neighbours",
+            Self::ViscousResidual { .. } => "viscous step",
+        }
+    }
+
+    /// Its unit, or what is counted.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        match self {
+            Self::Speed { .. } => "m/s",
+            Self::Density { .. } => "kg/m³",
+            Self::Neighbours { .. } => "or more",
+            Self::ViscousResidual { .. } => "(residual over its start)",
+        }
+    }
+
+    /// The rule that it broke, as it follows the value in a message.
+    #[must_use]
+    pub fn rule(&self) -> String {
+        match self {
+            Self::Speed { limit } => format!(", above the {limit:.4e} m/s (three sound speeds) that the model allows"),
+            Self::Density { limits: (lower, upper) } => {
+                format!(", outside the {lower:.4e} to {upper:.4e} kg/m³ that the model allows")
+            }
+            Self::Neighbours { limit } => format!(", above the {limit} that a neighbour list row can hold"),
+            Self::ViscousResidual { tolerance, most_iterations } => {
+                format!(" after at most {most_iterations} iterations, above the {tolerance:.1e} of `viscous_tolerance`")
+            }
+        }
+    }
+}

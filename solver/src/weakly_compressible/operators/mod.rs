@@ -1,4 +1,0 @@
-//! Discrete differential operators and their corrections.
-
-pub mod correction;
-pub(crate) mod geometry;

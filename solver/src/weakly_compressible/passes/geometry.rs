@@ -1,0 +1,201 @@
+//! One pass over the neighbours for all that depends on positions and pressure: the moment matrix with its
+//! corrections, the corrected pressure gradient, and the stress as the divergence takes it.
+
+use super::PairData;
+use super::records;
+use crate::lanes::algebra::{
+    accumulate, deviatoric_rate, difference, dot, invariant, load, load_tensor, matrix_product, product, store_tensor,
+    store_vector, zero_tensor, zero_vector,
+};
+use crate::lanes::{LANES, LanePass, Lanes};
+use crate::material::turbulence::dynamic_eddy_viscosity;
+use crate::vector::{Tensor, Vector};
+use crate::weakly_compressible::model::Model;
+use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
+use crate::weakly_compressible::numerics::MomentumOperator;
+use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::terms::kernel_correction::corrections;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Values of a neighbour's record: position, volume, pressure.
+pub(crate) const fn values(dimension: usize) -> usize {
+    dimension + 2
+}
+
+struct Output<'a, const D: usize> {
+    correction: &'a mut [Tensor<D>],
+    force_correction: &'a mut [Tensor<D>],
+    pressure_gradient: &'a mut [Vector<D>],
+    corrected_stress: &'a mut [Tensor<D>],
+    weights: &'a mut [[f64; LANES]],
+}
+
+/// Updates corrections, pressure gradients and corrected stresses of the flow particles.
+pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>, pairs: &mut PairData<D>) {
+    let flow = particles.flow_count();
+    let shared = &*particles;
+    pairs.geometry.fill(shared.position.len(), |index, record| {
+        record.vector(&shared.position[index]);
+        record.scalar(shared.volume[index]);
+        record.scalar(shared.pressure[index]);
+    });
+    let PairData { weights, geometry, .. } = pairs;
+    let mut correction = std::mem::take(&mut particles.correction);
+    let mut force_correction = std::mem::take(&mut particles.force_correction);
+    let mut pressure_gradient = std::mem::take(&mut particles.pressure_gradient);
+    let mut corrected_stress = std::mem::take(&mut particles.corrected_stress);
+    let region = model.list.region();
+    weights.resize(flow.div_ceil(BLOCK) * region, [0.0; LANES]);
+    let shared = &*particles;
+    let elastic_viscosity = model.elastic_viscosity();
+    (
+        correction.par_chunks_mut(BLOCK),
+        force_correction.par_chunks_mut(BLOCK),
+        pressure_gradient[..flow].par_chunks_mut(BLOCK),
+        corrected_stress[..flow].par_chunks_mut(BLOCK),
+        weights.par_chunks_mut(region),
+    )
+        .into_par_iter()
+        .enumerate()
+        .with_min_len(4)
+        .for_each(|(block, (correction, force_correction, pressure_gradient, corrected_stress, weights))| {
+            let out = Output { correction, force_correction, pressure_gradient, corrected_stress, weights };
+            model.instruction_set.run(Pass {
+                model,
+                elastic_viscosity,
+                particles: shared,
+                records: geometry,
+                block,
+                out,
+            });
+        });
+    particles.correction = correction;
+    particles.force_correction = force_correction;
+    particles.pressure_gradient = pressure_gradient;
+    particles.corrected_stress = corrected_stress;
+}
+
+struct Pass<'a, const D: usize> {
+    model: &'a Model<D>,
+    elastic_viscosity: f64,
+    particles: &'a Particles<D>,
+    records: &'a records::Records,
+    block: usize,
+    out: Output<'a, D>,
+}
+
+impl<const D: usize> LanePass for Pass<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(mut self) {
+        let list = &self.model.list;
+        let region_start = self.block * list.region();
+        let count = self.out.corrected_stress.len();
+        let mut offset = 0;
+        while offset < count {
+            let first = self.block * BLOCK + offset;
+            let group = list.group(first / LANES);
+            let weights = &mut self.out.weights[group.first_pair - region_start..];
+            let sums = pair_sums::<V, D>(self.model, self.records, &group, weights);
+            let end = (offset + LANES).min(count);
+            let (for_gradients, mut for_forces) = corrections(&sums.moment);
+            if self.model.numerics.momentum_operator != MomentumOperator::SingleDivergence {
+                for_forces = identity();
+            }
+            let stress = self.stress(first..first + end - offset, sums.pressure);
+            let out = &mut self.out;
+            store_tensor(&for_gradients, &mut out.correction[offset..end]);
+            store_tensor(&for_forces, &mut out.force_correction[offset..end]);
+            store_vector(&product(&for_gradients, &sums.gradient), &mut out.pressure_gradient[offset..end]);
+            store_tensor(&matrix_product(&stress, &for_forces), &mut out.corrected_stress[offset..end]);
+            offset = end;
+        }
+    }
+}
+
+/// The pair sums of eight particles.
+struct GeometrySums<V, const D: usize> {
+    /// M = −Σ V F r ⊗ r `[-]`.
+    moment: [[V; D]; D],
+    /// Pressure gradient before its correction `[Pa/m]`.
+    gradient: [V; D],
+    /// Their own pressures `[Pa]`.
+    pressure: V,
+}
+
+/// Pair sums of a group; the weights are kept for the other passes.
+#[inline(always)]
+fn pair_sums<V: Lanes, const D: usize>(
+    model: &Model<D>,
+    records: &records::Records,
+    group: &NeighbourGroup<'_>,
+    weights: &mut [[f64; LANES]],
+) -> GeometrySums<V, D> {
+    let own = records.load::<V>(const { values(D).div_ceil(4) }, &group.own);
+    let place = records::vector::<V, D>(&own, 0);
+    let pressure_a = records::scalar(&own, D + 1);
+    // M is symmetric: only the upper triangle is summed
+    let mut moment = zero_tensor::<V, D>();
+    let mut gradient = zero_vector::<V, D>();
+    for (b, stored) in group.pairs.zip(weights) {
+        let record = records.load::<V>(const { values(D).div_ceil(4) }, &b);
+        let position = records::vector::<V, D>(&record, 0);
+        let volume = records::scalar(&record, D);
+        let pressure = records::scalar(&record, D + 1);
+        let r = difference(&place, &position);
+        let weight = model.kernel.gradient_weight(dot(&r, &r), volume);
+        *stored = weight.to_array();
+        accumulate(&mut gradient, (pressure - pressure_a) * weight, &r);
+        for i in 0..D {
+            let weighted = weight * r[i];
+            for j in i..D {
+                moment[i][j] = moment[i][j] - weighted * r[j];
+            }
+        }
+    }
+    for i in 1..D {
+        for j in 0..i {
+            moment[i][j] = moment[j][i];
+        }
+    }
+    GeometrySums { moment, gradient, pressure: pressure_a }
+}
+
+#[inline(always)]
+fn identity<V: Lanes, const D: usize>() -> [[V; D]; D] {
+    let mut lanes = zero_tensor::<V, D>();
+    for i in 0..D {
+        lanes[i][i] = V::splat(1.0);
+    }
+    lanes
+}
+
+impl<const D: usize> Pass<'_, D> {
+    /// σ = s − pI `[Pa]` of eight particles with the stresses that their law does not carry.
+    #[inline(always)]
+    fn stress<V: Lanes>(&self, places: Range<usize>, pressure: V) -> [[V; D]; D] {
+        let (particles, law) = (self.particles, &self.model.rheology);
+        let mixing_area = self.model.mixing_area();
+        let mut stress = load_tensor::<V, D>(&particles.stress[places.clone()]);
+        let damped = self.elastic_viscosity > 0.0 && law.is_plastic();
+        if damped || mixing_area > 0.0 {
+            let rate = deviatoric_rate(&load_tensor::<V, D>(&particles.velocity_gradient[places.clone()]));
+            let mut viscosity = V::splat(0.0);
+            if damped {
+                let elasticity = law.elasticity(invariant(0.5, &stress), pressure);
+                viscosity = elasticity * V::splat(self.elastic_viscosity);
+            }
+            if mixing_area > 0.0 {
+                let density = load::<V>(&particles.density[places]);
+                viscosity = viscosity + dynamic_eddy_viscosity(density, mixing_area, invariant(2.0, &rate));
+            }
+            for i in 0..D {
+                accumulate(&mut stress[i], V::splat(2.0) * viscosity, &rate[i]);
+            }
+        }
+        for axis in 0..D {
+            stress[axis][axis] = stress[axis][axis] - pressure;
+        }
+        stress
+    }
+}

@@ -1,0 +1,14 @@
+//! Loops over groups of eight particles and their neighbours. A pass owns what it reads of a neighbour (its records),
+//! the loop and the order of its sums; what it sums up are the formulas of `terms`. Only passes and the step call the
+//! law.
+
+pub(crate) mod continuity;
+pub(crate) mod geometry;
+pub(crate) mod momentum;
+mod pair_data;
+pub(crate) mod pairwise;
+pub(crate) mod records;
+pub(crate) mod wall_stress;
+pub(crate) mod wall_velocity;
+
+pub(crate) use pair_data::PairData;

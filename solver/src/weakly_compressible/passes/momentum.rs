@@ -1,0 +1,254 @@
+//! The momentum equation with the single divergence: a_a = g + [Σ V_b F traction]/ρ_a + artificial viscosity (15) +
+//! hourglass control, each a term of its own, in one loop over flow and wall partners.
+
+use super::PairData;
+use super::records::{self, LaneRecord, Records, Writer};
+use crate::lanes::algebra::{accumulate, difference, dot, load_tensor, scaled, store_vector, zero_vector};
+use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, gather};
+use crate::vector::Vector;
+use crate::weakly_compressible::model::Model;
+use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
+use crate::weakly_compressible::numerics::ViscositySwitch;
+use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::terms::{artificial_viscosity, hourglass, pair_distance, stress_divergence, wall_slip};
+use rayon::prelude::*;
+
+/// Values of a record: the layout of [`FlowPartner`], which is the longer one.
+pub(super) const fn values(dimension: usize) -> usize {
+    2 * dimension + 3 + 2 * dimension * dimension
+}
+
+/// What is read of a flow particle.
+struct FlowPartner<V, const D: usize> {
+    position: [V; D],
+    velocity: [V; D],
+    density: V,
+    /// √(p/ρ0) `[m/s]`.
+    pressure_speed: V,
+    /// α of (15) `[-]`.
+    alpha: V,
+    /// σE `[Pa]`.
+    corrected_stress: [[V; D]; D],
+    velocity_gradient: [[V; D]; D],
+}
+
+/// What is read of a wall particle: records of the same length with a layout of their own.
+struct WallPartner<V, const D: usize> {
+    position: [V; D],
+    /// Velocity of the wall itself.
+    velocity: [V; D],
+    /// Depth behind the surface `[m]`.
+    depth: V,
+    /// √(p/ρ0) `[m/s]`.
+    pressure_speed: V,
+    /// 1 if the wall is smooth `[-]`.
+    smoothness: V,
+    /// σ `[Pa]`.
+    stress: [[V; D]; D],
+    normal: [V; D],
+}
+
+impl<V: Lanes, const D: usize> FlowPartner<V, D> {
+    #[inline(always)]
+    fn load(records: &Records, indices: &LaneIndices<'_>) -> Self {
+        let record: LaneRecord<V> = records.load(const { values(D).div_ceil(4) }, indices);
+        Self {
+            position: records::vector(&record, 0),
+            velocity: records::vector(&record, D),
+            density: records::scalar(&record, 2 * D),
+            pressure_speed: records::scalar(&record, 2 * D + 1),
+            alpha: records::scalar(&record, 2 * D + 2),
+            corrected_stress: records::tensor(&record, 2 * D + 3),
+            velocity_gradient: records::tensor(&record, 2 * D + 3 + D * D),
+        }
+    }
+}
+
+impl<V: Lanes, const D: usize> WallPartner<V, D> {
+    #[inline(always)]
+    fn load(records: &Records, indices: &LaneIndices<'_>) -> Self {
+        let record: LaneRecord<V> = records.load(const { values(D).div_ceil(4) }, indices);
+        Self {
+            position: records::vector(&record, 0),
+            velocity: records::vector(&record, D),
+            depth: records::scalar(&record, 2 * D),
+            pressure_speed: records::scalar(&record, 2 * D + 1),
+            smoothness: records::scalar(&record, 2 * D + 2),
+            stress: records::tensor(&record, 2 * D + 3),
+            normal: records::vector(&record, 2 * D + 3 + D * D),
+        }
+    }
+}
+
+/// Writes a record in the layout of [`FlowPartner`] or, for wall particles, of [`WallPartner`].
+#[inline(always)]
+fn write<const D: usize>(particles: &Particles<D>, inverse_density: f64, index: usize, record: &mut Writer<'_>) {
+    let wall = particles.wall_depth[index] > 0.0;
+    record.vector(&particles.position[index]);
+    record.vector(if wall { &particles.wall_velocity[index] } else { &particles.velocity[index] });
+    record.scalar(if wall { particles.wall_depth[index] } else { particles.density[index] });
+    record.scalar(hourglass::pressure_speed(particles.pressure[index], inverse_density));
+    record.scalar(if wall { particles.wall_smoothness[index] } else { particles.artificial_viscosity[index] });
+    record.tensor(&particles.corrected_stress[index]);
+    if wall {
+        record.vector(&particles.wall_normal[index]);
+    } else {
+        record.tensor(&particles.velocity_gradient[index]);
+    }
+}
+
+/// Accelerations `[m/s²]` of the flow particles, and what walls and mirrors have of it.
+pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>, pairs: &mut PairData<D>) {
+    let shared = &*particles;
+    let inverse_density = 1.0 / model.equation_of_state.reference_density;
+    pairs.momentum.fill(shared.position.len(), |index, record| write(shared, inverse_density, index, record));
+    let pairs = &*pairs;
+    let mut acceleration = std::mem::take(&mut particles.acceleration);
+    let mut support = std::mem::take(&mut particles.support);
+    let shared = &*particles;
+    (acceleration.par_chunks_mut(BLOCK), support.par_chunks_mut(BLOCK))
+        .into_par_iter()
+        .enumerate()
+        .with_min_len(4)
+        .for_each(|(block, (acceleration, support))| {
+            model.instruction_set.run(Pass { model, particles: shared, pairs, block, acceleration, support });
+        });
+    particles.acceleration = acceleration;
+    particles.support = support;
+}
+
+struct Pass<'a, const D: usize> {
+    model: &'a Model<D>,
+    particles: &'a Particles<D>,
+    pairs: &'a PairData<D>,
+    block: usize,
+    acceleration: &'a mut [Vector<D>],
+    support: &'a mut [Vector<D>],
+}
+
+/// What the loops need of the numerics.
+struct Constants {
+    smoothing_length: f64,
+    /// h c `[m²/s]`.
+    speed_length: f64,
+    /// k h `[m]` of the hourglass control.
+    hourglass_strength: f64,
+    artificial_viscosity: f64,
+    viscosity_switch: ViscositySwitch,
+}
+
+/// The pair sums of eight particles, and the parts of them that walls and mirrors cause.
+struct Forces<V, const D: usize> {
+    /// Σ V F traction `[N/m³]`.
+    divergence: [V; D],
+    /// Artificial viscosity and hourglass control `[m/s²]`.
+    damping: [V; D],
+    support_divergence: [V; D],
+    support_damping: [V; D],
+}
+
+impl<const D: usize> LanePass for Pass<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let Self { model, particles, pairs, block, acceleration, support } = self;
+        let smoothing_length = model.kernel.smoothing_length();
+        let constants = Constants {
+            smoothing_length,
+            speed_length: smoothing_length * model.equation_of_state.sound_speed(),
+            hourglass_strength: model.numerics.hourglass * smoothing_length,
+            artificial_viscosity: model.numerics.artificial_viscosity,
+            viscosity_switch: model.numerics.viscosity_switch,
+        };
+        let out = acceleration.chunks_mut(LANES).zip(support.chunks_mut(LANES));
+        for (offset, (acceleration, support)) in out.enumerate() {
+            let group = model.list.group(block * (BLOCK / LANES) + offset);
+            let own = FlowPartner::<V, D>::load(&pairs.momentum, &group.own);
+            let none = zero_vector::<V, D>();
+            let mut forces =
+                Forces { divergence: none, damping: none, support_divergence: none, support_damping: none };
+            let (flow_weights, wall_weights) = pairs.weights[group.first_pair..].split_at(group.flow.len());
+            flow_forces(&constants, particles, &pairs.momentum, &group, flow_weights, &own, &mut forces);
+            let first = block * BLOCK + offset * LANES;
+            let correction = load_tensor::<V, D>(&particles.force_correction[first..first + acceleration.len()]);
+            wall_forces(&constants, &pairs.momentum, &group, wall_weights, &own, &correction, &mut forces);
+            let (mut total, mut supported) = (forces.damping, forces.damping);
+            for i in 0..D {
+                total[i] = forces.divergence[i] / own.density + forces.damping[i] + V::splat(model.gravity[i]);
+                supported[i] = forces.support_divergence[i] / own.density + forces.support_damping[i];
+            }
+            store_vector(&total, acceleration);
+            store_vector(&supported, support);
+        }
+    }
+}
+
+#[inline(always)]
+fn flow_forces<V: Lanes, const D: usize>(
+    constants: &Constants,
+    particles: &Particles<D>,
+    records: &Records,
+    group: &NeighbourGroup<'_>,
+    weights: &[[f64; LANES]],
+    own: &FlowPartner<V, D>,
+    forces: &mut Forces<V, D>,
+) {
+    let regularisation = V::splat(pair_distance::regularisation(constants.smoothing_length));
+    for (b, weight) in group.flow.zip(weights) {
+        let other = FlowPartner::<V, D>::load(records, &b);
+        let r = difference(&own.position, &other.position);
+        let slip = difference(&own.velocity, &other.velocity);
+        let weight = V::load(weight);
+        let regular = dot(&r, &r) + regularisation;
+        // one division serves 1/(ρ̄ r²) of (15) and 2/(ρ_a + ρ_b) of the hourglass control
+        let inverse = V::splat(2.0) / ((own.density + other.density) * regular);
+        let alpha = match constants.viscosity_switch {
+            ViscositySwitch::Constant => V::splat(constants.artificial_viscosity * constants.speed_length),
+            ViscositySwitch::MorrisMonaghan => {
+                artificial_viscosity::mean_strength(own.alpha, other.alpha, constants.speed_length)
+            }
+        };
+        let traction = stress_divergence::traction(&own.corrected_stress, &other.corrected_stress, &r);
+        let push = artificial_viscosity::pair_factor(alpha, dot(&r, &slip), inverse);
+        let speed_sum = own.pressure_speed + other.pressure_speed;
+        let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum) * (inverse * regular);
+        let unexplained = hourglass::unexplained(&slip, &own.velocity_gradient, &other.velocity_gradient, &r);
+        let mass_weight = weight * other.density;
+        accumulate(&mut forces.divergence, weight, &traction);
+        accumulate(&mut forces.damping, mass_weight * push, &r);
+        accumulate(&mut forces.damping, mass_weight * drag, &unexplained);
+        if group.has_images {
+            let mirrored: V = gather(&particles.mirrored, &b);
+            accumulate(&mut forces.support_divergence, mirrored * weight, &traction);
+            accumulate(&mut forces.support_damping, mirrored * (mass_weight * push), &r);
+            accumulate(&mut forces.support_damping, mirrored * (mass_weight * drag), &unexplained);
+        }
+    }
+}
+
+#[inline(always)]
+fn wall_forces<V: Lanes, const D: usize>(
+    constants: &Constants,
+    records: &Records,
+    group: &NeighbourGroup<'_>,
+    weights: &[[f64; LANES]],
+    own: &FlowPartner<V, D>,
+    correction: &[[V; D]; D],
+    forces: &mut Forces<V, D>,
+) {
+    for (w, weight) in group.wall.zip(weights) {
+        let wall = WallPartner::<V, D>::load(records, &w);
+        let r = difference(&own.position, &wall.position);
+        let weight = V::load(weight);
+        let beta = wall_slip::factor(&r, &wall.normal, wall.depth, constants.smoothing_length, wall_slip::LIMIT);
+        let slip = scaled(beta, &difference(&own.velocity, &wall.velocity));
+        let traction = stress_divergence::wall_traction(&own.corrected_stress, &wall.stress, correction, &r);
+        let speed_sum = own.pressure_speed + wall.pressure_speed;
+        let drag = hourglass::twice_viscosity::<V>(constants.hourglass_strength, speed_sum);
+        let unexplained =
+            hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, &r, &wall.normal, wall.smoothness);
+        accumulate(&mut forces.divergence, weight, &traction);
+        accumulate(&mut forces.damping, weight * drag, &unexplained);
+        accumulate(&mut forces.support_divergence, weight, &traction);
+        accumulate(&mut forces.support_damping, weight * drag, &unexplained);
+    }
+}

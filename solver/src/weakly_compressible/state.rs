@@ -1,0 +1,121 @@
+//! What a run changes from step to step.
+
+use crate::kernel::Kernel;
+use crate::lanes::InstructionSet;
+use crate::run::Divergence;
+use crate::vector::Vector;
+use crate::weakly_compressible::boundary::{Images, Wall};
+use crate::weakly_compressible::divergence::Quantity;
+use crate::weakly_compressible::model::Model;
+use crate::weakly_compressible::neighbours::{LARGEST_ROW, VerletList};
+use crate::weakly_compressible::numerics::ViscositySwitch;
+use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::passes::PairData;
+use crate::weakly_compressible::scene::Scene;
+use crate::weakly_compressible::search::Search;
+use crate::weakly_compressible::terms::artificial_viscosity::SWITCH_LOWEST;
+use crate::weakly_compressible::time_step::TimeStepBounds;
+use crate::weakly_compressible::viscous_solve::ViscousSystem;
+
+/// Particles, walls and neighbours, time, and what the next step's length follows from.
+#[derive(Debug)]
+pub(crate) struct State<const D: usize> {
+    pub(crate) particles: Particles<D>,
+    pub(crate) images: Images<D>,
+    pub(crate) walls: Vec<Wall<D>>,
+    /// Displacement of each wall in a step `[m]`.
+    pub(crate) wall_displacements: Vec<Vector<D>>,
+    pub(crate) model: Model<D>,
+    pub(crate) pairs: PairData<D>,
+    pub(crate) viscous: ViscousSystem<D>,
+    pub(crate) search: Search<D>,
+    pub(crate) time: f64,
+    pub(crate) steps: u64,
+    pub(crate) largest_speed: f64,
+    pub(crate) kinematic_viscosity: f64,
+    /// Upper bound of any particle's displacement since the neighbour search `[m]`.
+    pub(crate) displacement: f64,
+}
+
+impl<const D: usize> State<D> {
+    /// The state of a checked scene, before its first neighbour search.
+    pub(crate) fn new(scene: Scene<D>) -> Self {
+        let numerics = scene.numerics;
+        let reference_density = scene.equation_of_state.reference_density;
+        let mut particles =
+            Particles::new(&scene.flow, &scene.walls, &scene.wall_particles, scene.spacing, reference_density);
+        let initial = match numerics.viscosity_switch {
+            ViscositySwitch::Constant => numerics.artificial_viscosity,
+            ViscositySwitch::MorrisMonaghan => SWITCH_LOWEST,
+        };
+        particles.artificial_viscosity.fill(initial);
+        particles.viscosity.fill(scene.rheology.viscosity(0.0, 0.0));
+        Self {
+            particles,
+            images: Images::new(),
+            wall_displacements: vec![Vector::zeros(); scene.walls.len()],
+            walls: scene.walls,
+            model: Model {
+                list: VerletList::default(),
+                kernel: Kernel::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing),
+                equation_of_state: scene.equation_of_state,
+                rheology: scene.rheology,
+                numerics,
+                gravity: scene.gravity,
+                spacing: scene.spacing,
+                contact_friction: scene.rheology.contact_friction(),
+                instruction_set: InstructionSet::best(),
+            },
+            pairs: PairData::new(),
+            viscous: ViscousSystem::new(),
+            search: Search::new(scene.domain),
+            time: 0.0,
+            steps: 0,
+            largest_speed: 0.0,
+            kinematic_viscosity: 0.0,
+            displacement: f64::INFINITY,
+        }
+    }
+
+    /// Searches the neighbours anew and sorts the particles.
+    ///
+    /// # Errors
+    /// A particle with more neighbours than a list row can hold.
+    pub(crate) fn search_neighbours(&mut self) -> Result<(), Divergence<D>> {
+        let filled = self.search.run(&mut self.particles, &mut self.images, &mut self.model);
+        self.displacement = 0.0;
+        filled.map_err(|crowded| {
+            self.divergence(crowded.particle, Quantity::Neighbours { limit: LARGEST_ROW }, LARGEST_ROW as f64)
+        })
+    }
+
+    /// The bounds of the next step.
+    pub(crate) fn time_step_bounds(&self) -> TimeStepBounds {
+        self.bounds_with(self.kinematic_viscosity)
+    }
+
+    /// The bounds of a step with a largest kinematic viscosity `[m²/s]`.
+    pub(crate) fn bounds_with(&self, kinematic_viscosity: f64) -> TimeStepBounds {
+        TimeStepBounds::new(
+            &self.model.numerics,
+            self.model.kernel.smoothing_length(),
+            self.model.equation_of_state.sound_speed(),
+            self.largest_speed,
+            kinematic_viscosity,
+        )
+    }
+
+    /// A divergence at the particle with this storage index.
+    pub(crate) fn divergence(&self, index: usize, quantity: Quantity, value: f64) -> Divergence<D> {
+        Divergence {
+            time: self.time,
+            step: self.steps,
+            particle: self.particles.identity.get(index).copied().unwrap_or(index as u32),
+            position: self.particles.position[index],
+            quantity: quantity.name(),
+            value,
+            unit: quantity.unit(),
+            rule: quantity.rule(),
+        }
+    }
+}
