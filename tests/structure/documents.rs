@@ -48,3 +48,18 @@ fn every_table_is_named_by_the_readme_beside_it() {
         assert!(readme.contains(&format!("`{file}`")), "reference-data/{folder}/README.md does not name {file}");
     }
 }
+
+#[test]
+fn a_package_of_the_validation_holds_every_table() {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let listed = std::process::Command::new(cargo)
+        .args(["package", "--list", "--allow-dirty", "--offline", "-p", "bagnold-validation"])
+        .current_dir(workspace())
+        .output()
+        .expect("cargo");
+    assert!(listed.status.success(), "{}", String::from_utf8_lossy(&listed.stderr));
+    let listed = String::from_utf8_lossy(&listed.stdout).into_owned();
+    for (name, _) in shipped_tables() {
+        assert!(listed.lines().any(|line| line == format!("reference-data/{name}")), "{name} would not be packaged");
+    }
+}

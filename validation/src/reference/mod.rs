@@ -33,7 +33,7 @@ pub use grains::{FlowRule, GLASS_BEADS, GLASS_BEADS_FLOW_RULE, LAGREE_GRAINS, Pu
 pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
 pub use layer_transient::{LayerProfile, LayerTransient, TransientHistory};
 pub use measured::{Column, MeasuredData, Metadata, Origin};
-pub use rough_channel::RoughChannel;
+pub use rough_channel::{RoughChannel, roughness_ratio};
 pub use settling::{GrainForm, SettlingGrains, richardson_zaki_confidence, richardson_zaki_exponent};
 pub use shipped::{shipped_table, shipped_tables};
 pub use slope_laws::{RoughIncline, SLOPE_EXPERIMENT, SlopeExperiment, slope_run_out};

@@ -25,6 +25,12 @@ static LOG_LAW: LazyLock<LogLaw> = LazyLock::new(|| {
     })
 });
 
+/// k_s/z_0 `[-]`, the roughness of a wall of sand over the height at which the law begins.
+#[must_use]
+pub fn roughness_ratio() -> f64 {
+    LOG_LAW.roughness_ratio
+}
+
 /// A channel with a rough bed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoughChannel {

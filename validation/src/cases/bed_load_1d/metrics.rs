@@ -5,8 +5,8 @@ use super::runs::{BedLoad1dRun, Purpose};
 use crate::case::Run;
 use crate::metric::{Confidence, Kind, Limit, Metric};
 use crate::observe::Outcome;
-use crate::reference::TransportFormula;
 use crate::reference::bed_load_layer::LayerState;
+use crate::reference::{TransportFormula, roughness_ratio};
 
 /// Speed above which a grain counts as moving `[m/s]`.
 pub(super) const MOVING: f64 = 0.01;
@@ -196,7 +196,7 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
 
 /// u/u_* of clear water over the resting bed, k_s = d.
 pub(super) fn log_law(run: &BedLoad1dRun, height: f64) -> f64 {
-    libm::log(30.0 * height / run.stream.grain_diameter) / run.closures.karman
+    libm::log(roughness_ratio() * height / run.stream.grain_diameter) / run.closures.karman
 }
 
 /// What must grow from slope to slope: the smallest ratio of two neighbours.

@@ -5,7 +5,7 @@ use crate::cases::channel::{Channel, ChannelObservation, Lattice, TurbulenceClos
 use crate::cases::rules;
 use crate::error::InputError;
 use crate::observe::Recorded;
-use crate::reference::RoughChannel;
+use crate::reference::{RoughChannel, roughness_ratio};
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction};
 use bagnold_solver::material::turbulence::{MixingLengthShape, RoughWall};
 use bagnold_solver::parameter::{between, each, filled, positive, unique};
@@ -130,7 +130,7 @@ impl Parameters for ClearWaterParameters {
         rules::between("origin_offset", self.origin_offset, 0.0, 0.1 * self.depth, "a fraction of a grain diameter")?;
         let first_row = 0.5 * self.depth / self.resolution as f64 + self.origin_offset;
         let remedy = "the logarithmic law begins at k_s/30, which must lie below the first row of particles";
-        rules::between("sand_roughness", self.sand_roughness, 0.0, 30.0 * first_row, remedy)?;
+        rules::between("sand_roughness", self.sand_roughness, 0.0, roughness_ratio() * first_row, remedy)?;
         rules::channel_columns("columns", self.columns, &self.numerics)?;
         match self.period {
             Period::Fixed { duration, averaging_time } => {
