@@ -4,6 +4,7 @@ use super::parameters::{Changes, is_set, resolve, table_of};
 use super::result::{CaseResult, RunSummary, microseconds_each};
 use super::{Case, CaseFile, Progress, Run, Tier};
 use crate::error::InputError;
+use crate::metric::Variant;
 use crate::observe::Recorded;
 use crate::store::Store;
 use sha2::{Digest, Sha256};
@@ -33,7 +34,7 @@ pub trait Prepared: Send + Sync {
     /// Number of runs.
     fn run_count(&self) -> usize;
     /// Full name of a run; empty where the case has a single one.
-    fn variant(&self, run: usize) -> String;
+    fn variant(&self, run: usize) -> Variant;
     /// Expected cost of a run in particle-steps.
     fn particle_steps(&self, run: usize) -> f64;
     /// What a run is known by in a store: the same for the same simulation; none where the store is bypassed.
@@ -111,7 +112,7 @@ impl<C: Case> Prepared for Plan<C> {
         self.slots.len()
     }
 
-    fn variant(&self, run: usize) -> String {
+    fn variant(&self, run: usize) -> Variant {
         self.slots[run].0.variant()
     }
 

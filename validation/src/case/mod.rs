@@ -20,7 +20,7 @@ pub use schedule::{Monitor, Silent, execute, share_out};
 
 use crate::error::InputError;
 use crate::figure::{Animation, Figure};
-use crate::metric::Metric;
+use crate::metric::{Metric, Variant};
 use crate::observe::Recorded;
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -58,7 +58,7 @@ impl std::fmt::Display for Tier {
 /// holds everything that the simulation depends on.
 pub trait Run: Serialize + Clone + Send + Sync {
     /// Full name of the run, `key=value,…` in the case's fixed order; unique within the case.
-    fn variant(&self) -> String;
+    fn variant(&self) -> Variant;
     /// Expected cost in particle-steps, for scheduling the longest first and for the progress bar; all alike, if nothing is
     /// known.
     fn particle_steps(&self) -> f64 {

@@ -3,7 +3,7 @@
 use super::{Case, Progress, Registry, Run, Tier};
 use crate::error::InputError;
 use crate::figure::Figure;
-use crate::metric::{Confidence, Limit, Metric};
+use crate::metric::{Confidence, Limit, Metric, Variant};
 use crate::observe::{Frame, Outcome, Recorded};
 use crate::output::Table;
 use serde::{Deserialize, Serialize};
@@ -37,8 +37,8 @@ pub(crate) struct Swing {
 }
 
 impl Run for Swing {
-    fn variant(&self) -> String {
-        format!("steps={}", self.steps)
+    fn variant(&self) -> Variant {
+        Variant::of("steps", self.steps)
     }
     fn particle_steps(&self) -> f64 {
         self.steps as f64

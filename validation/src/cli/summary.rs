@@ -65,7 +65,7 @@ fn row(metric: &Metric, is_known: bool) -> [String; 7] {
     [
         verdict.to_owned(),
         metric.name.clone(),
-        metric.variant.clone(),
+        metric.variant.to_string(),
         number(metric.value),
         metric.unit.clone(),
         limit.map_or_else(String::new, rule),
@@ -99,6 +99,7 @@ pub(super) fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::metric::Variant;
 
     #[test]
     fn numbers_have_four_significant_figures() {
@@ -118,7 +119,7 @@ mod tests {
 
     #[test]
     fn an_observed_metric_shows_no_limit() {
-        let metric = Metric::observed("run_out", "a=1", 0.5, "m");
+        let metric = Metric::observed("run_out", &Variant::of("a", 1), 0.5, "m");
         assert_eq!(row(&metric, false), ["observed", "run_out", "a=1", "0.5000", "m", "", ""].map(str::to_owned));
         let failed = metric.gated(Limit::AtMost(0.25), "reason");
         assert_eq!(row(&failed, false)[0], "FAIL");

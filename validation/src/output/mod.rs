@@ -32,7 +32,7 @@ pub fn write_case(folder: &Path, result: &CaseResult, document: &MetricsDocument
         table.write(&tables)?;
     }
     for (run, frames) in result.runs.iter().zip(&result.frames).filter(|(_, frames)| !frames.is_empty()) {
-        snapshots::write(&folder.join("snapshots"), &snapshots::file_name(&run.variant), frames)?;
+        snapshots::write(&folder.join("snapshots"), &snapshots::file_name(&run.variant.to_string()), frames)?;
     }
     write_figures(&folder.join("figures"), result)
 }

@@ -41,7 +41,7 @@ fn row(judged: &Judged<'_>) -> Row {
     Row {
         mark: gate_mark(judged),
         metric: metric.name.clone(),
-        variant: metric.variant.split(',').filter(|part| !part.is_empty()).map(str::to_owned).collect(),
+        variant: metric.variant.parts().map(|(key, value)| format!("{key}={value}")).collect(),
         value: with_unit(metric.value, &metric.unit),
         reference: reference
             .and_then(|reference| reference.value)

@@ -5,7 +5,7 @@ use super::manifest::{Entry, Manifest};
 use crate::error::InputError;
 use crate::evaluation::{MetricValue, Record};
 use crate::figure::{self, Axis, Figure, Mark, Panel, Series};
-use crate::metric::Verdict;
+use crate::metric::{Variant, Verdict};
 use crate::output::write_whole;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -72,7 +72,7 @@ fn results(names: &[String], records: &[(&Entry, Record)]) -> std::io::Result<Ve
             };
             writer.write_record(first(entry).into_iter().chain([
                 metric.name.clone(),
-                metric.variant.clone(),
+                metric.variant.to_string(),
                 metric.value.to_string(),
                 metric.unit.clone(),
                 verdict.to_owned(),
@@ -155,7 +155,7 @@ fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Optio
 }
 
 /// The metrics that the plan names, else the first that the parameters change, gated ones first; each with its variant.
-fn drawn_metrics(manifest: &Manifest, own: &[&(&Entry, Record)]) -> Vec<(String, String)> {
+fn drawn_metrics(manifest: &Manifest, own: &[&(&Entry, Record)]) -> Vec<(String, Variant)> {
     let mut seen = BTreeSet::new();
     let all: Vec<_> = own
         .iter()

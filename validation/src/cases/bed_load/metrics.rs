@@ -9,7 +9,7 @@ use super::runs::{BedLoadRun, Formulation};
 use super::statements;
 use crate::case::Run;
 use crate::cases::channel;
-use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
 use crate::observe::Recorded;
 use crate::reference::{HONEST_BAND, TransportFormula};
 use crate::statistics::{Estimate, block_average, linear_fit};
@@ -57,7 +57,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     metrics
 }
 
-pub(super) fn observed(name: &str, variant: &str, estimate: Estimate, factor: f64, unit: &str) -> Metric {
+pub(super) fn observed(name: &str, variant: &Variant, estimate: Estimate, factor: f64, unit: &str) -> Metric {
     Metric::observed(name, variant, factor * estimate.value, unit)
         .with_snapshot_tolerance(1e-3, (SNAPSHOT_ERRORS * factor * estimate.standard_error).abs())
 }

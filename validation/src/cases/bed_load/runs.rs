@@ -4,6 +4,7 @@ use super::observation::{BedLoadObservation, Observer};
 use super::parameters::{BedLoadParameters, Continuum, Grains, Materials, Stage, Yield};
 use crate::case::{Progress, Run};
 use crate::error::InputError;
+use crate::metric::Variant;
 use crate::observe::Recorded;
 use crate::reference::bed_load_layer::{BedLoadLayer, Grains as LayerGrains, LayerState, SolidFraction, Start, Stream};
 use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
@@ -118,20 +119,18 @@ pub(super) fn pair_law_name(law: PairLaw) -> &'static str {
 }
 
 impl Run for BedLoadRun {
-    fn variant(&self) -> String {
-        let slope = self.slope;
+    fn variant(&self) -> Variant {
+        let of = |formulation: &str| Variant::of("formulation", formulation).and("slope", self.slope);
         match &self.formulation {
-            Formulation::Paper(_) => format!("formulation=paper,slope={slope}"),
-            Formulation::Stabilised(_) => format!("formulation=stabilised,slope={slope}"),
+            Formulation::Paper(_) => of("paper"),
+            Formulation::Stabilised(_) => of("stabilised"),
             Formulation::Fit(grains) => {
                 let Yield { yield_stress, viscosity, .. } = grains.material;
-                format!("formulation=fit,slope={slope},yield_stress={yield_stress},viscosity={viscosity}")
+                of("fit").and("yield_stress", yield_stress).and("viscosity", viscosity)
             }
-            Formulation::Continuum { stage, pair_law, start, spacing, .. } => format!(
-                "formulation={},slope={slope},pair_law={},start={start},spacing={spacing}",
-                stage.name(),
-                pair_law_name(*pair_law)
-            ),
+            Formulation::Continuum { stage, pair_law, start, spacing, .. } => {
+                of(stage.name()).and("pair_law", pair_law_name(*pair_law)).and("start", *start).and("spacing", *spacing)
+            }
         }
     }
 

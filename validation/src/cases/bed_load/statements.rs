@@ -9,7 +9,7 @@ use super::runs::{BedLoadRun, Formulation};
 use super::tiers::FITTED;
 use crate::case::Run;
 use crate::cases::channel;
-use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::metric::{Confidence, Kind, Limit, Metric, Value, Variant};
 use crate::observe::Recorded;
 use crate::reference::{HONEST_BAND, LAYER_STATEMENTS, TransportFormula};
 use crate::statistics::Segmented;
@@ -39,10 +39,11 @@ pub(super) fn stabilised(
     let gated = |metric: Metric, limit, reason: &str| if judged { metric.gated(limit, reason) } else { metric };
     let profile = &data.channel.profile;
     let mut slopes = Vec::new();
-    for (name, lower, upper) in LAYERS {
+    for (lower, upper) in LAYERS {
         let estimate = profile.estimate(|points| profiles::semi_log_slope(run, points, lower, upper));
         slopes.push(estimate.value);
-        metrics.push(observed("semi_log_slope", &format!("{variant},height={name}"), estimate, 1.0, "-").against(
+        let named = variant.clone().and("height", 1e3 * lower..=1e3 * upper);
+        metrics.push(observed("semi_log_slope", &named, estimate, 1.0, "-").against(
             Some(1.0),
             "u_*/κ, fitted to u over ln(z + z_0)",
             Confidence::Exact,
@@ -99,7 +100,7 @@ fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoad
         let of = |read: &dyn Fn(&Segmented) -> f64| {
             profile.estimate(|points| profiles::layers(run, points, count).map_or(f64::NAN, |fit| read(&fit)))
         };
-        let named = format!("{variant},layer={}", layer + 1);
+        let named = variant.clone().and("layer", layer + 1);
         let slope = of(&|fit| fit.slopes[layer] / scale);
         metrics.push(observed("layer_slope", &named, slope, 1.0, "-").against(Some(1.0), "u_*/κ", Confidence::Exact));
         if layer + 1 < count {
@@ -128,9 +129,11 @@ pub(super) fn growth(metrics: &mut Vec<Metric>, records: &[Record]) {
         ("transport_growth", transport(high) / transport(low)),
         ("sheared_thickness_growth", thickness(high_run, high) / thickness(low_run, low)),
     ];
+    let slopes = Value::list([low_run.slope, high_run.slope]);
+    let variant = Variant::of("formulation", "stabilised").and("slope", slopes);
     for (name, value) in values {
         metrics.push(
-            Metric::observed(name, "formulation=stabilised,slope=0.03_0.05", value, "-")
+            Metric::observed(name, &variant, value, "-")
                 .against(None, "statement of the paper: larger at 5 % than at 3 %", Confidence::Medium)
                 .of_kind(Kind::Validation)
                 .gated(Limit::AtLeast(1.05), "larger by more than the scatter of repeats, 3 %")

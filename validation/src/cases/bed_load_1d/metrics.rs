@@ -3,7 +3,7 @@
 use super::Record;
 use super::runs::{BedLoad1dRun, Purpose};
 use crate::case::Run;
-use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::metric::{Confidence, Kind, Limit, Metric, Value, Variant};
 use crate::observe::Outcome;
 use crate::reference::TransportFormula;
 use crate::reference::bed_load_layer::LayerState;
@@ -129,8 +129,10 @@ fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
 fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast: &LayerState) {
     let transport = (fast.transport() / rest.transport() - 1.0).abs();
     let difference = transport.max(rest.difference(fast, f64::NEG_INFINITY));
+    // the two starts of the runs behind it, as one word
+    let variant = Variant::of("slope", run.stream.slope).and("start", "rest_fast");
     metrics.push(
-        Metric::observed("start_difference", &format!("slope={},start=rest_fast", run.stream.slope), difference, "-")
+        Metric::observed("start_difference", &variant, difference, "-")
             .against(Some(0.0), "the layer from rest: q*, u_f and φ u_s", Confidence::Exact)
             .gated(Limit::AtMost(1e-3), "a steady state does not remember its start")
             .with_snapshot_tolerance(1.0, 1e-5),
@@ -142,8 +144,8 @@ fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast:
 fn order(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, study: &[&LayerState], grains: &str, least: f64) {
     let differences: Vec<f64> = study.windows(2).map(|pair| difference(pair[0], pair[1], grains)).collect();
     let [.., coarse, fine] = differences[..] else { return };
-    let heights: Vec<String> = study.iter().map(|state| state.cell_height.to_string()).collect();
-    let variant = format!("slope={},grains={grains},cell_height={}", run.stream.slope, heights.join("_"));
+    let heights = Value::list(study.iter().map(|state| state.cell_height));
+    let variant = Variant::of("slope", run.stream.slope).and("grains", grains).and("cell_height", heights);
     metrics.push(
         Metric::observed("observed_order", &variant, libm::log2(coarse / fine), "-")
             .against(Some(2.0), MODEL, Confidence::Exact)
@@ -177,8 +179,9 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
     ]);
     for (from, to) in LOGARITHMIC_RANGES {
         if let Some(slope) = state.logarithmic_slope(1e-3 * from, 1e-3 * to, run.closures.karman) {
+            let variant = variant.clone().and("height", from..=to);
             metrics.push(
-                Metric::observed("logarithmic_slope", &format!("{variant},height={from}_{to}"), slope, "-")
+                Metric::observed("logarithmic_slope", &variant, slope, "-")
                     .against(Some(1.0), "clear water, du_f/d ln z = u_*/κ", Confidence::High)
                     .with_snapshot_tolerance(0.01, 0.0),
             );
@@ -186,8 +189,9 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
     }
     for height in [2.5e-3, 0.025] {
         let deficit = state.at(height).fluid_velocity / run.stream.shear_velocity() - log_law(run, height);
+        let variant = variant.clone().and("height", 1e3 * height);
         metrics.push(
-            Metric::observed("velocity_deficit", &format!("{variant},height={}", 1e3 * height), deficit, "u_*")
+            Metric::observed("velocity_deficit", &variant, deficit, "u_*")
                 .against(Some(0.0), "rough-wall log law of clear water, z_0 = d/30", Confidence::High)
                 .with_snapshot_tolerance(0.01, 0.01),
         );
@@ -206,8 +210,7 @@ fn with_slope(metrics: &mut Vec<Metric>, layers: &[(&BedLoad1dRun, &LayerState)]
     if layers.len() < 2 {
         return;
     }
-    let slopes: Vec<String> = layers.iter().map(|(run, _)| run.stream.slope.to_string()).collect();
-    let variant = format!("slope={}", slopes.join("_"));
+    let variant = Variant::of("slope", Value::list(layers.iter().map(|(run, _)| run.stream.slope)));
     let growth = |value: fn(&LayerState) -> Option<f64>| {
         let values: Vec<f64> = layers.iter().map(|(_, state)| value(state).unwrap_or(f64::NAN)).collect();
         values

@@ -4,6 +4,7 @@ use super::parameters::BedLoad1dParameters;
 use super::sensitivities::Replaced;
 use crate::case::{Progress, Run};
 use crate::error::InputError;
+use crate::metric::Variant;
 use crate::observe::{Outcome, Recorded, state_hash};
 use crate::reference::ReferenceError;
 use crate::reference::bed_load_layer::{
@@ -83,15 +84,15 @@ pub(super) fn all(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
 }
 
 impl Run for BedLoad1dRun {
-    fn variant(&self) -> String {
-        let purpose = match self.purpose {
-            Purpose::Literature => "start=rest".to_owned(),
-            Purpose::FastStart(_) => "start=fast".to_owned(),
-            Purpose::DilatingOrder => format!("grains=dilating,cell_height={}", self.cell_height),
-            Purpose::FrozenOrder => format!("grains=frozen,cell_height={}", self.cell_height),
-            Purpose::Sensitivity(replaced) => format!("{}={}", replaced.closure(), replaced.value_text()),
-        };
-        format!("slope={},{purpose}", self.stream.slope)
+    fn variant(&self) -> Variant {
+        let slope = Variant::of("slope", self.stream.slope);
+        match self.purpose {
+            Purpose::Literature => slope.and("start", "rest"),
+            Purpose::FastStart(_) => slope.and("start", "fast"),
+            Purpose::DilatingOrder => slope.and("grains", "dilating").and("cell_height", self.cell_height),
+            Purpose::FrozenOrder => slope.and("grains", "frozen").and("cell_height", self.cell_height),
+            Purpose::Sensitivity(replaced) => slope.and(replaced.closure(), replaced.value_text()),
+        }
     }
 
     fn particle_steps(&self) -> f64 {

@@ -32,7 +32,7 @@ pub use tables::tables;
 
 use crate::case::Progress;
 use crate::cases::recording::Ending;
-use crate::metric::{Confidence, Limit, Metric};
+use crate::metric::{Confidence, Limit, Metric, Variant};
 use crate::observe::{Frame, Recorded};
 use bagnold_solver::incompressible::{
     Bed, IncompressibleSimulation, ProjectionNumerics, Sediment, SolidFraction, Turbulence,
@@ -174,7 +174,7 @@ impl Channel<'_> {
 
 /// The number of particles that ended below the floor or far above the surface, gated at 0.
 #[must_use]
-pub fn particles_lost(variant: &str, record: &Recorded<ChannelObservation>) -> Metric {
+pub fn particles_lost(variant: &Variant, record: &Recorded<ChannelObservation>) -> Metric {
     Metric::observed("particles_lost", variant, record.data.particles_lost as f64, "-")
         .against(Some(0.0), "no particle passes a wall", Confidence::Exact)
         .gated(Limit::AtMost(0.0), "a particle below the floor is lost mass")
@@ -182,7 +182,7 @@ pub fn particles_lost(variant: &str, record: &Recorded<ChannelObservation>) -> M
 
 /// How far momentum along the floor closes over the averaging window, over the impulse of the slope `[-]`, gated.
 #[must_use]
-pub fn momentum_residual(variant: &str, record: &Recorded<ChannelObservation>) -> Metric {
+pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation>) -> Metric {
     Metric::observed("momentum_residual", variant, record.data.momentum.residual(), "-")
         .against(
             Some(0.0),

@@ -4,6 +4,7 @@ use crate::case::{Progress, Run, Tier};
 use crate::cases::channel::{Channel, ChannelObservation, Lattice, TurbulenceClosure, Until};
 use crate::cases::rules;
 use crate::error::InputError;
+use crate::metric::Variant;
 use crate::observe::Recorded;
 use crate::reference::RoughChannel;
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction};
@@ -224,8 +225,8 @@ pub(super) fn runs(parameters: &ClearWaterParameters) -> Vec<ClearWaterRun> {
 }
 
 impl Run for ClearWaterRun {
-    fn variant(&self) -> String {
-        format!("slope={},resolution={}", self.slope, self.resolution)
+    fn variant(&self) -> Variant {
+        Variant::of("slope", self.slope).and("resolution", self.resolution)
     }
 
     fn particle_steps(&self) -> f64 {

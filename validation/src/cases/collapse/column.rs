@@ -6,6 +6,7 @@ use super::deposit::{Collapse, Surveyor, front, radius};
 use crate::case::{Progress, Run};
 use crate::cases::recording::Ending;
 use crate::error::InputError;
+use crate::metric::Variant;
 use crate::observe::{Frame, Recorded};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
@@ -97,16 +98,15 @@ pub struct ColumnRun {
 }
 
 impl Run for ColumnRun {
-    fn variant(&self) -> String {
-        let column =
-            format!("material={},aspect_ratio={},resolution={}", self.material, self.aspect_ratio, self.resolution);
+    fn variant(&self) -> Variant {
+        let column = Variant::of("material", &self.material)
+            .and("aspect_ratio", self.aspect_ratio)
+            .and("resolution", self.resolution);
         match self.purpose {
             Purpose::Law => column,
-            Purpose::Convergence => format!("{column},seed={}", self.seed),
-            Purpose::Hourglass => format!("{column},hourglass={}", self.numerics.hourglass),
-            Purpose::Regularised => {
-                format!("{column},regularisation_rate={}", self.regularisation_rate.unwrap_or(0.0))
-            }
+            Purpose::Convergence => column.and("seed", self.seed),
+            Purpose::Hourglass => column.and("hourglass", self.numerics.hourglass),
+            Purpose::Regularised => column.and("regularisation_rate", self.regularisation_rate.unwrap_or(0.0)),
         }
     }
 

@@ -4,7 +4,7 @@ use super::Record;
 use super::column::{ColumnRun, Purpose};
 use super::deposit::Collapse;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::metric::{Confidence, Limit, Metric};
+use crate::metric::{Confidence, Limit, Metric, Variant};
 use crate::statistics::{Mean, grid_convergence};
 
 /// Name, measure and largest index `[-]` of what must converge.
@@ -21,9 +21,10 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     for (material, aspect_ratio) in studied(records, Purpose::Convergence) {
         for (quantity, measure, largest) in QUANTITIES {
             let means = means(records, &material, aspect_ratio, measure);
-            let variant = format!("quantity={quantity},material={material},aspect_ratio={aspect_ratio}");
+            let variant =
+                Variant::of("quantity", quantity).and("material", &material).and("aspect_ratio", aspect_ratio);
             for mean in &means {
-                let at = format!("{variant},resolution={}", mean.resolution);
+                let at = variant.clone().and("resolution", mean.resolution);
                 let values = [("ensemble_mean", mean.value), ("ensemble_standard_error", mean.standard_error)];
                 metrics.extend(
                     values.map(|(name, value)| {
@@ -56,7 +57,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     for (quantity, spread) in spreads {
         if spread > 0.0 {
             metrics.push(
-                Metric::observed("ensemble_spread", &format!("quantity={quantity}"), 100.0 * spread, "%")
+                Metric::observed("ensemble_spread", &Variant::of("quantity", quantity), 100.0 * spread, "%")
                     .against(
                         None,
                         "largest relative standard deviation over the seeds of the initial displacements; the gates of \
@@ -73,7 +74,8 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
                 hourglass(records, &material, aspect_ratio, resolution).iter().map(|point| point.1).collect();
             let (least, most) = values.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &v| (a.min(v), b.max(v)));
             let mean = values.iter().sum::<f64>() / values.len() as f64;
-            let variant = format!("material={material},aspect_ratio={aspect_ratio},resolution={resolution}");
+            let variant =
+                Variant::of("material", &material).and("aspect_ratio", aspect_ratio).and("resolution", resolution);
             metrics.push(
                 Metric::observed("hourglass_spread", &variant, 100.0 * (most - least) / mean, "%")
                     .against(

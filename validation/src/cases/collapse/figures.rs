@@ -176,9 +176,7 @@ fn histories(records: &[&Record]) -> Figure {
 
 /// The values of a run's variant as a file name: `sand-0.9-20`.
 fn stem(run: &ColumnRun) -> String {
-    let variant = run.variant();
-    let values: Vec<&str> = variant.split(',').filter_map(|part| part.split('=').nth(1)).collect();
-    values.join("-").replace('_', "-")
+    run.variant().file_name_of_values()
 }
 
 fn view(run: &ColumnRun) -> View {

@@ -5,7 +5,7 @@ use super::column::{ColumnRun, Geometry, Purpose};
 use super::convergence::relative_spread;
 use super::deposit::Collapse;
 use crate::case::Run;
-use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
 use crate::reference::{COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
 const LUBE: usize = 0;
@@ -45,7 +45,7 @@ fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static CollapseLaw) {
 }
 
 /// Nothing is lost: no particle, no mass, no momentum.
-pub(in crate::cases) fn conservation(variant: &str, collapse: &Collapse) -> [Metric; 3] {
+pub(in crate::cases) fn conservation(variant: &Variant, collapse: &Collapse) -> [Metric; 3] {
     [
         Metric::observed("particles_lost", variant, collapse.lost as f64, "-")
             .against(Some(0.0), "no particle passes the bed, the symmetry plane or the bed's end", Confidence::Exact)
@@ -142,7 +142,7 @@ fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse, sp
     } else {
         top
     });
-    let of_quantity = |quantity: &str| format!("quantity={quantity},{variant}");
+    let of_quantity = |quantity: &str| Variant::of("quantity", quantity).followed_by(&variant);
     let (x96, x99) = collapse.quantiles;
     let quantities = [("centroid", collapse.centroid), ("mass_quantiles", 2.0 * x99 - x96 - 1.0)];
     for (quantity, value) in quantities {

@@ -31,7 +31,7 @@ pub(super) type Record = (ColumnRun, Recorded<Collapse>);
 /// Tables of one run: the deposit and the time series.
 pub(super) fn tables((run, record): &Record) -> Vec<Table> {
     let collapse = &record.data;
-    let stem = run.variant().replace(['=', ','], "-").replace('_', "-");
+    let stem = run.variant().file_name();
     let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
     let energy = |kind: &str| format!("{kind} energy [{}]", run.geometry.energy_unit());
     let series = |k: usize| {

@@ -3,7 +3,7 @@
 use super::Record;
 use super::column::{Geometry, Purpose};
 use super::deposit::Collapse;
-use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::metric::{Confidence, Kind, Limit, Metric, Value, Variant};
 use crate::reference::PLANAR_COLLAPSE;
 use crate::statistics::{Exponent, power_law, student_quantile};
 
@@ -80,16 +80,15 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     let records: Vec<&Record> = records.iter().collect();
     let mut metrics = Vec::new();
     for (material, smallest, run_out_gate, height_gate) in FAMILIES {
-        let ratios: Vec<String> = columns(&records, material, smallest, f64::INFINITY)
-            .iter()
-            .map(|(run, _)| run.aspect_ratio.to_string())
-            .collect();
+        let columns = columns(&records, material, smallest, f64::INFINITY);
+        let ratios = Value::list(columns.iter().map(|(run, _)| run.aspect_ratio));
         type Quantity = (&'static str, fn(&Collapse) -> f64, Option<Limit>);
         let quantities: [Quantity; 2] =
             [("run_out", Collapse::run_out, run_out_gate), ("final_height", Collapse::final_height, height_gate)];
         for (quantity, measure, gate) in quantities {
             let Some(scaling) = fit(&records, material, measure) else { continue };
-            let variant = format!("quantity={quantity},material={material},aspect_ratio={}", ratios.join("_"));
+            let variant =
+                Variant::of("quantity", quantity).and("material", material).and("aspect_ratio", ratios.clone());
             let observed = |name: &str, value: f64| {
                 Metric::observed(name, &variant, value, "-")
                     .of_kind(Kind::Validation)

@@ -6,6 +6,7 @@ use super::deposit::{Collapse, Surveyor, front};
 use crate::case::{Progress, Run};
 use crate::cases::recording::Ending;
 use crate::error::InputError;
+use crate::metric::{Value, Variant};
 use crate::observe::{Frame, Recorded};
 use crate::reference::SLOPE_EXPERIMENT;
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -72,12 +73,13 @@ pub struct SlopeCollapse {
 }
 
 impl Run for SlopeRun {
-    fn variant(&self) -> String {
-        let gate = if self.gate_speed > 0.0 { self.gate_speed.to_string() } else { "none".to_owned() };
-        let collapse = format!("slope_angle={},gate={gate},resolution={}", self.slope_angle, self.resolution);
+    fn variant(&self) -> Variant {
+        let gate = if self.gate_speed > 0.0 { Value::from(self.gate_speed) } else { Value::from("none") };
+        let collapse =
+            Variant::of("slope_angle", self.slope_angle).and("gate", gate).and("resolution", self.resolution);
         match self.regularisation_rate {
             None => collapse,
-            Some(rate) => format!("{collapse},regularisation_rate={rate}"),
+            Some(rate) => collapse.and("regularisation_rate", rate),
         }
     }
 

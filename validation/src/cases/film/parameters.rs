@@ -7,6 +7,7 @@ use crate::cases::bagnold::Arrangement;
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::cases::rules;
 use crate::error::InputError;
+use crate::metric::Variant;
 use crate::observe::Recorded;
 use crate::reference::Incline;
 use bagnold_solver::material::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
@@ -233,18 +234,19 @@ pub(super) fn runs(parameters: &FilmParameters) -> Vec<FilmRun> {
 }
 
 impl Run for FilmRun {
-    fn variant(&self) -> String {
+    fn variant(&self) -> Variant {
         let fluid = match self.fluid.kind() {
             FluidKind::Newtonian => "newtonian",
             FluidKind::Bingham => "bingham",
             FluidKind::HerschelBulkley => "herschel_bulkley",
         };
         let particles = if self.particles == Arrangement::Lattice { "lattice" } else { "jittered" };
-        let numerics = match self.numerics_set {
-            NumericsSet::Default => String::new(),
-            other => format!("numerics={},", other.name()),
+        let variant = Variant::of("fluid", fluid).and("particles", particles);
+        let variant = match self.numerics_set {
+            NumericsSet::Default => variant,
+            other => variant.and("numerics", other.name()),
         };
-        format!("fluid={fluid},particles={particles},{numerics}resolution={}", self.resolution)
+        variant.and("resolution", self.resolution)
     }
 
     fn particle_steps(&self) -> f64 {

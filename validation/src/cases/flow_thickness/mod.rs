@@ -13,7 +13,7 @@ use super::layer::LayerObservation;
 use crate::case::{Case, Progress, Run, Tier};
 use crate::error::InputError;
 use crate::figure::Figure;
-use crate::metric::Metric;
+use crate::metric::{Metric, Variant};
 use crate::observe::Recorded;
 use crate::output::Table;
 use serde::{Deserialize, Serialize};
@@ -58,13 +58,13 @@ pub enum FlowThicknessObservation {
 type Record = (FlowThicknessRun, Recorded<FlowThicknessObservation>);
 
 impl Run for FlowThicknessRun {
-    fn variant(&self) -> String {
+    fn variant(&self) -> Variant {
         match self {
             Self::Collapse(run) => run.variant(),
-            Self::StartStop(run) => format!("thickness={},rows={}", run.layer.thickness, run.layer.rows),
-            Self::Steady(run) => {
-                format!("thickness={},slope_angle={},rows={}", run.layer.thickness, run.slope_angle, run.layer.rows)
-            }
+            Self::StartStop(run) => Variant::of("thickness", run.layer.thickness).and("rows", run.layer.rows),
+            Self::Steady(run) => Variant::of("thickness", run.layer.thickness)
+                .and("slope_angle", run.slope_angle)
+                .and("rows", run.layer.rows),
         }
     }
 
@@ -157,7 +157,7 @@ fn trials((run, record): &Record) -> Option<Table> {
     };
     let row = |trial: &Trial| vec![trial.slope_angle, stops(trial), trial.time, trial.mean_velocity];
     Some(Table {
-        name: format!("trials-{}", run.variant().replace(['=', ','], "-").replace('_', "-")),
+        name: format!("trials-{}", run.variant().file_name()),
         columns: columns.map(str::to_owned).to_vec(),
         rows: found.trials.iter().map(row).collect(),
     })

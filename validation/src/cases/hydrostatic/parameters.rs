@@ -4,6 +4,7 @@ use crate::case::{Progress, Run, Tier};
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::cases::rules;
 use crate::error::InputError;
+use crate::metric::Variant;
 use crate::observe::Recorded;
 use crate::reference::GLASS_BEADS;
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
@@ -171,12 +172,14 @@ pub(super) fn runs(parameters: &HydrostaticParameters) -> Vec<HydrostaticRun> {
 }
 
 impl Run for HydrostaticRun {
-    fn variant(&self) -> String {
+    fn variant(&self) -> Variant {
         let material = match self.material {
             MaterialKind::Newtonian => "newtonian",
             MaterialKind::MuI => "mu_i",
         };
-        format!("material={material},density_coupling={},resolution={}", self.density_coupling, self.resolution)
+        Variant::of("material", material)
+            .and("density_coupling", self.density_coupling)
+            .and("resolution", self.resolution)
     }
 
     fn particle_steps(&self) -> f64 {

@@ -4,6 +4,7 @@ use super::parameters::SettlingParameters;
 use super::probe::{Drag, Probe, SettlingObservation};
 use crate::case::{Progress, Run};
 use crate::cases::channel::Lattice;
+use crate::metric::Variant;
 use crate::observe::Recorded;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -103,8 +104,8 @@ fn relaxation_time(grains: SettlingGrains, law: DragLaw) -> f64 {
 }
 
 impl Run for GrainRun {
-    fn variant(&self) -> String {
-        format!("formulation={},law={}", self.formulation.name(), self.law.name())
+    fn variant(&self) -> Variant {
+        Variant::of("formulation", self.formulation.name()).and("law", self.law.name())
     }
 
     fn particle_steps(&self) -> f64 {

@@ -5,6 +5,7 @@ use super::parameters::SettlingParameters;
 use super::probe::SettlingObservation;
 use super::suspension::{self, SuspensionRun};
 use crate::case::{Progress, Run};
+use crate::metric::Variant;
 use crate::observe::Recorded;
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::run::SceneError;
@@ -26,7 +27,7 @@ pub(super) fn all(parameters: &SettlingParameters) -> Vec<SettlingRun> {
 }
 
 impl Run for SettlingRun {
-    fn variant(&self) -> String {
+    fn variant(&self) -> Variant {
         match self {
             Self::Grain(run) => run.variant(),
             Self::Suspension(run) => run.variant(),

@@ -5,6 +5,7 @@ use super::parameters::SettlingParameters;
 use super::probe::{Drag, Probe, SettlingObservation};
 use crate::case::{Progress, Run};
 use crate::cases::channel::Lattice;
+use crate::metric::Variant;
 use crate::observe::Recorded;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -94,8 +95,8 @@ fn relaxation_time(grains: SettlingGrains, law: DragLaw, solid_fraction: f64) ->
 }
 
 impl Run for SuspensionRun {
-    fn variant(&self) -> String {
-        format!("formulation=continuum,law={},solid_fraction={}", self.law.name(), self.solid_fraction)
+    fn variant(&self) -> Variant {
+        Variant::of("formulation", "continuum").and("law", self.law.name()).and("solid_fraction", self.solid_fraction)
     }
 
     fn particle_steps(&self) -> f64 {

@@ -4,6 +4,7 @@ use crate::case::{Progress, Run, Tier};
 use crate::cases::channel::{Channel, ChannelObservation, Lattice, Until};
 use crate::cases::rules;
 use crate::error::InputError;
+use crate::metric::Variant;
 use crate::observe::Recorded;
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction, Turbulence};
 use serde::{Deserialize, Serialize};
@@ -178,8 +179,10 @@ pub(super) fn runs(parameters: &StillWaterParameters) -> Vec<StillWaterRun> {
 }
 
 impl Run for StillWaterRun {
-    fn variant(&self) -> String {
-        format!("jitter={},stabilisation={},resolution={}", self.jitter, self.numerics.stabilisation, self.resolution)
+    fn variant(&self) -> Variant {
+        Variant::of("jitter", self.jitter)
+            .and("stabilisation", self.numerics.stabilisation)
+            .and("resolution", self.resolution)
     }
 
     fn particle_steps(&self) -> f64 {

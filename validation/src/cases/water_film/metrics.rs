@@ -5,7 +5,7 @@ use super::parameters::WaterFilmRun;
 use crate::case::Run;
 use crate::cases::bagnold::Arrangement;
 use crate::cases::channel::{self, ChannelObservation, ProfilePoint};
-use crate::metric::{Confidence, Limit, Metric};
+use crate::metric::{Confidence, Limit, Metric, Value, Variant};
 use crate::observe::Recorded;
 use crate::statistics::{Estimate, block_average, log_log_slope};
 
@@ -29,8 +29,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     for (name, depth) in [("observed_order", Depth::Nominal), ("observed_order_own_depth", Depth::Own)] {
         let errors = convergence_errors(records, depth);
         if errors.len() >= 3 {
-            let rows: Vec<String> = errors.iter().map(|(rows, _)| format!("{rows:.0}")).collect();
-            let variant = format!("particles=lattice,resolution={}", rows.join("_"));
+            let rows = Value::list(errors.iter().map(|(rows, _)| *rows));
+            let variant = Variant::of("particles", "lattice").and("resolution", rows);
             let metric = Metric::observed(name, &variant, -log_log_slope(&errors).unwrap_or(f64::NAN), "-")
                 .against(None, source(depth), Confidence::Exact)
                 .with_snapshot_tolerance(0.1, 0.05);

@@ -5,6 +5,7 @@ use crate::cases::bagnold::Arrangement;
 use crate::cases::channel::{Channel, ChannelObservation, Lattice, Until};
 use crate::cases::rules;
 use crate::error::InputError;
+use crate::metric::Variant;
 use crate::observe::Recorded;
 use crate::reference::{Incline, NewtonianFilm};
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction, Turbulence};
@@ -175,12 +176,12 @@ pub(super) fn runs(parameters: &WaterFilmParameters) -> Vec<WaterFilmRun> {
 }
 
 impl Run for WaterFilmRun {
-    fn variant(&self) -> String {
+    fn variant(&self) -> Variant {
         let particles = match self.particles {
             Arrangement::Lattice => "lattice",
             Arrangement::Jittered => "jittered",
         };
-        format!("particles={particles},resolution={}", self.resolution)
+        Variant::of("particles", particles).and("resolution", self.resolution)
     }
 
     fn particle_steps(&self) -> f64 {
