@@ -4,7 +4,7 @@ use crate::verdict::complaints;
 use bagnold_validation::case::{CaseResult, Changes, RunSummary, Tier};
 use bagnold_validation::cases::REGISTRY;
 use bagnold_validation::metric::{Limit, Metric, Variant};
-use bagnold_validation::observe::Outcome;
+use bagnold_validation::observation::Outcome;
 use bagnold_validation::report::{KnownFailure, KnownFailures};
 use std::path::Path;
 

@@ -6,9 +6,9 @@ use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::{domain::Domain, vector::Vector};
-use bagnold_validation::case::{Case, Progress, Registry, Run, Tier};
-use bagnold_validation::metric::{Confidence, Limit, Metric};
-use bagnold_validation::{cases::recording::record, error::InputError, observe::Recorded};
+use bagnold_validation::case::{Case, ParameterError, Progress, Registry, Run, Tier};
+use bagnold_validation::metric::{Confidence, Limit, Metric, Variant};
+use bagnold_validation::{cases::recording::record, observation::Recorded};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -28,8 +28,8 @@ struct Wave {
 }
 
 impl Run for Wave {
-    fn variant(&self) -> String {
-        format!("rows={}", self.rows)
+    fn variant(&self) -> Variant {
+        Variant::of("rows", self.rows)
     }
 }
 
@@ -46,14 +46,14 @@ impl Case for ShearWave {
     fn parameters(&self, tier: Tier) -> Wave {
         Wave { rows: if tier == Tier::Quick { 20 } else { 40 }, viscosity: 0.05 }
     }
-    fn check(&self, wave: &Wave) -> Result<(), InputError> {
-        let refusal = InputError::field("rows", wave.rows, "10 to 1000", "20 is quick");
+    fn check(&self, wave: &Wave) -> Result<(), ParameterError> {
+        let refusal = ParameterError::field("rows", wave.rows, "10 to 1000", "20 is quick");
         (10..=1000).contains(&wave.rows).then_some(()).ok_or(refusal)
     }
     fn runs(&self, wave: &Wave) -> Vec<Wave> {
         vec![wave.clone()]
     }
-    fn simulate(&self, wave: &Wave, progress: &dyn Progress) -> Result<Recorded<f64>, InputError> {
+    fn simulate(&self, wave: &Wave, progress: &dyn Progress) -> Result<Recorded<f64>, ParameterError> {
         let (n, spacing) = (wave.rows, 1.0 / wave.rows as f64);
         let place = |k: usize| Vector::<2>::new((k % n) as f64 + 0.5, (k / n) as f64 + 0.5) * spacing;
         let mut flow = Flow::at_rest((0..n * n).map(place).collect(), 1000.0, spacing);

@@ -2,9 +2,8 @@
 
 use super::figures;
 use super::result::{Compared, Outcome, relative_error, weighted_error};
-use crate::error::InputError;
 use crate::figure::{self, FigureError};
-use crate::output::write_whole;
+use crate::output::{FileError, write_whole};
 use crate::report::template_value;
 use serde::Serialize;
 use std::io;
@@ -42,8 +41,8 @@ struct Page<'a> {
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(outcome: &Outcome, folder: &Path) -> Result<(), InputError> {
-    let unwritable = |error: io::Error| InputError::unwritable(folder, &error);
+pub fn write(outcome: &Outcome, folder: &Path) -> Result<(), FileError> {
+    let unwritable = |error: io::Error| FileError::unwritable(folder, &error);
     let drawn = folder.join("figures");
     let mut pictures = Vec::new();
     for picture in figures::all(outcome) {

@@ -1,8 +1,8 @@
 //! What of a case's record a datum is compared with, and how.
 
 use super::result::Place;
-use crate::error::nearest;
 use crate::evaluation::Record;
+use crate::input::nearest;
 
 /// What of a record a datum is compared with.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,11 +1,11 @@
 //! Cases without their types: what the command line, the report and the tests work with.
 
+use super::error::ParameterError;
 use super::parameters::{Changes, is_set, resolve, table_of};
 use super::result::{CaseResult, RunSummary, microseconds_each};
 use super::{Case, CaseFile, Progress, Run, Tier};
-use crate::error::InputError;
 use crate::metric::Variant;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::store::Store;
 use sha2::{Digest, Sha256};
 use std::sync::OnceLock;
@@ -22,7 +22,7 @@ pub trait AnyCase: Sync {
     ///
     /// # Errors
     /// The first field that is unknown, of the wrong type, or breaks a rule.
-    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, InputError>;
+    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, ParameterError>;
 }
 
 /// Checked parameters and the runs that they ask for; each run's record is kept as it comes in.
@@ -43,7 +43,7 @@ pub trait Prepared: Send + Sync {
     ///
     /// # Errors
     /// Parameters whose combination gives no valid scene.
-    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), InputError>;
+    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError>;
     /// Judges and draws the records. Runs that were not simulated are left out.
     fn finish(self: Box<Self>) -> CaseResult;
 }
@@ -61,7 +61,7 @@ impl<C: Case> AnyCase for C {
         file_text(self, tier, &self.parameters(tier))
     }
 
-    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, InputError> {
+    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, ParameterError> {
         let defaults = self.parameters(tier);
         let parameters = resolve(Case::name(self), &defaults, changes)?;
         self.check(&parameters).map_err(|error| match (&changes.file, error.field_path()) {
@@ -69,7 +69,7 @@ impl<C: Case> AnyCase for C {
             _ => error,
         })?;
         if self.runs(&parameters).is_empty() {
-            return Err(InputError::NothingToRun { case: Case::name(self).to_owned() });
+            return Err(ParameterError::NothingToRun { case: Case::name(self).to_owned() });
         }
         let changed = table_of(&parameters) != table_of(&defaults);
         Ok(Box::new(Plan::<C> {
@@ -124,7 +124,7 @@ impl<C: Case> Prepared for Plan<C> {
         store.key(self.name(), &self.slots[run].0).map(|key| key.to_string())
     }
 
-    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), InputError> {
+    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError> {
         let (description, slot) = &self.slots[run];
         let key = store.key(self.name(), description);
         if let Some(record) = key.as_ref().and_then(|key| store.fetch(key)) {

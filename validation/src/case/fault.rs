@@ -1,7 +1,8 @@
 //! What serde and TOML say about a bad field, put into a user's words.
 
+use super::error::ParameterError;
 use super::parameters::{find, paths};
-use crate::error::{InputError, nearest};
+use crate::input::{FieldError, nearest};
 use serde::de::DeserializeOwned;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
@@ -51,20 +52,20 @@ impl Fault {
     }
 
     /// The error for parameters of `case` that were read into `table`.
-    pub(super) fn in_parameters(self, case: &str, table: &Table) -> InputError {
+    pub(super) fn in_parameters(self, case: &str, table: &Table) -> ParameterError {
         match self {
             Self::Unknown { path, known } => {
                 let known = if known.is_empty() { paths(table) } else { known };
                 let others = known.iter().map(String::as_str).filter(|other| *other != path);
-                InputError::UnknownField {
+                ParameterError::UnknownField {
                     file: None,
                     nearest: nearest(&path, others),
                     field: path,
                     case: case.to_owned(),
                 }
             }
-            Self::Missing { path } => InputError::MissingField { file: None, field: path, case: case.to_owned() },
-            Self::Value { path, rule, remedy } => InputError::Field {
+            Self::Missing { path } => ParameterError::MissingField { file: None, field: path, case: case.to_owned() },
+            Self::Value { path, rule, remedy } => ParameterError::Field(FieldError {
                 file: None,
                 value: find(table, &path)
                     .map(ToString::to_string)
@@ -73,7 +74,7 @@ impl Fault {
                 rule,
                 remedy: remedy.unwrap_or_else(|| format!("`bagnold show {case}` prints a valid value")),
                 field: path,
-            },
+            }),
         }
     }
 }

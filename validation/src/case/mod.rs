@@ -1,6 +1,7 @@
 //! What a case is: typed parameters → independent runs → observations → metrics and figures.
 
 mod erased;
+mod error;
 mod fault;
 mod file;
 mod parameters;
@@ -11,17 +12,16 @@ mod result;
 mod schedule;
 
 pub use erased::{AnyCase, Prepared};
+pub use error::{ParameterError, SettingError};
 pub use file::CaseFile;
-pub(crate) use file::position;
 pub use parameters::Changes;
 pub use registry::Registry;
 pub use result::{CaseResult, RunSummary};
 pub use schedule::{Monitor, Silent, execute, share_out};
 
-use crate::error::InputError;
 use crate::figure::{Animation, Figure};
 use crate::metric::{Metric, Variant};
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use serde::{Serialize, de::DeserializeOwned};
 
 /// How much a case may cost.
@@ -102,14 +102,15 @@ pub trait Case: Sync + 'static {
     ///
     /// # Errors
     /// The first field that breaks a rule.
-    fn check(&self, parameters: &Self::Parameters) -> Result<(), InputError>;
+    fn check(&self, parameters: &Self::Parameters) -> Result<(), ParameterError>;
     /// The independent simulations that these parameters ask for, in report order.
     fn runs(&self, parameters: &Self::Parameters) -> Vec<Self::Run>;
     /// Simulates one run. A divergence is part of the record, not an error.
     ///
     /// # Errors
     /// Parameters whose combination gives no valid scene.
-    fn simulate(&self, run: &Self::Run, progress: &dyn Progress) -> Result<Recorded<Self::Observation>, InputError>;
+    fn simulate(&self, run: &Self::Run, progress: &dyn Progress)
+    -> Result<Recorded<Self::Observation>, ParameterError>;
     /// Judges the observations.
     fn metrics(
         &self,

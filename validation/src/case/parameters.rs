@@ -1,7 +1,8 @@
 //! From defaults, a TOML file and `--set` to typed parameters, with errors that name the field.
 
+use super::error::{ParameterError, SettingError};
 use super::fault::Fault;
-use crate::error::{InputError, nearest};
+use crate::input::nearest;
 use serde::{Serialize, de::DeserializeOwned};
 use std::path::Path;
 use toml::{Table, Value};
@@ -21,7 +22,7 @@ pub(super) fn table_of<P: Serialize>(parameters: &P) -> Table {
 }
 
 /// Lays the changes over the defaults and types the result.
-pub(super) fn resolve<P>(case: &str, defaults: &P, changes: &Changes<'_>) -> Result<P, InputError>
+pub(super) fn resolve<P>(case: &str, defaults: &P, changes: &Changes<'_>) -> Result<P, ParameterError>
 where
     P: Serialize + DeserializeOwned,
 {
@@ -84,8 +85,8 @@ fn ignored_field(given: &Table, understood: &Table) -> Option<String> {
 }
 
 /// Applies one `path=value`.
-fn set<P: Serialize + DeserializeOwned>(case: &str, table: &mut Table, argument: &str) -> Result<(), InputError> {
-    let form = |table: &Table| InputError::SetForm {
+fn set<P: Serialize + DeserializeOwned>(case: &str, table: &mut Table, argument: &str) -> Result<(), ParameterError> {
+    let form = |table: &Table| SettingError::Form {
         argument: argument.to_owned(),
         example: paths(table)
             .into_iter()
@@ -95,14 +96,14 @@ fn set<P: Serialize + DeserializeOwned>(case: &str, table: &mut Table, argument:
             .unwrap_or_else(|| "path=value".to_owned()),
     };
     let Some((path, text)) = argument.split_once('=').map(|(path, text)| (path.trim(), text.trim())) else {
-        return Err(form(table));
+        return Err(form(table).into());
     };
     if path.is_empty() || text.is_empty() {
-        return Err(form(table));
+        return Err(form(table).into());
     }
     let unknown = |table: &Table| {
         let known = paths(table);
-        InputError::SetPath {
+        SettingError::Path {
             path: path.to_owned(),
             value: text.to_owned(),
             nearest: nearest(path, known.iter().map(String::as_str)),
@@ -112,12 +113,12 @@ fn set<P: Serialize + DeserializeOwned>(case: &str, table: &mut Table, argument:
 
     let mut changed = table.clone();
     let mut keys: Vec<&str> = path.split('.').collect();
-    let Some(last) = keys.pop() else { return Err(form(table)) };
+    let Some(last) = keys.pop() else { return Err(form(table).into()) };
     let mut parent = &mut changed;
     for key in keys {
         parent = match parent.get_mut(key) {
             Some(Value::Table(inner)) => inner,
-            _ => return Err(unknown(table)),
+            _ => return Err(unknown(table).into()),
         };
     }
     // An optional field that is absent by default may be set: the type decides below whether it exists.
@@ -134,13 +135,14 @@ fn set<P: Serialize + DeserializeOwned>(case: &str, table: &mut Table, argument:
             *table = changed;
             Ok(())
         }
-        Err(Fault::Unknown { path: field, .. }) if field == path => Err(unknown(table)),
-        Err(Fault::Value { path: field, rule, remedy }) if field == path => Err(InputError::SetValue {
+        Err(Fault::Unknown { path: field, .. }) if field == path => Err(unknown(table).into()),
+        Err(Fault::Value { path: field, rule, remedy }) if field == path => Err(SettingError::Value {
             path: path.to_owned(),
             value: text.to_owned(),
             rule,
             remedy: remedy.unwrap_or_else(|| format!("`bagnold show {case}` prints a valid value")),
-        }),
+        }
+        .into()),
         Err(fault) => Err(fault.in_parameters(case, &changed)),
     }
 }

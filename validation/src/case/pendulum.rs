@@ -1,10 +1,10 @@
 //! A case for this crate's own tests: a damped pendulum, cheap and with an exact solution.
 
+use super::error::ParameterError;
 use super::{Case, Progress, Registry, Run, Tier};
-use crate::error::InputError;
 use crate::figure::Figure;
 use crate::metric::{Confidence, Limit, Metric, Variant};
-use crate::observe::{Frame, Outcome, Recorded};
+use crate::observation::{Frame, Outcome, Recorded};
 use crate::output::Table;
 use serde::{Deserialize, Serialize};
 
@@ -71,14 +71,14 @@ impl Case for Pendulum {
             grain: Grain { diameter: 1e-3, damping: 1.0 },
         }
     }
-    fn check(&self, parameters: &Parameters) -> Result<(), InputError> {
+    fn check(&self, parameters: &Parameters) -> Result<(), ParameterError> {
         let diameter = parameters.grain.diameter;
         if !(diameter > 0.0 && diameter.is_finite()) {
-            return Err(InputError::field("grain.diameter", diameter, "positive", "give it in metres"));
+            return Err(ParameterError::field("grain.diameter", diameter, "positive", "give it in metres"));
         }
         if !(parameters.slope_angle > -90.0 && parameters.slope_angle < 90.0) {
             let rule = "inside (−90°, 90°)";
-            return Err(InputError::field("slope_angle", parameters.slope_angle, rule, "give it in degrees"));
+            return Err(ParameterError::field("slope_angle", parameters.slope_angle, rule, "give it in degrees"));
         }
         Ok(())
     }
@@ -86,9 +86,9 @@ impl Case for Pendulum {
         let swing = |&steps: &u64| Swing { steps, damping: parameters.grain.damping, angle: parameters.slope_angle };
         parameters.steps.iter().map(swing).collect()
     }
-    fn simulate(&self, run: &Swing, progress: &dyn Progress) -> Result<Recorded<Vec<f64>>, InputError> {
+    fn simulate(&self, run: &Swing, progress: &dyn Progress) -> Result<Recorded<Vec<f64>>, ParameterError> {
         if run.steps == 0 {
-            return Err(InputError::field("steps", 0, "positive", "take more steps"));
+            return Err(ParameterError::field("steps", 0, "positive", "take more steps"));
         }
         let interval = 1.0 / run.steps as f64;
         let mut angle = vec![run.angle];

@@ -3,7 +3,7 @@
 use super::Tier;
 use crate::figure::{Animation, Figure};
 use crate::metric::{Metric, Variant, Verdict};
-use crate::observe::{Frame, Outcome};
+use crate::observation::{Frame, Outcome};
 use crate::output::Table;
 use serde::{Deserialize, Serialize};
 

@@ -1,12 +1,12 @@
 //! `bagnold calibrate`: parameters from data.
 
 use super::arguments::Calibrate;
+use super::error::ProgramError;
 use super::progress::Count;
 use super::summary::number;
 use super::{Exit, say};
 use crate::calibration::{CalibrationFolder, Outcome, Plan, Watch, calibrate, write};
 use crate::case::Registry;
-use crate::error::InputError;
 use crate::output::OutputFolder;
 use std::io::Write;
 use std::path::Path;
@@ -17,7 +17,7 @@ pub(super) fn run(
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
-) -> Result<Exit, InputError> {
+) -> Result<Exit, ProgramError> {
     let plan = Plan::read(&command.file, registry)?;
     let folder = command.out.clone().unwrap_or_else(|| {
         Path::new("reports/calibrations").join(command.file.file_stem().unwrap_or_else(|| "calibration".as_ref()))

@@ -2,7 +2,7 @@
 
 use crate::case::CaseResult;
 use crate::metric::{Limit, Metric, Verdict};
-use crate::observe::Outcome;
+use crate::observation::Outcome;
 use std::fmt::Write as _;
 
 /// A case's metrics, one a line, and what went wrong in its runs.

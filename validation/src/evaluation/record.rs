@@ -2,7 +2,7 @@
 
 use crate::case::CaseResult;
 use crate::metric::{Metric, Variant, Verdict};
-use crate::observe::Outcome;
+use crate::observation::Outcome;
 use crate::output::Table;
 use crate::store::entry;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,5 @@
 //! A metric: one number that a case is judged by, with what it is judged against.
 
-pub mod json;
 pub mod variant;
 
 pub use variant::{Value, Variant};

@@ -4,7 +4,7 @@ use super::accepted::{Drift, Key};
 use super::known_failures::{KnownFailure, Standing};
 use super::{CaseReport, Report};
 use crate::metric::{Kind, Metric, Variant, Verdict};
-use crate::observe::Outcome;
+use crate::observation::Outcome;
 
 /// How bad a result is; the order is that of the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

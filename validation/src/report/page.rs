@@ -8,7 +8,7 @@ use super::view::{Banner, BannerItem, Case, Count, Mark, Page, Picture, Run};
 use super::{CaseReport, Drawn, Provenance, Report};
 use crate::case::RunSummary;
 use crate::metric::Verdict;
-use crate::observe::Outcome;
+use crate::observation::Outcome;
 
 /// More lines than this do not fit on a first screen; the rest stands in the table right below.
 const BANNER_LINES: usize = 14;

@@ -168,7 +168,7 @@ fn kinds_are_counted_apart_and_observed_values_not_at_all() {
 fn an_undeclared_divergence_is_a_failure_and_a_declared_one_is_not() {
     let run = |expected| crate::case::RunSummary {
         variant: Variant::of("slope_angle", 34),
-        outcome: crate::observe::Outcome::Diverged { message: "speed of particle 17".to_owned(), expected },
+        outcome: crate::observation::Outcome::Diverged { message: "speed of particle 17".to_owned(), expected },
         particles: 400,
         steps: 1000,
         simulated_time: 0.5,

@@ -55,7 +55,7 @@ fn by_resolution(metric: Metric, rows: usize, fine: f64, coarse: f64, reason: &s
 fn steady(
     metrics: &mut Vec<Metric>,
     run: &BagnoldRun,
-    record: &crate::observe::Recorded<layer::LayerObservation>,
+    record: &crate::observation::Recorded<layer::LayerObservation>,
     variant: &Variant,
 ) {
     let exact = run.profile();
@@ -116,7 +116,7 @@ fn steady(
 fn regularised(
     metrics: &mut Vec<Metric>,
     run: &BagnoldRun,
-    record: &crate::observe::Recorded<layer::LayerObservation>,
+    record: &crate::observation::Recorded<layer::LayerObservation>,
     variant: &Variant,
 ) {
     let Some(errors) = steady_errors(&record.data.profile, &run.profile()) else { return };
@@ -132,7 +132,7 @@ fn regularised(
 fn transient(
     metrics: &mut Vec<Metric>,
     run: &BagnoldRun,
-    record: &crate::observe::Recorded<layer::LayerObservation>,
+    record: &crate::observation::Recorded<layer::LayerObservation>,
     variant: &Variant,
 ) {
     let Some((history, steady_mean)) = history_from_rest(run) else { return };
@@ -163,7 +163,7 @@ fn transient(
 fn arrest(
     metrics: &mut Vec<Metric>,
     run: &BagnoldRun,
-    record: &crate::observe::Recorded<layer::LayerObservation>,
+    record: &crate::observation::Recorded<layer::LayerObservation>,
     variant: &Variant,
 ) {
     let particles = particle_history(&record.data);
@@ -196,7 +196,7 @@ fn arrest(
 fn runaway(
     metrics: &mut Vec<Metric>,
     run: &BagnoldRun,
-    record: &crate::observe::Recorded<layer::LayerObservation>,
+    record: &crate::observation::Recorded<layer::LayerObservation>,
     variant: &Variant,
 ) {
     let particles = particle_history(&record.data);

@@ -9,11 +9,10 @@ pub use parameters::{Arrangement, BagnoldParameters, Start};
 pub use runs::{BagnoldRun, Purpose};
 
 use super::layer::LayerObservation;
-use crate::case::{Case, Progress, Tier};
-use crate::error::InputError;
+use crate::case::{Case, ParameterError, Progress, Tier};
 use crate::figure::Figure;
 use crate::metric::Metric;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -55,7 +54,7 @@ impl Case for Bagnold {
         BagnoldParameters::of_tier(tier)
     }
 
-    fn check(&self, parameters: &BagnoldParameters) -> Result<(), InputError> {
+    fn check(&self, parameters: &BagnoldParameters) -> Result<(), ParameterError> {
         parameters.check()
     }
 
@@ -63,7 +62,11 @@ impl Case for Bagnold {
         runs::all(parameters)
     }
 
-    fn simulate(&self, run: &BagnoldRun, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+    fn simulate(
+        &self,
+        run: &BagnoldRun,
+        progress: &dyn Progress,
+    ) -> Result<Recorded<LayerObservation>, ParameterError> {
         run.simulate(progress)
     }
 

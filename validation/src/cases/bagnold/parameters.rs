@@ -1,9 +1,8 @@
 //! The case's parameters and their tiers.
 
-use crate::case::Tier;
+use crate::case::{ParameterError, Tier};
 use crate::cases::layer::Preparation;
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::reference::{BagnoldProfile, GLASS_BEADS};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
@@ -159,7 +158,7 @@ impl BagnoldParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
         rules::positive("layer_height", self.layer_height, "give it in metres, such as 0.01")?;
         rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
         rules::between("solid_fraction", self.solid_fraction, 0.0, 0.74, "grains fill 0.5 to 0.64 of the space")?;
@@ -200,7 +199,7 @@ impl BagnoldParameters {
             }
             let band =
                 [self.material.static_friction, self.material.limiting_friction].map(|mu| libm::atan(mu).to_degrees());
-            Err(InputError::field(
+            Err(ParameterError::field(
                 field,
                 angle,
                 &format!("between {:.2}° and {:.2}°, the friction angles of the material", band[0], band[1]),

@@ -1,11 +1,10 @@
 //! The simulations that the case asks for.
 
 use super::parameters::{ARREST_DURATION, Arrangement, BagnoldParameters, Start, law, profile};
-use crate::case::{Progress, Run};
+use crate::case::{ParameterError, Progress, Run};
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
-use crate::error::InputError;
 use crate::metric::{Value, Variant};
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::reference::BagnoldProfile;
 use bagnold_solver::material::rheology::MuI;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
@@ -245,7 +244,7 @@ impl BagnoldRun {
         }
     }
 
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         let start = self.start_profile();
         let moving = self.start == Start::Profile;
         let velocity = |y: f64| if moving { start.velocity(y).unwrap_or(0.0) } else { 0.0 };

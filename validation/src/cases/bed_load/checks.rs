@@ -2,14 +2,14 @@
 
 use super::parameters::{BedLoadParameters, Grains, Materials, Yield};
 use super::runs::LAYER_CELL;
+use crate::case::ParameterError;
 use crate::cases::{bed_load_1d, rules};
-use crate::error::InputError;
 use crate::reference::bed_load_layer::{Closures, MixingLength};
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::turbulence::VON_KARMAN;
 
 impl BedLoadParameters {
-    pub(super) fn check(&self) -> Result<(), InputError> {
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
         let Materials { depth, gravity, fluid_density, kinematic_viscosity, grain_density, grain_diameter } =
             self.materials;
         rules::positive("materials.depth", depth, "give it in metres, such as 0.046")?;
@@ -29,7 +29,7 @@ impl BedLoadParameters {
             if !values.is_empty() && (values.len() < 2 || !values.is_sorted_by(|a, b| a < b)) {
                 let shown = format!("{values:?}");
                 let (rule, remedy) = ("empty or two or more rising values", "the fits interpolate between them");
-                return Err(InputError::field(field, shown, rule, remedy));
+                return Err(ParameterError::field(field, shown, rule, remedy));
             }
             for (index, &value) in values.iter().enumerate() {
                 rules::positive(&format!("{field}[{index}]"), value, "give it in Pa or Pa·s")?;
@@ -38,12 +38,12 @@ impl BedLoadParameters {
         check_slopes("fit.slopes", &fit.slopes)?;
         if fit.slopes.len() < 3 && !fit.yield_stresses.is_empty() && !fit.viscosities.is_empty() {
             let (rule, remedy) = ("three or more", "two are fitted for each that is held out");
-            return Err(InputError::field("fit.slopes", format!("{:?}", fit.slopes), rule, remedy));
+            return Err(ParameterError::field("fit.slopes", format!("{:?}", fit.slopes), rule, remedy));
         }
         check_time("fit", fit.duration, fit.averaging_time)
     }
 
-    fn check_grains(&self, path: &str, grains: &Grains) -> Result<(), InputError> {
+    fn check_grains(&self, path: &str, grains: &Grains) -> Result<(), ParameterError> {
         let field = |name: &str| format!("{path}.{name}");
         check_slopes(&field("slopes"), &grains.slopes)?;
         let Yield { yield_stress, viscosity, regularisation_rate, largest_viscosity } = grains.material;
@@ -57,7 +57,7 @@ impl BedLoadParameters {
         grains.turbulence.check(&field("turbulence"))?;
         if grains.drag == DragLaw::Ergun {
             let (rule, remedy) = ("a law of one grain", "Ergun's is one of packed grains; `continuum` has it");
-            return Err(InputError::field(&field("drag"), "ergun", rule, remedy));
+            return Err(ParameterError::field(&field("drag"), "ergun", rule, remedy));
         }
         rules::between(&field("drag_factor"), grains.drag_factor, 0.0, 10.0, "1 is the drag law's")?;
         rules::positive(&field("spacing"), grains.spacing, "give it in metres; 0.002 for the paper's")?;
@@ -81,7 +81,7 @@ impl BedLoadParameters {
         rules::projection(&field("numerics"), &grains.numerics)
     }
 
-    fn check_continuum(&self) -> Result<(), InputError> {
+    fn check_continuum(&self) -> Result<(), ParameterError> {
         let continuum = &self.continuum;
         rules::positive("continuum.bed_depth", continuum.bed_depth, "give it in metres, such as 0.016")?;
         let remedy = "hold less than the whole bed";
@@ -101,11 +101,11 @@ impl BedLoadParameters {
         if mixing_length != MixingLength::Integral {
             let remedy = "the particles know no other; bed-load-1d compares all";
             let given = format!("{mixing_length:?}").to_lowercase();
-            return Err(InputError::field("continuum.closures.mixing_length", given, "integral", remedy));
+            return Err(ParameterError::field("continuum.closures.mixing_length", given, "integral", remedy));
         }
         if karman != VON_KARMAN {
             let remedy = "the particles know no other; bed-load-1d takes any";
-            return Err(InputError::field("continuum.closures.karman", karman, &VON_KARMAN.to_string(), remedy));
+            return Err(ParameterError::field("continuum.closures.karman", karman, &VON_KARMAN.to_string(), remedy));
         }
         for (name, length) in [
             ("materials.depth", self.materials.depth),
@@ -138,22 +138,22 @@ impl BedLoadParameters {
     }
 }
 
-fn check_slopes(field: &str, slopes: &[f64]) -> Result<(), InputError> {
+fn check_slopes(field: &str, slopes: &[f64]) -> Result<(), ParameterError> {
     slopes.iter().enumerate().try_for_each(|(index, &slope)| rules::driving_slope(&format!("{field}[{index}]"), slope))
 }
 
-fn check_time(path: &str, duration: f64, averaging_time: f64) -> Result<(), InputError> {
+fn check_time(path: &str, duration: f64, averaging_time: f64) -> Result<(), ParameterError> {
     rules::between(&format!("{path}.duration"), duration, 0.1, 1e4, "a few seconds, more to be stationary")?;
     let field = format!("{path}.averaging_time");
     rules::between(&field, averaging_time, 0.05, duration, "the window lies within the run")
 }
 
 /// A length that is a whole multiple of another.
-fn whole(field: &str, length: f64, part: f64, of: &str) -> Result<(), InputError> {
+fn whole(field: &str, length: f64, part: f64, of: &str) -> Result<(), ParameterError> {
     let parts = length / part;
     if parts >= 0.99 && (parts - parts.round()).abs() < 1e-6 * parts.max(1.0) && parts < 1e4 {
         return Ok(());
     }
     let rule = format!("a whole multiple {of}, {part} m");
-    Err(InputError::field(field, length, &rule, "choose lengths that divide each other"))
+    Err(ParameterError::field(field, length, &rule, "choose lengths that divide each other"))
 }

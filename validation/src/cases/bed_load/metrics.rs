@@ -10,7 +10,7 @@ use super::statements;
 use crate::case::Run;
 use crate::cases::channel;
 use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::reference::{HONEST_BAND, TransportFormula};
 use crate::statistics::{Estimate, block_average, linear_fit};
 use bagnold_solver::incompressible::PairLaw;

@@ -16,12 +16,11 @@ pub use observation::BedLoadObservation;
 pub use parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns, Yield};
 pub use runs::{BedLoadRun, Formulation};
 
-use crate::case::{Case, Progress, Run, Tier};
+use crate::case::{Case, ParameterError, Progress, Run, Tier};
 use crate::cases::channel;
-use crate::error::InputError;
 use crate::figure::Figure;
 use crate::metric::Metric;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -61,7 +60,7 @@ impl Case for BedLoad {
         BedLoadParameters::of_tier(tier)
     }
 
-    fn check(&self, parameters: &BedLoadParameters) -> Result<(), InputError> {
+    fn check(&self, parameters: &BedLoadParameters) -> Result<(), ParameterError> {
         parameters.check()
     }
 
@@ -69,7 +68,11 @@ impl Case for BedLoad {
         runs::runs(parameters)
     }
 
-    fn simulate(&self, run: &BedLoadRun, progress: &dyn Progress) -> Result<Recorded<BedLoadObservation>, InputError> {
+    fn simulate(
+        &self,
+        run: &BedLoadRun,
+        progress: &dyn Progress,
+    ) -> Result<Recorded<BedLoadObservation>, ParameterError> {
         run.simulate(progress)
     }
 

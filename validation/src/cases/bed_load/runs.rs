@@ -2,10 +2,9 @@
 
 use super::observation::{BedLoadObservation, Observer};
 use super::parameters::{BedLoadParameters, Continuum, Grains, Materials, Stage, Yield};
-use crate::case::{Progress, Run};
-use crate::error::InputError;
+use crate::case::{ParameterError, Progress, Run};
 use crate::metric::Variant;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::reference::bed_load_layer::{BedLoadLayer, Grains as LayerGrains, LayerState, SolidFraction, Start, Stream};
 use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
 use serde::Serialize;
@@ -175,7 +174,7 @@ impl BedLoadRun {
     }
 
     /// The 1-D layer that a `continuum` run is verified against.
-    pub(super) fn layer(&self) -> Result<Option<LayerState>, InputError> {
+    pub(super) fn layer(&self) -> Result<Option<LayerState>, ParameterError> {
         let Formulation::Continuum { continuum, stage, .. } = &self.formulation else { return Ok(None) };
         let layer = |grains| BedLoadLayer {
             stream: self.stream(),
@@ -184,7 +183,7 @@ impl BedLoadRun {
             cell_height: LAYER_CELL,
         };
         let refused = |error: crate::reference::ReferenceError| {
-            InputError::field(
+            ParameterError::field(
                 "continuum.closures",
                 error.to_string(),
                 "such that the 1-D layer has a steady state",
@@ -202,7 +201,7 @@ impl BedLoadRun {
         Ok(Some(state))
     }
 
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadObservation>, InputError> {
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadObservation>, ParameterError> {
         let layer = self.layer()?;
         let law = self.clear_water();
         let start = |z: f64| match (&layer, &self.formulation) {
@@ -249,6 +248,6 @@ impl BedLoadRun {
     }
 }
 
-fn no_layer() -> InputError {
-    InputError::field("continuum", "no layer", "a run with its 1-D layer", "this is a defect of the program")
+fn no_layer() -> ParameterError {
+    ParameterError::field("continuum", "no layer", "a run with its 1-D layer", "this is a defect of the program")
 }

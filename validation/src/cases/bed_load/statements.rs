@@ -10,7 +10,7 @@ use super::tiers::FITTED;
 use crate::case::Run;
 use crate::cases::channel;
 use crate::metric::{Confidence, Kind, Limit, Metric, Value, Variant};
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::reference::{HONEST_BAND, LAYER_STATEMENTS, TransportFormula};
 use crate::statistics::Segmented;
 

@@ -4,7 +4,7 @@ use super::Record;
 use super::runs::{BedLoad1dRun, Purpose};
 use crate::case::Run;
 use crate::metric::{Confidence, Kind, Limit, Metric, Value, Variant};
-use crate::observe::Outcome;
+use crate::observation::Outcome;
 use crate::reference::TransportFormula;
 use crate::reference::bed_load_layer::LayerState;
 

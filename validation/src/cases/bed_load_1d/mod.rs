@@ -11,11 +11,10 @@ pub use parameters::{BedLoad1dParameters, Grain, Water};
 pub use runs::{BedLoad1dRun, LayerObservation, Purpose};
 pub use sensitivities::Sensitivities;
 
-use crate::case::{Case, Progress, Run, Tier};
-use crate::error::InputError;
+use crate::case::{Case, ParameterError, Progress, Run, Tier};
 use crate::figure::Figure;
 use crate::metric::Metric;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -56,7 +55,7 @@ impl Case for BedLoad1d {
         BedLoad1dParameters::of_tier(tier)
     }
 
-    fn check(&self, parameters: &BedLoad1dParameters) -> Result<(), InputError> {
+    fn check(&self, parameters: &BedLoad1dParameters) -> Result<(), ParameterError> {
         parameters.check()
     }
 
@@ -64,7 +63,11 @@ impl Case for BedLoad1d {
         runs::all(parameters)
     }
 
-    fn simulate(&self, run: &BedLoad1dRun, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+    fn simulate(
+        &self,
+        run: &BedLoad1dRun,
+        progress: &dyn Progress,
+    ) -> Result<Recorded<LayerObservation>, ParameterError> {
         run.simulate(progress)
     }
 

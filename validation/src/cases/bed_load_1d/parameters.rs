@@ -1,9 +1,8 @@
 //! Parameters and tiers.
 
 use super::sensitivities::Sensitivities;
-use crate::case::Tier;
+use crate::case::{ParameterError, Tier};
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::reference::bed_load_layer::{Closures, Stream};
 use serde::{Deserialize, Serialize};
 
@@ -130,7 +129,7 @@ impl BedLoad1dParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
         for (index, &slope) in self.slopes.iter().enumerate() {
             let field = format!("slopes[{index}]");
             rules::positive(&field, slope, "give tanθ, such as 0.03; without a slope nothing flows")?;
@@ -150,7 +149,7 @@ impl BedLoad1dParameters {
         if grains.density <= density {
             let rule = "greater than the density of the water";
             let remedy = "grains that float are no bed load";
-            return Err(InputError::field("grains.density", grains.density, rule, remedy));
+            return Err(ParameterError::field("grains.density", grains.density, rule, remedy));
         }
         rules::between("fast_start", self.fast_start, 0.0, 100.0, "give it in m/s, or 0 for no second start")?;
         closures("closures", &self.closures)?;
@@ -163,7 +162,7 @@ impl BedLoad1dParameters {
                 self.cells(&field, height)?;
                 if index > 0 && (heights[index - 1] / height - 2.0).abs() > 1e-6 {
                     let remedy = "the order compares means over two cells with one";
-                    return Err(InputError::field(&field, height, "half the height before it", remedy));
+                    return Err(ParameterError::field(&field, height, "half the height before it", remedy));
                 }
             }
         }
@@ -171,7 +170,7 @@ impl BedLoad1dParameters {
     }
 
     /// A height of cells that divides all depths.
-    pub(super) fn cells(&self, field: &str, height: f64) -> Result<(), InputError> {
+    pub(super) fn cells(&self, field: &str, height: f64) -> Result<(), ParameterError> {
         rules::positive(field, height, "give it in metres, such as 2.5e-4")?;
         let depths = [self.water.depth, self.grains.bed_depth, self.grains.held_depth];
         let fits = |depth: &f64| (depth / height - (depth / height).round()).abs() < 1e-6;
@@ -179,7 +178,7 @@ impl BedLoad1dParameters {
             return Ok(());
         }
         let rule = "such that the depths of water, bed and held grains are whole multiples of it, at most 1e5 in all";
-        Err(InputError::field(
+        Err(ParameterError::field(
             field,
             height,
             rule,
@@ -189,14 +188,14 @@ impl BedLoad1dParameters {
 }
 
 /// Rules of the closures.
-pub(in crate::cases) fn closures(path: &str, closures: &Closures) -> Result<(), InputError> {
+pub(in crate::cases) fn closures(path: &str, closures: &Closures) -> Result<(), ParameterError> {
     let field = |name: &str| format!("{path}.{name}");
     rules::positive(&field("static_friction"), closures.static_friction, "give μ_s, such as 0.35")?;
     rules::positive(&field("limiting_friction"), closures.limiting_friction, "give μ_2, such as 0.97")?;
     if closures.limiting_friction <= closures.static_friction {
         let rule = "greater than the static friction";
         let remedy = "friction grows from μ_s at rest to μ_2 in fast shear";
-        return Err(InputError::field(&field("limiting_friction"), closures.limiting_friction, rule, remedy));
+        return Err(ParameterError::field(&field("limiting_friction"), closures.limiting_friction, rule, remedy));
     }
     rules::positive(&field("reference_inertia"), closures.reference_inertia, "give I_0, such as 0.69")?;
     rules::positive(&field("regularisation_rate"), closures.regularisation_rate, "give it in 1/s, such as 5e-3")?;

@@ -2,10 +2,9 @@
 
 use super::parameters::BedLoad1dParameters;
 use super::sensitivities::Replaced;
-use crate::case::{Progress, Run};
-use crate::error::InputError;
+use crate::case::{ParameterError, Progress, Run};
 use crate::metric::Variant;
-use crate::observe::{Outcome, Recorded, state_hash};
+use crate::observation::{Outcome, Recorded, state_hash};
 use crate::reference::ReferenceError;
 use crate::reference::bed_load_layer::{
     BedLoadLayer, Closures, Grains, LayerState, STEADY, SolidFraction, Start, Stream,
@@ -110,7 +109,7 @@ impl BedLoad1dRun {
         Ok(BedLoadLayer { stream: self.stream, closures: self.closures, grains, cell_height: self.cell_height })
     }
 
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         let started = Instant::now();
         let start = match self.purpose {
             Purpose::FastStart(speed) => Start::Moving(speed),
@@ -155,12 +154,12 @@ fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFraction, R
 }
 
 /// What the solver refuses although each parameter is in its range.
-fn refused(error: ReferenceError) -> InputError {
+fn refused(error: ReferenceError) -> ParameterError {
     match error {
         ReferenceError::Parameter { field, value, rule } => {
-            InputError::field(field, value, rule, "`bagnold show bed-load-1d` prints a valid value")
+            ParameterError::field(field, value, rule, "`bagnold show bed-load-1d` prints a valid value")
         }
-        other => InputError::field(
+        other => ParameterError::field(
             "closures",
             "given",
             &format!("such that a layer can be computed ({other})"),

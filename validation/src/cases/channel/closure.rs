@@ -1,7 +1,7 @@
 //! The closure of a channel's turbulence, as a case file chooses it.
 
+use crate::case::ParameterError;
 use crate::cases::rules;
-use crate::error::InputError;
 use bagnold_solver::incompressible::Turbulence;
 use bagnold_solver::material::turbulence::{MixingLength, MixingLengthShape, Smagorinsky};
 use serde::{Deserialize, Serialize};
@@ -35,7 +35,7 @@ impl TurbulenceClosure {
     ///
     /// # Errors
     /// A coefficient out of range.
-    pub fn check(self, field: &str) -> Result<(), InputError> {
+    pub fn check(self, field: &str) -> Result<(), ParameterError> {
         match self {
             Self::MixingLength { .. } => Ok(()),
             Self::Smagorinsky(law) => {

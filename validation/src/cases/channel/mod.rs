@@ -33,7 +33,7 @@ pub use tables::tables;
 use crate::case::Progress;
 use crate::cases::recording::Ending;
 use crate::metric::{Confidence, Limit, Metric, Variant};
-use crate::observe::{Frame, Recorded};
+use crate::observation::{Frame, Recorded};
 use bagnold_solver::incompressible::{
     Bed, IncompressibleSimulation, ProjectionNumerics, Sediment, SolidFraction, Turbulence,
 };

@@ -7,11 +7,10 @@ mod parameters;
 pub use parameters::{ClearWaterParameters, ClearWaterRun, Period};
 
 use super::channel::{self, ChannelObservation};
-use crate::case::{Case, Progress, Run, Tier};
-use crate::error::InputError;
+use crate::case::{Case, ParameterError, Progress, Run, Tier};
 use crate::figure::Figure;
 use crate::metric::Metric;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -51,7 +50,7 @@ impl Case for ClearWater {
         ClearWaterParameters::of_tier(tier)
     }
 
-    fn check(&self, parameters: &ClearWaterParameters) -> Result<(), InputError> {
+    fn check(&self, parameters: &ClearWaterParameters) -> Result<(), ParameterError> {
         parameters.check()
     }
 
@@ -63,7 +62,7 @@ impl Case for ClearWater {
         &self,
         run: &ClearWaterRun,
         progress: &dyn Progress,
-    ) -> Result<Recorded<ChannelObservation>, InputError> {
+    ) -> Result<Recorded<ChannelObservation>, ParameterError> {
         run.simulate(progress)
     }
 

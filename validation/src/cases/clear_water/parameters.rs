@@ -1,11 +1,10 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{Progress, Run, Tier};
+use crate::case::{ParameterError, Progress, Run, Tier};
 use crate::cases::channel::{Channel, ChannelObservation, Lattice, TurbulenceClosure, Until};
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::metric::Variant;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::reference::RoughChannel;
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction};
 use bagnold_solver::material::turbulence::{MixingLengthShape, RoughWall};
@@ -134,16 +133,16 @@ impl ClearWaterParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
         rules::positive("depth", self.depth, "give it in metres, such as 0.046")?;
         if self.slopes.is_empty() {
-            return Err(InputError::field("slopes", "[]", "at least one slope", "3 % is 0.03"));
+            return Err(ParameterError::field("slopes", "[]", "at least one slope", "3 % is 0.03"));
         }
         for (index, &slope) in self.slopes.iter().enumerate() {
             let field = format!("slopes[{index}]");
             rules::driving_slope(&field, slope)?;
             if self.slopes[..index].contains(&slope) {
-                return Err(InputError::field(&field, slope, "unlike the others", "name every slope once"));
+                return Err(ParameterError::field(&field, slope, "unlike the others", "name every slope once"));
             }
         }
         rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
@@ -170,7 +169,7 @@ impl ClearWaterParameters {
                 rules::between(&field("tolerance"), tolerance, 1e-5, 0.1, "0.005 is half a per cent")?;
                 if !(1..=20).contains(&checks) {
                     let (rule, remedy) = ("between 1 and 20", "3 tells a steady flow from a turning point");
-                    return Err(InputError::field(&field("checks"), checks, rule, remedy));
+                    return Err(ParameterError::field(&field("checks"), checks, rule, remedy));
                 }
                 rules::between(&field("at_most"), at_most, checks as f64, 1e3, "25 suffice from 80 % of the law")?;
                 rules::between(&field("averaging_times"), averaging_times, 0.5, 1e3, "8 hold as many blocks")?;
@@ -287,7 +286,7 @@ impl ClearWaterRun {
         }
     }
 
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         let law = self.reference();
         Ok(self.channel(&|z| self.start_share * law.velocity(z)).run(progress)?)
     }

@@ -3,11 +3,10 @@
 use super::block::Block;
 use super::camera::Camera;
 use super::deposit::{Collapse, Surveyor, front, radius};
-use crate::case::{Progress, Run};
+use crate::case::{ParameterError, Progress, Run};
 use crate::cases::recording::Ending;
-use crate::error::InputError;
 use crate::metric::Variant;
-use crate::observe::{Frame, Recorded};
+use crate::observation::{Frame, Recorded};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Rheology};
@@ -270,14 +269,14 @@ impl ColumnRun {
         }
     }
 
-    pub(in crate::cases) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError> {
+    pub(in crate::cases) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, ParameterError> {
         match self.geometry {
             Geometry::Planar => self.run::<2>(progress),
             Geometry::Round => self.run::<3>(progress),
         }
     }
 
-    fn run<const D: usize>(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError>
+    fn run<const D: usize>(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, ParameterError>
     where
         Simulation<D>: Compiled<D>,
     {

@@ -9,7 +9,7 @@ use super::wedge::{self, Deposit};
 use super::{convergence, energy, scaling, stress_updates, velocity_profile};
 use crate::case::Run;
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel, Series};
-use crate::observe::{Frame, Recorded};
+use crate::observation::{Frame, Recorded};
 use crate::reference::{CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
 pub(in crate::cases) fn all(records: &[Record]) -> Vec<Figure> {

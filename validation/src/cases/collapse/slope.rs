@@ -3,11 +3,10 @@
 use super::block::Block;
 use super::camera::Camera;
 use super::deposit::{Collapse, Surveyor, front};
-use crate::case::{Progress, Run};
+use crate::case::{ParameterError, Progress, Run};
 use crate::cases::recording::Ending;
-use crate::error::InputError;
 use crate::metric::{Value, Variant};
-use crate::observe::{Frame, Recorded};
+use crate::observation::{Frame, Recorded};
 use crate::reference::SLOPE_EXPERIMENT;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
@@ -205,7 +204,10 @@ impl SlopeRun {
         }
     }
 
-    pub(in crate::cases) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, InputError> {
+    pub(in crate::cases) fn simulate(
+        &self,
+        progress: &dyn Progress,
+    ) -> Result<Recorded<SlopeCollapse>, ParameterError> {
         let started = std::time::Instant::now();
         let mut simulation = Simulation::new(self.scene())?;
         let particles = simulation.particles().flow_count();

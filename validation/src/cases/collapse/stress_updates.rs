@@ -98,7 +98,7 @@ mod tests {
     use super::*;
     use crate::case::{Case, Tier};
     use crate::cases::column_planar::ColumnPlanar;
-    use crate::observe::{Outcome, Recorded};
+    use crate::observation::{Outcome, Recorded};
 
     /// The metrics' names of columns of sand with these aspect ratios and of regularised ones with a = 1.
     fn names(sand: &[f64]) -> Vec<String> {

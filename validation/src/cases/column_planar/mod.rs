@@ -5,11 +5,10 @@ mod parameters;
 pub use parameters::{ColumnPlanarParameters, Columns, Regularised, Sensitivity, Variants};
 
 use super::collapse::{self, Collapse, ColumnRun, Purpose, Record};
-use crate::case::{Case, Progress, Tier};
-use crate::error::InputError;
+use crate::case::{Case, ParameterError, Progress, Tier};
 use crate::figure::{Animation, Figure};
 use crate::metric::Metric;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -46,7 +45,7 @@ impl Case for ColumnPlanar {
         ColumnPlanarParameters::of_tier(tier)
     }
 
-    fn check(&self, parameters: &ColumnPlanarParameters) -> Result<(), InputError> {
+    fn check(&self, parameters: &ColumnPlanarParameters) -> Result<(), ParameterError> {
         parameters.check()?;
         collapse::check_size(&self.runs(parameters), |run| match run.purpose {
             Purpose::Convergence => "sensitivity.resolutions".to_owned(),
@@ -59,7 +58,7 @@ impl Case for ColumnPlanar {
         parameters::runs(parameters)
     }
 
-    fn simulate(&self, run: &ColumnRun, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError> {
+    fn simulate(&self, run: &ColumnRun, progress: &dyn Progress) -> Result<Recorded<Collapse>, ParameterError> {
         run.simulate(progress)
     }
 

@@ -1,9 +1,8 @@
 //! The case's parameters and their tiers.
 
-use crate::case::Tier;
+use crate::case::{ParameterError, Tier};
 use crate::cases::collapse::{ColumnRun, Geometry, Purpose};
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, TABLE_2_SAND};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
@@ -219,7 +218,7 @@ impl ColumnPlanarParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
         rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
         rules::rows("resolution", self.resolution)?;
         rules::rows("tall_resolution", self.tall_resolution)?;
@@ -245,7 +244,7 @@ impl ColumnPlanarParameters {
         rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.sand.law))
     }
 
-    fn check_variants(&self) -> Result<(), InputError> {
+    fn check_variants(&self) -> Result<(), ParameterError> {
         let ratios = [
             ("sand_inertias", &self.sand_inertias.aspect_ratios),
             ("lagree_diameters", &self.lagree_diameters.aspect_ratios),

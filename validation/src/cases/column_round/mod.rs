@@ -5,11 +5,10 @@ mod parameters;
 pub use parameters::{ColumnRoundParameters, RoundColumn};
 
 use super::collapse::{self, Collapse, ColumnRun, Record};
-use crate::case::{Case, Progress, Tier};
-use crate::error::InputError;
+use crate::case::{Case, ParameterError, Progress, Tier};
 use crate::figure::{Animation, Figure};
 use crate::metric::Metric;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -44,7 +43,7 @@ impl Case for ColumnRound {
         ColumnRoundParameters::of_tier(tier)
     }
 
-    fn check(&self, parameters: &ColumnRoundParameters) -> Result<(), InputError> {
+    fn check(&self, parameters: &ColumnRoundParameters) -> Result<(), ParameterError> {
         parameters.check()?;
         collapse::check_size(&self.runs(parameters), |run| {
             let is_it =
@@ -57,7 +56,7 @@ impl Case for ColumnRound {
         parameters::runs(parameters)
     }
 
-    fn simulate(&self, run: &ColumnRun, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError> {
+    fn simulate(&self, run: &ColumnRun, progress: &dyn Progress) -> Result<Recorded<Collapse>, ParameterError> {
         run.simulate(progress)
     }
 

@@ -1,10 +1,9 @@
 //! The case's parameters and their tiers.
 
-use crate::case::Tier;
+use crate::case::{ParameterError, Tier};
 use crate::cases::collapse::{ColumnRun, Geometry, Purpose};
 use crate::cases::column_planar::ColumnPlanarParameters;
 use crate::cases::rules;
-use crate::error::InputError;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use serde::{Deserialize, Serialize};
@@ -82,7 +81,7 @@ impl ColumnRoundParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
         rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
         rules::positive("radius", self.radius, "give it in metres, such as 0.1")?;
         rules::between("solid_fraction", self.solid_fraction, 0.01, 0.74, "grains fill 0.5 to 0.64 of the space")?;

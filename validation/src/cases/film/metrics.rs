@@ -8,7 +8,7 @@ use crate::case::Run;
 use crate::cases::bagnold::Arrangement;
 use crate::cases::layer::{self, BINS, LayerObservation};
 use crate::metric::{Confidence, Limit, Metric, Value, Variant};
-use crate::observe::{Outcome, Recorded};
+use crate::observation::{Outcome, Recorded};
 use crate::statistics::{linear_fit, log_log_slope};
 
 const EXACT: &str = "exact solution of the film";

@@ -10,11 +10,10 @@ pub use fluid::FluidKind;
 pub use parameters::{FilmParameters, FilmRun};
 
 use super::layer::{self, LayerObservation};
-use crate::case::{Case, Progress, Run, Tier};
-use crate::error::InputError;
+use crate::case::{Case, ParameterError, Progress, Run, Tier};
 use crate::figure::Figure;
 use crate::metric::Metric;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -53,7 +52,7 @@ impl Case for Film {
         FilmParameters::of_tier(tier)
     }
 
-    fn check(&self, parameters: &FilmParameters) -> Result<(), InputError> {
+    fn check(&self, parameters: &FilmParameters) -> Result<(), ParameterError> {
         parameters.check()
     }
 
@@ -61,7 +60,7 @@ impl Case for Film {
         parameters::runs(parameters)
     }
 
-    fn simulate(&self, run: &FilmRun, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+    fn simulate(&self, run: &FilmRun, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         run.simulate(progress)
     }
 

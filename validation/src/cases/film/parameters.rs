@@ -2,13 +2,12 @@
 
 use super::comparison::NumericsSet;
 use super::fluid::{Fluid, FluidKind};
-use crate::case::{Progress, Run, Tier};
+use crate::case::{ParameterError, Progress, Run, Tier};
 use crate::cases::bagnold::Arrangement;
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::metric::Variant;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::reference::Incline;
 use bagnold_solver::material::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
@@ -116,7 +115,7 @@ impl FilmParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
         rules::positive("layer_height", self.layer_height, "give it in metres, such as 0.01")?;
         rules::slope_angle("slope_angle", self.slope_angle)?;
         rules::between("slope_angle", self.slope_angle, 0.1, 89.0, "a film needs a slope to flow down")?;
@@ -311,7 +310,7 @@ impl FilmRun {
         }
     }
 
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         let moving = self.fluid.kind() != FluidKind::Newtonian;
         let incline = self.incline();
         let velocity = |y: f64| if moving { self.fluid.velocity(incline, y) } else { 0.0 };

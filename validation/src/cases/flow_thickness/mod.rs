@@ -10,11 +10,10 @@ pub use start_stop::{Fate, LayerAtSlope, StartStop, StartStopRun, Trial};
 
 use super::collapse::{SlopeCollapse, SlopeRun};
 use super::layer::LayerObservation;
-use crate::case::{Case, Progress, Run, Tier};
-use crate::error::InputError;
+use crate::case::{Case, ParameterError, Progress, Run, Tier};
 use crate::figure::Figure;
 use crate::metric::{Metric, Variant};
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::output::Table;
 use serde::{Deserialize, Serialize};
 
@@ -110,7 +109,7 @@ impl Case for FlowThickness {
         FlowThicknessParameters::of_tier(tier)
     }
 
-    fn check(&self, parameters: &FlowThicknessParameters) -> Result<(), InputError> {
+    fn check(&self, parameters: &FlowThicknessParameters) -> Result<(), ParameterError> {
         parameters.check()
     }
 
@@ -122,7 +121,7 @@ impl Case for FlowThickness {
         &self,
         run: &FlowThicknessRun,
         progress: &dyn Progress,
-    ) -> Result<Recorded<FlowThicknessObservation>, InputError> {
+    ) -> Result<Recorded<FlowThicknessObservation>, ParameterError> {
         Ok(match run {
             FlowThicknessRun::Collapse(run) => run.simulate(progress)?.map(FlowThicknessObservation::Collapse),
             FlowThicknessRun::StartStop(run) => run.simulate(progress)?.map(FlowThicknessObservation::StartStop),

@@ -2,10 +2,9 @@
 
 use super::start_stop::{LayerAtSlope, StartStopRun};
 use super::{FlowThicknessRun, SteadyRun};
-use crate::case::Tier;
+use crate::case::{ParameterError, Tier};
 use crate::cases::incline_collapse::InclineCollapseParameters;
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::reference::GLASS_BEADS_FLOW_RULE;
 use serde::{Deserialize, Serialize};
 
@@ -99,7 +98,7 @@ impl FlowThicknessParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
         self.collapse.check().map_err(|error| error.within("collapse"))?;
         for (index, &station) in self.stations.iter().enumerate() {
             let field = format!("stations[{index}]");

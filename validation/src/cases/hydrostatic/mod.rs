@@ -7,11 +7,10 @@ mod parameters;
 pub use parameters::{HydrostaticParameters, HydrostaticRun, MaterialKind};
 
 use super::layer::{self, LayerObservation};
-use crate::case::{Case, Progress, Run, Tier};
-use crate::error::InputError;
+use crate::case::{Case, ParameterError, Progress, Run, Tier};
 use crate::figure::Figure;
 use crate::metric::Metric;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -50,7 +49,7 @@ impl Case for Hydrostatic {
         HydrostaticParameters::of_tier(tier)
     }
 
-    fn check(&self, parameters: &HydrostaticParameters) -> Result<(), InputError> {
+    fn check(&self, parameters: &HydrostaticParameters) -> Result<(), ParameterError> {
         parameters.check()
     }
 
@@ -62,7 +61,7 @@ impl Case for Hydrostatic {
         &self,
         run: &HydrostaticRun,
         progress: &dyn Progress,
-    ) -> Result<Recorded<LayerObservation>, InputError> {
+    ) -> Result<Recorded<LayerObservation>, ParameterError> {
         run.simulate(progress)
     }
 

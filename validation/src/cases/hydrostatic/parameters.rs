@@ -1,11 +1,10 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{Progress, Run, Tier};
+use crate::case::{ParameterError, Progress, Run, Tier};
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::metric::Variant;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::reference::GLASS_BEADS;
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
@@ -85,7 +84,7 @@ impl HydrostaticParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
         rules::positive("layer_height", self.layer_height, "give it in metres, such as 0.1")?;
         rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
         rules::rows("resolution", self.resolution)?;
@@ -219,7 +218,7 @@ impl HydrostaticRun {
         self.layer().hydrostatic_pressure(y)
     }
 
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         Ok(self.layer().run(progress)?)
     }
 }

@@ -7,11 +7,10 @@ mod parameters;
 pub use parameters::InclineCollapseParameters;
 
 use super::collapse::{SlopeCollapse, SlopeRun};
-use crate::case::{Case, Progress, Run, Tier};
-use crate::error::InputError;
+use crate::case::{Case, ParameterError, Progress, Run, Tier};
 use crate::figure::{Animation, Figure};
 use crate::metric::Metric;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -51,7 +50,7 @@ impl Case for InclineCollapse {
         InclineCollapseParameters::of_tier(tier)
     }
 
-    fn check(&self, parameters: &InclineCollapseParameters) -> Result<(), InputError> {
+    fn check(&self, parameters: &InclineCollapseParameters) -> Result<(), ParameterError> {
         parameters.check()
     }
 
@@ -59,7 +58,7 @@ impl Case for InclineCollapse {
         parameters::runs(parameters)
     }
 
-    fn simulate(&self, run: &SlopeRun, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, InputError> {
+    fn simulate(&self, run: &SlopeRun, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, ParameterError> {
         run.simulate(progress)
     }
 

@@ -1,9 +1,8 @@
 //! The case's parameters and their tiers.
 
-use crate::case::Tier;
+use crate::case::{ParameterError, Tier};
 use crate::cases::collapse::SlopeRun;
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::reference::GLASS_BEADS;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
@@ -117,7 +116,7 @@ impl InclineCollapseParameters {
         }
     }
 
-    pub(in crate::cases) fn check(&self) -> Result<(), InputError> {
+    pub(in crate::cases) fn check(&self) -> Result<(), ParameterError> {
         rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
         let lengths = [
             ("initial_height", self.initial_height, "give it in metres, such as 0.14"),
@@ -157,7 +156,7 @@ impl InclineCollapseParameters {
                 "its height, `initial_height` over `reservoir_length` times this, is {rows}: choose a {} resolution",
                 if rows < 4.0 { "larger" } else { "smaller" }
             );
-            return Err(InputError::field("resolution", self.resolution, rule, &remedy));
+            return Err(ParameterError::field("resolution", self.resolution, rule, &remedy));
         }
         rules::between("jitter", self.jitter, 0.0, 0.5, "0.05 breaks the lattice without overlaps")?;
         rules::between("duration", self.duration, 0.01, 1000.0, "deposits on mild slopes rest after about 1.5 s")?;

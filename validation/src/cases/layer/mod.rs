@@ -9,7 +9,7 @@ pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 use crate::case::Progress;
 use crate::cases::recording::Ending;
 use crate::metric::{Confidence, Limit, Metric, Variant};
-use crate::observe::{Frame, Recorded};
+use crate::observation::{Frame, Recorded};
 use crate::output::Table;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};

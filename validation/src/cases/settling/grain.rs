@@ -5,7 +5,7 @@ use super::probe::{Drag, Probe, SettlingObservation};
 use crate::case::{Progress, Run};
 use crate::cases::channel::Lattice;
 use crate::metric::Variant;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{

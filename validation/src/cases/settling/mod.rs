@@ -15,11 +15,10 @@ pub use probe::{SettlingObservation, SettlingSeries};
 pub use runs::SettlingRun;
 pub use suspension::SuspensionRun;
 
-use crate::case::{Case, Progress, Run, Tier};
-use crate::error::InputError;
+use crate::case::{Case, ParameterError, Progress, Run, Tier};
 use crate::figure::Figure;
 use crate::metric::Metric;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -68,7 +67,7 @@ impl Case for Settling {
         SettlingParameters::of_tier(tier)
     }
 
-    fn check(&self, parameters: &SettlingParameters) -> Result<(), InputError> {
+    fn check(&self, parameters: &SettlingParameters) -> Result<(), ParameterError> {
         parameters.check()
     }
 
@@ -80,7 +79,7 @@ impl Case for Settling {
         &self,
         run: &SettlingRun,
         progress: &dyn Progress,
-    ) -> Result<Recorded<SettlingObservation>, InputError> {
+    ) -> Result<Recorded<SettlingObservation>, ParameterError> {
         Ok(run.simulate(progress)?)
     }
 

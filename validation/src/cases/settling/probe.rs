@@ -3,7 +3,7 @@
 use crate::case::Progress;
 use crate::cases::recording::Ending;
 use crate::metric::Variant;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::output::Table;
 use crate::reference::SettlingGrains;
 use crate::statistics::block_average;

@@ -6,7 +6,7 @@ use super::probe::SettlingObservation;
 use super::suspension::{self, SuspensionRun};
 use crate::case::{Progress, Run};
 use crate::metric::Variant;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::run::SceneError;
 use serde::Serialize;

@@ -5,7 +5,7 @@ use super::parameters::StillWaterRun;
 use crate::case::Run;
 use crate::cases::channel::{self, ChannelObservation};
 use crate::metric::{Confidence, Limit, Metric};
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::statistics::{Estimate, block_average};
 
 /// Time after which the water is expected to be at rest `[s]`.

@@ -1,11 +1,10 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{Progress, Run, Tier};
+use crate::case::{ParameterError, Progress, Run, Tier};
 use crate::cases::channel::{Channel, ChannelObservation, Lattice, Until};
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::metric::Variant;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction, Turbulence};
 use serde::{Deserialize, Serialize};
 
@@ -93,7 +92,7 @@ impl StillWaterParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
         rules::positive("depth", self.depth, "give it in metres, such as 0.046")?;
         rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
         rules::positive("density", self.density, "give it in kg/m³, such as 1000")?;
@@ -106,12 +105,17 @@ impl StillWaterParameters {
                 rules::between(&field, jitter, 0.0, 0.5, "0.1 breaks the lattice without overlaps")?;
                 let equal = jitters[..index].contains(&jitter);
                 if equal {
-                    return Err(InputError::field(&field, jitter, "unlike the others", "name every displacement once"));
+                    return Err(ParameterError::field(
+                        &field,
+                        jitter,
+                        "unlike the others",
+                        "name every displacement once",
+                    ));
                 }
             }
         }
         if self.jitters.is_empty() {
-            return Err(InputError::field("jitters", "[]", "at least one displacement", "0.1 breaks the lattice"));
+            return Err(ParameterError::field("jitters", "[]", "at least one displacement", "0.1 breaks the lattice"));
         }
         rules::between("duration", self.duration, 0.5, 1e4, "20 s bring the water to rest")?;
         let longest = 0.5 * self.duration;
@@ -221,7 +225,7 @@ impl StillWaterRun {
         }
     }
 
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         Ok(self.channel().run(progress)?)
     }
 }

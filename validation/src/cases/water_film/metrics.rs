@@ -6,7 +6,7 @@ use crate::case::Run;
 use crate::cases::bagnold::Arrangement;
 use crate::cases::channel::{self, ChannelObservation, ProfilePoint};
 use crate::metric::{Confidence, Limit, Metric, Value, Variant};
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::statistics::{Estimate, block_average, log_log_slope};
 
 /// Standard errors that a value may move before a change is reported `[-]`.

@@ -7,11 +7,10 @@ mod parameters;
 pub use parameters::{WaterFilmParameters, WaterFilmRun};
 
 use super::channel::{self, ChannelObservation};
-use crate::case::{Case, Progress, Run, Tier};
-use crate::error::InputError;
+use crate::case::{Case, ParameterError, Progress, Run, Tier};
 use crate::figure::Figure;
 use crate::metric::Metric;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::output::Table;
 
 /// The case.
@@ -50,7 +49,7 @@ impl Case for WaterFilm {
         WaterFilmParameters::of_tier(tier)
     }
 
-    fn check(&self, parameters: &WaterFilmParameters) -> Result<(), InputError> {
+    fn check(&self, parameters: &WaterFilmParameters) -> Result<(), ParameterError> {
         parameters.check()
     }
 
@@ -62,7 +61,7 @@ impl Case for WaterFilm {
         &self,
         run: &WaterFilmRun,
         progress: &dyn Progress,
-    ) -> Result<Recorded<ChannelObservation>, InputError> {
+    ) -> Result<Recorded<ChannelObservation>, ParameterError> {
         run.simulate(progress)
     }
 

@@ -1,12 +1,11 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{Progress, Run, Tier};
+use crate::case::{ParameterError, Progress, Run, Tier};
 use crate::cases::bagnold::Arrangement;
 use crate::cases::channel::{Channel, ChannelObservation, Lattice, Until};
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::metric::Variant;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::reference::{Incline, NewtonianFilm};
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction, Turbulence};
 use serde::{Deserialize, Serialize};
@@ -94,7 +93,7 @@ impl WaterFilmParameters {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), InputError> {
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
         rules::positive("depth", self.depth, "give it in metres, such as 0.046")?;
         rules::driving_slope("slope", self.slope)?;
         rules::positive("gravity", self.gravity, "give it in m/s², such as 9.81")?;
@@ -104,14 +103,14 @@ impl WaterFilmParameters {
         if arrangements.is_empty() || (arrangements.len() > 1 && arrangements[1..].contains(&arrangements[0])) {
             let shown = format!("{arrangements:?}").to_lowercase();
             let rule = "one or both of \"lattice\" and \"jittered\"";
-            return Err(InputError::field("arrangements", shown, rule, "name every arrangement once"));
+            return Err(ParameterError::field("arrangements", shown, rule, "name every arrangement once"));
         }
         rules::rows("resolution", self.resolution)?;
         for (index, &rows) in self.convergence_resolutions.iter().enumerate() {
             let field = format!("convergence_resolutions[{index}]");
             rules::rows(&field, rows)?;
             if self.convergence_resolutions[..index].contains(&rows) {
-                return Err(InputError::field(&field, rows, "unlike the others", "name every number of rows once"));
+                return Err(ParameterError::field(&field, rows, "unlike the others", "name every number of rows once"));
             }
         }
         rules::channel_columns("columns", self.columns, &self.numerics)?;
@@ -244,7 +243,7 @@ impl WaterFilmRun {
         }
     }
 
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         let film = self.film(self.depth);
         Ok(self.channel(&|z| film.velocity(z)).run(progress)?)
     }

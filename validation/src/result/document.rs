@@ -1,7 +1,7 @@
 //! `metrics.json`: a case's numbers and where they come from, for other programs.
 
-use super::{Confidence, Kind, Limit, Metric, Variant, Verdict};
 use crate::case::{CaseResult, RunSummary, Tier};
+use crate::metric::{Confidence, Kind, Limit, Metric, Variant, Verdict};
 use crate::store;
 use serde::{Deserialize, Serialize};
 
