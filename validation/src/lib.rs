@@ -9,6 +9,7 @@ pub mod figure;
 pub mod inference;
 pub mod input;
 pub mod metric;
+pub mod number;
 pub mod observation;
 pub mod output;
 pub mod reference;

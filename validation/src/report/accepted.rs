@@ -2,11 +2,11 @@
 //! report and the drift test read the same files and compare in the same way.
 
 use super::error::BaselineError;
-use super::number::with_unit;
 use super::snapshot_text::{self, Line};
 use crate::case::Tier;
 use crate::figure::is_file_name;
 use crate::metric::{Metric, Variant, Verdict};
+use crate::number::with_unit;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 

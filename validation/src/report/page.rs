@@ -2,12 +2,12 @@
 
 use super::accepted::tier_name;
 use super::judgement::{JudgedCase, Judgement, Severity, Tally};
-use super::number::{count, four_digits};
 use super::rows::{mark, note, rows, statement, vanished};
 use super::view::{Banner, BannerItem, Case, Count, Mark, Page, Picture, Run};
 use super::{CaseReport, Drawn, Provenance, Report};
 use crate::case::RunSummary;
 use crate::metric::Verdict;
+use crate::number::{count, four_digits};
 use crate::observation::Outcome;
 
 /// More lines than this do not fit on a first screen; the rest stands in the table right below.

@@ -3,10 +3,10 @@
 use super::accepted::{Drift, Key};
 use super::judgement::{Judged, Severity};
 use super::known_failures::Standing;
-use super::number::{four_digits, two_digits, with_unit};
 use super::snapshot_text::word;
 use super::view::{Mark, Row};
 use crate::metric::{Confidence, Kind, Limit, Metric, Verdict};
+use crate::number::{four_digits, two_digits, with_unit};
 
 /// The mark of a severity.
 pub(super) fn mark(severity: Severity) -> Mark {
