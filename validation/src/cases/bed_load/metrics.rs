@@ -31,6 +31,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
             Formulation::Continuum { stage, pair_law, .. } => continuum(&mut metrics, run, record, *stage, *pair_law),
         }
     }
+    statements::say_what_is_missing(records);
     statements::growth(&mut metrics, records);
     for held in held_out(records) {
         let variant = fit::variant(&held);

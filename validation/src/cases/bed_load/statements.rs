@@ -14,6 +14,35 @@ use crate::observation::Recorded;
 use crate::reference::{HONEST_BAND, LAYER_STATEMENTS, TransportFormula};
 use crate::statistics::Segmented;
 
+/// A slope `[-]` that the paper makes statements of.
+struct Stated {
+    slope: f64,
+}
+
+/// The gentler slope, whose profile and transport are judged.
+const GENTLE: Stated = Stated { slope: 0.03 };
+/// The steeper slope, with more transport and a thicker sheared layer.
+const STEEP: Stated = Stated { slope: 0.05 };
+
+impl Stated {
+    /// Whether a run is of this slope.
+    fn is_of(&self, run: &BedLoadRun) -> bool {
+        (run.slope / self.slope - 1.0).abs() < 1e-9
+    }
+}
+
+/// Says which statements nothing is judged by, for want of a run of their slope.
+pub(super) fn say_what_is_missing(records: &[Record]) {
+    let of_the_recipe = || records.iter().filter(|(run, _)| matches!(run.formulation, Formulation::Stabilised(_)));
+    if of_the_recipe().next().is_some() && !of_the_recipe().any(|(run, _)| GENTLE.is_of(run)) {
+        tracing::warn!(
+            "no run of `stabilised` has the slope {} that the paper's statements are of: its profile and transport are \
+             observed, but not judged",
+            GENTLE.slope
+        );
+    }
+}
+
 pub(super) fn stabilised(
     metrics: &mut Vec<Metric>,
     run: &BedLoadRun,
@@ -26,7 +55,7 @@ pub(super) fn stabilised(
     metrics.push(channel::particles_lost(&variant, &outer));
     metrics.push(channel::momentum_residual(&variant, &outer));
     common(metrics, run, record);
-    let judged = run.averaging_time >= JUDGED_FROM && run.slope == 0.03;
+    let judged = run.averaging_time >= JUDGED_FROM && GENTLE.is_of(run);
     // of the fitted slopes the transport says nothing
     if judged && bed.material == FITTED {
         let formula = TransportFormula::WongParker;
@@ -112,11 +141,11 @@ fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoad
 
 /// More transport and a thicker sheared layer at 5 % than at 3 %.
 pub(super) fn growth(metrics: &mut Vec<Metric>, records: &[Record]) {
-    let of = |slope: f64| {
-        let found = |(run, _): &&Record| matches!(run.formulation, Formulation::Stabilised(_)) && run.slope == slope;
+    let of = |stated: Stated| {
+        let found = |(run, _): &&Record| matches!(run.formulation, Formulation::Stabilised(_)) && stated.is_of(run);
         records.iter().find(found)
     };
-    let (Some((low_run, low)), Some((high_run, high))) = (of(0.03), of(0.05)) else { return };
+    let (Some((low_run, low)), Some((high_run, high))) = (of(GENTLE), of(STEEP)) else { return };
     if low_run.averaging_time < JUDGED_FROM {
         return;
     }

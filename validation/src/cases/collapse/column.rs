@@ -3,6 +3,7 @@
 use super::block::Block;
 use super::camera::Camera;
 use super::deposit::{Collapse, Surveyor, front, radius};
+use super::material::Material;
 use crate::case::{ParameterError, Progress, Run};
 use crate::cases::recording::Ending;
 use crate::metric::Variant;
@@ -74,8 +75,8 @@ pub struct ColumnRun {
     pub purpose: Purpose,
     /// Cross-section.
     pub geometry: Geometry,
-    /// Name of the grains.
-    pub material: String,
+    /// The grains.
+    pub material: Material,
     /// h_0/r_0 `[-]`.
     pub aspect_ratio: f64,
     /// Particles over the half width.
@@ -98,7 +99,7 @@ pub struct ColumnRun {
 
 impl Run for ColumnRun {
     fn variant(&self) -> Variant {
-        let column = Variant::of("material", &self.material)
+        let column = Variant::of("material", self.material.to_string())
             .and("aspect_ratio", self.aspect_ratio)
             .and("resolution", self.resolution);
         match self.purpose {
@@ -118,12 +119,6 @@ impl Run for ColumnRun {
 }
 
 impl ColumnRun {
-    /// The grains that its material is a variant of: `lagree` for `lagree_diameter_0.001`.
-    #[must_use]
-    pub fn family(&self) -> &str {
-        self.material.split('_').next().unwrap_or_default()
-    }
-
     /// Particle spacing `[m]`.
     #[must_use]
     pub fn spacing(&self) -> f64 {

@@ -8,6 +8,7 @@ mod deposit;
 mod energy;
 pub(super) mod figures;
 mod flow_metrics;
+mod material;
 pub(super) mod metrics;
 pub(super) mod pictures;
 mod scaling;
@@ -18,6 +19,7 @@ mod wedge;
 
 pub use column::{ColumnRun, Geometry, Purpose};
 pub use deposit::{BIN_WIDTH, Collapse, FRONT_THICKNESS, front};
+pub use material::{Alteration, Grains, Material};
 pub use slope::{SlopeCollapse, SlopeRun};
 
 use crate::case::{ParameterError, Run};

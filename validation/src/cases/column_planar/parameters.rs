@@ -1,7 +1,7 @@
 //! The case's parameters and their tiers.
 
 use crate::case::{ParameterError, Tier};
-use crate::cases::collapse::{ColumnRun, Geometry, Purpose};
+use crate::cases::collapse::{Alteration, ColumnRun, Geometry, Grains, Material, Purpose};
 use crate::cases::rules;
 use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, TABLE_2_SAND};
 use bagnold_solver::material::rheology::{MuI, Rheology};
@@ -224,7 +224,8 @@ impl ColumnPlanarParameters {
         rules::rows("tall_resolution", self.tall_resolution)?;
         rules::between("jitter", self.jitter, 0.0, 0.5, "0.05 breaks the lattice without overlaps")?;
         rules::between("duration", self.duration, 0.1, 1000.0, "a column has come to rest after about 5")?;
-        for (name, columns) in self.materials() {
+        for (grains, columns) in self.materials() {
+            let name = grains.name();
             for (index, &ratio) in columns.aspect_ratios.iter().enumerate() {
                 let field = format!("{name}.aspect_ratios[{index}]");
                 rules::between(&field, ratio, 0.1, 100.0, "the published laws reach from 0.3 to 20")?;
@@ -284,8 +285,8 @@ impl ColumnPlanarParameters {
     }
 
     /// The materials with their names.
-    pub(super) fn materials(&self) -> [(&'static str, &Columns); 3] {
-        [("sand", &self.sand), ("glass", &self.glass), ("lagree", &self.lagree)]
+    pub(super) fn materials(&self) -> [(Grains, &Columns); 3] {
+        [(Grains::Sand, &self.sand), (Grains::Glass, &self.glass), (Grains::Lagree, &self.lagree)]
     }
 
     /// The parameter that a column's resolution comes from.
@@ -307,10 +308,10 @@ impl Columns {
 }
 
 pub(super) fn runs(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
-    let column = |material: &str, columns: &Columns, aspect_ratio: f64| ColumnRun {
+    let column = |material: Material, columns: &Columns, aspect_ratio: f64| ColumnRun {
         purpose: Purpose::Law,
         geometry: Geometry::Planar,
-        material: material.to_owned(),
+        material,
         aspect_ratio,
         resolution: parameters.resolution_of(aspect_ratio),
         half_width: columns.half_width_of(aspect_ratio),
@@ -321,23 +322,32 @@ pub(super) fn runs(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
         jitter: parameters.jitter,
         seed: parameters.seed,
         duration: parameters.duration,
-        shown_times: if material == "sand" || material == "glass" { shown_times(aspect_ratio) } else { Vec::new() },
+        shown_times: if matches!(material, Material::SAND | Material::GLASS) {
+            shown_times(aspect_ratio)
+        } else {
+            Vec::new()
+        },
         numerics: parameters.numerics,
     };
     let mut runs = Vec::new();
-    for (material, columns) in parameters.materials() {
-        runs.extend(columns.aspect_ratios.iter().map(|&aspect_ratio| column(material, columns, aspect_ratio)));
+    for (grains, columns) in parameters.materials() {
+        runs.extend(
+            columns
+                .aspect_ratios
+                .iter()
+                .map(|&aspect_ratio| column(Material::published(grains), columns, aspect_ratio)),
+        );
     }
     let (sand, lagree) = (&parameters.sand, &parameters.lagree);
     for &reference_inertia in &parameters.sand_inertias.values {
         let columns = Columns { law: MuI { reference_inertia, ..sand.law }, ..sand.clone() };
-        let material = format!("sand_inertia_{reference_inertia}");
-        runs.extend(parameters.sand_inertias.aspect_ratios.iter().map(|&ratio| column(&material, &columns, ratio)));
+        let material = Material::altered(Grains::Sand, Alteration::ReferenceInertia(reference_inertia));
+        runs.extend(parameters.sand_inertias.aspect_ratios.iter().map(|&ratio| column(material, &columns, ratio)));
     }
     for &grain_diameter in &parameters.lagree_diameters.values {
         let columns = Columns { law: MuI { grain_diameter, ..lagree.law }, ..lagree.clone() };
-        let material = format!("lagree_diameter_{grain_diameter}");
-        runs.extend(parameters.lagree_diameters.aspect_ratios.iter().map(|&ratio| column(&material, &columns, ratio)));
+        let material = Material::altered(Grains::Lagree, Alteration::GrainDiameter(grain_diameter));
+        runs.extend(parameters.lagree_diameters.aspect_ratios.iter().map(|&ratio| column(material, &columns, ratio)));
     }
     let study = &parameters.sensitivity;
     let finest = study.resolutions.iter().copied().max().unwrap_or(0);
@@ -349,7 +359,7 @@ pub(super) fn runs(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
                 usize::MAX
             });
             for &seed in seeds {
-                let own = column("lagree", lagree, ratio);
+                let own = column(Material::LAGREE, lagree, ratio);
                 // the column that is there for the laws is one of its ensemble
                 let known = resolution == own.resolution && seed == own.seed && lagree.aspect_ratios.contains(&ratio);
                 if !known {
@@ -362,7 +372,12 @@ pub(super) fn runs(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
         for &resolution in &study.hourglass_resolutions {
             runs.extend(study.hourglass.iter().map(|&hourglass| {
                 let numerics = Numerics { hourglass, ..parameters.numerics };
-                ColumnRun { purpose: Purpose::Hourglass, resolution, numerics, ..column("lagree", lagree, ratio) }
+                ColumnRun {
+                    purpose: Purpose::Hourglass,
+                    resolution,
+                    numerics,
+                    ..column(Material::LAGREE, lagree, ratio)
+                }
             }));
         }
     }
@@ -372,7 +387,7 @@ pub(super) fn runs(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
         duration: REGULARISED_DURATION.min(parameters.duration),
         numerics: Numerics { viscous_step: ViscousStep::Implicit, ..parameters.numerics },
         shown_times: Vec::new(),
-        ..column("sand", sand, ratio)
+        ..column(Material::SAND, sand, ratio)
     }));
     runs
 }

@@ -1,7 +1,7 @@
 //! The case's parameters and their tiers.
 
 use crate::case::{ParameterError, Tier};
-use crate::cases::collapse::{ColumnRun, Geometry, Purpose};
+use crate::cases::collapse::{ColumnRun, Geometry, Material, Purpose};
 use crate::cases::column_planar::ColumnPlanarParameters;
 use crate::cases::rules;
 use bagnold_solver::material::rheology::{MuI, Rheology};
@@ -103,7 +103,7 @@ pub(super) fn runs(parameters: &ColumnRoundParameters) -> Vec<ColumnRun> {
     let run = |column: &RoundColumn| ColumnRun {
         purpose: Purpose::Law,
         geometry: Geometry::Round,
-        material: "sand".to_owned(),
+        material: Material::SAND,
         aspect_ratio: column.aspect_ratio,
         resolution: column.resolution,
         half_width: parameters.radius,
