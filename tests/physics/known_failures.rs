@@ -60,6 +60,20 @@ fn every_known_failure_names_runs_of_a_case() {
     assert!(stale.is_empty(), "no tier has these runs, remove the entries:\n{}", stale.join("\n"));
 }
 
+#[test]
+fn every_known_failure_is_of_a_quantity_that_its_case_declares() {
+    for entry in read().failures {
+        let case = REGISTRY.find(&entry.case).expect("a case");
+        let known = case.quantities();
+        assert!(
+            known.is_empty() || known.iter().any(|quantity| quantity.name == entry.metric),
+            "{} declares no `{}`",
+            entry.case,
+            entry.metric
+        );
+    }
+}
+
 fn entry(metric: &str, variant: &str, best_value: f64) -> KnownFailure {
     KnownFailure {
         case: "film".to_owned(),

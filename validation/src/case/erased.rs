@@ -4,7 +4,7 @@ use super::error::ParameterError;
 use super::parameters::{Changes, is_set, resolve, table_of};
 use super::result::{CaseResult, RunSummary, microseconds_each};
 use super::{Case, CaseFile, Progress, Run, Tier};
-use crate::metric::Variant;
+use crate::metric::{Quantity, Variant};
 use crate::observation::Recorded;
 use crate::store::Store;
 use sha2::{Digest, Sha256};
@@ -16,6 +16,8 @@ pub trait AnyCase: Sync {
     fn name(&self) -> &'static str;
     /// One line for `bagnold list`.
     fn summary(&self) -> &'static str;
+    /// What its metrics are built from; empty for a case that does not declare it.
+    fn quantities(&self) -> &'static [Quantity];
     /// The tier's parameters as a complete, commented file for `bagnold run`.
     fn show(&self, tier: Tier) -> String;
     /// Types and checks a tier's parameters with the user's changes.
@@ -55,6 +57,10 @@ impl<C: Case> AnyCase for C {
 
     fn summary(&self) -> &'static str {
         Case::summary(self)
+    }
+
+    fn quantities(&self) -> &'static [Quantity] {
+        C::QUANTITIES
     }
 
     fn show(&self, tier: Tier) -> String {

@@ -20,7 +20,7 @@ pub use result::{CaseResult, RunSummary};
 pub use schedule::{Monitor, Silent, execute, share_out};
 
 use crate::figure::{Animation, Figure};
-use crate::metric::{Metric, Variant};
+use crate::metric::{Metric, Quantity, Variant};
 use crate::observation::Recorded;
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -111,6 +111,8 @@ pub trait Case: Sync + 'static {
     /// Parameters whose combination gives no valid scene.
     fn simulate(&self, run: &Self::Run, progress: &dyn Progress)
     -> Result<Recorded<Self::Observation>, ParameterError>;
+    /// The quantities that its metrics are built from, each declared once; empty for a case that does not declare them.
+    const QUANTITIES: &'static [Quantity] = &[];
     /// Judges the observations.
     fn metrics(
         &self,

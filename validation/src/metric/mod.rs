@@ -1,7 +1,9 @@
 //! A metric: one number that a case is judged by, with what it is judged against.
 
+mod quantity;
 pub mod variant;
 
+pub use quantity::{Quantity, undeclared};
 pub use variant::{Value, Variant};
 
 use serde::{Deserialize, Serialize};

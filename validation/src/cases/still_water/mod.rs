@@ -9,7 +9,7 @@ pub use parameters::{StillWaterParameters, StillWaterRun};
 use super::channel::{self, ChannelObservation};
 use crate::case::{Case, ParameterError, Progress, Run, Tier};
 use crate::figure::Figure;
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::observation::Recorded;
 use crate::output::Table;
 
@@ -24,6 +24,7 @@ impl Case for StillWater {
     type Parameters = StillWaterParameters;
     type Run = StillWaterRun;
     type Observation = ChannelObservation;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn name(&self) -> &'static str {
         "still-water"
