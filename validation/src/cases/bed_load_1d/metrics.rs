@@ -52,13 +52,12 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
         {
             start(&mut metrics, run, state, other);
         }
-        for (purpose, name, limit) in [(Purpose::DilatingOrder, "dilating", 1.0), (Purpose::FrozenOrder, "frozen", 1.8)]
-        {
+        for (purpose, limit) in [(Purpose::DilatingOrder, 1.0), (Purpose::FrozenOrder, 1.8)] {
             let study: Vec<&LayerState> = of(records, |other| *other == purpose)
                 .filter(|(run, _)| on_slope(run))
                 .map(|(_, state)| state)
                 .collect();
-            order(&mut metrics, run, &study, name, limit);
+            order(&mut metrics, run, &study, purpose, limit);
         }
         profiles(&mut metrics, run, state);
     }
@@ -141,11 +140,11 @@ fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast:
 
 /// The order of convergence: from the profiles where the fraction is given, from q* where it is not. The topmost grains
 /// end inside a cell, so that profiles of a dilating layer converge everywhere but there.
-fn order(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, study: &[&LayerState], grains: &str, least: f64) {
-    let differences: Vec<f64> = study.windows(2).map(|pair| difference(pair[0], pair[1], grains)).collect();
+fn order(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, study: &[&LayerState], purpose: Purpose, least: f64) {
+    let differences: Vec<f64> = study.windows(2).map(|pair| difference(pair[0], pair[1], purpose)).collect();
     let [.., coarse, fine] = differences[..] else { return };
     let heights = Value::list(study.iter().map(|state| state.cell_height));
-    let variant = Variant::of("slope", run.stream.slope).and("grains", grains).and("cell_height", heights);
+    let variant = Variant::of("slope", run.stream.slope).and("grains", purpose.grains()).and("cell_height", heights);
     metrics.push(
         Metric::observed("observed_order", &variant, libm::log2(coarse / fine), "-")
             .against(Some(2.0), MODEL, Confidence::Exact)
@@ -155,9 +154,9 @@ fn order(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, study: &[&LayerState], g
 }
 
 /// What is taken for the error of the coarser of two layers `[-]`.
-pub(super) fn difference(coarse: &LayerState, fine: &LayerState, grains: &str) -> f64 {
-    match grains {
-        "frozen" => coarse.difference(fine, STUDIED_ABOVE),
+pub(super) fn difference(coarse: &LayerState, fine: &LayerState, purpose: Purpose) -> f64 {
+    match purpose {
+        Purpose::FrozenOrder => coarse.difference(fine, STUDIED_ABOVE),
         _ => (coarse.transport() / fine.transport() - 1.0).abs(),
     }
 }

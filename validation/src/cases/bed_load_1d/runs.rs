@@ -34,6 +34,13 @@ pub enum Purpose {
     Sensitivity(Replaced),
 }
 
+impl Purpose {
+    /// What the grains do, in a variant.
+    pub(super) fn grains(self) -> &'static str {
+        if self == Self::FrozenOrder { "frozen" } else { "dilating" }
+    }
+}
+
 /// One layer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BedLoad1dRun {
@@ -88,8 +95,9 @@ impl Run for BedLoad1dRun {
         match self.purpose {
             Purpose::Literature => slope.and("start", "rest"),
             Purpose::FastStart(_) => slope.and("start", "fast"),
-            Purpose::DilatingOrder => slope.and("grains", "dilating").and("cell_height", self.cell_height),
-            Purpose::FrozenOrder => slope.and("grains", "frozen").and("cell_height", self.cell_height),
+            Purpose::DilatingOrder | Purpose::FrozenOrder => {
+                slope.and("grains", self.purpose.grains()).and("cell_height", self.cell_height)
+            }
             Purpose::Sensitivity(replaced) => slope.and(replaced.closure(), replaced.value_text()),
         }
     }
