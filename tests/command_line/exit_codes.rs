@@ -2,7 +2,7 @@
 
 use crate::program::{CHEAP, Place, document};
 use bagnold_validation::metric::Verdict;
-use bagnold_validation::observe::Outcome;
+use bagnold_validation::observation::Outcome;
 
 #[test]
 fn zero_and_one_json_document_when_all_gates_hold() {

@@ -2,7 +2,7 @@
 
 use assert_cmd::Command;
 use assert_cmd::assert::Assert;
-use bagnold_validation::metric::json::MetricsDocument;
+use bagnold_validation::result::MetricsDocument;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 

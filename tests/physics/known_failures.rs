@@ -3,8 +3,8 @@
 use crate::verdict::complaints;
 use bagnold_validation::case::{CaseResult, Changes, RunSummary, Tier};
 use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::metric::{Limit, Metric};
-use bagnold_validation::observe::Outcome;
+use bagnold_validation::metric::{Limit, Metric, Variant};
+use bagnold_validation::observation::Outcome;
 use bagnold_validation::report::{KnownFailure, KnownFailures};
 use std::path::Path;
 
@@ -19,44 +19,34 @@ pub(crate) fn owing_tier(entry: &KnownFailure) -> Option<Tier> {
     let case = REGISTRY.find(&entry.case).ok()?;
     [Tier::Quick, Tier::Paper, Tier::Fine].into_iter().find(|&tier| {
         case.prepare(tier, &Changes::default()).is_ok_and(|prepared| {
-            let runs: Vec<String> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
-            let matches = if entry.variant.split(',').any(names_a_quantity) { has_all } else { is_made_of };
-            runs_of(&entry.variant).iter().all(|wanted| runs.iter().any(|run| matches(run, wanted)))
+            let runs: Vec<Variant> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
+            let is_run: fn(&Variant, &Variant) -> bool =
+                if entry.variant.get(QUANTITY).is_some() { has_all } else { Variant::eq };
+            runs_of(&entry.variant).iter().all(|wanted| runs.iter().any(|run| is_run(run, wanted)))
         })
     })
 }
 
-/// Whether a part of a variant is of the metric and not of its runs.
-fn names_a_quantity(part: &str) -> bool {
-    part.starts_with("quantity=")
-}
+/// The key that is of the metric and not of its runs.
+const QUANTITY: &str = "quantity";
 
-/// What tells the runs behind a metric: a metric may join several, as in `resolution=10_20_40`, and may say which
-/// `quantity` of them it is about.
-fn runs_of(variant: &str) -> Vec<Vec<String>> {
-    let mut runs = vec![Vec::new()];
-    for part in variant.split(',').filter(|part| !names_a_quantity(part)) {
-        let (key, value) = part.split_once('=').unwrap_or((part, ""));
-        let joined = value.split('_').all(|piece| piece.parse::<f64>().is_ok());
-        let values: Vec<&str> = if joined { value.split('_').collect() } else { vec![value] };
-        let with = |run: &Vec<String>, value: &&str| -> Vec<String> {
-            run.iter().cloned().chain([format!("{key}={value}")]).collect()
+/// The runs behind a metric: a metric may join several, as in `resolution=10_20_40`, and may say which `quantity` of
+/// them it is about.
+fn runs_of(variant: &Variant) -> Vec<Variant> {
+    let mut runs = vec![Variant::default()];
+    for (key, value) in variant.parts().filter(|(key, _)| *key != QUANTITY) {
+        let with = |run: &Variant| -> Vec<Variant> {
+            value.joined().iter().map(|one| run.clone().and(key, one.clone())).collect()
         };
-        runs = runs.iter().flat_map(|run| values.iter().map(move |value| with(run, value))).collect();
+        runs = runs.iter().flat_map(with).collect();
     }
     runs
 }
 
-/// Whether a run's variant is these parts and no more: a metric of a single run repeats its whole variant.
-fn is_made_of(run: &str, wanted: &[String]) -> bool {
-    run == wanted.join(",")
-}
-
-/// Whether a run's variant has all these parts: a metric over many runs, which names a quantity, says only what they
-/// have in common.
-fn has_all(run: &str, wanted: &[String]) -> bool {
-    let parts: Vec<&str> = run.split(',').collect();
-    wanted.iter().all(|part| parts.contains(&part.as_str()))
+/// Whether a run has all these values: a metric over many runs, which names a quantity, says only what they have in
+/// common. A metric of a single run repeats its whole variant.
+fn has_all(run: &Variant, wanted: &Variant) -> bool {
+    wanted.parts().all(|(key, value)| run.get(key) == Some(value))
 }
 
 #[test]
@@ -70,11 +60,25 @@ fn every_known_failure_names_runs_of_a_case() {
     assert!(stale.is_empty(), "no tier has these runs, remove the entries:\n{}", stale.join("\n"));
 }
 
+#[test]
+fn every_known_failure_is_of_a_quantity_that_its_case_declares() {
+    for entry in read().failures {
+        let case = REGISTRY.find(&entry.case).expect("a case");
+        let known = case.quantities();
+        assert!(
+            known.is_empty() || known.iter().any(|quantity| quantity.name == entry.metric),
+            "{} declares no `{}`",
+            entry.case,
+            entry.metric
+        );
+    }
+}
+
 fn entry(metric: &str, variant: &str, best_value: f64) -> KnownFailure {
     KnownFailure {
         case: "film".to_owned(),
         metric: metric.to_owned(),
-        variant: variant.to_owned(),
+        variant: variant.parse().expect("a variant"),
         best_value,
         date: "2025-01-31".to_owned(),
         reason: "for the test".to_owned(),
@@ -97,8 +101,8 @@ fn an_entry_is_owed_by_the_cheapest_tier_that_has_its_runs() {
 
 /// A result of `film` with one gate at 1.
 fn result(value: f64, outcome: Outcome) -> CaseResult {
-    let variant = "fluid=bingham,particles=jittered,resolution=20";
-    let metric = Metric::observed("velocity_l2", variant, value, "%")
+    let variant: Variant = "fluid=bingham,particles=jittered,resolution=20".parse().expect("a variant");
+    let metric = Metric::observed("velocity_l2", &variant, value, "%")
         .gated(Limit::AtMost(1.0), "for the test")
         .with_snapshot_tolerance(0.05, 0.0);
     CaseResult {
@@ -113,7 +117,7 @@ fn result(value: f64, outcome: Outcome) -> CaseResult {
         animations: Vec::new(),
         tables: Vec::new(),
         runs: vec![RunSummary {
-            variant: variant.to_owned(),
+            variant,
             outcome,
             particles: 1,
             steps: 1,

@@ -4,7 +4,7 @@ use crate::known_failures::{self, owing_tier};
 use bagnold_validation::case::{CaseResult, Changes, Silent, Tier, execute};
 use bagnold_validation::cases::REGISTRY;
 use bagnold_validation::metric::{Limit, Metric, Verdict};
-use bagnold_validation::observe::Outcome;
+use bagnold_validation::observation::Outcome;
 use bagnold_validation::report::{KnownFailures, Standing};
 use bagnold_validation::store::{Store, StorePolicy};
 use std::sync::{Mutex, PoisonError};

@@ -5,6 +5,7 @@
 
 use bagnold_validation::case::{Changes, Silent, Tier, execute};
 use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::metric::undeclared;
 use bagnold_validation::report::Baseline;
 use bagnold_validation::store::{Store, StorePolicy};
 use std::path::Path;
@@ -13,9 +14,16 @@ use std::path::Path;
 fn differences(name: &str) -> Result<Vec<String>, Box<dyn std::error::Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots");
     let accepted = Baseline::read(&folder, name, Tier::Quick)?;
-    let prepared = REGISTRY.find(name)?.prepare(Tier::Quick, &Changes::default())?;
+    let case = REGISTRY.find(name)?;
+    let prepared = case.prepare(Tier::Quick, &Changes::default())?;
     let results = execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent)?;
-    Ok(results.iter().flat_map(|result| accepted.differences(name, &result.metrics)).collect())
+    let mut found = Vec::new();
+    for result in &results {
+        found.extend(accepted.differences(name, &result.metrics));
+        let strangers = undeclared(case.quantities(), &result.metrics);
+        found.extend(strangers.map(|metric| format!("{} [{}] is not declared by the case", metric.name, metric.unit)));
+    }
+    Ok(found)
 }
 
 #[test]

@@ -26,6 +26,19 @@ const SOLVER: &[Floor] = &[
     peers(&["weakly_compressible", "incompressible"]),
 ];
 
+/// `validation/src`, likewise.
+const VALIDATION: &[Floor] = &[
+    floor(&["input", "number", "statistics"]),
+    floor(&["sampling", "output", "figure"]),
+    floor(&["metric", "reference"]),
+    floor(&["observation"]),
+    floor(&["store", "inference"]),
+    floor(&["case"]),
+    floor(&["cases", "evaluation", "result", "report"]),
+    floor(&["sweep", "calibration"]),
+    floor(&["cli"]),
+];
+
 /// A file that imports what it must not.
 fn offence(source: &Source, line: usize, rule: &str) -> String {
     format!("{}:{line} {rule}", source.path)
@@ -90,6 +103,11 @@ fn assert_none(offences: &[String]) {
 #[test]
 fn the_solver_depends_downwards_only() {
     assert_none(&offences("solver/src", SOLVER));
+}
+
+#[test]
+fn the_validation_depends_downwards_only() {
+    assert_none(&offences("validation/src", VALIDATION));
 }
 
 #[test]

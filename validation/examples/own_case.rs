@@ -7,9 +7,9 @@ use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::{domain::Domain, vector::Vector};
-use bagnold_validation::case::{Case, Parameters, Progress, Registry, Run, Tier};
-use bagnold_validation::metric::{Confidence, Limit, Metric};
-use bagnold_validation::{cases::recording::record, error::InputError, observe::Recorded};
+use bagnold_validation::case::{Case, ParameterError, Parameters, Progress, Registry, Run, Tier};
+use bagnold_validation::metric::{Confidence, Limit, Metric, Variant};
+use bagnold_validation::{cases::recording::record, observation::Recorded};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -44,10 +44,10 @@ impl Parameters for Wave {
 
 impl Run for Wave {
     type Observation = f64;
-    fn variant(&self) -> String {
-        format!("rows={}", self.rows)
+    fn variant(&self) -> Variant {
+        Variant::of("rows", self.rows)
     }
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<f64>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<f64>, ParameterError> {
         let (n, spacing) = (self.rows, 1.0 / self.rows as f64);
         let place = |k: usize| Vector::<2>::new((k % n) as f64 + 0.5, (k / n) as f64 + 0.5) * spacing;
         let mut flow = Flow::at_rest((0..n * n).map(place).collect(), 1000.0, spacing);

@@ -1,7 +1,8 @@
 //! What a model is compared with: single numbers, profiles from a CSV file, or synthetic data.
 
+use super::error::CalibrationError;
 use super::target::{Datum, Target, Uncertainty, parted};
-use crate::error::InputError;
+use crate::input::FieldError;
 use crate::reference::{Column, MeasuredData};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -60,9 +61,9 @@ pub(super) enum Group {
 
 impl DatumText {
     /// Checks what is given and what is missing; `field` names the table.
-    pub(super) fn check(&self, field: &str) -> Result<(), InputError> {
+    pub(super) fn check(&self, field: &str) -> Result<(), FieldError> {
         let wrong = |name: &str, value: &str, rule: &str, remedy: &str| {
-            Err(InputError::field(&format!("{field}.{name}"), value, rule, remedy))
+            Err(FieldError::new(&format!("{field}.{name}"), value, rule, remedy))
         };
         match (&self.metric, &self.table) {
             (Some(_), Some(_)) | (None, None) => {
@@ -179,7 +180,7 @@ impl DatumText {
     }
 
     /// Reads the data; `plan` is the file that names a CSV file relative to itself.
-    pub(super) fn read(&self, block: usize, plan: &Path) -> Result<Group, InputError> {
+    pub(super) fn read(&self, block: usize, plan: &Path) -> Result<Group, CalibrationError> {
         if let Some(noise) = self.noise {
             let bins = self.bins.unwrap_or(20).max(1);
             return Ok(Group::Synthetic(Synthetic { block, target: self.target(0.0), noise, bins }));
@@ -199,7 +200,7 @@ impl DatumText {
         }]))
     }
 
-    fn of_file(&self, block: usize, path: &Path) -> Result<Vec<Datum>, InputError> {
+    fn of_file(&self, block: usize, path: &Path) -> Result<Vec<Datum>, CalibrationError> {
         let data = MeasuredData::read(path)?;
         let source = data.metadata.source.clone();
         let (values, unit) = match &self.table {
@@ -212,18 +213,21 @@ impl DatumText {
             None => numbers(&data, path, "value", None)?,
         };
         let (sigmas, _) = numbers(&data, path, "uncertainty", Some(&unit)).map_err(|error| match error {
-            InputError::Reference(_) => InputError::field(
+            CalibrationError::Reference(_) => FieldError::new(
                 "uncertainty",
                 "missing",
                 "a column of standard deviations",
                 &format!("add `uncertainty [{unit}]`; Bagnold does not invent one"),
             )
-            .in_file(path),
+            .in_file(path)
+            .into(),
             other => other,
         })?;
         if let Some(row) = sigmas.iter().position(|sigma| *sigma <= 0.0) {
             let field = format!("uncertainty, row {}", row + 1);
-            return Err(InputError::field(&field, sigmas[row], "positive", "give the standard deviation").in_file(path));
+            return Err(FieldError::new(&field, sigmas[row], "positive", "give the standard deviation")
+                .in_file(path)
+                .into());
         }
         let datum = |row: usize, target: Target| Datum {
             block,
@@ -253,7 +257,7 @@ fn numbers(
     path: &Path,
     wanted: &str,
     expected: Option<&str>,
-) -> Result<(Vec<f64>, String), InputError> {
+) -> Result<(Vec<f64>, String), CalibrationError> {
     let values = data.numbers(wanted)?.to_vec();
     let unit = data.columns.iter().find_map(|column| match column {
         Column::Numbers { name, unit, .. } if name == wanted => Some(unit.clone()),
@@ -264,7 +268,7 @@ fn numbers(
         Some(expected) if expected != unit => {
             let remedy = "convert the column; Bagnold does not guess";
             let rule = format!("in the simulated quantity's unit, [{expected}]");
-            Err(InputError::field(wanted, format!("in [{unit}]"), &rule, remedy).in_file(path))
+            Err(FieldError::new(wanted, format!("in [{unit}]"), &rule, remedy).in_file(path).into())
         }
         _ => Ok((values, unit)),
     }

@@ -1,7 +1,7 @@
 //! The folder of a calibration: which plan it belongs to.
 
-use crate::error::InputError;
-use crate::output::{Owner, claim};
+use super::error::CalibrationError;
+use crate::output::{FileError, Owner, claim};
 use crate::store::source_hash;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -34,12 +34,12 @@ impl CalibrationFolder {
     /// # Errors
     /// A folder with another calibration, somebody else's files, or a calibration that is not to be resumed; files that
     /// cannot be read or written.
-    pub fn begin(folder: &Path, plan: &Path, resume: bool) -> Result<Self, InputError> {
-        let plan = std::fs::read_to_string(plan).map_err(|error| InputError::unreadable(plan, &error))?;
+    pub fn begin(folder: &Path, plan: &Path, resume: bool) -> Result<Self, CalibrationError> {
+        let plan = std::fs::read_to_string(plan).map_err(|error| FileError::unreadable(plan, &error))?;
         let begun = Self { folder: folder.to_owned() };
         claim(folder, Belongs { source_hash: source_hash().to_owned(), plan }, resume)?;
         let evaluations = begun.evaluations();
-        std::fs::create_dir_all(&evaluations).map_err(|error| InputError::unwritable(&evaluations, &error))?;
+        std::fs::create_dir_all(&evaluations).map_err(|error| FileError::unwritable(&evaluations, &error))?;
         Ok(begun)
     }
 

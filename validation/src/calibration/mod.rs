@@ -11,6 +11,7 @@
 //! The search is deterministic, so one that was killed is begun anew and finds its evaluations done.
 
 mod data;
+mod error;
 mod figures;
 mod folder;
 mod objective;
@@ -22,6 +23,7 @@ mod target;
 mod text;
 mod trials;
 
+pub use error::CalibrationError;
 pub use folder::CalibrationFolder;
 pub use objective::Watch;
 pub use page::write;
@@ -30,7 +32,6 @@ pub use result::{Compared, Evaluation, Found, Outcome, Place, Sensitivity, weigh
 pub use trials::Trial;
 
 use crate::case::Registry;
-use crate::error::InputError;
 use crate::evaluation::Record;
 use crate::inference::{self, Budget, Explored, Method, Search, SearchError, Uncertainties, explore};
 use crate::sampling::design;
@@ -52,7 +53,7 @@ pub fn calibrate(
     registry: Registry,
     store: &Store,
     watch: &dyn Watch,
-) -> Result<Outcome, InputError> {
+) -> Result<Outcome, CalibrationError> {
     let mut objective = Objective {
         plan,
         registry,
@@ -80,7 +81,7 @@ pub fn calibrate(
         other => {
             let cause =
                 objective.last_failure().map_or_else(String::new, |reason| format!("; the last said: {reason}"));
-            InputError::Search { file: plan.file.clone(), reason: format!("{other}{cause}") }
+            CalibrationError::Search { file: plan.file.clone(), reason: format!("{other}{cause}") }
         }
     })?;
     let searched = found.history.len();
@@ -93,7 +94,7 @@ pub fn calibrate(
         .map_or_else(|| found.best.clone(), |(_, point)| point.clone());
     let sensitivity = screening::screen(&mut objective, plan.trajectories)?;
     let values = plan.values(&best);
-    let failed = |reason: String| InputError::Search { file: plan.file.clone(), reason };
+    let failed = |reason: String| CalibrationError::Search { file: plan.file.clone(), reason };
     let fit = compare_at(&objective, &values, false)?.map_err(failed)?;
     let hold_out = compare_at(&objective, &values, true)?;
     let calibrated = result::calibrated(&objective, &values)?;
@@ -101,7 +102,7 @@ pub fn calibrate(
     Ok(result::assemble(plan, &search, searched, mapped.as_ref(), sensitivity, (fit, hold_out), calibrated))
 }
 
-fn search(plan: &Plan, objective: &mut Objective<'_>, start: &[f64]) -> Result<Search, SearchError<InputError>> {
+fn search(plan: &Plan, objective: &mut Objective<'_>, start: &[f64]) -> Result<Search, SearchError<CalibrationError>> {
     if plan.method == Method::Design && !plan.levels.is_empty() {
         let points = design::full_grid(&plan.levels);
         let budget = Budget { evaluations: points.len() + 1, ..plan.budget };
@@ -112,7 +113,7 @@ fn search(plan: &Plan, objective: &mut Objective<'_>, start: &[f64]) -> Result<S
 
 /// The region of what was evaluated and of further points, where it is wider; none with too few points. Uncertainties are
 /// enlarged where the model does not explain the data.
-fn region_of(plan: &Plan, objective: &mut Objective<'_>, found: &Search) -> Result<Option<Explored>, InputError> {
+fn region_of(plan: &Plan, objective: &mut Objective<'_>, found: &Search) -> Result<Option<Explored>, CalibrationError> {
     let budget = Budget { evaluations: plan.region_evaluations, ..plan.budget };
     let stated = explore(objective, found.history.clone(), Uncertainties::AsStated, &budget)?;
     match stated {
@@ -130,7 +131,7 @@ fn compare_at(
     objective: &Objective<'_>,
     values: &[f64],
     held_out: bool,
-) -> Result<Result<Vec<Compared>, String>, InputError> {
+) -> Result<Result<Vec<Compared>, String>, CalibrationError> {
     let blocks: Vec<usize> =
         (0..objective.plan.blocks.len()).filter(|&k| objective.plan.blocks[k].held_out == held_out).collect();
     let questions: Vec<_> = blocks.iter().map(|&block| objective.question(block, values)).collect();

@@ -1,12 +1,14 @@
 //! From points of the unit cube to weighted residuals: evaluations in parallel, each a file, none done twice.
 
 use super::data::{Group, Synthetic};
+use super::error::CalibrationError;
 use super::plan::{Block, Plan};
 use super::target::{Datum, Target, Uncertainty};
 use crate::case::{Prepared, Registry, Silent, share_out};
-use crate::error::InputError;
 use crate::evaluation::{self, Record};
 use crate::inference::Evaluate;
+use crate::input::FieldError;
+use crate::output::FileError;
 use crate::sampling::Random;
 use crate::store::Store;
 use std::path::PathBuf;
@@ -47,7 +49,7 @@ pub(super) struct Objective<'a> {
 
 impl Objective<'_> {
     /// Records of questions, in their order; what has a file is read, the rest simulated on the current pool's threads.
-    pub(super) fn ask(&self, questions: &[Question]) -> Result<Vec<Record>, InputError> {
+    pub(super) fn ask(&self, questions: &[Question]) -> Result<Vec<Record>, CalibrationError> {
         let mut answers: Vec<Option<Record>> = Vec::with_capacity(questions.len());
         let mut waiting: Vec<(usize, String, Box<dyn Prepared>)> = Vec::new();
         for (place, question) in questions.iter().enumerate() {
@@ -73,13 +75,13 @@ impl Objective<'_> {
         waiting.sort_by(|a, b| cost(b.2.as_ref()).total_cmp(&cost(a.2.as_ref())).then(a.0.cmp(&b.0)));
         let jobs: Vec<Waiting> =
             waiting.into_iter().map(|(_, key, prepared)| Mutex::new(Some((key, prepared)))).collect();
-        share_out(jobs.iter().collect(), |job| {
+        share_out(jobs.iter().collect(), |job| -> Result<(), CalibrationError> {
             let taken = job.lock().unwrap_or_else(PoisonError::into_inner).take();
             let Some((key, prepared)) = taken else { return Ok(()) };
             let record = evaluation::evaluate(prepared, self.store, &Silent)?;
             self.watch.evaluated(&record.case, record.failure.as_deref());
             let file = self.file(&key);
-            record.write(&file).map_err(|error| InputError::unwritable(&file, &error))
+            record.write(&file).map_err(|error| FileError::unwritable(&file, &error).into())
         })?;
         for (answer, question) in answers.iter_mut().zip(questions) {
             if answer.is_none() {
@@ -89,7 +91,7 @@ impl Objective<'_> {
                 let file = self.file(&key);
                 *answer = Some(Record::read(&file, &key).ok_or_else(|| {
                     let lost = std::io::Error::other("an evaluation that was just written cannot be read back");
-                    InputError::unwritable(&file, &lost)
+                    FileError::unwritable(&file, &lost)
                 })?);
             }
         }
@@ -124,7 +126,7 @@ impl Objective<'_> {
         &self,
         data: impl Iterator<Item = &'d Datum>,
         record: impl Fn(usize) -> Option<&'d Record>,
-    ) -> Result<Vec<f64>, InputError> {
+    ) -> Result<Vec<f64>, CalibrationError> {
         data.map(|datum| {
             let block = &self.plan.blocks[datum.block];
             let wrong = |reason: String| self.counterpart(block, reason);
@@ -148,12 +150,12 @@ impl Objective<'_> {
         .collect()
     }
 
-    pub(super) fn counterpart(&self, block: &Block, reason: String) -> InputError {
-        InputError::Counterpart { file: self.plan.file.clone(), field: block.field.clone(), reason }
+    pub(super) fn counterpart(&self, block: &Block, reason: String) -> CalibrationError {
+        CalibrationError::Counterpart { file: self.plan.file.clone(), field: block.field.clone(), reason }
     }
 
     /// Reads the data of the plan; synthetic ones are simulated with the parameters' truth.
-    pub(super) fn read_data(&mut self) -> Result<(), InputError> {
+    pub(super) fn read_data(&mut self) -> Result<(), CalibrationError> {
         let mut groups = Vec::new();
         for (block, texts) in self.plan.data.iter().enumerate() {
             for text in texts {
@@ -166,8 +168,7 @@ impl Objective<'_> {
             let values = self.plan.parameters.iter().map(|parameter| parameter.truth).collect::<Option<Vec<f64>>>();
             let values = values.ok_or_else(|| {
                 let remedy = "give every parameter's `truth`, with which the synthetic data are made";
-                InputError::field("parameters.truth", "missing", "given with a `noise`", remedy)
-                    .in_file(&self.plan.file)
+                FieldError::new("parameters.truth", "missing", "given with a `noise`", remedy).in_file(&self.plan.file)
             })?;
             let wanted: Vec<usize> = (0..self.plan.blocks.len())
                 .filter(|&block| groups.iter().any(|group| matches!(group, Group::Synthetic(s) if s.block == block)))
@@ -196,9 +197,9 @@ impl Objective<'_> {
 }
 
 impl Evaluate for Objective<'_> {
-    type Error = InputError;
+    type Error = CalibrationError;
 
-    fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, InputError> {
+    fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, CalibrationError> {
         let fitted: Vec<usize> = (0..self.plan.blocks.len()).filter(|&k| !self.plan.blocks[k].held_out).collect();
         let values: Vec<Vec<f64>> = points.iter().map(|point| self.plan.values(point)).collect();
         let questions: Vec<Question> =

@@ -2,9 +2,9 @@
 
 use super::figures;
 use super::result::{Compared, Outcome, relative_error, weighted_error};
-use crate::error::InputError;
 use crate::figure::{self, FigureError};
-use crate::output::write_whole;
+use crate::number::four_digits;
+use crate::output::{FileError, write_whole};
 use crate::report::template_value;
 use serde::Serialize;
 use std::io;
@@ -42,8 +42,8 @@ struct Page<'a> {
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(outcome: &Outcome, folder: &Path) -> Result<(), InputError> {
-    let unwritable = |error: io::Error| InputError::unwritable(folder, &error);
+pub fn write(outcome: &Outcome, folder: &Path) -> Result<(), FileError> {
+    let unwritable = |error: io::Error| FileError::unwritable(folder, &error);
     let drawn = folder.join("figures");
     let mut pictures = Vec::new();
     for picture in figures::all(outcome) {
@@ -113,13 +113,8 @@ fn data(outcome: &Outcome) -> io::Result<Vec<u8>> {
     writer.into_inner().map_err(|error| io::Error::other(error.to_string()))
 }
 
-/// Four significant digits.
-fn shown(value: f64) -> String {
-    crate::report::number::four_digits(value)
-}
-
 fn optional(value: Option<f64>) -> String {
-    value.map_or_else(|| "–".to_owned(), shown)
+    value.map_or_else(|| "–".to_owned(), four_digits)
 }
 
 fn errors(what: &'static str, data: &[Compared]) -> Option<Errors> {
@@ -127,7 +122,8 @@ fn errors(what: &'static str, data: &[Compared]) -> Option<Errors> {
         what,
         data: data.len(),
         weighted: optional(weighted_error(data)),
-        relative: relative_error(data).map_or_else(|| "–".to_owned(), |error| format!("{} %", shown(100.0 * error))),
+        relative: relative_error(data)
+            .map_or_else(|| "–".to_owned(), |error| format!("{} %", four_digits(100.0 * error))),
     })
 }
 
@@ -146,12 +142,16 @@ fn summary(outcome: &Outcome) -> Vec<String> {
                 format!(
                     "the model does not explain the data within their uncertainties, so these were enlarged by {} for the \
                      intervals",
-                    shown(outcome.inflation)
+                    four_digits(outcome.inflation)
                 )
             } else {
                 "the model explains the data within their uncertainties".to_owned()
             };
-            lines.push(format!("χ² over the degrees of freedom is {} (p = {}): {judged}.", shown(reduced), shown(p)));
+            lines.push(format!(
+                "χ² over the degrees of freedom is {} (p = {}): {judged}.",
+                four_digits(reduced),
+                four_digits(p)
+            ));
         }
         if let Some(inside) = outcome.truth_inside {
             let word = if inside { "holds" } else { "does not hold" };
@@ -170,16 +170,24 @@ fn render(outcome: &Outcome, pictures: Vec<Picture>) -> Result<String, minijinja
             || "–".to_owned(),
             |(low, high)| {
                 let end = |open: bool, value: f64, sign: &str| {
-                    if open { format!("{sign} {} (bound)", shown(value)) } else { shown(value) }
+                    if open { format!("{sign} {} (bound)", four_digits(value)) } else { four_digits(value) }
                 };
                 format!("{} … {}", end(found.open.0, low, "≤"), end(found.open.1, high, "≥"))
             },
         );
-        let bounds = format!("{} … {}", shown(found.bounds.0), shown(found.bounds.1));
+        let bounds = format!("{} … {}", four_digits(found.bounds.0), four_digits(found.bounds.1));
         let truth = found.truth.map_or_else(String::new, |truth| {
-            format!("{} ({:+.2} %)", shown(truth), 100.0 * (found.best / truth - 1.0))
+            format!("{} ({:+.2} %)", four_digits(truth), 100.0 * (found.best / truth - 1.0))
         });
-        vec![found.name.clone(), found.unit.clone(), shown(found.best), interval, shown(found.start), bounds, truth]
+        vec![
+            found.name.clone(),
+            found.unit.clone(),
+            four_digits(found.best),
+            interval,
+            four_digits(found.start),
+            bounds,
+            truth,
+        ]
     };
     let trial = |trial: &super::trials::Trial| {
         let ranks = trial.ranks.map_or_else(
@@ -205,9 +213,9 @@ fn render(outcome: &Outcome, pictures: Vec<Picture>) -> Result<String, minijinja
             name,
             datum.label.clone(),
             datum.unit.clone(),
-            shown(datum.datum),
-            format!("{} … {}", shown(datum.band.0), shown(datum.band.1)),
-            shown(datum.model),
+            four_digits(datum.datum),
+            format!("{} … {}", four_digits(datum.band.0), four_digits(datum.band.1)),
+            four_digits(datum.model),
             format!("{:+.2}", datum.residual),
             datum.source.clone(),
         ]

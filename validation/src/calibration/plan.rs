@@ -1,11 +1,12 @@
 //! A calibration as a TOML file.
 
 use super::data::DatumText;
+use super::error::CalibrationError;
 use super::text::Text;
 use crate::case::Registry;
-use crate::error::{InputError, nearest};
-use crate::evaluation::CaseRequest;
+use crate::evaluation::{CaseRequest, PlanError, read_plan};
 use crate::inference::{Budget, Method};
+use crate::input::{FieldError, nearest};
 use crate::sampling::{Bounds, Paths, float};
 use crate::store::Store;
 use serde::Deserialize;
@@ -85,9 +86,8 @@ impl Plan {
     /// # Errors
     /// A file that cannot be read or typed, ranges that break a rule, a case or a path that does not exist, a run that is
     /// in both fit and hold-out.
-    pub fn read(file: &Path, registry: Registry) -> Result<Self, InputError> {
-        let text = std::fs::read_to_string(file).map_err(|error| InputError::unreadable(file, &error))?;
-        let text: Text = InputError::parse_plan(file, &text, "calibrate")?;
+    pub fn read(file: &Path, registry: Registry) -> Result<Self, CalibrationError> {
+        let text: Text = read_plan(file, "calibrate")?;
         let plan = text.checked(file).map_err(|error| error.in_file(file))?;
         plan.check_cases(registry)?;
         Ok(plan)
@@ -117,7 +117,7 @@ impl Plan {
     }
 
     /// Every case that a parameter's path or a choice names must be compared with data, and the other way round.
-    fn check_names(&self) -> Result<(), InputError> {
+    fn check_names(&self) -> Result<(), FieldError> {
         let cases: Vec<&str> = self.blocks.iter().map(|block| block.request.case.as_str()).collect();
         let known = |field: String, case: &str| {
             if cases.contains(&case) {
@@ -128,7 +128,7 @@ impl Plan {
                 || "use a case of `fit` or `hold_out`".to_owned(),
                 |near| format!("did you mean `{near}`?"),
             );
-            Err(InputError::field(&field, case, "a case that has data", &remedy))
+            Err(FieldError::new(&field, case, "a case that has data", &remedy))
         };
         for (index, parameter) in self.parameters.iter().enumerate() {
             if let Paths::ByCase(paths) = &parameter.path {
@@ -136,7 +136,7 @@ impl Plan {
             }
             if self.parameters[..index].iter().any(|other| other.path == parameter.path) {
                 let field = format!("parameters[{index}].path");
-                return Err(InputError::field(&field, "given twice", "unlike the others", "vary a path once"));
+                return Err(FieldError::new(&field, "given twice", "unlike the others", "vary a path once"));
             }
         }
         for (index, choice) in self.choices.iter().enumerate() {
@@ -144,7 +144,7 @@ impl Plan {
             choice.set.keys().try_for_each(|case| known(format!("{field}.set"), case))?;
             if let Some(case) = cases.iter().find(|case| choice.in_case(case).is_empty()) {
                 let remedy = format!("say what {} sets there", choice.name);
-                return Err(InputError::field(
+                return Err(FieldError::new(
                     &format!("{field}.set"),
                     "incomplete",
                     &format!("given for `{case}`"),
@@ -152,18 +152,13 @@ impl Plan {
                 ));
             }
             if self.choices[..index].iter().any(|other| other.name == choice.name) {
-                return Err(InputError::field(
-                    &format!("{field}.name"),
-                    &choice.name,
-                    "unlike the others",
-                    "rename it",
-                ));
+                return Err(FieldError::new(&format!("{field}.name"), &choice.name, "unlike the others", "rename it"));
             }
         }
         Ok(())
     }
 
-    fn check_cases(&self, registry: Registry) -> Result<(), InputError> {
+    fn check_cases(&self, registry: Registry) -> Result<(), CalibrationError> {
         self.check_names().map_err(|error| error.in_file(&self.file))?;
         let start: Vec<f64> = self.parameters.iter().map(|parameter| parameter.start).collect();
         let store = Store::open(crate::store::StorePolicy::Use);
@@ -173,12 +168,13 @@ impl Plan {
             if settings.is_empty() && self.choices.is_empty() {
                 let remedy = "let a parameter name a path of the case";
                 let field = format!("{}.case", block.field);
-                return Err(InputError::field(&field, &block.request.case, "a case with a parameter", remedy)
-                    .in_file(&self.file));
+                return Err(FieldError::new(&field, &block.request.case, "a case with a parameter", remedy)
+                    .in_file(&self.file)
+                    .into());
             }
             let prepare = |settings: &[String]| {
                 let prepared = block.request.prepare(registry, &self.file, settings);
-                prepared.map_err(|error| error.in_plan(&self.file))
+                prepared.map_err(|error| PlanError::of(error, &self.file))
             };
             for choice in &self.choices {
                 prepare(&choice.in_case(&block.request.case))?;
@@ -190,7 +186,7 @@ impl Plan {
                 if !block.held_out {
                     fitted.insert(identity, block.field.clone());
                 } else if let Some(field) = fitted.get(&identity) {
-                    return Err(InputError::InBoth {
+                    return Err(CalibrationError::InBoth {
                         file: self.file.clone(),
                         run: format!("{} {}", prepared.name(), prepared.variant(run)).trim_end().to_owned(),
                         fit: field.clone(),

@@ -1,10 +1,10 @@
 //! What a calibration hands to its page and files: plain data without a trace of when or where it ran.
 
+use super::error::CalibrationError;
 use super::objective::Objective;
 use super::plan::Plan;
 use super::target::{Datum, Target};
 use super::trials::Trial;
-use crate::error::InputError;
 use crate::evaluation::Record;
 use crate::inference::{Explored, Parameter as Named, Search, Stopped, assess, chi_squared};
 use crate::sampling::Spacing;
@@ -154,7 +154,7 @@ pub(super) fn compared<'r>(
     held_out: bool,
     record: impl Fn(usize) -> Option<&'r Record>,
     named: impl Fn(&Target) -> Target,
-) -> Result<Vec<Compared>, InputError> {
+) -> Result<Vec<Compared>, CalibrationError> {
     let data: Vec<Datum> =
         objective.data_of(held_out).map(|datum| Datum { target: named(&datum.target), ..datum.clone() }).collect();
     let owned: Vec<Option<Record>> = (0..objective.plan.blocks.len()).map(|k| record(k).cloned()).collect();
@@ -174,7 +174,7 @@ pub(super) fn compared<'r>(
 }
 
 /// The fitted cases as complete files, each once.
-pub(super) fn calibrated(objective: &Objective<'_>, values: &[f64]) -> Result<Vec<String>, InputError> {
+pub(super) fn calibrated(objective: &Objective<'_>, values: &[f64]) -> Result<Vec<String>, CalibrationError> {
     let plan = objective.plan;
     let fitted = plan.blocks.iter().filter(|block| !block.held_out);
     fitted

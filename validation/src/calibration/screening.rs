@@ -1,12 +1,12 @@
 //! Morris screening with the model itself: which parameters the data feel at all, over the whole ranges.
 
+use super::error::CalibrationError;
 use super::objective::Objective;
 use super::result::Sensitivity;
-use crate::error::InputError;
 use crate::inference::sensitivity;
 
 /// Effects of every parameter; empty without trajectories.
-pub(super) fn screen(objective: &mut Objective<'_>, trajectories: usize) -> Result<Vec<Sensitivity>, InputError> {
+pub(super) fn screen(objective: &mut Objective<'_>, trajectories: usize) -> Result<Vec<Sensitivity>, CalibrationError> {
     if trajectories == 0 {
         return Ok(Vec::new());
     }

@@ -1,8 +1,8 @@
 //! What of a case's record a datum is compared with, and how.
 
 use super::result::Place;
-use crate::error::nearest;
 use crate::evaluation::Record;
+use crate::input::nearest;
 
 /// What of a record a datum is compared with.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,10 +64,10 @@ impl Target {
                 let mut found = record
                     .metrics
                     .iter()
-                    .filter(|m| m.name == *name && variant.as_ref().is_none_or(|v| *v == m.variant));
+                    .filter(|m| m.name == *name && variant.as_ref().is_none_or(|v| *v == m.variant.to_string()));
                 let missing = || {
                     let known = record.metrics.iter().filter(|metric| metric.name == *name);
-                    let variants: Vec<&str> = known.map(|metric| metric.variant.as_str()).collect();
+                    let variants: Vec<String> = known.map(|metric| metric.variant.to_string()).collect();
                     if variants.is_empty() {
                         let names = record.metrics.iter().map(|metric| metric.name.as_str());
                         let guess =

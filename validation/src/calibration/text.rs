@@ -3,9 +3,9 @@
 use super::data::DatumText;
 use super::plan::{Block, Choice, Parameter, Plan};
 use crate::case::Tier;
-use crate::error::InputError;
 use crate::evaluation::CaseRequest;
 use crate::inference::{Budget, Method};
+use crate::input::FieldError;
 use crate::sampling::{Bounds, Paths, Spacing};
 use serde::Deserialize;
 use std::path::Path;
@@ -74,7 +74,7 @@ fn none() -> String {
 
 impl Text {
     /// The plan, unless its own numbers or lists break a rule.
-    pub(super) fn checked(self, file: &Path) -> Result<Plan, InputError> {
+    pub(super) fn checked(self, file: &Path) -> Result<Plan, FieldError> {
         self.check_lists()?;
         let parameters = self.parameters()?;
         let levels = self.levels()?;
@@ -82,7 +82,7 @@ impl Text {
         let method = match (self.method, levels.is_empty()) {
             (Some(method), false) if method != Method::Design => {
                 let remedy = "leave out the method or the levels";
-                return Err(InputError::field("method", "given", "\"design\" with levels", remedy));
+                return Err(FieldError::new("method", "given", "\"design\" with levels", remedy));
             }
             (_, false) => Method::Design,
             (method, true) => method.unwrap_or(Method::TrustRegion),
@@ -107,10 +107,10 @@ impl Text {
     }
 
     /// Data to fit, and either parameters or choices.
-    fn check_lists(&self) -> Result<(), InputError> {
+    fn check_lists(&self) -> Result<(), FieldError> {
         if self.fit.is_empty() {
             let remedy = "add a `[[fit]]` table with case and data";
-            return Err(InputError::field("fit", "empty", "at least one table", remedy));
+            return Err(FieldError::new("fit", "empty", "at least one table", remedy));
         }
         if self.parameters.is_empty() == self.choices.is_empty() {
             let (value, remedy) = if self.choices.is_empty() {
@@ -118,22 +118,22 @@ impl Text {
             } else {
                 ("beside `choices`", "calibrate the parameters of each choice in a file of its own")
             };
-            return Err(InputError::field("parameters", value, "at least one table, or none with a choice", remedy));
+            return Err(FieldError::new("parameters", value, "at least one table, or none with a choice", remedy));
         }
         if self.choices.len() == 1 {
             let remedy = "list what is compared";
-            return Err(InputError::field("choices", "a single one", "two or more", remedy));
+            return Err(FieldError::new("choices", "a single one", "two or more", remedy));
         }
         Ok(())
     }
 
-    fn parameters(&self) -> Result<Vec<Parameter>, InputError> {
+    fn parameters(&self) -> Result<Vec<Parameter>, FieldError> {
         let mut parameters: Vec<Parameter> = Vec::new();
         for (index, text) in self.parameters.iter().enumerate() {
             let parameter = text.checked(&format!("parameters[{index}]"))?;
             if parameters.iter().any(|other| other.name == parameter.name) {
                 let field = format!("parameters[{index}].name");
-                return Err(InputError::field(&field, &parameter.name, "unlike the others", "give each its own"));
+                return Err(FieldError::new(&field, &parameter.name, "unlike the others", "give each its own"));
             }
             parameters.push(parameter);
         }
@@ -141,40 +141,40 @@ impl Text {
     }
 
     /// Levels along each parameter; none without a grid.
-    fn levels(&self) -> Result<Vec<usize>, InputError> {
+    fn levels(&self) -> Result<Vec<usize>, FieldError> {
         let levels: Vec<usize> = self.parameters.iter().filter_map(|parameter| parameter.levels).collect();
         if !levels.is_empty() && levels.len() < self.parameters.len() {
             let remedy = "give `levels` of all or of none";
-            return Err(InputError::field("parameters.levels", "given of some", "a grid along every axis", remedy));
+            return Err(FieldError::new("parameters.levels", "given of some", "a grid along every axis", remedy));
         }
         let points = levels.iter().try_fold(1usize, |product, count| product.checked_mul(*count));
         if points.is_none_or(|points| points > MOST_EVALUATIONS) {
             let rule = format!("a grid of at most {MOST_EVALUATIONS} points");
-            return Err(InputError::field("parameters.levels", "too many", &rule, "take fewer levels"));
+            return Err(FieldError::new("parameters.levels", "too many", &rule, "take fewer levels"));
         }
         Ok(levels)
     }
 
     /// What the search may spend.
-    fn budget(&self) -> Result<Budget, InputError> {
+    fn budget(&self) -> Result<Budget, FieldError> {
         for (name, value, most) in [
             ("evaluations", self.evaluations.unwrap_or(1), MOST_EVALUATIONS),
             ("region_evaluations", self.region_evaluations.unwrap_or(0), MOST_EVALUATIONS),
             ("trajectories", self.trajectories, MOST_TRAJECTORIES),
         ] {
             if value > most {
-                return Err(InputError::field(name, value, &format!("at most {most}"), "each costs a simulation"));
+                return Err(FieldError::new(name, value, &format!("at most {most}"), "each costs a simulation"));
             }
         }
         if self.evaluations == Some(0) {
-            return Err(InputError::field("evaluations", 0, "at least 1", "25 suffice for three parameters"));
+            return Err(FieldError::new("evaluations", 0, "at least 1", "25 suffice for three parameters"));
         }
         for (name, value, least, most, remedy) in [
             ("difference", self.difference, 1e-6, 0.5, "0.02 is 2 % of a range; more where runs scatter"),
             ("tolerance", self.tolerance, 1e-9, 1e6, "0.01 of χ² is far below one standard deviation"),
         ] {
             if let Some(value) = value.filter(|value| !(least..=most).contains(value)) {
-                return Err(InputError::field(name, value, &format!("between {least} and {most}"), remedy));
+                return Err(FieldError::new(name, value, &format!("between {least} and {most}"), remedy));
             }
         }
         let default = Budget::default();
@@ -188,7 +188,7 @@ impl Text {
 }
 
 /// Blocks and their data, fitted ones first.
-fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<(Vec<Block>, Vec<Vec<DatumText>>), InputError> {
+fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<(Vec<Block>, Vec<Vec<DatumText>>), FieldError> {
     let mut blocks = Vec::new();
     let mut data: Vec<Vec<DatumText>> = Vec::new();
     for (kind, held_out, texts) in [("fit", false, fit), ("hold_out", true, hold_out)] {
@@ -196,14 +196,14 @@ fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<(Vec<Block>, 
             let field = format!("{kind}[{index}]");
             if block.data.is_empty() {
                 let remedy = "say what the case is compared with";
-                return Err(InputError::field(&format!("{field}.data"), "[]", "at least one entry", remedy));
+                return Err(FieldError::new(&format!("{field}.data"), "[]", "at least one entry", remedy));
             }
             for (place, datum) in block.data.iter().enumerate() {
                 let field = format!("{field}.data[{place}]");
                 datum.check(&field)?;
                 if held_out && data.iter().flatten().any(|fitted| datum.is_same(fitted)) {
                     let remedy = "what is predicted must not be fitted, so take it out of one";
-                    return Err(InputError::field(&field, "fitted too", "held out only", remedy));
+                    return Err(FieldError::new(&field, "fitted too", "held out only", remedy));
                 }
             }
             let tier = block.tier.unwrap_or(Tier::Quick);
@@ -216,16 +216,16 @@ fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<(Vec<Block>, 
 }
 
 impl ParameterText {
-    fn checked(&self, field: &str) -> Result<Parameter, InputError> {
+    fn checked(&self, field: &str) -> Result<Parameter, FieldError> {
         let bounds = Bounds { lower: self.lower, upper: self.upper, spacing: self.scale };
         bounds.check(field)?;
         let start = self.start.unwrap_or_else(|| bounds.value(0.5));
         let rule = format!("between {} and {}", self.lower, self.upper);
         if !(start >= self.lower && start <= self.upper) {
-            return Err(InputError::field(&format!("{field}.start"), start, &rule, "start within the bounds"));
+            return Err(FieldError::new(&format!("{field}.start"), start, &rule, "start within the bounds"));
         }
         if let Some(levels) = self.levels.filter(|&levels| levels < 2) {
-            return Err(InputError::field(&format!("{field}.levels"), levels, "2 or more", "or leave it out"));
+            return Err(FieldError::new(&format!("{field}.levels"), levels, "2 or more", "or leave it out"));
         }
         Ok(Parameter {
             name: self.name.clone().unwrap_or_else(|| self.path.name()),

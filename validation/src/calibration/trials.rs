@@ -1,10 +1,10 @@
 //! A bake-off: every choice of a setting is tried, and ranked by how well it explains the same data.
 
+use super::error::CalibrationError;
 use super::objective::{Objective, Question};
 use super::plan::{Choice, Plan};
 use super::result::{Compared, Outcome, compared, weighted_error};
 use super::target::Target;
-use crate::error::InputError;
 use crate::inference::scores::{self, Score};
 use serde::{Deserialize, Serialize};
 
@@ -43,7 +43,7 @@ pub struct Trial {
 }
 
 /// Evaluates and ranks all choices. One that fails stays in the table with its reason.
-pub(super) fn try_all(objective: &Objective<'_>) -> Result<Outcome, InputError> {
+pub(super) fn try_all(objective: &Objective<'_>) -> Result<Outcome, CalibrationError> {
     let plan = objective.plan;
     let blocks = plan.blocks.len();
     let setting = |choice: &Choice, block: usize| choice.in_case(&plan.blocks[block].request.case);
@@ -80,7 +80,7 @@ pub(super) fn try_all(objective: &Objective<'_>) -> Result<Outcome, InputError> 
         .map(|trial| scores::Choice { name: trial.name.clone(), residuals: residuals(&trial.fit), parameters: 0 })
         .collect();
     let Some(ranked) = scores::rank(&choices, REPEATS, plan.budget.seed) else {
-        let nothing = InputError::Search { file: plan.file.clone(), reason: "no choice gave numbers".to_owned() };
+        let nothing = CalibrationError::Search { file: plan.file.clone(), reason: "no choice gave numbers".to_owned() };
         return Err(first_error.unwrap_or(nothing));
     };
     for trial in &mut trials {

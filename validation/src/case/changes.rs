@@ -1,7 +1,7 @@
 //! From defaults, a TOML file and `--set` to typed parameters, with errors that name the field.
 
+use super::error::{ParameterError, SettingError};
 use super::fault;
-use crate::error::InputError;
 use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
 use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};
@@ -24,7 +24,7 @@ pub(super) fn table_of<P: Serialize>(parameters: &P) -> Table {
 }
 
 /// Lays the changes over the defaults, checks each field along the schema, and types the result.
-pub(super) fn resolve<P>(case: &str, defaults: &P, changes: &Changes<'_>) -> Result<P, InputError>
+pub(super) fn resolve<P>(case: &str, defaults: &P, changes: &Changes<'_>) -> Result<P, ParameterError>
 where
     P: Serialize + DeserializeOwned + JsonSchema + 'static,
 {
@@ -46,13 +46,13 @@ where
         // What no schema can tell, such as whether a law of the user's own is known.
         None => value.try_into().map_err(|error: toml::de::Error| {
             let remedy = format!("`bagnold show {case}` prints valid ones");
-            InputError::field("parameters", "not valid", error.message(), &remedy)
+            ParameterError::field("parameters", "not valid", error.message(), &remedy)
         }),
     }
 }
 
 /// The error for a fault: that of the `--set` which gives the field, else of the file.
-fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> InputError {
+fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> ParameterError {
     let known = paths(defaults);
     let arguments = changes.settings.iter().rev().filter_map(|argument| parts(argument));
     // A path that leads through a value: `depth.x` makes `depth` a table, and no number.
@@ -68,12 +68,13 @@ fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> I
         (Fault::Unknown { known: beside, .. }, Some((path, value))) => {
             unknown_path(case, &[&beside, &known], path, value)
         }
-        (Fault::Kind { rule, choice, .. }, Some((path, value))) => InputError::SetValue {
+        (Fault::Kind { rule, choice, .. }, Some((path, value))) => SettingError::Value {
             path: path.to_owned(),
             value: value.to_owned(),
             rule,
             remedy: fault::remedy(choice.as_ref(), case),
-        },
+        }
+        .into(),
         (fault, _) => {
             let set = is_set(changes.settings, fault.path());
             let error = fault::in_parameters(fault, case, &known);
@@ -86,13 +87,14 @@ fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> I
 }
 
 /// A path that does not exist; `known` are those that do, the ones beside it first.
-fn unknown_path(case: &str, known: &[&[String]], path: &str, value: &str) -> InputError {
-    InputError::SetPath {
+fn unknown_path(case: &str, known: &[&[String]], path: &str, value: &str) -> ParameterError {
+    SettingError::Path {
         path: path.to_owned(),
         value: value.to_owned(),
         nearest: fault::nearest_path(path, known),
         case: case.to_owned(),
     }
+    .into()
 }
 
 /// Whether one of the `--set` arguments gives `field`, so that the file is not to blame for its value.
@@ -145,7 +147,7 @@ fn is_other_choice(shape: &Shape<'_>, table: &Table, changes: &Table) -> bool {
 }
 
 /// Adds one `path=value` to the table of all that are set; later ones win.
-fn add_setting(case: &str, defaults: &Table, settings: &mut Table, argument: &str) -> Result<(), InputError> {
+fn add_setting(case: &str, defaults: &Table, settings: &mut Table, argument: &str) -> Result<(), ParameterError> {
     let Some((path, text)) = parts(argument).filter(|(path, text)| !path.is_empty() && !text.is_empty()) else {
         let example = paths(defaults)
             .into_iter()
@@ -153,7 +155,7 @@ fn add_setting(case: &str, defaults: &Table, settings: &mut Table, argument: &st
                 find(defaults, &path).filter(|value| !value.is_table()).map(|value| format!("{path}={value}"))
             })
             .unwrap_or_else(|| "path=value".to_owned());
-        return Err(InputError::SetForm { argument: argument.to_owned(), example });
+        return Err(SettingError::Form { argument: argument.to_owned(), example }.into());
     };
     let mut keys: Vec<&str> = path.split('.').collect();
     let last = keys.pop().unwrap_or(path);

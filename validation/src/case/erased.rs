@@ -1,11 +1,12 @@
 //! Cases without their types: what the command line, the report and the tests work with.
 
 use super::changes::{Changes, is_set, resolve, table_of};
+use super::error::ParameterError;
 use super::notes::notes;
 use super::result::{CaseResult, RunSummary, microseconds_each};
 use super::{Case, CaseFile, Parameters, Progress, RecordOf, Run, RunOf, Tier, schema};
-use crate::error::InputError;
-use crate::observe::Recorded;
+use crate::metric::{Quantity, Variant};
+use crate::observation::Recorded;
 use crate::store::Store;
 use bagnold_solver::parameter::schema_of;
 use sha2::{Digest, Sha256};
@@ -17,6 +18,8 @@ pub trait AnyCase: Sync {
     fn name(&self) -> &'static str;
     /// One line for `bagnold list`.
     fn summary(&self) -> &'static str;
+    /// What its metrics are built from; empty for a case that does not declare it.
+    fn quantities(&self) -> &'static [Quantity];
     /// The tier's parameters as a complete, commented file for `bagnold run`.
     fn show(&self, tier: Tier) -> String;
     /// The JSON Schema (2020-12) of a case file, with the tier's parameters as defaults.
@@ -25,7 +28,7 @@ pub trait AnyCase: Sync {
     ///
     /// # Errors
     /// The first field that is unknown, of the wrong type, or breaks a rule.
-    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, InputError>;
+    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, ParameterError>;
 }
 
 /// Checked parameters and the runs that they ask for; each run's record is kept as it comes in.
@@ -37,7 +40,7 @@ pub trait Prepared: Send + Sync {
     /// Number of runs.
     fn run_count(&self) -> usize;
     /// Full name of a run; empty where the case has a single one.
-    fn variant(&self, run: usize) -> String;
+    fn variant(&self, run: usize) -> Variant;
     /// Expected cost of a run in particle-steps.
     fn particle_steps(&self, run: usize) -> f64;
     /// What a run is known by in a store: the same for the same simulation; none where the store is bypassed.
@@ -46,7 +49,7 @@ pub trait Prepared: Send + Sync {
     ///
     /// # Errors
     /// Parameters whose combination gives no valid scene.
-    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), InputError>;
+    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError>;
     /// Judges and draws the records. Runs that were not simulated are left out.
     fn finish(self: Box<Self>) -> CaseResult;
 }
@@ -60,6 +63,10 @@ impl<C: Case> AnyCase for C {
         C::SUMMARY
     }
 
+    fn quantities(&self) -> &'static [Quantity] {
+        C::QUANTITIES
+    }
+
     fn show(&self, tier: Tier) -> String {
         file_text::<C>(tier, &C::Parameters::of_tier(tier))
     }
@@ -69,7 +76,7 @@ impl<C: Case> AnyCase for C {
         schema::of_file(C::NAME, C::SUMMARY, tier, schema_of::<C::Parameters>(), &defaults)
     }
 
-    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, InputError> {
+    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, ParameterError> {
         let defaults = C::Parameters::of_tier(tier);
         let parameters = resolve(C::NAME, &defaults, changes)?;
         parameters.check().map_err(|error| match (&changes.file, error.field_path()) {
@@ -78,7 +85,7 @@ impl<C: Case> AnyCase for C {
         })?;
         let runs = parameters.runs();
         if runs.is_empty() {
-            return Err(InputError::NothingToRun { case: C::NAME.to_owned() });
+            return Err(ParameterError::NothingToRun { case: C::NAME.to_owned() });
         }
         let changed = table_of(&parameters) != table_of(&defaults);
         Ok(Box::new(Plan::<C> {
@@ -119,7 +126,7 @@ impl<C: Case> Prepared for Plan<C> {
         self.slots.len()
     }
 
-    fn variant(&self, run: usize) -> String {
+    fn variant(&self, run: usize) -> Variant {
         self.slots[run].0.variant()
     }
 
@@ -131,7 +138,7 @@ impl<C: Case> Prepared for Plan<C> {
         store.key(self.name(), &self.slots[run].0).map(|key| key.to_string())
     }
 
-    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), InputError> {
+    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError> {
         let (description, slot) = &self.slots[run];
         let key = store.key(self.name(), description);
         if let Some(record) = key.as_ref().and_then(|key| store.fetch(key)) {

@@ -1,28 +1,29 @@
 //! What the checker says of a field, put into a user's words.
 
-use crate::error::{InputError, nearest};
+use super::error::ParameterError;
+use crate::input::nearest;
 use bagnold_solver::parameter::{Fault, ParameterProblem};
 
 /// A parameter that is out of its range, or excludes another choice.
-impl From<ParameterProblem> for InputError {
+impl From<ParameterProblem> for ParameterError {
     fn from(problem: ParameterProblem) -> Self {
         Self::field(&problem.field, problem.value, &problem.rule, &problem.remedy)
     }
 }
 
 /// The error for a fault in the parameters of `case`; `known` are all paths that it has.
-pub(super) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> InputError {
+pub(super) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> ParameterError {
     match fault {
-        Fault::Unknown { path, known: beside } => InputError::UnknownField {
+        Fault::Unknown { path, known: beside } => ParameterError::UnknownField {
             file: None,
             nearest: nearest_path(&path, &[&beside, known]),
             field: path,
             case: case.to_owned(),
         },
-        Fault::Missing { path } => InputError::MissingField { file: None, field: path, case: case.to_owned() },
+        Fault::Missing { path } => ParameterError::MissingField { file: None, field: path, case: case.to_owned() },
         Fault::Kind { path, value, rule, choice } => {
             let value = value.unwrap_or_else(|| "not valid".to_owned());
-            InputError::field(&path, value, &rule, &remedy(choice.as_ref(), case))
+            ParameterError::field(&path, value, &rule, &remedy(choice.as_ref(), case))
         }
         Fault::Range(problem) => problem.into(),
     }

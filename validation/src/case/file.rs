@@ -1,7 +1,9 @@
 //! A case as a TOML file: `case` and `tier` on top, the parameters below.
 
 use super::Tier;
-use crate::error::{InputError, nearest};
+use super::error::ParameterError;
+use crate::input::{nearest, position};
+use crate::output::FileError;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
@@ -24,23 +26,23 @@ impl CaseFile {
     ///
     /// # Errors
     /// A file that cannot be read, is not TOML, or does not name its case.
-    pub fn read(path: &Path) -> Result<Self, InputError> {
-        let text = std::fs::read_to_string(path).map_err(|error| InputError::unreadable(path, &error))?;
+    pub fn read(path: &Path) -> Result<Self, ParameterError> {
+        let text = std::fs::read_to_string(path).map_err(|error| FileError::unreadable(path, &error))?;
         Self::parse(path, &text)
     }
 
-    fn parse(path: &Path, text: &str) -> Result<Self, InputError> {
+    fn parse(path: &Path, text: &str) -> Result<Self, ParameterError> {
         let mut fields: Table = toml::from_str(text).map_err(|error| {
             let (line, column) = position(text, error.span().map_or(0, |span| span.start));
-            InputError::Syntax { file: path.to_owned(), line, column, message: error.message().to_owned() }
+            ParameterError::Syntax { file: path.to_owned(), line, column, message: error.message().to_owned() }
         })?;
         let wrong = |field: &str, value: &Value, rule: &str, remedy: &str| {
-            InputError::field(field, value, rule, remedy).in_file(path)
+            ParameterError::field(field, value, rule, remedy).in_file(path)
         };
         let case = match fields.remove("case") {
             Some(Value::String(case)) => case,
             Some(other) => return Err(wrong("case", &other, "the name of a case", "`bagnold list` prints the names")),
-            None => return Err(InputError::NoCase { file: path.to_owned() }),
+            None => return Err(ParameterError::NoCase { file: path.to_owned() }),
         };
         let tier = match fields.remove("tier") {
             None => None,
@@ -84,14 +86,6 @@ impl CaseFile {
         // The serialiser already parts its tables by an empty line, and so does the loop above.
         text.replace("\n\n\n", "\n\n")
     }
-}
-
-/// Line and column of a byte offset, both from 1.
-pub(crate) fn position(text: &str, offset: usize) -> (usize, usize) {
-    let before = text.get(..offset).unwrap_or(text);
-    let line = before.matches('\n').count() + 1;
-    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
-    (line, column)
 }
 
 #[cfg(test)]

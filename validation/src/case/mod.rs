@@ -2,6 +2,7 @@
 
 mod changes;
 mod erased;
+mod error;
 mod fault;
 mod file;
 mod notes;
@@ -14,16 +15,15 @@ mod schema;
 
 pub use changes::Changes;
 pub use erased::{AnyCase, Prepared};
+pub use error::{ParameterError, SettingError};
 pub use file::CaseFile;
-pub(crate) use file::position;
 pub use registry::Registry;
 pub use result::{CaseResult, RunSummary};
 pub use schedule::{Monitor, Silent, execute, share_out};
 
-use crate::error::InputError;
 use crate::figure::{Animation, Figure};
-use crate::metric::Metric;
-use crate::observe::Recorded;
+use crate::metric::{Metric, Quantity, Variant};
+use crate::observation::Recorded;
 use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -69,7 +69,7 @@ pub trait Parameters: Serialize + DeserializeOwned + JsonSchema + Clone + Send +
     ///
     /// # Errors
     /// The first field that breaks a rule, by its dotted TOML path.
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), ParameterError> {
         Ok(())
     }
     /// The independent simulations that these parameters ask for, in report order.
@@ -84,7 +84,7 @@ pub trait Run: Serialize + Clone + Send + Sync {
     type Observation: Serialize + DeserializeOwned + Send + Sync;
 
     /// Full name of the run, `key=value,…` in the case's fixed order; unique within the case.
-    fn variant(&self) -> String;
+    fn variant(&self) -> Variant;
     /// Expected cost in particle-steps, for scheduling the longest first and for the progress bar; all alike, if nothing is
     /// known.
     fn particle_steps(&self) -> f64 {
@@ -94,7 +94,7 @@ pub trait Run: Serialize + Clone + Send + Sync {
     ///
     /// # Errors
     /// Parameters whose combination gives no valid scene.
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Self::Observation>, InputError>;
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Self::Observation>, ParameterError>;
 }
 
 /// How far a run has come; called often, must be cheap.
@@ -117,6 +117,8 @@ pub trait Case: Sync + 'static {
     const SUMMARY: &'static str;
     /// A paragraph for the report: what is simulated and what it is judged against.
     const DESCRIPTION: &'static str = Self::SUMMARY;
+    /// The quantities that its metrics are built from, each declared once; empty for a case that does not declare them.
+    const QUANTITIES: &'static [Quantity] = &[];
     /// Typed parameters.
     type Parameters: Parameters;
 

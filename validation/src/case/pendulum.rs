@@ -1,10 +1,10 @@
 //! A case for this crate's own tests: a damped pendulum, cheap and with an exact solution.
 
+use super::error::ParameterError;
 use super::{Case, Progress, RecordOf, Registry, Run, Tier};
-use crate::error::InputError;
 use crate::figure::Figure;
-use crate::metric::{Confidence, Limit, Metric};
-use crate::observe::{Frame, Outcome, Recorded};
+use crate::metric::{Confidence, Limit, Metric, Variant};
+use crate::observation::{Frame, Outcome, Recorded};
 use crate::output::Table;
 use bagnold_solver::parameter::{inside, positive};
 use schemars::JsonSchema;
@@ -43,15 +43,15 @@ pub(crate) struct Swing {
 impl Run for Swing {
     type Observation = Vec<f64>;
 
-    fn variant(&self) -> String {
-        format!("steps={}", self.steps)
+    fn variant(&self) -> Variant {
+        Variant::of("steps", self.steps)
     }
     fn particle_steps(&self) -> f64 {
         self.steps as f64
     }
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Vec<f64>>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Vec<f64>>, ParameterError> {
         if self.steps == 0 {
-            return Err(InputError::field("steps", 0, "positive", "take more steps"));
+            return Err(ParameterError::field("steps", 0, "positive", "take more steps"));
         }
         let interval = 1.0 / self.steps as f64;
         let mut angle = vec![self.angle];

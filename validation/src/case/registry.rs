@@ -1,7 +1,8 @@
 //! The cases that the program knows, by name.
 
 use super::AnyCase;
-use crate::error::{InputError, nearest};
+use super::error::ParameterError;
+use crate::input::nearest;
 
 /// A list of cases with unique names.
 #[derive(Clone, Copy)]
@@ -23,8 +24,8 @@ impl Registry {
     ///
     /// # Errors
     /// An unknown name; the error suggests the nearest one.
-    pub fn find(self, name: &str) -> Result<&'static dyn AnyCase, InputError> {
-        self.iter().find(|case| case.name() == name).ok_or_else(|| InputError::UnknownCase {
+    pub fn find(self, name: &str) -> Result<&'static dyn AnyCase, ParameterError> {
+        self.iter().find(|case| case.name() == name).ok_or_else(|| ParameterError::UnknownCase {
             file: None,
             name: name.to_owned(),
             nearest: nearest(name, self.iter().map(AnyCase::name)),

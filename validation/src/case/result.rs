@@ -2,16 +2,16 @@
 
 use super::Tier;
 use crate::figure::{Animation, Figure};
-use crate::metric::{Metric, Verdict};
-use crate::observe::{Frame, Outcome};
+use crate::metric::{Metric, Variant, Verdict};
+use crate::observation::{Frame, Outcome};
 use crate::output::Table;
 use serde::{Deserialize, Serialize};
 
 /// One run of a case in brief.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunSummary {
-    /// Full name, `key=value,…`; empty where the case has a single run.
-    pub variant: String,
+    /// Which run; empty where the case has a single one.
+    pub variant: Variant,
     /// How it ended.
     pub outcome: Outcome,
     /// Flow particles.

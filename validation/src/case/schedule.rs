@@ -3,8 +3,8 @@
 //! Every run gets a rayon pool of its own. In one shared pool a thread that waits for the last slice
 //! of its own loop may pick up a whole other run, which would delay its own and spoil its timing.
 
+use super::error::ParameterError;
 use super::{CaseResult, Prepared, Progress};
-use crate::error::InputError;
 use crate::store::Store;
 use std::sync::{Mutex, PoisonError};
 
@@ -49,13 +49,13 @@ struct Job {
 }
 
 /// What the workers share.
-struct Queue<J> {
+struct Queue<J, E> {
     /// Jobs not yet begun, the last first: the next one is popped off the end.
     waiting: Vec<J>,
     /// Threads that no job uses.
     free: usize,
     /// The first error; it stops the rest.
-    error: Option<InputError>,
+    error: Option<E>,
 }
 
 /// Does jobs, the first first, on the current rayon pool's number of threads: one thread each while there are more jobs
@@ -63,10 +63,10 @@ struct Queue<J> {
 ///
 /// # Errors
 /// The first job that fails; jobs that have not begun are then left.
-pub fn share_out<J: Send>(
+pub fn share_out<J: Send, E: From<ParameterError> + Send>(
     mut jobs: Vec<J>,
-    work: impl Fn(J) -> Result<(), InputError> + Sync,
-) -> Result<(), InputError> {
+    work: impl Fn(J) -> Result<(), E> + Sync,
+) -> Result<(), E> {
     jobs.reverse();
     let threads = rayon::current_num_threads();
     let workers = threads.min(jobs.len());
@@ -85,7 +85,7 @@ pub fn share_out<J: Send>(
             let outcome = rayon::ThreadPoolBuilder::new()
                 .num_threads(share)
                 .build()
-                .map_err(|error| InputError::Threads { threads: share, reason: error.to_string() })
+                .map_err(|error| ParameterError::Threads { threads: share, reason: error.to_string() }.into())
                 .and_then(|pool| pool.install(|| work(job)));
             let mut state = lock();
             state.free += share;
@@ -114,7 +114,7 @@ pub fn execute(
     cases: Vec<Box<dyn Prepared>>,
     store: &Store,
     monitor: &dyn Monitor,
-) -> Result<Vec<CaseResult>, InputError> {
+) -> Result<Vec<CaseResult>, ParameterError> {
     let mut jobs: Vec<Job> = cases
         .iter()
         .enumerate()

@@ -53,3 +53,26 @@ registry!($
     bed_load_1d::BedLoad1d,
     bed_load::BedLoad,
 );
+
+#[cfg(test)]
+mod tests {
+    use super::REGISTRY;
+    use crate::case::{Changes, Tier};
+    use crate::metric::Variant;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn the_runs_of_a_case_have_their_own_variants_texts_and_file_names() {
+        for case in REGISTRY.iter() {
+            for tier in [Tier::Quick, Tier::Paper, Tier::Fine] {
+                let prepared = case.prepare(tier, &Changes::default()).expect("the tiers are valid");
+                let variants: Vec<Variant> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
+                let files: BTreeSet<String> = variants.iter().map(Variant::file_name).collect();
+                assert_eq!(files.len(), variants.len(), "{}, {tier}", case.name());
+                for variant in variants {
+                    assert_eq!(variant.to_string().parse(), Ok(variant));
+                }
+            }
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! Rules that the parameters of several cases share: those of a field alone, and those between fields.
 
-use crate::error::InputError;
+use crate::case::ParameterError;
 use bagnold_solver::incompressible::{Continuity, MeanFlux, ProjectionNumerics};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::parameter::{self, ParameterProblem, Rule, inside, positive, up_to};
@@ -31,11 +31,11 @@ pub(super) fn driving_slope() -> Rule {
 const ROWS: &str = "20 is quick, 40 is accurate";
 
 /// A value in [lower, upper].
-pub(super) fn between(field: &str, value: f64, lower: f64, upper: f64, remedy: &str) -> Result<(), InputError> {
+pub(super) fn between(field: &str, value: f64, lower: f64, upper: f64, remedy: &str) -> Result<(), ParameterError> {
     if value >= lower && value <= upper {
         return Ok(());
     }
-    Err(InputError::field(field, value, &format!("between {} and {}", shown(lower), shown(upper)), remedy))
+    Err(ParameterError::field(field, value, &format!("between {} and {}", shown(lower), shown(upper)), remedy))
 }
 
 /// A computed bound without the digits that rounding left behind.
@@ -44,29 +44,30 @@ fn shown(bound: f64) -> f64 {
 }
 
 /// Rows of particles over a layer, where 0 would mean none.
-pub(super) fn row_count(field: &str, value: usize) -> Result<(), InputError> {
+pub(super) fn row_count(field: &str, value: usize) -> Result<(), ParameterError> {
     between(field, value as f64, 4.0, 1000.0, ROWS)
 }
 
 /// Columns of particles along a period: the kernel with its skin must fit into it.
-pub(super) fn columns(field: &str, value: usize, numerics: &Numerics) -> Result<(), InputError> {
+pub(super) fn columns(field: &str, value: usize, numerics: &Numerics) -> Result<(), ParameterError> {
     let least = (2.0 * numerics.smoothing_ratio * (1.0 + numerics.verlet_skin)).ceil() as usize;
     if value >= least && value <= 100_000 {
         return Ok(());
     }
     let rule = format!("between {least} and 100000");
-    Err(InputError::field(field, value, &rule, "the period must hold the reach of the kernel; 12 is quick"))
+    Err(ParameterError::field(field, value, &rule, "the period must hold the reach of the kernel; 12 is quick"))
 }
 
 /// The rules between a constitutive law's own parameters.
-pub(super) fn material(path: &str, law: &Rheology) -> Result<(), InputError> {
+pub(super) fn material(path: &str, law: &Rheology) -> Result<(), ParameterError> {
     refuse(path, law.parameter_problem())
 }
 
 /// The continuity of the incompressible solver, which a case's own runs choose.
-pub(super) fn projection(path: &str, numerics: &ProjectionNumerics) -> Result<(), InputError> {
+pub(super) fn projection(path: &str, numerics: &ProjectionNumerics) -> Result<(), ParameterError> {
     let remedy = "only suspensions share their pressure, and `settling` chooses it for them";
-    let refused = |field: &str, value, rule| Err(InputError::field(&format!("{path}.{field}"), value, rule, remedy));
+    let refused =
+        |field: &str, value, rule| Err(ParameterError::field(&format!("{path}.{field}"), value, rule, remedy));
     match (numerics.continuity, numerics.mean_flux) {
         (Continuity::Fluid, MeanFlux::Free) => Ok(()),
         (Continuity::Mixture, _) => refused("continuity", "mixture", "\"fluid\""),
@@ -75,20 +76,20 @@ pub(super) fn projection(path: &str, numerics: &ProjectionNumerics) -> Result<()
 }
 
 /// The viscous step that a law allows.
-pub(super) fn viscous_step(path: &str, numerics: &Numerics, law: &Rheology) -> Result<(), InputError> {
+pub(super) fn viscous_step(path: &str, numerics: &Numerics, law: &Rheology) -> Result<(), ParameterError> {
     refuse(path, numerics.step_problem(law))
 }
 
 /// The operators and walls that a gate allows.
-pub(super) fn gate(path: &str, numerics: &Numerics) -> Result<(), InputError> {
+pub(super) fn gate(path: &str, numerics: &Numerics) -> Result<(), ParameterError> {
     refuse(path, numerics.wall_problem(Surface::Smooth))
 }
 
 /// The operators that the implicit runs allow which a list of the parameters asks for.
-pub(super) fn implicit_runs(path: &str, numerics: &Numerics, list: &str) -> Result<(), InputError> {
+pub(super) fn implicit_runs(path: &str, numerics: &Numerics, list: &str) -> Result<(), ParameterError> {
     let Some(operator) = numerics.pairwise_operator() else { return Ok(()) };
     let rule = format!("\"single-divergence\" or \"uncorrected-divergence\" with the implicit runs of `{list}`");
-    Err(InputError::field(
+    Err(ParameterError::field(
         &format!("{path}.momentum_operator"),
         operator,
         &rule,
@@ -97,15 +98,15 @@ pub(super) fn implicit_runs(path: &str, numerics: &Numerics, list: &str) -> Resu
 }
 
 /// Columns of fluid particles along the period of a channel: no particle may see another one twice.
-pub(super) fn channel_columns(field: &str, value: usize, numerics: &ProjectionNumerics) -> Result<(), InputError> {
+pub(super) fn channel_columns(field: &str, value: usize, numerics: &ProjectionNumerics) -> Result<(), ParameterError> {
     let least = (4.0 * numerics.smoothing_ratio).ceil() as usize;
     if (least..=1000).contains(&value) {
         return Ok(());
     }
     let rule = format!("between {least} and 1000");
-    Err(InputError::field(field, value, &rule, "the period must hold twice the reach of the kernel; 12 is quick"))
+    Err(ParameterError::field(field, value, &rule, "the period must hold twice the reach of the kernel; 12 is quick"))
 }
 
-pub(super) fn refuse(path: &str, problem: Option<ParameterProblem>) -> Result<(), InputError> {
+pub(super) fn refuse(path: &str, problem: Option<ParameterProblem>) -> Result<(), ParameterError> {
     problem.map_or(Ok(()), |problem| Err(problem.within(path).into()))
 }

@@ -1,12 +1,12 @@
 //! `bagnold calibrate`: parameters from data.
 
 use super::arguments::Calibrate;
+use super::error::ProgramError;
 use super::progress::Count;
-use super::summary::number;
 use super::{Exit, say};
 use crate::calibration::{CalibrationFolder, Outcome, Plan, Watch, calibrate, write};
 use crate::case::Registry;
-use crate::error::InputError;
+use crate::number::aligned_digits;
 use crate::output::OutputFolder;
 use std::io::Write;
 use std::path::Path;
@@ -17,7 +17,7 @@ pub(super) fn run(
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
-) -> Result<Exit, InputError> {
+) -> Result<Exit, ProgramError> {
     let plan = Plan::read(&command.file, registry)?;
     let folder = command.out.clone().unwrap_or_else(|| {
         Path::new("reports/calibrations").join(command.file.file_stem().unwrap_or_else(|| "calibration".as_ref()))
@@ -42,13 +42,19 @@ fn text(outcome: &Outcome) -> String {
     for found in &outcome.parameters {
         let interval = found.interval.map_or_else(String::new, |(low, high)| {
             let end = |open: bool| if open { " (bound)" } else { "" };
-            format!("  95 %: {}{} … {}{}", number(low), end(found.open.0), number(high), end(found.open.1))
+            format!(
+                "  95 %: {}{} … {}{}",
+                aligned_digits(low),
+                end(found.open.0),
+                aligned_digits(high),
+                end(found.open.1)
+            )
         });
         let unit = if found.unit == "-" { "" } else { &found.unit };
-        text += &format!("{} = {} {unit}{interval}\n", found.name, number(found.best));
+        text += &format!("{} = {} {unit}{interval}\n", found.name, aligned_digits(found.best));
     }
     for trial in &outcome.trials {
-        let optional = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), number);
+        let optional = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), aligned_digits);
         text += &format!(
             "{}: χ² {}, held out {}, weight {}{}\n",
             trial.name,
@@ -60,7 +66,7 @@ fn text(outcome: &Outcome) -> String {
     }
     let error = |what: &str, data: &[crate::calibration::Compared]| {
         crate::calibration::weighted_error(data)
-            .map_or_else(String::new, |error| format!("{what}: {} σ over {} data\n", number(error), data.len()))
+            .map_or_else(String::new, |error| format!("{what}: {} σ over {} data\n", aligned_digits(error), data.len()))
     };
     text += &error("fit error", &outcome.fit);
     text += &error("held-out error", &outcome.hold_out);

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod calibrate;
+mod error;
 mod exit;
 mod logging;
 mod progress;
@@ -13,11 +14,11 @@ mod sweep;
 mod tests;
 
 pub use arguments::{Arguments, Command};
+pub use error::ProgramError;
 pub use exit::Exit;
 
-use crate::case::Registry;
+use crate::case::{ParameterError, Registry};
 use crate::cases::REGISTRY;
-use crate::error::InputError;
 use crate::store::{Store, StorePolicy};
 use arguments::Work;
 use clap::Parser;
@@ -49,7 +50,11 @@ pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into
 ///
 /// # Errors
 /// Input that is refused; nothing was written then.
-pub fn execute(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send)) -> Result<Exit, InputError> {
+pub fn execute(
+    arguments: &Arguments,
+    registry: Registry,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, ProgramError> {
     match &arguments.command {
         Command::List => {
             let width = registry.iter().map(|case| case.name().len()).max().unwrap_or(0);
@@ -78,13 +83,13 @@ pub fn execute(arguments: &Arguments, registry: Registry, output: &mut (dyn Writ
 }
 
 /// Runs a command inside a pool of the threads asked for.
-fn in_pool(work: &Work, command: impl FnOnce() -> Result<Exit, InputError> + Send) -> Result<Exit, InputError> {
+fn in_pool(work: &Work, command: impl FnOnce() -> Result<Exit, ProgramError> + Send) -> Result<Exit, ProgramError> {
     // For rayon, 0 threads means all cores.
     let threads = usize::from(work.threads.unwrap_or(0));
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
-        .map_err(|error| InputError::Threads { threads, reason: error.to_string() })?;
+        .map_err(|error| ParameterError::Threads { threads, reason: error.to_string() })?;
     pool.install(command)
 }
 

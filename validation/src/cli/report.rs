@@ -1,13 +1,13 @@
 //! `bagnold report`: many cases on one page.
 
 use super::arguments::Report as Arguments;
+use super::error::ProgramError;
 use super::run::simulate;
 use super::{Exit, say, summary};
-use crate::case::{CaseResult, Changes, Prepared, Registry, Tier};
-use crate::error::InputError;
-use crate::metric::json::MetricsDocument;
+use crate::case::{CaseResult, Changes, ParameterError, Prepared, Registry, Tier};
 use crate::output::OutputFolder;
 use crate::report::{self, Baseline, CaseReport, KnownFailures, Provenance, Report, Standing, history};
+use crate::result::MetricsDocument;
 use crate::store::provenance;
 use std::io::Write;
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ pub(super) fn report(
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
-) -> Result<Exit, InputError> {
+) -> Result<Exit, ProgramError> {
     let cases = prepare(command, registry)?;
     let claimed = OutputFolder::claim(&command.out)?;
     let known = known_failures()?;
@@ -68,7 +68,7 @@ pub(super) fn report(
     Ok(Exit::of(&results, |result, metric| is_known(&known, result, metric)))
 }
 
-fn prepare(command: &Arguments, registry: Registry) -> Result<Vec<Box<dyn Prepared>>, InputError> {
+fn prepare(command: &Arguments, registry: Registry) -> Result<Vec<Box<dyn Prepared>>, ParameterError> {
     let wanted = if command.cases.is_empty() {
         registry.iter().collect()
     } else {
@@ -120,7 +120,7 @@ fn history_file() -> PathBuf {
 }
 
 /// The gates that are known to fail, from `tests/snapshots/known_failures.toml`.
-pub(super) fn known_failures() -> Result<KnownFailures, InputError> {
+pub(super) fn known_failures() -> Result<KnownFailures, ProgramError> {
     Ok(KnownFailures::read(&accepted_folder().join("known_failures.toml"))?)
 }
 

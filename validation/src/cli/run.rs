@@ -1,12 +1,12 @@
 //! `bagnold run`: one case into one folder.
 
 use super::arguments::Run;
+use super::error::ProgramError;
 use super::progress::Progress;
 use super::{Exit, say, summary};
-use crate::case::{AnyCase, CaseFile, CaseResult, Changes, Prepared, Registry, Tier, execute};
-use crate::error::InputError;
-use crate::metric::json::MetricsDocument;
-use crate::output::{OutputFolder, write_case};
+use crate::case::{AnyCase, CaseFile, CaseResult, Changes, ParameterError, Prepared, Registry, Tier, execute};
+use crate::output::{FileError, OutputFolder};
+use crate::result::{MetricsDocument, write_case};
 use crate::store::Store;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ pub(super) fn run(
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
-) -> Result<Exit, InputError> {
+) -> Result<Exit, ProgramError> {
     let (prepared, tier) = prepare(command, registry)?;
     let folder =
         command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/runs/{}-{tier}", prepared.name())));
@@ -31,7 +31,7 @@ pub(super) fn run(
     let threads = rayon::current_num_threads();
     for result in &results {
         let document = MetricsDocument::of(result, threads);
-        write_case(claimed.staging(), result, &document).map_err(|error| InputError::unwritable(&folder, &error))?;
+        write_case(claimed.staging(), result, &document).map_err(|error| FileError::unwritable(&folder, &error))?;
         if command.json {
             say(output, &document.text());
         }
@@ -51,7 +51,7 @@ pub(super) fn simulate(
     cases: Vec<Box<dyn Prepared>>,
     store: &Store,
     quiet: bool,
-) -> Result<Vec<CaseResult>, InputError> {
+) -> Result<Vec<CaseResult>, ParameterError> {
     let progress = Progress::new(&cases, quiet);
     let results = execute(cases, store, &progress);
     progress.clear();
@@ -59,7 +59,7 @@ pub(super) fn simulate(
 }
 
 /// The case that the target means, with the changes asked for, and its tier.
-fn prepare(command: &Run, registry: Registry) -> Result<(Box<dyn Prepared>, Tier), InputError> {
+fn prepare(command: &Run, registry: Registry) -> Result<(Box<dyn Prepared>, Tier), ProgramError> {
     let (case, tier, file): (&'static dyn AnyCase, _, _) = if names_a_file(&command.target, registry) {
         let file = CaseFile::read(Path::new(&command.target))?;
         let case = registry.find(&file.case).map_err(|error| error.in_file(&file.path))?;

@@ -2,7 +2,8 @@
 
 use crate::case::CaseResult;
 use crate::metric::{Limit, Metric, Verdict};
-use crate::observe::Outcome;
+use crate::number::aligned_digits;
+use crate::observation::Outcome;
 use std::fmt::Write as _;
 
 /// A case's metrics, one a line, and what went wrong in its runs.
@@ -65,60 +66,30 @@ fn row(metric: &Metric, is_known: bool) -> [String; 7] {
     [
         verdict.to_owned(),
         metric.name.clone(),
-        metric.variant.clone(),
-        number(metric.value),
+        metric.variant.to_string(),
+        aligned_digits(metric.value),
         metric.unit.clone(),
         limit.map_or_else(String::new, rule),
-        limit.map_or_else(String::new, |limit| number(limit.margin(metric.value))),
+        limit.map_or_else(String::new, |limit| aligned_digits(limit.margin(metric.value))),
     ]
 }
 
 fn rule(limit: Limit) -> String {
     match limit {
-        Limit::AtMost(bound) => format!("≤ {}", number(bound)),
-        Limit::AtLeast(bound) => format!("≥ {}", number(bound)),
-        Limit::Within(lower, upper) => format!("{} … {}", number(lower), number(upper)),
-    }
-}
-
-/// Four significant figures.
-pub(super) fn number(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 {
-        "0".to_owned()
-    } else if !(1e-3..1e5).contains(&size) {
-        format!("{value:.3e}")
-    } else {
-        // The number of digits before the point, at least one, decides how many follow it.
-        let before = size.log10().floor() as i32;
-        let after = usize::try_from(3 - before).unwrap_or(0);
-        format!("{value:.after$}")
+        Limit::AtMost(bound) => format!("≤ {}", aligned_digits(bound)),
+        Limit::AtLeast(bound) => format!("≥ {}", aligned_digits(bound)),
+        Limit::Within(lower, upper) => format!("{} … {}", aligned_digits(lower), aligned_digits(upper)),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_have_four_significant_figures() {
-        let pairs = [
-            (0.0, "0"),
-            (0.012345, "0.01235"),
-            (-1.0, "-1.000"),
-            (98765.4, "98765"),
-            (1e-9, "1.000e-9"),
-            (1234567.0, "1.235e6"),
-            (f64::NAN, "NaN"),
-        ];
-        for (value, text) in pairs {
-            assert_eq!(number(value), text);
-        }
-    }
+    use crate::metric::Variant;
 
     #[test]
     fn an_observed_metric_shows_no_limit() {
-        let metric = Metric::observed("run_out", "a=1", 0.5, "m");
+        let metric = Metric::observed("run_out", &Variant::of("a", 1), 0.5, "m");
         assert_eq!(row(&metric, false), ["observed", "run_out", "a=1", "0.5000", "m", "", ""].map(str::to_owned));
         let failed = metric.gated(Limit::AtMost(0.25), "reason");
         assert_eq!(row(&failed, false)[0], "FAIL");

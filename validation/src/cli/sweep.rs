@@ -1,10 +1,10 @@
 //! `bagnold sweep`: many runs of one plan, here or on a cluster.
 
 use super::arguments::{Cluster, Engine, Sweep, SweepAction};
+use super::error::ProgramError;
 use super::progress::Count;
 use super::{Exit, say};
 use crate::case::Registry;
-use crate::error::InputError;
 use crate::evaluation::Record;
 use crate::output::OutputFolder;
 use crate::sweep::{Entry, SweepFolder, SweepPlan, Tally, Watch, gather, run_entry, run_locally, slurm};
@@ -18,7 +18,7 @@ pub(super) fn sweep(
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
-) -> Result<Exit, InputError> {
+) -> Result<Exit, ProgramError> {
     match (&command.action, &command.file) {
         (Some(SweepAction::Template), _) => {
             say(output, slurm::TEMPLATE);
@@ -41,7 +41,7 @@ fn begin(
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
-) -> Result<Exit, InputError> {
+) -> Result<Exit, ProgramError> {
     let manifest = SweepPlan::read(file)?.manifest(registry)?;
     let folder = command
         .out
@@ -75,7 +75,7 @@ fn collect(
     resubmit: bool,
     cluster: &Cluster,
     output: &mut (dyn Write + Send),
-) -> Result<Exit, InputError> {
+) -> Result<Exit, ProgramError> {
     let sweep = SweepFolder::open(folder)?;
     if resubmit {
         submit(&sweep, cluster, None, output)?;
@@ -89,7 +89,7 @@ fn submit(
     cluster: &Cluster,
     store: Option<PathBuf>,
     output: &mut (dyn Write + Send),
-) -> Result<(), InputError> {
+) -> Result<(), ProgramError> {
     let queued = slurm::queued(sweep)?;
     let missing: BTreeSet<usize> = sweep.missing().iter().map(|entry| entry.number).collect();
     let numbers: Vec<usize> = missing.difference(&queued).copied().collect();
@@ -113,7 +113,7 @@ fn submit(
 }
 
 /// Gathers and says how far the sweep is.
-fn finish(sweep: &SweepFolder, output: &mut (dyn Write + Send)) -> Result<Exit, InputError> {
+fn finish(sweep: &SweepFolder, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
     let Tally { done, failed, missing } = gather(sweep)?;
     let all = sweep.manifest().entries.len();
     let mut text = format!("{done} of {all} runs done");

@@ -3,7 +3,7 @@
 use super::{Arguments, Exit, execute};
 use crate::case::pendulum::REGISTRY;
 use crate::metric::Verdict;
-use crate::metric::json::MetricsDocument;
+use crate::result::MetricsDocument;
 use clap::Parser;
 use std::path::Path;
 

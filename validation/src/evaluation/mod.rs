@@ -3,12 +3,13 @@
 //! An evaluation is a file, written whole or not at all, and known by its [`key`]: the hash of the program's sources, the
 //! case, its tier and all its parameters. Whoever finds the file need not simulate.
 
+mod error;
 mod record;
 
+pub use error::{PlanError, read_plan};
 pub use record::{MetricValue, Record};
 
-use crate::case::{Changes, Monitor, Prepared, Registry, Tier, execute};
-use crate::error::InputError;
+use crate::case::{Changes, Monitor, ParameterError, Prepared, Registry, Tier, execute};
 use crate::store::{Store, hexadecimal, source_hash};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -51,7 +52,7 @@ impl CaseRequest {
         registry: Registry,
         file: &Path,
         settings: &[String],
-    ) -> Result<Box<dyn Prepared>, InputError> {
+    ) -> Result<Box<dyn Prepared>, ParameterError> {
         let case = registry.find(&self.case).map_err(|error| error.in_file(file))?;
         case.prepare(self.tier, &Changes { file: Some((file, self.with.clone())), settings })
     }
@@ -73,7 +74,7 @@ pub fn key(prepared: &dyn Prepared) -> String {
 ///
 /// # Errors
 /// What has nothing to do with the parameters, such as threads that cannot be started.
-pub fn evaluate(prepared: Box<dyn Prepared>, store: &Store, monitor: &dyn Monitor) -> Result<Record, InputError> {
+pub fn evaluate(prepared: Box<dyn Prepared>, store: &Store, monitor: &dyn Monitor) -> Result<Record, ParameterError> {
     let key = key(prepared.as_ref());
     let case = prepared.name().to_owned();
     let simulate = AssertUnwindSafe(|| execute(vec![prepared], store, monitor));
@@ -82,9 +83,9 @@ pub fn evaluate(prepared: Box<dyn Prepared>, store: &Store, monitor: &dyn Monito
             .into_iter()
             .next()
             .map_or_else(|| Record::failed(&key, &case, "nothing was simulated"), |result| Record::of(&key, &result))),
-        Ok(Err(error @ (InputError::Field { .. } | InputError::Scene(_) | InputError::NothingToRun { .. }))) => {
-            Ok(Record::failed(&key, &case, &error.to_string()))
-        }
+        Ok(Err(
+            error @ (ParameterError::Field(_) | ParameterError::Scene(_) | ParameterError::NothingToRun { .. }),
+        )) => Ok(Record::failed(&key, &case, &error.to_string())),
         Ok(Err(error)) => Err(error),
         Err(_) => Ok(Record::failed(&key, &case, "a run panicked, which is an error of the program; please report it")),
     }

@@ -1,8 +1,8 @@
 //! What an evaluation leaves: numbers and tables, nothing that depends on when or where it ran.
 
 use crate::case::CaseResult;
-use crate::metric::{Metric, Verdict};
-use crate::observe::Outcome;
+use crate::metric::{Metric, Variant, Verdict};
+use crate::observation::Outcome;
 use crate::output::Table;
 use crate::store::entry;
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ pub struct MetricValue {
     /// Stable snake_case name.
     pub name: String,
     /// Which run, `key=value,…`.
-    pub variant: String,
+    pub variant: Variant,
     /// The value, in `unit`.
     pub value: f64,
     /// Its unit.
@@ -114,7 +114,7 @@ mod tests {
         let mut record = Record::failed("a", "film", "no scene");
         record.metrics.push(MetricValue {
             name: "velocity_l2".to_owned(),
-            variant: String::new(),
+            variant: Variant::default(),
             value: 0.1 + 0.2,
             unit: "%".to_owned(),
             verdict: Verdict::Pass,

@@ -23,7 +23,6 @@ mod tests;
 
 pub use animation::{Animation, AnimationFrame, write_animation};
 pub use error::FigureError;
-pub(crate) use ticks::superscript;
 
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};

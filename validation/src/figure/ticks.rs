@@ -2,6 +2,7 @@
 
 use super::Scale;
 use super::range::Range;
+use crate::number::superscript;
 
 /// One labelled tick.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,16 +148,6 @@ fn power_of_ten(exponent: i32) -> String {
         1 => "10".to_owned(),
         _ => format!("10{}", superscript(exponent)),
     }
-}
-
-/// An integer in superscript digits.
-pub(crate) fn superscript(number: i32) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    number
-        .to_string()
-        .chars()
-        .map(|character| character.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]))
-        .collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,10 @@
 //! A metric: one number that a case is judged by, with what it is judged against.
 
-pub mod json;
+mod quantity;
+pub mod variant;
+
+pub use quantity::{Quantity, undeclared};
+pub use variant::{Value, Variant};
 
 use serde::{Deserialize, Serialize};
 
@@ -103,8 +107,8 @@ pub struct Reference {
 pub struct Metric {
     /// Stable snake_case name, such as `velocity_l2`.
     pub name: String,
-    /// Which run, as `key=value,key=value` in one fixed order; empty where the case has a single run.
-    pub variant: String,
+    /// Which run or runs; empty where the case has a single run.
+    pub variant: Variant,
     /// The value.
     pub value: f64,
     /// Its unit, `-` for none, `%` for percent.
@@ -124,10 +128,10 @@ pub struct Metric {
 impl Metric {
     /// An observed verification metric; the `with_…` methods and fields refine it.
     #[must_use]
-    pub fn observed(name: &str, variant: &str, value: f64, unit: &str) -> Self {
+    pub fn observed(name: &str, variant: &Variant, value: f64, unit: &str) -> Self {
         Self {
             name: name.to_owned(),
-            variant: variant.to_owned(),
+            variant: variant.clone(),
             value,
             unit: unit.to_owned(),
             reference: None,

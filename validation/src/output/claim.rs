@@ -1,7 +1,7 @@
 //! A folder that belongs to one plan: begun once, continued when asked, never mixed with another.
 
+use super::error::{FileError, FolderError};
 use super::whole::{is_unused, write_whole};
-use crate::error::InputError;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::path::Path;
@@ -22,14 +22,14 @@ pub trait Owner: Serialize + DeserializeOwned + PartialEq {
 /// # Errors
 /// A folder of another plan or program, somebody else's files, or a folder that is not to be resumed; files that cannot
 /// be read or written.
-pub fn claim<O: Owner>(folder: &Path, owner: O, resume: bool) -> Result<O, InputError> {
+pub fn claim<O: Owner>(folder: &Path, owner: O, resume: bool) -> Result<O, FolderError> {
     if is_claimed::<O>(folder) {
         if !resume {
-            return Err(InputError::InUse { what: O::WHAT, folder: folder.to_owned() });
+            return Err(FolderError::InUse { what: O::WHAT, folder: folder.to_owned() });
         }
         let old: O = owner_of(folder)?;
         if old != owner {
-            return Err(InputError::OtherPlan {
+            return Err(FolderError::OtherPlan {
                 what: O::WHAT,
                 folder: folder.to_owned(),
                 by_program: old.is_foreign(),
@@ -37,9 +37,9 @@ pub fn claim<O: Owner>(folder: &Path, owner: O, resume: bool) -> Result<O, Input
         }
         return Ok(old);
     }
-    let unwritable = |error: std::io::Error| InputError::unwritable(folder, &error);
+    let unwritable = |error: std::io::Error| FileError::unwritable(folder, &error);
     if !is_unused(folder).map_err(unwritable)? {
-        return Err(InputError::ForeignFolder { folder: folder.to_owned() });
+        return Err(FolderError::Foreign { folder: folder.to_owned() });
     }
     std::fs::create_dir_all(folder).map_err(unwritable)?;
     let text = serde_json::to_string_pretty(&owner).map_err(|error| unwritable(error.into()))?;
@@ -57,10 +57,10 @@ pub fn is_claimed<O: Owner>(folder: &Path) -> bool {
 ///
 /// # Errors
 /// A marker that cannot be read or is damaged.
-pub fn owner_of<O: Owner>(folder: &Path) -> Result<O, InputError> {
+pub fn owner_of<O: Owner>(folder: &Path) -> Result<O, FileError> {
     let marker = folder.join(O::MARKER);
-    let text = std::fs::read_to_string(&marker).map_err(|error| InputError::unreadable(&marker, &error))?;
-    serde_json::from_str(&text).map_err(|error| InputError::Damaged {
+    let text = std::fs::read_to_string(&marker).map_err(|error| FileError::unreadable(&marker, &error))?;
+    serde_json::from_str(&text).map_err(|error| FileError::Damaged {
         file: marker,
         reason: error.to_string(),
         remedy: format!("begin the {} again with another --out", O::WHAT),
@@ -97,13 +97,13 @@ mod tests {
         assert!(!is_claimed::<Plan>(&folder));
         assert_eq!(claim(&folder, plan(2, "a"), true).expect("a new folder"), plan(2, "a"));
         assert!(is_claimed::<Plan>(&folder));
-        assert!(matches!(claim(&folder, plan(2, "a"), false), Err(InputError::InUse { what: "study", .. })));
+        assert!(matches!(claim(&folder, plan(2, "a"), false), Err(FolderError::InUse { what: "study", .. })));
         assert_eq!(claim(&folder, plan(2, "a"), true).expect("the same plan"), plan(2, "a"));
         let other = claim(&folder, plan(2, "b"), true);
-        assert!(matches!(other, Err(InputError::OtherPlan { by_program: false, .. })), "{other:?}");
+        assert!(matches!(other, Err(FolderError::OtherPlan { by_program: false, .. })), "{other:?}");
         std::fs::write(folder.join("study.json"), "{\"version\":1,\"text\":\"a\"}").expect("writable");
         let older = claim(&folder, plan(2, "a"), true);
-        assert!(matches!(older, Err(InputError::OtherPlan { by_program: true, .. })), "{older:?}");
+        assert!(matches!(older, Err(FolderError::OtherPlan { by_program: true, .. })), "{older:?}");
         std::fs::write(folder.join("study.json"), "{").expect("writable");
         let damaged = claim(&folder, plan(2, "a"), true).expect_err("half a marker");
         assert!(damaged.to_string().ends_with("begin the study again with another --out"), "{damaged}");
@@ -115,7 +115,7 @@ mod tests {
         std::fs::write(root.path().join("thesis.tex"), "years of work").expect("writable");
         for resume in [false, true] {
             let refused = claim(root.path(), plan(2, "a"), resume);
-            assert!(matches!(refused, Err(InputError::ForeignFolder { .. })), "{refused:?}");
+            assert!(matches!(refused, Err(FolderError::Foreign { .. })), "{refused:?}");
         }
         assert!(!is_claimed::<Plan>(root.path()));
     }

@@ -1,6 +1,6 @@
 //! The folder that a command writes: claimed before the work, filled in one go after it.
 
-use crate::error::InputError;
+use super::error::{FileError, FolderError};
 use std::collections::BTreeSet;
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -28,8 +28,8 @@ impl OutputFolder {
     ///
     /// # Errors
     /// A folder with somebody else's files, or one that cannot be made or written.
-    pub fn claim(folder: &Path) -> Result<Self, InputError> {
-        let unwritable = |error: io::Error| InputError::unwritable(folder, &error);
+    pub fn claim(folder: &Path) -> Result<Self, FolderError> {
+        let unwritable = |error: io::Error| FileError::unwritable(folder, &error);
         let mut claimed = Self {
             folder: folder.to_owned(),
             // The process's number keeps two commands apart that write to the same folder.
@@ -42,7 +42,7 @@ impl OutputFolder {
                 let is_committed = |name: &std::ffi::OsStr| is_reports && COMMITTED.iter().any(|kept| name == *kept);
                 let is_foreign = entries.any(|entry| entry.is_ok_and(|entry| !is_committed(&entry.file_name())));
                 if is_foreign && !folder.join(MARKER).is_file() {
-                    return Err(InputError::ForeignFolder { folder: folder.to_owned() });
+                    return Err(FolderError::Foreign { folder: folder.to_owned() });
                 }
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
@@ -55,7 +55,7 @@ impl OutputFolder {
                 std::fs::create_dir_all(folder).map_err(unwritable)?;
                 claimed.made = missing;
             }
-            Err(error) => return Err(unwritable(error)),
+            Err(error) => return Err(unwritable(error).into()),
         }
         let marker = folder.join(MARKER);
         if !marker.exists() {
@@ -72,7 +72,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// A folder that cannot be made or written.
-    pub fn adopt(folder: &Path) -> Result<(), InputError> {
+    pub fn adopt(folder: &Path) -> Result<(), FolderError> {
         let is_empty = std::fs::read_dir(folder).map_or(true, |mut entries| entries.next().is_none());
         if is_empty { Self::claim(folder)?.publish() } else { Ok(()) }
     }
@@ -87,8 +87,8 @@ impl OutputFolder {
     ///
     /// # Errors
     /// Files that cannot be moved; an entry that was not reached is still the old one.
-    pub fn publish(mut self) -> Result<(), InputError> {
-        self.move_in().map_err(|error| InputError::unwritable(&self.folder, &error))
+    pub fn publish(mut self) -> Result<(), FolderError> {
+        self.move_in().map_err(|error| FileError::unwritable(&self.folder, &error).into())
     }
 
     fn move_in(&mut self) -> io::Result<()> {

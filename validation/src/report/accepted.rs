@@ -2,11 +2,11 @@
 //! report and the drift test read the same files and compare in the same way.
 
 use super::error::BaselineError;
-use super::number::with_unit;
 use super::snapshot_text::{self, Line};
 use crate::case::Tier;
 use crate::figure::is_file_name;
-use crate::metric::{Metric, Verdict};
+use crate::metric::{Metric, Variant, Verdict};
+use crate::number::with_unit;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ pub struct Key {
     /// Metric name.
     pub metric: String,
     /// Variant.
-    pub variant: String,
+    pub variant: Variant,
 }
 
 impl Key {
@@ -140,7 +140,7 @@ impl Baseline {
         let lines = snapshot_text::parse(&text, case, tier_name(tier)).map_err(refuse)?;
         let mut read = Self::default();
         for (line, row) in lines.into_iter().enumerate() {
-            let key = Key { case: case.to_owned(), metric: row.name.to_owned(), variant: row.variant.to_owned() };
+            let key = Key { case: case.to_owned(), metric: row.name.to_owned(), variant: row.variant.clone() };
             let entry = Entry { value: row.value, unit: row.unit.to_owned(), verdict: row.verdict, line };
             if read.values.insert(key, entry).is_some() {
                 return Err(refuse(format!("`{} | {}` stands there twice", row.name, row.variant)));
@@ -162,7 +162,7 @@ impl Baseline {
         entries.sort_by_key(|(_, entry)| entry.line);
         let lines = entries.into_iter().map(|(key, entry)| Line {
             name: &key.metric,
-            variant: &key.variant,
+            variant: key.variant.clone(),
             value: entry.value,
             unit: &entry.unit,
             verdict: entry.verdict,

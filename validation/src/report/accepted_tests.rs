@@ -4,7 +4,7 @@ use super::*;
 use crate::metric::Limit;
 
 fn metric(name: &str, value: f64) -> Metric {
-    Metric::observed(name, "resolution=40", value, "%").with_snapshot_tolerance(0.01, 0.001)
+    Metric::observed(name, &Variant::of("resolution", 40), value, "%").with_snapshot_tolerance(0.01, 0.001)
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::error::BaselineError;
 use crate::case::Tier;
-use crate::metric::{Metric, Verdict};
+use crate::metric::{Metric, Variant, Verdict};
 use serde::Serialize;
 use std::path::Path;
 
@@ -15,7 +15,7 @@ struct Row<'a> {
     tier: Tier,
     case: &'a str,
     metric: &'a str,
-    variant: &'a str,
+    variant: &'a Variant,
     value: f64,
     unit: &'a str,
     verdict: Verdict,
@@ -62,9 +62,10 @@ mod tests {
     fn gated_figures_are_appended_below_one_header() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("history.csv");
+        let variant = Variant::of("slope_angle", 24);
         let metrics = [
-            Metric::observed("velocity_l2", "slope_angle=24", 0.4, "%").gated(Limit::Within(-1.5, 1.5), "a reason"),
-            Metric::observed("velocity_l2_measured_height", "slope_angle=24", 0.4, "%"),
+            Metric::observed("velocity_l2", &variant, 0.4, "%").gated(Limit::Within(-1.5, 1.5), "a reason"),
+            Metric::observed("velocity_l2_measured_height", &variant, 0.4, "%"),
         ];
         for commit in ["aaa", "bbb"] {
             append(&path, ("0.1.0", commit), Tier::Quick, "bagnold", &metrics).expect("a writable folder");

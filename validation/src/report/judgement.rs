@@ -3,8 +3,8 @@
 use super::accepted::{Drift, Key};
 use super::known_failures::{KnownFailure, Standing};
 use super::{CaseReport, Report};
-use crate::metric::{Kind, Metric, Verdict};
-use crate::observe::Outcome;
+use crate::metric::{Kind, Metric, Variant, Verdict};
+use crate::observation::Outcome;
 
 /// How bad a result is; the order is that of the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -59,7 +59,7 @@ pub struct JudgedCase<'r> {
     /// Baseline values that the case no longer measures.
     pub vanished: Vec<Key>,
     /// Runs that diverged without having declared it: variant and message.
-    pub diverged: Vec<(&'r str, &'r str)>,
+    pub diverged: Vec<(&'r Variant, &'r str)>,
 }
 
 impl JudgedCase<'_> {
@@ -228,7 +228,7 @@ fn judge_case<'r>(report: &'r Report, case: &'r CaseReport) -> JudgedCase<'r> {
     let first_of_name = |name: &str| case.metrics.iter().position(|metric| metric.name == name);
     metrics.sort_by_key(|judged| (judged.severity(), first_of_name(&judged.metric.name)));
     let diverged = case.runs.iter().filter_map(|run| match &run.outcome {
-        Outcome::Diverged { message, expected: false } => Some((run.variant.as_str(), message.as_str())),
+        Outcome::Diverged { message, expected: false } => Some((&run.variant, message.as_str())),
         _ => None,
     });
     JudgedCase {

@@ -2,7 +2,7 @@
 
 use super::accepted::{Key, snapshot_tolerance};
 use super::error::BaselineError;
-use crate::metric::{Metric, Verdict};
+use crate::metric::{Metric, Variant, Verdict};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -15,7 +15,7 @@ pub struct KnownFailure {
     /// Metric name.
     pub metric: String,
     /// Variant.
-    pub variant: String,
+    pub variant: Variant,
     /// The best value that was reached, in the metric's unit.
     pub best_value: f64,
     /// Day of that value, `YYYY-MM-DD`.
@@ -152,7 +152,7 @@ reason = "slip at the wall"
     }
 
     fn metric(value: f64, limit: Limit) -> Metric {
-        Metric::observed("velocity_l2", "resolution=40", value, "%")
+        Metric::observed("velocity_l2", &Variant::of("resolution", 40), value, "%")
             .gated(limit, "prototype")
             .with_snapshot_tolerance(0.05, 0.0)
     }

@@ -5,7 +5,6 @@ mod error;
 pub mod history;
 pub mod judgement;
 pub mod known_failures;
-pub mod number;
 mod page;
 mod rows;
 mod snapshot_text;

@@ -2,13 +2,13 @@
 
 use super::accepted::tier_name;
 use super::judgement::{JudgedCase, Judgement, Severity, Tally};
-use super::number::{count, four_digits};
 use super::rows::{mark, note, rows, statement, vanished};
 use super::view::{Banner, BannerItem, Case, Count, Mark, Page, Picture, Run};
 use super::{CaseReport, Drawn, Provenance, Report};
 use crate::case::RunSummary;
 use crate::metric::Verdict;
-use crate::observe::Outcome;
+use crate::number::{count, four_digits};
+use crate::observation::Outcome;
 
 /// More lines than this do not fit on a first screen; the rest stands in the table right below.
 const BANNER_LINES: usize = 14;
@@ -68,7 +68,7 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
                 mark: Mark { word: "diverged", ..Mark::FAIL },
                 case: case.case.name.clone(),
                 what: "a run diverged".to_owned(),
-                variant: variant.to_owned(),
+                variant: variant.to_string(),
                 statement: message.to_owned(),
                 note: String::new(),
             };
@@ -79,7 +79,7 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
                 mark: mark(judged.severity()),
                 case: case.case.name.clone(),
                 what: judged.metric.name.clone(),
-                variant: judged.metric.variant.clone(),
+                variant: judged.metric.variant.to_string(),
                 statement: statement(judged),
                 note: note(judged),
             };
@@ -90,7 +90,7 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
                 mark: Mark { word: "vanished", ..Mark::DRIFT },
                 case: case.case.name.clone(),
                 what: key.metric.clone(),
-                variant: key.variant.clone(),
+                variant: key.variant.to_string(),
                 statement: "in the baseline, but no longer measured".to_owned(),
                 note: String::new(),
             };
@@ -268,7 +268,7 @@ fn run(run: &RunSummary) -> Run {
         Outcome::Diverged { message, expected: false } => (Mark { word: "diverged", ..Mark::FAIL }, message.clone()),
     };
     Run {
-        variant: run.variant.clone(),
+        variant: run.variant.to_string(),
         mark,
         outcome,
         particles: count(run.particles as u64),

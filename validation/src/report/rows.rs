@@ -3,10 +3,10 @@
 use super::accepted::{Drift, Key};
 use super::judgement::{Judged, Severity};
 use super::known_failures::Standing;
-use super::number::{four_digits, two_digits, with_unit};
 use super::snapshot_text::word;
 use super::view::{Mark, Row};
 use crate::metric::{Confidence, Kind, Limit, Metric, Verdict};
+use crate::number::{four_digits, two_digits, with_unit};
 
 /// The mark of a severity.
 pub(super) fn mark(severity: Severity) -> Mark {
@@ -41,7 +41,7 @@ fn row(judged: &Judged<'_>) -> Row {
     Row {
         mark: gate_mark(judged),
         metric: metric.name.clone(),
-        variant: metric.variant.split(',').filter(|part| !part.is_empty()).map(str::to_owned).collect(),
+        variant: metric.variant.parts().map(|(key, value)| format!("{key}={value}")).collect(),
         value: with_unit(metric.value, &metric.unit),
         reference: reference
             .and_then(|reference| reference.value)

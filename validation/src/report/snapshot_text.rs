@@ -1,6 +1,6 @@
 //! Accepted values as text: a heading, and a line `name | variant | value | unit | verdict` for each metric.
 
-use crate::metric::Verdict;
+use crate::metric::{Variant, Verdict};
 
 /// Significant figures of a value: far below any tolerance, and no noise of the last bits.
 const FIGURES: i32 = 9;
@@ -9,10 +9,10 @@ const FIGURES: i32 = 9;
 const COLUMNS: &str = "name | variant | value | unit | verdict";
 
 /// A line.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Line<'a> {
     pub(super) name: &'a str,
-    pub(super) variant: &'a str,
+    pub(super) variant: Variant,
     pub(super) value: f64,
     pub(super) unit: &'a str,
     pub(super) verdict: Verdict,
@@ -51,7 +51,7 @@ fn parse_line(text: &str) -> Option<Line<'_>> {
     let cells: Vec<&str> = text.split('|').map(str::trim).collect();
     let &[name, variant, value, unit, verdict] = cells.as_slice() else { return None };
     let verdict = [Verdict::Pass, Verdict::Fail, Verdict::Observed].into_iter().find(|own| word(*own) == verdict)?;
-    Some(Line { name, variant, value: value.parse().ok()?, unit, verdict })
+    Some(Line { name, variant: variant.parse().ok()?, value: value.parse().ok()?, unit, verdict })
 }
 
 /// The verdict's word in a file.
@@ -96,7 +96,7 @@ mod tests {
     use super::*;
 
     fn line(value: f64) -> Line<'static> {
-        Line { name: "velocity_l2", variant: "resolution=40", value, unit: "%", verdict: Verdict::Pass }
+        Line { name: "velocity_l2", variant: Variant::of("resolution", 40), value, unit: "%", verdict: Verdict::Pass }
     }
 
     #[test]

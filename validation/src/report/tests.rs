@@ -2,10 +2,10 @@
 
 use super::*;
 use crate::figure::{AnimationFrame, Axis, Panel, Scale};
-use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
 
 fn gated(name: &str, value: f64) -> Metric {
-    Metric::observed(name, "resolution=40", value, "%")
+    Metric::observed(name, &Variant::of("resolution", 40), value, "%")
         .gated(Limit::AtMost(0.7), "prototype reached 0.56 %")
         .against(Some(0.0), "Eq. (36)", Confidence::Exact)
         .with_snapshot_tolerance(0.05, 0.0)
@@ -42,7 +42,7 @@ fn known(case: &str, metric: &str, best_value: f64) -> KnownFailures {
         failures: vec![KnownFailure {
             case: case.to_owned(),
             metric: metric.to_owned(),
-            variant: "resolution=40".to_owned(),
+            variant: Variant::of("resolution", 40),
             best_value,
             date: "2025-01-31".to_owned(),
             reason: "two attempts".to_owned(),
@@ -154,7 +154,7 @@ fn kinds_are_counted_apart_and_observed_values_not_at_all() {
             gated("run_out", 0.9).of_kind(Kind::Validation),
             gated("velocity_l2", 0.1),
             gated("gci", 0.9).against(None, "hearsay", Confidence::Unverified),
-            Metric::observed("final_height", "", 1.0, "m"),
+            Metric::observed("final_height", &Variant::default(), 1.0, "m"),
         ],
     )]);
     let judgement = judge(&report);
@@ -167,8 +167,8 @@ fn kinds_are_counted_apart_and_observed_values_not_at_all() {
 #[test]
 fn an_undeclared_divergence_is_a_failure_and_a_declared_one_is_not() {
     let run = |expected| crate::case::RunSummary {
-        variant: "slope_angle=34".to_owned(),
-        outcome: crate::observe::Outcome::Diverged { message: "speed of particle 17".to_owned(), expected },
+        variant: Variant::of("slope_angle", 34),
+        outcome: crate::observation::Outcome::Diverged { message: "speed of particle 17".to_owned(), expected },
         particles: 400,
         steps: 1000,
         simulated_time: 0.5,
@@ -191,7 +191,7 @@ fn an_undeclared_divergence_is_a_failure_and_a_declared_one_is_not() {
 fn everything_inserted_is_escaped() {
     let evil = "<script>alert(1)</script>\"'&";
     let mut case = case("film", vec![gated(evil, 0.9).gated(Limit::AtMost(0.1), evil)]);
-    case.metrics[0].variant = evil.to_owned();
+    case.metrics[0].variant = Variant::of("a", evil);
     case.metrics[0].unit = evil.to_owned();
     case.summary = evil.to_owned();
     case.description = evil.to_owned();

@@ -1,6 +1,6 @@
 //! Where a parameter stands in the cases' files, and its range.
 
-use crate::error::InputError;
+use crate::input::FieldError;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -62,20 +62,20 @@ impl Bounds {
     ///
     /// # Errors
     /// Bounds that are not finite or reversed, or not positive on a logarithmic scale.
-    pub fn check(&self, field: &str) -> Result<(), InputError> {
+    pub fn check(&self, field: &str) -> Result<(), FieldError> {
         let Self { lower, upper, spacing } = *self;
         for (name, value) in [("lower", lower), ("upper", upper)] {
             if !value.is_finite() {
-                return Err(InputError::field(&format!("{field}.{name}"), value, "finite", "give a number"));
+                return Err(FieldError::new(&format!("{field}.{name}"), value, "finite", "give a number"));
             }
         }
         if lower >= upper {
             let rule = format!("below `upper`, which is {upper}");
-            return Err(InputError::field(&format!("{field}.lower"), lower, &rule, "exchange the two bounds"));
+            return Err(FieldError::new(&format!("{field}.lower"), lower, &rule, "exchange the two bounds"));
         }
         if spacing == Spacing::Log && lower <= 0.0 {
             let remedy = "raise it, or use scale = \"linear\"";
-            return Err(InputError::field(&format!("{field}.lower"), lower, "positive on a logarithmic scale", remedy));
+            return Err(FieldError::new(&format!("{field}.lower"), lower, "positive on a logarithmic scale", remedy));
         }
         Ok(())
     }

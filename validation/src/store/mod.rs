@@ -5,7 +5,7 @@ pub mod provenance;
 
 pub use provenance::{commit, profile, source_hash, target_features, version, workspace};
 
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use serde::{Serialize, de::DeserializeOwned};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -154,7 +154,7 @@ pub fn hexadecimal(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::observe::Outcome;
+    use crate::observation::Outcome;
 
     fn record(data: f64) -> Recorded<f64> {
         Recorded {

@@ -1,9 +1,9 @@
 //! The folder of a sweep: who is done, who failed, who is missing.
 
+use super::error::SweepError;
 use super::manifest::{Entry, Manifest};
-use crate::error::InputError;
 use crate::evaluation::Record;
-use crate::output::{Owner, claim, is_claimed, owner_of};
+use crate::output::{FolderError, Owner, claim, is_claimed, owner_of};
 use std::path::{Path, PathBuf};
 
 /// How far a sweep is.
@@ -30,7 +30,7 @@ impl SweepFolder {
     /// # Errors
     /// A folder with another sweep, somebody else's files, or a sweep that is not to be resumed; files that cannot be
     /// written.
-    pub fn begin(folder: &Path, manifest: Manifest, resume: bool) -> Result<Self, InputError> {
+    pub fn begin(folder: &Path, manifest: Manifest, resume: bool) -> Result<Self, SweepError> {
         Ok(Self { folder: folder.to_owned(), manifest: claim(folder, manifest, resume)? })
     }
 
@@ -38,13 +38,13 @@ impl SweepFolder {
     ///
     /// # Errors
     /// A folder without a manifest, or a manifest of another version of the program.
-    pub fn open(folder: &Path) -> Result<Self, InputError> {
+    pub fn open(folder: &Path) -> Result<Self, SweepError> {
         if !is_claimed::<Manifest>(folder) {
-            return Err(InputError::NoSweep { folder: folder.to_owned() });
+            return Err(SweepError::NoSweep { folder: folder.to_owned() });
         }
         let manifest: Manifest = owner_of(folder)?;
         if manifest.is_foreign() {
-            return Err(InputError::OtherPlan { what: "sweep", folder: folder.to_owned(), by_program: true });
+            return Err(FolderError::OtherPlan { what: "sweep", folder: folder.to_owned(), by_program: true }.into());
         }
         Ok(Self { folder: folder.to_owned(), manifest })
     }

@@ -1,12 +1,12 @@
 //! From the runs' records to one tidy table, the list of failures and pair plots.
 
+use super::error::SweepError;
 use super::folder::{SweepFolder, Tally};
 use super::manifest::{Entry, Manifest};
-use crate::error::InputError;
 use crate::evaluation::{MetricValue, Record};
 use crate::figure::{self, Axis, Figure, Mark, Panel, Series};
-use crate::metric::Verdict;
-use crate::output::write_whole;
+use crate::metric::{Variant, Verdict};
+use crate::output::{FileError, write_whole};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -17,8 +17,8 @@ const DRAWN: usize = 4;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn gather(sweep: &SweepFolder) -> Result<Tally, InputError> {
-    let unwritable = |error: std::io::Error| InputError::unwritable(sweep.path(), &error);
+pub fn gather(sweep: &SweepFolder) -> Result<Tally, SweepError> {
+    let unwritable = |error: std::io::Error| FileError::unwritable(sweep.path(), &error);
     let records: Vec<(&Entry, Record)> =
         sweep.manifest().entries.iter().filter_map(|entry| sweep.record(entry).map(|record| (entry, record))).collect();
     let names = &sweep.manifest().parameters;
@@ -46,10 +46,10 @@ fn unknown_metrics<'a>(manifest: &'a Manifest, records: &[(&Entry, Record)]) -> 
     manifest.metrics.iter().map(String::as_str).filter(|name| !given.contains(name)).collect()
 }
 
-fn draw(drawn: &Figure, folder: &Path) -> Result<(), InputError> {
+fn draw(drawn: &Figure, folder: &Path) -> Result<(), FileError> {
     match figure::write(drawn, folder) {
         Ok(_) => Ok(()),
-        Err(figure::FigureError::Write { source, .. }) => Err(InputError::unwritable(folder, &source)),
+        Err(figure::FigureError::Write { source, .. }) => Err(FileError::unwritable(folder, &source)),
         // a figure that cannot be drawn is no reason to lose the numbers
         Err(error) => {
             tracing::error!("figure {}: failed to {error}", drawn.name);
@@ -72,7 +72,7 @@ fn results(names: &[String], records: &[(&Entry, Record)]) -> std::io::Result<Ve
             };
             writer.write_record(first(entry).into_iter().chain([
                 metric.name.clone(),
-                metric.variant.clone(),
+                metric.variant.to_string(),
                 metric.value.to_string(),
                 metric.unit.clone(),
                 verdict.to_owned(),
@@ -155,7 +155,7 @@ fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Optio
 }
 
 /// The metrics that the plan names, else the first that the parameters change, gated ones first; each with its variant.
-fn drawn_metrics(manifest: &Manifest, own: &[&(&Entry, Record)]) -> Vec<(String, String)> {
+fn drawn_metrics(manifest: &Manifest, own: &[&(&Entry, Record)]) -> Vec<(String, Variant)> {
     let mut seen = BTreeSet::new();
     let all: Vec<_> = own
         .iter()

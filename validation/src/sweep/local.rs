@@ -1,11 +1,11 @@
 //! The embedded engine: runs of the manifest on this machine's threads.
 
+use super::error::SweepError;
 use super::folder::SweepFolder;
 use super::manifest::Entry;
 use crate::case::{CaseFile, Changes, Registry, Silent, share_out};
-use crate::error::InputError;
 use crate::evaluation::{self, Record};
-use crate::output::write_whole;
+use crate::output::{FileError, write_whole};
 use crate::store::Store;
 
 /// Watches a sweep, for a progress bar. Called from several threads.
@@ -20,12 +20,12 @@ pub trait Watch: Sync {
 ///
 /// # Errors
 /// Files that cannot be written. A run that fails is no error: its record says why.
-pub fn run_entry(sweep: &SweepFolder, entry: &Entry, registry: Registry, store: &Store) -> Result<Record, InputError> {
+pub fn run_entry(sweep: &SweepFolder, entry: &Entry, registry: Registry, store: &Store) -> Result<Record, SweepError> {
     if let Some(record) = sweep.record(entry) {
         return Ok(record);
     }
     let folder = sweep.of(entry);
-    let unwritable = |error: std::io::Error| InputError::unwritable(&folder, &error);
+    let unwritable = |error: std::io::Error| FileError::unwritable(&folder, &error);
     std::fs::create_dir_all(&folder).map_err(unwritable)?;
     let listed = folder.join("case.toml");
     write_whole(&listed, entry.parameters_toml.as_bytes()).map_err(unwritable)?;
@@ -51,7 +51,7 @@ pub fn run_locally(
     registry: Registry,
     store: &Store,
     watch: &dyn Watch,
-) -> Result<(), InputError> {
+) -> Result<(), SweepError> {
     share_out(sweep.missing(), |entry| {
         watch.begun(entry);
         let record = run_entry(sweep, entry, registry, store)?;

@@ -1,7 +1,8 @@
 //! What a sweep is to run, fixed once: every engine works from it.
 
+use super::error::SweepError;
 use crate::case::Tier;
-use crate::error::InputError;
+use crate::input::FieldError;
 use crate::output::Owner;
 use serde::{Deserialize, Serialize};
 
@@ -48,10 +49,10 @@ impl Manifest {
     ///
     /// # Errors
     /// A number that the manifest does not have.
-    pub fn entry(&self, number: usize) -> Result<&Entry, InputError> {
+    pub fn entry(&self, number: usize) -> Result<&Entry, SweepError> {
         self.entries.iter().find(|entry| entry.number == number).ok_or_else(|| {
             let rule = format!("between 1 and {}", self.entries.len());
-            InputError::field("--entry", number, &rule, "manifest.json lists the runs")
+            FieldError::new("--entry", number, &rule, "manifest.json lists the runs").into()
         })
     }
 }

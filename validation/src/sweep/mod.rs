@@ -10,6 +10,7 @@
 //! A run is done when its record is there, so a sweep that was killed goes on where it stood, and Slurm's tasks, one an entry,
 //! need nothing but the folder.
 
+mod error;
 mod folder;
 mod gather;
 mod local;
@@ -17,6 +18,7 @@ mod manifest;
 mod plan;
 pub mod slurm;
 
+pub use error::SweepError;
 pub use folder::{SweepFolder, Tally};
 pub use gather::gather;
 pub use local::{Watch, run_entry, run_locally};

@@ -1,9 +1,10 @@
 //! A sweep as a TOML file.
 
+use super::error::SweepError;
 use super::manifest::{Entry, Manifest};
-use crate::case::{Prepared, Registry};
-use crate::error::InputError;
-use crate::evaluation::{self, CaseRequest};
+use crate::case::{ParameterError, Prepared, Registry};
+use crate::evaluation::{self, CaseRequest, PlanError, read_plan};
+use crate::input::FieldError;
 use crate::sampling::{Bounds, Paths, Spacing, design, float};
 use crate::store::source_hash;
 use serde::Deserialize;
@@ -87,21 +88,15 @@ impl SweepPlan {
     ///
     /// # Errors
     /// A file that cannot be read or typed, or ranges that break a rule.
-    pub fn read(file: &Path) -> Result<Self, InputError> {
-        let text = std::fs::read_to_string(file).map_err(|error| InputError::unreadable(file, &error))?;
-        let plan = Self { file: file.to_owned(), text: InputError::parse_plan(file, &text, "sweep")? };
+    pub fn read(file: &Path) -> Result<Self, SweepError> {
+        let plan = Self { file: file.to_owned(), text: read_plan(file, "sweep")? };
         plan.check().map_err(|error| error.in_file(file))?;
         Ok(plan)
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), FieldError> {
         let missing = |field: &str, example: &str| {
-            Err(InputError::field(
-                field,
-                "empty",
-                "at least one table",
-                &format!("add a `[[{field}]]` table, {example}"),
-            ))
+            Err(FieldError::new(field, "empty", "at least one table", &format!("add a `[[{field}]]` table, {example}")))
         };
         if self.text.cases.is_empty() {
             return missing("cases", "such as case = \"film\"");
@@ -116,23 +111,23 @@ impl SweepPlan {
             let name = parameter.name();
             if !names.insert(name.clone()) || TAKEN.contains(&name.as_str()) {
                 let remedy = "give each a `name` of its own that is no column of the results";
-                return Err(InputError::field(&format!("{field}.name"), name, "unlike the others", remedy));
+                return Err(FieldError::new(&format!("{field}.name"), name, "unlike the others", remedy));
             }
             if self.text.parameters[..index].iter().any(|other| other.path == parameter.path) {
                 let field = format!("{field}.path");
-                return Err(InputError::field(&field, "given twice", "unlike the others", "vary a path once"));
+                return Err(FieldError::new(&field, "given twice", "unlike the others", "vary a path once"));
             }
             for request in &self.text.cases {
                 if parameter.path.in_case(&request.case).is_none() {
                     let remedy = format!("add {} = \"…\"", request.case);
-                    return Err(InputError::field(&format!("{field}.path"), "a table", "one with every case", &remedy));
+                    return Err(FieldError::new(&format!("{field}.path"), "a table", "one with every case", &remedy));
                 }
             }
         }
         for (index, request) in self.text.cases.iter().enumerate() {
             if self.text.cases[..index].iter().any(|other| other.label() == request.label()) {
                 let (rule, remedy) = ("unlike the others", "give a case that stands twice a `name` each time");
-                return Err(InputError::field(&format!("cases[{index}].name"), request.label(), rule, remedy));
+                return Err(FieldError::new(&format!("cases[{index}].name"), request.label(), rule, remedy));
             }
         }
         let most = match self.text.design {
@@ -149,7 +144,7 @@ impl SweepPlan {
                 });
                 let rule = format!("a grid of at most {MOST_RUNS} points");
                 let too_many =
-                    || InputError::field("parameters", "too many values", &rule, "take fewer values or levels");
+                    || FieldError::new("parameters", "too many values", &rule, "take fewer values or levels");
                 product.map(|_| ()).ok_or_else(too_many)
             }
             Design::Spread(Spread::LatinHypercube { points, .. } | Spread::Sobol { points, .. }) => {
@@ -157,7 +152,7 @@ impl SweepPlan {
                     return Ok(());
                 }
                 let rule = format!("between 1 and {most}");
-                Err(InputError::field("design.points", points, &rule, "every point is one run of each case"))
+                Err(FieldError::new("design.points", points, &rule, "every point is one run of each case"))
             }
         }
     }
@@ -190,12 +185,12 @@ impl SweepPlan {
     ///
     /// # Errors
     /// A case's fields or a path that do not exist, or values that no run accepts.
-    pub fn manifest(&self, registry: Registry) -> Result<Manifest, InputError> {
+    pub fn manifest(&self, registry: Registry) -> Result<Manifest, SweepError> {
         let points = self.points();
         let runs = points.len() * self.text.cases.len();
         if runs > MOST_RUNS {
             let rule = format!("at most {MOST_RUNS} runs");
-            return Err(InputError::field("parameters", runs, &rule, "take fewer values").in_file(&self.file));
+            return Err(FieldError::new("parameters", runs, &rule, "take fewer values").in_file(&self.file).into());
         }
         let mut entries = Vec::with_capacity(runs);
         let mut refusal = None;
@@ -227,8 +222,8 @@ impl SweepPlan {
                         entry.parameters_toml = prepared.parameters_toml().to_owned();
                     }
                     // a path or a type that is wrong is wrong at every point
-                    Err(error @ (InputError::SetPath { .. } | InputError::SetValue { .. })) => {
-                        return Err(error.in_plan(&self.file));
+                    Err(error @ ParameterError::Setting(_)) => {
+                        return Err(PlanError::of(error, &self.file).into());
                     }
                     Err(error) => {
                         entry.refusal = Some(error.to_string());
@@ -239,7 +234,7 @@ impl SweepPlan {
             }
         }
         match refusal {
-            Some(error) if entries.iter().all(|entry| entry.refusal.is_some()) => Err(error),
+            Some(error) if entries.iter().all(|entry| entry.refusal.is_some()) => Err(error.into()),
             _ => Ok(Manifest {
                 source_hash: source_hash().to_owned(),
                 parameters: self.text.parameters.iter().map(Varied::name).collect(),
@@ -281,30 +276,30 @@ impl Varied {
         }
     }
 
-    fn check(&self, field: &str, grid: bool) -> Result<(), InputError> {
+    fn check(&self, field: &str, grid: bool) -> Result<(), FieldError> {
         let has_range = self.lower.is_some() || self.upper.is_some();
         match (&self.values, has_range) {
             (Some(_), true) => {
                 let remedy = "keep either the values or the range";
-                Err(InputError::field(&format!("{field}.values"), "given", "alone, without lower and upper", remedy))
+                Err(FieldError::new(&format!("{field}.values"), "given", "alone, without lower and upper", remedy))
             }
             (Some(values), false) if values.is_empty() => {
-                Err(InputError::field(&format!("{field}.values"), "[]", "at least one value", "list them"))
+                Err(FieldError::new(&format!("{field}.values"), "[]", "at least one value", "list them"))
             }
             (Some(_), false) if !grid => {
                 let remedy = "give lower and upper, or take design = \"grid\"";
-                Err(InputError::field(&format!("{field}.values"), "given", "absent outside a grid", remedy))
+                Err(FieldError::new(&format!("{field}.values"), "given", "absent outside a grid", remedy))
             }
             (Some(_), false) if self.levels.is_some() => {
                 let remedy = "keep either the values or the levels";
-                Err(InputError::field(&format!("{field}.levels"), "given", "absent beside values", remedy))
+                Err(FieldError::new(&format!("{field}.levels"), "given", "absent beside values", remedy))
             }
             (Some(_), false) => Ok(()),
             (None, _) => {
                 for (name, bound) in [("lower", self.lower), ("upper", self.upper)] {
                     if bound.is_none() {
                         let remedy = if grid { "or list `values`" } else { "give both bounds" };
-                        return Err(InputError::field(&format!("{field}.{name}"), "missing", "a number", remedy));
+                        return Err(FieldError::new(&format!("{field}.{name}"), "missing", "a number", remedy));
                     }
                 }
                 self.bounds().check(field)?;
@@ -315,7 +310,7 @@ impl Varied {
                         let shown = levels.map_or_else(|| "missing".to_owned(), |levels| levels.to_string());
                         let rule = if grid { "2 or more" } else { "absent outside a grid" };
                         let remedy = "the levels divide the range of a grid's parameter";
-                        Err(InputError::field(&format!("{field}.levels"), shown, rule, remedy))
+                        Err(FieldError::new(&format!("{field}.levels"), shown, rule, remedy))
                     }
                 }
             }

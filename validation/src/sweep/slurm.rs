@@ -1,9 +1,9 @@
 //! The engine `slurm`: the manifest as job arrays, one task an entry. Slurm schedules; the shared folder tells what is
 //! done.
 
+use super::error::SweepError;
 use super::folder::SweepFolder;
-use crate::error::InputError;
-use crate::output::write_whole;
+use crate::output::{FileError, write_whole};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -48,15 +48,15 @@ struct Job {
 /// # Errors
 /// No Slurm on this machine, a submission that is refused, a template that cannot be read or filled, files that cannot be
 /// written.
-pub fn submit(sweep: &SweepFolder, numbers: &[usize], request: &Request) -> Result<Vec<String>, InputError> {
+pub fn submit(sweep: &SweepFolder, numbers: &[usize], request: &Request) -> Result<Vec<String>, SweepError> {
     let template = match &request.template {
-        Some(file) => std::fs::read_to_string(file).map_err(|error| InputError::unreadable(file, &error))?,
+        Some(file) => std::fs::read_to_string(file).map_err(|error| FileError::unreadable(file, &error))?,
         None => TEMPLATE.to_owned(),
     };
-    let folder = sweep.path().canonicalize().map_err(|error| InputError::unreadable(sweep.path(), &error))?;
+    let folder = sweep.path().canonicalize().map_err(|error| FileError::unreadable(sweep.path(), &error))?;
     let scripts = folder.join("slurm");
     let logs = scripts.join("logs");
-    let unwritable = |error: std::io::Error| InputError::unwritable(&scripts, &error);
+    let unwritable = |error: std::io::Error| FileError::unwritable(&scripts, &error);
     std::fs::create_dir_all(&logs).map_err(unwritable)?;
     write_json(&scripts.join("request.json"), request)?;
     let mut jobs = read_jobs(&scripts)?;
@@ -86,7 +86,7 @@ pub fn submit(sweep: &SweepFolder, numbers: &[usize], request: &Request) -> Resu
 ///
 /// # Errors
 /// No Slurm on this machine, or a queue that does not answer.
-pub fn queued(sweep: &SweepFolder) -> Result<BTreeSet<usize>, InputError> {
+pub fn queued(sweep: &SweepFolder) -> Result<BTreeSet<usize>, SweepError> {
     let jobs = read_jobs(&sweep.path().join("slurm"))?;
     let mut numbers = BTreeSet::new();
     if jobs.is_empty() {
@@ -109,7 +109,7 @@ pub fn queued(sweep: &SweepFolder) -> Result<BTreeSet<usize>, InputError> {
 ///
 /// # Errors
 /// A damaged file.
-pub fn last_request(sweep: &SweepFolder) -> Result<Request, InputError> {
+pub fn last_request(sweep: &SweepFolder) -> Result<Request, FileError> {
     read_json(&sweep.path().join("slurm").join("request.json"))
 }
 
@@ -117,30 +117,30 @@ pub fn last_request(sweep: &SweepFolder) -> Result<Request, InputError> {
 ///
 /// # Errors
 /// A machine without it.
-pub fn available() -> Result<(), InputError> {
+pub fn available() -> Result<(), SweepError> {
     call("sbatch", &["--version"]).map(|_| ())
 }
 
-fn read_jobs(scripts: &Path) -> Result<Vec<Job>, InputError> {
+fn read_jobs(scripts: &Path) -> Result<Vec<Job>, FileError> {
     read_json(&scripts.join("jobs.json"))
 }
 
 /// What a file holds; the default without a file.
-fn read_json<T: Default + serde::de::DeserializeOwned>(file: &Path) -> Result<T, InputError> {
+fn read_json<T: Default + serde::de::DeserializeOwned>(file: &Path) -> Result<T, FileError> {
     let text = match std::fs::read_to_string(file) {
         Ok(text) => text,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(T::default()),
-        Err(error) => return Err(InputError::unreadable(file, &error)),
+        Err(error) => return Err(FileError::unreadable(file, &error)),
     };
-    serde_json::from_str(&text).map_err(|error| InputError::Damaged {
+    serde_json::from_str(&text).map_err(|error| FileError::Damaged {
         file: file.to_owned(),
         reason: error.to_string(),
         remedy: "remove it when `squeue` shows no job of this sweep".to_owned(),
     })
 }
 
-fn write_json(file: &Path, value: &impl Serialize) -> Result<(), InputError> {
-    let unwritable = |error: std::io::Error| InputError::unwritable(file, &error);
+fn write_json(file: &Path, value: &impl Serialize) -> Result<(), FileError> {
+    let unwritable = |error: std::io::Error| FileError::unwritable(file, &error);
     let text = serde_json::to_string_pretty(value).map_err(|error| unwritable(error.into()))?;
     write_whole(file, text.as_bytes()).map_err(unwritable)
 }
@@ -152,8 +152,8 @@ fn fill(
     offset: usize,
     tasks: &[usize],
     request: &Request,
-) -> Result<String, InputError> {
-    let program = std::env::current_exe().map_err(|error| InputError::unreadable(Path::new("bagnold"), &error))?;
+) -> Result<String, FileError> {
+    let program = std::env::current_exe().map_err(|error| FileError::unreadable(Path::new("bagnold"), &error))?;
     let mut command = quoted(&program);
     if let Some(store) = &request.store {
         command = format!("env BAGNOLD_STORE={} {command}", quoted(store));
@@ -176,7 +176,7 @@ fn fill(
     ]);
     environment.render_str(template, values).map_err(|error| {
         let file = request.template.clone().unwrap_or_else(|| PathBuf::from("array.sh"));
-        InputError::Damaged {
+        FileError::Damaged {
             file,
             reason: error.to_string(),
             remedy: "`bagnold sweep template` prints the one that ships with bagnold".to_owned(),
@@ -208,8 +208,8 @@ fn ranges(numbers: &[usize]) -> String {
 }
 
 /// Runs one of Slurm's commands and returns what it prints.
-fn call(command: &str, arguments: &[&str]) -> Result<String, InputError> {
-    let refused = |reason: String, remedy: &str| InputError::Slurm {
+fn call(command: &str, arguments: &[&str]) -> Result<String, SweepError> {
+    let refused = |reason: String, remedy: &str| SweepError::Slurm {
         command: command.to_owned(),
         reason,
         remedy: remedy.to_owned(),

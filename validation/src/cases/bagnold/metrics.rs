@@ -5,7 +5,7 @@ use super::parameters::{Arrangement, BagnoldParameters, Start};
 use super::runs::{BagnoldRun, Purpose};
 use crate::case::Run;
 use crate::cases::layer::{self, BINS, DepthProfile};
-use crate::metric::{Confidence, Limit, Metric};
+use crate::metric::{Confidence, Limit, Metric, Value, Variant};
 use crate::reference::{BagnoldProfile, LayerTransient, TransientHistory};
 use crate::statistics::{linear_fit, log_log_slope};
 
@@ -55,8 +55,8 @@ fn by_resolution(metric: Metric, rows: usize, fine: f64, coarse: f64, reason: &s
 fn steady(
     metrics: &mut Vec<Metric>,
     run: &BagnoldRun,
-    record: &crate::observe::Recorded<layer::LayerObservation>,
-    variant: &str,
+    record: &crate::observation::Recorded<layer::LayerObservation>,
+    variant: &Variant,
 ) {
     let exact = run.profile();
     let Some(errors) = steady_errors(&record.data.profile, &exact) else { return };
@@ -116,8 +116,8 @@ fn steady(
 fn regularised(
     metrics: &mut Vec<Metric>,
     run: &BagnoldRun,
-    record: &crate::observe::Recorded<layer::LayerObservation>,
-    variant: &str,
+    record: &crate::observation::Recorded<layer::LayerObservation>,
+    variant: &Variant,
 ) {
     let Some(errors) = steady_errors(&record.data.profile, &run.profile()) else { return };
     for (name, value) in [("velocity_l2", errors.velocity_l2), ("implied_stress_error", errors.implied_stress_error)] {
@@ -132,8 +132,8 @@ fn regularised(
 fn transient(
     metrics: &mut Vec<Metric>,
     run: &BagnoldRun,
-    record: &crate::observe::Recorded<layer::LayerObservation>,
-    variant: &str,
+    record: &crate::observation::Recorded<layer::LayerObservation>,
+    variant: &Variant,
 ) {
     let Some((history, steady_mean)) = history_from_rest(run) else { return };
     let particles = particle_history(&record.data);
@@ -163,8 +163,8 @@ fn transient(
 fn arrest(
     metrics: &mut Vec<Metric>,
     run: &BagnoldRun,
-    record: &crate::observe::Recorded<layer::LayerObservation>,
-    variant: &str,
+    record: &crate::observation::Recorded<layer::LayerObservation>,
+    variant: &Variant,
 ) {
     let particles = particle_history(&record.data);
     let start = run.start_profile();
@@ -196,8 +196,8 @@ fn arrest(
 fn runaway(
     metrics: &mut Vec<Metric>,
     run: &BagnoldRun,
-    record: &crate::observe::Recorded<layer::LayerObservation>,
-    variant: &str,
+    record: &crate::observation::Recorded<layer::LayerObservation>,
+    variant: &Variant,
 ) {
     let particles = particle_history(&record.data);
     let profile = run.profile();
@@ -233,8 +233,9 @@ fn convergence(metrics: &mut Vec<Metric>, parameters: &BagnoldParameters, record
             continue;
         }
         let start = if start == Start::Rest { "rest" } else { "profile" };
-        let rows: Vec<String> = errors.iter().map(|(rows, _)| format!("{rows:.0}")).collect();
-        let variant = format!("slope_angle={angle},start={start},particles={name},resolution={}", rows.join("_"));
+        let rows = Value::list(errors.iter().map(|(rows, _)| *rows));
+        let variant =
+            Variant::of("slope_angle", angle).and("start", start).and("particles", name).and("resolution", rows);
         let reference = "convergence to Bagnold's profile (36)";
         if particles == Arrangement::Lattice {
             let order = -log_log_slope(&errors).unwrap_or(f64::NAN);

@@ -1,10 +1,9 @@
 //! The case's parameters and their tiers.
 
 use super::runs::{self, BagnoldRun};
-use crate::case::{Parameters, Tier};
+use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::layer::Preparation;
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::reference::{BagnoldProfile, GLASS_BEADS};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, each, positive};
@@ -152,7 +151,7 @@ impl Parameters for BagnoldParameters {
         }
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), ParameterError> {
         let shortest = ARREST_DURATION * self.duration_scale();
         let remedy = "the window must fit into the shortest run: choose a shorter one or a larger `duration_factor`";
         rules::between("averaging_time", self.averaging_time, 0.0, shortest, remedy)?;
@@ -168,7 +167,7 @@ impl Parameters for BagnoldParameters {
             }
             let band =
                 [self.material.static_friction, self.material.limiting_friction].map(|mu| libm::atan(mu).to_degrees());
-            Err(InputError::field(
+            Err(ParameterError::field(
                 field,
                 angle,
                 &format!("between {:.2}° and {:.2}°, the friction angles of the material", band[0], band[1]),

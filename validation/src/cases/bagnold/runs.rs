@@ -1,10 +1,10 @@
 //! The simulations that the case asks for.
 
 use super::parameters::{ARREST_DURATION, Arrangement, BagnoldParameters, Start, law, profile};
-use crate::case::{Progress, Run};
+use crate::case::{ParameterError, Progress, Run};
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
-use crate::error::InputError;
-use crate::observe::Recorded;
+use crate::metric::{Value, Variant};
+use crate::observation::Recorded;
 use crate::reference::BagnoldProfile;
 use bagnold_solver::material::rheology::MuI;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
@@ -141,22 +141,24 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
 impl Run for BagnoldRun {
     type Observation = LayerObservation;
 
-    fn variant(&self) -> String {
+    fn variant(&self) -> Variant {
         let start = match self.start {
-            Start::Rest => "rest".to_owned(),
-            Start::Profile if self.start_angle != self.slope_angle => format!("profile_{}", self.start_angle),
-            Start::Profile => "profile".to_owned(),
+            Start::Rest => Value::from("rest"),
+            Start::Profile if self.start_angle != self.slope_angle => {
+                Value::from(format!("profile_{}", self.start_angle))
+            }
+            Start::Profile => Value::from("profile"),
         };
         let particles = match self.particles {
             Arrangement::Lattice => "lattice",
             Arrangement::Jittered => "jittered",
         };
-        let run = format!(
-            "slope_angle={},start={start},particles={particles},resolution={}",
-            self.slope_angle, self.resolution
-        );
+        let run = Variant::of("slope_angle", self.slope_angle)
+            .and("start", start)
+            .and("particles", particles)
+            .and("resolution", self.resolution);
         match self.purpose {
-            Purpose::Regularised => format!("{run},regularisation_rate={}", self.regularisation_rate),
+            Purpose::Regularised => run.and("regularisation_rate", self.regularisation_rate),
             _ => run,
         }
     }
@@ -169,7 +171,7 @@ impl Run for BagnoldRun {
         share * layer.expected_steps() * (self.resolution * self.columns) as f64
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         let start = self.start_profile();
         let moving = self.start == Start::Profile;
         let velocity = |y: f64| if moving { start.velocity(y).unwrap_or(0.0) } else { 0.0 };

@@ -2,14 +2,14 @@
 
 use super::parameters::{BedLoadParameters, Grains};
 use super::runs::LAYER_CELL;
+use crate::case::ParameterError;
 use crate::cases::{bed_load_1d, rules};
-use crate::error::InputError;
 use crate::reference::bed_load_layer::{Closures, MixingLength};
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::turbulence::VON_KARMAN;
 
 impl BedLoadParameters {
-    pub(super) fn check_combinations(&self) -> Result<(), InputError> {
+    pub(super) fn check_combinations(&self) -> Result<(), ParameterError> {
         let materials = &self.materials;
         let lightest = 1.01 * materials.fluid_density;
         let remedy = "grains that float are no bed load";
@@ -23,21 +23,21 @@ impl BedLoadParameters {
             if !values.is_empty() && (values.len() < 2 || !values.is_sorted_by(|a, b| a < b)) {
                 let shown = format!("{values:?}");
                 let (rule, remedy) = ("empty or two or more rising values", "the fits interpolate between them");
-                return Err(InputError::field(field, shown, rule, remedy));
+                return Err(ParameterError::field(field, shown, rule, remedy));
             }
         }
         if fit.slopes.len() < 3 && !fit.yield_stresses.is_empty() && !fit.viscosities.is_empty() {
             let (rule, remedy) = ("three or more", "two are fitted for each that is held out");
-            return Err(InputError::field("fit.slopes", format!("{:?}", fit.slopes), rule, remedy));
+            return Err(ParameterError::field("fit.slopes", format!("{:?}", fit.slopes), rule, remedy));
         }
         check_time("fit", fit.duration, fit.averaging_time)
     }
 
-    fn check_grains(&self, path: &str, grains: &Grains) -> Result<(), InputError> {
+    fn check_grains(&self, path: &str, grains: &Grains) -> Result<(), ParameterError> {
         let field = |name: &str| format!("{path}.{name}");
         if grains.drag == DragLaw::Ergun {
             let (rule, remedy) = ("a law of one grain", "Ergun's is one of packed grains; `continuum` has it");
-            return Err(InputError::field(&field("drag"), "ergun", rule, remedy));
+            return Err(ParameterError::field(&field("drag"), "ergun", rule, remedy));
         }
         let diameter = self.materials.grain_diameter;
         whole(&field("bed_depth"), grains.bed_depth, diameter, "of the grain diameter")?;
@@ -59,7 +59,7 @@ impl BedLoadParameters {
         rules::projection(&field("numerics"), &grains.numerics)
     }
 
-    fn check_continuum(&self) -> Result<(), InputError> {
+    fn check_continuum(&self) -> Result<(), ParameterError> {
         let continuum = &self.continuum;
         let remedy = "hold less than the whole bed";
         rules::between("continuum.held_depth", continuum.held_depth, 0.0, 0.9 * continuum.bed_depth, remedy)?;
@@ -68,11 +68,11 @@ impl BedLoadParameters {
         if mixing_length != MixingLength::Integral {
             let remedy = "the particles know no other; bed-load-1d compares all";
             let given = format!("{mixing_length:?}").to_lowercase();
-            return Err(InputError::field("continuum.closures.mixing_length", given, "integral", remedy));
+            return Err(ParameterError::field("continuum.closures.mixing_length", given, "integral", remedy));
         }
         if karman != VON_KARMAN {
             let remedy = "the particles know no other; bed-load-1d takes any";
-            return Err(InputError::field("continuum.closures.karman", karman, &VON_KARMAN.to_string(), remedy));
+            return Err(ParameterError::field("continuum.closures.karman", karman, &VON_KARMAN.to_string(), remedy));
         }
         for (name, length) in [
             ("materials.depth", self.materials.depth),
@@ -101,17 +101,17 @@ impl BedLoadParameters {
     }
 }
 
-fn check_time(path: &str, duration: f64, averaging_time: f64) -> Result<(), InputError> {
+fn check_time(path: &str, duration: f64, averaging_time: f64) -> Result<(), ParameterError> {
     let field = format!("{path}.averaging_time");
     rules::between(&field, averaging_time, 0.05, duration, "the window lies within the run")
 }
 
 /// A length that is a whole multiple of another.
-fn whole(field: &str, length: f64, part: f64, of: &str) -> Result<(), InputError> {
+fn whole(field: &str, length: f64, part: f64, of: &str) -> Result<(), ParameterError> {
     let parts = length / part;
     if parts >= 0.99 && (parts - parts.round()).abs() < 1e-6 * parts.max(1.0) && parts < 1e4 {
         return Ok(());
     }
     let rule = format!("a whole multiple {of}, {part} m");
-    Err(InputError::field(field, length, &rule, "choose lengths that divide each other"))
+    Err(ParameterError::field(field, length, &rule, "choose lengths that divide each other"))
 }

@@ -2,6 +2,7 @@
 
 use super::Record;
 use super::fit::held_out;
+use super::parameters::Stage;
 use super::runs::{BedLoadRun, Formulation, pair_law_name};
 use crate::cases::transport_panel;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
@@ -16,7 +17,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         figures.push(sediment(&grains));
     }
     let layers: Vec<&Record> = records.iter().filter(|(_, record)| record.data.layer.is_some()).collect();
-    for stage in ["porous", "frozen", "dilating"] {
+    for stage in [Stage::Porous, Stage::Frozen, Stage::Dilating] {
         let of_stage: Vec<&Record> = layers.iter().copied().filter(|(run, _)| stage_of(run) == Some(stage)).collect();
         if !of_stage.is_empty() {
             figures.push(against_layer(stage, &of_stage));
@@ -27,9 +28,9 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     figures
 }
 
-fn stage_of(run: &BedLoadRun) -> Option<&'static str> {
+fn stage_of(run: &BedLoadRun) -> Option<Stage> {
     match &run.formulation {
-        Formulation::Continuum { stage, .. } => Some(stage.name()),
+        Formulation::Continuum { stage, .. } => Some(*stage),
         _ => None,
     }
 }
@@ -127,7 +128,7 @@ fn sediment(records: &[&Record]) -> Figure {
 }
 
 /// A stage of `continuum` against the 1-D layer.
-fn against_layer(stage: &str, records: &[&Record]) -> Figure {
+fn against_layer(stage: Stage, records: &[&Record]) -> Figure {
     let mut water = Panel::new("", Axis::linear("u_f/u_* [-]"), Axis::linear("z [mm]"));
     let near = || Axis { limits: Some((-8.0, 12.0)), ..Axis::linear("z [mm]") };
     let mut close = Panel::new("", Axis { limits: Some((0.0, 12.0)), ..Axis::linear("u_f/u_* [-]") }, near());
@@ -154,21 +155,22 @@ fn against_layer(stage: &str, records: &[&Record]) -> Figure {
         water.series.push(Series::new(&label(run), Mark::Points, slot, own.clone()));
         close.series.push(Series::new("", Mark::Points, slot, own));
         grains.series.push(Series::new("", Mark::Points, slot, of(record.data.sediment.points())));
-        if stage == "dilating" {
+        if stage == Stage::Dilating {
             let own = record.data.solid_fraction().iter().map(|(z, value)| (*value, 1e3 * z)).collect();
             fraction.series.push(Series::new("", Mark::Points, slot, own));
         }
     }
     let panels = match stage {
-        "porous" => vec![water, close],
-        "frozen" => vec![water, close, grains],
-        _ => vec![water, close, grains, fraction],
+        Stage::Porous => vec![water, close],
+        Stage::Frozen => vec![water, close, grains],
+        Stage::Dilating => vec![water, close, grains, fraction],
     };
     Figure {
-        name: format!("layer-{stage}"),
+        name: format!("layer-{}", stage.name()),
         caption: format!(
-            "Stage `{stage}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is \
-             independent: the whole depth of the water and the neighbourhood of the bed."
+            "Stage `{}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is \
+             independent: the whole depth of the water and the neighbourhood of the bed.",
+            stage.name()
         ),
         panels,
         columns: 2,
@@ -186,8 +188,8 @@ fn transport(records: &[Record]) -> Figure {
     let mut panel = transport_panel::formulas();
     let kinds: [(&str, usize, Choice); 4] = [
         ("stabilised", 0, |run| matches!(run.formulation, Formulation::Stabilised(_))),
-        ("continuum, given fraction", 5, |run| stage_of(run) == Some("frozen") && has_judged_law(run)),
-        ("continuum, dilating", 6, |run| stage_of(run) == Some("dilating") && has_judged_law(run)),
+        ("continuum, given fraction", 5, |run| stage_of(run) == Some(Stage::Frozen) && has_judged_law(run)),
+        ("continuum, dilating", 6, |run| stage_of(run) == Some(Stage::Dilating) && has_judged_law(run)),
         ("continuum, other pair laws", 3, |run| stage_of(run).is_some() && !has_judged_law(run)),
     ];
     for (name, slot, belongs) in kinds {

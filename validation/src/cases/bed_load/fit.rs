@@ -2,6 +2,7 @@
 
 use super::Record;
 use super::runs::Formulation;
+use crate::metric::Variant;
 use crate::reference::TransportFormula;
 
 /// A fit and its prediction.
@@ -131,8 +132,8 @@ fn surfaces(records: &[Record]) -> Vec<Surface> {
 }
 
 /// Name of a fit among the metrics.
-pub(super) fn variant(held: &HeldOut) -> String {
-    format!("held_out_slope={}", held.slope)
+pub(super) fn variant(held: &HeldOut) -> Variant {
+    Variant::of("held_out_slope", held.slope)
 }
 
 #[cfg(test)]

@@ -9,8 +9,8 @@ use super::runs::{BedLoadRun, Formulation};
 use super::statements;
 use crate::case::Run;
 use crate::cases::channel;
-use crate::metric::{Confidence, Kind, Limit, Metric};
-use crate::observe::Recorded;
+use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
+use crate::observation::Recorded;
 use crate::reference::{HONEST_BAND, TransportFormula};
 use crate::statistics::{Estimate, block_average, linear_fit};
 use bagnold_solver::incompressible::PairLaw;
@@ -31,6 +31,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
             Formulation::Continuum { stage, pair_law, .. } => continuum(&mut metrics, run, record, *stage, *pair_law),
         }
     }
+    statements::say_what_is_missing(records);
     statements::growth(&mut metrics, records);
     for held in held_out(records) {
         let variant = fit::variant(&held);
@@ -57,7 +58,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     metrics
 }
 
-pub(super) fn observed(name: &str, variant: &str, estimate: Estimate, factor: f64, unit: &str) -> Metric {
+pub(super) fn observed(name: &str, variant: &Variant, estimate: Estimate, factor: f64, unit: &str) -> Metric {
     Metric::observed(name, variant, factor * estimate.value, unit)
         .with_snapshot_tolerance(1e-3, (SNAPSHOT_ERRORS * factor * estimate.standard_error).abs())
 }

@@ -3,6 +3,7 @@
 use super::observation::BedLoadObservation;
 use super::runs::BedLoadRun;
 use crate::cases::channel::ProfilePoint;
+use crate::metric::Variant;
 use crate::output::Table;
 use crate::reference::bed_load_layer::LayerState;
 use crate::statistics::{Segmented, curvature, linear_fit, number_of_pieces, segmented_regression};
@@ -18,8 +19,7 @@ pub(super) fn height_of(run: &BedLoadRun, logarithm: f64) -> f64 {
 }
 
 /// Heights between which the slope of u over ln(z + z_0) is fitted `[m]`.
-pub(super) const LAYERS: [(&str, f64, f64); 4] =
-    [("0.5_3", 5e-4, 3.5e-3), ("3_8", 3e-3, 8e-3), ("8_18", 8e-3, 18e-3), ("15_43", 15e-3, 43e-3)];
+pub(super) const LAYERS: [(f64, f64); 4] = [(5e-4, 3.5e-3), (3e-3, 8e-3), (8e-3, 18e-3), (15e-3, 43e-3)];
 
 /// Slope of u over ln(z + z_0) between two heights, over u_*/κ `[-]`.
 pub(super) fn semi_log_slope(run: &BedLoadRun, points: &[ProfilePoint], lower: f64, upper: f64) -> f64 {
@@ -158,8 +158,8 @@ fn root_mean(squares: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// Grains over the height.
-pub(super) fn grain_table(variant: &str, data: &BedLoadObservation) -> Option<Table> {
-    let stem = variant.replace(['=', ','], "-").replace('_', "-");
+pub(super) fn grain_table(variant: &Variant, data: &BedLoadObservation) -> Option<Table> {
+    let stem = variant.file_name();
     let (points, errors) = (data.sediment.points(), data.sediment.velocities());
     if points.is_empty() {
         return None;
@@ -193,9 +193,9 @@ mod tests {
             ProfilePoint { height, velocity: law.velocity(height), pressure: 0.0, samples: 1.0 }
         };
         let points: Vec<ProfilePoint> = (0..23).map(point).collect();
-        for (name, lower, upper) in LAYERS {
+        for (lower, upper) in LAYERS {
             let slope = semi_log_slope(&run, &points, lower, upper);
-            assert!((slope - 1.0).abs() < 1e-9, "{name}: {slope}");
+            assert!((slope - 1.0).abs() < 1e-9, "{lower} to {upper}: {slope}");
         }
         assert_eq!(number_of_layers(&run, &points), 1);
         let fit = layers(&run, &points, 2).expect("enough points");

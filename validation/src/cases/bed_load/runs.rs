@@ -2,9 +2,9 @@
 
 use super::observation::{BedLoadObservation, Observer};
 use super::parameters::{BedLoadParameters, Continuum, Grains, Materials, Stage, Yield};
-use crate::case::{Progress, Run};
-use crate::error::InputError;
-use crate::observe::Recorded;
+use crate::case::{ParameterError, Progress, Run};
+use crate::metric::Variant;
+use crate::observation::Recorded;
 use crate::reference::bed_load_layer::{BedLoadLayer, Grains as LayerGrains, LayerState, SolidFraction, Start, Stream};
 use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
 use serde::Serialize;
@@ -120,20 +120,18 @@ pub(super) fn pair_law_name(law: PairLaw) -> &'static str {
 impl Run for BedLoadRun {
     type Observation = BedLoadObservation;
 
-    fn variant(&self) -> String {
-        let slope = self.slope;
+    fn variant(&self) -> Variant {
+        let of = |formulation: &str| Variant::of("formulation", formulation).and("slope", self.slope);
         match &self.formulation {
-            Formulation::Paper(_) => format!("formulation=paper,slope={slope}"),
-            Formulation::Stabilised(_) => format!("formulation=stabilised,slope={slope}"),
+            Formulation::Paper(_) => of("paper"),
+            Formulation::Stabilised(_) => of("stabilised"),
             Formulation::Fit(grains) => {
                 let Yield { yield_stress, viscosity, .. } = grains.material;
-                format!("formulation=fit,slope={slope},yield_stress={yield_stress},viscosity={viscosity}")
+                of("fit").and("yield_stress", yield_stress).and("viscosity", viscosity)
             }
-            Formulation::Continuum { stage, pair_law, start, spacing, .. } => format!(
-                "formulation={},slope={slope},pair_law={},start={start},spacing={spacing}",
-                stage.name(),
-                pair_law_name(*pair_law)
-            ),
+            Formulation::Continuum { stage, pair_law, start, spacing, .. } => {
+                of(stage.name()).and("pair_law", pair_law_name(*pair_law)).and("start", *start).and("spacing", *spacing)
+            }
         }
     }
 
@@ -151,7 +149,7 @@ impl Run for BedLoadRun {
         particles * self.duration / step
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadObservation>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadObservation>, ParameterError> {
         let layer = self.layer()?;
         let law = self.clear_water();
         let start = |z: f64| match (&layer, &self.formulation) {
@@ -205,7 +203,7 @@ impl BedLoadRun {
     }
 
     /// The 1-D layer that a `continuum` run is verified against.
-    pub(super) fn layer(&self) -> Result<Option<LayerState>, InputError> {
+    pub(super) fn layer(&self) -> Result<Option<LayerState>, ParameterError> {
         let Formulation::Continuum { continuum, stage, .. } = &self.formulation else { return Ok(None) };
         let layer = |grains| BedLoadLayer {
             stream: self.stream(),
@@ -214,7 +212,7 @@ impl BedLoadRun {
             cell_height: LAYER_CELL,
         };
         let refused = |error: crate::reference::ReferenceError| {
-            InputError::field(
+            ParameterError::field(
                 "continuum.closures",
                 error.to_string(),
                 "such that the 1-D layer has a steady state",
@@ -252,6 +250,6 @@ impl BedLoadRun {
     }
 }
 
-fn no_layer() -> InputError {
-    InputError::field("continuum", "no layer", "a run with its 1-D layer", "this is a defect of the program")
+fn no_layer() -> ParameterError {
+    ParameterError::field("continuum", "no layer", "a run with its 1-D layer", "this is a defect of the program")
 }

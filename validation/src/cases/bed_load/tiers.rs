@@ -2,9 +2,8 @@
 
 use super::parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns, Yield};
 use super::runs::{self, BedLoadRun};
-use crate::case::{Parameters, Tier};
+use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::channel::TurbulenceClosure;
-use crate::error::InputError;
 use crate::reference::bed_load_layer::Closures;
 use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
 use bagnold_solver::material::dilatancy::PressureBounds;
@@ -137,7 +136,7 @@ impl Parameters for BedLoadParameters {
         }
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), ParameterError> {
         self.check_combinations()
     }
 

@@ -114,11 +114,11 @@ fn transport(layers: &[Layer<'_>]) -> Figure {
 /// Differences between neighbouring cell heights.
 fn convergence(records: &[Record], layers: &[Layer<'_>]) -> Option<Figure> {
     let studies = [
-        (Purpose::DilatingOrder, "dilating", "with dilation: q*", "relative difference of q* [-]"),
-        (Purpose::FrozenOrder, "frozen", "given fraction: profiles", "relative L2 difference [-]"),
+        (Purpose::DilatingOrder, "with dilation: q*", "relative difference of q* [-]"),
+        (Purpose::FrozenOrder, "given fraction: profiles", "relative L2 difference [-]"),
     ];
     let mut panels = Vec::new();
-    for (purpose, grains, title, label) in studies {
+    for (purpose, title, label) in studies {
         let mut panel = Panel::new(title, Axis::logarithmic("height of a cell [mm]"), Axis::logarithmic(label));
         for (slot, (run, _)) in layers.iter().enumerate() {
             let study: Vec<&LayerState> = of(records, |other| *other == purpose)
@@ -127,7 +127,7 @@ fn convergence(records: &[Record], layers: &[Layer<'_>]) -> Option<Figure> {
                 .collect();
             let points: Vec<(f64, f64)> = study
                 .windows(2)
-                .map(|pair| (1e3 * pair[0].cell_height, difference(pair[0], pair[1], grains)))
+                .map(|pair| (1e3 * pair[0].cell_height, difference(pair[0], pair[1], purpose)))
                 .collect();
             if slot == 0
                 && let (Some(first), Some(last)) = (points.first(), points.last())

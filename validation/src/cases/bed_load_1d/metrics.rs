@@ -3,8 +3,8 @@
 use super::Record;
 use super::runs::{BedLoad1dRun, Purpose};
 use crate::case::Run;
-use crate::metric::{Confidence, Kind, Limit, Metric};
-use crate::observe::Outcome;
+use crate::metric::{Confidence, Kind, Limit, Metric, Value, Variant};
+use crate::observation::Outcome;
 use crate::reference::bed_load_layer::LayerState;
 use crate::reference::{TransportFormula, roughness_ratio};
 
@@ -52,13 +52,12 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
         {
             start(&mut metrics, run, state, other);
         }
-        for (purpose, name, limit) in [(Purpose::DilatingOrder, "dilating", 1.0), (Purpose::FrozenOrder, "frozen", 1.8)]
-        {
+        for (purpose, limit) in [(Purpose::DilatingOrder, 1.0), (Purpose::FrozenOrder, 1.8)] {
             let study: Vec<&LayerState> = of(records, |other| *other == purpose)
                 .filter(|(run, _)| on_slope(run))
                 .map(|(_, state)| state)
                 .collect();
-            order(&mut metrics, run, &study, name, limit);
+            order(&mut metrics, run, &study, purpose, limit);
         }
         profiles(&mut metrics, run, state);
     }
@@ -129,8 +128,10 @@ fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
 fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast: &LayerState) {
     let transport = (fast.transport() / rest.transport() - 1.0).abs();
     let difference = transport.max(rest.difference(fast, f64::NEG_INFINITY));
+    // the two starts of the runs behind it, as one word
+    let variant = Variant::of("slope", run.stream.slope).and("start", "rest_fast");
     metrics.push(
-        Metric::observed("start_difference", &format!("slope={},start=rest_fast", run.stream.slope), difference, "-")
+        Metric::observed("start_difference", &variant, difference, "-")
             .against(Some(0.0), "the layer from rest: q*, u_f and φ u_s", Confidence::Exact)
             .gated(Limit::AtMost(1e-3), "a steady state does not remember its start")
             .with_snapshot_tolerance(1.0, 1e-5),
@@ -139,11 +140,11 @@ fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast:
 
 /// The order of convergence: from the profiles where the fraction is given, from q* where it is not. The topmost grains
 /// end inside a cell, so that profiles of a dilating layer converge everywhere but there.
-fn order(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, study: &[&LayerState], grains: &str, least: f64) {
-    let differences: Vec<f64> = study.windows(2).map(|pair| difference(pair[0], pair[1], grains)).collect();
+fn order(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, study: &[&LayerState], purpose: Purpose, least: f64) {
+    let differences: Vec<f64> = study.windows(2).map(|pair| difference(pair[0], pair[1], purpose)).collect();
     let [.., coarse, fine] = differences[..] else { return };
-    let heights: Vec<String> = study.iter().map(|state| state.cell_height.to_string()).collect();
-    let variant = format!("slope={},grains={grains},cell_height={}", run.stream.slope, heights.join("_"));
+    let heights = Value::list(study.iter().map(|state| state.cell_height));
+    let variant = Variant::of("slope", run.stream.slope).and("grains", purpose.grains()).and("cell_height", heights);
     metrics.push(
         Metric::observed("observed_order", &variant, libm::log2(coarse / fine), "-")
             .against(Some(2.0), MODEL, Confidence::Exact)
@@ -153,9 +154,9 @@ fn order(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, study: &[&LayerState], g
 }
 
 /// What is taken for the error of the coarser of two layers `[-]`.
-pub(super) fn difference(coarse: &LayerState, fine: &LayerState, grains: &str) -> f64 {
-    match grains {
-        "frozen" => coarse.difference(fine, STUDIED_ABOVE),
+pub(super) fn difference(coarse: &LayerState, fine: &LayerState, purpose: Purpose) -> f64 {
+    match purpose {
+        Purpose::FrozenOrder => coarse.difference(fine, STUDIED_ABOVE),
         _ => (coarse.transport() / fine.transport() - 1.0).abs(),
     }
 }
@@ -177,8 +178,9 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
     ]);
     for (from, to) in LOGARITHMIC_RANGES {
         if let Some(slope) = state.logarithmic_slope(1e-3 * from, 1e-3 * to, run.closures.karman) {
+            let variant = variant.clone().and("height", from..=to);
             metrics.push(
-                Metric::observed("logarithmic_slope", &format!("{variant},height={from}_{to}"), slope, "-")
+                Metric::observed("logarithmic_slope", &variant, slope, "-")
                     .against(Some(1.0), "clear water, du_f/d ln z = u_*/κ", Confidence::High)
                     .with_snapshot_tolerance(0.01, 0.0),
             );
@@ -186,8 +188,9 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
     }
     for height in [2.5e-3, 0.025] {
         let deficit = state.at(height).fluid_velocity / run.stream.shear_velocity() - log_law(run, height);
+        let variant = variant.clone().and("height", 1e3 * height);
         metrics.push(
-            Metric::observed("velocity_deficit", &format!("{variant},height={}", 1e3 * height), deficit, "u_*")
+            Metric::observed("velocity_deficit", &variant, deficit, "u_*")
                 .against(Some(0.0), "rough-wall log law of clear water, z_0 = d/30", Confidence::High)
                 .with_snapshot_tolerance(0.01, 0.01),
         );
@@ -206,8 +209,7 @@ fn with_slope(metrics: &mut Vec<Metric>, layers: &[(&BedLoad1dRun, &LayerState)]
     if layers.len() < 2 {
         return;
     }
-    let slopes: Vec<String> = layers.iter().map(|(run, _)| run.stream.slope.to_string()).collect();
-    let variant = format!("slope={}", slopes.join("_"));
+    let variant = Variant::of("slope", Value::list(layers.iter().map(|(run, _)| run.stream.slope)));
     let growth = |value: fn(&LayerState) -> Option<f64>| {
         let values: Vec<f64> = layers.iter().map(|(_, state)| value(state).unwrap_or(f64::NAN)).collect();
         values

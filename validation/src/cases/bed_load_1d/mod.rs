@@ -81,7 +81,7 @@ fn profile_table((run, record): &Record) -> Table {
         ]
     };
     Table {
-        name: format!("profile-{}", run.variant().replace(['=', ','], "-").replace('_', "-")),
+        name: format!("profile-{}", run.variant().file_name()),
         columns: columns.map(str::to_owned).to_vec(),
         rows: state.height.iter().enumerate().map(row).collect(),
     }

@@ -2,9 +2,8 @@
 
 use super::runs::{self, BedLoad1dRun};
 use super::sensitivities::Sensitivities;
-use crate::case::{Parameters, Tier};
+use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::reference::bed_load_layer::{Closures, Stream};
 use bagnold_solver::parameter::{between, each, positive};
 use schemars::JsonSchema;
@@ -101,13 +100,13 @@ impl Parameters for BedLoad1dParameters {
         }
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), ParameterError> {
         let grains = &self.grains;
         let remedy = "hold less than the whole bed, or 0 for none";
         rules::between("grains.held_depth", grains.held_depth, 0.0, 0.9 * grains.bed_depth, remedy)?;
         if grains.density <= self.water.density {
             let (rule, remedy) = ("greater than the density of the water", "grains that float are no bed load");
-            return Err(InputError::field("grains.density", grains.density, rule, remedy));
+            return Err(ParameterError::field("grains.density", grains.density, rule, remedy));
         }
         closures("closures", &self.closures)?;
         self.cells("cell_height", self.cell_height)?;
@@ -119,7 +118,7 @@ impl Parameters for BedLoad1dParameters {
                 self.cells(&field, height)?;
                 if index > 0 && (heights[index - 1] / height - 2.0).abs() > 1e-6 {
                     let remedy = "the order compares means over two cells with one";
-                    return Err(InputError::field(&field, height, "half the height before it", remedy));
+                    return Err(ParameterError::field(&field, height, "half the height before it", remedy));
                 }
             }
         }
@@ -148,14 +147,14 @@ impl BedLoad1dParameters {
     }
 
     /// A height of cells that divides all depths.
-    pub(super) fn cells(&self, field: &str, height: f64) -> Result<(), InputError> {
+    pub(super) fn cells(&self, field: &str, height: f64) -> Result<(), ParameterError> {
         let depths = [self.water.depth, self.grains.bed_depth, self.grains.held_depth];
         let fits = |depth: &f64| (depth / height - (depth / height).round()).abs() < 1e-6;
         if depths.iter().all(fits) && depths[0] / height >= 10.0 && (depths[0] + depths[1]) / height <= 1e5 {
             return Ok(());
         }
         let rule = "such that the depths of water, bed and held grains are whole multiples of it, at most 1e5 in all";
-        Err(InputError::field(
+        Err(ParameterError::field(
             field,
             height,
             rule,
@@ -165,12 +164,12 @@ impl BedLoad1dParameters {
 }
 
 /// The rule between the closures.
-pub(in crate::cases) fn closures(path: &str, closures: &Closures) -> Result<(), InputError> {
+pub(in crate::cases) fn closures(path: &str, closures: &Closures) -> Result<(), ParameterError> {
     rules::refuse(&format!("{path}.suspension_viscosity"), closures.suspension_viscosity.pole_problem())?;
     if closures.limiting_friction > closures.static_friction {
         return Ok(());
     }
     let remedy = "friction grows from μ_s at rest to μ_2 in fast shear";
     let field = format!("{path}.limiting_friction");
-    Err(InputError::field(&field, closures.limiting_friction, "greater than the static friction", remedy))
+    Err(ParameterError::field(&field, closures.limiting_friction, "greater than the static friction", remedy))
 }

@@ -2,9 +2,9 @@
 
 use super::parameters::BedLoad1dParameters;
 use super::sensitivities::Replaced;
-use crate::case::{Progress, Run};
-use crate::error::InputError;
-use crate::observe::{Outcome, Recorded, state_hash};
+use crate::case::{ParameterError, Progress, Run};
+use crate::metric::Variant;
+use crate::observation::{Outcome, Recorded, state_hash};
 use crate::reference::ReferenceError;
 use crate::reference::bed_load_layer::{
     BedLoadLayer, Closures, Grains, LayerState, STEADY, SolidFraction, Start, Stream,
@@ -32,6 +32,13 @@ pub enum Purpose {
     FrozenOrder,
     /// A replaced closure.
     Sensitivity(Replaced),
+}
+
+impl Purpose {
+    /// What the grains do, in a variant.
+    pub(super) fn grains(self) -> &'static str {
+        if self == Self::FrozenOrder { "frozen" } else { "dilating" }
+    }
 }
 
 /// One layer.
@@ -85,22 +92,23 @@ pub(super) fn all(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
 impl Run for BedLoad1dRun {
     type Observation = LayerObservation;
 
-    fn variant(&self) -> String {
-        let purpose = match self.purpose {
-            Purpose::Literature => "start=rest".to_owned(),
-            Purpose::FastStart(_) => "start=fast".to_owned(),
-            Purpose::DilatingOrder => format!("grains=dilating,cell_height={}", self.cell_height),
-            Purpose::FrozenOrder => format!("grains=frozen,cell_height={}", self.cell_height),
-            Purpose::Sensitivity(replaced) => format!("{}={}", replaced.closure(), replaced.value_text()),
-        };
-        format!("slope={},{purpose}", self.stream.slope)
+    fn variant(&self) -> Variant {
+        let slope = Variant::of("slope", self.stream.slope);
+        match self.purpose {
+            Purpose::Literature => slope.and("start", "rest"),
+            Purpose::FastStart(_) => slope.and("start", "fast"),
+            Purpose::DilatingOrder | Purpose::FrozenOrder => {
+                slope.and("grains", self.purpose.grains()).and("cell_height", self.cell_height)
+            }
+            Purpose::Sensitivity(replaced) => slope.and(replaced.closure(), replaced.value_text()),
+        }
     }
 
     fn particle_steps(&self) -> f64 {
         USUAL_STEPS * (self.stream.flow_depth + self.stream.bed_depth) / self.cell_height
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         let started = Instant::now();
         let start = match self.purpose {
             Purpose::FastStart(speed) => Start::Moving(speed),
@@ -156,12 +164,12 @@ fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFraction, R
 }
 
 /// What the solver refuses although each parameter is in its range.
-fn refused(error: ReferenceError) -> InputError {
+fn refused(error: ReferenceError) -> ParameterError {
     match error {
         ReferenceError::Parameter { field, value, rule } => {
-            InputError::field(field, value, rule, "`bagnold show bed-load-1d` prints a valid value")
+            ParameterError::field(field, value, rule, "`bagnold show bed-load-1d` prints a valid value")
         }
-        other => InputError::field(
+        other => ParameterError::field(
             "closures",
             "given",
             &format!("such that a layer can be computed ({other})"),

@@ -5,7 +5,7 @@ use super::figures::percent;
 use super::metrics::of;
 use super::parameters::{BedLoad1dParameters, closures};
 use super::runs::{BedLoad1dRun, Purpose};
-use crate::error::InputError;
+use crate::case::ParameterError;
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
 use crate::reference::TransportFormula;
 use crate::reference::bed_load_layer::{Closures, LayerState, MixingLength};
@@ -107,7 +107,7 @@ impl Sensitivities {
         all
     }
 
-    pub(super) fn check(&self, parameters: &BedLoad1dParameters) -> Result<(), InputError> {
+    pub(super) fn check(&self, parameters: &BedLoad1dParameters) -> Result<(), ParameterError> {
         for replaced in self.all() {
             let (changed, cell_height) = replaced.apply(parameters.closures, parameters.cell_height);
             closures("sensitivities", &changed)?;

@@ -32,8 +32,8 @@ pub use tables::tables;
 
 use crate::case::Progress;
 use crate::cases::recording::Ending;
-use crate::metric::{Confidence, Limit, Metric};
-use crate::observe::{Frame, Recorded};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
+use crate::observation::{Frame, Recorded};
 use bagnold_solver::incompressible::{
     Bed, IncompressibleSimulation, ProjectionNumerics, Sediment, SolidFraction, Turbulence,
 };
@@ -172,18 +172,30 @@ impl Channel<'_> {
     }
 }
 
+/// Particles that are no longer in the channel.
+pub const PARTICLES_LOST: Quantity =
+    Quantity::verified("particles_lost", "-", "particles that ended below the floor or far above the surface");
+/// How well momentum along the floor closes.
+pub const MOMENTUM_RESIDUAL: Quantity = Quantity::verified(
+    "momentum_residual",
+    "-",
+    "change of momentum less gravity and friction of the bed, over the impulse of the slope",
+);
+
 /// The number of particles that ended below the floor or far above the surface, gated at 0.
 #[must_use]
-pub fn particles_lost(variant: &str, record: &Recorded<ChannelObservation>) -> Metric {
-    Metric::observed("particles_lost", variant, record.data.particles_lost as f64, "-")
+pub fn particles_lost(variant: &Variant, record: &Recorded<ChannelObservation>) -> Metric {
+    PARTICLES_LOST
+        .of(variant, record.data.particles_lost as f64)
         .against(Some(0.0), "no particle passes a wall", Confidence::Exact)
         .gated(Limit::AtMost(0.0), "a particle below the floor is lost mass")
 }
 
 /// How far momentum along the floor closes over the averaging window, over the impulse of the slope `[-]`, gated.
 #[must_use]
-pub fn momentum_residual(variant: &str, record: &Recorded<ChannelObservation>) -> Metric {
-    Metric::observed("momentum_residual", variant, record.data.momentum.residual(), "-")
+pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation>) -> Metric {
+    MOMENTUM_RESIDUAL
+        .of(variant, record.data.momentum.residual())
         .against(
             Some(0.0),
             "change of momentum = gravity − friction of the bed, summed over every step",

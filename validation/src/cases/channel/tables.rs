@@ -1,12 +1,13 @@
 //! Tables of one run: profile and time series.
 
 use super::ChannelObservation;
+use crate::metric::Variant;
 use crate::output::Table;
 
 /// Tables of one run.
 #[must_use]
-pub fn tables(variant: &str, data: &ChannelObservation) -> Vec<Table> {
-    let stem = variant.replace(['=', ','], "-").replace('_', "-");
+pub fn tables(variant: &Variant, data: &ChannelObservation) -> Vec<Table> {
+    let stem = variant.file_name();
     let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
     let series = &data.series;
     let profile = data.profile.points().into_iter().zip(data.profile.velocities());

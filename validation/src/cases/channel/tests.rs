@@ -1,7 +1,7 @@
 //! A small film through scene, probe and record.
 
 use super::*;
-use crate::observe::Outcome;
+use crate::observation::Outcome;
 use bagnold_solver::incompressible::ProjectionNumerics;
 
 struct Unseen;

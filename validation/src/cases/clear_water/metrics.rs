@@ -5,7 +5,7 @@ use super::parameters::{ClearWaterRun, Period};
 use crate::case::Run;
 use crate::cases::channel::{self, ChannelObservation, ProfilePoint};
 use crate::metric::{Confidence, Limit, Metric};
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::reference::RoughChannel;
 use crate::statistics::{Estimate, block_average, linear_fit};
 

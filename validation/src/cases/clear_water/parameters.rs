@@ -1,10 +1,10 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{Parameters, Progress, Run, Tier};
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
 use crate::cases::channel::{Channel, ChannelObservation, Lattice, TurbulenceClosure, Until};
 use crate::cases::rules;
-use crate::error::InputError;
-use crate::observe::Recorded;
+use crate::metric::Variant;
+use crate::observation::Recorded;
 use crate::reference::{RoughChannel, roughness_ratio};
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction};
 use bagnold_solver::material::turbulence::{MixingLengthShape, RoughWall};
@@ -126,7 +126,7 @@ impl Parameters for ClearWaterParameters {
         }
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), ParameterError> {
         rules::between("origin_offset", self.origin_offset, 0.0, 0.1 * self.depth, "a fraction of a grain diameter")?;
         let first_row = 0.5 * self.depth / self.resolution as f64 + self.origin_offset;
         let remedy = "the logarithmic law begins at k_s/30, which must lie below the first row of particles";
@@ -193,15 +193,15 @@ pub struct ClearWaterRun {
 impl Run for ClearWaterRun {
     type Observation = ChannelObservation;
 
-    fn variant(&self) -> String {
-        format!("slope={},resolution={}", self.slope, self.resolution)
+    fn variant(&self) -> Variant {
+        Variant::of("slope", self.slope).and("resolution", self.resolution)
     }
 
     fn particle_steps(&self) -> f64 {
         self.channel(&|_| 0.0).expected_steps() * (self.resolution * self.columns) as f64
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         let law = self.reference();
         Ok(self.channel(&|z| self.start_share * law.velocity(z)).run(progress)?)
     }

@@ -1,6 +1,6 @@
 //! Takes the pictures of a moving picture while a run goes on.
 
-use crate::observe::{Motion, MotionFrame};
+use crate::observation::{Motion, MotionFrame};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
 /// Most pictures of a run: what comes later is at rest.

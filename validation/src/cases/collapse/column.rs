@@ -3,10 +3,11 @@
 use super::block::Block;
 use super::camera::Camera;
 use super::deposit::{Collapse, Surveyor, front, radius};
-use crate::case::{Progress, Run};
+use super::material::Material;
+use crate::case::{ParameterError, Progress, Run};
 use crate::cases::recording::Ending;
-use crate::error::InputError;
-use crate::observe::{Frame, Recorded};
+use crate::metric::Variant;
+use crate::observation::{Frame, Recorded};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Rheology};
@@ -74,8 +75,8 @@ pub struct ColumnRun {
     pub purpose: Purpose,
     /// Cross-section.
     pub geometry: Geometry,
-    /// Name of the grains.
-    pub material: String,
+    /// The grains.
+    pub material: Material,
     /// h_0/r_0 `[-]`.
     pub aspect_ratio: f64,
     /// Particles over the half width.
@@ -99,16 +100,15 @@ pub struct ColumnRun {
 impl Run for ColumnRun {
     type Observation = Collapse;
 
-    fn variant(&self) -> String {
-        let column =
-            format!("material={},aspect_ratio={},resolution={}", self.material, self.aspect_ratio, self.resolution);
+    fn variant(&self) -> Variant {
+        let column = Variant::of("material", self.material.to_string())
+            .and("aspect_ratio", self.aspect_ratio)
+            .and("resolution", self.resolution);
         match self.purpose {
             Purpose::Law => column,
-            Purpose::Convergence => format!("{column},seed={}", self.seed),
-            Purpose::Hourglass => format!("{column},hourglass={}", self.numerics.hourglass),
-            Purpose::Regularised => {
-                format!("{column},regularisation_rate={}", self.regularisation_rate.unwrap_or(0.0))
-            }
+            Purpose::Convergence => column.and("seed", self.seed),
+            Purpose::Hourglass => column.and("hourglass", self.numerics.hourglass),
+            Purpose::Regularised => column.and("regularisation_rate", self.regularisation_rate.unwrap_or(0.0)),
         }
     }
 
@@ -119,7 +119,7 @@ impl Run for ColumnRun {
         expected * self.particles()
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, ParameterError> {
         match self.geometry {
             Geometry::Planar => self.run::<2>(progress),
             Geometry::Round => self.run::<3>(progress),
@@ -128,12 +128,6 @@ impl Run for ColumnRun {
 }
 
 impl ColumnRun {
-    /// The grains that its material is a variant of: `lagree` for `lagree_diameter_0.001`.
-    #[must_use]
-    pub fn family(&self) -> &str {
-        self.material.split('_').next().unwrap_or_default()
-    }
-
     /// Particle spacing `[m]`.
     #[must_use]
     pub fn spacing(&self) -> f64 {
@@ -279,7 +273,7 @@ impl ColumnRun {
         }
     }
 
-    fn run<const D: usize>(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, InputError>
+    fn run<const D: usize>(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, ParameterError>
     where
         Simulation<D>: Compiled<D>,
     {

@@ -3,8 +3,9 @@
 use super::Record;
 use super::column::{ColumnRun, Purpose};
 use super::deposit::Collapse;
+use super::material::Material;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::metric::{Confidence, Limit, Metric};
+use crate::metric::{Confidence, Limit, Metric, Variant};
 use crate::statistics::{Mean, grid_convergence};
 
 /// Name, measure and largest index `[-]` of what must converge.
@@ -20,10 +21,12 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (material, aspect_ratio) in studied(records, Purpose::Convergence) {
         for (quantity, measure, largest) in QUANTITIES {
-            let means = means(records, &material, aspect_ratio, measure);
-            let variant = format!("quantity={quantity},material={material},aspect_ratio={aspect_ratio}");
+            let means = means(records, material, aspect_ratio, measure);
+            let variant = Variant::of("quantity", quantity)
+                .and("material", material.to_string())
+                .and("aspect_ratio", aspect_ratio);
             for mean in &means {
-                let at = format!("{variant},resolution={}", mean.resolution);
+                let at = variant.clone().and("resolution", mean.resolution);
                 let values = [("ensemble_mean", mean.value), ("ensemble_standard_error", mean.standard_error)];
                 metrics.extend(
                     values.map(|(name, value)| {
@@ -56,7 +59,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     for (quantity, spread) in spreads {
         if spread > 0.0 {
             metrics.push(
-                Metric::observed("ensemble_spread", &format!("quantity={quantity}"), 100.0 * spread, "%")
+                Metric::observed("ensemble_spread", &Variant::of("quantity", quantity), 100.0 * spread, "%")
                     .against(
                         None,
                         "largest relative standard deviation over the seeds of the initial displacements; the gates of \
@@ -68,12 +71,14 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
         }
     }
     for (material, aspect_ratio) in studied(records, Purpose::Hourglass) {
-        for resolution in resolutions(records, &material, aspect_ratio) {
+        for resolution in resolutions(records, material, aspect_ratio) {
             let values: Vec<f64> =
-                hourglass(records, &material, aspect_ratio, resolution).iter().map(|point| point.1).collect();
+                hourglass(records, material, aspect_ratio, resolution).iter().map(|point| point.1).collect();
             let (least, most) = values.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &v| (a.min(v), b.max(v)));
             let mean = values.iter().sum::<f64>() / values.len() as f64;
-            let variant = format!("material={material},aspect_ratio={aspect_ratio},resolution={resolution}");
+            let variant = Variant::of("material", material.to_string())
+                .and("aspect_ratio", aspect_ratio)
+                .and("resolution", resolution);
             metrics.push(
                 Metric::observed("hourglass_spread", &variant, 100.0 * (most - least) / mean, "%")
                     .against(
@@ -92,7 +97,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
 pub(super) fn relative_spread(records: &[Record], measure: fn(&Collapse) -> f64) -> f64 {
     let mut largest = 0.0_f64;
     for (material, aspect_ratio) in studied(records, Purpose::Convergence) {
-        for mean in means(records, &material, aspect_ratio, measure) {
+        for mean in means(records, material, aspect_ratio, measure) {
             if mean.runs >= ENSEMBLE {
                 largest = largest.max(mean.standard_error * (mean.runs as f64).sqrt() / mean.value.abs());
             }
@@ -106,7 +111,7 @@ pub(super) fn figures(records: &[Record]) -> Vec<Figure> {
     let mut resolution = studied(records, Purpose::Convergence);
     // an ensemble at one resolution says nothing of convergence
     resolution.retain(|(material, aspect_ratio)| {
-        means(records, material, *aspect_ratio, |collapse| collapse.centroid).len() > 1
+        means(records, *material, *aspect_ratio, |collapse| collapse.centroid).len() > 1
     });
     let coefficient = studied(records, Purpose::Hourglass);
     let mut figures = Vec::new();
@@ -115,7 +120,7 @@ pub(super) fn figures(records: &[Record]) -> Vec<Figure> {
             let y = format!("{} over the finest − 1 [%]", name.replace('_', "-"));
             let mut panel = Panel::new("", Axis::linear("particles over r0 [-]"), Axis::linear(&y));
             for (slot, (material, aspect_ratio)) in resolution.iter().enumerate() {
-                let means = means(records, material, *aspect_ratio, measure);
+                let means = means(records, *material, *aspect_ratio, measure);
                 let finest = means.last().map_or(1.0, |mean| mean.value);
                 let percent = |value: f64| 100.0 * value / finest;
                 let label = format!("{material}, a = {aspect_ratio}");
@@ -142,8 +147,8 @@ pub(super) fn figures(records: &[Record]) -> Vec<Figure> {
             Panel::new("", Axis::linear("hourglass coefficient [-]"), Axis::linear("run-out (r∞ − r0)/r0 [-]"));
         let mut slot = 0;
         for (material, aspect_ratio) in coefficient {
-            for resolution in resolutions(records, &material, aspect_ratio) {
-                let points = hourglass(records, &material, aspect_ratio, resolution);
+            for resolution in resolutions(records, material, aspect_ratio) {
+                let points = hourglass(records, material, aspect_ratio, resolution);
                 let label = format!("{material}, a = {aspect_ratio}, {resolution} over r0");
                 panel.series.push(Series::new(&label, Mark::LinePoints, slot, points));
                 slot += 1;
@@ -163,10 +168,10 @@ pub(super) fn figures(records: &[Record]) -> Vec<Figure> {
 }
 
 /// Materials and aspect ratios that have runs of a purpose, in their order.
-fn studied(records: &[Record], purpose: Purpose) -> Vec<(String, f64)> {
-    let mut found: Vec<(String, f64)> = Vec::new();
+fn studied(records: &[Record], purpose: Purpose) -> Vec<(Material, f64)> {
+    let mut found: Vec<(Material, f64)> = Vec::new();
     for (run, _) in records.iter().filter(|(run, _)| run.purpose == purpose) {
-        let key = (run.material.clone(), run.aspect_ratio);
+        let key = (run.material, run.aspect_ratio);
         if !found.contains(&key) {
             found.push(key);
         }
@@ -174,12 +179,12 @@ fn studied(records: &[Record], purpose: Purpose) -> Vec<(String, f64)> {
     found
 }
 
-fn is_of(run: &ColumnRun, material: &str, aspect_ratio: f64) -> bool {
+fn is_of(run: &ColumnRun, material: Material, aspect_ratio: f64) -> bool {
     run.material == material && run.aspect_ratio == aspect_ratio && run.regularisation_rate.is_none()
 }
 
 /// Means over the seeds, resolution by resolution. A run that stands for itself is one of its ensemble.
-fn means(records: &[Record], material: &str, aspect_ratio: f64, measure: fn(&Collapse) -> f64) -> Vec<Mean> {
+fn means(records: &[Record], material: Material, aspect_ratio: f64, measure: fn(&Collapse) -> f64) -> Vec<Mean> {
     let runs = || {
         records.iter().filter(|(run, _)| {
             is_of(run, material, aspect_ratio) && matches!(run.purpose, Purpose::Law | Purpose::Convergence)
@@ -196,7 +201,7 @@ fn means(records: &[Record], material: &str, aspect_ratio: f64, measure: fn(&Col
 }
 
 /// Resolutions at which the hourglass coefficient was varied.
-fn resolutions(records: &[Record], material: &str, aspect_ratio: f64) -> Vec<usize> {
+fn resolutions(records: &[Record], material: Material, aspect_ratio: f64) -> Vec<usize> {
     let varied = records.iter().map(|(run, _)| run);
     let varied = varied.filter(|run| run.purpose == Purpose::Hourglass && is_of(run, material, aspect_ratio));
     let mut found: Vec<usize> = varied.map(|run| run.resolution).collect();
@@ -206,7 +211,7 @@ fn resolutions(records: &[Record], material: &str, aspect_ratio: f64) -> Vec<usi
 }
 
 /// (coefficient, run-out) of a resolution, in ascending order.
-fn hourglass(records: &[Record], material: &str, aspect_ratio: f64, resolution: usize) -> Vec<(f64, f64)> {
+fn hourglass(records: &[Record], material: Material, aspect_ratio: f64, resolution: usize) -> Vec<(f64, f64)> {
     let mut points: Vec<(f64, f64)> = records
         .iter()
         .filter(|(run, _)| run.purpose == Purpose::Hourglass && run.resolution == resolution)

@@ -1,6 +1,6 @@
 //! What is measured of a spreading heap: thickness, front, heights, centroid and energies.
 
-use crate::observe::Motion;
+use crate::observation::Motion;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};

@@ -4,12 +4,13 @@ use super::Record;
 use super::column::{ColumnRun, Geometry, PICTURES, Purpose};
 use super::deposit::Collapse;
 use super::flow_metrics::{self, energies, stations};
+use super::material::Material;
 use super::pictures::{View, animation, halves, nearest, pressures, speeds};
 use super::wedge::{self, Deposit};
 use super::{convergence, energy, scaling, stress_updates, velocity_profile};
 use crate::case::Run;
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel, Series};
-use crate::observe::{Frame, Recorded};
+use crate::observation::{Frame, Recorded};
 use crate::reference::{CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
 pub(in crate::cases) fn all(records: &[Record]) -> Vec<Figure> {
@@ -35,11 +36,11 @@ pub(in crate::cases) fn all(records: &[Record]) -> Vec<Figure> {
 }
 
 /// The materials in their order.
-fn materials<'a>(records: &[&'a Record]) -> Vec<&'a str> {
-    let mut found: Vec<&str> = Vec::new();
+fn materials(records: &[&Record]) -> Vec<Material> {
+    let mut found: Vec<Material> = Vec::new();
     for (run, _) in records {
-        if !found.contains(&run.material.as_str()) {
-            found.push(&run.material);
+        if !found.contains(&run.material) {
+            found.push(run.material);
         }
     }
     found
@@ -52,17 +53,7 @@ fn of_material(name: &str, records: &[&Record]) -> String {
 
 /// Whether a column gets pictures of its own: variants of the grains look like their originals.
 fn is_shown(run: &ColumnRun) -> bool {
-    run.purpose == Purpose::Law && run.family() == run.material
-}
-
-fn name(material: &str) -> String {
-    match material.split_once('_') {
-        Some(("lagree", variant)) => format!("Lagrée et al., {}", variant.replace("diameter_", "D = ")),
-        Some((grains, variant)) => format!("{grains}, {}", variant.replace("inertia_", "I_0 = ")),
-        None if material == "lagree" => "grains of Lagrée et al.".to_owned(),
-        None if material == "glass" => "glass beads of Table 1".to_owned(),
-        None => "sand of Table 2".to_owned(),
-    }
+    run.purpose == Purpose::Law && run.material.is_published()
 }
 
 /// Run-out and height over the aspect ratio, with every published law of the geometry.
@@ -99,7 +90,7 @@ fn scaling_figure(records: &[&Record]) -> Figure {
                 .map(|(run, record)| (run.initial_height(), measure(&record.data)))
                 .collect();
             if !points.is_empty() {
-                let entry = if legend { name(material) } else { String::new() };
+                let entry = if legend { material.title() } else { String::new() };
                 panel.series.push(Series::new(&entry, Mark::Points, slot, points));
             }
             if let Some(found) = scaling::fit(records, material, measure) {
@@ -126,10 +117,10 @@ fn scaling_figure(records: &[&Record]) -> Figure {
 }
 
 fn label(run: &ColumnRun) -> String {
-    let material = match (run.family(), run.material == run.family()) {
-        ("lagree", true) => "Lagrée".to_owned(),
-        (_, true) => run.material.clone(),
-        (_, false) => name(&run.material),
+    let material = match run.material {
+        Material::LAGREE => "Lagrée".to_owned(),
+        published if published.is_published() => published.to_string(),
+        altered => altered.title(),
     };
     format!("{material}, a = {}", run.aspect_ratio)
 }
@@ -176,9 +167,7 @@ fn histories(records: &[&Record]) -> Figure {
 
 /// The values of a run's variant as a file name: `sand-0.9-20`.
 fn stem(run: &ColumnRun) -> String {
-    let variant = run.variant();
-    let values: Vec<&str> = variant.split(',').filter_map(|part| part.split('=').nth(1)).collect();
-    values.join("-").replace('_', "-")
+    run.variant().file_name_of_values()
 }
 
 fn view(run: &ColumnRun) -> View {

@@ -8,7 +8,7 @@ use super::velocity_profile::{Station, decay_length};
 use super::wedge::Wedge;
 use crate::case::Run;
 use crate::metric::{Confidence, Kind, Limit, Metric};
-use crate::observe::{Frame, Recorded};
+use crate::observation::{Frame, Recorded};
 
 /// Time of the velocity profiles over √(h_0/g) `[-]`: in mid-collapse.
 const PROFILE_TIME: f64 = 1.5;

@@ -8,6 +8,7 @@ mod deposit;
 mod energy;
 pub(super) mod figures;
 mod flow_metrics;
+mod material;
 pub(super) mod metrics;
 pub(super) mod pictures;
 mod scaling;
@@ -18,11 +19,11 @@ mod wedge;
 
 pub use column::{ColumnRun, Geometry, Purpose};
 pub use deposit::{BIN_WIDTH, Collapse, FRONT_THICKNESS, front};
+pub use material::{Alteration, Grains, Material};
 pub use slope::{SlopeCollapse, SlopeRun};
 
-use crate::case::Run;
-use crate::error::InputError;
-use crate::observe::Recorded;
+use crate::case::{ParameterError, Run};
+use crate::observation::Recorded;
 use crate::output::Table;
 
 /// A run with what it left behind.
@@ -31,7 +32,7 @@ pub(super) type Record = (ColumnRun, Recorded<Collapse>);
 /// Tables of one run: the deposit and the time series.
 pub(super) fn tables((run, record): &Record) -> Vec<Table> {
     let collapse = &record.data;
-    let stem = run.variant().replace(['=', ','], "-").replace('_', "-");
+    let stem = run.variant().file_name();
     let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
     let energy = |kind: &str| format!("{kind} energy [{}]", run.geometry.energy_unit());
     let series = |k: usize| {
@@ -56,7 +57,7 @@ pub(super) fn tables((run, record): &Record) -> Vec<Table> {
 const MOST_PARTICLES: f64 = 5e6;
 
 /// Refuses columns that nobody can wait for; `field` names the parameter that a run's resolution comes from.
-pub(super) fn check_size(runs: &[ColumnRun], field: impl Fn(&ColumnRun) -> String) -> Result<(), InputError> {
+pub(super) fn check_size(runs: &[ColumnRun], field: impl Fn(&ColumnRun) -> String) -> Result<(), ParameterError> {
     let Some(run) = runs.iter().find(|run| run.particles() > MOST_PARTICLES) else { return Ok(()) };
     let rule = format!("such that no column has more than {MOST_PARTICLES:.0e} particles");
     let remedy = format!(
@@ -64,5 +65,5 @@ pub(super) fn check_size(runs: &[ColumnRun], field: impl Fn(&ColumnRun) -> Strin
         run.aspect_ratio,
         run.particles()
     );
-    Err(InputError::field(&field(run), run.resolution, &rule, &remedy))
+    Err(ParameterError::field(&field(run), run.resolution, &rule, &remedy))
 }

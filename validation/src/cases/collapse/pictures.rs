@@ -1,7 +1,7 @@
 //! How a heap is shown: moving pictures, and pictures with speed on one side and pressure on the other.
 
 use crate::figure::{Animation, AnimationFrame, Axis, Field, Figure, Mark, Panel, Series};
-use crate::observe::{Frame, Motion, MotionFrame};
+use crate::observation::{Frame, Motion, MotionFrame};
 
 /// Share of all speeds that the colours span: single grains of spray would leave no colour to the heap.
 const SPANNED: f64 = 0.998;

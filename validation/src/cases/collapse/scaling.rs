@@ -3,7 +3,8 @@
 use super::Record;
 use super::column::{Geometry, Purpose};
 use super::deposit::Collapse;
-use crate::metric::{Confidence, Kind, Limit, Metric};
+use super::material::{Alteration, Grains, Material};
+use crate::metric::{Confidence, Kind, Limit, Metric, Value, Variant};
 use crate::reference::PLANAR_COLLAPSE;
 use crate::statistics::{Exponent, power_law, student_quantile};
 
@@ -15,12 +16,12 @@ const SHALLOW: f64 = 2.0;
 const CONFIDENCE: f64 = 0.95;
 
 /// Material, smallest aspect ratio of a tall column, gates of the exponents of run-out and height.
-type Family = (&'static str, f64, Option<Limit>, Option<Limit>);
+type Family = (Material, f64, Option<Limit>, Option<Limit>);
 
 const FAMILIES: [Family; 3] = [
-    ("sand", 5.0, Some(Limit::Within(2.0 / 3.0 - 0.05, 2.0 / 3.0 + 0.05)), None),
-    ("lagree", 7.0, Some(Limit::Within(0.65, 0.75)), Some(Limit::Within(0.3, 0.45))),
-    ("sand_inertia_0.279", 5.0, None, None),
+    (Material::SAND, 5.0, Some(Limit::Within(2.0 / 3.0 - 0.05, 2.0 / 3.0 + 0.05)), None),
+    (Material::LAGREE, 7.0, Some(Limit::Within(0.65, 0.75)), Some(Limit::Within(0.3, 0.45))),
+    (Material::altered(Grains::Sand, Alteration::ReferenceInertia(0.279)), 5.0, None, None),
 ];
 
 /// A power law through the tall columns of a material.
@@ -35,7 +36,7 @@ pub(super) struct Scaling {
 }
 
 /// The planar columns of a material that the laws are compared with, between two aspect ratios.
-fn columns<'a>(records: &[&'a Record], material: &str, from: f64, to: f64) -> Vec<&'a Record> {
+fn columns<'a>(records: &[&'a Record], material: Material, from: f64, to: f64) -> Vec<&'a Record> {
     let own = |(run, _): &&Record| {
         let planar = run.geometry == Geometry::Planar && run.purpose == Purpose::Law;
         planar && run.material == material && (from..=to).contains(&run.aspect_ratio)
@@ -44,7 +45,7 @@ fn columns<'a>(records: &[&'a Record], material: &str, from: f64, to: f64) -> Ve
 }
 
 /// The fit of a quantity; none for fewer than four tall columns.
-pub(super) fn fit(records: &[&Record], material: &str, quantity: fn(&Collapse) -> f64) -> Option<Scaling> {
+pub(super) fn fit(records: &[&Record], material: Material, quantity: fn(&Collapse) -> f64) -> Option<Scaling> {
     let smallest = FAMILIES.iter().find(|family| family.0 == material)?.1;
     let tall = columns(records, material, smallest, f64::INFINITY);
     let points: Vec<(f64, f64)> =
@@ -56,7 +57,7 @@ pub(super) fn fit(records: &[&Record], material: &str, quantity: fn(&Collapse) -
 }
 
 /// Mean of the run-out over the aspect ratio of shallow columns `[-]`; none without any.
-fn shallow_coefficient(records: &[&Record], material: &str) -> Option<f64> {
+fn shallow_coefficient(records: &[&Record], material: Material) -> Option<f64> {
     let shallow = columns(records, material, 0.0, SHALLOW);
     let sum: f64 = shallow.iter().map(|(run, record)| record.data.run_out() / run.initial_height()).sum();
     (!shallow.is_empty()).then(|| sum / shallow.len() as f64)
@@ -80,16 +81,16 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     let records: Vec<&Record> = records.iter().collect();
     let mut metrics = Vec::new();
     for (material, smallest, run_out_gate, height_gate) in FAMILIES {
-        let ratios: Vec<String> = columns(&records, material, smallest, f64::INFINITY)
-            .iter()
-            .map(|(run, _)| run.aspect_ratio.to_string())
-            .collect();
+        let columns = columns(&records, material, smallest, f64::INFINITY);
+        let ratios = Value::list(columns.iter().map(|(run, _)| run.aspect_ratio));
         type Quantity = (&'static str, fn(&Collapse) -> f64, Option<Limit>);
         let quantities: [Quantity; 2] =
             [("run_out", Collapse::run_out, run_out_gate), ("final_height", Collapse::final_height, height_gate)];
         for (quantity, measure, gate) in quantities {
             let Some(scaling) = fit(&records, material, measure) else { continue };
-            let variant = format!("quantity={quantity},material={material},aspect_ratio={}", ratios.join("_"));
+            let variant = Variant::of("quantity", quantity)
+                .and("material", material.to_string())
+                .and("aspect_ratio", ratios.clone());
             let observed = |name: &str, value: f64| {
                 Metric::observed(name, &variant, value, "-")
                     .of_kind(Kind::Validation)

@@ -3,10 +3,10 @@
 use super::block::Block;
 use super::camera::Camera;
 use super::deposit::{Collapse, Surveyor, front};
-use crate::case::{Progress, Run};
+use crate::case::{ParameterError, Progress, Run};
 use crate::cases::recording::Ending;
-use crate::error::InputError;
-use crate::observe::{Frame, Recorded};
+use crate::metric::{Value, Variant};
+use crate::observation::{Frame, Recorded};
 use crate::reference::SLOPE_EXPERIMENT;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
@@ -74,12 +74,13 @@ pub struct SlopeCollapse {
 impl Run for SlopeRun {
     type Observation = SlopeCollapse;
 
-    fn variant(&self) -> String {
-        let gate = if self.gate_speed > 0.0 { self.gate_speed.to_string() } else { "none".to_owned() };
-        let collapse = format!("slope_angle={},gate={gate},resolution={}", self.slope_angle, self.resolution);
+    fn variant(&self) -> Variant {
+        let gate = if self.gate_speed > 0.0 { Value::from(self.gate_speed) } else { Value::from("none") };
+        let collapse =
+            Variant::of("slope_angle", self.slope_angle).and("gate", gate).and("resolution", self.resolution);
         match self.regularisation_rate {
             None => collapse,
-            Some(rate) => format!("{collapse},regularisation_rate={rate}"),
+            Some(rate) => collapse.and("regularisation_rate", rate),
         }
     }
 
@@ -88,7 +89,7 @@ impl Run for SlopeRun {
         self.duration / step * self.particles()
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, ParameterError> {
         let started = std::time::Instant::now();
         let mut simulation = Simulation::new(self.scene())?;
         let particles = simulation.particles().flow_count();

@@ -5,7 +5,7 @@ use super::column::{ColumnRun, Purpose};
 use super::deposit::Collapse;
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::metric::{Confidence, Kind, Metric};
+use crate::metric::{Confidence, Kind, Metric, Variant};
 
 /// The regularised runs.
 fn regularised(records: &[Record]) -> impl Iterator<Item = &Record> {
@@ -52,8 +52,9 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
             ("centroid", difference(|collapse| collapse.centroid)),
             ("final_height", difference(Collapse::final_height)),
         ] {
+            let variant = Variant::of("quantity", quantity).followed_by(&variant);
             metrics.push(
-                Metric::observed("regularised_difference", &format!("quantity={quantity},{variant}"), value, "%")
+                Metric::observed("regularised_difference", &variant, value, "%")
                     .against(Some(0.0), "the same column by return mapping", Confidence::Exact)
                     .with_snapshot_tolerance(0.02, 0.1),
             );
@@ -97,7 +98,7 @@ mod tests {
     use super::*;
     use crate::case::{Parameters, Tier};
     use crate::cases::column_planar::ColumnPlanarParameters;
-    use crate::observe::{Outcome, Recorded};
+    use crate::observation::{Outcome, Recorded};
 
     /// The metrics' names of columns of sand with these aspect ratios and of regularised ones with a = 1.
     fn names(sand: &[f64]) -> Vec<String> {

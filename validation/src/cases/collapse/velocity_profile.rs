@@ -1,7 +1,7 @@
 //! Velocity over depth in a spreading heap: a flowing layer, about linear, and below it a tail that decays.
 
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::observe::Frame;
+use crate::observation::Frame;
 use crate::statistics::{Regression, common_slope, linear_regression};
 
 /// The flowing layer moves faster than this share of the profile's largest velocity `[-]`; what is slower is the tail.

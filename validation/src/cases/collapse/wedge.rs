@@ -1,7 +1,7 @@
 //! What never moved: the part of a heap that the collapse leaves in its place, and the surface that bounds it.
 
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
-use crate::observe::Frame;
+use crate::observation::Frame;
 use crate::statistics::linear_regression;
 
 /// The failure surface is read where the undisturbed part of a row has a length between these shares of the initial

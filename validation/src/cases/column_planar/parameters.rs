@@ -1,9 +1,8 @@
 //! The case's parameters and their tiers.
 
-use crate::case::{Parameters, Tier};
-use crate::cases::collapse::{self, ColumnRun, Geometry, Purpose};
+use crate::case::{ParameterError, Parameters, Tier};
+use crate::cases::collapse::{self, Alteration, ColumnRun, Geometry, Grains, Material, Purpose};
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, TABLE_2_SAND};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, each, positive, within};
@@ -204,8 +203,9 @@ impl Parameters for ColumnPlanarParameters {
         }
     }
 
-    fn check(&self) -> Result<(), InputError> {
-        for (name, columns) in self.materials() {
+    fn check(&self) -> Result<(), ParameterError> {
+        for (grains, columns) in self.materials() {
+            let name = grains.name();
             rules::material(&format!("{name}.law"), &Rheology::MuI(columns.law))?;
         }
         if !self.regularised.aspect_ratios.is_empty() {
@@ -220,10 +220,10 @@ impl Parameters for ColumnPlanarParameters {
     }
 
     fn runs(&self) -> Vec<ColumnRun> {
-        let column = |material: &str, columns: &Columns, aspect_ratio: f64| ColumnRun {
+        let column = |material: Material, columns: &Columns, aspect_ratio: f64| ColumnRun {
             purpose: Purpose::Law,
             geometry: Geometry::Planar,
-            material: material.to_owned(),
+            material,
             aspect_ratio,
             resolution: self.resolution_of(aspect_ratio),
             half_width: columns.half_width_of(aspect_ratio),
@@ -234,23 +234,28 @@ impl Parameters for ColumnPlanarParameters {
             jitter: self.jitter,
             seed: self.seed,
             duration: self.duration,
-            shown_times: if material == "sand" || material == "glass" { shown_times(aspect_ratio) } else { Vec::new() },
+            shown_times: if matches!(material, Material::SAND | Material::GLASS) {
+                shown_times(aspect_ratio)
+            } else {
+                Vec::new()
+            },
             numerics: self.numerics,
         };
         let mut runs = Vec::new();
-        for (material, columns) in self.materials() {
+        for (grains, columns) in self.materials() {
+            let material = Material::published(grains);
             runs.extend(columns.aspect_ratios.iter().map(|&aspect_ratio| column(material, columns, aspect_ratio)));
         }
         let (sand, lagree) = (&self.sand, &self.lagree);
         for &reference_inertia in &self.sand_inertias.values {
             let columns = Columns { law: MuI { reference_inertia, ..sand.law }, ..sand.clone() };
-            let material = format!("sand_inertia_{reference_inertia}");
-            runs.extend(self.sand_inertias.aspect_ratios.iter().map(|&ratio| column(&material, &columns, ratio)));
+            let material = Material::altered(Grains::Sand, Alteration::ReferenceInertia(reference_inertia));
+            runs.extend(self.sand_inertias.aspect_ratios.iter().map(|&ratio| column(material, &columns, ratio)));
         }
         for &grain_diameter in &self.lagree_diameters.values {
             let columns = Columns { law: MuI { grain_diameter, ..lagree.law }, ..lagree.clone() };
-            let material = format!("lagree_diameter_{grain_diameter}");
-            runs.extend(self.lagree_diameters.aspect_ratios.iter().map(|&ratio| column(&material, &columns, ratio)));
+            let material = Material::altered(Grains::Lagree, Alteration::GrainDiameter(grain_diameter));
+            runs.extend(self.lagree_diameters.aspect_ratios.iter().map(|&ratio| column(material, &columns, ratio)));
         }
         let study = &self.sensitivity;
         let finest = study.resolutions.iter().copied().max().unwrap_or(0);
@@ -262,7 +267,7 @@ impl Parameters for ColumnPlanarParameters {
                     usize::MAX
                 });
                 for &seed in seeds {
-                    let own = column("lagree", lagree, ratio);
+                    let own = column(Material::LAGREE, lagree, ratio);
                     // the column that is there for the laws is one of its ensemble
                     let known =
                         resolution == own.resolution && seed == own.seed && lagree.aspect_ratios.contains(&ratio);
@@ -276,7 +281,12 @@ impl Parameters for ColumnPlanarParameters {
             for &resolution in &study.hourglass_resolutions {
                 runs.extend(study.hourglass.iter().map(|&hourglass| {
                     let numerics = Numerics { hourglass, ..self.numerics };
-                    ColumnRun { purpose: Purpose::Hourglass, resolution, numerics, ..column("lagree", lagree, ratio) }
+                    ColumnRun {
+                        purpose: Purpose::Hourglass,
+                        resolution,
+                        numerics,
+                        ..column(Material::LAGREE, lagree, ratio)
+                    }
                 }));
             }
         }
@@ -286,7 +296,7 @@ impl Parameters for ColumnPlanarParameters {
             duration: REGULARISED_DURATION.min(self.duration),
             numerics: Numerics { viscous_step: ViscousStep::Implicit, ..self.numerics },
             shown_times: Vec::new(),
-            ..column("sand", sand, ratio)
+            ..column(Material::SAND, sand, ratio)
         }));
         runs
     }
@@ -294,8 +304,8 @@ impl Parameters for ColumnPlanarParameters {
 
 impl ColumnPlanarParameters {
     /// The materials with their names.
-    pub(super) fn materials(&self) -> [(&'static str, &Columns); 3] {
-        [("sand", &self.sand), ("glass", &self.glass), ("lagree", &self.lagree)]
+    pub(super) fn materials(&self) -> [(Grains, &Columns); 3] {
+        [(Grains::Sand, &self.sand), (Grains::Glass, &self.glass), (Grains::Lagree, &self.lagree)]
     }
 
     /// The parameter that a column's resolution comes from.

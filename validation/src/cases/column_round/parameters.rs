@@ -1,10 +1,9 @@
 //! The case's parameters and their tiers.
 
-use crate::case::{Parameters, Tier};
-use crate::cases::collapse::{self, ColumnRun, Geometry, Purpose};
+use crate::case::{ParameterError, Parameters, Tier};
+use crate::cases::collapse::{self, ColumnRun, Geometry, Material, Purpose};
 use crate::cases::column_planar::ColumnPlanarParameters;
 use crate::cases::rules;
-use crate::error::InputError;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
@@ -78,7 +77,7 @@ impl Parameters for ColumnRoundParameters {
         }
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), ParameterError> {
         rules::material("sand", &Rheology::MuI(self.sand))?;
         rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.sand))?;
         collapse::check_size(&self.runs(), |run| {
@@ -92,7 +91,7 @@ impl Parameters for ColumnRoundParameters {
         let run = |column: &RoundColumn| ColumnRun {
             purpose: Purpose::Law,
             geometry: Geometry::Round,
-            material: "sand".to_owned(),
+            material: Material::SAND,
             aspect_ratio: column.aspect_ratio,
             resolution: column.resolution,
             half_width: self.radius,

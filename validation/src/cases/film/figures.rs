@@ -7,7 +7,7 @@ use super::metrics::{convergence_errors, shear_rates};
 use super::parameters::FilmRun;
 use crate::cases::bagnold::Arrangement;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::observe::Outcome;
+use crate::observation::Outcome;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let newtonian = |run: &FilmRun| run.fluid.kind() == FluidKind::Newtonian && run.particles == Arrangement::Jittered;

@@ -7,8 +7,8 @@ use super::parameters::FilmRun;
 use crate::case::Run;
 use crate::cases::bagnold::Arrangement;
 use crate::cases::layer::{self, BINS, LayerObservation};
-use crate::metric::{Confidence, Limit, Metric};
-use crate::observe::{Outcome, Recorded};
+use crate::metric::{Confidence, Limit, Metric, Value, Variant};
+use crate::observation::{Outcome, Recorded};
 use crate::statistics::{linear_fit, log_log_slope};
 
 const EXACT: &str = "exact solution of the film";
@@ -34,8 +34,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     }
     let errors = convergence_errors(records);
     if errors.len() >= 2 {
-        let rows: Vec<String> = errors.iter().map(|(rows, _)| format!("{rows:.0}")).collect();
-        let variant = format!("fluid=newtonian,particles=lattice,resolution={}", rows.join("_"));
+        let rows = Value::list(errors.iter().map(|(rows, _)| *rows));
+        let variant = Variant::of("fluid", "newtonian").and("particles", "lattice").and("resolution", rows);
         metrics.push(
             Metric::observed("observed_order", &variant, -log_log_slope(&errors).unwrap_or(f64::NAN), "-")
                 .against(None, "convergence to the weakly compressible film, exact for the model", Confidence::Exact)
@@ -47,7 +47,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
 }
 
 /// What another set of numerics gives: to be seen beside the default, not to be judged.
-fn compared(metrics: &mut Vec<Metric>, run: &FilmRun, record: &Recorded<LayerObservation>, variant: &str) {
+fn compared(metrics: &mut Vec<Metric>, run: &FilmRun, record: &Recorded<LayerObservation>, variant: &Variant) {
     // a run that diverged has no profile to speak of
     if matches!(record.outcome, Outcome::Diverged { .. }) {
         return;
@@ -72,7 +72,7 @@ pub(super) fn flux_error(run: &FilmRun, record: &Recorded<LayerObservation>) -> 
     100.0 * (sum / count * incline.layer_height / run.fluid.flux(incline) - 1.0)
 }
 
-fn profile(metrics: &mut Vec<Metric>, run: &FilmRun, record: &Recorded<LayerObservation>, variant: &str) {
+fn profile(metrics: &mut Vec<Metric>, run: &FilmRun, record: &Recorded<LayerObservation>, variant: &Variant) {
     let flux_error = flux_error(run, record);
     // first order in the spacing at the bed, so that 20 rows have twice the error of 40
     let limit = match (run.fluid.kind(), run.resolution) {
@@ -93,7 +93,7 @@ fn profile(metrics: &mut Vec<Metric>, run: &FilmRun, record: &Recorded<LayerObse
     }
 }
 
-fn plug_edge(metrics: &mut Vec<Metric>, run: &FilmRun, record: &Recorded<LayerObservation>, variant: &str) {
+fn plug_edge(metrics: &mut Vec<Metric>, run: &FilmRun, record: &Recorded<LayerObservation>, variant: &Variant) {
     let incline = run.incline();
     let Some(exact) = run.fluid.plug_edge(incline) else { return };
     let points: Vec<(f64, f64)> = shear_rates(record)

@@ -2,12 +2,12 @@
 
 use super::comparison::NumericsSet;
 use super::fluid::{Fluid, FluidKind};
-use crate::case::{Parameters, Progress, Run, Tier};
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
 use crate::cases::bagnold::Arrangement;
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::cases::rules;
-use crate::error::InputError;
-use crate::observe::Recorded;
+use crate::metric::Variant;
+use crate::observation::Recorded;
 use crate::reference::Incline;
 use bagnold_solver::material::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
 use bagnold_solver::parameter::{between, each, positive};
@@ -104,7 +104,7 @@ impl Parameters for FilmParameters {
         }
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), ParameterError> {
         if self.comparison_resolution > 0 {
             rules::row_count("comparison_resolution", self.comparison_resolution)?;
             let widest = NumericsSet::OTHERS.map(|set| set.numerics(self.numerics));
@@ -210,25 +210,26 @@ pub struct FilmRun {
 impl Run for FilmRun {
     type Observation = LayerObservation;
 
-    fn variant(&self) -> String {
+    fn variant(&self) -> Variant {
         let fluid = match self.fluid.kind() {
             FluidKind::Newtonian => "newtonian",
             FluidKind::Bingham => "bingham",
             FluidKind::HerschelBulkley => "herschel_bulkley",
         };
         let particles = if self.particles == Arrangement::Lattice { "lattice" } else { "jittered" };
-        let numerics = match self.numerics_set {
-            NumericsSet::Default => String::new(),
-            other => format!("numerics={},", other.name()),
+        let variant = Variant::of("fluid", fluid).and("particles", particles);
+        let variant = match self.numerics_set {
+            NumericsSet::Default => variant,
+            other => variant.and("numerics", other.name()),
         };
-        format!("fluid={fluid},particles={particles},{numerics}resolution={}", self.resolution)
+        variant.and("resolution", self.resolution)
     }
 
     fn particle_steps(&self) -> f64 {
         self.layer(&|_| 0.0).expected_steps() * (self.resolution * self.columns) as f64
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         let moving = self.fluid.kind() != FluidKind::Newtonian;
         let incline = self.incline();
         let velocity = |y: f64| if moving { self.fluid.velocity(incline, y) } else { 0.0 };

@@ -4,7 +4,7 @@ use super::{FlowThicknessParameters, FlowThicknessRun, Record, SteadyRun, collap
 use crate::case::Run;
 use crate::cases::collapse::metrics::conservation;
 use crate::cases::layer::LayerObservation;
-use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
 use crate::reference::{GLASS_BEADS_FLOW_RULE, RoughIncline};
 
 /// Part of a steady flow's time series that its mean velocity is taken over, the last `[-]`.
@@ -63,7 +63,7 @@ fn thicknesses(metrics: &mut Vec<Metric>, parameters: &FlowThicknessParameters, 
         metrics.extend(conservation(&run.variant(), &data.collapse));
         let law = incline.flow_thickness(run.initial_height, run.slope_angle.to_radians());
         for &station in &parameters.stations {
-            let variant = format!("station={station},{}", run.variant());
+            let variant = Variant::of("station", station).followed_by(&run.variant());
             let history = data.thickness_at(station / run.reservoir_length);
             let largest = history.iter().fold(0.0_f64, |most, &h| most.max(h)) * run.reservoir_length;
             if largest == 0.0 {
@@ -117,7 +117,7 @@ fn flow_rule(metrics: &mut Vec<Metric>, parameters: &FlowThicknessParameters, re
     }
     let (measured, expected) = (xy / xx, expected / f64::from(count));
     metrics.push(
-        Metric::observed("flow_coefficient", "", measured, "-")
+        Metric::observed("flow_coefficient", &Variant::default(), measured, "-")
             .against(
                 Some(expected),
                 "(41) solved for β at the slopes of the flows: an identity of the law",
@@ -130,7 +130,7 @@ fn flow_rule(metrics: &mut Vec<Metric>, parameters: &FlowThicknessParameters, re
             .with_snapshot_tolerance(2e-3, 0.0),
     );
     metrics.push(
-        Metric::observed("flow_coefficient_published", "", measured, "-")
+        Metric::observed("flow_coefficient_published", &Variant::default(), measured, "-")
             .of_kind(Kind::Validation)
             .against(Some(parameters.flow_coefficient), "Table 1, β of glass beads", GLASS_BEADS_FLOW_RULE.confidence)
             .with_snapshot_tolerance(2e-3, 0.0),

@@ -10,11 +10,10 @@ pub use start_stop::{Fate, LayerAtSlope, StartStop, StartStopRun, Trial};
 
 use super::collapse::{SlopeCollapse, SlopeRun};
 use super::layer::LayerObservation;
-use crate::case::{Case, Progress, RecordOf, Run};
-use crate::error::InputError;
+use crate::case::{Case, ParameterError, Progress, RecordOf, Run};
 use crate::figure::Figure;
-use crate::metric::Metric;
-use crate::observe::Recorded;
+use crate::metric::{Metric, Variant};
+use crate::observation::Recorded;
 use crate::output::Table;
 use serde::{Deserialize, Serialize};
 
@@ -60,13 +59,13 @@ type Record = RecordOf<FlowThicknessParameters>;
 impl Run for FlowThicknessRun {
     type Observation = FlowThicknessObservation;
 
-    fn variant(&self) -> String {
+    fn variant(&self) -> Variant {
         match self {
             Self::Collapse(run) => run.variant(),
-            Self::StartStop(run) => format!("thickness={},rows={}", run.layer.thickness, run.layer.rows),
-            Self::Steady(run) => {
-                format!("thickness={},slope_angle={},rows={}", run.layer.thickness, run.slope_angle, run.layer.rows)
-            }
+            Self::StartStop(run) => Variant::of("thickness", run.layer.thickness).and("rows", run.layer.rows),
+            Self::Steady(run) => Variant::of("thickness", run.layer.thickness)
+                .and("slope_angle", run.slope_angle)
+                .and("rows", run.layer.rows),
         }
     }
 
@@ -79,7 +78,7 @@ impl Run for FlowThicknessRun {
         }
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<FlowThicknessObservation>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<FlowThicknessObservation>, ParameterError> {
         Ok(match self {
             Self::Collapse(run) => run.simulate(progress)?.map(FlowThicknessObservation::Collapse),
             Self::StartStop(run) => run.simulate(progress)?.map(FlowThicknessObservation::StartStop),
@@ -128,7 +127,7 @@ fn trials((run, record): &Record) -> Option<Table> {
     };
     let row = |trial: &Trial| vec![trial.slope_angle, stops(trial), trial.time, trial.mean_velocity];
     Some(Table {
-        name: format!("trials-{}", run.variant().replace(['=', ','], "-").replace('_', "-")),
+        name: format!("trials-{}", run.variant().file_name()),
         columns: columns.map(str::to_owned).to_vec(),
         rows: found.trials.iter().map(row).collect(),
     })

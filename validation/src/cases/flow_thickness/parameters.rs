@@ -2,10 +2,9 @@
 
 use super::start_stop::{LayerAtSlope, StartStopRun};
 use super::{FlowThicknessRun, SteadyRun};
-use crate::case::{Parameters, Tier};
+use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::incline_collapse::InclineCollapseParameters;
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::reference::GLASS_BEADS_FLOW_RULE;
 use bagnold_solver::parameter::{between, each, entry, positive};
 use schemars::JsonSchema;
@@ -97,7 +96,7 @@ impl Parameters for FlowThicknessParameters {
         }
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), ParameterError> {
         self.collapse.check().map_err(|error| error.within("collapse"))?;
         for (index, &station) in self.stations.iter().enumerate() {
             let field = format!("stations[{index}]");

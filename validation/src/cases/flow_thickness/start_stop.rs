@@ -1,10 +1,9 @@
 //! The slope at which a layer of given thickness stops flowing, bisected.
 
-use crate::case::Progress;
+use crate::case::{ParameterError, Progress};
 use crate::cases::layer::{Layer, Preparation, bulk_modulus};
 use crate::cases::recording::Ending;
-use crate::error::InputError;
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 use crate::reference::BagnoldProfile;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
@@ -170,7 +169,7 @@ impl Motion {
 }
 
 impl StartStopRun {
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<StartStop>, InputError> {
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<StartStop>, ParameterError> {
         let started = std::time::Instant::now();
         let (mut stopping, mut flowing) = self.bracket;
         let rounds = 2.0 + ((flowing - stopping) / self.tolerance).log2().ceil().max(0.0);
@@ -213,7 +212,7 @@ impl StartStopRun {
         progress: &dyn Progress,
         (round, rounds): (f64, f64),
         started: std::time::Instant,
-    ) -> Result<(Trial, Simulation<2>, Ending<2>), InputError> {
+    ) -> Result<(Trial, Simulation<2>, Ending<2>), ParameterError> {
         let start = Motion::of(self.layer.profile(self.start_angle));
         let layer = self.layer.layer(angle, &start);
         let mut simulation = Simulation::new(layer.prepared_scene()?)?;

@@ -5,7 +5,7 @@ use super::parameters::{HydrostaticRun, MaterialKind};
 use crate::case::Run;
 use crate::cases::layer::{self, LayerObservation};
 use crate::metric::{Confidence, Limit, Metric};
-use crate::observe::Recorded;
+use crate::observation::Recorded;
 
 const EXACT: &str = "hydrostatic pressure of the equation of state, K (exp(ρ0 g (H − y)/K) − 1)";
 

@@ -1,10 +1,10 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{Parameters, Progress, Run, Tier};
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::cases::rules;
-use crate::error::InputError;
-use crate::observe::Recorded;
+use crate::metric::Variant;
+use crate::observation::Recorded;
 use crate::reference::GLASS_BEADS;
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::parameter::{between, positive};
@@ -76,7 +76,7 @@ impl Parameters for HydrostaticParameters {
         }
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), ParameterError> {
         rules::columns("columns", self.columns, &self.numerics)?;
         rules::material("grains", &Rheology::MuI(self.grains))?;
         rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.grains))
@@ -156,19 +156,21 @@ pub struct HydrostaticRun {
 impl Run for HydrostaticRun {
     type Observation = LayerObservation;
 
-    fn variant(&self) -> String {
+    fn variant(&self) -> Variant {
         let material = match self.material {
             MaterialKind::Newtonian => "newtonian",
             MaterialKind::MuI => "mu_i",
         };
-        format!("material={material},density_coupling={},resolution={}", self.density_coupling, self.resolution)
+        Variant::of("material", material)
+            .and("density_coupling", self.density_coupling)
+            .and("resolution", self.resolution)
     }
 
     fn particle_steps(&self) -> f64 {
         self.layer().expected_steps() * (self.resolution * self.columns) as f64
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         Ok(self.layer().run(progress)?)
     }
 }

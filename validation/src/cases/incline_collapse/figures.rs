@@ -4,7 +4,7 @@ use super::Record;
 use crate::cases::collapse::pictures::{View, animation, speeds};
 use crate::cases::collapse::{BIN_WIDTH, SlopeRun};
 use crate::figure::{Animation, Axis, Band, Field, Figure, Mark, Panel, Series};
-use crate::observe::Frame;
+use crate::observation::Frame;
 use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
 
 /// Times at which thickness profiles are drawn `[s]`.

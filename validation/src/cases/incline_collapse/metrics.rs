@@ -2,8 +2,8 @@
 
 use super::Record;
 use crate::case::Run;
-use crate::cases::collapse::metrics::conservation;
-use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::cases::collapse::metrics::{momentum_residual, nothing_lost};
+use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
 use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
 
 /// What the gate allows beyond the band of the law's two quotations `[-]`.
@@ -14,12 +14,12 @@ const FRONT_TIMES: [f64; 2] = [0.3, 0.4];
 pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
     let variant = run.variant();
     let data = &record.data.collapse;
-    let mut metrics = conservation(&variant, data).to_vec();
-    if run.regularisation_rate.is_some() {
-        // an implicit step keeps no account of what the walls gave
-        metrics.retain(|metric| metric.name != "momentum_residual");
+    let mut metrics = nothing_lost(&variant, data).to_vec();
+    // an implicit step keeps no account of what the walls gave
+    if run.regularisation_rate.is_none() {
+        metrics.push(momentum_residual(&variant, data));
     }
-    let observed = |name: &str, variant: &str, value: f64, unit: &str| {
+    let observed = |name: &str, variant: &Variant, value: f64, unit: &str| {
         Metric::observed(name, variant, value, unit).of_kind(Kind::Validation).with_snapshot_tolerance(1e-3, 1e-3)
     };
     let angle = run.slope_angle.to_radians();
@@ -57,7 +57,7 @@ pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
     }
     for time in FRONT_TIMES {
         if let Some(index) = data.time.iter().position(|&t| t >= time) {
-            let variant = format!("time={time},{variant}");
+            let variant = Variant::of("time", time).followed_by(&variant);
             metrics.push(observed("front", &variant, data.front[index], "-"));
         }
     }

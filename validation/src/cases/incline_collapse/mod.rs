@@ -53,7 +53,7 @@ fn table((run, record): &Record) -> Table {
     let columns = ["t [s]", "front/r0 [-]", "kinetic energy [J/m]", "potential energy [J/m]"];
     let row = |k: usize| vec![data.time[k], data.front[k], data.kinetic_energy[k], data.potential_energy[k]];
     Table {
-        name: format!("series-{}", run.variant().replace(['=', ','], "-").replace('_', "-")),
+        name: format!("series-{}", run.variant().file_name()),
         columns: columns.map(str::to_owned).to_vec(),
         rows: (0..data.time.len()).map(row).collect(),
     }

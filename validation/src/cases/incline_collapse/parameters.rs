@@ -1,9 +1,8 @@
 //! The case's parameters and their tiers.
 
-use crate::case::{Parameters, Tier};
+use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::collapse::SlopeRun;
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::reference::GLASS_BEADS;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, each, not_negative, positive};
@@ -108,7 +107,7 @@ impl Parameters for InclineCollapseParameters {
         }
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), ParameterError> {
         let (least, most) = (3.0 * self.reservoir_length, 1000.0 * self.reservoir_length);
         let remedy = "the channel must hold the reservoir, the gate and the run-out";
         rules::between("channel_length", self.channel_length, least, most, remedy)?;
@@ -119,7 +118,7 @@ impl Parameters for InclineCollapseParameters {
                 "its height, `initial_height` over `reservoir_length` times this, is {rows}: choose a {} resolution",
                 if rows < 4.0 { "larger" } else { "smaller" }
             );
-            return Err(InputError::field("resolution", self.resolution, rule, &remedy));
+            return Err(ParameterError::field("resolution", self.resolution, rule, &remedy));
         }
         rules::material("material", &Rheology::MuI(self.material))?;
         if self.runs().iter().any(|run| run.gate_speed > 0.0) {

@@ -8,8 +8,8 @@ pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 
 use crate::case::Progress;
 use crate::cases::recording::Ending;
-use crate::metric::{Confidence, Limit, Metric};
-use crate::observe::{Frame, Recorded};
+use crate::metric::{Confidence, Limit, Metric, Variant};
+use crate::observation::{Frame, Recorded};
 use crate::output::Table;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
@@ -247,8 +247,8 @@ pub fn hydrostatic_pressure(bulk_modulus: f64, reference_density: f64, gravity_a
 
 /// Tables of one run: depth profile and time series.
 #[must_use]
-pub fn tables(variant: &str, data: &LayerObservation) -> Vec<Table> {
-    let stem = variant.replace(['=', ','], "-").replace('_', "-");
+pub fn tables(variant: &Variant, data: &LayerObservation) -> Vec<Table> {
+    let stem = variant.file_name();
     let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
     let profile = &data.profile;
     let series = &data.series;
@@ -281,7 +281,7 @@ pub fn tables(variant: &str, data: &LayerObservation) -> Vec<Table> {
 
 /// The number of particles that ended below the bed or far above the layer, gated at 0.
 #[must_use]
-pub fn particles_lost(variant: &str, record: &Recorded<LayerObservation>) -> Metric {
+pub fn particles_lost(variant: &Variant, record: &Recorded<LayerObservation>) -> Metric {
     Metric::observed("particles_lost", variant, record.data.particles_lost as f64, "-")
         .against(Some(0.0), "no particle passes a wall", Confidence::Exact)
         .gated(Limit::AtMost(0.0), "a particle below the bed is lost mass")

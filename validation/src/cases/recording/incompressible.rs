@@ -1,7 +1,7 @@
 //! Records of incompressible simulations.
 
 use super::{Recordable, State};
-use crate::observe::Frame;
+use crate::observation::Frame;
 use bagnold_solver::incompressible::{IncompressibleSimulation, IncompressibleSnapshot, PhaseSnapshot};
 use bagnold_solver::vector::Vector;
 

@@ -6,7 +6,7 @@ mod incompressible;
 mod weakly_compressible;
 
 use crate::case::Progress;
-use crate::observe::{Frame, Outcome, Recorded, state_hash};
+use crate::observation::{Frame, Outcome, Recorded, state_hash};
 use bagnold_solver::run::StopReason;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;

@@ -1,7 +1,7 @@
 //! Records of weakly compressible simulations.
 
 use super::{Recordable, State};
-use crate::observe::Frame;
+use crate::observation::Frame;
 use bagnold_solver::vector::{Vector, equivalent_shear_stress, shear_rate};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;

@@ -2,10 +2,10 @@
 
 use super::parameters::SettlingParameters;
 use super::probe::{Drag, Probe, SettlingObservation};
-use crate::case::{Progress, Run};
+use crate::case::{ParameterError, Progress, Run};
 use crate::cases::channel::Lattice;
-use crate::error::InputError;
-use crate::observe::Recorded;
+use crate::metric::Variant;
+use crate::observation::Recorded;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
@@ -106,15 +106,15 @@ fn relaxation_time(grains: SettlingGrains, law: DragLaw) -> f64 {
 impl Run for GrainRun {
     type Observation = SettlingObservation;
 
-    fn variant(&self) -> String {
-        format!("formulation={},law={}", self.formulation.name(), self.law.name())
+    fn variant(&self) -> Variant {
+        Variant::of("formulation", self.formulation.name()).and("law", self.law.name())
     }
 
     fn particle_steps(&self) -> f64 {
         self.duration / self.numerics.time_step * (self.columns * self.rows + 1) as f64
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, ParameterError> {
         let slip = match self.numerics.drag_slip {
             DragSlip::Pair => Drag::OfPairs,
             DragSlip::Mean => Drag::OfMean,

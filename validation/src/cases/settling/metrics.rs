@@ -6,7 +6,7 @@ use super::probe::{SettlingObservation, SettlingSeries};
 use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;
 use crate::case::Run;
-use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
 use crate::reference::{richardson_zaki_confidence, richardson_zaki_exponent};
 
 const ALONE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ½ for the planar form (30)";
@@ -23,7 +23,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
 }
 
 /// Mean of an array over its reference less one `[%]`, observed; its own error is what it may drift by.
-fn error(name: &str, variant: &str, series: &SettlingSeries, array: &[f64], (root, source): (f64, &str)) -> Metric {
+fn error(name: &str, variant: &Variant, series: &SettlingSeries, array: &[f64], (root, source): (f64, &str)) -> Metric {
     let (mean, noise) = series.mean(array);
     Metric::observed(name, variant, 100.0 * (mean / root - 1.0), "%")
         .against(Some(0.0), source, Confidence::Exact)
@@ -81,7 +81,7 @@ fn together(run: &SuspensionRun, data: &SettlingObservation) -> Vec<Metric> {
     metrics
 }
 
-fn momentum(variant: &str, error: f64) -> Metric {
+fn momentum(variant: &Variant, error: f64) -> Metric {
     Metric::observed("momentum_error", variant, error, "-")
         .against(Some(0.0), "change of momentum = impulse of gravity and floor, in every step", Confidence::Exact)
         .gated(

@@ -3,9 +3,8 @@
 use super::grain::Formulation;
 use super::runs::{self, SettlingRun};
 use super::suspension::{LEAST_BED, covers};
-use crate::case::{Parameters, Tier};
+use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::rules;
-use crate::error::InputError;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::incompressible::{PressureSource, ProjectionNumerics, SurfaceTreatment};
 use bagnold_solver::material::drag::DragLaw;
@@ -157,10 +156,10 @@ impl Parameters for SettlingParameters {
         }
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), ParameterError> {
         if self.grain_density <= self.water.density {
             let (rule, remedy) = ("greater than the density of the water", "grains that float do not settle");
-            return Err(InputError::field("grain_density", self.grain_density, rule, remedy));
+            return Err(ParameterError::field("grain_density", self.grain_density, rule, remedy));
         }
         rules::projection("numerics", &self.numerics)?;
         self.check_operators()?;
@@ -186,13 +185,13 @@ impl SettlingParameters {
     }
 
     /// The operators that suspensions allow.
-    fn check_operators(&self) -> Result<(), InputError> {
+    fn check_operators(&self) -> Result<(), ParameterError> {
         if self.suspension.laws.is_empty() {
             return Ok(());
         }
         let remedy =
             "single grains have the paper's operators by the formulation \"paper\"; or empty `suspension.laws`";
-        let refused = |field, value, rule| Err(InputError::field(field, value, rule, remedy));
+        let refused = |field, value, rule| Err(ParameterError::field(field, value, rule, remedy));
         if self.numerics.pressure_source != PressureSource::Divergence {
             return refused("numerics.pressure_source", "density", "\"divergence\" with suspensions");
         }
@@ -202,7 +201,7 @@ impl SettlingParameters {
         Ok(())
     }
 
-    fn check_grain(&self) -> Result<(), InputError> {
+    fn check_grain(&self) -> Result<(), ParameterError> {
         let grain = &self.grain;
         self.periods(grain.drag_smoothing_ratio, [("grain.columns", grain.columns), ("grain.rows", grain.rows)])?;
         for (index, &law) in grain.laws.iter().enumerate() {
@@ -210,26 +209,26 @@ impl SettlingParameters {
                 let field = format!("grain.laws[{index}]");
                 let rule = "a law of one grain that covers its Reynolds number";
                 let remedy = "leave out \"ergun\", and \"morsi-alexander\" above R = 50 000";
-                return Err(InputError::field(&field, law.name(), rule, remedy));
+                return Err(ParameterError::field(&field, law.name(), rule, remedy));
             }
         }
         Ok(())
     }
 
     /// Periods in diameters that hold both kernels twice.
-    fn periods(&self, drag_smoothing_ratio: f64, lengths: [(&str, usize); 2]) -> Result<(), InputError> {
+    fn periods(&self, drag_smoothing_ratio: f64, lengths: [(&str, usize); 2]) -> Result<(), ParameterError> {
         let least = (4.0 * drag_smoothing_ratio.max(self.numerics.smoothing_ratio)).ceil() as usize;
         for (field, value) in lengths {
             if !(least..=1000).contains(&value) {
                 let rule = format!("between {least} and 1000");
                 let remedy = "the box must hold the reach of the kernels twice; 12 is quick";
-                return Err(InputError::field(field, value, &rule, remedy));
+                return Err(ParameterError::field(field, value, &rule, remedy));
             }
         }
         Ok(())
     }
 
-    fn check_suspension(&self) -> Result<(), InputError> {
+    fn check_suspension(&self) -> Result<(), ParameterError> {
         let suspension = &self.suspension;
         let reach = suspension.drag_smoothing_ratio;
         self.periods(reach, [("suspension.columns", suspension.columns), ("suspension.rows", suspension.rows)])?;
@@ -239,12 +238,17 @@ impl SettlingParameters {
             let alone = suspension.dilute_fraction > 0.0 && law != DragLaw::Ergun;
             if !(judged || alone) {
                 let rule = format!("a law for one of the solid fractions; \"ergun\" begins at {LEAST_BED}");
-                return Err(InputError::field(&field, law.name(), &rule, "leave it out, or add a denser suspension"));
+                return Err(ParameterError::field(
+                    &field,
+                    law.name(),
+                    &rule,
+                    "leave it out, or add a denser suspension",
+                ));
             }
             let in_range = |&fraction: &f64| self.grains(suspension.diameter).hindered_slip(law, fraction).is_some();
             if !suspension.solid_fractions.iter().all(in_range) {
                 let rule = "a law that covers the grains' Reynolds number";
-                return Err(InputError::field(&field, law.name(), rule, "\"morsi-alexander\" ends at R = 50 000"));
+                return Err(ParameterError::field(&field, law.name(), rule, "\"morsi-alexander\" ends at R = 50 000"));
             }
         }
         Ok(())

@@ -2,7 +2,8 @@
 
 use crate::case::Progress;
 use crate::cases::recording::Ending;
-use crate::observe::Recorded;
+use crate::metric::Variant;
+use crate::observation::Recorded;
 use crate::output::Table;
 use crate::reference::SettlingGrains;
 use crate::statistics::block_average;
@@ -38,7 +39,7 @@ pub struct SettlingSeries {
 }
 
 impl SettlingSeries {
-    pub(super) fn table(&self, variant: &str) -> Table {
+    pub(super) fn table(&self, variant: &Variant) -> Table {
         let columns = [
             "t [s]",
             "slip [m/s]",
@@ -50,7 +51,7 @@ impl SettlingSeries {
         let arrays =
             [&self.time, &self.slip, &self.slip_of_means, &self.root_mean_square_slip, &self.sinking, &self.unevenness];
         Table {
-            name: format!("series-{}", variant.replace(['=', ','], "-").replace('_', "-")),
+            name: format!("series-{}", variant.file_name()),
             columns: columns.map(str::to_owned).to_vec(),
             rows: (0..self.time.len()).map(|k| arrays.iter().map(|array| array[k]).collect()).collect(),
         }

@@ -4,9 +4,9 @@ use super::grain::{self, GrainRun};
 use super::parameters::SettlingParameters;
 use super::probe::SettlingObservation;
 use super::suspension::{self, SuspensionRun};
-use crate::case::{Progress, Run};
-use crate::error::InputError;
-use crate::observe::Recorded;
+use crate::case::{ParameterError, Progress, Run};
+use crate::metric::Variant;
+use crate::observation::Recorded;
 use bagnold_solver::material::drag::DragLaw;
 use serde::Serialize;
 
@@ -28,7 +28,7 @@ pub(super) fn all(parameters: &SettlingParameters) -> Vec<SettlingRun> {
 impl Run for SettlingRun {
     type Observation = SettlingObservation;
 
-    fn variant(&self) -> String {
+    fn variant(&self) -> Variant {
         match self {
             Self::Grain(run) => run.variant(),
             Self::Suspension(run) => run.variant(),
@@ -42,7 +42,7 @@ impl Run for SettlingRun {
         }
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, ParameterError> {
         match self {
             Self::Grain(run) => run.simulate(progress),
             Self::Suspension(run) => run.simulate(progress),

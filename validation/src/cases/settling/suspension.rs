@@ -3,10 +3,10 @@
 use super::grain::WITHOUT_STRENGTH;
 use super::parameters::SettlingParameters;
 use super::probe::{Drag, Probe, SettlingObservation};
-use crate::case::{Progress, Run};
+use crate::case::{ParameterError, Progress, Run};
 use crate::cases::channel::Lattice;
-use crate::error::InputError;
-use crate::observe::Recorded;
+use crate::metric::Variant;
+use crate::observation::Recorded;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
@@ -96,15 +96,15 @@ fn relaxation_time(grains: SettlingGrains, law: DragLaw, solid_fraction: f64) ->
 impl Run for SuspensionRun {
     type Observation = SettlingObservation;
 
-    fn variant(&self) -> String {
-        format!("formulation=continuum,law={},solid_fraction={}", self.law.name(), self.solid_fraction)
+    fn variant(&self) -> Variant {
+        Variant::of("formulation", "continuum").and("law", self.law.name()).and("solid_fraction", self.solid_fraction)
     }
 
     fn particle_steps(&self) -> f64 {
         self.duration / self.numerics.time_step * (2 * self.columns * self.rows) as f64
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, ParameterError> {
         Ok(Probe::run(self.scene(), Drag::OfMean, self.duration, progress)?)
     }
 }

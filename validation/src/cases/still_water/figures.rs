@@ -3,7 +3,7 @@
 use super::Record;
 use super::parameters::StillWaterRun;
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
-use crate::observe::{Frame, Outcome};
+use crate::observation::{Frame, Outcome};
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let mut figures = vec![pressure(records), rest(records)];

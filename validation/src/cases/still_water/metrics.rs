@@ -4,9 +4,23 @@ use super::Record;
 use super::parameters::StillWaterRun;
 use crate::case::Run;
 use crate::cases::channel::{self, ChannelObservation};
-use crate::metric::{Confidence, Limit, Metric};
-use crate::observe::Recorded;
+use crate::metric::{Confidence, Limit, Metric, Quantity};
+use crate::observation::Recorded;
 use crate::statistics::{Estimate, block_average};
+
+const HEIGHT_CHANGE: Quantity = Quantity::verified("height_change", "%", "mean height over half the depth, less 1");
+const RMS_VERTICAL_VELOCITY: Quantity =
+    Quantity::verified("rms_vertical_velocity", "m/s", "root mean square of the vertical velocity");
+const PRESSURE_L2: Quantity =
+    Quantity::verified("pressure_l2", "%", "relative L2 of the pressure against the hydrostatic one");
+const BLOW_UP_TIME: Quantity = Quantity::verified(
+    "blow_up_time",
+    "s",
+    "when a column without stabilisation threw a particle above 1.2 h or diverged",
+);
+
+pub(super) const QUANTITIES: &[Quantity] =
+    &[channel::PARTICLES_LOST, HEIGHT_CHANGE, RMS_VERTICAL_VELOCITY, PRESSURE_L2, BLOW_UP_TIME];
 
 /// Time after which the water is expected to be at rest `[s]`.
 const AT_REST_AFTER: f64 = 15.0;
@@ -34,18 +48,22 @@ fn stabilised(metrics: &mut Vec<Metric>, run: &StillWaterRun, record: &Recorded<
         block_average(&data.series.within(array, data.window))
             .unwrap_or(Estimate { value: f64::NAN, standard_error: 0.0 })
     };
-    let observed = |name: &str, estimate: Estimate, factor: f64, unit: &str, floor: f64| {
-        Metric::observed(name, &variant, factor * estimate.value, unit)
+    let observed = |quantity: Quantity, estimate: Estimate, factor: f64, floor: f64| {
+        quantity
+            .of(&variant, factor * estimate.value)
             .with_snapshot_tolerance(0.0, (SNAPSHOT_ERRORS * factor * estimate.standard_error).max(floor))
     };
     let height = average(&data.series.relative_height);
     metrics.push(
-        observed("height_change", Estimate { value: height.value - 1.0, ..height }, 100.0, "%", 1e-3)
+        observed(HEIGHT_CHANGE, Estimate { value: height.value - 1.0, ..height }, 100.0, 1e-3)
             .against(Some(0.0), "mean height h/2: water keeps its volume", Confidence::Exact)
             .gated(Limit::Within(-0.1, 0.1), "0.1 % of the mean height, averaged over the last window"),
     );
-    let velocity = observed("rms_vertical_velocity", average(&data.series.rms_vertical_velocity), 1.0, "m/s", 1e-5)
-        .against(Some(0.0), "rest", Confidence::Exact);
+    let velocity = observed(RMS_VERTICAL_VELOCITY, average(&data.series.rms_vertical_velocity), 1.0, 1e-5).against(
+        Some(0.0),
+        "rest",
+        Confidence::Exact,
+    );
     metrics.push(if run.duration >= AT_REST_AFTER {
         velocity.gated(Limit::AtMost(5e-4), "a thousandth of √(g h), averaged over the last window")
     } else {
@@ -53,7 +71,7 @@ fn stabilised(metrics: &mut Vec<Metric>, run: &StillWaterRun, record: &Recorded<
         Metric { snapshot_tolerance: 0.3, ..velocity }
     });
     metrics.push(
-        observed("pressure_l2", average(&data.series.pressure_error), 100.0, "%", 0.01)
+        observed(PRESSURE_L2, average(&data.series.pressure_error), 100.0, 0.01)
             .against(Some(0.0), "hydrostatic pressure ρ g (h − z) at every particle", Confidence::Exact)
             .gated(Limit::AtMost(1.0), "1 % of the hydrostatic profile, averaged over the last window"),
     );
@@ -65,7 +83,8 @@ fn blow_up((run, record): &Record) -> Metric {
     let sprayed = series.time.iter().zip(&series.highest).find(|(_, height)| **height >= SPRAY);
     let time = sprayed.map_or(record.simulated_time, |(time, _)| *time);
     let limit = 0.5 * run.duration;
-    Metric::observed("blow_up_time", &run.variant(), time, "s")
+    BLOW_UP_TIME
+        .of(&run.variant(), time)
         .against(None, "a particle above 1.2 h or a divergence; the stabilised run has neither", Confidence::Exact)
         .gated(Limit::AtMost(limit), "without stabilisation the column must blow up: shows that the test can fail")
         // what sprays is chaotic

@@ -9,7 +9,7 @@ pub use parameters::{StillWaterParameters, StillWaterRun};
 use super::channel;
 use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
 /// The case.
@@ -29,6 +29,7 @@ impl Case for StillWater {
         once, which shows that the test can fail. A profile alone would not show it early; height and vertical velocity \
         do.";
     type Parameters = StillWaterParameters;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &StillWaterParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)

@@ -1,10 +1,10 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{Parameters, Progress, Run, Tier};
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
 use crate::cases::channel::{Channel, ChannelObservation, Lattice, Until};
 use crate::cases::rules;
-use crate::error::InputError;
-use crate::observe::Recorded;
+use crate::metric::Variant;
+use crate::observation::Recorded;
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction, Turbulence};
 use bagnold_solver::parameter::{between, each, filled, positive, unique};
 use schemars::JsonSchema;
@@ -91,7 +91,7 @@ impl Parameters for StillWaterParameters {
         }
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), ParameterError> {
         rules::channel_columns("columns", self.columns, &self.numerics)?;
         let longest = 0.5 * self.duration;
         rules::between("averaging_time", self.averaging_time, 0.2, longest, "the window lies in the second half")?;
@@ -153,15 +153,17 @@ pub struct StillWaterRun {
 impl Run for StillWaterRun {
     type Observation = ChannelObservation;
 
-    fn variant(&self) -> String {
-        format!("jitter={},stabilisation={},resolution={}", self.jitter, self.numerics.stabilisation, self.resolution)
+    fn variant(&self) -> Variant {
+        Variant::of("jitter", self.jitter)
+            .and("stabilisation", self.numerics.stabilisation)
+            .and("resolution", self.resolution)
     }
 
     fn particle_steps(&self) -> f64 {
         self.channel().expected_steps() * (self.resolution * self.columns) as f64
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         Ok(self.channel().run(progress)?)
     }
 }

@@ -5,9 +5,29 @@ use super::parameters::WaterFilmRun;
 use crate::case::Run;
 use crate::cases::bagnold::Arrangement;
 use crate::cases::channel::{self, ChannelObservation, ProfilePoint};
-use crate::metric::{Confidence, Limit, Metric};
-use crate::observe::Recorded;
+use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
+use crate::observation::Recorded;
 use crate::statistics::{Estimate, block_average, log_log_slope};
+
+const VELOCITY_L2: Quantity = Quantity::verified("velocity_l2", "%", "relative L2 of the velocity profile");
+const VELOCITY_L2_OWN_DEPTH: Quantity =
+    Quantity::verified("velocity_l2_own_depth", "%", "the same against the film of the particles' own depth");
+const HEIGHT_CHANGE: Quantity = Quantity::verified("height_change", "%", "mean height over half the depth, less 1");
+const BED_SHEAR: Quantity = Quantity::verified("bed_shear", "-", "friction of the bed over the weight's part along it");
+const OBSERVED_ORDER: Quantity = Quantity::verified("observed_order", "-", "order of convergence of `velocity_l2`");
+const OBSERVED_ORDER_OWN_DEPTH: Quantity =
+    Quantity::verified("observed_order_own_depth", "-", "order of convergence of `velocity_l2_own_depth`");
+
+pub(super) const QUANTITIES: &[Quantity] = &[
+    channel::PARTICLES_LOST,
+    channel::MOMENTUM_RESIDUAL,
+    VELOCITY_L2,
+    VELOCITY_L2_OWN_DEPTH,
+    HEIGHT_CHANGE,
+    BED_SHEAR,
+    OBSERVED_ORDER,
+    OBSERVED_ORDER_OWN_DEPTH,
+];
 
 /// Standard errors that a value may move before a change is reported `[-]`.
 const SNAPSHOT_ERRORS: f64 = 2.0;
@@ -26,12 +46,13 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     for (run, record) in records {
         of_run(&mut metrics, run, record);
     }
-    for (name, depth) in [("observed_order", Depth::Nominal), ("observed_order_own_depth", Depth::Own)] {
+    for (quantity, depth) in [(OBSERVED_ORDER, Depth::Nominal), (OBSERVED_ORDER_OWN_DEPTH, Depth::Own)] {
         let errors = convergence_errors(records, depth);
         if errors.len() >= 3 {
-            let rows: Vec<String> = errors.iter().map(|(rows, _)| format!("{rows:.0}")).collect();
-            let variant = format!("particles=lattice,resolution={}", rows.join("_"));
-            let metric = Metric::observed(name, &variant, -log_log_slope(&errors).unwrap_or(f64::NAN), "-")
+            let rows = Value::list(errors.iter().map(|(rows, _)| *rows));
+            let variant = Variant::of("particles", "lattice").and("resolution", rows);
+            let metric = quantity
+                .of(&variant, -log_log_slope(&errors).unwrap_or(f64::NAN))
                 .against(None, source(depth), Confidence::Exact)
                 .with_snapshot_tolerance(0.1, 0.05);
             let reason = match depth {
@@ -56,12 +77,13 @@ fn of_run(metrics: &mut Vec<Metric>, run: &WaterFilmRun, record: &Recorded<Chann
     let data = &record.data;
     metrics.push(channel::particles_lost(&variant, record));
     metrics.push(channel::momentum_residual(&variant, record));
-    let observed = |name: &str, estimate: Estimate, factor: f64, unit: &str| {
-        Metric::observed(name, &variant, factor * estimate.value, unit)
+    let observed = |quantity: Quantity, estimate: Estimate, factor: f64| {
+        quantity
+            .of(&variant, factor * estimate.value)
             .with_snapshot_tolerance(1e-3, SNAPSHOT_ERRORS * factor * estimate.standard_error)
     };
-    for (name, depth) in [("velocity_l2", Depth::Nominal), ("velocity_l2_own_depth", Depth::Own)] {
-        let metric = observed(name, velocity_l2(run, data, depth), 100.0, "%").against(
+    for (quantity, depth) in [(VELOCITY_L2, Depth::Nominal), (VELOCITY_L2_OWN_DEPTH, Depth::Own)] {
+        let metric = observed(quantity, velocity_l2(run, data, depth), 100.0).against(
             Some(0.0),
             source(depth),
             Confidence::Exact,
@@ -75,13 +97,13 @@ fn of_run(metrics: &mut Vec<Metric>, run: &WaterFilmRun, record: &Recorded<Chann
     let none = Estimate { value: f64::NAN, standard_error: 0.0 };
     let average = |array: &[f64]| block_average(&data.series.within(array, data.window)).unwrap_or(none);
     let height = average(&data.series.relative_height);
-    metrics.push(observed("height_change", Estimate { value: height.value - 1.0, ..height }, 100.0, "%").against(
+    metrics.push(observed(HEIGHT_CHANGE, Estimate { value: height.value - 1.0, ..height }, 100.0).against(
         Some(0.0),
         "mean height h/2; the velocity goes with the square of the depth",
         Confidence::Exact,
     ));
     let weight = run.density * run.gravity * run.depth * run.slope;
-    metrics.push(observed("bed_shear", average(&data.series.bed_shear), 1.0 / weight, "-").against(
+    metrics.push(observed(BED_SHEAR, average(&data.series.bed_shear), 1.0 / weight).against(
         Some(1.0),
         "ρ g h i",
         Confidence::Exact,

@@ -9,7 +9,7 @@ pub use parameters::{WaterFilmParameters, WaterFilmRun};
 use super::channel;
 use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
 /// The case.
@@ -29,6 +29,7 @@ impl Case for WaterFilm {
         several relaxation times 4h²/(π²ν): what remains is the error of the wall, of the viscous pairs and of the depth \
         that the particles take.";
     type Parameters = WaterFilmParameters;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &WaterFilmParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)

@@ -1,11 +1,11 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{Parameters, Progress, Run, Tier};
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
 use crate::cases::bagnold::Arrangement;
 use crate::cases::channel::{Channel, ChannelObservation, Lattice, Until};
 use crate::cases::rules;
-use crate::error::InputError;
-use crate::observe::Recorded;
+use crate::metric::Variant;
+use crate::observation::Recorded;
 use crate::reference::{Incline, NewtonianFilm};
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction, Turbulence};
 use bagnold_solver::parameter::{between, each, filled, positive, unique};
@@ -92,7 +92,7 @@ impl Parameters for WaterFilmParameters {
         }
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<(), ParameterError> {
         rules::channel_columns("columns", self.columns, &self.numerics)?;
         let longest = 0.5 * self.relaxation_times;
         rules::between("averaging_times", self.averaging_times, 0.2, longest, "the window lies in the second half")?;
@@ -155,19 +155,19 @@ pub struct WaterFilmRun {
 impl Run for WaterFilmRun {
     type Observation = ChannelObservation;
 
-    fn variant(&self) -> String {
+    fn variant(&self) -> Variant {
         let particles = match self.particles {
             Arrangement::Lattice => "lattice",
             Arrangement::Jittered => "jittered",
         };
-        format!("particles={particles},resolution={}", self.resolution)
+        Variant::of("particles", particles).and("resolution", self.resolution)
     }
 
     fn particle_steps(&self) -> f64 {
         self.channel(&|_| 0.0).expected_steps() * (self.resolution * self.columns) as f64
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, InputError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         let film = self.film(self.depth);
         Ok(self.channel(&|z| film.velocity(z)).run(progress)?)
     }

@@ -1,6 +1,5 @@
 //! What the data do not say about the parameters, in sentences.
 
-mod number;
 mod sentence;
 
 use super::region::{CONFIDENCE, Region, chi_squared_quantile};

@@ -1,7 +1,7 @@
 //! Findings in sentences.
 
-use super::number::significant;
 use super::{Kind, Parameter};
+use crate::number::short_digits;
 
 /// Writes numbers of the unit cube as a physicist reads them.
 pub(super) struct Writer<'a> {
@@ -15,7 +15,7 @@ impl Writer<'_> {
     }
 
     fn value(&self, k: usize, u: f64) -> String {
-        significant((self.physical)(k, u), 3)
+        short_digits((self.physical)(k, u), 3)
     }
 
     /// The unit after a number.
@@ -36,7 +36,7 @@ impl Writer<'_> {
                 (false, true) => " − ",
                 (false, false) => " + ",
             };
-            text += &format!("{sign}{} {}", significant(share.abs(), 2), self.name(k));
+            text += &format!("{sign}{} {}", short_digits(share.abs(), 2), self.name(k));
         }
         text
     }
@@ -93,7 +93,7 @@ impl Writer<'_> {
                  by a {} value of the other",
                 self.name(*first),
                 self.name(*second),
-                significant(*correlation, 3),
+                short_digits(*correlation, 3),
                 if *correlation > 0.0 { "larger" } else { "smaller" }
             ),
             Kind::WeakDirection { free, fixed, reach } => {

@@ -1,7 +1,8 @@
 //! Particle snapshots that ParaView opens: a VTU file a frame and a PVD file a run with the times.
 
 use super::base64::encode;
-use crate::observe::Frame;
+use crate::metric::Variant;
+use crate::observation::Frame;
 use std::fmt::Write as _;
 use std::io;
 use std::path::Path;
@@ -13,7 +14,7 @@ const VERTEX: u8 = 1;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(folder: &Path, name: &str, frames: &[Frame]) -> io::Result<()> {
+pub(super) fn write(folder: &Path, name: &str, frames: &[Frame]) -> io::Result<()> {
     std::fs::create_dir_all(folder.join(name))?;
     let mut collection = String::new();
     for (number, frame) in frames.iter().enumerate() {
@@ -27,14 +28,10 @@ pub fn write(folder: &Path, name: &str, frames: &[Frame]) -> io::Result<()> {
     std::fs::write(folder.join(format!("{name}.pvd")), text)
 }
 
-/// The name of a run as a file name: `slope_angle=24,start=rest` is one, but empty is not.
-#[must_use]
-pub fn file_name(variant: &str) -> String {
+/// A run's variant as a file name: `slope_angle=24,start=rest` is one, but empty is not.
+pub(super) fn file_name(variant: &Variant) -> String {
     let safe = |letter: char| if letter.is_alphanumeric() || "=,.-+_".contains(letter) { letter } else { '_' };
-    match variant {
-        "" => "run".to_owned(),
-        _ => variant.chars().map(safe).collect(),
-    }
+    if variant.is_empty() { "run".to_owned() } else { variant.to_string().chars().map(safe).collect() }
 }
 
 fn vtu(frame: &Frame) -> String {
@@ -133,7 +130,8 @@ mod tests {
     #[test]
     fn the_collection_names_every_frame_with_its_time() {
         let folder = tempfile::tempdir().expect("temporary folder");
-        write(folder.path(), &file_name("slope_angle=24,start=a/b"), &[frame(), frame()]).expect("writable");
+        write(folder.path(), &file_name(&Variant::of("slope_angle", 24).and("start", "a/b")), &[frame(), frame()])
+            .expect("writable");
         let text = std::fs::read_to_string(folder.path().join("slope_angle=24,start=a_b.pvd")).expect("written");
         let document = Document::parse(&text).expect("well-formed XML");
         let sets: Vec<_> = document.descendants().filter(|node| node.has_tag_name("DataSet")).collect();
@@ -142,6 +140,6 @@ mod tests {
             assert_eq!(set.attribute("timestep"), Some("0.5"));
             assert!(folder.path().join(set.attribute("file").unwrap_or_default()).is_file());
         }
-        assert_eq!(file_name(""), "run");
+        assert_eq!(file_name(&Variant::default()), "run");
     }
 }

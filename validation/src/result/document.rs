@@ -1,7 +1,7 @@
 //! `metrics.json`: a case's numbers and where they come from, for other programs.
 
-use super::{Confidence, Kind, Limit, Metric, Verdict};
 use crate::case::{CaseResult, RunSummary, Tier};
+use crate::metric::{Confidence, Kind, Limit, Metric, Variant, Verdict};
 use crate::store;
 use serde::{Deserialize, Serialize};
 
@@ -53,7 +53,7 @@ pub struct MetricEntry {
     /// Stable snake_case name.
     pub name: String,
     /// Which run, `key=value,…`.
-    pub variant: String,
+    pub variant: Variant,
     /// The value; null if it is not a finite number.
     pub value: Option<f64>,
     /// Its unit.
@@ -157,7 +157,7 @@ mod tests {
 
     #[test]
     fn an_entry_has_the_agreed_keys_and_null_for_what_is_not_a_number() {
-        let metric = Metric::observed("velocity_l2", "resolution=40", f64::NAN, "%")
+        let metric = Metric::observed("velocity_l2", &Variant::of("resolution", 40), f64::NAN, "%")
             .against(Some(0.0), "exact", Confidence::Exact)
             .gated(Limit::AtMost(0.7), "first order");
         let text = serde_json::to_string(&MetricEntry::from(&metric)).expect("serialises");
@@ -169,7 +169,8 @@ mod tests {
 
     #[test]
     fn an_entry_is_read_back_as_written() {
-        let metric = Metric::observed("final_height", "", 0.1 + 0.2, "m").gated(Limit::Within(0.2, 0.4), "band");
+        let metric = Metric::observed("final_height", &Variant::default(), 0.1 + 0.2, "m")
+            .gated(Limit::Within(0.2, 0.4), "band");
         let entry = MetricEntry::from(&metric);
         let text = serde_json::to_string(&entry).expect("serialises");
         assert_eq!(serde_json::from_str::<MetricEntry>(&text).expect("reads back"), entry);

@@ -1,0 +1,166 @@
+//! Why a case refuses its parameters.
+
+use crate::input::{FieldError, did_you_mean, origin};
+use crate::output::FileError;
+use std::path::{Path, PathBuf};
+
+/// Parameters that a case does not take; cases build the commonest with [`ParameterError::field`].
+#[derive(Debug, thiserror::Error)]
+pub enum ParameterError {
+    /// A field holds a value that breaks a rule.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// The parameters are each in range, but together give no valid scene.
+    #[error("the parameters give no valid scene: {0}")]
+    Scene(#[from] bagnold_solver::run::SceneError),
+    /// The parameters ask for no simulation, so no gate could fail.
+    #[error(
+        "the parameters of `{case}` ask for no run; fill at least one of its lists, `bagnold show {case}` prints them"
+    )]
+    NothingToRun {
+        /// The case.
+        case: String,
+    },
+    /// A file names a field that the case does not have.
+    #[error("{}unknown field `{field}`; {}`bagnold show {case}` prints all fields", origin(.file), did_you_mean(.nearest))]
+    UnknownField {
+        /// File it stands in, where known.
+        file: Option<PathBuf>,
+        /// Dotted TOML path.
+        field: String,
+        /// The known field whose name is nearest, as a dotted path.
+        nearest: Option<String>,
+        /// Whose parameters they are.
+        case: String,
+    },
+    /// A field without a default is absent.
+    #[error("{}`{field}` is missing; `bagnold show {case}` prints it with a valid value", origin(.file))]
+    MissingField {
+        /// File that lacks it, where known.
+        file: Option<PathBuf>,
+        /// Dotted TOML path.
+        field: String,
+        /// Whose parameters they are.
+        case: String,
+    },
+    /// A file is not TOML.
+    #[error("{}: line {line}, column {column}: {message}; correct the TOML syntax there", .file.display())]
+    Syntax {
+        /// The file.
+        file: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// The parser's words.
+        message: String,
+    },
+    /// A file does not say whose parameters it holds.
+    #[error("{}: `case` is missing, but must name the case that the file describes; add `case = \"…\"` (`bagnold list` prints the names)", .file.display())]
+    NoCase {
+        /// The file.
+        file: PathBuf,
+    },
+    /// No case has this name.
+    #[error("{}unknown case `{name}`; {}`bagnold list` prints all cases", origin(.file), did_you_mean(.nearest))]
+    UnknownCase {
+        /// File that names it, if it was not the command line.
+        file: Option<PathBuf>,
+        /// The name asked for.
+        name: String,
+        /// The case whose name is nearest.
+        nearest: Option<String>,
+    },
+    /// A `--set` is refused.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// The case's file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The thread pool cannot be built.
+    #[error("`--threads {threads}` cannot be started ({reason}); ask for fewer threads")]
+    Threads {
+        /// Number of threads asked for.
+        threads: usize,
+        /// The system's reason.
+        reason: String,
+    },
+}
+
+/// A `--set path=value` that does not fit a case's parameters.
+#[derive(Debug, thiserror::Error)]
+pub enum SettingError {
+    /// It has no `=`.
+    #[error("`--set {argument}` must have the form path=value; for example `--set {example}`")]
+    Form {
+        /// The argument as given.
+        argument: String,
+        /// A valid one for this case.
+        example: String,
+    },
+    /// It names a path that the case's parameters do not have.
+    #[error("`--set {path}={value}`: unknown field `{path}`; {}`bagnold show {case}` prints all fields", did_you_mean(.nearest))]
+    Path {
+        /// The dotted path as given.
+        path: String,
+        /// The value as given.
+        value: String,
+        /// The existing path that is nearest.
+        nearest: Option<String>,
+        /// Whose parameters they are.
+        case: String,
+    },
+    /// It gives a value of the wrong type.
+    #[error("`--set {path}={value}`: `{path}` is {value}, but must be {rule}; {remedy}")]
+    Value {
+        /// The dotted path as given.
+        path: String,
+        /// The value as given.
+        value: String,
+        /// The rule it breaks, completing "must be …".
+        rule: String,
+        /// What to do about it.
+        remedy: String,
+    },
+}
+
+impl ParameterError {
+    /// A parameter that breaks a rule: "`field` is `value`, but must be `rule`; `remedy`".
+    #[must_use]
+    pub fn field(field: &str, value: impl std::fmt::Display, rule: &str, remedy: &str) -> Self {
+        Self::Field(FieldError::new(field, value, rule, remedy))
+    }
+
+    /// Says that the parameter at fault is part of a group of parameters.
+    #[must_use]
+    pub fn within(self, group: &str) -> Self {
+        match self {
+            Self::Field(error) => Self::Field(error.within(group)),
+            other => other,
+        }
+    }
+
+    /// The dotted path of the parameter at fault, if the error is about one.
+    #[must_use]
+    pub fn field_path(&self) -> Option<&str> {
+        match self {
+            Self::Field(FieldError { field, .. })
+            | Self::UnknownField { field, .. }
+            | Self::MissingField { field, .. } => Some(field),
+            _ => None,
+        }
+    }
+
+    /// Says in which file the parameter at fault stands, unless that is already known.
+    #[must_use]
+    pub fn in_file(mut self, path: &Path) -> Self {
+        if let Self::Field(FieldError { file, .. })
+        | Self::UnknownField { file, .. }
+        | Self::MissingField { file, .. }
+        | Self::UnknownCase { file, .. } = &mut self
+        {
+            file.get_or_insert_with(|| path.to_owned());
+        }
+        self
+    }
+}

@@ -1,0 +1,129 @@
+//! Which grains a column is made of.
+
+use serde::Serialize;
+use std::fmt;
+
+/// The grains of a published experiment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Grains {
+    /// Sand of Table 2.
+    Sand,
+    /// Glass beads of Table 1.
+    Glass,
+    /// Grains of Lagrée et al.
+    Lagree,
+}
+
+/// The one property in which grains differ from their originals.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Alteration {
+    /// I_0 of the law `[-]`.
+    ReferenceInertia(f64),
+    /// Diameter `[m]`.
+    GrainDiameter(f64),
+}
+
+/// Grains as published, or with one property altered.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Material {
+    /// The published grains.
+    pub grains: Grains,
+    /// What is altered.
+    pub alteration: Option<Alteration>,
+}
+
+impl Grains {
+    /// Name in files and variants.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sand => "sand",
+            Self::Glass => "glass",
+            Self::Lagree => "lagree",
+        }
+    }
+}
+
+impl Material {
+    /// Sand as published.
+    pub const SAND: Self = Self::published(Grains::Sand);
+    /// Glass beads as published.
+    pub const GLASS: Self = Self::published(Grains::Glass);
+    /// Grains of Lagrée et al. as published.
+    pub const LAGREE: Self = Self::published(Grains::Lagree);
+
+    /// Grains as published.
+    #[must_use]
+    pub const fn published(grains: Grains) -> Self {
+        Self { grains, alteration: None }
+    }
+
+    /// Grains with one property altered.
+    #[must_use]
+    pub const fn altered(grains: Grains, alteration: Alteration) -> Self {
+        Self { grains, alteration: Some(alteration) }
+    }
+
+    /// Whether they are as published.
+    #[must_use]
+    pub fn is_published(self) -> bool {
+        self.alteration.is_none()
+    }
+
+    /// What a legend calls them.
+    #[must_use]
+    pub fn title(self) -> String {
+        let grains = match (self.grains, self.is_published()) {
+            (Grains::Sand, true) => "sand of Table 2",
+            (Grains::Glass, true) => "glass beads of Table 1",
+            (Grains::Lagree, true) => "grains of Lagrée et al.",
+            (Grains::Lagree, false) => "Lagrée et al.",
+            (other, false) => other.name(),
+        };
+        match self.alteration {
+            None => grains.to_owned(),
+            Some(Alteration::ReferenceInertia(value)) => format!("{grains}, I_0 = {value}"),
+            Some(Alteration::GrainDiameter(value)) => format!("{grains}, D = {value}"),
+        }
+    }
+}
+
+/// The name in a variant: `sand`, `sand_inertia_0.279`, `lagree_diameter_0.001`.
+impl fmt::Display for Material {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.grains.name())?;
+        match self.alteration {
+            None => Ok(()),
+            Some(Alteration::ReferenceInertia(value)) => write!(formatter, "_inertia_{value}"),
+            Some(Alteration::GrainDiameter(value)) => write!(formatter, "_diameter_{value}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn materials_have_a_name_for_files_and_one_for_readers() {
+        for (material, name, title) in [
+            (Material::SAND, "sand", "sand of Table 2"),
+            (Material::GLASS, "glass", "glass beads of Table 1"),
+            (Material::LAGREE, "lagree", "grains of Lagrée et al."),
+            (
+                Material::altered(Grains::Sand, Alteration::ReferenceInertia(0.279)),
+                "sand_inertia_0.279",
+                "sand, I_0 = 0.279",
+            ),
+            (
+                Material::altered(Grains::Lagree, Alteration::GrainDiameter(0.001)),
+                "lagree_diameter_0.001",
+                "Lagrée et al., D = 0.001",
+            ),
+        ] {
+            assert_eq!((material.to_string().as_str(), material.title().as_str()), (name, title));
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Why a plan of many evaluations is refused, whatever they are made for.
+
+use crate::case::{ParameterError, SettingError};
+use crate::input::{FieldError, did_you_mean, position};
+use crate::output::FileError;
+use serde::de::DeserializeOwned;
+use std::path::{Path, PathBuf};
+
+/// A plan that cannot be followed.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanError {
+    /// It cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// It is not TOML, or not one of its command.
+    #[error("{}: line {line}, column {column}: {message}; `bagnold {command} --help` shows a plan", .file.display())]
+    Syntax {
+        /// The file.
+        file: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// The parser's words.
+        message: String,
+        /// The command.
+        command: &'static str,
+    },
+    /// A field of it breaks a rule.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// It names a path that a case's parameters do not have.
+    #[error("{}: `path` is `{path}`, but `{case}` has no such field; {}`bagnold show {case}` prints all fields", .file.display(), did_you_mean(.nearest))]
+    Path {
+        /// The plan.
+        file: PathBuf,
+        /// The dotted path as given.
+        path: String,
+        /// The existing path that is nearest.
+        nearest: Option<String>,
+        /// Whose parameters they are.
+        case: String,
+    },
+    /// A case refuses what it asks for.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+}
+
+impl PlanError {
+    /// What a case refuses, in the words of the plan that asks for it.
+    #[must_use]
+    pub fn of(error: ParameterError, plan: &Path) -> Self {
+        match error {
+            ParameterError::Setting(SettingError::Path { path, nearest, case, .. }) => {
+                Self::Path { file: plan.to_owned(), path, nearest, case }
+            }
+            ParameterError::Setting(SettingError::Value { path, value, rule, remedy }) => {
+                Self::Field(FieldError { file: Some(plan.to_owned()), field: path, value, rule, remedy })
+            }
+            other => Self::Parameter(other.in_file(plan)),
+        }
+    }
+}
+
+/// Reads and types a plan; `command` is the one whose help shows a valid plan.
+///
+/// # Errors
+/// A file that cannot be read, or whose text is not TOML or does not have the type's fields, with the place.
+pub fn read_plan<T: DeserializeOwned>(file: &Path, command: &'static str) -> Result<T, PlanError> {
+    let text = std::fs::read_to_string(file).map_err(|error| FileError::unreadable(file, &error))?;
+    toml::from_str(&text).map_err(|error| {
+        let (line, column) = position(&text, error.span().map_or(0, |span| span.start));
+        PlanError::Syntax { file: file.to_owned(), line, column, message: error.message().to_owned(), command }
+    })
+}

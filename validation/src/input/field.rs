@@ -1,0 +1,48 @@
+//! A field whose value breaks a rule: the error that most input is refused with.
+
+use super::name::origin;
+use std::path::{Path, PathBuf};
+
+/// "`field` is `value`, but must be `rule`; `remedy`".
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}`{field}` is {value}, but must be {rule}; {remedy}", origin(.file))]
+pub struct FieldError {
+    /// File it stands in, where known; whoever reads the file adds it.
+    pub file: Option<PathBuf>,
+    /// Dotted TOML path.
+    pub field: String,
+    /// The offending value as written.
+    pub value: String,
+    /// The rule it breaks, completing "must be …".
+    pub rule: String,
+    /// What to do about it.
+    pub remedy: String,
+}
+
+impl FieldError {
+    /// The error of a field whose file is not known yet.
+    #[must_use]
+    pub fn new(field: &str, value: impl std::fmt::Display, rule: &str, remedy: &str) -> Self {
+        Self {
+            file: None,
+            field: field.to_owned(),
+            value: value.to_string(),
+            rule: rule.to_owned(),
+            remedy: remedy.to_owned(),
+        }
+    }
+
+    /// Says that the field is part of a group of fields.
+    #[must_use]
+    pub fn within(mut self, group: &str) -> Self {
+        self.field = format!("{group}.{}", self.field);
+        self
+    }
+
+    /// Says in which file the field stands, unless that is already known.
+    #[must_use]
+    pub fn in_file(mut self, path: &Path) -> Self {
+        self.file.get_or_insert_with(|| path.to_owned());
+        self
+    }
+}

@@ -1,0 +1,10 @@
+//! What a user writes: its fields, the names in it and the places, so that an error can point at them.
+
+mod field;
+mod name;
+mod place;
+
+pub use field::FieldError;
+pub use name::nearest;
+pub(crate) use name::{did_you_mean, origin};
+pub(crate) use place::position;

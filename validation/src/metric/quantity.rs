@@ -1,0 +1,72 @@
+//! What a metric is, declared once: its name, unit and sentence. A case lists its quantities; metrics are built from them.
+
+use super::{Kind, Metric, Variant};
+
+/// A number that a case gives, for any of its runs.
+///
+/// Every metric of a case begins as one of its quantities, `RUN_OUT.of(&variant, value)`, so that the list is where a
+/// reader finds what there is, and a name that is not in it can be refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Quantity {
+    /// Stable snake_case name.
+    pub name: &'static str,
+    /// Unit of the value, `-` for none, `%` for percent.
+    pub unit: &'static str,
+    /// What its verdict rests on.
+    pub kind: Kind,
+    /// What it says, one sentence without a full stop.
+    pub says: &'static str,
+}
+
+impl Quantity {
+    /// A quantity that is checked against the model's own equations.
+    #[must_use]
+    pub const fn verified(name: &'static str, unit: &'static str, says: &'static str) -> Self {
+        Self { name, unit, kind: Kind::Verification, says }
+    }
+
+    /// A quantity that is compared with an experiment or a published fit.
+    #[must_use]
+    pub const fn validated(name: &'static str, unit: &'static str, says: &'static str) -> Self {
+        Self { name, unit, kind: Kind::Validation, says }
+    }
+
+    /// Its observed metric for a run, in the quantity's unit; the metric's methods add reference and gate.
+    #[must_use]
+    pub fn of(&self, variant: &Variant, value: f64) -> Metric {
+        Metric::observed(self.name, variant, value, self.unit).of_kind(self.kind)
+    }
+}
+
+/// Metrics whose name or unit is not that of a declared quantity; none where a case declares nothing.
+pub fn undeclared<'a>(quantities: &[Quantity], metrics: &'a [Metric]) -> impl Iterator<Item = &'a Metric> {
+    metrics.iter().filter(|metric| {
+        let declares = |quantity: &Quantity| quantity.name == metric.name && quantity.unit == metric.unit;
+        !quantities.is_empty() && !quantities.iter().any(declares)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_metric_has_what_its_quantity_declares() {
+        const FRONT: Quantity = Quantity::validated("front", "m", "how far the front has come");
+        let metric = FRONT.of(&Variant::of("slope", 0.03), 0.5);
+        assert_eq!((metric.name.as_str(), metric.unit.as_str(), metric.kind), ("front", "m", Kind::Validation));
+        assert_eq!(metric.gate, None);
+    }
+
+    #[test]
+    fn what_no_quantity_declares_is_found() {
+        const FRONT: Quantity = Quantity::verified("front", "m", "how far the front has come");
+        let variant = Variant::default();
+        let metrics = [FRONT.of(&variant, 1.0), Metric::observed("fornt", &variant, 1.0, "m")];
+        let names =
+            |quantities: &[Quantity]| undeclared(quantities, &metrics).map(|m| m.name.clone()).collect::<Vec<_>>();
+        assert_eq!(names(&[FRONT]), ["fornt"]);
+        assert_eq!(names(&[Quantity { unit: "cm", ..FRONT }]), ["front", "fornt"]);
+        assert!(names(&[]).is_empty());
+    }
+}

@@ -1,0 +1,143 @@
+//! Which run or runs a number speaks of: named values in one fixed order, with one text.
+
+mod error;
+#[cfg(test)]
+mod tests;
+mod value;
+
+pub use error::VariantError;
+pub use value::Value;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+use std::str::FromStr;
+
+/// Named values in the order in which a case gives them, such as `slope_angle=24,start=rest,resolution=40`; none where
+/// a case has a single run.
+///
+/// A value is a word, a number, several of them joined by `_` (the runs behind a metric) or a range `3..8` (a part of a
+/// single run). In files and on the page a variant is its text.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Variant {
+    parts: Vec<(String, Value)>,
+}
+
+impl Variant {
+    /// The variant with a single key.
+    #[must_use]
+    pub fn of(key: &str, value: impl Into<Value>) -> Self {
+        Self::default().and(key, value)
+    }
+
+    /// With another key at the end.
+    #[must_use]
+    pub fn and(mut self, key: &str, value: impl Into<Value>) -> Self {
+        self.parts.push((key.to_owned(), value.into()));
+        self
+    }
+
+    /// With all keys of another variant at the end.
+    #[must_use]
+    pub fn followed_by(mut self, other: &Self) -> Self {
+        self.parts.extend(other.parts.iter().cloned());
+        self
+    }
+
+    /// Whether it has no key: the only run of its case.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// The value of a key.
+    #[must_use]
+    pub fn get(&self, key: &str) -> Option<&Value> {
+        self.parts().find(|(other, _)| *other == key).map(|(_, value)| value)
+    }
+
+    /// Keys and values in order.
+    pub fn parts(&self) -> impl Iterator<Item = (&str, &Value)> {
+        self.parts.iter().map(|(key, value)| (key.as_str(), value))
+    }
+
+    /// Its values alone, in order.
+    pub fn values(&self) -> impl Iterator<Item = &Value> {
+        self.parts.iter().map(|(_, value)| value)
+    }
+
+    /// What a file of this variant is called, such as `slope-angle-24-start-rest`: letters, digits, points and dashes.
+    #[must_use]
+    pub fn file_name(&self) -> String {
+        file_name(&self.to_string())
+    }
+
+    /// What a file of this variant is called where the keys are known: `rest-40`.
+    #[must_use]
+    pub fn file_name_of_values(&self) -> String {
+        let values: Vec<String> = self.values().map(|value| file_name(&value.to_string())).collect();
+        values.join("-")
+    }
+}
+
+fn file_name(text: &str) -> String {
+    text.replace("..", "-").replace(['=', ',', '_'], "-")
+}
+
+impl fmt::Display for Variant {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text: Vec<String> = self.parts().map(|(key, value)| format!("{key}={value}")).collect();
+        formatter.pad(&text.join(","))
+    }
+}
+
+impl FromStr for Variant {
+    type Err = VariantError;
+
+    fn from_str(text: &str) -> Result<Self, VariantError> {
+        let mut variant = Self::default();
+        for part in text.split(',').filter(|_| !text.is_empty()) {
+            let (key, value) = part
+                .split_once('=')
+                .ok_or_else(|| VariantError::Part { text: text.to_owned(), part: part.to_owned() })?;
+            if key.is_empty() || value.is_empty() || value.contains('=') {
+                return Err(VariantError::Part { text: text.to_owned(), part: part.to_owned() });
+            }
+            if variant.get(key).is_some() {
+                return Err(VariantError::Twice { text: text.to_owned(), key: key.to_owned() });
+            }
+            variant = variant.and(key, value);
+        }
+        Ok(variant)
+    }
+}
+
+/// By the text, which is how files and the report are sorted.
+impl Ord for Variant {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.to_string().cmp(&other.to_string())
+    }
+}
+
+impl PartialOrd for Variant {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl std::hash::Hash for Variant {
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        self.to_string().hash(state);
+    }
+}
+
+impl Serialize for Variant {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Variant {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
+    }
+}

@@ -1,0 +1,88 @@
+//! What can go wrong with files and folders.
+
+use std::path::{Path, PathBuf};
+
+/// A file that cannot be read, understood or written.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// A file cannot be read.
+    #[error("{}: cannot be read ({reason}); check the path and its permissions", .file.display())]
+    Unreadable {
+        /// The file.
+        file: PathBuf,
+        /// The system's reason.
+        reason: String,
+    },
+    /// Files cannot be written.
+    #[error("{}: cannot be written ({reason}); choose a folder that you may write to with --out", .path.display())]
+    Unwritable {
+        /// File or folder.
+        path: PathBuf,
+        /// The system's reason.
+        reason: String,
+    },
+    /// A file of ours cannot be understood.
+    #[error("{}: damaged ({reason}); {remedy}", .file.display())]
+    Damaged {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+        /// What to do about it.
+        remedy: String,
+    },
+}
+
+impl FileError {
+    /// A file that cannot be read, with the system's reason.
+    #[must_use]
+    pub fn unreadable(file: &Path, error: &std::io::Error) -> Self {
+        Self::Unreadable { file: file.to_owned(), reason: reason(error) }
+    }
+
+    /// A file or folder that cannot be written, with the system's reason.
+    #[must_use]
+    pub fn unwritable(path: &Path, error: &std::io::Error) -> Self {
+        Self::Unwritable { path: path.to_owned(), reason: reason(error) }
+    }
+}
+
+/// A folder that work cannot be put into.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    /// A folder holds work that may be continued.
+    #[error("{}: holds a {what} already; add --resume to go on with it, or name another folder with --out", .folder.display())]
+    InUse {
+        /// A sweep or a calibration.
+        what: &'static str,
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A folder holds other work than what is asked for.
+    #[error("{}: holds a {what} {}; name another folder with --out", .folder.display(), if *.by_program { "of another version of bagnold, whose numbers may differ" } else { "of another plan" })]
+    OtherPlan {
+        /// A sweep or a calibration.
+        what: &'static str,
+        /// The folder.
+        folder: PathBuf,
+        /// Whether the program differs, not the plan.
+        by_program: bool,
+    },
+    /// The output folder holds files that are not Bagnold's.
+    #[error("output folder {}: not empty and not written by bagnold, so nothing was changed; name an empty or new folder with --out", .folder.display())]
+    Foreign {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// Files in it cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+/// The system's words without the error number, which means nothing to a reader: "permission denied".
+fn reason(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    let words = text.split(" (os error").next().unwrap_or(&text);
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+}

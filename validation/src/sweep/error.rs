@@ -1,0 +1,43 @@
+//! Why a sweep does not begin or go on.
+
+use crate::case::ParameterError;
+use crate::evaluation::PlanError;
+use crate::input::FieldError;
+use crate::output::{FileError, FolderError};
+use std::path::PathBuf;
+
+/// A sweep that cannot be planned, found, run or gathered.
+#[derive(Debug, thiserror::Error)]
+pub enum SweepError {
+    /// Its plan cannot be followed.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// It has no such run.
+    #[error(transparent)]
+    Entry(#[from] FieldError),
+    /// A case refuses the parameters of a run.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// A folder holds no sweep.
+    #[error("{}: holds no sweep (no manifest.json); name the folder that `bagnold sweep` wrote", .folder.display())]
+    NoSweep {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// Its folder cannot be used.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// A file of it cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A command of the scheduler is missing or refuses.
+    #[error("slurm: `{command}` {reason}; {remedy}")]
+    Slurm {
+        /// The command.
+        command: String,
+        /// What happened.
+        reason: String,
+        /// What to do about it.
+        remedy: String,
+    },
+}
