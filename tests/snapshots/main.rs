@@ -1,46 +1,79 @@
 //! Drift: the quick tier's metrics of every case against the accepted values, `tests/snapshots/quick/CASE.snap`.
 //!
-//! A value may move by its own tolerance. To accept what has moved farther, read the report first, then
+//! The files are insta snapshots, which the report reads as its baseline: one store, and one comparator for both. A value
+//! may move by its own tolerance. To accept what has moved farther, read the report first, then
 //! `cargo run -- report --accept --cases CASE`.
 
 use bagnold_validation::case::{Changes, Silent, Tier, execute};
 use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::metric::undeclared;
-use bagnold_validation::report::Baseline;
+use bagnold_validation::metric::{Metric, undeclared};
+use bagnold_validation::report::{Baseline, description};
 use bagnold_validation::store::{Store, StorePolicy};
-use std::path::Path;
+use insta::comparator::Comparator;
+use insta::{Settings, Snapshot};
+use std::path::{Path, PathBuf};
 
-/// Every metric of a case that is not as accepted.
-fn differences(name: &str) -> Result<Vec<String>, Box<dyn std::error::Error>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots");
-    let accepted = Baseline::read(&folder, name, Tier::Quick)?;
-    let case = REGISTRY.find(name)?;
-    let prepared = case.prepare(Tier::Quick, &Changes::default())?;
-    let results = execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent)?;
-    let mut found = Vec::new();
-    for result in &results {
-        found.extend(accepted.differences(name, &result.metrics));
-        let strangers = undeclared(case.quantities(), &result.metrics);
-        found.extend(strangers.map(|metric| format!("{} [{}] is not declared by the case", metric.name, metric.unit)));
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots")
+}
+
+/// The report's comparison, by each metric's tolerance instead of by text.
+#[derive(Clone)]
+struct WithinTolerance {
+    case: &'static str,
+    metrics: Vec<Metric>,
+}
+
+impl Comparator for WithinTolerance {
+    fn matches(&self, _: &Snapshot, _: &Snapshot) -> bool {
+        let differences = Baseline::read(&folder(), self.case, Tier::Quick)
+            .map_or_else(|error| vec![format!("failed to {error}")], |own| own.differences(self.case, &self.metrics));
+        if !differences.is_empty() {
+            // insta's own difference below also shows what moved within its tolerance
+            eprintln!("{}, not as accepted:\n{}\n", self.case, differences.join("\n"));
+        }
+        differences.is_empty()
     }
-    Ok(found)
+
+    fn dyn_clone(&self) -> Box<dyn Comparator> {
+        Box::new(self.clone())
+    }
+}
+
+fn assert_as_accepted(name: &'static str) {
+    let case = REGISTRY.find(name).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let prepared = case.prepare(Tier::Quick, &Changes::default()).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let results = execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent);
+    for result in results.unwrap_or_else(|error| panic!("{name}: {error}")) {
+        let strangers: Vec<String> = undeclared(case.quantities(), &result.metrics)
+            .map(|metric| format!("{} [{}]", metric.name, metric.unit))
+            .collect();
+        assert!(strangers.is_empty(), "{name} does not declare {}", strangers.join(", "));
+        let mut settings = Settings::clone_current();
+        settings.set_snapshot_path("quick");
+        settings.set_prepend_module_to_snapshot(false);
+        settings.set_omit_expression(true);
+        settings.set_description(description(name, "quick"));
+        settings.set_comparator(Box::new(WithinTolerance { case: name, metrics: result.metrics.clone() }));
+        let content = Baseline::of(name, &result.metrics).content(name);
+        settings.bind(|| insta::assert_snapshot!(name, content));
+    }
 }
 
 #[test]
 fn the_metrics_of_every_case_are_as_accepted() {
     // One case after the other: each uses all cores.
-    let mut complaints = Vec::new();
-    for name in REGISTRY.iter().map(|case| case.name()) {
-        let found = differences(name).unwrap_or_else(|error| vec![format!("failed to {error}")]);
-        complaints.extend(found.into_iter().map(|difference| format!("{name}: {difference}")));
-    }
-    assert!(complaints.is_empty(), "not as accepted:\n{}", complaints.join("\n"));
+    let failed: Vec<&str> = REGISTRY
+        .iter()
+        .map(|case| case.name())
+        .filter(|name| std::panic::catch_unwind(|| assert_as_accepted(name)).is_err())
+        .collect();
+    assert!(failed.is_empty(), "not as accepted, see above: {}", failed.join(", "));
 }
 
 #[test]
 fn every_accepted_case_is_registered() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots").join("quick");
-    for entry in std::fs::read_dir(&folder).expect("accepted values") {
+    for entry in std::fs::read_dir(folder().join("quick")).expect("accepted values") {
         let path = entry.expect("an entry").path();
         let name = path.file_stem().and_then(|name| name.to_str()).expect("a name").to_owned();
         assert!(REGISTRY.find(&name).is_ok(), "{} belongs to no case", path.display());

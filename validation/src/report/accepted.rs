@@ -149,6 +149,24 @@ impl Baseline {
         Ok(read)
     }
 
+    /// The values of `case` as a snapshot's content, a line each in the order of the case.
+    #[must_use]
+    pub fn content(&self, case: &str) -> String {
+        snapshot_text::content(self.lines(case))
+    }
+
+    fn lines(&self, case: &str) -> impl Iterator<Item = Line<'_>> {
+        let mut entries: Vec<(&Key, &Entry)> = self.values.iter().filter(|(key, _)| key.case == case).collect();
+        entries.sort_by_key(|(_, entry)| entry.line);
+        entries.into_iter().map(|(key, entry)| Line {
+            name: &key.metric,
+            variant: key.variant.clone(),
+            value: entry.value,
+            unit: &entry.unit,
+            verdict: entry.verdict,
+        })
+    }
+
     /// Writes the values of `case` into `folder`, a line each, so that a change of one value is a diff of one line.
     ///
     /// # Errors
@@ -158,16 +176,7 @@ impl Baseline {
             return Err(BaselineError::Name { name: case.to_owned() });
         }
         let path = Self::path(folder, case, tier);
-        let mut entries: Vec<(&Key, &Entry)> = self.values.iter().filter(|(key, _)| key.case == case).collect();
-        entries.sort_by_key(|(_, entry)| entry.line);
-        let lines = entries.into_iter().map(|(key, entry)| Line {
-            name: &key.metric,
-            variant: key.variant.clone(),
-            value: entry.value,
-            unit: &entry.unit,
-            verdict: entry.verdict,
-        });
-        let text = snapshot_text::text(case, tier_name(tier), lines);
+        let text = snapshot_text::text(case, tier_name(tier), self.lines(case));
         let write_error = |path: &Path, source| BaselineError::Write { path: path.to_owned(), source };
         if let Some(parent) = path.parent() {
             std::fs::create_dir_all(parent).map_err(|source| write_error(parent, source))?;

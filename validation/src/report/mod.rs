@@ -18,6 +18,7 @@ pub use error::{BaselineError, ReportError};
 pub use judgement::{Judgement, judge};
 pub use known_failures::{KnownFailure, KnownFailures, Standing};
 pub(crate) use page::template_value;
+pub use snapshot_text::description;
 
 use crate::case::Tier;
 use crate::figure::{self, Animation, Figure, FigureError};

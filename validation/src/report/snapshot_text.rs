@@ -1,11 +1,12 @@
-//! Accepted values as text: a heading, and a line `name | variant | value | unit | verdict` for each metric.
+//! Accepted values as text: an insta snapshot, whose content is a line of column names and a line `name | variant | value |
+//! unit | verdict` for each metric.
 
 use crate::metric::{Variant, Verdict};
 
 /// Significant figures of a value: far below any tolerance, and no noise of the last bits.
 const FIGURES: i32 = 9;
 
-/// What stands in the second line, so that a reader knows the columns.
+/// What stands in the first line, so that a reader knows the columns.
 const COLUMNS: &str = "name | variant | value | unit | verdict";
 
 /// A line.
@@ -18,31 +19,47 @@ pub(super) struct Line<'a> {
     pub(super) verdict: Verdict,
 }
 
-fn heading(case: &str, tier: &str) -> String {
-    format!("# {case}, {tier}: written by `bagnold report --accept`")
+/// What a snapshot says of itself, as insta writes it.
+const SOURCE: &str = "source: tests/snapshots/main.rs";
+
+/// Whose values a snapshot holds.
+#[must_use]
+pub fn description(case: &str, tier: &str) -> String {
+    format!("{case} at the {tier} tier")
 }
 
-/// A file.
-pub(super) fn text<'a>(case: &str, tier: &str, lines: impl Iterator<Item = Line<'a>>) -> String {
-    let mut text = format!("{}\n{COLUMNS}\n", heading(case, tier));
+/// A snapshot's content.
+pub(super) fn content<'a>(lines: impl Iterator<Item = Line<'a>>) -> String {
+    let mut text = format!("{COLUMNS}\n");
     for Line { name, variant, value, unit, verdict } in lines {
         text += &format!("{name} | {variant} | {} | {unit} | {}\n", number(value), word(verdict));
     }
     text
 }
 
+/// A file.
+pub(super) fn text<'a>(case: &str, tier: &str, lines: impl Iterator<Item = Line<'a>>) -> String {
+    format!("---\n{SOURCE}\ndescription: {}\n---\n{}", description(case, tier), content(lines))
+}
+
 /// The lines of a file; what is wrong with it, if it is no such file or that of another case or tier.
 pub(super) fn parse<'a>(text: &'a str, case: &str, tier: &str) -> Result<Vec<Line<'a>>, String> {
-    let mut lines = text.lines();
-    let (first, second) = (lines.next().unwrap_or_default(), lines.next().unwrap_or_default());
-    if first != heading(case, tier) {
-        return Err(format!("line 1 is {first:?} instead of {:?}", heading(case, tier)));
+    let expected = description(case, tier);
+    let (heading, content) = text
+        .strip_prefix("---\n")
+        .and_then(|text| text.split_once("\n---\n"))
+        .ok_or_else(|| "it has no heading between two lines `---`".to_owned())?;
+    let described = heading.lines().find_map(|line| line.strip_prefix("description: ")).unwrap_or_default();
+    if described.trim_matches('"') != expected {
+        return Err(format!("its description is {described:?} instead of {expected:?}"));
     }
-    if second != COLUMNS {
-        return Err(format!("line 2 is {second:?} instead of {COLUMNS:?}"));
+    let mut lines = content.lines();
+    let first = lines.next().unwrap_or_default();
+    if first != COLUMNS {
+        return Err(format!("its first line is {first:?} instead of {COLUMNS:?}"));
     }
     let line = |(index, text): (usize, &'a str)| {
-        parse_line(text).ok_or_else(|| format!("line {} is {text:?} instead of `{COLUMNS}`", index + 3))
+        parse_line(text).ok_or_else(|| format!("value {} is {text:?} instead of `{COLUMNS}`", index + 1))
     };
     lines.enumerate().map(line).collect()
 }
@@ -125,20 +142,20 @@ mod tests {
         let file = text("film", "quick", [line(0.5)].into_iter());
         assert_eq!(
             file,
-            "# film, quick: written by `bagnold report --accept`\nname | variant | value | unit | verdict\n\
-             velocity_l2 | resolution=40 | 0.5 | % | pass\n"
+            "---\nsource: tests/snapshots/main.rs\ndescription: film at the quick tier\n---\n\
+             name | variant | value | unit | verdict\nvelocity_l2 | resolution=40 | 0.5 | % | pass\n"
         );
         assert_eq!(parse(&file, "film", "quick"), Ok(vec![line(0.5)]));
         for (damaged, expected) in [
-            (file.replace("film", "bagnold"), "line 1"),
-            (file.replace("name |", "names |"), "line 2"),
-            (file.replace("pass", "passes"), "line 3"),
-            (file.replace("0.5", "half"), "line 3"),
-            (file.replace(" | %", ""), "line 3"),
+            (file.replacen("---", "", 1), "it has no heading"),
+            (file.replace("film", "bagnold"), "its description"),
+            (file.replace("name |", "names |"), "its first line"),
+            (file.replace("pass", "passes"), "value 1"),
+            (file.replace("0.5", "half"), "value 1"),
+            (file.replace(" | %", ""), "value 1"),
         ] {
             let error = parse(&damaged, "film", "quick").expect_err("refused");
             assert!(error.starts_with(expected), "{error}");
         }
-        assert!(parse(&file, "film", "paper").is_err());
     }
 }
