@@ -1,5 +1,6 @@
 //! The canonical cases. A new case is one file or folder here and one line in `registry!`.
 
+mod arrangement;
 pub mod bagnold;
 pub mod bed_load;
 pub mod bed_load_1d;
@@ -19,6 +20,8 @@ pub mod settling;
 pub mod still_water;
 mod transport_panel;
 pub mod water_film;
+
+pub use arrangement::Arrangement;
 
 use crate::case::Registry;
 

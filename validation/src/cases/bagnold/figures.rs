@@ -2,8 +2,9 @@
 
 use super::Record;
 use super::metrics::{convergence_errors, friction, history_from_rest, inertial_numbers, particle_history};
-use super::parameters::{Arrangement, BagnoldParameters, Start};
+use super::parameters::{BagnoldParameters, Start};
 use super::runs::{BagnoldRun, Purpose};
+use crate::cases::Arrangement;
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
 use crate::reference::LayerTransient;
 

@@ -1,9 +1,10 @@
 //! How the runs are judged.
 
 use super::Record;
-use super::parameters::{Arrangement, BagnoldParameters, Start};
+use super::parameters::{BagnoldParameters, Start};
 use super::runs::{BagnoldRun, Purpose};
 use crate::case::Run;
+use crate::cases::Arrangement;
 use crate::cases::layer::{self, BINS, DepthProfile};
 use crate::metric::{Confidence, Limit, Metric, Value, Variant};
 use crate::reference::{BagnoldProfile, LayerTransient, TransientHistory};

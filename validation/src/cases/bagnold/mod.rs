@@ -5,7 +5,7 @@ mod metrics;
 mod parameters;
 mod runs;
 
-pub use parameters::{Arrangement, BagnoldParameters, Start};
+pub use parameters::{BagnoldParameters, Start};
 pub use runs::{BagnoldRun, Purpose};
 
 use crate::case::{Case, RecordOf};

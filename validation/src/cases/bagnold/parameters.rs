@@ -21,16 +21,6 @@ pub enum Start {
     Profile,
 }
 
-/// How the particles are arranged at the start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Arrangement {
-    /// On a square lattice.
-    Lattice,
-    /// Displaced at random from the lattice.
-    Jittered,
-}
-
 /// Parameters of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BagnoldParameters {

@@ -1,7 +1,8 @@
 //! The simulations that the case asks for.
 
-use super::parameters::{ARREST_DURATION, Arrangement, BagnoldParameters, Start, law, profile};
+use super::parameters::{ARREST_DURATION, BagnoldParameters, Start, law, profile};
 use crate::case::{ParameterError, Progress, Run};
+use crate::cases::Arrangement;
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::metric::{Value, Variant};
 use crate::observation::Recorded;
@@ -69,10 +70,7 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
         gravity: parameters.gravity,
         solid_fraction: parameters.solid_fraction,
         columns: parameters.columns,
-        jitter: match particles {
-            Arrangement::Lattice => 0.0,
-            Arrangement::Jittered => parameters.jitter,
-        },
+        jitter: particles.displacement(parameters.jitter),
         seed: parameters.seed,
         preparation: parameters.preparation,
         duration,
@@ -149,13 +147,9 @@ impl Run for BagnoldRun {
             }
             Start::Profile => Value::from("profile"),
         };
-        let particles = match self.particles {
-            Arrangement::Lattice => "lattice",
-            Arrangement::Jittered => "jittered",
-        };
         let run = Variant::of("slope_angle", self.slope_angle)
             .and("start", start)
-            .and("particles", particles)
+            .and("particles", self.particles.name())
             .and("resolution", self.resolution);
         match self.purpose {
             Purpose::Regularised => run.and("regularisation_rate", self.regularisation_rate),

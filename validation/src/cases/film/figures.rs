@@ -5,7 +5,7 @@ use super::comparison::NumericsSet;
 use super::fluid::FluidKind;
 use super::metrics::{convergence_errors, shear_rates};
 use super::parameters::FilmRun;
-use crate::cases::bagnold::Arrangement;
+use crate::cases::Arrangement;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::observation::Outcome;
 

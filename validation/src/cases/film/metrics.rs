@@ -5,7 +5,7 @@ use super::comparison::NumericsSet;
 use super::fluid::FluidKind;
 use super::parameters::FilmRun;
 use crate::case::Run;
-use crate::cases::bagnold::Arrangement;
+use crate::cases::Arrangement;
 use crate::cases::layer::{self, BINS, LayerObservation};
 use crate::metric::{Confidence, Limit, Metric, Value, Variant};
 use crate::observation::{Outcome, Recorded};

@@ -3,7 +3,7 @@
 use super::comparison::NumericsSet;
 use super::fluid::{Fluid, FluidKind};
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
-use crate::cases::bagnold::Arrangement;
+use crate::cases::Arrangement;
 use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
 use crate::cases::rules;
 use crate::metric::Variant;
@@ -136,7 +136,7 @@ impl Parameters for FilmParameters {
             gravity: self.gravity,
             density: self.density,
             columns: self.columns,
-            jitter: if particles == Arrangement::Lattice { 0.0 } else { self.jitter },
+            jitter: particles.displacement(self.jitter),
             seed: self.seed,
             preparation: self.preparation,
             relaxation_times: match kind {
@@ -216,8 +216,7 @@ impl Run for FilmRun {
             FluidKind::Bingham => "bingham",
             FluidKind::HerschelBulkley => "herschel_bulkley",
         };
-        let particles = if self.particles == Arrangement::Lattice { "lattice" } else { "jittered" };
-        let variant = Variant::of("fluid", fluid).and("particles", particles);
+        let variant = Variant::of("fluid", fluid).and("particles", self.particles.name());
         let variant = match self.numerics_set {
             NumericsSet::Default => variant,
             other => variant.and("numerics", other.name()),

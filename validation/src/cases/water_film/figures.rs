@@ -3,7 +3,7 @@
 use super::Record;
 use super::metrics::{Depth, convergence_errors, depth_of};
 use super::parameters::WaterFilmRun;
-use crate::cases::bagnold::Arrangement;
+use crate::cases::Arrangement;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {

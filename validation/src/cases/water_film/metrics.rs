@@ -3,7 +3,7 @@
 use super::Record;
 use super::parameters::WaterFilmRun;
 use crate::case::Run;
-use crate::cases::bagnold::Arrangement;
+use crate::cases::Arrangement;
 use crate::cases::channel::{self, ChannelObservation, ProfilePoint};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
 use crate::observation::Recorded;

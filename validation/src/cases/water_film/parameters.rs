@@ -1,7 +1,7 @@
 //! Parameters, tiers and runs.
 
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
-use crate::cases::bagnold::Arrangement;
+use crate::cases::Arrangement;
 use crate::cases::channel::{Channel, ChannelObservation, Lattice, Until};
 use crate::cases::rules;
 use crate::metric::Variant;
