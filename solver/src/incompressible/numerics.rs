@@ -87,7 +87,7 @@ pub struct ProjectionNumerics {
     /// Largest time step `[s]`.
     #[schemars(transform = between(1e-9, 1.0, DEFAULTS))]
     pub time_step: f64,
-    /// Courant number of the largest speed `[-]`.
+    /// Most of a spacing that the fastest particle may go in a step, a Courant number `[-]`.
     #[schemars(transform = between(1e-3, 0.5, DEFAULTS))]
     pub courant: f64,
     /// Share s of D G that is added to the compact Laplacian A of (12) `[-]`; 0 is the paper's operator.

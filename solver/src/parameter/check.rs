@@ -123,7 +123,7 @@ impl Place {
         match shape {
             Shape::Choice(variants) => match value {
                 Value::Table(table) if table.len() == 1 => {
-                    table.iter().find_map(|(name, value)| Some(self.below(name).no_choice(variants, name, value)))
+                    table.iter().map(|(name, value)| self.below(name).no_choice(variants, name, value)).next()
                 }
                 Value::String(name) => Some(self.no_choice(variants, name, value)),
                 _ => Some(self.wrong(value, one_of(variants))),

@@ -89,16 +89,16 @@ pub struct Numerics {
     /// Elastic shear modulus over bulk modulus G/K `[-]`, for laws with a yield by return mapping.
     #[schemars(transform = up_to(1.5, DEFAULTS))]
     pub shear_modulus_ratio: f64,
-    /// Courant number of the sound speed `[-]`.
+    /// Largest Courant number of the sound speed `[-]`.
     #[schemars(transform = up_to(1.0, DEFAULTS))]
     pub acoustic_courant: f64,
-    /// Courant number of the flow speed `[-]`.
+    /// Largest Courant number of the flow speed `[-]`.
     #[schemars(transform = up_to(1.0, DEFAULTS))]
     pub advective_courant: f64,
     /// Coefficient of the explicit viscous bound ρh²/η `[-]`.
     #[schemars(transform = up_to(1.0, DEFAULTS))]
     pub viscous_courant: f64,
-    /// Explicit or implicit viscous stress.
+    /// When the viscous stress is taken, before or after the step.
     pub viscous_step: ViscousStep,
     /// Share of the net acceleration that an implicit viscous step may leave without its viscous answer `[-]`, both as
     /// root mean squares.

@@ -22,7 +22,7 @@ pub struct CoulombBingham {
     /// Yield stress τ_y `[Pa]` without pressure, in the norm √(½ s:s).
     #[schemars(transform = not_negative("give the yield stress in Pa, or 0 for grains without cohesion"))]
     pub yield_stress: f64,
-    /// Coulomb friction μ_c `[-]` on the pressure; 0 is Bingham's law.
+    /// Friction coefficient μ_c of Coulomb on the pressure `[-]`; 0 is Bingham's law.
     #[schemars(transform = not_negative("0.6 for sand and gravel, 0 for none"))]
     pub friction: f64,
     /// Plastic viscosity μ `[Pa·s]`: the slope of τ over |γ̇| in flow.

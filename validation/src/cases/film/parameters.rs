@@ -56,11 +56,11 @@ pub struct FilmParameters {
     /// Simulated time of the yield-stress films, from the exact profile, over ρh²/η `[-]`.
     #[schemars(transform = positive("1 lets the errors of the start decay"))]
     pub yield_relaxation_times: f64,
-    /// Newtonian fluid.
+    /// The Newtonian fluid.
     pub newtonian: Newtonian,
-    /// Bingham fluid.
+    /// The Bingham fluid.
     pub bingham: Bingham,
-    /// Herschel–Bulkley fluid.
+    /// The Herschel–Bulkley fluid.
     pub herschel_bulkley: HerschelBulkley,
     /// Numerics.
     pub numerics: Numerics,

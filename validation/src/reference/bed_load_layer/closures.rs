@@ -66,7 +66,7 @@ pub struct Closures {
     pub drag: DragLaw,
     /// Mixing length.
     pub mixing_length: MixingLength,
-    /// Kármán's κ `[-]`.
+    /// The constant κ of von Kármán `[-]`.
     #[schemars(transform = positive("give κ, 0.41"))]
     pub karman: f64,
     /// Viscosity of the water between grains.
