@@ -55,7 +55,7 @@ impl PlanError {
                 Self::Path { file: plan.to_owned(), path, nearest, case }
             }
             ParameterError::Setting(SettingError::Value { path, value, rule, remedy }) => {
-                Self::Field(FieldError { file: Some(plan.to_owned()), field: path, value, rule, remedy })
+                Self::Field(FieldError::new(&path, value, &rule, &remedy).in_file(plan))
             }
             other => Self::Parameter(other.in_file(plan)),
         }

@@ -14,22 +14,16 @@ pub struct FieldError {
     /// The offending value as written.
     pub value: String,
     /// The rule it breaks, completing "must be …".
-    pub rule: String,
+    pub rule: Box<str>,
     /// What to do about it.
-    pub remedy: String,
+    pub remedy: Box<str>,
 }
 
 impl FieldError {
     /// The error of a field whose file is not known yet.
     #[must_use]
     pub fn new(field: &str, value: impl std::fmt::Display, rule: &str, remedy: &str) -> Self {
-        Self {
-            file: None,
-            field: field.to_owned(),
-            value: value.to_string(),
-            rule: rule.to_owned(),
-            remedy: remedy.to_owned(),
-        }
+        Self { file: None, field: field.to_owned(), value: value.to_string(), rule: rule.into(), remedy: remedy.into() }
     }
 
     /// Says that the field is part of a group of fields.

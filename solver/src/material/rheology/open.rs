@@ -26,7 +26,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! From then on `law = "power-law"` finds it wherever a [`Rheology`] is read.
+//! From then on `law = "power-law"` finds it wherever a [`Rheology`](super::Rheology) is read.
 
 mod registry;
 mod table;
