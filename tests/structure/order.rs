@@ -2,6 +2,7 @@
 
 use crate::imports::imports;
 use crate::source::{Source, sources};
+use bagnold_validation::cases::REGISTRY;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Rooms of one floor, which may use each other as long as no circle arises; and whether they must not, as peers.
@@ -38,6 +39,10 @@ const VALIDATION: &[Floor] = &[
     floor(&["sweep", "calibration"]),
     floor(&["cli"]),
 ];
+
+/// Rooms of the models by which a term could see more than its arguments.
+const BEYOND_A_TERM: &[&str] =
+    &["material", "particles", "phase", "neighbours", "scene", "state", "passes", "simulation"];
 
 /// A file that imports what it must not.
 fn offence(source: &Source, line: usize, rule: &str) -> String {
@@ -108,6 +113,46 @@ fn the_solver_depends_downwards_only() {
 #[test]
 fn the_validation_depends_downwards_only() {
     assert_none(&offences("validation/src", VALIDATION));
+}
+
+#[test]
+fn a_term_knows_neither_laws_nor_particles_nor_lists() {
+    let mut found = Vec::new();
+    for source in sources("solver/src") {
+        let [_, room, ..] = source.module.as_slice() else { continue };
+        if room != "terms" {
+            continue;
+        }
+        for import in imports(&source) {
+            let seen = import.path.iter().find(|part| BEYOND_A_TERM.contains(&part.as_str()));
+            if let Some(seen) = seen {
+                let rule = format!("imports `{}`: a term does not know `{seen}`", import.path.join("::"));
+                found.push(offence(&source, import.line, &rule));
+            }
+        }
+    }
+    assert_none(&found);
+}
+
+#[test]
+fn no_case_imports_another() {
+    let cases: BTreeSet<String> = REGISTRY.iter().map(|case| case.name().replace('-', "_")).collect();
+    let mut found = Vec::new();
+    for source in sources("validation/src") {
+        // what several cases share has a folder that is no case
+        let [root, own, ..] = source.module.as_slice() else { continue };
+        for import in imports(&source) {
+            if let ("cases", [first, other, ..]) = (root.as_str(), import.path.as_slice())
+                && first == "cases"
+                && other != own
+                && cases.contains(other)
+            {
+                let rule = format!("imports `{}`: `{other}` is another case", import.path.join("::"));
+                found.push(offence(&source, import.line, &rule));
+            }
+        }
+    }
+    assert_none(&found);
 }
 
 #[test]

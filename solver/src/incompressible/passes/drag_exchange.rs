@@ -93,7 +93,7 @@ impl<const D: usize> DragExchange<D> {
     ) -> f64 {
         match scene.numerics.drag_slip {
             DragSlip::Mean => self.mean_factor[particle],
-            DragSlip::Pair => drag_pair::grain_factor(material, slip(), scene.fluid.kinematic_viscosity),
+            DragSlip::Pair => grain_factor(material, slip(), scene.fluid.kinematic_viscosity),
         }
     }
 
@@ -121,7 +121,7 @@ impl<const D: usize> DragExchange<D> {
                 let own = sediment.velocity.get(a).copied().unwrap_or_else(Vector::zeros);
                 *slip = if weight > 0.0 { (sum / weight - own).norm() } else { 0.0 };
                 *factor = match material.drag_form {
-                    DragForm::Grain(_) => drag_pair::grain_factor(material, *slip, scene.fluid.kinematic_viscosity),
+                    DragForm::Grain(_) => grain_factor(material, *slip, scene.fluid.kinematic_viscosity),
                     DragForm::Exchange => {
                         let height = positions[a][height_axis(D)];
                         let around = (weight * fluid.lattice_volume).max(scene.numerics.least_fluid);
@@ -174,4 +174,15 @@ fn exchange_factor<const D: usize>(
         _ => sediment.volume.get(a).copied().unwrap_or(sediment.lattice_volume),
     };
     drag_pair::exchange_factor(volume, exchange, density, fluid_around)
+}
+
+/// ½ C_d d |u| of (30) `[m²/s]`; Ergun's law, which has no single grain, gives none.
+fn grain_factor<const D: usize>(material: &Sediment<D>, slip: f64, kinematic_viscosity: f64) -> f64 {
+    let reynolds = slip * material.grain_diameter / kinematic_viscosity;
+    let product = material.drag.drag_times_reynolds(reynolds).unwrap_or(0.0);
+    let factor = match material.drag_form {
+        DragForm::Grain(factor) => factor,
+        DragForm::Exchange => 1.0,
+    };
+    0.5 * factor * product * kinematic_viscosity
 }

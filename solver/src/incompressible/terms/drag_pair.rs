@@ -4,23 +4,10 @@
 //! β_ab = ½ m_b C_d d |u_ab| W with C_d d |u_ab| = (C_d R) ν. In the volume-fraction form a particle of volume V_a feels
 //! V_a K (u_f − u_a), shared by W over the fluid around it.
 
-use super::super::scene::{DragForm, Sediment};
-
 /// Δt β_ab `[kg]` of a fluid particle's mass `[kg]`, W `[1/m^D]` and the factor `[m^D/s]`.
 #[inline(always)]
 pub(crate) fn coefficient(time_step: f64, fluid_mass: f64, value: f64, factor: f64) -> f64 {
     time_step * fluid_mass * value * factor
-}
-
-/// ½ C_d d |u| of (30) `[m²/s]`; Ergun's law, which has no single grain, gives none.
-pub(crate) fn grain_factor<const D: usize>(material: &Sediment<D>, slip: f64, kinematic_viscosity: f64) -> f64 {
-    let reynolds = slip * material.grain_diameter / kinematic_viscosity;
-    let product = material.drag.drag_times_reynolds(reynolds).unwrap_or(0.0);
-    let factor = match material.drag_form {
-        DragForm::Grain(factor) => factor,
-        DragForm::Exchange => 1.0,
-    };
-    0.5 * factor * product * kinematic_viscosity
 }
 
 /// V_a K/(ρ_f Σ_b V_b W) `[m^D/s]`: the exchange of a particle of the volume V_a `[m^D]`, shared by the fluid around it, where

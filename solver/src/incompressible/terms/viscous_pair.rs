@@ -1,8 +1,5 @@
 //! Viscous friction of a pair (18): K_ab = −2 V_a V_b (η_a + η_b) F/(M_a + M_b), over the mean of both moments M as in the
-//! pressure Poisson equation, and the η_a + η_b of two sediment particles.
-
-use super::super::numerics::PairLaw;
-use crate::material::rheology::Rheology;
+//! pressure Poisson equation.
 
 /// Δt K_ab `[kg]` from volumes `[m^D]`, the sum of the moments `[-]`, F `[1/m^(D+2)]` and η_a + η_b `[Pa·s]`.
 #[inline(always)]
@@ -17,32 +14,4 @@ pub(crate) fn coefficient(time_step: f64, volumes: (f64, f64), moments: f64, gra
 /// the rate the pairs' viscosities τ π/(4 γ̇ |cosα|) then carry just τ: ⟨|cosα|⟩/⟨cos²α⟩ is 4/π in the plane, 3/2 in space.
 pub(crate) const fn mean_rate(dimensions: usize) -> f64 {
     if dimensions == 2 { 4.0 / std::f64::consts::PI } else { 3.0 / 2.0 }
-}
-
-/// What a pair reads of one of its particles.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct End {
-    /// Load on the grains `[Pa]`.
-    pub(crate) load: f64,
-    /// Apparent viscosity `[Pa·s]`.
-    pub(crate) viscosity: f64,
-}
-
-/// η_a + η_b of two sediment particles `[Pa·s]`, from the pair's own |u_ab|/r or the averaged one `[1/s]`.
-#[inline]
-pub(crate) fn viscosities<const D: usize>(
-    law: &Rheology,
-    pair_law: PairLaw,
-    ends: (End, End),
-    own_rate: impl FnOnce() -> f64,
-    averaged_rate: impl FnOnce() -> f64,
-) -> f64 {
-    let (a, b) = ends;
-    match pair_law {
-        PairLaw::PairRate => 2.0 * law.viscosity(mean_rate(D) * own_rate(), a.load.min(b.load)),
-        PairLaw::PairRateMeanLoad => 2.0 * law.viscosity(mean_rate(D) * own_rate(), 0.5 * (a.load + b.load)),
-        PairLaw::AveragedPairRate => 2.0 * law.viscosity(mean_rate(D) * averaged_rate(), 0.5 * (a.load + b.load)),
-        PairLaw::ArithmeticMean => a.viscosity + b.viscosity,
-        PairLaw::HarmonicMean => 4.0 * a.viscosity * b.viscosity / (a.viscosity + b.viscosity),
-    }
 }

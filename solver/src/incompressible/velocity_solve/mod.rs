@@ -4,6 +4,7 @@
 //! number a pair, the same seen from both sides, so K is symmetric, the axes do not mix, and the exchange of momentum
 //! is equal and opposite. With the constant velocity deflated the total momentum closes to rounding.
 
+mod pair_law;
 mod rows;
 
 pub(super) use rows::VelocityRows;

@@ -8,8 +8,9 @@ use super::super::passes::viscosities::Viscosities;
 use super::super::phase::{Phase, Phases};
 use super::super::scene::{IncompressibleScene, Sediment, height_axis};
 use super::super::terms::drag_pair;
-use super::super::terms::viscous_pair::{self, End};
+use super::super::terms::viscous_pair;
 use super::VelocitySystem;
+use super::pair_law::{self, End};
 use crate::lanes::LANES;
 use crate::linear::{Row as Links, Single, single};
 use crate::vector::Vector;
@@ -176,6 +177,6 @@ impl<const D: usize> VelocityRows<'_, D> {
     ) -> f64 {
         let own_rate = || (difference.norm_squared() / pair.separation.norm_squared()).sqrt();
         let averaged_rate = || self.rates.pair_rate(a, b, pair);
-        viscous_pair::viscosities::<D>(&material.law, self.scene.numerics.pair_law, ends, own_rate, averaged_rate)
+        pair_law::viscosities::<D>(&material.law, self.scene.numerics.pair_law, ends, own_rate, averaged_rate)
     }
 }
