@@ -4,6 +4,7 @@ mod arrangement;
 pub mod bagnold;
 pub mod bed_load;
 pub mod bed_load_1d;
+mod bulk;
 pub mod channel;
 pub mod clear_water;
 pub mod collapse;
@@ -22,6 +23,7 @@ mod transport_panel;
 pub mod water_film;
 
 pub use arrangement::Arrangement;
+pub use bulk::Bulk;
 
 use crate::case::Registry;
 
