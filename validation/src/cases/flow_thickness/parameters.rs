@@ -99,9 +99,9 @@ impl Parameters for FlowThicknessParameters {
     }
 
     fn check(&self) -> Result<(), ParameterError> {
-        self.collapse.check().map_err(|error| error.within("collapse"))?;
         let remedy = "the steady profiles that the layers start with are those of μ(I)";
         let grains = rules::only_mu_i("collapse.material", &self.collapse.material, remedy)?;
+        self.collapse.check().map_err(|error| error.within("collapse"))?;
         for (index, &station) in self.stations.iter().enumerate() {
             let field = format!("stations[{index}]");
             let remedy = "a station lies in the channel, in metres from the back of the reservoir";
