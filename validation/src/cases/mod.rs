@@ -4,6 +4,7 @@ mod arrangement;
 pub mod bagnold;
 pub mod bed_load;
 pub mod bed_load_1d;
+mod bulk;
 pub mod channel;
 pub mod clear_water;
 pub mod collapse;
@@ -22,6 +23,7 @@ mod transport_panel;
 pub mod water_film;
 
 pub use arrangement::Arrangement;
+pub use bulk::Bulk;
 
 use crate::case::Registry;
 
@@ -60,8 +62,11 @@ registry!($
 #[cfg(test)]
 mod tests {
     use super::REGISTRY;
-    use crate::case::{Changes, Tier};
+    use crate::case::{Changes, Prepared, Progress, Tier};
     use crate::metric::Variant;
+    use crate::store::{Store, StorePolicy};
+    use bagnold_solver::material::rheology::ViscousLaw;
+    use bagnold_solver::material::rheology::open::{OpenLaw, Parameters, register};
     use std::collections::BTreeSet;
 
     #[test]
@@ -77,5 +82,71 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// A liquid that no built-in law knows by this name.
+    #[derive(Debug, serde::Deserialize)]
+    struct Honey {
+        viscosity: f64,
+    }
+
+    impl ViscousLaw for Honey {
+        fn viscosity(&self, _: f64, _: f64) -> f64 {
+            self.viscosity
+        }
+
+        fn largest_viscosity(&self, _: f64) -> f64 {
+            self.viscosity
+        }
+    }
+
+    /// Tells nobody.
+    struct Unseen;
+
+    impl Progress for Unseen {
+        fn advance(&self, _: f64, _: f64, _: f64) {}
+    }
+
+    fn prepared(case: &str, settings: &[&str]) -> Result<Box<dyn Prepared>, String> {
+        let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
+        let case = REGISTRY.iter().find(|other| other.name() == case).expect("a case");
+        case.prepare(Tier::Quick, &Changes { file: None, settings: &settings }).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn any_law_runs_by_its_name() {
+        register("honey", |parameters: &Parameters| Ok(OpenLaw::viscous(parameters.read::<Honey>()?))).expect("new");
+        let bingham = |table: &str| {
+            ["law=bingham", "yield_stress=1", "plastic_viscosity=1", "regularisation_rate=1"]
+                .map(|setting| format!("{table}.{setting}"))
+        };
+        let honey = ["liquid.law=honey".to_owned(), "liquid.viscosity=1".to_owned()];
+        let layer = ["resolution=4", "preparation=none", "duration=2.2"];
+        let column = ["resolution=4", "duration=0.1", "sand.bulk_density=1500", "sand.aspect_ratios=[1]"];
+        let alone = ["regularised.aspect_ratios=[]", "lagree.aspect_ratios=[]", "sensitivity.aspect_ratios=[]"];
+        for (case, own, law) in [
+            ("hydrostatic", layer.to_vec(), honey.to_vec()),
+            ("hydrostatic", layer.to_vec(), bingham("liquid").to_vec()),
+            ("column-planar", [&column[..], &alone[..]].concat(), bingham("sand.law").to_vec()),
+        ] {
+            let settings: Vec<&str> = own.into_iter().chain(law.iter().map(String::as_str)).collect();
+            let prepared = prepared(case, &settings).expect("valid");
+            let store = Store::at(std::path::Path::new("unused"), StorePolicy::Bypass);
+            prepared.simulate(0, &store, &Unseen).expect("a scene");
+            let result = prepared.finish();
+            assert!(!result.metrics.is_empty(), "{case}: {settings:?}");
+        }
+    }
+
+    #[test]
+    fn a_case_made_for_one_law_says_so() {
+        let refusal = |case: &str, path: &str| {
+            let settings = [format!("{path}.law=newtonian"), format!("{path}.viscosity=1")];
+            prepared(case, &settings.each_ref().map(String::as_str)).err().unwrap_or_default()
+        };
+        let bagnold = "`material.law` is \"newtonian\", but must be \"mu-i\"; Bagnold's profile";
+        assert!(refusal("bagnold", "material").starts_with(bagnold));
+        let thickness = refusal("flow-thickness", "collapse.material");
+        assert!(thickness.starts_with("`collapse.material.law` is \"newtonian\", but must be \"mu-i\""), "{thickness}");
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::case::ParameterError;
 use bagnold_solver::incompressible::{Continuity, MeanFlux, ProjectionNumerics};
-use bagnold_solver::material::rheology::Rheology;
+use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{self, ParameterProblem, Rule, inside, positive, up_to};
 use bagnold_solver::weakly_compressible::boundary::Surface;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
@@ -61,6 +61,17 @@ pub(super) fn columns(field: &str, value: usize, numerics: &Numerics) -> Result<
 /// The rules between a constitutive law's own parameters.
 pub(super) fn material(path: &str, law: &Rheology) -> Result<(), ParameterError> {
     refuse(path, law.parameter_problem())
+}
+
+/// The grains of a case that is made for μ(I) only; `remedy` says why.
+pub(super) fn only_mu_i(path: &str, law: &Rheology, remedy: &str) -> Result<MuI, ParameterError> {
+    match law {
+        Rheology::MuI(grains) => Ok(*grains),
+        other => {
+            let name = format!("\"{}\"", other.name());
+            Err(ParameterError::field(&format!("{path}.law"), name, "\"mu-i\"", remedy))
+        }
+    }
 }
 
 /// The continuity of the incompressible solver, which a case's own runs choose.

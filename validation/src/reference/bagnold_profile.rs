@@ -6,6 +6,7 @@
 //! No steady flow below tanθ = μ_s (arrest) or from tanθ = μ_2 on (unbounded acceleration).
 
 use super::ReferenceError;
+use bagnold_solver::material::rheology::MuI;
 
 /// A uniform layer of dry grains on an incline, and its steady flow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +32,22 @@ pub struct BagnoldProfile {
 }
 
 impl BagnoldProfile {
+    /// The layer of a height `[m]` of grains of μ(I), at a solid fraction and a gravity `[m/s²]`, on a slope `[°]`.
+    #[must_use]
+    pub fn of(grains: &MuI, layer_height: f64, solid_fraction: f64, gravity: f64, slope_angle: f64) -> Self {
+        Self {
+            layer_height,
+            slope_angle: slope_angle.to_radians(),
+            gravity,
+            grain_diameter: grains.grain_diameter,
+            grain_density: grains.grain_density,
+            solid_fraction,
+            static_friction: grains.static_friction,
+            limiting_friction: grains.limiting_friction,
+            reference_inertia: grains.reference_inertia,
+        }
+    }
+
     /// Refuses parameters for which neither the profile nor its transient is defined.
     pub fn check(&self) -> Result<(), ReferenceError> {
         let positive = [

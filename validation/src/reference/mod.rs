@@ -15,6 +15,7 @@ mod collapse_laws;
 mod error;
 mod film;
 mod grains;
+mod law_film;
 mod layer_statement;
 mod layer_transient;
 mod measured;
@@ -30,6 +31,7 @@ pub use collapse_laws::{COLLAPSE_DURATION, CollapseLaw, CollapseLaws, DRAWN, PLA
 pub use error::ReferenceError;
 pub use film::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
 pub use grains::{FlowRule, GLASS_BEADS, GLASS_BEADS_FLOW_RULE, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};
+pub use law_film::LawFilm;
 pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
 pub use layer_transient::{LayerProfile, LayerTransient, TransientHistory};
 pub use measured::{Column, MeasuredData, Metadata, Origin};

@@ -139,6 +139,17 @@ macro_rules! laws {
         }
 
         impl Rheology {
+            /// Its name, as its `law` key has it.
+            #[must_use]
+            pub fn name(&self) -> &'static str {
+                match *self {
+                    $(Self::$viscous(_) => $viscous_name,)*
+                    $(Self::$plastic(_) => $plastic_name,)*
+                    Self::OpenViscous(law) => law.name(),
+                    Self::OpenPlastic(law) => law.name(),
+                }
+            }
+
             /// The law as files have it, or the one of a user's own crate.
             fn written(&self) -> Result<BuiltIn, open::Written> {
                 match *self {
@@ -289,6 +300,41 @@ impl Rheology {
             // the maker of an open law has judged its parameters
             Self::OpenViscous(_) | Self::OpenPlastic(_) => None,
         })
+    }
+}
+
+impl Rheology {
+    /// Density ρ_s `[kg/m³]` of the grains, where the law has such a parameter; one of a user's own crate has it as
+    /// `grain_density`.
+    #[must_use]
+    pub fn grain_density(&self) -> Option<f64> {
+        match self {
+            Self::MuI(law) => Some(law.grain_density),
+            Self::RegularisedMuI(law) => Some(law.grain_density),
+            Self::RootMuI(law) => Some(law.grain_density),
+            _ => self.open_parameter("grain_density"),
+        }
+    }
+
+    /// Diameter `[m]` of the grains, likewise as `grain_diameter`.
+    #[must_use]
+    pub fn grain_diameter(&self) -> Option<f64> {
+        match self {
+            Self::MuI(law) => Some(law.grain_diameter),
+            Self::RegularisedMuI(law) => Some(law.grain_diameter),
+            Self::RootMuI(law) => Some(law.grain_diameter),
+            _ => self.open_parameter("grain_diameter"),
+        }
+    }
+
+    /// A parameter of a law of a user's own crate.
+    fn open_parameter(&self, name: &str) -> Option<f64> {
+        let parameters = match self {
+            Self::OpenViscous(law) => law.parameters(),
+            Self::OpenPlastic(law) => law.parameters(),
+            _ => return None,
+        };
+        parameters.iter().find(|parameter| parameter.0 == name).map(|parameter| parameter.1)
     }
 }
 

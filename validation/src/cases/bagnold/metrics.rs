@@ -6,9 +6,65 @@ use super::runs::{BagnoldRun, Purpose};
 use crate::case::Run;
 use crate::cases::Arrangement;
 use crate::cases::layer::{self, BINS, DepthProfile};
-use crate::metric::{Confidence, Limit, Metric, Value, Variant};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
 use crate::reference::{BagnoldProfile, LayerTransient, TransientHistory};
 use crate::statistics::{linear_fit, log_log_slope};
+
+const VELOCITY_L2: Quantity =
+    Quantity::verified("velocity_l2", "%", "relative L2 of the velocity profile against Bagnold's");
+const SURFACE_VELOCITY_ERROR: Quantity =
+    Quantity::verified("surface_velocity_error", "%", "relative error of the topmost bin's velocity");
+const IMPLIED_STRESS_ERROR: Quantity =
+    Quantity::verified("implied_stress_error", "%", "mean of |μ(I)/tanθ − 1| over 0.1 h … 0.9 h");
+const WALL_SLIP: Quantity =
+    Quantity::verified("wall_slip", "%", "velocity at the bed less that of the exact profile, over u(h)");
+const RELATIVE_HEIGHT: Quantity =
+    Quantity::verified("relative_height", "-", "twice the mean height over the nominal one at the end");
+const VELOCITY_L2_MEASURED_HEIGHT: Quantity =
+    Quantity::verified("velocity_l2_measured_height", "%", "velocity_l2 against the profile of the measured height");
+const TRANSIENT_MEAN_ERROR_QUARTER: Quantity = Quantity::verified(
+    "transient_mean_error_quarter",
+    "%",
+    "depth mean against the 1-D transient, at a quarter of the rise time",
+);
+const TRANSIENT_MEAN_ERROR_HALF: Quantity =
+    Quantity::verified("transient_mean_error_half", "%", "the same at half of it");
+const TRANSIENT_MEAN_ERROR_THREE_QUARTERS: Quantity =
+    Quantity::verified("transient_mean_error_three_quarters", "%", "the same at three quarters of it");
+const RISE_TIME: Quantity =
+    Quantity::verified("rise_time", "s", "time at which the depth mean reaches 99 % of the steady one");
+const ARREST_TIME: Quantity =
+    Quantity::verified("arrest_time", "s", "time at which the depth mean has fallen to 1 % of its start");
+const REST_RMS_SPEED: Quantity =
+    Quantity::verified("rest_rms_speed", "m/s", "largest root mean square of the speed over the last 0.2 s");
+const LEAST_ACCELERATION: Quantity =
+    Quantity::verified("least_acceleration", "-", "smallest acceleration over the limit of infinite inertial number");
+const FINAL_MEAN_ERROR: Quantity =
+    Quantity::verified("final_mean_error", "%", "depth mean at the end against the 1-D transient");
+const OBSERVED_ORDER: Quantity =
+    Quantity::verified("observed_order", "-", "order of convergence of velocity_l2 on the lattice");
+const LEAST_ERROR_REDUCTION: Quantity =
+    Quantity::verified("least_error_reduction", "-", "smallest factor by which a refinement reduces velocity_l2");
+
+pub(super) const QUANTITIES: &[Quantity] = &[
+    layer::PARTICLES_LOST,
+    VELOCITY_L2,
+    SURFACE_VELOCITY_ERROR,
+    IMPLIED_STRESS_ERROR,
+    WALL_SLIP,
+    RELATIVE_HEIGHT,
+    VELOCITY_L2_MEASURED_HEIGHT,
+    TRANSIENT_MEAN_ERROR_QUARTER,
+    TRANSIENT_MEAN_ERROR_HALF,
+    TRANSIENT_MEAN_ERROR_THREE_QUARTERS,
+    RISE_TIME,
+    ARREST_TIME,
+    REST_RMS_SPEED,
+    LEAST_ACCELERATION,
+    FINAL_MEAN_ERROR,
+    OBSERVED_ORDER,
+    LEAST_ERROR_REDUCTION,
+];
 
 const EXACT: &str = "Bagnold's profile (36)–(37), exact for μ(I)";
 const TRANSIENT: &str = "1-D transient solver, finite volumes over the depth";
@@ -62,33 +118,35 @@ fn steady(
     let exact = run.profile();
     let Some(errors) = steady_errors(&record.data.profile, &exact) else { return };
     let gates = [
-        ("velocity_l2", errors.velocity_l2, 0.7, 1.5, "specification 1: 0.7 % at 40 rows, 1.5 % at 20"),
+        (VELOCITY_L2, errors.velocity_l2, 0.7, 1.5, "specification 1: 0.7 % at 40 rows, 1.5 % at 20"),
         (
-            "surface_velocity_error",
+            SURFACE_VELOCITY_ERROR,
             errors.surface_velocity_error,
             1.0,
             2.0,
             "specification 1: 1 % at 40 rows; first order, so 2 % at 20",
         ),
         (
-            "implied_stress_error",
+            IMPLIED_STRESS_ERROR,
             errors.implied_stress_error,
             0.1,
             0.25,
             "specification 1: 0.1 % at 40 rows; a prototype had 0.14 % at 20",
         ),
-        ("wall_slip", errors.wall_slip, 0.3, 0.6, "specification 1: 0.3 % at 40 rows; first order, so 0.6 % at 20"),
+        (WALL_SLIP, errors.wall_slip, 0.3, 0.6, "specification 1: 0.3 % at 40 rows; first order, so 0.6 % at 20"),
     ];
-    for (name, value, fine, coarse, reason) in gates {
-        let metric = Metric::observed(name, variant, value, "%")
+    for (quantity, value, fine, coarse, reason) in gates {
+        let metric = quantity
+            .of(variant, value)
             .against(Some(0.0), EXACT, Confidence::Exact)
             .with_snapshot_tolerance(1e-3, 1e-4);
-        metrics.push(by_resolution(metric, run.resolution, fine, coarse, reason));
+        metrics.push(by_resolution(metric, run.layer.resolution, fine, coarse, reason));
     }
     // at the measured height: what part of the error is the layer's settling
     let height = record.data.series.relative_height.last().copied().unwrap_or(1.0);
     metrics.push(
-        Metric::observed("relative_height", variant, height, "-")
+        RELATIVE_HEIGHT
+            .of(variant, height)
             .against(
                 Some(run.exact_relative_height()),
                 "twice the mean height of the weakly compressible layer over its thickness",
@@ -103,7 +161,8 @@ fn steady(
     let measured = BagnoldProfile { layer_height: exact.layer_height * height, ..exact };
     if let Some(errors) = steady_errors(&record.data.profile, &measured) {
         metrics.push(
-            Metric::observed("velocity_l2_measured_height", variant, errors.velocity_l2, "%")
+            VELOCITY_L2_MEASURED_HEIGHT
+                .of(variant, errors.velocity_l2)
                 .against(Some(0.0), EXACT, Confidence::Exact)
                 .with_snapshot_tolerance(1e-3, 1e-4),
         );
@@ -121,9 +180,10 @@ fn regularised(
     variant: &Variant,
 ) {
     let Some(errors) = steady_errors(&record.data.profile, &run.profile()) else { return };
-    for (name, value) in [("velocity_l2", errors.velocity_l2), ("implied_stress_error", errors.implied_stress_error)] {
+    for (quantity, value) in [(VELOCITY_L2, errors.velocity_l2), (IMPLIED_STRESS_ERROR, errors.implied_stress_error)] {
         metrics.push(
-            Metric::observed(name, variant, value, "%")
+            quantity
+                .of(variant, value)
                 .against(Some(0.0), EXACT, Confidence::Exact)
                 .with_snapshot_tolerance(1e-2, 1e-3),
         );
@@ -139,13 +199,18 @@ fn transient(
     let Some((history, steady_mean)) = history_from_rest(run) else { return };
     let particles = particle_history(&record.data);
     let Some(rise) = history.rise_time(steady_mean, 0.99) else { return };
-    for (name, part) in [("quarter", 0.25), ("half", 0.5), ("three_quarters", 0.75)] {
+    for (quantity, part) in [
+        (TRANSIENT_MEAN_ERROR_QUARTER, 0.25),
+        (TRANSIENT_MEAN_ERROR_HALF, 0.5),
+        (TRANSIENT_MEAN_ERROR_THREE_QUARTERS, 0.75),
+    ] {
         let expected = mean_at(&history, part * rise);
         let error = 100.0 * (mean_at(&particles, part * rise) / expected - 1.0);
-        let metric = Metric::observed(&format!("transient_mean_error_{name}"), variant, error, "%")
+        let metric = quantity
+            .of(variant, error)
             .against(Some(0.0), TRANSIENT, Confidence::Exact)
             .with_snapshot_tolerance(1e-3, 1e-3);
-        metrics.push(match run.resolution {
+        metrics.push(match run.layer.resolution {
             20.. => {
                 metric.gated(Limit::Within(-4.0, 4.0), "specification 1: mean velocity within 4 % of the 1-D transient")
             }
@@ -154,7 +219,8 @@ fn transient(
     }
     if let Some(time) = particles.rise_time(steady_mean, 0.99) {
         metrics.push(
-            Metric::observed("rise_time", variant, time, "s")
+            RISE_TIME
+                .of(variant, time)
                 .against(Some(rise), TRANSIENT, Confidence::Exact)
                 .with_snapshot_tolerance(0.02, 0.0),
         );
@@ -174,7 +240,8 @@ fn arrest(
         .ok()
         .and_then(|history| history.arrest_time(ARREST_FRACTION));
     let time = particles.arrest_time(ARREST_FRACTION).unwrap_or(f64::INFINITY);
-    let mut metric = Metric::observed("arrest_time", variant, time, "s")
+    let mut metric = ARREST_TIME
+        .of(variant, time)
         .against(expected, TRANSIENT, Confidence::Exact)
         .with_snapshot_tolerance(0.01, 0.0);
     if let Some(expected) = expected {
@@ -187,7 +254,8 @@ fn arrest(
     let rest =
         series.time.iter().zip(&series.rms_speed).filter(|(t, _)| **t >= since).map(|(_, v)| *v).fold(0.0, f64::max);
     metrics.push(
-        Metric::observed("rest_rms_speed", variant, rest, "m/s")
+        REST_RMS_SPEED
+            .of(variant, rest)
             .against(Some(0.0), "a layer below the static friction angle rests", Confidence::Exact)
             .gated(Limit::AtMost(1e-4), "specification 1: at rest below 1e-4 m/s after the arrest")
             .with_snapshot_tolerance(0.2, 1e-6),
@@ -205,7 +273,8 @@ fn runaway(
     let least_possible =
         profile.gravity * (libm::sin(profile.slope_angle) - profile.limiting_friction * libm::cos(profile.slope_angle));
     metrics.push(
-        Metric::observed("least_acceleration", variant, least_acceleration(&particles) / least_possible, "-")
+        LEAST_ACCELERATION
+            .of(variant, least_acceleration(&particles) / least_possible)
             .against(Some(1.0), "g (sinθ − μ_2 cosθ), the limit of infinite inertial number", Confidence::Exact)
             .gated(Limit::AtLeast(0.9), "specification 1: never below 0.9 of the limit")
             .with_snapshot_tolerance(0.01, 0.0),
@@ -217,7 +286,8 @@ fn runaway(
     if let Ok(expected) = expected {
         let error = 100.0 * (mean_at(&particles, end) / expected - 1.0);
         metrics.push(
-            Metric::observed("final_mean_error", variant, error, "%")
+            FINAL_MEAN_ERROR
+                .of(variant, error)
                 .against(Some(0.0), TRANSIENT, Confidence::Exact)
                 .with_snapshot_tolerance(0.02, 0.01),
         );
@@ -241,7 +311,8 @@ fn convergence(metrics: &mut Vec<Metric>, parameters: &BagnoldParameters, record
         if particles == Arrangement::Lattice {
             let order = -log_log_slope(&errors).unwrap_or(f64::NAN);
             metrics.push(
-                Metric::observed("observed_order", &variant, order, "-")
+                OBSERVED_ORDER
+                    .of(&variant, order)
                     .against(None, reference, Confidence::Exact)
                     .gated(Limit::AtLeast(1.0), "specification 1: first order at least on the lattice")
                     .with_snapshot_tolerance(0.01, 0.0),
@@ -249,7 +320,8 @@ fn convergence(metrics: &mut Vec<Metric>, parameters: &BagnoldParameters, record
         } else {
             let reduction = errors.windows(2).map(|pair| pair[0].1 / pair[1].1).fold(f64::INFINITY, f64::min);
             metrics.push(
-                Metric::observed("least_error_reduction", &variant, reduction, "-")
+                LEAST_ERROR_REDUCTION
+                    .of(&variant, reduction)
                     .against(None, reference, Confidence::Exact)
                     .gated(Limit::AtLeast(1.0), "specification 1: the error decreases with every refinement")
                     .with_snapshot_tolerance(0.01, 0.0),
@@ -270,7 +342,7 @@ pub(super) fn convergence_errors(
         .filter(|(run, _)| matches!(run.purpose, Purpose::Steady | Purpose::Convergence))
         .filter(|(run, _)| run.slope_angle == angle && run.particles == particles && run.start == start)
         .filter_map(|(run, record)| {
-            Some((run.resolution as f64, steady_errors(&record.data.profile, &run.profile())?.velocity_l2))
+            Some((run.layer.resolution as f64, steady_errors(&record.data.profile, &run.profile())?.velocity_l2))
         })
         .collect();
     errors.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -10,7 +10,7 @@ pub use runs::{BagnoldRun, Purpose};
 
 use crate::case::{Case, RecordOf};
 use crate::figure::Figure;
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
 /// The case.
@@ -33,6 +33,7 @@ impl Case for Bagnold {
         velocity (dln I/dln μ), so the implied stress error \
         |μ(I)/tanθ − 1| stands beside the velocity error.";
     type Parameters = BagnoldParameters;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(parameters, records)

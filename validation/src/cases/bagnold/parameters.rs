@@ -2,7 +2,7 @@
 
 use super::runs::{self, BagnoldRun};
 use crate::case::{ParameterError, Parameters, Tier};
-use crate::cases::layer::Preparation;
+use crate::cases::layer::{PeriodicLayer, Preparation};
 use crate::cases::rules;
 use crate::reference::{BagnoldProfile, GLASS_BEADS};
 use bagnold_solver::material::rheology::{MuI, Rheology};
@@ -24,12 +24,9 @@ pub enum Start {
 /// Parameters of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BagnoldParameters {
-    /// Layer height h `[m]`.
-    #[schemars(transform = positive("give it in metres, such as 0.01"))]
-    pub layer_height: f64,
-    /// Gravity `[m/s²]`.
-    #[schemars(transform = rules::gravity())]
-    pub gravity: f64,
+    /// The layer.
+    #[serde(flatten)]
+    pub layer: PeriodicLayer,
     /// Solid fraction φ `[-]`: the bulk density is φ times the grain density.
     #[schemars(transform = between(0.0, 0.74, "grains fill 0.5 to 0.64 of the space"))]
     pub solid_fraction: f64,
@@ -38,18 +35,6 @@ pub struct BagnoldParameters {
     pub slope_angles: Vec<f64>,
     /// Starts of the steady runs.
     pub starts: Vec<Start>,
-    /// Rows of particles over the layer in the steady runs.
-    #[schemars(transform = rules::rows())]
-    pub resolution: usize,
-    /// Columns of particles along the period.
-    pub columns: usize,
-    /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
-    pub jitter: f64,
-    /// Seed of the displacements.
-    pub seed: u64,
-    /// What happens before the start.
-    pub preparation: Preparation,
     /// Simulated time over the recipe's, 3.5 … 5 s at 22 … 25° for 10 mm `[-]`.
     #[schemars(transform = positive("1 runs as long as the reference figures need"))]
     pub duration_factor: f64,
@@ -71,8 +56,8 @@ pub struct BagnoldParameters {
     /// Slope angles above the band `[°]`, from rest.
     #[schemars(transform = each(rules::slope_angle()))]
     pub runaway_slope_angles: Vec<f64>,
-    /// Material.
-    pub material: MuI,
+    /// Material, which must be of μ(I).
+    pub material: Rheology,
     /// Rate α_r `[1/s]` of the regularised viscosity (35), taken as `numerics.viscous_step` says; 0 for the return
     /// mapping.
     #[schemars(transform = between(0.0, 1e6, "0 takes the return mapping"))]
@@ -83,8 +68,6 @@ pub struct BagnoldParameters {
     /// Its rate α_r `[1/s]`.
     #[schemars(transform = positive("0.01 1/s in the paper"))]
     pub regularised_rate: f64,
-    /// Numerics.
-    pub numerics: Numerics,
 }
 
 /// Simulated time of an arresting layer of 10 mm `[s]`, the shortest of all runs.
@@ -95,16 +78,21 @@ impl Parameters for BagnoldParameters {
 
     fn of_tier(tier: Tier) -> Self {
         let quick = Self {
-            layer_height: 0.01,
-            gravity: 9.81,
+            layer: PeriodicLayer {
+                layer_height: 0.01,
+                gravity: 9.81,
+                resolution: 20,
+                columns: 12,
+                jitter: 0.1,
+                seed: 1,
+                preparation: Preparation::Settled,
+                // Twice the recipe's hourglass control. Near the static friction the law is convex in the stress, so that
+                // the particles' agitation speeds the layer up: at 22° and 40 rows by 0.7 %, with this by 0.3 %.
+                numerics: Numerics { hourglass: 0.4, ..Numerics::default() },
+            },
             solid_fraction: GLASS_BEADS.solid_fraction,
             slope_angles: vec![22.0, 23.0, 24.0, 25.0],
             starts: vec![Start::Rest],
-            resolution: 20,
-            columns: 12,
-            jitter: 0.1,
-            seed: 1,
-            preparation: Preparation::Settled,
             duration_factor: 1.0,
             averaging_time: 0.5,
             convergence_slope_angle: 24.0,
@@ -114,18 +102,14 @@ impl Parameters for BagnoldParameters {
             // at 20 rows the particles' agitation breaks the layer up before its mean reaches half the sound speed
             runaway_slope_angles: vec![],
             // glass beads of Table 1 (Forterre & Pouliquen 2003); I_0 from (41) at 25°, kept at every angle
-            material: GLASS_BEADS.law,
+            material: Rheology::MuI(GLASS_BEADS.law),
             regularisation_rate: 0.0,
             regularised_slope_angles: Vec::new(),
             regularised_rate: 0.01,
-            // Twice the recipe's hourglass control. Near the static friction the law is convex in the stress, so that
-            // the particles' agitation speeds the layer up: at 22° and 40 rows by 0.7 %, with this by 0.3 %.
-            numerics: Numerics { hourglass: 0.4, ..Numerics::default() },
         };
         let paper = Self {
-            resolution: 40,
             // with 20 columns the velocity at 22° scatters by 0.3 % from seed to seed, with 40 by less than 0.1 %
-            columns: 40,
+            layer: PeriodicLayer { resolution: 40, columns: 40, ..quick.layer },
             starts: vec![Start::Rest, Start::Profile],
             convergence_resolutions: vec![10, 20, 40],
             runaway_slope_angles: vec![34.0],
@@ -135,9 +119,11 @@ impl Parameters for BagnoldParameters {
         match tier {
             Tier::Quick => quick,
             Tier::Paper => paper,
-            Tier::Fine => {
-                Self { layer_height: 0.02, resolution: 60, convergence_resolutions: vec![20, 40, 60], ..paper }
-            }
+            Tier::Fine => Self {
+                layer: PeriodicLayer { layer_height: 0.02, resolution: 60, ..paper.layer },
+                convergence_resolutions: vec![20, 40, 60],
+                ..paper
+            },
         }
     }
 
@@ -145,18 +131,22 @@ impl Parameters for BagnoldParameters {
         let shortest = ARREST_DURATION * self.duration_scale();
         let remedy = "the window must fit into the shortest run: choose a shorter one or a larger `duration_factor`";
         rules::between("averaging_time", self.averaging_time, 0.0, shortest, remedy)?;
-        rules::columns("columns", self.columns, &self.numerics)?;
-        rules::material("material", &Rheology::MuI(self.material))?;
-        rules::viscous_step("numerics", &self.numerics, &law(&self.material, self.regularisation_rate))?;
+        self.layer.check()?;
+        let remedy = "Bagnold's profile, which the case is judged by, is exact for it alone";
+        let grains = rules::only_mu_i("material", &self.material, remedy)?;
+        rules::material("material", &self.material)?;
+        let numerics = &self.layer.numerics;
+        rules::viscous_step("numerics", numerics, &law(&grains, self.regularisation_rate))?;
         if !self.regularised_slope_angles.is_empty() {
-            rules::implicit_runs("numerics", &self.numerics, "regularised_slope_angles")?;
+            rules::implicit_runs("numerics", numerics, "regularised_slope_angles")?;
         }
         let steady = |field: &str, angle: f64| {
-            if self.profile(angle).inertial_number().is_some() {
+            let PeriodicLayer { layer_height, gravity, .. } = self.layer;
+            let profile = BagnoldProfile::of(&grains, layer_height, self.solid_fraction, gravity, angle);
+            if profile.inertial_number().is_some() {
                 return Ok(());
             }
-            let band =
-                [self.material.static_friction, self.material.limiting_friction].map(|mu| libm::atan(mu).to_degrees());
+            let band = [grains.static_friction, grains.limiting_friction].map(|mu| libm::atan(mu).to_degrees());
             Err(ParameterError::field(
                 field,
                 angle,
@@ -187,13 +177,7 @@ impl Parameters for BagnoldParameters {
 impl BagnoldParameters {
     /// How long the runs are over those of a layer of 10 mm: (h/10 mm)^1.5 is how the time to the steady state grows.
     pub(super) fn duration_scale(&self) -> f64 {
-        self.duration_factor * libm::pow(self.layer_height / 0.01, 1.5)
-    }
-
-    /// The exact steady profile at a slope angle `[°]`.
-    #[must_use]
-    pub fn profile(&self, slope_angle: f64) -> BagnoldProfile {
-        profile(&self.material, self.layer_height, self.solid_fraction, self.gravity, slope_angle)
+        self.duration_factor * libm::pow(self.layer.layer_height / 0.01, 1.5)
     }
 }
 
@@ -203,26 +187,5 @@ pub(super) fn law(material: &MuI, regularisation_rate: f64) -> Rheology {
         Rheology::RegularisedMuI(material.regularised(regularisation_rate))
     } else {
         Rheology::MuI(*material)
-    }
-}
-
-/// The exact steady profile of a material at a slope angle `[°]`.
-pub(super) fn profile(
-    material: &MuI,
-    layer_height: f64,
-    solid_fraction: f64,
-    gravity: f64,
-    slope_angle: f64,
-) -> BagnoldProfile {
-    BagnoldProfile {
-        layer_height,
-        slope_angle: slope_angle.to_radians(),
-        gravity,
-        grain_diameter: material.grain_diameter,
-        grain_density: material.grain_density,
-        solid_fraction,
-        static_friction: material.static_friction,
-        limiting_friction: material.limiting_friction,
-        reference_inertia: material.reference_inertia,
     }
 }

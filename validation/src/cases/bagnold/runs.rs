@@ -1,13 +1,13 @@
 //! The simulations that the case asks for.
 
-use super::parameters::{ARREST_DURATION, BagnoldParameters, Start, law, profile};
+use super::parameters::{ARREST_DURATION, BagnoldParameters, Start, law};
 use crate::case::{ParameterError, Progress, Run};
 use crate::cases::Arrangement;
-use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
+use crate::cases::layer::{Layer, LayerObservation, PeriodicLayer, bulk_modulus};
 use crate::metric::{Value, Variant};
 use crate::observation::Recorded;
 use crate::reference::BagnoldProfile;
-use bagnold_solver::material::rheology::MuI;
+use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 use serde::Serialize;
 
@@ -40,44 +40,36 @@ pub struct BagnoldRun {
     pub start_angle: f64,
     /// Arrangement of the particles.
     pub particles: Arrangement,
-    /// Rows over the layer.
-    pub resolution: usize,
-    layer_height: f64,
-    gravity: f64,
+    /// The layer, with the rows of this run and its displacements.
+    pub layer: PeriodicLayer,
     solid_fraction: f64,
-    columns: usize,
-    jitter: f64,
-    seed: u64,
-    preparation: Preparation,
     duration: f64,
     averaging_time: f64,
-    material: MuI,
+    grains: MuI,
     regularisation_rate: f64,
-    numerics: Numerics,
 }
 
 /// All runs in report order.
 pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
+    let Rheology::MuI(grains) = parameters.material else { return Vec::new() };
     let scale = parameters.duration_scale();
+    let (own_rows, own_numerics) = (parameters.layer.resolution, parameters.layer.numerics);
     let new = |purpose, slope_angle: f64, start, particles, resolution, duration: f64| BagnoldRun {
         purpose,
         slope_angle,
         start,
         start_angle: if purpose == Purpose::Arrest { parameters.arrest_start_angle } else { slope_angle },
         particles,
-        resolution,
-        layer_height: parameters.layer_height,
-        gravity: parameters.gravity,
+        layer: PeriodicLayer {
+            resolution,
+            jitter: particles.displacement(parameters.layer.jitter),
+            ..parameters.layer
+        },
         solid_fraction: parameters.solid_fraction,
-        columns: parameters.columns,
-        jitter: particles.displacement(parameters.jitter),
-        seed: parameters.seed,
-        preparation: parameters.preparation,
         duration,
         averaging_time: parameters.averaging_time,
-        material: parameters.material,
+        grains,
         regularisation_rate: parameters.regularisation_rate,
-        numerics: parameters.numerics,
     };
     // the recipe's 3.5, 4, 4.5 and 5 s at 22, 23, 24 and 25°
     let from_rest = |angle: f64| (3.5 + 0.5 * (angle - 22.0)).clamp(3.5, 5.0) * scale;
@@ -86,21 +78,16 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
     for &start in &parameters.starts {
         for &angle in &parameters.slope_angles {
             let duration = if start == Start::Rest { from_rest(angle) } else { from_profile };
-            runs.push(new(Purpose::Steady, angle, start, Arrangement::Jittered, parameters.resolution, duration));
+            runs.push(new(Purpose::Steady, angle, start, Arrangement::Jittered, own_rows, duration));
         }
     }
     for &angle in &parameters.regularised_slope_angles {
+        let run = new(Purpose::Regularised, angle, Start::Profile, Arrangement::Jittered, own_rows, from_profile);
+        let numerics = Numerics { viscous_step: ViscousStep::Implicit, ..own_numerics };
         runs.push(BagnoldRun {
             regularisation_rate: parameters.regularised_rate,
-            numerics: Numerics { viscous_step: ViscousStep::Implicit, ..parameters.numerics },
-            ..new(
-                Purpose::Regularised,
-                angle,
-                Start::Profile,
-                Arrangement::Jittered,
-                parameters.resolution,
-                from_profile,
-            )
+            layer: PeriodicLayer { numerics, ..run.layer },
+            ..run
         });
     }
     let angle = parameters.convergence_slope_angle;
@@ -119,19 +106,12 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
             angle,
             Start::Profile,
             Arrangement::Jittered,
-            parameters.resolution,
+            own_rows,
             ARREST_DURATION * scale,
         ));
     }
     for &angle in &parameters.runaway_slope_angles {
-        runs.push(new(
-            Purpose::Runaway,
-            angle,
-            Start::Rest,
-            Arrangement::Jittered,
-            parameters.resolution,
-            20.0 * scale,
-        ));
+        runs.push(new(Purpose::Runaway, angle, Start::Rest, Arrangement::Jittered, own_rows, 20.0 * scale));
     }
     runs
 }
@@ -150,7 +130,7 @@ impl Run for BagnoldRun {
         let run = Variant::of("slope_angle", self.slope_angle)
             .and("start", start)
             .and("particles", self.particles.name())
-            .and("resolution", self.resolution);
+            .and("resolution", self.layer.resolution);
         match self.purpose {
             Purpose::Regularised => run.and("regularisation_rate", self.regularisation_rate),
             _ => run,
@@ -162,7 +142,7 @@ impl Run for BagnoldRun {
         let layer = self.layer(&still, &still);
         // a runaway layer stops long before its time is up
         let share = if self.purpose == Purpose::Runaway { 0.4 } else { 1.0 };
-        share * layer.expected_steps() * (self.resolution * self.columns) as f64
+        share * layer.expected_steps() * self.layer.particles()
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
@@ -171,7 +151,7 @@ impl Run for BagnoldRun {
         let velocity = |y: f64| if moving { start.velocity(y).unwrap_or(0.0) } else { 0.0 };
         // A layer tilted until it fails carries the static friction when it starts. From no stress at all it would
         // first fall freely until the elastic shear is wound up, which at 22° is a sixth of its steady velocity.
-        let friction = self.material.static_friction.min(libm::tan(self.slope_angle.to_radians()));
+        let friction = self.grains.static_friction.min(libm::tan(self.slope_angle.to_radians()));
         let shear_stress = |y: f64| if moving { start.shear_stress(y) } else { friction * start.pressure(y) };
         Ok(self.layer(&velocity, &shear_stress).run(progress)?)
     }
@@ -191,33 +171,37 @@ impl BagnoldRun {
     }
 
     fn profile_at(&self, angle: f64) -> BagnoldProfile {
-        profile(&self.material, self.layer_height, self.solid_fraction, self.gravity, angle)
+        BagnoldProfile::of(&self.grains, self.layer.layer_height, self.solid_fraction, self.layer.gravity, angle)
     }
 
     /// 2ȳ/h `[-]` of the layer with ρ = ρ0 exp(x (1 − y/h)), x = ρ0 g h cosθ/K: a little below 1.
     #[must_use]
     pub fn exact_relative_height(&self) -> f64 {
-        let density = self.solid_fraction * self.material.grain_density;
-        let weight = density * self.gravity * self.layer_height * libm::cos(self.slope_angle.to_radians());
+        let density = self.density();
+        let weight = density * self.layer.gravity * self.layer.layer_height * libm::cos(self.slope_angle.to_radians());
         let x = weight / self.bulk_modulus();
         2.0 * (libm::expm1(x) - x) / (x * libm::expm1(x))
+    }
+
+    fn density(&self) -> f64 {
+        self.solid_fraction * self.grains.grain_density
     }
 
     /// Sound speed `[m/s]`.
     #[must_use]
     pub fn sound_speed(&self) -> f64 {
-        (self.bulk_modulus() / (self.solid_fraction * self.material.grain_density)).sqrt()
+        (self.bulk_modulus() / self.density()).sqrt()
     }
 
     fn bulk_modulus(&self) -> f64 {
-        let density = self.solid_fraction * self.material.grain_density;
+        let density = self.density();
         match self.purpose {
             // at 50 ρ0 g H particles leak once the mean passes half the sound speed
-            Purpose::Runaway => 200.0 * density * self.gravity * self.layer_height,
+            Purpose::Runaway => 200.0 * density * self.layer.gravity * self.layer.layer_height,
             _ => {
                 let mean = |angle: f64| self.profile_at(angle).depth_mean().unwrap_or(0.0);
                 let expected = mean(self.slope_angle).max(mean(self.start_angle));
-                bulk_modulus(density, self.gravity, self.layer_height, expected)
+                bulk_modulus(density, self.layer.gravity, self.layer.layer_height, expected)
             }
         }
     }
@@ -228,26 +212,14 @@ impl BagnoldRun {
         shear_stress: &'a (dyn Fn(f64) -> f64 + Sync),
     ) -> Layer<'a> {
         Layer {
-            height: self.layer_height,
-            rows: self.resolution,
-            columns: self.columns,
-            slope_angle: self.slope_angle.to_radians(),
-            gravity: self.gravity,
-            reference_density: self.solid_fraction * self.material.grain_density,
             bulk_modulus: self.bulk_modulus(),
-            rheology: law(&self.material, self.regularisation_rate),
-            numerics: self.numerics,
-            jitter: self.jitter,
-            seed: self.seed,
-            preparation: self.preparation,
             velocity,
             shear_stress,
             duration: self.duration,
             window: self.averaging_time,
             interval: 2e-3,
             stop_above: if self.purpose == Purpose::Runaway { 0.5 * self.sound_speed() } else { f64::INFINITY },
-            frames: 2,
-            may_diverge: false,
+            ..self.layer.of(law(&self.grains, self.regularisation_rate), self.density(), self.slope_angle)
         }
     }
 }

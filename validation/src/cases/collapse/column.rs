@@ -10,7 +10,7 @@ use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
-use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::Wall;
 use bagnold_solver::weakly_compressible::boundary::wall::fill;
@@ -84,11 +84,12 @@ pub struct ColumnRun {
     /// Half width r_0 `[m]`.
     pub half_width: f64,
     /// Constitutive law.
-    pub law: MuI,
-    /// Rate α_r `[1/s]` of the law's regularised viscosity (35); none for the return mapping.
+    pub law: Rheology,
+    /// Bulk density `[kg/m³]`.
+    pub bulk_density: f64,
+    /// Rate α_r `[1/s]` of the regularised viscosity (35) that stands for the case's law; none for that law itself.
     pub regularisation_rate: Option<f64>,
     pub(in crate::cases) gravity: f64,
-    pub(in crate::cases) solid_fraction: f64,
     pub(in crate::cases) jitter: f64,
     pub(in crate::cases) seed: u64,
     pub(in crate::cases) duration: f64,
@@ -155,11 +156,20 @@ impl ColumnRun {
     /// Steps that the regularised law would need for a time `[s]` with an explicit viscous step (29); 0 without it.
     #[must_use]
     pub fn explicit_viscous_steps(&self, time: f64) -> f64 {
-        let Some(rate) = self.regularisation_rate else { return 0.0 };
-        let pressure = self.bulk_density() * self.gravity * self.initial_height() * self.half_width;
-        let viscosity = Rheology::RegularisedMuI(self.law.regularised(rate)).largest_viscosity(pressure);
+        if self.regularisation_rate.is_none() {
+            return 0.0;
+        }
+        let pressure = self.bulk_density * self.gravity * self.initial_height() * self.half_width;
+        let viscosity = self.law.largest_viscosity(pressure);
         let smoothing_length = self.numerics.smoothing_ratio * self.spacing();
-        time * viscosity / (self.numerics.viscous_courant * smoothing_length * smoothing_length * self.bulk_density())
+        time * viscosity / (self.numerics.viscous_courant * smoothing_length * smoothing_length * self.bulk_density)
+    }
+
+    /// Whether its law is the one that the published grains are given: with another one their experiments are shown, and
+    /// do not gate.
+    #[must_use]
+    pub fn has_published_law(&self) -> bool {
+        matches!(self.law, Rheology::MuI(_))
     }
 
     /// Particles, about.
@@ -182,10 +192,6 @@ impl ColumnRun {
         (self.aspect_ratio * self.resolution as f64).round().max(1.0) as usize
     }
 
-    fn bulk_density(&self) -> f64 {
-        self.solid_fraction * self.law.grain_density
-    }
-
     /// Elastic over potential energy of the start `[-]`: under hydrostatic pressure p²/(2K) has the mean ρ0 g h_0/(6·50),
     /// the potential energy above the bed ρ0 g h_0/2.
     #[must_use]
@@ -195,11 +201,11 @@ impl ColumnRun {
 
     /// K = 50 ρ0 g h_0 `[Pa]`.
     fn bulk_modulus(&self) -> f64 {
-        STIFFNESS * self.bulk_density() * self.gravity * self.initial_height() * self.half_width
+        STIFFNESS * self.bulk_density * self.gravity * self.initial_height() * self.half_width
     }
 
     fn sound_speed(&self) -> f64 {
-        (self.bulk_modulus() / self.bulk_density()).sqrt()
+        (self.bulk_modulus() / self.bulk_density).sqrt()
     }
 
     /// End of the bed `[m]`: well beyond the longest published run-out.
@@ -216,7 +222,7 @@ impl ColumnRun {
         let spacing = self.spacing();
         let height = self.rows() as f64 * spacing;
         let equation_of_state = EquationOfState {
-            reference_density: self.bulk_density(),
+            reference_density: self.bulk_density,
             bulk_modulus: self.bulk_modulus(),
             tension: Tension::Cut,
         };
@@ -265,10 +271,7 @@ impl ColumnRun {
             gravity,
             spacing,
             equation_of_state,
-            rheology: match self.regularisation_rate {
-                Some(rate) => Rheology::RegularisedMuI(self.law.regularised(rate)),
-                None => Rheology::MuI(self.law),
-            },
+            rheology: self.law,
             numerics: self.numerics,
         }
     }

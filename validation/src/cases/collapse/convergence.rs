@@ -4,45 +4,43 @@ use super::Record;
 use super::column::{ColumnRun, Purpose};
 use super::deposit::Collapse;
 use super::material::Material;
+use super::quantities::{
+    ENSEMBLE_MEAN, ENSEMBLE_SPREAD, ENSEMBLE_STANDARD_ERROR, GRID_CONVERGENCE_INDEX, HOURGLASS_SPREAD, OBSERVED_ORDER,
+};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::metric::{Confidence, Limit, Metric, Variant};
 use crate::statistics::{Mean, grid_convergence};
 
 /// Name, measure and largest index `[-]` of what must converge.
-type Quantity = (&'static str, fn(&Collapse) -> f64, f64);
+type Measured = (&'static str, fn(&Collapse) -> f64, f64);
 
 /// Fewest seeds whose scatter counts as a spread.
 const ENSEMBLE: usize = 5;
 
-const QUANTITIES: [Quantity; 2] =
+const MEASURED: [Measured; 2] =
     [("centroid", |collapse| collapse.centroid, 0.03), ("run_out", Collapse::run_out, 0.08)];
 
 pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (material, aspect_ratio) in studied(records, Purpose::Convergence) {
-        for (quantity, measure, largest) in QUANTITIES {
+        for (quantity, measure, largest) in MEASURED {
             let means = means(records, material, aspect_ratio, measure);
             let variant = Variant::of("quantity", quantity)
                 .and("material", material.to_string())
                 .and("aspect_ratio", aspect_ratio);
             for mean in &means {
                 let at = variant.clone().and("resolution", mean.resolution);
-                let values = [("ensemble_mean", mean.value), ("ensemble_standard_error", mean.standard_error)];
+                let values = [(ENSEMBLE_MEAN, mean.value), (ENSEMBLE_STANDARD_ERROR, mean.standard_error)];
                 metrics.extend(
-                    values.map(|(name, value)| {
-                        Metric::observed(name, &at, value, "-").with_snapshot_tolerance(1e-3, 1e-3)
-                    }),
+                    values.map(|(quantity, value)| quantity.of(&at, value).with_snapshot_tolerance(1e-3, 1e-3)),
                 );
             }
             let Some(found) = means.last_chunk::<3>().and_then(grid_convergence) else { continue };
-            let index = |name: &str, value: f64| {
-                Metric::observed(name, &variant, 100.0 * value, "%").with_snapshot_tolerance(0.05, 0.2)
-            };
+            metrics.push(OBSERVED_ORDER.of(&variant, found.order).with_snapshot_tolerance(0.05, 0.05));
             metrics.push(
-                Metric::observed("observed_order", &variant, found.order, "-").with_snapshot_tolerance(0.05, 0.05),
-            );
-            metrics.push(
-                index("grid_convergence_index", found.index)
+                GRID_CONVERGENCE_INDEX
+                    .of(&variant, 100.0 * found.index)
+                    .with_snapshot_tolerance(0.05, 0.2)
                     .against(Some(0.0), "1.25 |f_3 − f_2|/(r^p − 1)/f_3 of the three finest means", Confidence::Exact)
                     .gated(
                         Limit::AtMost(100.0 * (largest + found.scatter)),
@@ -59,7 +57,8 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     for (quantity, spread) in spreads {
         if spread > 0.0 {
             metrics.push(
-                Metric::observed("ensemble_spread", &Variant::of("quantity", quantity), 100.0 * spread, "%")
+                ENSEMBLE_SPREAD
+                    .of(&Variant::of("quantity", quantity), 100.0 * spread)
                     .against(
                         None,
                         "largest relative standard deviation over the seeds of the initial displacements; the gates of \
@@ -80,7 +79,8 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
                 .and("aspect_ratio", aspect_ratio)
                 .and("resolution", resolution);
             metrics.push(
-                Metric::observed("hourglass_spread", &variant, 100.0 * (most - least) / mean, "%")
+                HOURGLASS_SPREAD
+                    .of(&variant, 100.0 * (most - least) / mean)
                     .against(
                         None,
                         "run-out, largest less smallest over the mean: its modelling uncertainty",
@@ -116,7 +116,7 @@ pub(super) fn figures(records: &[Record]) -> Vec<Figure> {
     let coefficient = studied(records, Purpose::Hourglass);
     let mut figures = Vec::new();
     if !resolution.is_empty() {
-        let panels = QUANTITIES.map(|(name, measure, _)| {
+        let panels = MEASURED.map(|(name, measure, _)| {
             let y = format!("{} over the finest − 1 [%]", name.replace('_', "-"));
             let mut panel = Panel::new("", Axis::linear("particles over r0 [-]"), Axis::linear(&y));
             for (slot, (material, aspect_ratio)) in resolution.iter().enumerate() {

@@ -4,10 +4,15 @@ use super::column::{ColumnRun, Geometry};
 use super::deposit::{BIN_WIDTH, Collapse};
 use super::energy::Energies;
 use super::pictures::nearest;
+use super::quantities::{
+    ENERGY_GAIN, FAILURE_SURFACE_ANGLE, FLOWING_LAYER_R_SQUARED, FLOWING_LAYER_SHEAR_RATE,
+    TAIL_DECAY_LENGTH_OVER_DIAMETER, TAIL_DECAY_LENGTH_OVER_SPACING, TAIL_DECAY_LENGTH_STANDARD_ERROR,
+    UNDISTURBED_SHARE,
+};
 use super::velocity_profile::{Station, decay_length};
 use super::wedge::Wedge;
 use crate::case::Run;
-use crate::metric::{Confidence, Kind, Limit, Metric};
+use crate::metric::{Confidence, Limit, Metric, Quantity};
 use crate::observation::{Frame, Recorded};
 
 /// Time of the velocity profiles over √(h_0/g) `[-]`: in mid-collapse.
@@ -42,11 +47,10 @@ pub(super) fn wedge(run: &ColumnRun, frames: &[Frame]) -> Option<Wedge> {
 /// All metrics of one run.
 pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric> {
     let variant = run.variant();
-    let observed = |name: &str, value: f64, unit: &str| {
-        Metric::observed(name, &variant, value, unit).of_kind(Kind::Validation).with_snapshot_tolerance(1e-3, 1e-3)
-    };
+    let observed = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
     let mut metrics = vec![
-        Metric::observed("energy_gain", &variant, 100.0 * energies(&record.data).largest_gain(), "%")
+        ENERGY_GAIN
+            .of(&variant, 100.0 * energies(&record.data).largest_gain())
             .against(Some(0.0), "kinetic and potential energy never exceed those of the start", Confidence::Exact)
             .gated(
                 Limit::AtMost(100.0 * run.elastic_share()),
@@ -56,20 +60,22 @@ pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric
     ];
     let stations = stations(run, record);
     if let Some(shear) = stations.get(1).and_then(|edge| edge.shear) {
-        metrics.push(observed("flowing_layer_shear_rate", shear.slope, "1/s"));
-        metrics.push(observed("flowing_layer_r_squared", shear.r_squared, "-"));
+        metrics.push(observed(FLOWING_LAYER_SHEAR_RATE, shear.slope));
+        metrics.push(observed(FLOWING_LAYER_R_SQUARED, shear.r_squared));
     }
     if let Some(decay) = decay_length(&stations) {
         let spacing = run.spacing();
-        metrics.push(observed("tail_decay_length_over_diameter", decay.value / run.law.grain_diameter, "-"));
-        metrics.push(observed("tail_decay_length_over_spacing", decay.value / spacing, "-"));
-        metrics.push(observed("tail_decay_length_standard_error", decay.standard_error / spacing, "spacings"));
+        if let Some(diameter) = run.law.grain_diameter() {
+            metrics.push(observed(TAIL_DECAY_LENGTH_OVER_DIAMETER, decay.value / diameter));
+        }
+        metrics.push(observed(TAIL_DECAY_LENGTH_OVER_SPACING, decay.value / spacing));
+        metrics.push(observed(TAIL_DECAY_LENGTH_STANDARD_ERROR, decay.standard_error / spacing));
     }
     if let Some(wedge) = wedge(run, &record.frames) {
-        metrics.push(observed("undisturbed_share", 100.0 * wedge.undisturbed, "%"));
+        metrics.push(observed(UNDISTURBED_SHARE, 100.0 * wedge.undisturbed));
         if let Some(angle) = wedge.angle() {
-            let active = 45.0 + 0.5 * libm::atan(run.law.static_friction).to_degrees();
-            metrics.push(observed("failure_surface_angle", angle, "°").against(
+            let active = 45.0 + 0.5 * libm::atan(run.law.contact_friction()).to_degrees();
+            metrics.push(observed(FAILURE_SURFACE_ANGLE, angle).against(
                 Some(active),
                 "Coulomb's active failure plane, 45° + ½ arctan μ_s",
                 Confidence::Unverified,

@@ -1,4 +1,5 @@
-//! A column of dry grains that collapses on a rough horizontal bed: what the planar and the round case share.
+//! Dry grains that collapse: columns on a horizontal bed, which the planar and the round case share, and a reservoir on a
+//! slope, which incline-collapse and flow-thickness share.
 
 mod block;
 mod camera;
@@ -8,9 +9,11 @@ mod deposit;
 mod energy;
 pub(super) mod figures;
 mod flow_metrics;
+mod incline;
 mod material;
 pub(super) mod metrics;
 pub(super) mod pictures;
+pub(super) mod quantities;
 mod scaling;
 mod slope;
 mod stress_updates;
@@ -19,12 +22,16 @@ mod wedge;
 
 pub use column::{ColumnRun, Geometry, Purpose};
 pub use deposit::{BIN_WIDTH, Collapse, FRONT_THICKNESS, front};
+pub use incline::{InclineCollapseParameters, Reservoir};
 pub use material::{Alteration, Grains, Material};
 pub use slope::{SlopeCollapse, SlopeRun};
 
 use crate::case::{ParameterError, Run};
 use crate::observation::Recorded;
 use crate::output::Table;
+
+/// Half width of the columns of the collapse paper's sand, planar and round `[m]`.
+pub(super) const SAND_HALF_WIDTH: f64 = 0.0972;
 
 /// A run with what it left behind.
 pub(super) type Record = (ColumnRun, Recorded<Collapse>);

@@ -4,7 +4,8 @@ use super::Record;
 use super::column::{Geometry, Purpose};
 use super::deposit::Collapse;
 use super::material::{Alteration, Grains, Material};
-use crate::metric::{Confidence, Kind, Limit, Metric, Value, Variant};
+use super::quantities::{BREAK_POINT, SCALING_COEFFICIENT, SCALING_CONFIDENCE, SCALING_EXPONENT};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
 use crate::reference::PLANAR_COLLAPSE;
 use crate::statistics::{Exponent, power_law, student_quantile};
 
@@ -83,20 +84,18 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     for (material, smallest, run_out_gate, height_gate) in FAMILIES {
         let columns = columns(&records, material, smallest, f64::INFINITY);
         let ratios = Value::list(columns.iter().map(|(run, _)| run.aspect_ratio));
-        type Quantity = (&'static str, fn(&Collapse) -> f64, Option<Limit>);
-        let quantities: [Quantity; 2] =
+        type Measure = (&'static str, fn(&Collapse) -> f64, Option<Limit>);
+        let quantities: [Measure; 2] =
             [("run_out", Collapse::run_out, run_out_gate), ("final_height", Collapse::final_height, height_gate)];
         for (quantity, measure, gate) in quantities {
             let Some(scaling) = fit(&records, material, measure) else { continue };
             let variant = Variant::of("quantity", quantity)
                 .and("material", material.to_string())
                 .and("aspect_ratio", ratios.clone());
-            let observed = |name: &str, value: f64| {
-                Metric::observed(name, &variant, value, "-")
-                    .of_kind(Kind::Validation)
-                    .with_snapshot_tolerance(1e-2, 5e-3)
-            };
-            let exponent = observed("scaling_exponent", scaling.law.value).against(
+            let observed =
+                |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-2, 5e-3);
+            let gate = gate.filter(|_| columns.iter().all(|(run, _)| run.has_published_law()));
+            let exponent = observed(SCALING_EXPONENT, scaling.law.value).against(
                 None,
                 "published exponents of tall planar columns: 2/3 to 0.7, height 0.33 to 0.4",
                 Confidence::High,
@@ -105,16 +104,16 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
                 Some(limit) => exponent.gated(limit, "specification 2: exponents depend little on the material"),
                 None => exponent,
             });
-            metrics.push(observed("scaling_confidence", scaling.half_width).against(
+            metrics.push(observed(SCALING_CONFIDENCE, scaling.half_width).against(
                 None,
                 "half width of the exponent's 95 % interval, from the scatter about the fit",
                 Confidence::Exact,
             ));
-            metrics.push(observed("scaling_coefficient", scaling.law.coefficient));
+            metrics.push(observed(SCALING_COEFFICIENT, scaling.law.coefficient));
             if quantity == "run_out"
                 && let Some(shallow) = shallow_coefficient(&records, material)
             {
-                metrics.push(against_lube(observed("break_point", break_point(shallow, &scaling.law))));
+                metrics.push(against_lube(observed(BREAK_POINT, break_point(shallow, &scaling.law))));
             }
         }
     }

@@ -3,6 +3,7 @@
 use super::block::Block;
 use super::camera::Camera;
 use super::deposit::{Collapse, Surveyor, front};
+use super::incline::Reservoir;
 use crate::case::{ParameterError, Progress, Run};
 use crate::cases::recording::Ending;
 use crate::metric::{Value, Variant};
@@ -15,7 +16,6 @@ use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::Wall;
 use bagnold_solver::weakly_compressible::boundary::gate::Gate;
 use bagnold_solver::weakly_compressible::boundary::wall::fill;
-use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use serde::{Deserialize, Serialize};
@@ -41,25 +41,14 @@ pub struct SlopeRun {
     pub slope_angle: f64,
     /// Speed at which the gate is pulled up, normal to the slope `[m/s]`; 0 for no gate.
     pub gate_speed: f64,
-    /// Particles over the length of the reservoir.
-    pub resolution: usize,
-    /// Height h_0 of the reservoir `[m]`.
-    pub initial_height: f64,
-    /// Its length r_0 `[m]`.
-    pub reservoir_length: f64,
     /// Constitutive law of the grains, side walls not counted.
-    pub law: MuI,
-    /// Rate α_r `[1/s]` of the law's regularised viscosity (35), with an implicit step; none for the return mapping.
+    pub law: Rheology,
+    /// Bulk density `[kg/m³]`.
+    pub bulk_density: f64,
+    /// Rate α_r `[1/s]` of the law's regularised viscosity (35), with an implicit step; none for the law itself.
     pub regularisation_rate: Option<f64>,
-    /// Width of the channel `[m]`; 0 for no side walls.
-    pub channel_width: f64,
-    pub(in crate::cases) channel_length: f64,
-    pub(in crate::cases) gravity: f64,
-    pub(in crate::cases) solid_fraction: f64,
-    pub(in crate::cases) jitter: f64,
-    pub(in crate::cases) seed: u64,
-    pub(in crate::cases) duration: f64,
-    pub(in crate::cases) numerics: Numerics,
+    /// Where it happens, and how it is simulated.
+    pub reservoir: Reservoir,
 }
 
 /// What a collapse on a slope leaves behind; lengths over the reservoir's length, times in `[s]`.
@@ -77,7 +66,7 @@ impl Run for SlopeRun {
     fn variant(&self) -> Variant {
         let gate = if self.gate_speed > 0.0 { Value::from(self.gate_speed) } else { Value::from("none") };
         let collapse =
-            Variant::of("slope_angle", self.slope_angle).and("gate", gate).and("resolution", self.resolution);
+            Variant::of("slope_angle", self.slope_angle).and("gate", gate).and("resolution", self.reservoir.resolution);
         match self.regularisation_rate {
             None => collapse,
             Some(rate) => collapse.and("regularisation_rate", rate),
@@ -85,8 +74,9 @@ impl Run for SlopeRun {
     }
 
     fn particle_steps(&self) -> f64 {
-        let step = self.numerics.acoustic_courant * self.numerics.smoothing_ratio * self.spacing() / self.sound_speed();
-        self.duration / step * self.particles()
+        let step = self.reservoir.numerics.acoustic_courant * self.reservoir.numerics.smoothing_ratio * self.spacing()
+            / self.sound_speed();
+        self.reservoir.duration / step * self.particles()
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, ParameterError> {
@@ -94,19 +84,19 @@ impl Run for SlopeRun {
         let mut simulation = Simulation::new(self.scene())?;
         let particles = simulation.particles().flow_count();
         let mut surveyor = Surveyor {
-            half_width: self.reservoir_length,
+            half_width: self.reservoir.reservoir_length,
             spacing: self.spacing(),
             gravity: self.gravity(),
-            bed_end: self.channel_length,
+            bed_end: self.reservoir.channel_length,
             collapse: Collapse::default(),
         };
-        let r = self.reservoir_length;
+        let r = self.reservoir.reservoir_length;
         let mut camera = Camera::new(FRAME_INTERVAL, self.spacing());
         let mut thickness = Vec::new();
         let mut frames = Vec::new();
         let mut last_good = simulation.snapshot();
-        let end_of_channel = self.channel_length - 0.5 * self.reservoir_length;
-        let reason = simulation.run(self.duration, INTERVAL, |simulation| {
+        let end_of_channel = self.reservoir.channel_length - 0.5 * self.reservoir.reservoir_length;
+        let reason = simulation.run(self.reservoir.duration, INTERVAL, |simulation| {
             let snapshot = simulation.snapshot();
             let profile = surveyor.observe(&snapshot);
             camera.watch(&snapshot, profile.iter().map(|(x, h)| (x * r, h * r)), front(&profile) * r);
@@ -114,7 +104,7 @@ impl Run for SlopeRun {
             if PICTURES.get(frames.len()).is_some_and(|&time| snapshot.time >= time) {
                 frames.push(Frame::of_flow(&snapshot));
             }
-            progress.advance(snapshot.time, self.duration, simulation.steps() as f64 * particles as f64);
+            progress.advance(snapshot.time, self.reservoir.duration, simulation.steps() as f64 * particles as f64);
             let rests = snapshot.time > EARLIEST_REST && surveyor.agitation() < AT_REST;
             let arrived = snapshot.position.iter().any(|x| x[0] > end_of_channel);
             last_good = snapshot;
@@ -143,13 +133,13 @@ impl SlopeRun {
     /// Particle spacing `[m]`.
     #[must_use]
     pub fn spacing(&self) -> f64 {
-        self.reservoir_length / self.resolution as f64
+        self.reservoir.reservoir_length / self.reservoir.resolution as f64
     }
 
     /// Particles.
     #[must_use]
     pub fn particles(&self) -> f64 {
-        (self.resolution * self.rows()) as f64
+        (self.reservoir.resolution * self.rows()) as f64
     }
 
     /// Whether there are enough rows over the height for a gate.
@@ -161,48 +151,56 @@ impl SlopeRun {
     /// Static friction that the flow feels, side walls included `[-]`: μ_s + 0.18 h_0/W.
     #[must_use]
     pub fn static_friction(&self) -> f64 {
-        self.law.static_friction + self.side_wall_friction()
+        self.law.contact_friction() + self.side_wall_friction()
     }
 
     fn side_wall_friction(&self) -> f64 {
-        if self.channel_width > 0.0 {
-            SLOPE_EXPERIMENT.side_wall_friction * self.initial_height / self.channel_width
+        if self.reservoir.channel_width > 0.0 {
+            SLOPE_EXPERIMENT.side_wall_friction * self.reservoir.initial_height / self.reservoir.channel_width
         } else {
             0.0
         }
     }
 
-    fn rows(&self) -> usize {
-        (self.initial_height / self.spacing()).round().max(1.0) as usize
+    /// The law that is simulated: that of the grains, with the friction of the side walls, regularised where asked for.
+    fn rheology(&self) -> Rheology {
+        let Rheology::MuI(grains) = self.law else { return self.law };
+        let friction = self.side_wall_friction();
+        let law = MuI {
+            static_friction: grains.static_friction + friction,
+            limiting_friction: grains.limiting_friction + friction,
+            ..grains
+        };
+        self.regularisation_rate.map_or(Rheology::MuI(law), |rate| Rheology::RegularisedMuI(law.regularised(rate)))
     }
 
-    fn bulk_density(&self) -> f64 {
-        self.solid_fraction * self.law.grain_density
+    fn rows(&self) -> usize {
+        (self.reservoir.initial_height / self.spacing()).round().max(1.0) as usize
     }
 
     fn bulk_modulus(&self) -> f64 {
-        50.0 * self.bulk_density() * self.gravity * self.initial_height
+        50.0 * self.bulk_density * self.reservoir.gravity * self.reservoir.initial_height
     }
 
     fn sound_speed(&self) -> f64 {
-        (self.bulk_modulus() / self.bulk_density()).sqrt()
+        (self.bulk_modulus() / self.bulk_density).sqrt()
     }
 
     /// Gravity along the slope and across it `[m/s²]`.
     fn gravity(&self) -> [f64; 2] {
         let angle = self.slope_angle.to_radians();
-        [self.gravity * libm::sin(angle), -self.gravity * libm::cos(angle)]
+        [self.reservoir.gravity * libm::sin(angle), -self.reservoir.gravity * libm::cos(angle)]
     }
 
     fn scene(&self) -> Scene<2> {
         let spacing = self.spacing();
         let height = self.rows() as f64 * spacing;
-        let (modulus, density) = (self.bulk_modulus(), self.bulk_density());
+        let (modulus, density) = (self.bulk_modulus(), self.bulk_density);
         let equation_of_state =
             EquationOfState { reference_density: density, bulk_modulus: modulus, tension: Tension::Cut };
         let gravity = self.gravity();
         let site = |cell: usize| {
-            let (column, row) = (cell % self.resolution, cell / self.resolution);
+            let (column, row) = (cell % self.reservoir.resolution, cell / self.reservoir.resolution);
             Vector::<2>::new((column as f64 + 0.5) * spacing, (row as f64 + 0.5) * spacing)
         };
         let block = Block {
@@ -210,19 +208,19 @@ impl SlopeRun {
             height,
             gravity_across: -gravity[1],
             equation_of_state,
-            jitter: self.jitter,
-            seed: self.seed,
+            jitter: self.reservoir.jitter,
+            seed: self.reservoir.seed,
         };
-        let flow = block.fill((0..self.rows() * self.resolution).map(site));
+        let flow = block.fill((0..self.rows() * self.reservoir.resolution).map(site));
         // the back of the reservoir is smooth
         let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
         let mut walls = vec![Wall::still(1, 0.0, 1.0)];
-        let layers = (2.0 * self.numerics.smoothing_ratio).ceil() as usize + 1;
-        let extent = (Vector::<2>::zeros(), Vector::<2>::new(self.channel_length, height));
+        let layers = (2.0 * self.reservoir.numerics.smoothing_ratio).ceil() as usize + 1;
+        let extent = (Vector::<2>::zeros(), Vector::<2>::new(self.reservoir.channel_length, height));
         let mut wall_particles = fill(&walls, &domain, extent, spacing, layers);
         if self.gate_speed > 0.0 {
             let gate = Gate {
-                position: self.reservoir_length,
+                position: self.reservoir.reservoir_length,
                 edge: 0.0,
                 height: height + GATE_ROWS as f64 * spacing,
                 speed: self.gate_speed,
@@ -233,12 +231,6 @@ impl SlopeRun {
             walls.extend(faces);
             wall_particles.extend(particles);
         }
-        let friction = self.side_wall_friction();
-        let law = MuI {
-            static_friction: self.law.static_friction + friction,
-            limiting_friction: self.law.limiting_friction + friction,
-            ..self.law
-        };
         Scene {
             flow,
             wall_particles,
@@ -247,11 +239,8 @@ impl SlopeRun {
             gravity: Vector::<2>::from(gravity),
             spacing,
             equation_of_state,
-            rheology: match self.regularisation_rate {
-                None => Rheology::MuI(law),
-                Some(rate) => Rheology::RegularisedMuI(law.regularised(rate)),
-            },
-            numerics: self.numerics,
+            rheology: self.rheology(),
+            numerics: self.reservoir.numerics,
         }
     }
 }

@@ -3,9 +3,10 @@
 use super::Record;
 use super::column::{ColumnRun, Purpose};
 use super::deposit::Collapse;
+use super::quantities::{EXPLICIT_STEPS, REGULARISED_DIFFERENCE, RUN_OUT};
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::metric::{Confidence, Kind, Metric, Variant};
+use crate::metric::{Confidence, Metric, Variant};
 
 /// The regularised runs.
 fn regularised(records: &[Record]) -> impl Iterator<Item = &Record> {
@@ -32,7 +33,8 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
         let variant = run.variant();
         // what (29) would ask for with the viscosity of (35) at rest under the whole column
         metrics.push(
-            Metric::observed("explicit_steps", &variant, run.explicit_viscous_steps(record.simulated_time), "-")
+            EXPLICIT_STEPS
+                .of(&variant, run.explicit_viscous_steps(record.simulated_time))
                 .against(
                     Some(record.steps as f64),
                     "the steps that the implicit run took; an explicit one was not made",
@@ -40,11 +42,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
                 )
                 .with_snapshot_tolerance(0.02, 1.0),
         );
-        metrics.push(
-            Metric::observed("run_out", &variant, record.data.run_out(), "-")
-                .of_kind(Kind::Validation)
-                .with_snapshot_tolerance(1e-3, 1e-3),
-        );
+        metrics.push(RUN_OUT.of(&variant, record.data.run_out()).with_snapshot_tolerance(1e-3, 1e-3));
         let Some((_, mapped)) = partner(records, run) else { continue };
         let difference = |of: fn(&Collapse) -> f64| 100.0 * (of(&record.data) / of(&mapped.data) - 1.0);
         for (quantity, value) in [
@@ -54,7 +52,8 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
         ] {
             let variant = Variant::of("quantity", quantity).followed_by(&variant);
             metrics.push(
-                Metric::observed("regularised_difference", &variant, value, "%")
+                REGULARISED_DIFFERENCE
+                    .of(&variant, value)
                     .against(Some(0.0), "the same column by return mapping", Confidence::Exact)
                     .with_snapshot_tolerance(0.02, 0.1),
             );
@@ -96,15 +95,37 @@ pub(super) fn figure(records: &[Record]) -> Option<Figure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Parameters, Tier};
-    use crate::cases::column_planar::ColumnPlanarParameters;
+    use crate::cases::collapse::{Geometry, Material};
     use crate::observation::{Outcome, Recorded};
+    use crate::reference::TABLE_2_SAND;
+    use bagnold_solver::material::rheology::Rheology;
+    use bagnold_solver::weakly_compressible::numerics::Numerics;
 
-    /// The metrics' names of columns of sand with these aspect ratios and of regularised ones with a = 1.
+    /// A column of sand.
+    fn column(aspect_ratio: f64, regularisation_rate: Option<f64>) -> ColumnRun {
+        let grains = TABLE_2_SAND.law;
+        ColumnRun {
+            purpose: if regularisation_rate.is_some() { Purpose::Regularised } else { Purpose::Law },
+            geometry: Geometry::Planar,
+            material: Material::SAND,
+            aspect_ratio,
+            resolution: 20,
+            half_width: 0.1,
+            law: regularisation_rate
+                .map_or(Rheology::MuI(grains), |rate| Rheology::RegularisedMuI(grains.regularised(rate))),
+            bulk_density: 1500.0,
+            regularisation_rate,
+            gravity: 9.81,
+            jitter: 0.0,
+            seed: 1,
+            duration: 10.0,
+            shown_times: Vec::new(),
+            numerics: Numerics::default(),
+        }
+    }
+
+    /// The metrics' names of columns of sand with these aspect ratios and of a regularised one with a = 1.
     fn names(sand: &[f64]) -> Vec<String> {
-        let mut parameters = ColumnPlanarParameters::of_tier(Tier::Quick);
-        parameters.sand.aspect_ratios = sand.to_vec();
-        parameters.regularised.aspect_ratios = vec![1.0];
         let record = Recorded {
             outcome: Outcome::Finished,
             state_hash: String::new(),
@@ -116,7 +137,8 @@ mod tests {
             frames: Vec::new(),
             data: Collapse { deposit: vec![(0.05, 0.5), (2.95, 0.03), (3.05, 0.01)], ..Collapse::default() },
         };
-        let records: Vec<Record> = parameters.runs().into_iter().map(|run| (run, record.clone())).collect();
+        let columns = sand.iter().map(|&ratio| column(ratio, None)).chain([column(1.0, Some(0.01))]);
+        let records: Vec<Record> = columns.map(|run| (run, record.clone())).collect();
         let metrics = metrics(&records);
         assert!(metrics.iter().all(|metric| metric.name != "run_out" || (metric.value - 2.0).abs() < 1e-12));
         metrics.into_iter().map(|metric| metric.name).collect()

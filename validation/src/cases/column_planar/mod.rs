@@ -7,7 +7,7 @@ pub use parameters::{ColumnPlanarParameters, Columns, Regularised, Sensitivity, 
 use super::collapse::{self, Record};
 use crate::case::Case;
 use crate::figure::{Animation, Figure};
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
 /// The case.
@@ -23,8 +23,10 @@ impl Case for ColumnPlanar {
         0.1 r_0, each particle spread over a spacing to either side) first falls below 0.02 r_0, seen from the symmetry plane, less the initial half width, over the \
         initial half width; height is the thickness of the innermost bin. The sand is that of the collapse paper's \
         Table 2; the other grains are those of Lagrée, Staron & Popinet (2011), whose grain diameter the source does \
-        not give. The coefficients of the published laws depend on the material, their exponents much less.";
+        not give. The coefficients of the published laws depend on the material, their exponents much less. With another \
+        law than μ(I) the published laws are shown and do not gate.";
     type Parameters = ColumnPlanarParameters;
+    const QUANTITIES: &'static [Quantity] = collapse::quantities::OF_COLUMNS;
 
     fn metrics(_: &ColumnPlanarParameters, records: &[Record]) -> Vec<Metric> {
         collapse::metrics::all(records)

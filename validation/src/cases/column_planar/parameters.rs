@@ -2,8 +2,8 @@
 
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::collapse::{self, Alteration, ColumnRun, Geometry, Grains, Material, Purpose};
-use crate::cases::rules;
-use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, TABLE_2_SAND};
+use crate::cases::{Bulk, rules};
+use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, each, positive, within};
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
@@ -22,11 +22,11 @@ pub struct Columns {
     /// Half width of taller columns `[m]`.
     #[schemars(transform = positive("give it in metres, such as 0.03"))]
     pub tall_half_width: f64,
-    /// Solid fraction φ `[-]`: the bulk density is φ times the grain density.
-    #[schemars(transform = between(0.01, 0.74, "grains fill 0.5 to 0.64 of the space"))]
-    pub solid_fraction: f64,
+    /// Density in bulk.
+    #[serde(flatten)]
+    pub bulk: Bulk,
     /// Constitutive law.
-    pub law: MuI,
+    pub law: Rheology,
 }
 
 /// Columns of grains that differ from others in one number.
@@ -139,26 +139,17 @@ impl Parameters for ColumnPlanarParameters {
             // Table 2; figures 7–10
             sand: Columns {
                 aspect_ratios: vec![0.7, 0.9, 1.5, 3.0],
-                half_width: 0.0972,
+                half_width: collapse::SAND_HALF_WIDTH,
                 tall_half_width: 0.0292,
-                solid_fraction: TABLE_2_SAND.solid_fraction,
-                law: TABLE_2_SAND.law,
+                ..Columns::of(&TABLE_2_SAND)
             },
             // Table 1; figures 7–9 are captioned glass beads
             glass: Columns {
-                aspect_ratios: Vec::new(),
-                half_width: 0.0972,
+                half_width: collapse::SAND_HALF_WIDTH,
                 tall_half_width: 0.0292,
-                solid_fraction: GLASS_BEADS.solid_fraction,
-                law: GLASS_BEADS.law,
+                ..Columns::of(&GLASS_BEADS)
             },
-            lagree: Columns {
-                aspect_ratios: vec![1.0],
-                half_width: 0.1,
-                tall_half_width: 0.1,
-                solid_fraction: LAGREE_GRAINS.solid_fraction,
-                law: LAGREE_GRAINS.law,
-            },
+            lagree: Columns { aspect_ratios: vec![1.0], ..Columns::of(&LAGREE_GRAINS) },
             sand_inertias: Variants { values: Vec::new(), aspect_ratios: Vec::new() },
             lagree_diameters: Variants { values: Vec::new(), aspect_ratios: Vec::new() },
             // the spread over five seeds, which the gates of run-out and height take into account
@@ -206,12 +197,25 @@ impl Parameters for ColumnPlanarParameters {
     fn check(&self) -> Result<(), ParameterError> {
         for (grains, columns) in self.materials() {
             let name = grains.name();
-            rules::material(&format!("{name}.law"), &Rheology::MuI(columns.law))?;
+            rules::material(&format!("{name}.law"), &columns.law)?;
+            columns.bulk.check(&columns.law).map_err(|error| error.within(name))?;
+        }
+        let altered = [("sand", &self.sand, "sand_inertias"), ("lagree", &self.lagree, "lagree_diameters")];
+        for ((name, columns, list), variants) in altered.into_iter().zip([&self.sand_inertias, &self.lagree_diameters])
+        {
+            if !variants.values.is_empty() && !variants.aspect_ratios.is_empty() {
+                let remedy = format!("`{list}` alters a number of μ(I): choose it, or empty `{list}.values`");
+                rules::only_mu_i(&format!("{name}.law"), &columns.law, &remedy)?;
+            }
         }
         if !self.regularised.aspect_ratios.is_empty() {
+            let remedy = "(35) regularises μ(I): choose it, or empty `regularised.aspect_ratios`";
+            rules::only_mu_i("sand.law", &self.sand.law, remedy)?;
             rules::implicit_runs("numerics", &self.numerics, "regularised.aspect_ratios")?;
         }
-        rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.sand.law))?;
+        for (_, columns) in self.materials() {
+            rules::viscous_step("numerics", &self.numerics, &columns.law)?;
+        }
         collapse::check_size(&self.runs(), |run| match run.purpose {
             Purpose::Convergence => "sensitivity.resolutions".to_owned(),
             Purpose::Hourglass => "sensitivity.hourglass_resolutions".to_owned(),
@@ -228,9 +232,9 @@ impl Parameters for ColumnPlanarParameters {
             resolution: self.resolution_of(aspect_ratio),
             half_width: columns.half_width_of(aspect_ratio),
             law: columns.law,
+            bulk_density: columns.bulk.density(&columns.law),
             regularisation_rate: None,
             gravity: self.gravity,
-            solid_fraction: columns.solid_fraction,
             jitter: self.jitter,
             seed: self.seed,
             duration: self.duration,
@@ -247,15 +251,21 @@ impl Parameters for ColumnPlanarParameters {
             runs.extend(columns.aspect_ratios.iter().map(|&aspect_ratio| column(material, columns, aspect_ratio)));
         }
         let (sand, lagree) = (&self.sand, &self.lagree);
-        for &reference_inertia in &self.sand_inertias.values {
-            let columns = Columns { law: MuI { reference_inertia, ..sand.law }, ..sand.clone() };
-            let material = Material::altered(Grains::Sand, Alteration::ReferenceInertia(reference_inertia));
-            runs.extend(self.sand_inertias.aspect_ratios.iter().map(|&ratio| column(material, &columns, ratio)));
+        let mut altered = |columns: &Columns, law: MuI, material: Material, aspect_ratios: &[f64]| {
+            let columns = Columns { law: Rheology::MuI(law), ..columns.clone() };
+            runs.extend(aspect_ratios.iter().map(|&ratio| column(material, &columns, ratio)));
+        };
+        if let Rheology::MuI(law) = sand.law {
+            for &reference_inertia in &self.sand_inertias.values {
+                let material = Material::altered(Grains::Sand, Alteration::ReferenceInertia(reference_inertia));
+                altered(sand, MuI { reference_inertia, ..law }, material, &self.sand_inertias.aspect_ratios);
+            }
         }
-        for &grain_diameter in &self.lagree_diameters.values {
-            let columns = Columns { law: MuI { grain_diameter, ..lagree.law }, ..lagree.clone() };
-            let material = Material::altered(Grains::Lagree, Alteration::GrainDiameter(grain_diameter));
-            runs.extend(self.lagree_diameters.aspect_ratios.iter().map(|&ratio| column(material, &columns, ratio)));
+        if let Rheology::MuI(law) = lagree.law {
+            for &grain_diameter in &self.lagree_diameters.values {
+                let material = Material::altered(Grains::Lagree, Alteration::GrainDiameter(grain_diameter));
+                altered(lagree, MuI { grain_diameter, ..law }, material, &self.lagree_diameters.aspect_ratios);
+            }
         }
         let study = &self.sensitivity;
         let finest = study.resolutions.iter().copied().max().unwrap_or(0);
@@ -290,14 +300,18 @@ impl Parameters for ColumnPlanarParameters {
                 }));
             }
         }
-        runs.extend(self.regularised.aspect_ratios.iter().map(|&ratio| ColumnRun {
-            purpose: Purpose::Regularised,
-            regularisation_rate: Some(self.regularised.rate),
-            duration: REGULARISED_DURATION.min(self.duration),
-            numerics: Numerics { viscous_step: ViscousStep::Implicit, ..self.numerics },
-            shown_times: Vec::new(),
-            ..column(Material::SAND, sand, ratio)
-        }));
+        if let Rheology::MuI(law) = sand.law {
+            let rate = self.regularised.rate;
+            runs.extend(self.regularised.aspect_ratios.iter().map(|&ratio| ColumnRun {
+                purpose: Purpose::Regularised,
+                law: Rheology::RegularisedMuI(law.regularised(rate)),
+                regularisation_rate: Some(rate),
+                duration: REGULARISED_DURATION.min(self.duration),
+                numerics: Numerics { viscous_step: ViscousStep::Implicit, ..self.numerics },
+                shown_times: Vec::new(),
+                ..column(Material::SAND, sand, ratio)
+            }));
+        }
         runs
     }
 }
@@ -320,6 +334,17 @@ impl ColumnPlanarParameters {
 }
 
 impl Columns {
+    /// No columns yet, of published grains, 0.1 m to either side.
+    fn of(grains: &PublishedGrains) -> Self {
+        Self {
+            aspect_ratios: Vec::new(),
+            half_width: 0.1,
+            tall_half_width: 0.1,
+            bulk: Bulk::of_grains(grains.solid_fraction),
+            law: Rheology::MuI(grains.law),
+        }
+    }
+
     /// Half width of a column `[m]`.
     pub(super) fn half_width_of(&self, aspect_ratio: f64) -> f64 {
         if aspect_ratio > TALL { self.tall_half_width } else { self.half_width }

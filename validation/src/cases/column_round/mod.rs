@@ -7,7 +7,7 @@ pub use parameters::{ColumnRoundParameters, RoundColumn};
 use super::collapse::{self, Record};
 use crate::case::Case;
 use crate::figure::{Animation, Figure};
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
 /// The case.
@@ -21,8 +21,10 @@ impl Case for ColumnRound {
     const DESCRIPTION: &'static str = "A quarter of a cylinder of dry sand stands between two free-slip symmetry planes on a rough horizontal bed and is \
         released at once. Run-out and height are defined as in column-planar, with quarter rings of width 0.1 r_0 as \
         bins. The run-out law of Lube et al. (2004) was measured on such columns; the collapse paper compared its \
-        planar runs with it. The height law of the same source is unverified and does not gate.";
+        planar runs with it. The height law of the same source is unverified and does not gate. With another \
+        law than μ(I) the published laws are shown and do not gate.";
     type Parameters = ColumnRoundParameters;
+    const QUANTITIES: &'static [Quantity] = collapse::quantities::OF_COLUMNS;
 
     fn metrics(_: &ColumnRoundParameters, records: &[Record]) -> Vec<Metric> {
         collapse::metrics::all(records)

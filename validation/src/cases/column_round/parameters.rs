@@ -2,9 +2,9 @@
 
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::collapse::{self, ColumnRun, Geometry, Material, Purpose};
-use crate::cases::column_planar::ColumnPlanarParameters;
-use crate::cases::rules;
-use bagnold_solver::material::rheology::{MuI, Rheology};
+use crate::cases::{Bulk, rules};
+use crate::reference::TABLE_2_SAND;
+use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use schemars::JsonSchema;
@@ -30,9 +30,9 @@ pub struct ColumnRoundParameters {
     /// Radius r_0 `[m]`.
     #[schemars(transform = positive("give it in metres, such as 0.1"))]
     pub radius: f64,
-    /// Solid fraction φ `[-]`.
-    #[schemars(transform = between(0.01, 0.74, "grains fill 0.5 to 0.64 of the space"))]
-    pub solid_fraction: f64,
+    /// Density in bulk.
+    #[serde(flatten)]
+    pub bulk: Bulk,
     /// Largest random displacement of a particle in spacings `[-]`.
     #[schemars(transform = between(0.0, 0.5, "0.05 breaks the lattice without overlaps"))]
     pub jitter: f64,
@@ -44,7 +44,7 @@ pub struct ColumnRoundParameters {
     /// Columns to run.
     pub columns: Vec<RoundColumn>,
     /// Grains.
-    pub sand: MuI,
+    pub sand: Rheology,
     /// Numerics.
     pub numerics: Numerics,
 }
@@ -53,33 +53,32 @@ impl Parameters for ColumnRoundParameters {
     type Run = ColumnRun;
 
     fn of_tier(tier: Tier) -> Self {
-        // the sand, and so its table, are those of the planar columns
-        let planar = ColumnPlanarParameters::of_tier(tier);
         let columns = |pairs: &[(f64, usize)]| {
             pairs.iter().map(|&(aspect_ratio, resolution)| RoundColumn { aspect_ratio, resolution }).collect()
         };
         let paper = [(0.5, 40), (0.9, 24), (1.7, 20), (2.75, 16), (4.8, 14), (8.0, 12)];
         Self {
-            gravity: planar.gravity,
-            radius: planar.sand.half_width,
-            solid_fraction: planar.sand.solid_fraction,
-            jitter: planar.jitter,
-            seed: planar.seed,
-            duration: planar.duration,
+            gravity: 9.81,
+            radius: collapse::SAND_HALF_WIDTH,
+            bulk: Bulk::of_grains(TABLE_2_SAND.solid_fraction),
+            jitter: 0.05,
+            seed: 1,
+            duration: 10.0,
             columns: match tier {
                 Tier::Quick => columns(&[(1.7, 12)]),
                 Tier::Paper => columns(&paper),
                 Tier::Fine => columns(&paper.map(|(aspect_ratio, resolution)| (aspect_ratio, resolution * 3 / 2))),
             },
-            sand: planar.sand.law,
+            sand: Rheology::MuI(TABLE_2_SAND.law),
             // in space 1.3 holds 80 neighbours, 1.5 holds 120
-            numerics: Numerics { smoothing_ratio: 1.3, ..planar.numerics },
+            numerics: Numerics { smoothing_ratio: 1.3, ..Numerics::default() },
         }
     }
 
     fn check(&self) -> Result<(), ParameterError> {
-        rules::material("sand", &Rheology::MuI(self.sand))?;
-        rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.sand))?;
+        rules::material("sand", &self.sand)?;
+        self.bulk.check(&self.sand)?;
+        rules::viscous_step("numerics", &self.numerics, &self.sand)?;
         collapse::check_size(&self.runs(), |run| {
             let is_it =
                 |column: &RoundColumn| column.aspect_ratio == run.aspect_ratio && column.resolution == run.resolution;
@@ -96,9 +95,9 @@ impl Parameters for ColumnRoundParameters {
             resolution: column.resolution,
             half_width: self.radius,
             law: self.sand,
+            bulk_density: self.bulk.density(&self.sand),
             regularisation_rate: None,
             gravity: self.gravity,
-            solid_fraction: self.solid_fraction,
             jitter: self.jitter,
             seed: self.seed,
             duration: self.duration,

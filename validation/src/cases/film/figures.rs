@@ -2,21 +2,21 @@
 
 use super::Record;
 use super::comparison::NumericsSet;
-use super::fluid::FluidKind;
 use super::metrics::{convergence_errors, shear_rates};
 use super::parameters::FilmRun;
 use crate::cases::Arrangement;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::observation::Outcome;
+use bagnold_solver::material::rheology::Rheology;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
-    let newtonian = |run: &FilmRun| run.fluid.kind() == FluidKind::Newtonian && run.particles == Arrangement::Jittered;
-    let finest = records.iter().filter(|(run, _)| newtonian(run)).map(|(run, _)| run.resolution).max();
+    let newtonian = |run: &FilmRun| run.is_newtonian() && run.particles == Arrangement::Jittered;
+    let finest = records.iter().filter(|(run, _)| newtonian(run)).map(|(run, _)| run.layer.resolution).max();
     let jittered: Vec<&Record> = records
         .iter()
         .filter(|(run, _)| run.particles == Arrangement::Jittered && run.numerics_set == NumericsSet::Default)
         // a second Newtonian film may have been run for the comparison
-        .filter(|(run, _)| !newtonian(run) || Some(run.resolution) == finest)
+        .filter(|(run, _)| !newtonian(run) || Some(run.layer.resolution) == finest)
         .collect();
     let compared = records.iter().find(|(run, _)| run.numerics_set != NumericsSet::Default);
     let mut figures = Vec::new();
@@ -40,18 +40,20 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         });
     }
     if let Some((first, _)) = compared {
-        let rows = first.resolution;
-        let films: Vec<&Record> = records.iter().filter(|(run, _)| newtonian(run) && run.resolution == rows).collect();
+        let rows = first.layer.resolution;
+        let films: Vec<&Record> =
+            records.iter().filter(|(run, _)| newtonian(run) && run.layer.resolution == rows).collect();
         figures.push(operators(&films));
     }
     figures
 }
 
 fn label(run: &FilmRun) -> &'static str {
-    match run.fluid.kind() {
-        FluidKind::Newtonian => "Newtonian",
-        FluidKind::Bingham => "Bingham",
-        FluidKind::HerschelBulkley => "Herschel–Bulkley",
+    match run.law {
+        Rheology::Newtonian(_) => "Newtonian",
+        Rheology::Bingham(_) => "Bingham",
+        Rheology::HerschelBulkley(_) => "Herschel–Bulkley",
+        other => other.name(),
     }
 }
 
@@ -59,10 +61,9 @@ fn profiles(records: &[&Record]) -> Figure {
     let mut velocity = Panel::new("", Axis::linear("u [m/s]"), Axis::linear("y/h [-]"));
     let mut rate = Panel::new("", Axis::linear("du/dy [1/s]"), Axis::linear("y/h [-]"));
     for (slot, (run, record)) in records.iter().enumerate() {
-        let incline = run.incline();
-        let h = incline.layer_height;
+        let (film, h) = (run.film(), run.layer.layer_height);
         let exact: Vec<(f64, f64)> =
-            (0..=200).map(|k| f64::from(k) / 200.0).map(|y| (run.fluid.velocity(incline, y * h), y)).collect();
+            (0..=200).map(|k| f64::from(k) / 200.0).map(|y| (film.velocity(y * h), y)).collect();
         let name = if slot == 0 { "exact" } else { "" };
         let rates =
             exact.windows(2).map(|p| ((p[1].0 - p[0].0) / ((p[1].1 - p[0].1) * h), 0.5 * (p[0].1 + p[1].1))).collect();
@@ -93,20 +94,17 @@ fn operators(films: &[&Record]) -> Figure {
     let mut velocity = Panel::new("", Axis::linear("u [m/s]"), Axis::linear("y/h [-]"));
     let mut error = Panel::new("", Axis::linear("(u − u exact)/u exact(h) [%]"), Axis::linear("y/h [-]"));
     for (slot, (run, record)) in films.iter().enumerate() {
-        let incline = run.incline();
-        let h = incline.layer_height;
+        let (film, h) = (run.film(), run.layer.layer_height);
         if slot == 0 {
-            let exact =
-                (0..=200).map(|k| f64::from(k) / 200.0).map(|y| (run.fluid.velocity(incline, y * h), y)).collect();
+            let exact = (0..=200).map(|k| f64::from(k) / 200.0).map(|y| (film.velocity(y * h), y)).collect();
             velocity.series.push(Series::new("exact", Mark::Reference, 0, exact));
             error.series.push(Series::new("", Mark::Reference, 0, vec![(0.0, 0.0), (0.0, 1.0)]));
         }
         let data = &record.data.profile;
-        let surface = run.fluid.velocity(incline, h);
+        let surface = film.velocity(h);
         let bins = (0..data.height.len()).filter(|&bin| data.samples[bin] > 0.0);
         let points: Vec<(f64, f64)> = bins.map(|bin| (data.velocity[bin], data.height[bin] / h)).collect();
-        let errors =
-            points.iter().map(|&(u, y)| (100.0 * (u - run.fluid.velocity(incline, y * h)) / surface, y)).collect();
+        let errors = points.iter().map(|&(u, y)| (100.0 * (u - film.velocity(y * h)) / surface, y)).collect();
         let diverged = matches!(record.outcome, Outcome::Diverged { .. });
         let name = format!("{}{}", run.numerics_set.label(), if diverged { " (diverged)" } else { "" });
         velocity.series.push(Series::new(&name, Mark::Points, slot, points));

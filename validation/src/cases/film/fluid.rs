@@ -1,7 +1,7 @@
-//! One fluid of the film, as the solver takes it and as the exact solution does.
+//! The film of a fluid, as the exact solutions have it: in closed form, or integrated over the depth for any other law.
 
-use crate::reference::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
-use bagnold_solver::material::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
+use crate::reference::{BinghamFilm, HerschelBulkleyFilm, Incline, LawFilm, NewtonianFilm};
+use bagnold_solver::material::rheology::Rheology;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,98 +15,92 @@ pub enum FluidKind {
     Bingham,
     /// Herschel–Bulkley.
     HerschelBulkley,
+    /// That of any law, under `material`.
+    Material,
 }
 
-/// A fluid with its parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub enum Fluid {
-    /// Newtonian.
-    Newtonian(Newtonian),
-    /// Bingham.
-    Bingham(Bingham),
-    /// Herschel–Bulkley.
-    HerschelBulkley(HerschelBulkley),
+/// The steady film of a law on an incline.
+#[derive(Debug, Clone, Copy)]
+pub enum Film {
+    /// Of a Newtonian liquid.
+    Newtonian(NewtonianFilm),
+    /// Of a Bingham fluid.
+    Bingham(BinghamFilm),
+    /// Of a Herschel–Bulkley fluid.
+    HerschelBulkley(HerschelBulkleyFilm),
+    /// Of any other law.
+    Integrated(LawFilm),
 }
 
-impl Fluid {
-    /// Its kind.
+impl Film {
+    /// The film of a law.
     #[must_use]
-    pub fn kind(&self) -> FluidKind {
-        match self {
-            Self::Newtonian(_) => FluidKind::Newtonian,
-            Self::Bingham(_) => FluidKind::Bingham,
-            Self::HerschelBulkley(_) => FluidKind::HerschelBulkley,
-        }
-    }
-
-    /// Its constitutive law.
-    #[must_use]
-    pub fn rheology(&self) -> Rheology {
-        match *self {
-            Self::Newtonian(law) => Rheology::Newtonian(law),
-            Self::Bingham(law) => Rheology::Bingham(law),
-            Self::HerschelBulkley(law) => Rheology::HerschelBulkley(law),
+    pub fn of(law: Rheology, incline: Incline) -> Self {
+        match law {
+            Rheology::Newtonian(law) => Self::Newtonian(NewtonianFilm { incline, viscosity: law.viscosity }),
+            Rheology::Bingham(law) => Self::Bingham(BinghamFilm {
+                incline,
+                yield_stress: law.yield_stress,
+                plastic_viscosity: law.plastic_viscosity,
+            }),
+            Rheology::HerschelBulkley(law) => Self::HerschelBulkley(HerschelBulkleyFilm {
+                incline,
+                yield_stress: law.yield_stress,
+                consistency: law.consistency,
+                flow_index: law.flow_index,
+            }),
+            law => Self::Integrated(LawFilm { incline, law }),
         }
     }
 
     /// Exact velocity `[m/s]` at a height `[m]`.
     #[must_use]
-    pub fn velocity(&self, incline: Incline, height: f64) -> f64 {
+    pub fn velocity(&self, height: f64) -> f64 {
         match self {
-            Self::Newtonian(law) => NewtonianFilm { incline, viscosity: law.viscosity }.velocity(height),
-            Self::Bingham(law) => bingham(incline, law).velocity(height),
-            Self::HerschelBulkley(law) => herschel_bulkley(incline, law).velocity(height),
+            Self::Newtonian(film) => film.velocity(height),
+            Self::Bingham(film) => film.velocity(height),
+            Self::HerschelBulkley(film) => film.velocity(height),
+            Self::Integrated(film) => film.velocity(height),
         }
     }
 
     /// Exact flux `[m²/s]`.
     #[must_use]
-    pub fn flux(&self, incline: Incline) -> f64 {
+    pub fn flux(&self) -> f64 {
         match self {
-            Self::Newtonian(law) => NewtonianFilm { incline, viscosity: law.viscosity }.flux(),
-            Self::Bingham(law) => bingham(incline, law).flux(),
-            Self::HerschelBulkley(law) => herschel_bulkley(incline, law).flux(),
+            Self::Newtonian(film) => film.flux(),
+            Self::Bingham(film) => film.flux(),
+            Self::HerschelBulkley(film) => film.flux(),
+            Self::Integrated(film) => film.flux(),
         }
     }
 
-    /// Exact height of the plug's edge `[m]`; none for the Newtonian film.
+    /// Exact height of the plug's edge `[m]`; none where the closed forms know of no plug.
     #[must_use]
-    pub fn plug_edge(&self, incline: Incline) -> Option<f64> {
+    pub fn plug_edge(&self) -> Option<f64> {
         match self {
-            Self::Newtonian(_) => None,
-            Self::Bingham(law) => Some(bingham(incline, law).plug_edge()),
-            Self::HerschelBulkley(law) => Some(herschel_bulkley(incline, law).plug_edge()),
+            Self::Bingham(film) => Some(film.plug_edge()),
+            Self::HerschelBulkley(film) => Some(film.plug_edge()),
+            Self::Newtonian(_) | Self::Integrated(_) => None,
         }
     }
 
     /// Exponent n in τ − τ_y ∝ |du/dy|ⁿ `[-]`.
     #[must_use]
     pub fn flow_index(&self) -> f64 {
-        match self {
-            Self::HerschelBulkley(law) => law.flow_index,
-            _ => 1.0,
-        }
+        if let Self::HerschelBulkley(film) = self { film.flow_index } else { 1.0 }
     }
 
     /// Viscosity `[Pa·s]` that sets the time over which the sheared part relaxes, ρ h²/η.
     #[must_use]
-    pub fn relaxing_viscosity(&self, incline: Incline) -> f64 {
+    pub fn relaxing_viscosity(&self) -> f64 {
         match self {
-            Self::Newtonian(law) => law.viscosity,
-            Self::Bingham(law) => law.plastic_viscosity,
-            Self::HerschelBulkley(law) => {
-                let film = herschel_bulkley(incline, law);
-                law.consistency * libm::pow(film.plug_velocity() / film.plug_edge(), law.flow_index - 1.0)
+            Self::Newtonian(film) => film.viscosity,
+            Self::Bingham(film) => film.plastic_viscosity,
+            Self::HerschelBulkley(film) => {
+                film.consistency * libm::pow(film.plug_velocity() / film.plug_edge(), film.flow_index - 1.0)
             }
+            Self::Integrated(film) => film.viscosity_at_bed(),
         }
     }
-}
-
-fn bingham(incline: Incline, law: &Bingham) -> BinghamFilm {
-    BinghamFilm { incline, yield_stress: law.yield_stress, plastic_viscosity: law.plastic_viscosity }
-}
-
-fn herschel_bulkley(incline: Incline, law: &HerschelBulkley) -> HerschelBulkleyFilm {
-    let HerschelBulkley { yield_stress, consistency, flow_index, .. } = *law;
-    HerschelBulkleyFilm { incline, yield_stress, consistency, flow_index }
 }

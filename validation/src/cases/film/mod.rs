@@ -6,13 +6,13 @@ mod fluid;
 mod metrics;
 mod parameters;
 
-pub use fluid::FluidKind;
+pub use fluid::{Film as SteadyFilm, FluidKind};
 pub use parameters::{FilmParameters, FilmRun};
 
 use super::layer;
 use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
 /// The case.
@@ -30,8 +30,10 @@ impl Case for Film {
         the two yield-stress films, regularised after Papanastasiou and so with a long viscous relaxation, start from \
         their exact profile and must keep it. Velocity profile, flux and the edge of the plug are compared with the \
         exact solutions of the unregularised laws: the regularisation's creep of the plug is part of the error. The \
-        Newtonian film is also run with the collapse paper's operators and walls, which are observed and do not gate.";
+        Newtonian film is also run with the collapse paper's operators and walls, which are observed and do not gate. Any other \
+        law, under `material`, is compared with its steady film, integrated over the depth, and does not gate.";
     type Parameters = FilmParameters;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &FilmParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)

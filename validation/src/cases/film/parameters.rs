@@ -1,15 +1,15 @@
 //! Parameters, tiers and runs.
 
 use super::comparison::NumericsSet;
-use super::fluid::{Fluid, FluidKind};
+use super::fluid::{Film, FluidKind};
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
 use crate::cases::Arrangement;
-use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
+use crate::cases::layer::{Layer, LayerObservation, PeriodicLayer, Preparation, bulk_modulus};
 use crate::cases::rules;
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::Incline;
-use bagnold_solver::material::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
+use bagnold_solver::material::rheology::{Bingham, CoulombBingham, HerschelBulkley, Newtonian, Rheology};
 use bagnold_solver::parameter::{between, each, positive};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use schemars::JsonSchema;
@@ -18,33 +18,18 @@ use serde::{Deserialize, Serialize};
 /// Parameters of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FilmParameters {
-    /// Layer height h `[m]`.
-    #[schemars(transform = positive("give it in metres, such as 0.01"))]
-    pub layer_height: f64,
+    /// The layer.
+    #[serde(flatten)]
+    pub layer: PeriodicLayer,
     /// Slope angle `[°]`.
     #[schemars(transform = rules::slope_angle())]
     #[schemars(transform = between(0.1, 89.0, "a film needs a slope to flow down"))]
     pub slope_angle: f64,
-    /// Gravity `[m/s²]`.
-    #[schemars(transform = rules::gravity())]
-    pub gravity: f64,
     /// Density `[kg/m³]`.
     #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub density: f64,
     /// Fluids to run.
     pub fluids: Vec<FluidKind>,
-    /// Rows of particles over the layer.
-    #[schemars(transform = rules::rows())]
-    pub resolution: usize,
-    /// Columns of particles along the period.
-    pub columns: usize,
-    /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
-    pub jitter: f64,
-    /// Seed of the displacements.
-    pub seed: u64,
-    /// What happens before the start.
-    pub preparation: Preparation,
     /// Rows of the Newtonian convergence study on the lattice; empty for none.
     #[schemars(transform = each(rules::rows()))]
     pub convergence_resolutions: Vec<usize>,
@@ -62,8 +47,8 @@ pub struct FilmParameters {
     pub bingham: Bingham,
     /// The Herschel–Bulkley fluid.
     pub herschel_bulkley: HerschelBulkley,
-    /// Numerics.
-    pub numerics: Numerics,
+    /// Any other law, for the fluid "material".
+    pub material: Rheology,
 }
 
 impl Parameters for FilmParameters {
@@ -71,16 +56,20 @@ impl Parameters for FilmParameters {
 
     fn of_tier(tier: Tier) -> Self {
         let quick = Self {
-            layer_height: 0.01,
+            layer: PeriodicLayer {
+                layer_height: 0.01,
+                gravity: 9.81,
+                resolution: 20,
+                columns: 8,
+                jitter: 0.1,
+                seed: 1,
+                preparation: Preparation::Settled,
+                // a viscous fluid needs no artificial viscosity, which is first order: α h c/8 is 0.4 % of ν at 20 rows
+                numerics: Numerics { artificial_viscosity: 0.0, ..Numerics::default() },
+            },
             slope_angle: 10.0,
-            gravity: 9.81,
             density: 1000.0,
             fluids: vec![FluidKind::Newtonian, FluidKind::Bingham, FluidKind::HerschelBulkley],
-            resolution: 20,
-            columns: 8,
-            jitter: 0.1,
-            seed: 1,
-            preparation: Preparation::Settled,
             convergence_resolutions: vec![10, 20],
             comparison_resolution: 20,
             relaxation_times: 5.0,
@@ -94,25 +83,36 @@ impl Parameters for FilmParameters {
                 flow_index: 0.7,
                 regularisation_rate: 0.3,
             },
-            // a viscous fluid needs no artificial viscosity, which is first order: α h c/8 is 0.4 % of ν at 20 rows
-            numerics: Numerics { artificial_viscosity: 0.0, ..Numerics::default() },
+            // grains that yield by friction alone
+            material: Rheology::CoulombBingham(CoulombBingham {
+                yield_stress: 0.0,
+                friction: 0.1,
+                plastic_viscosity: 0.5,
+                regularisation_rate: 0.3,
+                largest_viscosity: 1e4,
+            }),
+        };
+        let refined = |resolution, convergence_resolutions| Self {
+            layer: PeriodicLayer { resolution, columns: 12, ..quick.layer },
+            convergence_resolutions,
+            ..quick.clone()
         };
         match tier {
             Tier::Quick => quick,
-            Tier::Paper => Self { resolution: 40, columns: 12, convergence_resolutions: vec![10, 20, 40], ..quick },
-            Tier::Fine => Self { resolution: 80, columns: 12, convergence_resolutions: vec![20, 40, 80], ..quick },
+            Tier::Paper => refined(40, vec![10, 20, 40]),
+            Tier::Fine => refined(80, vec![20, 40, 80]),
         }
     }
 
     fn check(&self) -> Result<(), ParameterError> {
         if self.comparison_resolution > 0 {
             rules::row_count("comparison_resolution", self.comparison_resolution)?;
-            let widest = NumericsSet::OTHERS.map(|set| set.numerics(self.numerics));
+            let widest = NumericsSet::OTHERS.map(|set| set.numerics(self.layer.numerics));
             for numerics in &widest {
-                rules::columns("columns", self.columns, numerics)?;
+                rules::columns("columns", self.layer.columns, numerics)?;
             }
         }
-        rules::columns("columns", self.columns, &self.numerics)?;
+        self.layer.check()?;
         let base = self.incline().shear_stress(0.0);
         let fluids = [
             ("bingham.yield_stress", self.bingham.yield_stress),
@@ -122,32 +122,33 @@ impl Parameters for FilmParameters {
             let remedy = format!("the shear stress at the bed is {base:.3} Pa: above it nothing flows");
             rules::between(field, yield_stress, 0.0, 0.95 * base, &remedy)?;
         }
-        rules::viscous_step("numerics", &self.numerics, &Rheology::Newtonian(self.newtonian))
+        if self.fluids.contains(&FluidKind::Material) {
+            self.check_material()?;
+        }
+        rules::viscous_step("numerics", &self.layer.numerics, &Rheology::Newtonian(self.newtonian))
     }
 
     fn runs(&self) -> Vec<FilmRun> {
-        let new = |kind, particles, resolution, numerics_set: NumericsSet| FilmRun {
-            fluid: self.fluid(kind),
+        let new = |kind, particles: Arrangement, resolution, numerics_set: NumericsSet| FilmRun {
+            law: self.law(kind),
             particles,
-            resolution,
             numerics_set,
-            layer_height: self.layer_height,
+            layer: PeriodicLayer {
+                resolution,
+                jitter: particles.displacement(self.layer.jitter),
+                numerics: numerics_set.numerics(self.layer.numerics),
+                ..self.layer
+            },
             slope_angle: self.slope_angle,
-            gravity: self.gravity,
             density: self.density,
-            columns: self.columns,
-            jitter: particles.displacement(self.jitter),
-            seed: self.seed,
-            preparation: self.preparation,
             relaxation_times: match kind {
                 FluidKind::Newtonian => self.relaxation_times,
                 _ => self.yield_relaxation_times,
             },
-            numerics: numerics_set.numerics(self.numerics),
         };
         let mut runs = Vec::new();
         for &kind in &self.fluids {
-            runs.push(new(kind, Arrangement::Jittered, self.resolution, NumericsSet::Default));
+            runs.push(new(kind, Arrangement::Jittered, self.layer.resolution, NumericsSet::Default));
             if kind == FluidKind::Newtonian {
                 let study = self.convergence_resolutions.iter();
                 runs.extend(study.map(|&rows| new(kind, Arrangement::Lattice, rows, NumericsSet::Default)));
@@ -156,7 +157,7 @@ impl Parameters for FilmParameters {
         if self.comparison_resolution > 0 && self.fluids.contains(&FluidKind::Newtonian) {
             let other = |set| new(FluidKind::Newtonian, Arrangement::Jittered, self.comparison_resolution, set);
             // the default is compared at the same resolution, which the profile may have run already
-            if self.comparison_resolution != self.resolution {
+            if self.comparison_resolution != self.layer.resolution {
                 runs.push(other(NumericsSet::Default));
             }
             runs.extend(NumericsSet::OTHERS.map(other));
@@ -167,72 +168,83 @@ impl Parameters for FilmParameters {
 
 impl FilmParameters {
     fn incline(&self) -> Incline {
-        Incline {
-            layer_height: self.layer_height,
-            slope_angle: self.slope_angle.to_radians(),
-            gravity: self.gravity,
-            density: self.density,
+        incline(&self.layer, self.slope_angle, self.density)
+    }
+
+    fn law(&self, kind: FluidKind) -> Rheology {
+        match kind {
+            FluidKind::Newtonian => Rheology::Newtonian(self.newtonian),
+            FluidKind::Bingham => Rheology::Bingham(self.bingham),
+            FluidKind::HerschelBulkley => Rheology::HerschelBulkley(self.herschel_bulkley),
+            FluidKind::Material => self.material,
         }
     }
 
-    fn fluid(&self, kind: FluidKind) -> Fluid {
-        match kind {
-            FluidKind::Newtonian => Fluid::Newtonian(self.newtonian),
-            FluidKind::Bingham => Fluid::Bingham(self.bingham),
-            FluidKind::HerschelBulkley => Fluid::HerschelBulkley(self.herschel_bulkley),
+    /// The material must be told from the other fluids, and flow steadily.
+    fn check_material(&self) -> Result<(), ParameterError> {
+        rules::material("material", &self.material)?;
+        rules::viscous_step("numerics", &self.layer.numerics, &self.material)?;
+        let refused = |rule: &str, remedy: &str| {
+            let name = format!("\"{}\"", self.material.name());
+            Err(ParameterError::field("material.law", name, rule, remedy))
+        };
+        let others = self.fluids.iter().filter(|kind| **kind != FluidKind::Material);
+        if others.into_iter().any(|&kind| self.law(kind).name() == self.material.name()) {
+            return refused("another law than those of the other `fluids`", "or leave that one out of `fluids`");
         }
+        let flux = Film::of(self.material, self.incline()).flux();
+        if !(flux > 0.0 && flux.is_finite()) {
+            let rule = format!("a law that flows steadily at {}°", self.slope_angle);
+            return refused(&rule, "choose another `slope_angle`, or other parameters of the law");
+        }
+        Ok(())
     }
+}
+
+fn incline(layer: &PeriodicLayer, slope_angle: f64, density: f64) -> Incline {
+    let PeriodicLayer { layer_height, gravity, .. } = *layer;
+    Incline { layer_height, slope_angle: slope_angle.to_radians(), gravity, density }
 }
 
 /// One simulation.
 #[derive(Debug, Clone, Serialize)]
 pub struct FilmRun {
-    /// Fluid.
-    pub fluid: Fluid,
+    /// Law of the fluid.
+    pub law: Rheology,
     /// Arrangement of the particles.
     pub particles: Arrangement,
-    /// Rows over the layer.
-    pub resolution: usize,
     /// Which numerics.
     pub numerics_set: NumericsSet,
-    layer_height: f64,
+    /// The layer, with the rows, displacements and numerics of this run.
+    pub layer: PeriodicLayer,
     slope_angle: f64,
-    gravity: f64,
     density: f64,
-    columns: usize,
-    jitter: f64,
-    seed: u64,
-    preparation: Preparation,
     relaxation_times: f64,
-    numerics: Numerics,
 }
 
 impl Run for FilmRun {
     type Observation = LayerObservation;
 
     fn variant(&self) -> Variant {
-        let fluid = match self.fluid.kind() {
-            FluidKind::Newtonian => "newtonian",
-            FluidKind::Bingham => "bingham",
-            FluidKind::HerschelBulkley => "herschel_bulkley",
-        };
-        let variant = Variant::of("fluid", fluid).and("particles", self.particles.name());
+        let variant = Variant::of("fluid", self.law.name().replace('-', "_")).and("particles", self.particles.name());
         let variant = match self.numerics_set {
             NumericsSet::Default => variant,
             other => variant.and("numerics", other.name()),
         };
-        variant.and("resolution", self.resolution)
+        variant.and("resolution", self.layer.resolution)
     }
 
     fn particle_steps(&self) -> f64 {
-        self.layer(&|_| 0.0).expected_steps() * (self.resolution * self.columns) as f64
+        self.layer(&|_| 0.0).expected_steps() * self.layer.particles()
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
-        let moving = self.fluid.kind() != FluidKind::Newtonian;
-        let incline = self.incline();
-        let velocity = |y: f64| if moving { self.fluid.velocity(incline, y) } else { 0.0 };
-        Ok(self.layer(&velocity).run(progress)?)
+        let film = self.film();
+        let velocity = |y: f64| if self.is_newtonian() { 0.0 } else { film.velocity(y) };
+        // a law that carries its stress along starts with that of the film, others make it from the velocity
+        let (plastic, incline) = (self.law.is_plastic(), self.incline());
+        let shear_stress = |y: f64| if plastic { incline.shear_stress(y) } else { 0.0 };
+        Ok(Layer { shear_stress: &shear_stress, ..self.layer(&velocity) }.run(progress)?)
     }
 }
 
@@ -240,12 +252,19 @@ impl FilmRun {
     /// The film's geometry.
     #[must_use]
     pub fn incline(&self) -> Incline {
-        Incline {
-            layer_height: self.layer_height,
-            slope_angle: self.slope_angle.to_radians(),
-            gravity: self.gravity,
-            density: self.density,
-        }
+        incline(&self.layer, self.slope_angle, self.density)
+    }
+
+    /// Its steady flow.
+    #[must_use]
+    pub fn film(&self) -> Film {
+        Film::of(self.law, self.incline())
+    }
+
+    /// Whether it is the Newtonian film, which is studied for its convergence and its numerics.
+    #[must_use]
+    pub fn is_newtonian(&self) -> bool {
+        matches!(self.law, Rheology::Newtonian(_))
     }
 
     /// Exact velocity `[m/s]` of the Newtonian film as a weakly compressible fluid, whose density grows with the
@@ -253,43 +272,57 @@ impl FilmRun {
     /// the surface velocity at K = 50 ρ0 g h. None for the other fluids.
     #[must_use]
     pub fn weakly_compressible_velocity(&self, height: f64) -> Option<f64> {
-        let Fluid::Newtonian(law) = self.fluid else { return None };
+        let Rheology::Newtonian(law) = self.law else { return None };
         let layer = self.layer(&|_| 0.0);
-        let (bulk_modulus, h) = (layer.bulk_modulus, self.layer_height);
-        let rate = self.density * self.gravity * libm::cos(layer.slope_angle) / bulk_modulus;
+        let (bulk_modulus, h) = (layer.bulk_modulus, self.layer.layer_height);
+        let rate = self.density * self.layer.gravity * libm::cos(layer.slope_angle) / bulk_modulus;
         // (exp(ah) − exp(a(h − y)))/a − y without cancellation for a stiff fluid
         let integral = libm::exp(rate * (h - height)) * libm::expm1(rate * height) / rate - height;
         Some(libm::tan(layer.slope_angle) * bulk_modulus / law.viscosity * integral)
     }
 
     fn layer<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Layer<'a> {
-        let incline = self.incline();
-        let viscosity = self.fluid.relaxing_viscosity(incline);
-        let duration = self.relaxation_times * self.density * self.layer_height * self.layer_height / viscosity;
-        let mean = self.fluid.flux(incline) / self.layer_height;
+        let film = self.film();
+        let PeriodicLayer { layer_height, gravity, .. } = self.layer;
+        let duration = self.relaxation_times * self.density * layer_height * layer_height / film.relaxing_viscosity();
         Layer {
-            height: self.layer_height,
-            rows: self.resolution,
-            columns: self.columns,
-            slope_angle: incline.slope_angle,
-            gravity: self.gravity,
-            reference_density: self.density,
-            bulk_modulus: bulk_modulus(self.density, self.gravity, self.layer_height, mean),
-            rheology: self.fluid.rheology(),
-            numerics: self.numerics,
-            jitter: self.jitter,
-            seed: self.seed,
-            preparation: self.preparation,
+            bulk_modulus: bulk_modulus(self.density, gravity, layer_height, film.flux() / layer_height),
             velocity,
-            // viscous laws make their stress from the velocity
-            shear_stress: &|_| 0.0,
             duration,
             window: 0.15 * duration,
             interval: duration / 500.0,
-            stop_above: f64::INFINITY,
-            frames: 2,
             // (13) is known to go unstable on displaced particles; that is shown, and no error of the run
             may_diverge: self.numerics_set != NumericsSet::Default,
+            ..self.layer.of(self.law, self.density, self.slope_angle)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reference::GLASS_BEADS;
+
+    #[test]
+    fn a_material_must_have_a_law_of_its_own_that_flows_at_the_slope() {
+        let quick = FilmParameters::of_tier(Tier::Quick);
+        let film = |material| FilmParameters {
+            fluids: vec![FluidKind::Newtonian, FluidKind::Material],
+            material,
+            ..quick.clone()
+        };
+        let fluids = film(quick.material).runs().into_iter().map(|run| run.law.name()).collect::<Vec<_>>();
+        assert!(fluids.contains(&"coulomb-bingham"), "{fluids:?}");
+        assert!(film(quick.material).check().is_ok());
+        let message = |material| film(material).check().expect_err("refused").to_string();
+        assert!(
+            message(Rheology::Newtonian(quick.newtonian))
+                .starts_with("`material.law` is \"newtonian\", but must be another")
+        );
+        assert_eq!(
+            message(Rheology::MuI(GLASS_BEADS.law)),
+            "`material.law` is \"mu-i\", but must be a law that flows steadily at 10°; choose another `slope_angle`, or \
+             other parameters of the law"
+        );
     }
 }

@@ -3,31 +3,33 @@
 use super::metrics::{froude_number, incline, relative_thickness};
 use super::{Fate, FlowThicknessParameters, Record, StartStop, StartStopRun, collapses, flows, searches};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::reference::RoughIncline;
 
 pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Figure> {
+    let Some(incline) = incline(parameters) else { return Vec::new() };
     let drawn = [
-        (collapses(records).next().is_some(), histories as fn(_, _) -> _),
-        (searches(records).next().is_some(), stopping as fn(_, _) -> _),
-        (flows(records).next().is_some(), flow_rule as fn(_, _) -> _),
+        (collapses(records).next().is_some(), histories as fn(_, _, _) -> _),
+        (searches(records).next().is_some(), stopping as fn(_, _, _) -> _),
+        (flows(records).next().is_some(), flow_rule as fn(_, _, _) -> _),
     ];
-    drawn.into_iter().filter(|(present, _)| *present).map(|(_, draw)| draw(parameters, records)).collect()
+    drawn.into_iter().filter(|(present, _)| *present).map(|(_, draw)| draw(&incline, parameters, records)).collect()
 }
 
 /// Thickness at the stations over time, one panel a slope.
-fn histories(parameters: &FlowThicknessParameters, records: &[Record]) -> Figure {
-    let incline = incline(parameters);
+fn histories(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[Record]) -> Figure {
     let panels = collapses(records).enumerate().map(|(place, (run, data))| {
         let y = Axis { limits: Some((0.0, 6.0)), ..Axis::linear("thickness [cm]") };
         let mut panel = Panel::new(&format!("{}°", run.slope_angle), Axis::linear("t [s]"), y);
         let time = &data.collapse.time;
         for (slot, &station) in parameters.stations.iter().enumerate() {
-            let thickness = data.thickness_at(station / run.reservoir_length);
-            let points = time.iter().zip(thickness).map(|(t, h)| (*t, 100.0 * h * run.reservoir_length)).collect();
+            let thickness = data.thickness_at(station / run.reservoir.reservoir_length);
+            let points =
+                time.iter().zip(thickness).map(|(t, h)| (*t, 100.0 * h * run.reservoir.reservoir_length)).collect();
             let entry = if place == 0 { format!("x = {station} m") } else { String::new() };
             panel.series.push(Series::new(&entry, Mark::Line, slot, points));
         }
         if let (Some(law), Some(&end)) =
-            (incline.flow_thickness(run.initial_height, run.slope_angle.to_radians()), time.last())
+            (incline.flow_thickness(run.reservoir.initial_height, run.slope_angle.to_radians()), time.last())
         {
             let entry = if place == 0 { "h_s of (44)" } else { "" };
             let points = vec![(0.0, 100.0 * law), (end, 100.0 * law)];
@@ -47,8 +49,7 @@ fn histories(parameters: &FlowThicknessParameters, records: &[Record]) -> Figure
 }
 
 /// Which layers stop: the local law and the experiments.
-fn stopping(parameters: &FlowThicknessParameters, records: &[Record]) -> Figure {
-    let incline = incline(parameters);
+fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Record]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("layer thickness [mm]"));
     let thickness = |step: i32| 1.0e-3 * libm::pow(40.0, f64::from(step) / 60.0);
     let experiment =
@@ -60,7 +61,7 @@ fn stopping(parameters: &FlowThicknessParameters, records: &[Record]) -> Figure 
     for (slot, (label, fate)) in ends.into_iter().enumerate() {
         let of_search = |(run, found): (&StartStopRun, &StartStop)| -> Vec<(f64, f64)> {
             let ended = found.trials.iter().filter(|trial| trial.fate == fate);
-            ended.map(|trial| (trial.slope_angle, 1e3 * run.layer.thickness)).collect()
+            ended.map(|trial| (trial.slope_angle, 1e3 * run.layer.layer.layer_height)).collect()
         };
         let points: Vec<(f64, f64)> = searches(records).flat_map(of_search).collect();
         // most searches leave nothing open, and then the legend need not speak of it
@@ -81,11 +82,10 @@ fn stopping(parameters: &FlowThicknessParameters, records: &[Record]) -> Figure 
 }
 
 /// The flow rule (42).
-fn flow_rule(parameters: &FlowThicknessParameters, records: &[Record]) -> Figure {
-    let incline = incline(parameters);
+fn flow_rule(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[Record]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("h/h_stop(θ) [-]"), Axis::linear("Ū/√(gh) [-]"));
     let points: Vec<(f64, f64)> = flows(records)
-        .filter_map(|(run, data)| Some((relative_thickness(&incline, run)?, froude_number(run, data))))
+        .filter_map(|(run, data)| Some((relative_thickness(incline, run)?, froude_number(run, data))))
         .collect();
     let far = points.iter().fold(1.0_f64, |most, point| most.max(point.0));
     let line = vec![(0.0, 0.0), (1.05 * far, 1.05 * far * parameters.flow_coefficient)];

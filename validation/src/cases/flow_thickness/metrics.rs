@@ -3,31 +3,53 @@
 use super::{FlowThicknessParameters, FlowThicknessRun, Record, SteadyRun, collapses, flows, searches};
 use crate::case::Run;
 use crate::cases::collapse::metrics::conservation;
+use crate::cases::collapse::quantities::{MASS_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST};
 use crate::cases::layer::LayerObservation;
-use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
 use crate::reference::{GLASS_BEADS_FLOW_RULE, RoughIncline};
+use bagnold_solver::material::rheology::Rheology;
+
+const STOPPING_ANGLE: Quantity = Quantity::verified("stopping_angle", "°", "slope at which a layer stops");
+const EXPERIMENTAL_EXCESS: Quantity =
+    Quantity::validated("experimental_excess", "°", "slope at which layers stop in experiments, less the one found");
+const LARGEST_THICKNESS: Quantity =
+    Quantity::validated("largest_thickness", "cm", "largest thickness of the flow at a station");
+const FLOW_COEFFICIENT: Quantity = Quantity::verified("flow_coefficient", "-", "β of (42) from the steady flows");
+const FLOW_COEFFICIENT_PUBLISHED: Quantity =
+    Quantity::validated("flow_coefficient_published", "-", "the same β, against the published one");
+
+pub(super) const QUANTITIES: &[Quantity] = &[
+    PARTICLES_LOST,
+    MASS_CHANGE,
+    MOMENTUM_RESIDUAL,
+    LARGEST_THICKNESS,
+    STOPPING_ANGLE,
+    EXPERIMENTAL_EXCESS,
+    FLOW_COEFFICIENT,
+    FLOW_COEFFICIENT_PUBLISHED,
+];
 
 /// Part of a steady flow's time series that its mean velocity is taken over, the last `[-]`.
 const WINDOW: f64 = 0.3;
 
 pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
-    let incline = incline(parameters);
-    thicknesses(&mut metrics, parameters, records);
+    let Some(incline) = incline(parameters) else { return metrics };
+    thicknesses(&mut metrics, &incline, parameters, records);
     for (run, found) in searches(records) {
         let variant = FlowThicknessRun::StartStop(run.clone()).variant();
         let lost = found.trials.iter().map(|trial| trial.lost).sum::<usize>();
         metrics.push(
-            Metric::observed("particles_lost", &variant, lost as f64, "-")
+            PARTICLES_LOST
+                .of(&variant, lost as f64)
                 .against(Some(0.0), "no particle passes the bed", Confidence::Exact)
                 .gated(Limit::AtMost(0.0), "grains do not vanish"),
         );
         let local = libm::atan(run.layer.material.static_friction).to_degrees();
         let measured = found.bracket().map_or(f64::NAN, |(stops, flows)| 0.5 * (stops + flows));
-        let angle =
-            |name: &str, value: f64| Metric::observed(name, &variant, value, "°").with_snapshot_tolerance(0.0, 1e-6);
+        let angle = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(0.0, 1e-6);
         metrics.push(
-            angle("stopping_angle", measured)
+            angle(STOPPING_ANGLE, measured)
                 .against(Some(local), "arctan μ_s: the local μ(I) law, whatever the thickness", Confidence::Exact)
                 .gated(
                     Limit::Within(local - run.tolerance, local + run.tolerance),
@@ -35,44 +57,49 @@ pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> V
                      solver's",
                 ),
         );
-        let experiment = incline.stopping_angle(run.layer.thickness).to_degrees();
-        metrics.push(angle("experimental_excess", experiment - measured).of_kind(Kind::Validation).against(
+        let experiment = incline.stopping_angle(run.layer.layer.layer_height).to_degrees();
+        metrics.push(angle(EXPERIMENTAL_EXCESS, experiment - measured).against(
             None,
             "slope at which h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s) equals the thickness, less the angle found: what a \
              local law does not know",
             GLASS_BEADS_FLOW_RULE.confidence,
         ));
     }
-    flow_rule(&mut metrics, parameters, records);
+    flow_rule(&mut metrics, &incline, parameters, records);
     metrics
 }
 
-pub(super) fn incline(parameters: &FlowThicknessParameters) -> RoughIncline {
-    let grains = &parameters.collapse.material;
-    RoughIncline {
+/// The incline that the grains make rough; they are those of μ(I), as the parameters were checked to be.
+pub(super) fn incline(parameters: &FlowThicknessParameters) -> Option<RoughIncline> {
+    let Rheology::MuI(grains) = &parameters.collapse.material else { return None };
+    Some(RoughIncline {
         length_scale: parameters.deposit_length * grains.grain_diameter,
         static_friction: grains.static_friction,
         limiting_friction: grains.limiting_friction,
-    }
+    })
 }
 
 /// Part (i): the thickness of the flow at the stations.
-fn thicknesses(metrics: &mut Vec<Metric>, parameters: &FlowThicknessParameters, records: &[Record]) {
-    let incline = incline(parameters);
+fn thicknesses(
+    metrics: &mut Vec<Metric>,
+    incline: &RoughIncline,
+    parameters: &FlowThicknessParameters,
+    records: &[Record],
+) {
     for (run, data) in collapses(records) {
-        metrics.extend(conservation(&run.variant(), &data.collapse));
-        let law = incline.flow_thickness(run.initial_height, run.slope_angle.to_radians());
+        metrics.extend(conservation(&run.variant(), &data.collapse, &run.reservoir.numerics));
+        let law = incline.flow_thickness(run.reservoir.initial_height, run.slope_angle.to_radians());
         for &station in &parameters.stations {
             let variant = Variant::of("station", station).followed_by(&run.variant());
-            let history = data.thickness_at(station / run.reservoir_length);
-            let largest = history.iter().fold(0.0_f64, |most, &h| most.max(h)) * run.reservoir_length;
+            let history = data.thickness_at(station / run.reservoir.reservoir_length);
+            let largest = history.iter().fold(0.0_f64, |most, &h| most.max(h)) * run.reservoir.reservoir_length;
             if largest == 0.0 {
                 // the front did not come so far
                 continue;
             }
             metrics.push(
-                Metric::observed("largest_thickness", &variant, 100.0 * largest, "cm")
-                    .of_kind(Kind::Validation)
+                LARGEST_THICKNESS
+                    .of(&variant, 100.0 * largest)
                     .against(
                         law.map(|law| 100.0 * law),
                         "h_s of (44) as reconstructed: the paper's estimate of the flow's thickness",
@@ -89,35 +116,40 @@ pub(super) fn froude_number(run: &SteadyRun, data: &LayerObservation) -> f64 {
     let means = &data.series.mean_velocity;
     let window = &means[means.len() - ((WINDOW * means.len() as f64) as usize).clamp(1, means.len())..];
     let mean = window.iter().sum::<f64>() / window.len() as f64;
-    mean / (run.layer.gravity * run.layer.thickness).sqrt()
+    mean / (run.layer.layer.gravity * run.layer.layer.layer_height).sqrt()
 }
 
 /// h/h_stop(θ) of a steady flow `[-]`.
 pub(super) fn relative_thickness(incline: &RoughIncline, run: &SteadyRun) -> Option<f64> {
-    incline.deposit_thickness(run.slope_angle.to_radians()).map(|h| run.layer.thickness / h)
+    incline.deposit_thickness(run.slope_angle.to_radians()).map(|h| run.layer.layer.layer_height / h)
 }
 
 /// Part (iii): β of (42) from the steady flows.
-fn flow_rule(metrics: &mut Vec<Metric>, parameters: &FlowThicknessParameters, records: &[Record]) {
-    let incline = incline(parameters);
+fn flow_rule(
+    metrics: &mut Vec<Metric>,
+    incline: &RoughIncline,
+    parameters: &FlowThicknessParameters,
+    records: &[Record],
+) {
     let (mut xx, mut xy, mut count) = (0.0, 0.0, 0);
     let mut expected = 0.0;
     for (run, data) in flows(records) {
-        let Some(relative) = relative_thickness(&incline, run) else { continue };
+        let Some(relative) = relative_thickness(incline, run) else { continue };
         let froude = froude_number(run, data);
         // relative residuals: every flow counts the same
         (xx, xy, count) = (xx + 1.0, xy + froude / relative, count + 1);
         let grains = &run.layer.material;
         // (41) solved for β at this slope
         expected += 0.4 * grains.reference_inertia * incline.length_scale / grains.grain_diameter
-            * (parameters.collapse.solid_fraction * libm::cos(run.slope_angle.to_radians())).sqrt();
+            * (run.layer.solid_fraction * libm::cos(run.slope_angle.to_radians())).sqrt();
     }
     if count == 0 {
         return;
     }
     let (measured, expected) = (xy / xx, expected / f64::from(count));
     metrics.push(
-        Metric::observed("flow_coefficient", &Variant::default(), measured, "-")
+        FLOW_COEFFICIENT
+            .of(&Variant::default(), measured)
             .against(
                 Some(expected),
                 "(41) solved for β at the slopes of the flows: an identity of the law",
@@ -130,8 +162,8 @@ fn flow_rule(metrics: &mut Vec<Metric>, parameters: &FlowThicknessParameters, re
             .with_snapshot_tolerance(2e-3, 0.0),
     );
     metrics.push(
-        Metric::observed("flow_coefficient_published", &Variant::default(), measured, "-")
-            .of_kind(Kind::Validation)
+        FLOW_COEFFICIENT_PUBLISHED
+            .of(&Variant::default(), measured)
             .against(Some(parameters.flow_coefficient), "Table 1, β of glass beads", GLASS_BEADS_FLOW_RULE.confidence)
             .with_snapshot_tolerance(2e-3, 0.0),
     );

@@ -12,7 +12,7 @@ use super::collapse::{SlopeCollapse, SlopeRun};
 use super::layer::LayerObservation;
 use crate::case::{Case, ParameterError, Progress, RecordOf, Run};
 use crate::figure::Figure;
-use crate::metric::{Metric, Variant};
+use crate::metric::{Metric, Quantity, Variant};
 use crate::observation::Recorded;
 use crate::output::Table;
 use serde::{Deserialize, Serialize};
@@ -62,10 +62,12 @@ impl Run for FlowThicknessRun {
     fn variant(&self) -> Variant {
         match self {
             Self::Collapse(run) => run.variant(),
-            Self::StartStop(run) => Variant::of("thickness", run.layer.thickness).and("rows", run.layer.rows),
-            Self::Steady(run) => Variant::of("thickness", run.layer.thickness)
+            Self::StartStop(run) => {
+                Variant::of("thickness", run.layer.layer.layer_height).and("rows", run.layer.layer.resolution)
+            }
+            Self::Steady(run) => Variant::of("thickness", run.layer.layer.layer_height)
                 .and("slope_angle", run.slope_angle)
-                .and("rows", run.layer.rows),
+                .and("rows", run.layer.layer.resolution),
         }
     }
 
@@ -102,6 +104,7 @@ impl Case for FlowThickness {
         of the solver. (iii) Does the mean velocity of steady flows follow (42), Ū/√(gh) = β h/h_stop? With (41) this is \
         an identity of the law, so it verifies the solver and says nothing about grains.";
     type Parameters = FlowThicknessParameters;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(parameters, records)

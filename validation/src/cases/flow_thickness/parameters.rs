@@ -3,9 +3,11 @@
 use super::start_stop::{LayerAtSlope, StartStopRun};
 use super::{FlowThicknessRun, SteadyRun};
 use crate::case::{ParameterError, Parameters, Tier};
-use crate::cases::incline_collapse::InclineCollapseParameters;
+use crate::cases::collapse::{InclineCollapseParameters, Reservoir};
+use crate::cases::layer::{PeriodicLayer, Preparation};
 use crate::cases::rules;
 use crate::reference::GLASS_BEADS_FLOW_RULE;
+use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, each, entry, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -97,17 +99,18 @@ impl Parameters for FlowThicknessParameters {
     }
 
     fn check(&self) -> Result<(), ParameterError> {
+        let remedy = "the steady profiles that the layers start with are those of μ(I)";
+        let grains = rules::only_mu_i("collapse.material", &self.collapse.material, remedy)?;
         self.collapse.check().map_err(|error| error.within("collapse"))?;
         for (index, &station) in self.stations.iter().enumerate() {
             let field = format!("stations[{index}]");
             let remedy = "a station lies in the channel, in metres from the back of the reservoir";
-            rules::between(&field, station, 0.0, self.collapse.channel_length, remedy)?;
+            rules::between(&field, station, 0.0, self.collapse.reservoir.channel_length, remedy)?;
         }
-        rules::columns("columns", self.columns, &self.collapse.numerics)?;
+        rules::columns("columns", self.columns, &self.collapse.reservoir.numerics)?;
         let (lower, upper) = self.stopping_bracket;
         rules::between("stopping_bracket[1]", upper, lower, 89.0, "give the gentler slope first")?;
         let friction_angle = |friction: f64| libm::atan(friction).to_degrees();
-        let grains = &self.collapse.material;
         let (gentlest, steepest) = (friction_angle(grains.static_friction), friction_angle(grains.limiting_friction));
         if !self.stopping_thicknesses.is_empty() {
             let remedy = "trials start with a steady flow, which is between arctan μ_s and arctan μ_2 only";
@@ -122,39 +125,42 @@ impl Parameters for FlowThicknessParameters {
 
     fn runs(&self) -> Vec<FlowThicknessRun> {
         let collapse = &self.collapse;
+        let Rheology::MuI(grains) = collapse.material else { return Vec::new() };
         let collapses = collapse
             .slope_angles
             .iter()
             .map(|&angle| FlowThicknessRun::Collapse(collapse.run(angle, collapse.gate_speed)));
         let searches = self.stopping_thicknesses.iter().map(|&thickness| {
             FlowThicknessRun::StartStop(StartStopRun {
-                layer: self.layer(thickness, self.stopping_duration),
+                layer: self.layer(grains, thickness, self.stopping_duration),
                 bracket: self.stopping_bracket,
                 tolerance: self.stopping_tolerance,
                 start_angle: self.start_angle,
             })
         });
         let flows = self.steady_flows.iter().map(|&(thickness, slope_angle)| {
-            FlowThicknessRun::Steady(SteadyRun { layer: self.layer(thickness, self.steady_duration), slope_angle })
+            FlowThicknessRun::Steady(SteadyRun {
+                layer: self.layer(grains, thickness, self.steady_duration),
+                slope_angle,
+            })
         });
         collapses.chain(searches).chain(flows).collect()
     }
 }
 
 impl FlowThicknessParameters {
-    fn layer(&self, thickness: f64, duration: f64) -> LayerAtSlope {
-        let collapse = &self.collapse;
-        LayerAtSlope {
-            thickness,
-            rows: self.rows,
+    fn layer(&self, material: MuI, thickness: f64, duration: f64) -> LayerAtSlope {
+        let Reservoir { gravity, jitter, seed, numerics, .. } = self.collapse.reservoir;
+        let layer = PeriodicLayer {
+            layer_height: thickness,
+            gravity,
+            resolution: self.rows,
             columns: self.columns,
-            gravity: collapse.gravity,
-            solid_fraction: collapse.solid_fraction,
-            material: collapse.material,
-            jitter: collapse.jitter,
-            seed: collapse.seed,
-            duration,
-            numerics: collapse.numerics,
-        }
+            jitter,
+            seed,
+            preparation: Preparation::Settled,
+            numerics,
+        };
+        LayerAtSlope { layer, solid_fraction: self.collapse.bulk.solid_fraction, material, duration }
     }
 }

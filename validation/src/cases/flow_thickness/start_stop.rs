@@ -1,12 +1,11 @@
 //! The slope at which a layer of given thickness stops flowing, bisected.
 
 use crate::case::{ParameterError, Progress};
-use crate::cases::layer::{Layer, Preparation, bulk_modulus};
+use crate::cases::layer::{Layer, PeriodicLayer, bulk_modulus};
 use crate::cases::recording::Ending;
 use crate::observation::Recorded;
 use crate::reference::BagnoldProfile;
 use bagnold_solver::material::rheology::{MuI, Rheology};
-use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -23,20 +22,13 @@ const INTERVAL: f64 = 0.02;
 /// A layer that is set in motion at a slope, and what is asked of it.
 #[derive(Debug, Clone, Serialize)]
 pub struct LayerAtSlope {
-    /// Thickness `[m]`.
-    pub thickness: f64,
-    /// Rows of particles over it.
-    pub rows: usize,
-    pub(super) columns: usize,
-    pub(super) gravity: f64,
+    /// Its size, particles and numerics.
+    pub layer: PeriodicLayer,
     pub(super) solid_fraction: f64,
     /// Grains.
     pub material: MuI,
-    pub(super) jitter: f64,
-    pub(super) seed: u64,
     /// Simulated time `[s]`.
     pub duration: f64,
-    pub(super) numerics: Numerics,
 }
 
 /// The bracket of slopes in which a layer stops.
@@ -102,51 +94,30 @@ impl LayerAtSlope {
     /// Steady profile at a slope `[°]`.
     #[must_use]
     pub fn profile(&self, angle: f64) -> BagnoldProfile {
-        BagnoldProfile {
-            layer_height: self.thickness,
-            slope_angle: angle.to_radians(),
-            gravity: self.gravity,
-            grain_diameter: self.material.grain_diameter,
-            grain_density: self.material.grain_density,
-            solid_fraction: self.solid_fraction,
-            static_friction: self.material.static_friction,
-            limiting_friction: self.material.limiting_friction,
-            reference_inertia: self.material.reference_inertia,
-        }
+        let PeriodicLayer { layer_height, gravity, .. } = self.layer;
+        BagnoldProfile::of(&self.material, layer_height, self.solid_fraction, gravity, angle)
     }
 
     /// The layer at a slope `[°]`, from the steady profile of another.
     pub(super) fn layer<'a>(&self, angle: f64, start: &'a Motion) -> Layer<'a> {
         let density = self.solid_fraction * self.material.grain_density;
         Layer {
-            height: self.thickness,
-            rows: self.rows,
-            columns: self.columns,
-            slope_angle: angle.to_radians(),
-            gravity: self.gravity,
-            reference_density: density,
-            bulk_modulus: bulk_modulus(density, self.gravity, self.thickness, start.depth_mean),
-            rheology: Rheology::MuI(self.material),
-            numerics: self.numerics,
-            jitter: self.jitter,
-            seed: self.seed,
-            preparation: Preparation::Settled,
+            bulk_modulus: bulk_modulus(density, self.layer.gravity, self.layer.layer_height, start.depth_mean),
             velocity: &*start.velocity,
             shear_stress: &*start.shear_stress,
             duration: self.duration,
             window: 0.3 * self.duration,
             interval: INTERVAL,
-            stop_above: f64::INFINITY,
-            frames: 2,
-            may_diverge: false,
+            ..self.layer.of(Rheology::MuI(self.material), density, angle)
         }
     }
 
     /// Expected particle-steps of one layer.
     pub(super) fn particle_steps(&self) -> f64 {
-        let step = self.numerics.acoustic_courant * self.numerics.smoothing_ratio * self.thickness
-            / (self.rows as f64 * (50.0 * self.gravity * self.thickness).sqrt());
-        self.duration / step * (self.rows * self.columns) as f64
+        let PeriodicLayer { layer_height, gravity, resolution, numerics, .. } = &self.layer;
+        let step = numerics.acoustic_courant * numerics.smoothing_ratio * layer_height
+            / (*resolution as f64 * (50.0 * gravity * layer_height).sqrt());
+        self.duration / step * self.layer.particles()
     }
 }
 
@@ -217,8 +188,8 @@ impl StartStopRun {
         let layer = self.layer.layer(angle, &start);
         let mut simulation = Simulation::new(layer.prepared_scene()?)?;
         let particles = simulation.particles().flow_count() as f64;
-        let (h, duration) = (self.layer.thickness, self.layer.duration);
-        let threshold = STOPPED * (self.layer.gravity * h).sqrt();
+        let (h, duration) = (self.layer.layer.layer_height, self.layer.duration);
+        let threshold = STOPPED * (self.layer.layer.gravity * h).sqrt();
         let lag = (STEADY_TIME / INTERVAL) as usize;
         let mut means: Vec<f64> = Vec::new();
         let mut trial =

@@ -1,17 +1,19 @@
 //! The case's figures.
 
 use super::Record;
-use super::parameters::{HydrostaticRun, MaterialKind};
+use super::parameters::HydrostaticRun;
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
+use bagnold_solver::material::rheology::Rheology;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
-    let mut panels = Vec::new();
-    for material in [MaterialKind::Newtonian, MaterialKind::MuI] {
-        let of_material: Vec<&Record> = records.iter().filter(|(run, _)| run.material == material).collect();
-        if !of_material.is_empty() {
-            panels.push(pressure(&of_material));
+    let mut laws: Vec<Rheology> = Vec::new();
+    for (run, _) in records {
+        if !laws.contains(&run.law) {
+            laws.push(run.law);
         }
     }
+    let of_law = |law| records.iter().filter(move |(run, _)| run.law == law).collect::<Vec<_>>();
+    let panels = laws.into_iter().map(|law| pressure(&of_law(law))).collect();
     let mut height = Panel::new("", Axis::linear("t [s]"), Axis::linear("height/H [-]"));
     let mut speed = Panel::new("", Axis::linear("t [s]"), Axis::logarithmic("rms speed [m/s]"));
     for (slot, (run, record)) in records.iter().enumerate() {
@@ -44,22 +46,23 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
 }
 
 fn label(run: &HydrostaticRun) -> String {
-    let material = match run.material {
-        MaterialKind::Newtonian => "Newtonian",
-        MaterialKind::MuI => "μ(I)",
+    let material = match run.law {
+        Rheology::Newtonian(_) => "Newtonian",
+        Rheology::MuI(_) => "μ(I)",
+        other => other.name(),
     };
-    let coupling = if run.density_coupling > 0.0 { "with (27)" } else { "without (27)" };
+    let coupling = if run.is_coupled() { "with (27)" } else { "without (27)" };
     format!("{material}, {coupling}")
 }
 
 fn pressure(records: &[&Record]) -> Panel {
     let (run, _) = records[0];
-    let scale = run.density * run.gravity * run.layer_height;
+    let scale = run.density * run.layer.gravity * run.layer.layer_height;
     let mut panel = Panel::new("", Axis::linear("y/H [-]"), Axis::linear("p/(ρ0 g H) [-]"));
     let curve: Vec<f64> = (0..=50).map(|k| f64::from(k) / 50.0).collect();
-    let exact = |y: f64| run.pressure(y * run.layer_height) / scale;
-    if run.material == MaterialKind::MuI {
-        let mu = run.static_friction;
+    let exact = |y: f64| run.pressure(y * run.layer.layer_height) / scale;
+    if run.law.is_plastic() {
+        let mu = run.law.contact_friction();
         panel.bands.push(Band {
             label: "passive to active state".to_owned(),
             points: curve.iter().map(|&y| (y, exact(y) / (1.0 + mu), exact(y) / (1.0 - mu))).collect(),
@@ -68,7 +71,8 @@ fn pressure(records: &[&Record]) -> Panel {
     for (slot, (run, record)) in records.iter().rev().enumerate() {
         let Some(frame) = record.frames.last() else { continue };
         let Some((_, _, pressures)) = frame.scalars.iter().find(|(name, _, _)| name == "pressure") else { continue };
-        let points = frame.position.iter().zip(pressures).map(|(x, p)| (x[1] / run.layer_height, p / scale)).collect();
+        let points =
+            frame.position.iter().zip(pressures).map(|(x, p)| (x[1] / run.layer.layer_height, p / scale)).collect();
         panel.series.push(Series::new(&label(run), Mark::Points, 1 - slot.min(1), points));
     }
     panel.series.push(Series::new("exact", Mark::Reference, 0, curve.iter().map(|&y| (y, exact(y))).collect()));

@@ -1,31 +1,60 @@
 //! How the runs are judged.
 
 use super::Record;
-use super::parameters::{HydrostaticRun, MaterialKind};
+use super::parameters::HydrostaticRun;
 use crate::case::Run;
 use crate::cases::layer::{self, LayerObservation};
-use crate::metric::{Confidence, Limit, Metric};
+use crate::metric::{Confidence, Limit, Metric, Quantity};
 use crate::observation::Recorded;
+
+const PRESSURE_NOISE: Quantity =
+    Quantity::verified("pressure_noise", "-", "rms of the pressure less its local linear fit within 2h, over ρgH");
+const NOISE_WITHOUT_COUPLING: Quantity =
+    Quantity::verified("noise_without_coupling", "-", "pressure noise without (27) over that with it");
+const PRESSURE_L2: Quantity =
+    Quantity::verified("pressure_l2", "%", "relative L2 of the pressure against the hydrostatic one");
+const NORMAL_STRESS_L2: Quantity =
+    Quantity::verified("normal_stress_l2", "%", "relative L2 of p − s_yy against the hydrostatic pressure");
+const PRESSURE_RATIO_LEAST: Quantity =
+    Quantity::verified("pressure_ratio_least", "-", "least pressure over the hydrostatic one");
+const PRESSURE_RATIO_MOST: Quantity =
+    Quantity::verified("pressure_ratio_most", "-", "largest pressure over the hydrostatic one");
+const HEIGHT_DRIFT: Quantity = Quantity::verified("height_drift", "%", "change of the mean height from 1 s to 2 s");
+const ACOUSTIC_BREATHING: Quantity =
+    Quantity::verified("acoustic_breathing", "%", "range of the mean height over the last 0.5 s");
+const RMS_SPEED: Quantity = Quantity::verified("rms_speed", "m/s", "root mean square of the speed at the end");
+
+pub(super) const QUANTITIES: &[Quantity] = &[
+    layer::PARTICLES_LOST,
+    PRESSURE_NOISE,
+    NOISE_WITHOUT_COUPLING,
+    PRESSURE_L2,
+    NORMAL_STRESS_L2,
+    PRESSURE_RATIO_LEAST,
+    PRESSURE_RATIO_MOST,
+    HEIGHT_DRIFT,
+    ACOUSTIC_BREATHING,
+    RMS_SPEED,
+];
 
 const EXACT: &str = "hydrostatic pressure of the equation of state, K (exp(ρ0 g (H − y)/K) − 1)";
 
 pub(super) fn all(records: &[Record]) -> Vec<Metric> {
-    let mut metrics = Vec::new();
-    for (run, record) in records.iter().filter(|(run, _)| run.density_coupling > 0.0) {
-        coupled(&mut metrics, run, record);
-    }
-    for (run, record) in records.iter().filter(|(run, _)| run.density_coupling == 0.0) {
-        let coupled = records.iter().find(|(other, _)| other.density_coupling > 0.0 && other.material == run.material);
+    let (coupled, uncoupled): (Vec<&Record>, Vec<&Record>) = records.iter().partition(|(run, _)| run.is_coupled());
+    let mut metrics: Vec<Metric> = coupled.iter().flat_map(|(run, record)| at_rest(run, record)).collect();
+    for (run, record) in uncoupled {
         let variant = run.variant();
         let noise = noise(&record.data);
         metrics.push(
-            Metric::observed("pressure_noise", &variant, noise, "-")
+            PRESSURE_NOISE
+                .of(&variant, noise)
                 .against(Some(0.0), "smooth pressure", Confidence::Exact)
                 .with_snapshot_tolerance(0.2, 1e-6),
         );
-        if let Some((_, coupled)) = coupled {
+        if let Some((_, partner)) = coupled.iter().find(|(other, _)| other.law == run.law) {
             metrics.push(
-                Metric::observed("noise_without_coupling", &variant, noise / self::noise(&coupled.data), "-")
+                NOISE_WITHOUT_COUPLING
+                    .of(&variant, noise / self::noise(&partner.data))
                     .against(None, "the same run with the coupling (27)", Confidence::Exact)
                     .gated(Limit::AtLeast(20.0), "specification 1: 20 times the noise shows that the test can fail")
                     .with_snapshot_tolerance(0.3, 0.0),
@@ -35,49 +64,42 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     metrics
 }
 
-fn coupled(metrics: &mut Vec<Metric>, run: &HydrostaticRun, record: &Recorded<LayerObservation>) {
+fn at_rest(run: &HydrostaticRun, record: &Recorded<LayerObservation>) -> Vec<Metric> {
     let variant = run.variant();
     let data = &record.data;
-    metrics.push(layer::particles_lost(&variant, record));
-    metrics.push(
-        Metric::observed("pressure_noise", &variant, noise(data), "-")
+    let mut metrics = vec![
+        layer::particles_lost(&variant, record),
+        PRESSURE_NOISE
+            .of(&variant, noise(data))
             .against(Some(0.0), "smooth pressure", Confidence::Exact)
             .gated(Limit::AtMost(1e-3), "specification 1: rms of p less its local linear fit within 2h, over ρgH")
             .with_snapshot_tolerance(0.1, 1e-6),
-    );
-    let l2 = |name: &str, value: f64| {
-        Metric::observed(name, &variant, 100.0 * value, "%").against(Some(0.0), EXACT, Confidence::Exact)
+    ];
+    let (quantity, profile) = match run.states_of_rest() {
+        None => (PRESSURE_L2, &data.profile.pressure),
+        Some(_) => (NORMAL_STRESS_L2, &data.profile.normal_stress),
     };
-    let reason = "specification 1: 1 % of the hydrostatic profile";
-    match run.material {
-        MaterialKind::Newtonian => metrics.push(
-            l2("pressure_l2", profile_l2(run, &data.profile.height, &data.profile.pressure))
-                .gated(Limit::AtMost(1.0), reason)
-                .with_snapshot_tolerance(0.02, 1e-3),
-        ),
-        MaterialKind::MuI => {
-            metrics.push(
-                l2("normal_stress_l2", profile_l2(run, &data.profile.height, &data.profile.normal_stress))
-                    .gated(Limit::AtMost(1.0), reason)
-                    .with_snapshot_tolerance(0.02, 1e-3),
-            );
-            let (least, most) = data.pressure_ratio;
-            let bounds = [
-                ("least", least, 1.0 / (1.0 + run.static_friction)),
-                ("most", most, 1.0 / (1.0 - run.static_friction)),
-            ];
-            for (name, value, bound) in bounds {
-                metrics.push(
-                    Metric::observed(&format!("pressure_ratio_{name}"), &variant, value, "-")
-                        .against(Some(bound), "ρg(H − y)/(1 ± μ_s): passive and active state", Confidence::Exact)
-                        .with_snapshot_tolerance(0.01, 0.0),
-                );
-            }
-        }
+    metrics.push(
+        quantity
+            .of(&variant, 100.0 * profile_l2(run, &data.profile.height, profile))
+            .against(Some(0.0), EXACT, Confidence::Exact)
+            .gated(Limit::AtMost(1.0), "specification 1: 1 % of the hydrostatic profile")
+            .with_snapshot_tolerance(0.02, 1e-3),
+    );
+    if let Some((passive, active)) = run.states_of_rest() {
+        let (least, most) = data.pressure_ratio;
+        let ratios = [(PRESSURE_RATIO_LEAST, least, passive), (PRESSURE_RATIO_MOST, most, active)];
+        metrics.extend(ratios.map(|(quantity, value, bound)| {
+            quantity
+                .of(&variant, value)
+                .against(Some(bound), "ρg(H − y)/(1 ± μ_s): passive and active state", Confidence::Exact)
+                .with_snapshot_tolerance(0.01, 0.0)
+        }));
     }
     let drift = 100.0 * (height_around(data, 2.0) / height_around(data, 1.0) - 1.0);
     metrics.push(
-        Metric::observed("height_drift", &variant, drift, "%")
+        HEIGHT_DRIFT
+            .of(&variant, drift)
             .against(Some(0.0), "a layer at rest keeps its height", Confidence::Exact)
             .gated(Limit::Within(-0.1, 0.1), "specification 1: mean height from 1 s to 2 s")
             .with_snapshot_tolerance(0.1, 1e-4),
@@ -87,16 +109,16 @@ fn coupled(metrics: &mut Vec<Metric>, run: &HydrostaticRun, record: &Recorded<La
     let (low, high) =
         breathing.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (_, h)| (low.min(*h), high.max(*h)));
     metrics.push(
-        Metric::observed("acoustic_breathing", &variant, 100.0 * (high - low), "%")
+        ACOUSTIC_BREATHING
+            .of(&variant, 100.0 * (high - low))
             .against(Some(0.0), "range of the mean height over the last 0.5 s", Confidence::Exact)
             .with_snapshot_tolerance(0.2, 1e-3),
     );
     let speed = data.series.rms_speed.last().copied().unwrap_or(f64::NAN);
     metrics.push(
-        Metric::observed("rms_speed", &variant, speed, "m/s")
-            .against(Some(0.0), "rest", Confidence::Exact)
-            .with_snapshot_tolerance(0.5, 1e-5),
+        RMS_SPEED.of(&variant, speed).against(Some(0.0), "rest", Confidence::Exact).with_snapshot_tolerance(0.5, 1e-5),
     );
+    metrics
 }
 
 /// Mean over the last window.

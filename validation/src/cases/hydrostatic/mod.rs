@@ -4,12 +4,12 @@ mod figures;
 mod metrics;
 mod parameters;
 
-pub use parameters::{HydrostaticParameters, HydrostaticRun, MaterialKind};
+pub use parameters::{HydrostaticParameters, HydrostaticRun};
 
 use super::layer;
 use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
 /// The case.
@@ -26,8 +26,10 @@ impl Case for Hydrostatic {
         with the exact hydrostatic pressure of its equation of state, without the particle-scale pressure noise that weakly \
         compressible SPH is known for. The same run without the density–pressure coupling (27) shows that the noise \
         measure can fail. Under friction the pressure of a layer at rest is not unique (between the active and the \
-        passive state), but the stress across the layer is: p − s_yy is gated and p observed.";
+        passive state), but the stress across the layer is: p − s_yy is gated and p observed, for whatever law carries its \
+        stress along; every other law is judged by p.";
     type Parameters = HydrostaticParameters;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &HydrostaticParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)

@@ -1,12 +1,12 @@
 //! Parameters, tiers and runs.
 
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
-use crate::cases::layer::{Layer, LayerObservation, Preparation, bulk_modulus};
-use crate::cases::rules;
+use crate::cases::layer::{Layer, LayerObservation, PeriodicLayer, Preparation};
+use crate::cases::{Bulk, rules};
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::GLASS_BEADS;
-use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use schemars::JsonSchema;
@@ -15,159 +15,102 @@ use serde::{Deserialize, Serialize};
 /// Parameters of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HydrostaticParameters {
-    /// Layer height H `[m]`.
-    #[schemars(transform = positive("give it in metres, such as 0.1"))]
-    pub layer_height: f64,
-    /// Gravity `[m/s²]`.
-    #[schemars(transform = rules::gravity())]
-    pub gravity: f64,
-    /// Rows of particles over the layer.
-    #[schemars(transform = rules::rows())]
-    pub resolution: usize,
-    /// Columns of particles along the period.
-    pub columns: usize,
-    /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
-    pub jitter: f64,
-    /// Seed of the displacements.
-    pub seed: u64,
-    /// What happens before the start.
-    pub preparation: Preparation,
+    /// The layer.
+    #[serde(flatten)]
+    pub layer: PeriodicLayer,
     /// Simulated time `[s]`.
     #[schemars(transform = between(2.2, 1e4, "drift is measured over 0.4 s about 1 s and about 2 s"))]
     pub duration: f64,
-    /// Bulk density of the grains' layer over the grain density `[-]`.
-    #[schemars(transform = between(0.0, 0.74, "grains fill 0.5 to 0.64 of the space"))]
-    pub solid_fraction: f64,
+    /// Density of the grains' layer.
+    #[serde(flatten)]
+    pub bulk: Bulk,
     /// Density of the liquid `[kg/m³]`.
     #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub liquid_density: f64,
     /// The liquid.
-    pub liquid: Newtonian,
+    pub liquid: Rheology,
     /// The grains.
-    pub grains: MuI,
-    /// Numerics.
-    pub numerics: Numerics,
+    pub grains: Rheology,
 }
 
 impl Parameters for HydrostaticParameters {
     type Run = HydrostaticRun;
 
     fn of_tier(tier: Tier) -> Self {
-        let quick = Self {
+        let (resolution, columns, duration) = match tier {
+            Tier::Quick => (20, 12, 2.25),
+            Tier::Paper => (40, 20, 4.0),
+            Tier::Fine => (80, 40, 10.0),
+        };
+        let layer = PeriodicLayer {
             layer_height: 0.1,
             gravity: 9.81,
-            resolution: 20,
-            columns: 12,
+            resolution,
+            columns,
             jitter: 0.1,
             seed: 1,
             preparation: Preparation::Settled,
-            duration: 2.25,
-            solid_fraction: GLASS_BEADS.solid_fraction,
-            liquid_density: 1000.0,
-            liquid: Newtonian { viscosity: 1e-3 },
-            grains: GLASS_BEADS.law,
             numerics: Numerics::default(),
         };
-        match tier {
-            Tier::Quick => quick,
-            Tier::Paper => Self { resolution: 40, columns: 20, duration: 4.0, ..quick },
-            Tier::Fine => Self { resolution: 80, columns: 40, duration: 10.0, ..quick },
+        Self {
+            layer,
+            duration,
+            bulk: Bulk::of_grains(GLASS_BEADS.solid_fraction),
+            liquid_density: 1000.0,
+            liquid: Rheology::Newtonian(Newtonian { viscosity: 1e-3 }),
+            grains: Rheology::MuI(GLASS_BEADS.law),
         }
     }
 
     fn check(&self) -> Result<(), ParameterError> {
-        rules::columns("columns", self.columns, &self.numerics)?;
-        rules::material("grains", &Rheology::MuI(self.grains))?;
-        rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.grains))
+        self.layer.check()?;
+        for (field, law) in [("liquid", &self.liquid), ("grains", &self.grains)] {
+            rules::material(field, law)?;
+            rules::viscous_step("numerics", &self.layer.numerics, law)?;
+        }
+        if self.liquid.name() == self.grains.name() {
+            let name = format!("\"{}\"", self.grains.name());
+            let remedy = "the two layers are told apart by their laws";
+            return Err(ParameterError::field("grains.law", name, "another law than the liquid's", remedy));
+        }
+        self.bulk.check(&self.grains)
     }
 
     fn runs(&self) -> Vec<HydrostaticRun> {
-        let new = |material, density_coupling| {
-            let (rheology, density, static_friction) = match material {
-                MaterialKind::Newtonian => (Rheology::Newtonian(self.liquid), self.liquid_density, 0.0),
-                MaterialKind::MuI => (
-                    Rheology::MuI(self.grains),
-                    self.solid_fraction * self.grains.grain_density,
-                    self.grains.static_friction,
-                ),
-            };
-            HydrostaticRun {
-                material,
-                density_coupling,
-                layer_height: self.layer_height,
-                gravity: self.gravity,
-                density,
-                static_friction,
-                resolution: self.resolution,
-                columns: self.columns,
-                jitter: self.jitter,
-                seed: self.seed,
-                preparation: self.preparation,
-                duration: self.duration,
-                rheology,
-                numerics: Numerics { density_coupling, ..self.numerics },
-            }
+        let materials = [(self.liquid, self.liquid_density), (self.grains, self.bulk.density(&self.grains))];
+        let coupling = self.layer.numerics.density_coupling;
+        let couplings = if coupling > 0.0 { vec![coupling, 0.0] } else { vec![coupling] };
+        let new = |density_coupling, (law, density)| {
+            let numerics = Numerics { density_coupling, ..self.layer.numerics };
+            HydrostaticRun { law, density, duration: self.duration, layer: PeriodicLayer { numerics, ..self.layer } }
         };
-        let coupling = self.numerics.density_coupling;
-        let mut runs = vec![new(MaterialKind::Newtonian, coupling), new(MaterialKind::MuI, coupling)];
-        if coupling > 0.0 {
-            runs.extend([new(MaterialKind::Newtonian, 0.0), new(MaterialKind::MuI, 0.0)]);
-        }
-        runs
+        couplings.into_iter().flat_map(|coupling| materials.map(|material| new(coupling, material))).collect()
     }
-}
-
-/// Which material a run is of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum MaterialKind {
-    /// The Newtonian liquid.
-    Newtonian,
-    /// The grains.
-    MuI,
 }
 
 /// One simulation.
 #[derive(Debug, Clone, Serialize)]
 pub struct HydrostaticRun {
-    /// Material.
-    pub material: MaterialKind,
-    /// σ of the density–pressure coupling `[-]`.
-    pub density_coupling: f64,
-    /// Layer height H `[m]`.
-    pub layer_height: f64,
-    /// Gravity `[m/s²]`.
-    pub gravity: f64,
-    /// Bulk density `[kg/m³]`.
+    /// Law of the material.
+    pub law: Rheology,
+    /// Its density in bulk `[kg/m³]`.
     pub density: f64,
-    /// Static friction of the material `[-]`, 0 for the liquid.
-    pub static_friction: f64,
-    resolution: usize,
-    columns: usize,
-    jitter: f64,
-    seed: u64,
-    preparation: Preparation,
+    /// The layer, whose numerics say whether density and pressure are coupled.
+    pub layer: PeriodicLayer,
     duration: f64,
-    rheology: Rheology,
-    numerics: Numerics,
 }
 
 impl Run for HydrostaticRun {
     type Observation = LayerObservation;
 
     fn variant(&self) -> Variant {
-        let material = match self.material {
-            MaterialKind::Newtonian => "newtonian",
-            MaterialKind::MuI => "mu_i",
-        };
-        Variant::of("material", material)
-            .and("density_coupling", self.density_coupling)
-            .and("resolution", self.resolution)
+        Variant::of("material", self.law.name().replace('-', "_"))
+            .and("density_coupling", self.layer.numerics.density_coupling)
+            .and("resolution", self.layer.resolution)
     }
 
     fn particle_steps(&self) -> f64 {
-        self.layer().expected_steps() * (self.resolution * self.columns) as f64
+        self.layer().expected_steps() * self.layer.particles()
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
@@ -177,33 +120,56 @@ impl Run for HydrostaticRun {
 
 impl HydrostaticRun {
     fn layer(&self) -> Layer<'static> {
-        Layer {
-            height: self.layer_height,
-            rows: self.resolution,
-            columns: self.columns,
-            slope_angle: 0.0,
-            gravity: self.gravity,
-            reference_density: self.density,
-            bulk_modulus: bulk_modulus(self.density, self.gravity, self.layer_height, 0.0),
-            rheology: self.rheology,
-            numerics: self.numerics,
-            jitter: self.jitter,
-            seed: self.seed,
-            preparation: self.preparation,
-            velocity: &|_| 0.0,
-            shear_stress: &|_| 0.0,
-            duration: self.duration,
-            window: 0.5,
-            interval: 5e-3,
-            stop_above: f64::INFINITY,
-            frames: 3,
-            may_diverge: false,
-        }
+        let layer = self.layer.of(self.law, self.density, 0.0);
+        Layer { duration: self.duration, window: 0.5, interval: 5e-3, frames: 3, ..layer }
+    }
+
+    /// Whether density and pressure are coupled by (27).
+    #[must_use]
+    pub fn is_coupled(&self) -> bool {
+        self.layer.numerics.density_coupling > 0.0
+    }
+
+    /// Least and most of the pressure over the weight above that grains can rest with, 1/(1 ± μ_s): passive and active
+    /// state `[-]`; none for a material whose pressure alone carries the weight.
+    #[must_use]
+    pub fn states_of_rest(&self) -> Option<(f64, f64)> {
+        let friction = self.law.contact_friction();
+        self.law.is_plastic().then_some((1.0 / (1.0 + friction), 1.0 / (1.0 - friction)))
     }
 
     /// Exact pressure `[Pa]` at a height `[m]`.
     #[must_use]
     pub fn pressure(&self, y: f64) -> f64 {
         self.layer().hydrostatic_pressure(y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bagnold_solver::material::rheology::Bingham;
+
+    #[test]
+    fn the_law_decides_what_the_bulk_density_comes_from() {
+        let mut parameters = HydrostaticParameters::of_tier(Tier::Quick);
+        assert_eq!(parameters.bulk.density(&parameters.grains), GLASS_BEADS.solid_fraction * 2500.0);
+        parameters.grains =
+            Rheology::Bingham(Bingham { yield_stress: 1.0, plastic_viscosity: 1.0, regularisation_rate: 1.0 });
+        let message = parameters.check().expect_err("no density").to_string();
+        assert_eq!(
+            message,
+            "`bulk_density` is 0, but must be positive with the law \"bingham\"; the law has no grain density: give that of \
+             the bulk in kg/m³, such as 1500"
+        );
+        parameters.bulk.bulk_density = 1500.0;
+        assert!(parameters.check().is_ok());
+        assert_eq!(
+            parameters.runs()[1].variant().get("material").and_then(crate::metric::Value::word),
+            Some("bingham")
+        );
+        parameters.grains = Rheology::MuI(GLASS_BEADS.law);
+        let message = parameters.check().expect_err("two densities").to_string();
+        assert!(message.starts_with("`bulk_density` is 1500, but must be 0 with the law \"mu-i\"; "), "{message}");
     }
 }

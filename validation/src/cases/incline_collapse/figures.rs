@@ -32,7 +32,7 @@ pub(super) fn animations(records: &[Record]) -> Vec<Animation> {
         let view = View {
             unit_length: 1.0,
             unit: "m",
-            time_scale: (run.initial_height / run.gravity).sqrt(),
+            time_scale: (run.reservoir.initial_height / run.reservoir.gravity).sqrt(),
             spacing: run.spacing(),
             mirrored: false,
         };
@@ -57,7 +57,7 @@ fn fronts(records: &[Record]) -> Figure {
     let mut energy = Panel::new("", Axis::linear("t [s]"), Axis::linear("kinetic energy [J/m]"));
     for (slot, (run, record)) in records.iter().enumerate() {
         let data = &record.data.collapse;
-        let way = |front: &f64| (front - 1.0) * run.reservoir_length;
+        let way = |front: &f64| (front - 1.0) * run.reservoir.reservoir_length;
         let points = data.time.iter().copied().zip(data.front.iter().map(way)).collect();
         front.series.push(Series::new(&label(run), Mark::Line, slot, points));
         let points = data.time.iter().copied().zip(data.kinetic_energy.iter().copied()).collect();
@@ -75,13 +75,13 @@ fn fronts(records: &[Record]) -> Figure {
 }
 
 fn thickness(records: &[Record]) -> Figure {
-    let high = records.first().map_or(0.14, |(run, _)| run.initial_height);
+    let high = records.first().map_or(0.14, |(run, _)| run.reservoir.initial_height);
     let panels = records.iter().enumerate().map(|(place, (run, record))| {
         let y = Axis { limits: Some((0.0, 100.0 * high)), ..Axis::linear("thickness [cm]") };
         let mut panel = Panel::new(&label(run), Axis::linear("x [m]"), y);
         for (slot, time) in PROFILES.iter().enumerate() {
             let Some(index) = record.data.collapse.time.iter().position(|t| *t >= time - 1e-9) else { continue };
-            let r = run.reservoir_length;
+            let r = run.reservoir.reservoir_length;
             let profile = &record.data.thickness[index];
             let end = profile.iter().rposition(|&thickness| thickness > 0.0).map_or(0, |last| last + 1);
             let place_of = |bin: usize| (bin as f64 + 0.5) * BIN_WIDTH * r;
@@ -106,7 +106,7 @@ fn run_outs(records: &[Record]) -> Figure {
     let friction = first.static_friction();
     let curve = |friction: f64, k: f64| -> Vec<(f64, f64)> {
         let angles = (0..=110).map(|step| 0.2 * f64::from(step));
-        let value = |angle: f64| slope_run_out(first.initial_height, angle.to_radians(), friction, k);
+        let value = |angle: f64| slope_run_out(first.reservoir.initial_height, angle.to_radians(), friction, k);
         angles.filter_map(|angle| Some((angle, value(angle)?))).filter(|(_, way)| *way < 6.0).collect()
     };
     let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
@@ -123,7 +123,7 @@ fn run_outs(records: &[Record]) -> Figure {
     let points: Vec<(f64, f64)> = records
         .iter()
         .filter(|(run, record)| run.regularisation_rate.is_none() && record.data.came_to_rest())
-        .map(|(run, record)| (run.slope_angle, record.data.collapse.run_out() * run.reservoir_length))
+        .map(|(run, record)| (run.slope_angle, record.data.collapse.run_out() * run.reservoir.reservoir_length))
         .collect();
     panel.series.push(Series::new("at rest", Mark::Points, 0, points));
     Figure {
@@ -157,7 +157,7 @@ fn fields((run, record): &Record) -> Figure {
         ];
         for (values, label, limits) in columns {
             let x = Axis { limits: Some((0.0, far)), ..Axis::linear("x [m]") };
-            let y = Axis { limits: Some((0.0, run.initial_height)), ..Axis::linear("y [m]") };
+            let y = Axis { limits: Some((0.0, run.reservoir.initial_height)), ..Axis::linear("y [m]") };
             let mut panel = Panel::new(&title, x, y);
             panel.field = Some(Field {
                 points: frame.position.iter().map(|x| (x[0], x[1])).collect(),

@@ -2,13 +2,12 @@
 
 mod figures;
 mod metrics;
-mod parameters;
 
-pub use parameters::InclineCollapseParameters;
+pub use super::collapse::InclineCollapseParameters;
 
 use crate::case::{Case, RecordOf, Run};
 use crate::figure::{Animation, Figure};
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
 /// The case.
@@ -27,8 +26,10 @@ impl Case for InclineCollapse {
         fit of Mangeney et al. (2010) as later works quote it, taken with tanδ = μ_s of the run. Above the friction \
         angle the local μ(I) law knows no deposit: the flow thins as long as the channel lasts. The front is where the \
         thickness (volume per bin of 0.1 r_0, each particle spread over a spacing to either side) first falls below \
-        0.02 r_0.";
+        0.02 r_0. With another law of the grains than μ(I), whose contact friction takes the place of μ_s, the fit does not \
+        gate.";
     type Parameters = InclineCollapseParameters;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Metric> {
         records.iter().flat_map(metrics::of_run).collect()

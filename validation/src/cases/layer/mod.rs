@@ -1,14 +1,16 @@
 //! A layer on an incline, periodic along the slope: the scene that hydrostatic, film and bagnold share.
 
+mod periodic;
 mod preparation;
 mod probe;
 
+pub use periodic::PeriodicLayer;
 pub use preparation::Preparation;
 pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 
 use crate::case::Progress;
 use crate::cases::recording::Ending;
-use crate::metric::{Confidence, Limit, Metric, Variant};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
 use crate::observation::{Frame, Recorded};
 use crate::output::Table;
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -279,10 +281,15 @@ pub fn tables(variant: &Variant, data: &LayerObservation) -> Vec<Table> {
     tables
 }
 
+/// Particles that ended below the bed or far above the layer.
+pub(in crate::cases) const PARTICLES_LOST: Quantity =
+    Quantity::verified("particles_lost", "-", "particles that ended below the bed or far above the layer");
+
 /// The number of particles that ended below the bed or far above the layer, gated at 0.
 #[must_use]
 pub fn particles_lost(variant: &Variant, record: &Recorded<LayerObservation>) -> Metric {
-    Metric::observed("particles_lost", variant, record.data.particles_lost as f64, "-")
+    PARTICLES_LOST
+        .of(variant, record.data.particles_lost as f64)
         .against(Some(0.0), "no particle passes a wall", Confidence::Exact)
         .gated(Limit::AtMost(0.0), "a particle below the bed is lost mass")
 }

@@ -1,18 +1,18 @@
-//! The case's parameters and their tiers.
+//! Collapses on a slope: what `incline-collapse` judges and `flow-thickness` begins with.
 
+use super::SlopeRun;
 use crate::case::{ParameterError, Parameters, Tier};
-use crate::cases::collapse::SlopeRun;
-use crate::cases::rules;
+use crate::cases::{Bulk, rules};
 use crate::reference::GLASS_BEADS;
-use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::parameter::{between, each, not_negative, positive};
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct InclineCollapseParameters {
+/// The reservoir, its channel and how they are simulated: what all runs of a case share.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Reservoir {
     /// Gravity `[m/s²]`.
     #[schemars(transform = rules::gravity())]
     pub gravity: f64,
@@ -27,6 +27,27 @@ pub struct InclineCollapseParameters {
     /// Width W of the channel `[m]`, whose side walls add the friction 0.18 h_0/W; 0 for none.
     #[schemars(transform = not_negative("give it in metres, such as 0.1, or 0 for no side walls"))]
     pub channel_width: f64,
+    /// Particles over the length of the reservoir.
+    #[schemars(transform = rules::rows())]
+    pub resolution: usize,
+    /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.05 breaks the lattice without overlaps"))]
+    pub jitter: f64,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// Longest simulated time `[s]`; a deposit at rest ends a run before.
+    #[schemars(transform = between(0.01, 1000.0, "deposits on mild slopes rest after about 1.5 s"))]
+    pub duration: f64,
+    /// Numerics.
+    pub numerics: Numerics,
+}
+
+/// Parameters of the case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct InclineCollapseParameters {
+    /// The reservoir.
+    #[serde(flatten)]
+    pub reservoir: Reservoir,
     /// Slopes `[°]`.
     #[schemars(transform = each(rules::slope_angle()))]
     pub slope_angles: Vec<f64>,
@@ -45,24 +66,11 @@ pub struct InclineCollapseParameters {
     /// Its rate α_r `[1/s]`.
     #[schemars(transform = positive("0.01 1/s in the paper"))]
     pub regularisation_rate: f64,
-    /// Particles over the length of the reservoir.
-    #[schemars(transform = rules::rows())]
-    pub resolution: usize,
-    /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.05 breaks the lattice without overlaps"))]
-    pub jitter: f64,
-    /// Seed of the displacements.
-    pub seed: u64,
-    /// Longest simulated time `[s]`; a deposit at rest ends a run before.
-    #[schemars(transform = between(0.01, 1000.0, "deposits on mild slopes rest after about 1.5 s"))]
-    pub duration: f64,
-    /// Solid fraction φ `[-]`.
-    #[schemars(transform = between(0.01, 0.74, "grains fill 0.5 to 0.64 of the space"))]
-    pub solid_fraction: f64,
-    /// Grains.
-    pub material: MuI,
-    /// Numerics.
-    pub numerics: Numerics,
+    /// Density of the grains in bulk.
+    #[serde(flatten)]
+    pub bulk: Bulk,
+    /// Constitutive law of the grains.
+    pub material: Rheology,
 }
 
 /// Longest time of a regularised collapse `[s]`: it never rests.
@@ -72,72 +80,88 @@ impl Parameters for InclineCollapseParameters {
     type Run = SlopeRun;
 
     fn of_tier(tier: Tier) -> Self {
+        let resolution = match tier {
+            Tier::Quick => 30,
+            Tier::Paper => 60,
+            Tier::Fine => 120,
+        };
         let quick = Self {
-            gravity: 9.81,
-            initial_height: 0.14,
-            reservoir_length: 0.20,
-            channel_length: 3.0,
-            channel_width: 0.0,
+            reservoir: Reservoir {
+                gravity: 9.81,
+                initial_height: 0.14,
+                reservoir_length: 0.20,
+                channel_length: 3.0,
+                channel_width: 0.0,
+                resolution,
+                jitter: 0.05,
+                seed: 1,
+                duration: 4.0,
+                numerics: Numerics::default(),
+            },
             slope_angles: vec![10.0, 16.0, 22.0],
             gate_speed: 1.3,
             gate_slope_angle: 22.0,
             other_gate_speeds: Vec::new(),
             regularised_slope_angles: Vec::new(),
             regularisation_rate: 0.01,
-            resolution: 30,
-            jitter: 0.05,
-            seed: 1,
-            duration: 4.0,
-            solid_fraction: GLASS_BEADS.solid_fraction,
+            bulk: Bulk::of_grains(GLASS_BEADS.solid_fraction),
             // Table 1, glass beads
-            material: GLASS_BEADS.law,
-            numerics: Numerics::default(),
-        };
-        let paper = Self {
-            slope_angles: vec![0.0, 10.0, 16.0, 22.0, 23.0, 24.0, 25.0],
-            other_gate_speeds: vec![2.3, 0.0],
-            regularised_slope_angles: vec![16.0, 22.0],
-            resolution: 60,
-            ..quick.clone()
+            material: Rheology::MuI(GLASS_BEADS.law),
         };
         match tier {
             Tier::Quick => quick,
-            Tier::Paper => paper,
-            Tier::Fine => Self { resolution: 120, ..paper },
+            Tier::Paper | Tier::Fine => Self {
+                slope_angles: vec![0.0, 10.0, 16.0, 22.0, 23.0, 24.0, 25.0],
+                other_gate_speeds: vec![2.3, 0.0],
+                regularised_slope_angles: vec![16.0, 22.0],
+                ..quick
+            },
         }
     }
 
     fn check(&self) -> Result<(), ParameterError> {
-        let (least, most) = (3.0 * self.reservoir_length, 1000.0 * self.reservoir_length);
+        let Reservoir { initial_height, reservoir_length, channel_length, resolution, numerics, .. } = &self.reservoir;
+        let (least, most) = (3.0 * reservoir_length, 1000.0 * reservoir_length);
         let remedy = "the channel must hold the reservoir, the gate and the run-out";
-        rules::between("channel_length", self.channel_length, least, most, remedy)?;
-        let rows = (self.initial_height / self.reservoir_length * self.resolution as f64).round();
+        rules::between("channel_length", *channel_length, least, most, remedy)?;
+        let rows = (initial_height / reservoir_length * *resolution as f64).round();
         if !(4.0..=1000.0).contains(&rows) {
             let rule = "such that the reservoir is 4 to 1000 rows of particles high";
             let remedy = format!(
                 "its height, `initial_height` over `reservoir_length` times this, is {rows}: choose a {} resolution",
                 if rows < 4.0 { "larger" } else { "smaller" }
             );
-            return Err(ParameterError::field("resolution", self.resolution, rule, &remedy));
+            return Err(ParameterError::field("resolution", resolution, rule, &remedy));
         }
-        rules::material("material", &Rheology::MuI(self.material))?;
-        if self.runs().iter().any(|run| run.gate_speed > 0.0) {
-            rules::gate("numerics", &self.numerics)?;
+        rules::material("material", &self.material)?;
+        self.bulk.check(&self.material)?;
+        if self.reservoir.channel_width > 0.0 {
+            let remedy = "side walls add to the friction of μ(I): choose it, or set `channel_width` to 0";
+            rules::only_mu_i("material", &self.material, remedy)?;
         }
         if !self.regularised_slope_angles.is_empty() {
-            rules::implicit_runs("numerics", &self.numerics, "regularised_slope_angles")?;
+            let remedy = "(35) regularises μ(I): choose it, or empty `regularised_slope_angles`";
+            rules::only_mu_i("material", &self.material, remedy)?;
+            rules::implicit_runs("numerics", numerics, "regularised_slope_angles")?;
         }
-        rules::viscous_step("numerics", &self.numerics, &Rheology::MuI(self.material))
+        if self.runs().iter().any(|run| run.gate_speed > 0.0) {
+            rules::gate("numerics", numerics)?;
+        }
+        rules::viscous_step("numerics", numerics, &self.material)
     }
 
     fn runs(&self) -> Vec<SlopeRun> {
         let slopes = self.slope_angles.iter().map(|&angle| self.run(angle, self.gate_speed));
         let gates = self.other_gate_speeds.iter().filter(|&&speed| speed != self.gate_speed);
         let gates = gates.map(|&speed| self.run(self.gate_slope_angle, speed));
+        let Reservoir { duration, numerics, .. } = self.reservoir;
         let regularised = self.regularised_slope_angles.iter().map(|&angle| SlopeRun {
             regularisation_rate: Some(self.regularisation_rate),
-            duration: REGULARISED_DURATION.min(self.duration),
-            numerics: Numerics { viscous_step: ViscousStep::Implicit, ..self.numerics },
+            reservoir: Reservoir {
+                duration: REGULARISED_DURATION.min(duration),
+                numerics: Numerics { viscous_step: ViscousStep::Implicit, ..numerics },
+                ..self.reservoir
+            },
             ..self.run(angle, self.gate_speed)
         });
         slopes.chain(gates).chain(regularised).collect()
@@ -150,19 +174,10 @@ impl InclineCollapseParameters {
         SlopeRun {
             slope_angle,
             gate_speed,
-            resolution: self.resolution,
-            initial_height: self.initial_height,
-            reservoir_length: self.reservoir_length,
             law: self.material,
+            bulk_density: self.bulk.density(&self.material),
             regularisation_rate: None,
-            channel_width: self.channel_width,
-            channel_length: self.channel_length,
-            gravity: self.gravity,
-            solid_fraction: self.solid_fraction,
-            jitter: self.jitter,
-            seed: self.seed,
-            duration: self.duration,
-            numerics: self.numerics,
+            reservoir: self.reservoir,
         }
     }
 }
