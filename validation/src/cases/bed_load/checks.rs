@@ -3,7 +3,7 @@
 use super::parameters::{BedLoadParameters, Grains};
 use super::runs::LAYER_CELL;
 use crate::case::ParameterError;
-use crate::cases::{bed_load_1d, rules};
+use crate::cases::rules;
 use crate::reference::bed_load_layer::{Closures, MixingLength};
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::turbulence::VON_KARMAN;
@@ -63,7 +63,7 @@ impl BedLoadParameters {
         let continuum = &self.continuum;
         let remedy = "hold less than the whole bed";
         rules::between("continuum.held_depth", continuum.held_depth, 0.0, 0.9 * continuum.bed_depth, remedy)?;
-        bed_load_1d::closures("continuum.closures", &continuum.closures)?;
+        rules::refuse("continuum.closures", continuum.closures.problem())?;
         let Closures { mixing_length, karman, .. } = continuum.closures;
         if mixing_length != MixingLength::Integral {
             let remedy = "the particles know no other; bed-load-1d compares all";

@@ -6,7 +6,6 @@ mod parameters;
 mod runs;
 mod sensitivities;
 
-pub(in crate::cases) use parameters::closures;
 pub use parameters::{BedLoad1dParameters, Grain, Water};
 pub use runs::{BedLoad1dRun, LayerObservation, Purpose};
 pub use sensitivities::Sensitivities;
