@@ -1,6 +1,7 @@
 //! How the runs are judged.
 
 use super::Record;
+use super::continuum::ContinuumRun;
 use super::fit::{self, held_out};
 use super::observation::BedLoadObservation;
 use super::parameters::Stage;
@@ -13,7 +14,6 @@ use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
 use crate::observation::Recorded;
 use crate::reference::{HONEST_BAND, TransportFormula};
 use crate::statistics::{Estimate, block_average, linear_fit};
-use bagnold_solver::incompressible::PairLaw;
 
 /// Standard errors that a value may move before a change is reported `[-]`.
 const SNAPSHOT_ERRORS: f64 = 2.0;
@@ -27,8 +27,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
         match &run.formulation {
             Formulation::Paper(_) => printed(&mut metrics, run, record),
             Formulation::Stabilised(grains) => statements::stabilised(&mut metrics, run, record, grains),
-            Formulation::Fit(_) => metrics.push(transport(run, record)),
-            Formulation::Continuum { stage, pair_law, .. } => continuum(&mut metrics, run, record, *stage, *pair_law),
+            Formulation::Fit { .. } => metrics.push(transport(run, record)),
+            Formulation::Continuum(own) => continuum(&mut metrics, run, record, own),
         }
     }
     statements::say_what_is_missing(records);
@@ -173,20 +173,15 @@ pub(super) fn grains(metrics: &mut Vec<Metric>, run: &BedLoadRun, data: &BedLoad
     metrics.push(Metric::observed("drag_peak_height", &variant, 1e3 * peak.0, "mm").with_snapshot_tolerance(0.1, 1.0));
 }
 
-fn continuum(
-    metrics: &mut Vec<Metric>,
-    run: &BedLoadRun,
-    record: &Recorded<BedLoadObservation>,
-    stage: Stage,
-    pair_law: PairLaw,
-) {
+fn continuum(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>, own: &ContinuumRun) {
+    let stage = own.stage;
     let variant = run.variant();
     let data = &record.data;
     let Some(layer) = &data.layer else { return };
     metrics.push(channel::particles_lost(&variant, &record.clone().map(|data| data.channel)));
     common(metrics, run, record);
     let source = "the 1-D layer of the same closures";
-    let judged = run.averaging_time >= JUDGED_FROM && pair_law == stage.judged_pair_law();
+    let judged = run.averaging_time >= JUDGED_FROM && own.is_judged();
     let gated = |metric: Metric, holds: bool, limit, reason: &str| {
         if judged && holds { metric.gated(limit, reason) } else { metric }
     };

@@ -1,6 +1,7 @@
 //! Bed load on three slopes in three formulations.
 
 mod checks;
+mod continuum;
 mod figures;
 mod fit;
 mod metrics;
@@ -12,8 +13,9 @@ mod scenes;
 mod statements;
 mod tiers;
 
+pub use continuum::ContinuumRun;
 pub use observation::BedLoadObservation;
-pub use parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns, Yield};
+pub use parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns};
 pub use runs::{BedLoadRun, Formulation};
 
 use crate::case::{Case, RecordOf, Run};

@@ -13,6 +13,7 @@ use crate::metric::{Confidence, Kind, Limit, Metric, Value, Variant};
 use crate::observation::Recorded;
 use crate::reference::{HONEST_BAND, LAYER_STATEMENTS, TransportFormula};
 use crate::statistics::Segmented;
+use bagnold_solver::material::rheology::Rheology;
 
 /// A slope `[-]` that the paper makes statements of.
 struct Stated {
@@ -57,7 +58,7 @@ pub(super) fn stabilised(
     common(metrics, run, record);
     let judged = run.averaging_time >= JUDGED_FROM && GENTLE.is_of(run);
     // of the fitted slopes the transport says nothing
-    if judged && bed.material == FITTED {
+    if judged && bed.material == Rheology::CoulombBingham(FITTED) {
         let formula = TransportFormula::WongParker;
         let reference = formula.transport(run.stream().shields_number());
         let ratio = observed("transport_ratio", &variant, average(data, &data.transport), 1.0 / reference, "-");
