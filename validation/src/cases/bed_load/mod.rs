@@ -8,6 +8,7 @@ mod metrics;
 mod observation;
 mod parameters;
 mod profiles;
+mod quantities;
 mod runs;
 mod scenes;
 mod statements;
@@ -21,7 +22,7 @@ pub use runs::{BedLoadRun, Formulation};
 use crate::case::{Case, RecordOf, Run};
 use crate::cases::channel;
 use crate::figure::Figure;
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
 /// The case.
@@ -41,6 +42,7 @@ impl Case for BedLoad {
         that dilate. `paper` is the set-up as printed, which fails in documented ways: its metrics are observations. The \
         quick tier is too short to be stationary and says so: it judges conservation.";
     type Parameters = BedLoadParameters;
+    const QUANTITIES: &'static [Quantity] = quantities::ALL;
 
     fn metrics(_: &BedLoadParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
