@@ -418,7 +418,7 @@ fn a_moving_bed_that_cannot_be() {
         ),
         (
             "stabilised.material.yield_stress=-5.0",
-            "`stabilised.material.yield_stress` is -5, but must be between 0 and 1000000; give it in Pa, or 0 for none",
+            "`stabilised.material.yield_stress` is -5, but must be finite and not negative; give the yield stress in Pa, or 0 for grains without cohesion",
         ),
         (
             "continuum.closures.largest_fraction=1.0",

@@ -48,14 +48,18 @@ pub(super) fn row_count(field: &str, value: usize) -> Result<(), ParameterError>
     between(field, value as f64, 4.0, 1000.0, ROWS)
 }
 
+/// A number of things in [least, most].
+pub(super) fn count(field: &str, value: usize, least: usize, most: usize, remedy: &str) -> Result<(), ParameterError> {
+    if (least..=most).contains(&value) {
+        return Ok(());
+    }
+    Err(ParameterError::field(field, value, &format!("between {least} and {most}"), remedy))
+}
+
 /// Columns of particles along a period: the kernel with its skin must fit into it.
 pub(super) fn columns(field: &str, value: usize, numerics: &Numerics) -> Result<(), ParameterError> {
     let least = (2.0 * numerics.smoothing_ratio * (1.0 + numerics.verlet_skin)).ceil() as usize;
-    if value >= least && value <= 100_000 {
-        return Ok(());
-    }
-    let rule = format!("between {least} and 100000");
-    Err(ParameterError::field(field, value, &rule, "the period must hold the reach of the kernel; 12 is quick"))
+    count(field, value, least, 100_000, "the period must hold the reach of the kernel; 12 is quick")
 }
 
 /// The rules between a constitutive law's own parameters.
@@ -111,11 +115,7 @@ pub(super) fn implicit_runs(path: &str, numerics: &Numerics, list: &str) -> Resu
 /// Columns of fluid particles along the period of a channel: no particle may see another one twice.
 pub(super) fn channel_columns(field: &str, value: usize, numerics: &ProjectionNumerics) -> Result<(), ParameterError> {
     let least = (4.0 * numerics.smoothing_ratio).ceil() as usize;
-    if (least..=1000).contains(&value) {
-        return Ok(());
-    }
-    let rule = format!("between {least} and 1000");
-    Err(ParameterError::field(field, value, &rule, "the period must hold twice the reach of the kernel; 12 is quick"))
+    count(field, value, least, 1000, "the period must hold twice the reach of the kernel; 12 is quick")
 }
 
 pub(super) fn refuse(path: &str, problem: Option<ParameterProblem>) -> Result<(), ParameterError> {

@@ -12,6 +12,7 @@
 use super::shipped::read_shipped;
 use crate::metric::Confidence;
 use bagnold_solver::material::drag::DragLaw;
+use serde::Serialize;
 use std::sync::LazyLock;
 
 /// Exponents c Rᵏ of ranges of Reynolds numbers.
@@ -57,7 +58,7 @@ impl GrainForm {
 }
 
 /// Grains in a fluid under gravity. They sink, or rise if they are the lighter ones: velocities are magnitudes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SettlingGrains {
     /// Grain diameter d `[m]`.
     pub grain_diameter: f64,

@@ -1,11 +1,12 @@
 //! What a case file may ask for.
 
+use super::continuum::LAYER_CELL;
 use super::parameters::{BedLoadParameters, Grains};
-use super::runs::LAYER_CELL;
 use crate::case::ParameterError;
-use crate::cases::{bed_load_1d, rules};
+use crate::cases::rules;
 use crate::reference::bed_load_layer::{Closures, MixingLength};
 use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::material::turbulence::VON_KARMAN;
 
 impl BedLoadParameters {
@@ -30,11 +31,27 @@ impl BedLoadParameters {
             let (rule, remedy) = ("three or more", "two are fitted for each that is held out");
             return Err(ParameterError::field("fit.slopes", format!("{:?}", fit.slopes), rule, remedy));
         }
+        if !fit.yield_stresses.is_empty() && !fit.viscosities.is_empty() {
+            self.check_fitted_law()?;
+        }
         check_time("fit", fit.duration, fit.averaging_time)
+    }
+
+    /// The fits are of one law.
+    fn check_fitted_law(&self) -> Result<(), ParameterError> {
+        if matches!(self.stabilised.material, Rheology::CoulombBingham(_)) {
+            return Ok(());
+        }
+        let written = toml::Value::try_from(self.stabilised.material).ok();
+        let name = written.as_ref().and_then(|law| law.get("law")?.as_str()).unwrap_or("another").to_owned();
+        let rule = "coulomb-bingham with a grid of the fits";
+        let remedy = "its yield stress and viscosity are fitted; or empty `fit.yield_stresses`";
+        Err(ParameterError::field("stabilised.material.law", name, rule, remedy))
     }
 
     fn check_grains(&self, path: &str, grains: &Grains) -> Result<(), ParameterError> {
         let field = |name: &str| format!("{path}.{name}");
+        rules::material(&field("material"), &grains.material)?;
         if grains.drag == DragLaw::Ergun {
             let (rule, remedy) = ("a law of one grain", "Ergun's is one of packed grains; `continuum` has it");
             return Err(ParameterError::field(&field("drag"), "ergun", rule, remedy));
@@ -63,7 +80,7 @@ impl BedLoadParameters {
         let continuum = &self.continuum;
         let remedy = "hold less than the whole bed";
         rules::between("continuum.held_depth", continuum.held_depth, 0.0, 0.9 * continuum.bed_depth, remedy)?;
-        bed_load_1d::closures("continuum.closures", &continuum.closures)?;
+        rules::refuse("continuum.closures", continuum.closures.problem())?;
         let Closures { mixing_length, karman, .. } = continuum.closures;
         if mixing_length != MixingLength::Integral {
             let remedy = "the particles know no other; bed-load-1d compares all";

@@ -1,6 +1,7 @@
 //! The case's figures; 7 to 13 of the paper, redrawn, and the check against the 1-D layer.
 
 use super::Record;
+use super::continuum::ContinuumRun;
 use super::fit::held_out;
 use super::parameters::Stage;
 use super::runs::{BedLoadRun, Formulation, pair_law_name};
@@ -30,7 +31,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
 
 fn stage_of(run: &BedLoadRun) -> Option<Stage> {
     match &run.formulation {
-        Formulation::Continuum { stage, .. } => Some(*stage),
+        Formulation::Continuum(own) => Some(own.stage),
         _ => None,
     }
 }
@@ -44,10 +45,11 @@ fn label(run: &BedLoadRun) -> String {
     match &run.formulation {
         Formulation::Paper(_) => format!("paper, {}", percent(run)),
         Formulation::Stabilised(_) => format!("stabilised, {}", percent(run)),
-        Formulation::Fit(_) => format!("fit, {}", percent(run)),
-        Formulation::Continuum { stage, pair_law, start, spacing, .. } => {
+        Formulation::Fit { .. } => format!("fit, {}", percent(run)),
+        Formulation::Continuum(own) => {
+            let ContinuumRun { stage, pair_law, start, spacing, .. } = own;
             let mut label = format!("{}, {}", stage.name(), percent(run));
-            if *pair_law != stage.judged_pair_law() {
+            if !own.is_judged() {
                 label += &format!(", {}", pair_law_name(*pair_law));
             }
             if *start != 1.0 {
@@ -178,7 +180,7 @@ fn against_layer(stage: Stage, records: &[&Record]) -> Figure {
 }
 
 fn has_judged_law(run: &BedLoadRun) -> bool {
-    matches!(&run.formulation, Formulation::Continuum { stage, pair_law, .. } if *pair_law == stage.judged_pair_law())
+    matches!(&run.formulation, Formulation::Continuum(own) if own.is_judged())
 }
 
 /// Whether a run belongs to a kind.
@@ -227,16 +229,13 @@ fn transport(records: &[Record]) -> Figure {
 fn over_time(records: &[Record]) -> Figure {
     let mut velocity = Panel::new("", Axis::linear("t [s]"), Axis::linear("U/U_clear [-]"));
     let mut rate = Panel::new("", Axis::linear("t [s]"), Axis::linear("q* [-]"));
-    let shown = records.iter().filter(|(run, _)| !matches!(run.formulation, Formulation::Fit(_)));
+    let shown = records.iter().filter(|(run, _)| !matches!(run.formulation, Formulation::Fit { .. }));
     for (slot, (run, record)) in shown.enumerate() {
         let data = &record.data;
         let mean = run.clear_water().mean_velocity();
-        let time = &data.channel.series.time;
-        let line = |values: &[f64], scale: f64| -> Vec<(f64, f64)> {
-            time.iter().copied().zip(values.iter().map(|value| value / scale)).collect()
-        };
-        velocity.series.push(Series::new(&label(run), Mark::Line, slot, line(&data.stream_velocity, mean)));
-        rate.series.push(Series::new("", Mark::Line, slot, line(&data.transport, 1.0)));
+        let series = &data.channel.series;
+        velocity.series.push(Series::new(&label(run), Mark::Line, slot, series.curve(&data.stream_velocity, mean)));
+        rate.series.push(Series::new("", Mark::Line, slot, series.curve(&data.transport, 1.0)));
     }
     Figure {
         name: "over-time".to_owned(),

@@ -98,11 +98,11 @@ pub(super) fn held_out(records: &[Record]) -> Vec<HeldOut> {
 fn surfaces(records: &[Record]) -> Vec<Surface> {
     let mut points = Vec::new();
     for (run, record) in records {
-        if let Formulation::Fit(grains) = &run.formulation {
+        if let Formulation::Fit { law, .. } = &run.formulation {
             let transport = record.data.transport_in_window();
             let mean = transport.iter().sum::<f64>() / transport.len() as f64;
             let shields = run.stream().shields_number();
-            points.push((run.slope, shields, grains.material, libm::log(mean.max(1e-9))));
+            points.push((run.slope, shields, *law, libm::log(mean.max(1e-9))));
         }
     }
     let distinct = |values: Vec<f64>| {
@@ -112,7 +112,7 @@ fn surfaces(records: &[Record]) -> Vec<Surface> {
         values
     };
     let yields = distinct(points.iter().map(|point| point.2.yield_stress).collect());
-    let viscosities = distinct(points.iter().map(|point| point.2.viscosity).collect());
+    let viscosities = distinct(points.iter().map(|point| point.2.plastic_viscosity).collect());
     let slopes = distinct(points.iter().map(|point| point.0).collect());
     if yields.len() < 2 || viscosities.len() < 2 {
         return Vec::new();
@@ -120,7 +120,7 @@ fn surfaces(records: &[Record]) -> Vec<Surface> {
     let surface = |&slope: &f64| {
         let of_slope: Vec<_> = points.iter().filter(|point| point.0 == slope).collect();
         let value = |tau: f64, mu: f64| {
-            let found = of_slope.iter().find(|point| point.2.yield_stress == tau && point.2.viscosity == mu);
+            let found = of_slope.iter().find(|point| point.2.yield_stress == tau && point.2.plastic_viscosity == mu);
             found.map(|point| point.3)
         };
         let row = |&tau: &f64| viscosities.iter().map(|&mu| value(tau, mu)).collect::<Option<Vec<f64>>>();

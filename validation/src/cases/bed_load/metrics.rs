@@ -1,22 +1,24 @@
 //! How the runs are judged.
 
 use super::Record;
+use super::continuum::ContinuumRun;
 use super::fit::{self, held_out};
 use super::observation::BedLoadObservation;
 use super::parameters::Stage;
 use super::profiles;
+use super::quantities::{
+    DECAY_LENGTH, DRAG_PEAK_HEIGHT, END_TIME, FIT_AT_BORDER, FIT_MISFIT, FITTED_VISCOSITY, FITTED_YIELD_STRESS,
+    FLUID_VELOCITY_MEAN, FLUID_VELOCITY_RMS, GRAIN_CURVATURE_ABOVE, GRAIN_CURVATURE_BELOW, GRAIN_VELOCITY_RMS,
+    HELD_OUT_TRANSPORT_RATIO, HIGHEST_PARTICLE, LAST_TRANSPORT, MOVES_ABOVE, STREAM_VELOCITY, TRANSPORT,
+    TRANSPORT_RATIO,
+};
 use super::runs::{BedLoadRun, Formulation};
 use super::statements;
 use crate::case::Run;
 use crate::cases::channel;
-use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
+use crate::metric::{Confidence, Limit, Metric};
 use crate::observation::Recorded;
 use crate::reference::{HONEST_BAND, TransportFormula};
-use crate::statistics::{Estimate, block_average, linear_fit};
-use bagnold_solver::incompressible::PairLaw;
-
-/// Standard errors that a value may move before a change is reported `[-]`.
-const SNAPSHOT_ERRORS: f64 = 2.0;
 
 /// Averaging time from which on a flow is taken to be settled enough to be judged `[s]`.
 pub(super) const JUDGED_FROM: f64 = 1.5;
@@ -27,8 +29,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
         match &run.formulation {
             Formulation::Paper(_) => printed(&mut metrics, run, record),
             Formulation::Stabilised(grains) => statements::stabilised(&mut metrics, run, record, grains),
-            Formulation::Fit(_) => metrics.push(transport(run, record)),
-            Formulation::Continuum { stage, pair_law, .. } => continuum(&mut metrics, run, record, *stage, *pair_law),
+            Formulation::Fit { .. } => metrics.push(transport(run, record)),
+            Formulation::Continuum(own) => continuum(&mut metrics, run, record, own),
         }
     }
     statements::say_what_is_missing(records);
@@ -36,9 +38,9 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     for held in held_out(records) {
         let variant = fit::variant(&held);
         metrics.push(
-            Metric::observed("held_out_transport_ratio", &variant, held.ratio, "-")
+            HELD_OUT_TRANSPORT_RATIO
+                .of(&variant, held.ratio)
                 .against(Some(1.0), TransportFormula::WongParker.name(), TransportFormula::WongParker.confidence())
-                .of_kind(Kind::Validation)
                 .gated(
                     Limit::Within(HONEST_BAND.0, HONEST_BAND.1),
                     "yield stress and viscosity are those that fit the two other slopes",
@@ -46,34 +48,25 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
                 .with_snapshot_tolerance(0.05, 0.0),
         );
         let values = [
-            ("fitted_yield_stress", held.yield_stress, "Pa"),
-            ("fitted_viscosity", held.viscosity, "Pa·s"),
-            ("fit_misfit", held.misfit, "-"),
-            ("fit_at_border", f64::from(u8::from(held.at_border)), "-"),
+            (FITTED_YIELD_STRESS, held.yield_stress),
+            (FITTED_VISCOSITY, held.viscosity),
+            (FIT_MISFIT, held.misfit),
+            (FIT_AT_BORDER, f64::from(u8::from(held.at_border))),
         ];
-        for (name, value, unit) in values {
-            metrics.push(Metric::observed(name, &variant, value, unit).with_snapshot_tolerance(0.1, 0.05));
+        for (quantity, value) in values {
+            metrics.push(quantity.of(&variant, value).with_snapshot_tolerance(0.1, 0.05));
         }
     }
     metrics
 }
 
-pub(super) fn observed(name: &str, variant: &Variant, estimate: Estimate, factor: f64, unit: &str) -> Metric {
-    Metric::observed(name, variant, factor * estimate.value, unit)
-        .with_snapshot_tolerance(1e-3, (SNAPSHOT_ERRORS * factor * estimate.standard_error).abs())
-}
-
-/// Mean of a series over the window, with its statistical error.
-pub(super) fn average(data: &BedLoadObservation, array: &[f64]) -> Estimate {
-    block_average(&data.channel.series.within(array, data.channel.window))
-        .unwrap_or(Estimate { value: f64::NAN, standard_error: 0.0 })
-}
-
 fn transport(run: &BedLoadRun, record: &Recorded<BedLoadObservation>) -> Metric {
     let formula = TransportFormula::WongParker;
-    observed("transport", &run.variant(), average(&record.data, &record.data.transport), 1.0, "-")
-        .against(Some(formula.transport(run.stream().shields_number())), formula.name(), formula.confidence())
-        .of_kind(Kind::Validation)
+    channel::observed(TRANSPORT, &run.variant(), record.data.channel.average(&record.data.transport), 1.0).against(
+        Some(formula.transport(run.stream().shields_number())),
+        formula.name(),
+        formula.confidence(),
+    )
 }
 
 /// What every run reports.
@@ -82,50 +75,43 @@ pub(super) fn common(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recor
     let data = &record.data;
     let mean = run.clear_water().mean_velocity();
     metrics.push(transport(run, record));
-    metrics.push(observed("stream_velocity", &variant, average(data, &data.stream_velocity), 1.0 / mean, "-").against(
-        Some(1.0),
-        "clear water over a fixed bed",
-        Confidence::Exact,
-    ));
     metrics.push(
-        Metric::observed("velocity_drift", &variant, 100.0 * drift(run, data), "%")
-            .against(
-                Some(0.0),
-                "change of the stream's velocity over U/(2 g i), by a line through the window",
-                Confidence::Exact,
-            )
-            .with_snapshot_tolerance(0.2, 0.1),
+        channel::observed(STREAM_VELOCITY, &variant, data.channel.average(&data.stream_velocity), 1.0 / mean).against(
+            Some(1.0),
+            "clear water over a fixed bed",
+            Confidence::Exact,
+        ),
     );
+    metrics.push(channel::velocity_drift(&variant, drift(run, data), "stream's velocity"));
 }
 
 /// Relative change of the stream's velocity over U/(2 g i) `[-]`.
 fn drift(run: &BedLoadRun, data: &BedLoadObservation) -> f64 {
-    let series = &data.channel.series;
-    let time = series.within(&series.time, data.channel.window);
-    let velocity = series.within(&data.stream_velocity, data.channel.window);
+    let channel = &data.channel;
+    let velocity = channel.series.within(&data.stream_velocity, channel.window);
     let mean = velocity.iter().sum::<f64>() / velocity.len() as f64;
-    let points: Vec<(f64, f64)> = time.into_iter().zip(velocity).collect();
     let adjustment = mean / (2.0 * run.materials.gravity * run.slope);
-    linear_fit(&points).map_or(f64::NAN, |fit| fit.slope * adjustment / mean)
+    channel.trend(&data.stream_velocity) * adjustment / mean
 }
 
 /// The printed set-up: no gate, what it does is the result.
 fn printed(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>) {
     let variant = run.variant();
     let data = &record.data;
-    metrics.push(Metric::observed("end_time", &variant, record.simulated_time, "s").with_snapshot_tolerance(0.05, 0.0));
+    metrics.push(END_TIME.of(&variant, record.simulated_time).with_snapshot_tolerance(0.05, 0.0));
     let highest = data.channel.series.highest.iter().copied().fold(0.0, f64::max);
     metrics.push(
-        Metric::observed("highest_particle", &variant, highest, "h")
+        HIGHEST_PARTICLE
+            .of(&variant, highest)
             .against(Some(1.0), "the depth of the water", Confidence::Exact)
             .with_snapshot_tolerance(0.1, 0.0),
     );
     let last = data.transport.last().copied().unwrap_or(f64::NAN);
     let formula = TransportFormula::WongParker;
     metrics.push(
-        Metric::observed("last_transport", &variant, last, "-")
+        LAST_TRANSPORT
+            .of(&variant, last)
             .against(Some(formula.transport(run.stream().shields_number())), formula.name(), formula.confidence())
-            .of_kind(Kind::Validation)
             .with_snapshot_tolerance(0.2, 1e-3),
     );
 }
@@ -138,31 +124,29 @@ pub(super) fn grains(metrics: &mut Vec<Metric>, run: &BedLoadRun, data: &BedLoad
     let source = "the 1-D layer";
     let values = [
         (
-            "decay_length",
+            DECAY_LENGTH,
             1e3 * profiles::decay_length(&points),
-            "mm",
             layer.and_then(|l| l.decay_length(1e-4)).map(|l| 1e3 * l),
         ),
         (
-            "moves_above",
+            MOVES_ABOVE,
             1e3 * profiles::moves_above(&points, 0.01),
-            "mm",
             layer.and_then(|l| l.moves_above(0.01)).map(|z| 1e3 * z),
         ),
     ];
-    for (name, value, unit, reference) in values {
-        let metric = Metric::observed(name, &variant, value, unit).with_snapshot_tolerance(0.1, 0.5);
+    for (quantity, value, reference) in values {
+        let metric = quantity.of(&variant, value).with_snapshot_tolerance(0.1, 0.5);
         metrics.push(match reference {
             Some(reference) => metric.against(Some(reference), source, Confidence::Exact),
             None => metric,
         });
     }
-    for (name, above) in [("grain_curvature_above", true), ("grain_curvature_below", false)] {
+    for (quantity, above) in [(GRAIN_CURVATURE_ABOVE, true), (GRAIN_CURVATURE_BELOW, false)] {
         let estimate = data.sediment.estimate(|points| profiles::grain_curvature(run, points, above));
         if estimate.value.is_finite() {
-            let metric = observed(name, &variant, estimate, 1.0, "u_*/d²");
+            let metric = channel::observed(quantity, &variant, estimate, 1.0);
             let source = "statement of the paper: concave above the top of the bed (−), convex below (+)";
-            metrics.push(metric.against(None, source, Confidence::Medium).of_kind(Kind::Validation));
+            metrics.push(metric.against(None, source, Confidence::Medium));
         }
     }
     let drag = data.drag_profile();
@@ -170,23 +154,18 @@ pub(super) fn grains(metrics: &mut Vec<Metric>, run: &BedLoadRun, data: &BedLoad
         .iter()
         .copied()
         .fold((f64::NAN, f64::NEG_INFINITY), |best, point| if point.1 > best.1 { point } else { best });
-    metrics.push(Metric::observed("drag_peak_height", &variant, 1e3 * peak.0, "mm").with_snapshot_tolerance(0.1, 1.0));
+    metrics.push(DRAG_PEAK_HEIGHT.of(&variant, 1e3 * peak.0).with_snapshot_tolerance(0.1, 1.0));
 }
 
-fn continuum(
-    metrics: &mut Vec<Metric>,
-    run: &BedLoadRun,
-    record: &Recorded<BedLoadObservation>,
-    stage: Stage,
-    pair_law: PairLaw,
-) {
+fn continuum(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>, own: &ContinuumRun) {
+    let stage = own.stage;
     let variant = run.variant();
     let data = &record.data;
     let Some(layer) = &data.layer else { return };
     metrics.push(channel::particles_lost(&variant, &record.clone().map(|data| data.channel)));
     common(metrics, run, record);
     let source = "the 1-D layer of the same closures";
-    let judged = run.averaging_time >= JUDGED_FROM && pair_law == stage.judged_pair_law();
+    let judged = run.averaging_time >= JUDGED_FROM && own.is_judged();
     let gated = |metric: Metric, holds: bool, limit, reason: &str| {
         if judged && holds { metric.gated(limit, reason) } else { metric }
     };
@@ -194,7 +173,7 @@ fn continuum(
     let profile = &data.channel.profile;
     let rms = profile.estimate(|points| profiles::fluid_rms(run, points, layer));
     let metric =
-        observed("fluid_velocity_rms", &variant, rms, 1.0, "u_*").against(Some(0.0), source, Confidence::Exact);
+        channel::observed(FLUID_VELOCITY_RMS, &variant, rms, 1.0).against(Some(0.0), source, Confidence::Exact);
     metrics.push(gated(
         metric,
         water,
@@ -203,27 +182,27 @@ fn continuum(
     ));
     let mean = profile.estimate(|points| profiles::fluid_mean(run, points, layer));
     let metric =
-        observed("fluid_velocity_mean", &variant, mean, 1.0, "-").against(Some(1.0), source, Confidence::Exact);
+        channel::observed(FLUID_VELOCITY_MEAN, &variant, mean, 1.0).against(Some(1.0), source, Confidence::Exact);
     metrics.push(gated(metric, water, Limit::Within(0.97, 1.03), "the same shift over a depth mean of 10 u_*"));
     if stage == Stage::Porous {
         return;
     }
     let rms = data.sediment.estimate(|points| profiles::grain_rms(run, points, layer));
     let metric =
-        observed("grain_velocity_rms", &variant, rms, 1.0, "u_*").against(Some(0.0), source, Confidence::Exact);
+        channel::observed(GRAIN_VELOCITY_RMS, &variant, rms, 1.0).against(Some(0.0), source, Confidence::Exact);
     metrics.push(gated(
         metric,
         stage == Stage::Frozen,
         Limit::AtMost(0.2),
         "the grains' profile, 0.7 u_* a mm, shifted by a third of a spacing of 1 mm",
     ));
-    let ratio = average(data, &data.transport);
+    let ratio = data.channel.average(&data.transport);
     let within = match stage {
         Stage::Frozen => 0.1,
         _ if run.slope < 0.025 => 0.25,
         _ => 0.15,
     };
-    let metric = observed("transport_ratio", &variant, ratio, 1.0 / layer.transport(), "-").against(
+    let metric = channel::observed(TRANSPORT_RATIO, &variant, ratio, 1.0 / layer.transport()).against(
         Some(1.0),
         source,
         Confidence::Exact,

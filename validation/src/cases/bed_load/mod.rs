@@ -1,25 +1,28 @@
 //! Bed load on three slopes in three formulations.
 
 mod checks;
+mod continuum;
 mod figures;
 mod fit;
 mod metrics;
 mod observation;
 mod parameters;
 mod profiles;
+mod quantities;
 mod runs;
 mod scenes;
 mod statements;
 mod tiers;
 
+pub use continuum::ContinuumRun;
 pub use observation::BedLoadObservation;
-pub use parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns, Yield};
+pub use parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns};
 pub use runs::{BedLoadRun, Formulation};
 
 use crate::case::{Case, RecordOf, Run};
 use crate::cases::channel;
 use crate::figure::Figure;
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
 /// The case.
@@ -39,6 +42,7 @@ impl Case for BedLoad {
         that dilate. `paper` is the set-up as printed, which fails in documented ways: its metrics are observations. The \
         quick tier is too short to be stationary and says so: it judges conservation.";
     type Parameters = BedLoadParameters;
+    const QUANTITIES: &'static [Quantity] = quantities::ALL;
 
     fn metrics(_: &BedLoadParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)

@@ -6,6 +6,7 @@ use crate::reference::bed_load_layer::Closures;
 use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
 use bagnold_solver::material::dilatancy::PressureBounds;
 use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::parameter::{between, each, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -32,34 +33,14 @@ pub struct Materials {
     pub grain_diameter: f64,
 }
 
-/// The yield of a bed of single grains.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Yield {
-    /// Yield stress τ_y `[Pa]`, in the norm √(½ s:s).
-    #[schemars(transform = between(0.0, 1e6, "give it in Pa, or 0 for none"))]
-    pub yield_stress: f64,
-    /// Plastic viscosity μ `[Pa·s]`.
-    #[schemars(transform = between(0.0, 1e4, "give it in Pa·s, or 0 for none"))]
-    pub viscosity: f64,
-    /// Shear rate below which the bed creeps instead of standing still `[1/s]`.
-    #[schemars(transform = positive("give it in 1/s, well below the bed's rates, such as 0.01"))]
-    pub regularisation_rate: f64,
-    /// Largest viscosity of the yield `[Pa·s]`: that of a deep bed at rest.
-    #[schemars(transform = positive("give it in Pa·s, such as 1e4"))]
-    pub largest_viscosity: f64,
-}
-
 /// One particle a grain, over a bed whose pores hold water: `paper` as printed, `stabilised` by the recipe.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Grains {
     /// Slopes, tangents, one run each `[-]`; 0.03 is 3 %, empty for none.
     #[schemars(transform = each(rules::driving_slope()))]
     pub slopes: Vec<f64>,
-    /// Yield stress and viscosity.
-    pub material: Yield,
-    /// Friction on the weight of the grains below the top row `[-]`.
-    #[schemars(transform = between(0.0, 2.0, "0.6 for sand and gravel"))]
-    pub overburden_friction: f64,
+    /// How the grains resist a shear, a law by its name; its pressure is the weight of the grains below the top row.
+    pub material: Rheology,
     /// Depth of the bed `[m]`.
     pub bed_depth: f64,
     /// Length of the period `[m]`.
@@ -103,7 +84,7 @@ impl Stage {
     /// The pair law whose runs are judged; runs of others show what a law does. Grains in rows have no rate but that of
     /// the flow. Grains that dilate jostle: with the pair's own rate a raft of them slides on a thin layer, the faster the
     /// finer the spacing, while the averaged rate comes nearer to the layer.
-    pub(super) fn judged_pair_law(self) -> PairLaw {
+    pub(super) const fn judged_pair_law(self) -> PairLaw {
         match self {
             Self::Porous | Self::Frozen => PairLaw::PairRateMeanLoad,
             Self::Dilating => PairLaw::AveragedPairRate,

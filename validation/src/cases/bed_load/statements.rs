@@ -1,10 +1,14 @@
 //! `stabilised` against what Kazemi et al. state of the flow, and against the transport formula on the slope held out.
 
 use super::Record;
-use super::metrics::{JUDGED_FROM, average, common, grains, observed};
+use super::metrics::{JUDGED_FROM, common, grains};
 use super::observation::BedLoadObservation;
 use super::parameters::Grains;
 use super::profiles::{self, LAYERS};
+use super::quantities::{
+    LAYER_BORDER, LAYER_SLOPE, LAYER_SLOPE_RATIO, NEAR_BED_DEFICIT, NUMBER_OF_LAYERS, OUTER_DEFICIT, SEMI_LOG_SLOPE,
+    SHEARED_FROM, SHEARED_THICKNESS_GROWTH, SHEARED_UP_TO, TRANSPORT_GROWTH, TRANSPORT_RATIO,
+};
 use super::runs::{BedLoadRun, Formulation};
 use super::tiers::FITTED;
 use crate::case::Run;
@@ -13,6 +17,7 @@ use crate::metric::{Confidence, Kind, Limit, Metric, Value, Variant};
 use crate::observation::Recorded;
 use crate::reference::{HONEST_BAND, LAYER_STATEMENTS, TransportFormula};
 use crate::statistics::Segmented;
+use bagnold_solver::material::rheology::Rheology;
 
 /// A slope `[-]` that the paper makes statements of.
 struct Stated {
@@ -33,11 +38,23 @@ impl Stated {
 
 /// Says which statements nothing is judged by, for want of a run of their slope.
 pub(super) fn say_what_is_missing(records: &[Record]) {
-    let of_the_recipe = || records.iter().filter(|(run, _)| matches!(run.formulation, Formulation::Stabilised(_)));
-    if of_the_recipe().next().is_some() && !of_the_recipe().any(|(run, _)| GENTLE.is_of(run)) {
+    let runs = || records.iter().map(|(run, _)| run);
+    let of_the_recipe = || runs().filter(|run| matches!(run.formulation, Formulation::Stabilised(_)));
+    let gentle = of_the_recipe().find(|run| GENTLE.is_of(run));
+    if of_the_recipe().next().is_some() && gentle.is_none() {
         tracing::warn!(
             "no run of `stabilised` has the slope {} that the paper's statements are of: its profile and transport are \
              observed, but not judged",
+            GENTLE.slope
+        );
+    }
+    // a run too short to be judged has said so
+    let long_enough = gentle.is_some_and(|run| run.averaging_time >= JUDGED_FROM);
+    if long_enough && !of_the_recipe().any(|run| STEEP.is_of(run)) {
+        tracing::warn!(
+            "no run of `stabilised` has the slope {} beside {}: that transport and sheared layer grow with the slope is \
+             not judged",
+            STEEP.slope,
             GENTLE.slope
         );
     }
@@ -57,10 +74,11 @@ pub(super) fn stabilised(
     common(metrics, run, record);
     let judged = run.averaging_time >= JUDGED_FROM && GENTLE.is_of(run);
     // of the fitted slopes the transport says nothing
-    if judged && bed.material == FITTED {
+    if judged && bed.material == Rheology::CoulombBingham(FITTED) {
         let formula = TransportFormula::WongParker;
         let reference = formula.transport(run.stream().shields_number());
-        let ratio = observed("transport_ratio", &variant, average(data, &data.transport), 1.0 / reference, "-");
+        let ratio =
+            channel::observed(TRANSPORT_RATIO, &variant, data.channel.average(&data.transport), 1.0 / reference);
         let reason = "yield stress and viscosity are fitted to the two other slopes";
         let metric = ratio.against(Some(1.0), formula.name(), formula.confidence()).of_kind(Kind::Validation);
         metrics.push(metric.gated(Limit::Within(HONEST_BAND.0, HONEST_BAND.1), reason));
@@ -72,15 +90,15 @@ pub(super) fn stabilised(
         let estimate = profile.estimate(|points| profiles::semi_log_slope(run, points, lower, upper));
         slopes.push(estimate.value);
         let named = variant.clone().and("height", 1e3 * lower..=1e3 * upper);
-        metrics.push(observed("semi_log_slope", &named, estimate, 1.0, "-").against(
+        metrics.push(channel::observed(SEMI_LOG_SLOPE, &named, estimate, 1.0).against(
             Some(1.0),
             "u_*/κ, fitted to u over ln(z + z_0)",
             Confidence::Exact,
         ));
     }
-    let ratio = Metric::observed("layer_slope_ratio", &variant, slopes[0] / slopes[3], "-")
+    let ratio = LAYER_SLOPE_RATIO
+        .of(&variant, slopes[0] / slopes[3])
         .against(None, "statement of the paper: two layers at 3 %, the lower one less steep", Confidence::Medium)
-        .of_kind(Kind::Validation)
         .with_snapshot_tolerance(0.1, 0.0);
     metrics.push(gated(
         ratio,
@@ -89,20 +107,22 @@ pub(super) fn stabilised(
     ));
     layers(metrics, run, record);
     let near = profile.estimate(|points| profiles::deficit(run, points, 2.5e-3));
-    let deficit = observed("near_bed_deficit", &variant, near, 1.0, "u_*")
-        .against(None, "statement of the paper: near the bed slower than clear water", Confidence::Medium)
-        .of_kind(Kind::Validation);
+    let deficit = channel::observed(NEAR_BED_DEFICIT, &variant, near, 1.0).against(
+        None,
+        "statement of the paper: near the bed slower than clear water",
+        Confidence::Medium,
+    );
     metrics.push(gated(deficit, Limit::AtMost(-0.1), "slower than clear water by a tenth of u_*"));
     let far = profile.estimate(|points| profiles::deficit(run, points, 0.5 * run.materials.depth));
-    metrics.push(
-        observed("outer_deficit", &variant, far, 1.0, "u_*")
-            .against(Some(0.0), "statement of the paper: above as fast as clear water", Confidence::Medium)
-            .of_kind(Kind::Validation),
-    );
+    metrics.push(channel::observed(OUTER_DEFICIT, &variant, far, 1.0).against(
+        Some(0.0),
+        "statement of the paper: above as fast as clear water",
+        Confidence::Medium,
+    ));
     let above = profile.estimate(|points| profiles::sheared_borders(run, points).1);
-    metrics.push(observed("sheared_up_to", &variant, above, 1e3, "mm"));
+    metrics.push(channel::observed(SHEARED_UP_TO, &variant, above, 1e3));
     let below = profile.estimate(|points| profiles::sheared_borders(run, points).0);
-    metrics.push(observed("sheared_from", &variant, below, 1e3, "mm"));
+    metrics.push(channel::observed(SHEARED_FROM, &variant, below, 1e3));
     grains(metrics, run, data);
 }
 
@@ -114,13 +134,13 @@ fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoad
     // of 2 % the paper says nothing
     let published = LAYER_STATEMENTS.iter().find(|statement| statement.slope == run.slope);
     metrics.push(
-        Metric::observed("number_of_layers", &variant, count as f64, "-")
+        NUMBER_OF_LAYERS
+            .of(&variant, count as f64)
             .against(
                 published.map(|statement| statement.layers),
                 "statement of the paper: two layers at 3 %, three at 5 %",
                 published.map_or(Confidence::Medium, |statement| statement.confidence),
             )
-            .of_kind(Kind::Validation)
             // a break more or less is no drift of the flow
             .with_snapshot_tolerance(0.0, 1.0),
     );
@@ -131,10 +151,10 @@ fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoad
         };
         let named = variant.clone().and("layer", layer + 1);
         let slope = of(&|fit| fit.slopes[layer] / scale);
-        metrics.push(observed("layer_slope", &named, slope, 1.0, "-").against(Some(1.0), "u_*/κ", Confidence::Exact));
+        metrics.push(channel::observed(LAYER_SLOPE, &named, slope, 1.0).against(Some(1.0), "u_*/κ", Confidence::Exact));
         if layer + 1 < count {
             let border = of(&|fit| profiles::height_of(run, fit.breaks[layer]));
-            metrics.push(observed("layer_border", &named, border, 1.0 / run.materials.grain_diameter, "d"));
+            metrics.push(channel::observed(LAYER_BORDER, &named, border, 1.0 / run.materials.grain_diameter));
         }
     }
 }
@@ -149,22 +169,22 @@ pub(super) fn growth(metrics: &mut Vec<Metric>, records: &[Record]) {
     if low_run.averaging_time < JUDGED_FROM {
         return;
     }
-    let transport = |record: &Recorded<BedLoadObservation>| average(&record.data, &record.data.transport).value;
+    let transport = |record: &Recorded<BedLoadObservation>| record.data.channel.average(&record.data.transport).value;
     let thickness = |run: &BedLoadRun, record: &Recorded<BedLoadObservation>| {
         let (lower, upper) = profiles::sheared_borders(run, &record.data.channel.profile.points());
         upper - lower
     };
     let values = [
-        ("transport_growth", transport(high) / transport(low)),
-        ("sheared_thickness_growth", thickness(high_run, high) / thickness(low_run, low)),
+        (TRANSPORT_GROWTH, transport(high) / transport(low)),
+        (SHEARED_THICKNESS_GROWTH, thickness(high_run, high) / thickness(low_run, low)),
     ];
     let slopes = Value::list([low_run.slope, high_run.slope]);
     let variant = Variant::of("formulation", "stabilised").and("slope", slopes);
-    for (name, value) in values {
+    for (quantity, value) in values {
         metrics.push(
-            Metric::observed(name, &variant, value, "-")
+            quantity
+                .of(&variant, value)
                 .against(None, "statement of the paper: larger at 5 % than at 3 %", Confidence::Medium)
-                .of_kind(Kind::Validation)
                 .gated(Limit::AtLeast(1.05), "larger by more than the scatter of repeats, 3 %")
                 .with_snapshot_tolerance(0.05, 0.0),
         );

@@ -1,6 +1,6 @@
 //! What each tier runs.
 
-use super::parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns, Yield};
+use super::parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns};
 use super::runs::{self, BedLoadRun};
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::channel::TurbulenceClosure;
@@ -8,131 +8,33 @@ use crate::reference::bed_load_layer::Closures;
 use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
 use bagnold_solver::material::dilatancy::PressureBounds;
 use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
 use bagnold_solver::material::turbulence::MixingLengthShape;
 
 /// Fitted to Wong & Parker at 2 and 5 %; 3 % is held out.
-pub(super) const FITTED: Yield =
-    Yield { yield_stress: 5.1, viscosity: 1.67, regularisation_rate: 0.01, largest_viscosity: 1e4 };
+pub(super) const FITTED: CoulombBingham = CoulombBingham {
+    yield_stress: 5.1,
+    friction: 0.6,
+    plastic_viscosity: 1.67,
+    regularisation_rate: 0.01,
+    largest_viscosity: 1e4,
+};
+
+/// The slopes of the paper `[-]`.
+const SLOPES: [f64; 3] = [0.02, 0.03, 0.05];
+
+/// The pair laws by which grains in rows are judged, and grains that jostle.
+const ROWS: [PairLaw; 1] = [Stage::Frozen.judged_pair_law()];
+const JOSTLING: [PairLaw; 1] = [Stage::Dilating.judged_pair_law()];
 
 impl Parameters for BedLoadParameters {
     type Run = BedLoadRun;
 
     fn of_tier(tier: Tier) -> Self {
-        let stabilised = Grains {
-            slopes: vec![0.03],
-            material: FITTED,
-            overburden_friction: 0.6,
-            bed_depth: 0.03,
-            length: 0.04,
-            spacing: 2e-3,
-            turbulence: TurbulenceClosure::MixingLength { shape: MixingLengthShape::Parabolic },
-            origin_offset: 6e-4,
-            drag: DragLaw::MorsiAlexander,
-            drag_factor: 1.0,
-            drag_smoothing_length: 3e-3,
-            duration: 1.0,
-            averaging_time: 0.6,
-            numerics: ProjectionNumerics::default(),
-        };
-        let paper = Grains {
-            slopes: Vec::new(),
-            // printed with |S| = √(S:S): 863 Pa in this norm; the bed is rigid with either
-            material: Yield { yield_stress: 1220.0, viscosity: 0.26, ..FITTED },
-            overburden_friction: 0.0,
-            bed_depth: 0.08,
-            drag_smoothing_length: 6e-3,
-            duration: 1.0,
-            averaging_time: 0.5,
-            numerics: ProjectionNumerics::paper(),
-            ..stabilised.clone()
-        };
-        let runs = |stage, slopes: &[f64], pair_laws: &[PairLaw], starts: &[f64], duration: f64| StageRuns {
-            stage,
-            slopes: slopes.to_vec(),
-            pair_laws: pair_laws.to_vec(),
-            starts: starts.to_vec(),
-            spacings: vec![1e-3],
-            duration,
-            averaging_time: 0.4 * duration,
-        };
-        let (rows, jostling) = ([Stage::Frozen.judged_pair_law()], [Stage::Dilating.judged_pair_law()]);
-        let all = [0.02, 0.03, 0.05];
-        let quick = Self {
-            materials: Materials {
-                depth: 0.046,
-                gravity: 9.81,
-                fluid_density: 1000.0,
-                kinematic_viscosity: 1e-6,
-                grain_density: 2600.0,
-                grain_diameter: 5e-3,
-            },
-            paper,
-            stabilised,
-            continuum: Continuum {
-                runs: vec![runs(Stage::Porous, &[0.03], &rows, &[1.0], 0.5)],
-                bed_depth: 0.016,
-                held_depth: 0.004,
-                length: 0.01,
-                closures: Closures::default(),
-                least_fraction: 2e-3,
-                pressure_bounds: PressureBounds::default(),
-                smoothing_ratio: 1.5,
-                sediment_jitter: 0.3,
-                numerics: ProjectionNumerics { time_step: 1.5e-4, ..ProjectionNumerics::default() },
-            },
-            fit: Fit {
-                yield_stresses: Vec::new(),
-                viscosities: Vec::new(),
-                slopes: vec![0.02, 0.03, 0.05],
-                duration: 3.0,
-                averaging_time: 1.5,
-            },
-            jitter: 1e-3,
-            seed: 1,
-        };
-        let paper_tier = Self {
-            paper: Grains { slopes: vec![0.02, 0.03, 0.05], ..quick.paper.clone() },
-            stabilised: Grains {
-                slopes: vec![0.02, 0.03, 0.05],
-                duration: 8.0,
-                averaging_time: 3.0,
-                ..quick.stabilised.clone()
-            },
-            continuum: Continuum {
-                runs: vec![
-                    runs(Stage::Porous, &all, &rows, &[1.0], 4.0),
-                    runs(Stage::Frozen, &[0.03, 0.05], &rows, &[1.0], 4.0),
-                    // grains that move in less than a spacing slow down for long
-                    runs(Stage::Frozen, &[0.02], &rows, &[1.0], 16.0),
-                    runs(Stage::Frozen, &[0.03], &[PairLaw::PairRate, PairLaw::HarmonicMean], &[1.0], 4.0),
-                    runs(Stage::Dilating, &all, &jostling, &[1.0], 4.0),
-                    runs(Stage::Dilating, &[0.03], &jostling, &[0.3], 12.0),
-                    runs(Stage::Dilating, &all, &[PairLaw::PairRateMeanLoad], &[1.0], 4.0),
-                ],
-                ..quick.continuum.clone()
-            },
-            ..quick.clone()
-        };
         match tier {
-            Tier::Quick => quick,
-            Tier::Paper => paper_tier,
-            Tier::Fine => Self {
-                paper: Grains { slopes: Vec::new(), ..quick.paper.clone() },
-                stabilised: Grains { slopes: Vec::new(), ..quick.stabilised.clone() },
-                continuum: Continuum {
-                    runs: vec![StageRuns {
-                        spacings: vec![7e-4, 5e-4],
-                        ..runs(Stage::Dilating, &all, &jostling, &[1.0, 0.3], 4.0)
-                    }],
-                    ..quick.continuum.clone()
-                },
-                fit: Fit {
-                    yield_stresses: vec![1.0, 4.0, 7.0, 10.0],
-                    viscosities: vec![0.7, 2.0],
-                    ..quick.fit.clone()
-                },
-                ..quick
-            },
+            Tier::Quick => quick(),
+            Tier::Paper => paper(quick()),
+            Tier::Fine => fine(quick()),
         }
     }
 
@@ -142,5 +44,128 @@ impl Parameters for BedLoadParameters {
 
     fn runs(&self) -> Vec<BedLoadRun> {
         runs::runs(self)
+    }
+}
+
+/// One particle a grain, by the recipe and as printed.
+fn grains() -> (Grains, Grains) {
+    let stabilised = Grains {
+        slopes: vec![0.03],
+        material: Rheology::CoulombBingham(FITTED),
+        bed_depth: 0.03,
+        length: 0.04,
+        spacing: 2e-3,
+        turbulence: TurbulenceClosure::MixingLength { shape: MixingLengthShape::Parabolic },
+        origin_offset: 6e-4,
+        drag: DragLaw::MorsiAlexander,
+        drag_factor: 1.0,
+        drag_smoothing_length: 3e-3,
+        duration: 1.0,
+        averaging_time: 0.6,
+        numerics: ProjectionNumerics::default(),
+    };
+    let paper = Grains {
+        slopes: Vec::new(),
+        // printed with |S| = √(S:S): 863 Pa in this norm; the bed is rigid with either
+        material: Rheology::CoulombBingham(CoulombBingham {
+            yield_stress: 1220.0,
+            friction: 0.0,
+            plastic_viscosity: 0.26,
+            ..FITTED
+        }),
+        bed_depth: 0.08,
+        drag_smoothing_length: 6e-3,
+        duration: 1.0,
+        averaging_time: 0.5,
+        numerics: ProjectionNumerics::paper(),
+        ..stabilised.clone()
+    };
+    (stabilised, paper)
+}
+
+/// Runs of one stage at a spacing of 1 mm, averaged over the last two fifths.
+fn stage(stage: Stage, slopes: &[f64], pair_laws: &[PairLaw], starts: &[f64], duration: f64) -> StageRuns {
+    StageRuns {
+        stage,
+        slopes: slopes.to_vec(),
+        pair_laws: pair_laws.to_vec(),
+        starts: starts.to_vec(),
+        spacings: vec![1e-3],
+        duration,
+        averaging_time: 0.4 * duration,
+    }
+}
+
+fn quick() -> BedLoadParameters {
+    let (stabilised, paper) = grains();
+    BedLoadParameters {
+        materials: Materials {
+            depth: 0.046,
+            gravity: 9.81,
+            fluid_density: 1000.0,
+            kinematic_viscosity: 1e-6,
+            grain_density: 2600.0,
+            grain_diameter: 5e-3,
+        },
+        paper,
+        stabilised,
+        continuum: Continuum {
+            runs: vec![stage(Stage::Porous, &[0.03], &ROWS, &[1.0], 0.5)],
+            bed_depth: 0.016,
+            held_depth: 0.004,
+            length: 0.01,
+            closures: Closures::default(),
+            least_fraction: 2e-3,
+            pressure_bounds: PressureBounds::default(),
+            smoothing_ratio: 1.5,
+            sediment_jitter: 0.3,
+            numerics: ProjectionNumerics { time_step: 1.5e-4, ..ProjectionNumerics::default() },
+        },
+        fit: Fit {
+            yield_stresses: Vec::new(),
+            viscosities: Vec::new(),
+            slopes: SLOPES.to_vec(),
+            duration: 3.0,
+            averaging_time: 1.5,
+        },
+        jitter: 1e-3,
+        seed: 1,
+    }
+}
+
+fn paper(quick: BedLoadParameters) -> BedLoadParameters {
+    BedLoadParameters {
+        paper: Grains { slopes: SLOPES.to_vec(), ..quick.paper },
+        stabilised: Grains { slopes: SLOPES.to_vec(), duration: 8.0, averaging_time: 3.0, ..quick.stabilised },
+        continuum: Continuum {
+            runs: vec![
+                stage(Stage::Porous, &SLOPES, &ROWS, &[1.0], 4.0),
+                stage(Stage::Frozen, &[0.03, 0.05], &ROWS, &[1.0], 4.0),
+                // grains that move in less than a spacing slow down for long
+                stage(Stage::Frozen, &[0.02], &ROWS, &[1.0], 16.0),
+                stage(Stage::Frozen, &[0.03], &[PairLaw::PairRate, PairLaw::HarmonicMean], &[1.0], 4.0),
+                stage(Stage::Dilating, &SLOPES, &JOSTLING, &[1.0], 4.0),
+                stage(Stage::Dilating, &[0.03], &JOSTLING, &[0.3], 12.0),
+                stage(Stage::Dilating, &SLOPES, &[PairLaw::PairRateMeanLoad], &[1.0], 4.0),
+            ],
+            ..quick.continuum
+        },
+        ..quick
+    }
+}
+
+fn fine(quick: BedLoadParameters) -> BedLoadParameters {
+    BedLoadParameters {
+        paper: Grains { slopes: Vec::new(), ..quick.paper },
+        stabilised: Grains { slopes: Vec::new(), ..quick.stabilised },
+        continuum: Continuum {
+            runs: vec![StageRuns {
+                spacings: vec![7e-4, 5e-4],
+                ..stage(Stage::Dilating, &SLOPES, &JOSTLING, &[1.0, 0.3], 4.0)
+            }],
+            ..quick.continuum
+        },
+        fit: Fit { yield_stresses: vec![1.0, 4.0, 7.0, 10.0], viscosities: vec![0.7, 2.0], ..quick.fit },
+        ..quick
     }
 }

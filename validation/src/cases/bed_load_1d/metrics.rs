@@ -3,10 +3,67 @@
 use super::Record;
 use super::runs::{BedLoad1dRun, Purpose};
 use crate::case::Run;
-use crate::metric::{Confidence, Kind, Limit, Metric, Value, Variant};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
 use crate::observation::Outcome;
 use crate::reference::bed_load_layer::LayerState;
 use crate::reference::{TransportFormula, roughness_ratio};
+
+const TRANSPORT_RATIO: Quantity = Quantity::validated("transport_ratio", "-", "q* over that of the formula");
+const TRANSPORT: Quantity =
+    Quantity::validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)");
+const MEAN_FLUID_VELOCITY: Quantity =
+    Quantity::verified("mean_fluid_velocity", "m/s", "depth mean of the water's velocity");
+const STRESS_BALANCE_ERROR: Quantity =
+    Quantity::verified("stress_balance_error", "-", "what both stresses do not carry of the weight above");
+const DRAG_BALANCE_ERROR: Quantity =
+    Quantity::verified("drag_balance_error", "-", "what the drag does not balance of the grains' stress and weight");
+const START_DIFFERENCE: Quantity =
+    Quantity::verified("start_difference", "-", "difference between the steady states from rest and from a fast start");
+const OBSERVED_ORDER: Quantity =
+    Quantity::verified("observed_order", "-", "order of convergence with the height of a cell");
+const MOVES_ABOVE: Quantity =
+    Quantity::verified("moves_above", "mm", "lowest height at which grains are faster than 1 cm/s");
+const TOP_OF_GRAINS: Quantity = Quantity::verified("top_of_grains", "mm", "height up to which there are grains");
+const DECAY_LENGTH: Quantity =
+    Quantity::verified("decay_length", "mm", "length over which the velocity of the grains falls by e in the bed");
+const DRAG_PEAK_HEIGHT: Quantity =
+    Quantity::verified("drag_peak_height", "mm", "where the drag on the grains is greatest");
+const DRAG_FROM: Quantity =
+    Quantity::verified("drag_from", "mm", "lower end of the range in which it exceeds a tenth of that");
+const DRAG_TO: Quantity = Quantity::verified("drag_to", "mm", "its upper end");
+const LOGARITHMIC_SLOPE: Quantity = Quantity::verified(
+    "logarithmic_slope",
+    "-",
+    "slope of the water's velocity over ln z in a range of heights, over u_*/κ",
+);
+const VELOCITY_DEFICIT: Quantity =
+    Quantity::verified("velocity_deficit", "u_*", "velocity of the water less clear water's at a height");
+const MOTION_DEPTH_GROWTH: Quantity =
+    Quantity::validated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next");
+const DECAY_LENGTH_GROWTH: Quantity = Quantity::validated("decay_length_growth", "-", "the same of the decay length");
+const TRANSPORT_SENSITIVITY: Quantity =
+    Quantity::verified("transport_sensitivity", "-", "q* with a replaced closure over that of the literature's");
+
+pub(super) const QUANTITIES: &[Quantity] = &[
+    TRANSPORT_RATIO,
+    TRANSPORT,
+    MEAN_FLUID_VELOCITY,
+    STRESS_BALANCE_ERROR,
+    DRAG_BALANCE_ERROR,
+    START_DIFFERENCE,
+    OBSERVED_ORDER,
+    MOVES_ABOVE,
+    TOP_OF_GRAINS,
+    DECAY_LENGTH,
+    DRAG_PEAK_HEIGHT,
+    DRAG_FROM,
+    DRAG_TO,
+    LOGARITHMIC_SLOPE,
+    VELOCITY_DEFICIT,
+    MOTION_DEPTH_GROWTH,
+    DECAY_LENGTH_GROWTH,
+    TRANSPORT_SENSITIVITY,
+];
 
 /// Speed above which a grain counts as moving `[m/s]`.
 pub(super) const MOVING: f64 = 0.01;
@@ -66,7 +123,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
         if let Some((_, own)) = literature(records).find(|(other, _)| other.stream.slope == run.stream.slope) {
             let ratio = state.transport() / own.transport();
             metrics.push(
-                Metric::observed("transport_sensitivity", &run.variant(), ratio, "-")
+                TRANSPORT_SENSITIVITY
+                    .of(&run.variant(), ratio)
                     .against(Some(1.0), "the layer with the literature's closures", Confidence::Exact)
                     .with_snapshot_tolerance(1e-3, 0.0),
             );
@@ -82,8 +140,8 @@ fn transport(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) 
     let variant = run.variant();
     if expected > 0.0 {
         metrics.push(
-            Metric::observed("transport_ratio", &variant, state.transport() / expected, "-")
-                .of_kind(Kind::Validation)
+            TRANSPORT_RATIO
+                .of(&variant, state.transport() / expected)
                 .against(Some(1.0), formula.name(), formula.confidence())
                 .gated(
                     Limit::Within(0.8, 1.25),
@@ -93,30 +151,28 @@ fn transport(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) 
         );
     }
     metrics.push(
-        Metric::observed("transport", &variant, state.transport(), "-")
-            .of_kind(Kind::Validation)
+        TRANSPORT
+            .of(&variant, state.transport())
             .against(Some(expected), formula.name(), formula.confidence())
             .with_snapshot_tolerance(1e-3, 0.0),
     );
-    metrics.push(
-        Metric::observed("mean_fluid_velocity", &variant, state.mean_fluid_velocity(), "m/s")
-            .with_snapshot_tolerance(1e-3, 0.0),
-    );
+    metrics.push(MEAN_FLUID_VELOCITY.of(&variant, state.mean_fluid_velocity()).with_snapshot_tolerance(1e-3, 0.0));
 }
 
 /// Both balances of momentum.
 fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
     let errors = [
-        ("stress_balance_error", state.stress_balance_error(), "τ_f + τ_s = g sinθ ∫ ρ dz, error over ρ_f g h tanθ"),
+        (STRESS_BALANCE_ERROR, state.stress_balance_error(), "τ_f + τ_s = g sinθ ∫ ρ dz, error over ρ_f g h tanθ"),
         (
-            "drag_balance_error",
+            DRAG_BALANCE_ERROR,
             state.drag_balance_error(),
             "K (u_f − u_s) = −∂τ_s/∂z − φ ρ_s g sinθ, error over the largest drag",
         ),
     ];
-    for (name, error, identity) in errors {
+    for (quantity, error, identity) in errors {
         metrics.push(
-            Metric::observed(name, &run.variant(), error, "-")
+            quantity
+                .of(&run.variant(), error)
                 .against(Some(0.0), identity, Confidence::Exact)
                 .gated(Limit::AtMost(1e-5), "holds in any steady state whatever the closures are")
                 .with_snapshot_tolerance(1.0, 1e-5),
@@ -131,7 +187,8 @@ fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast:
     // the two starts of the runs behind it, as one word
     let variant = Variant::of("slope", run.stream.slope).and("start", "rest_fast");
     metrics.push(
-        Metric::observed("start_difference", &variant, difference, "-")
+        START_DIFFERENCE
+            .of(&variant, difference)
             .against(Some(0.0), "the layer from rest: q*, u_f and φ u_s", Confidence::Exact)
             .gated(Limit::AtMost(1e-3), "a steady state does not remember its start")
             .with_snapshot_tolerance(1.0, 1e-5),
@@ -146,7 +203,8 @@ fn order(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, study: &[&LayerState], p
     let heights = Value::list(study.iter().map(|state| state.cell_height));
     let variant = Variant::of("slope", run.stream.slope).and("grains", purpose.grains()).and("cell_height", heights);
     metrics.push(
-        Metric::observed("observed_order", &variant, libm::log2(coarse / fine), "-")
+        OBSERVED_ORDER
+            .of(&variant, libm::log2(coarse / fine))
             .against(Some(2.0), MODEL, Confidence::Exact)
             .gated(Limit::AtLeast(least), "second order with a given fraction, at least first with dilation")
             .with_snapshot_tolerance(0.02, 0.0),
@@ -164,23 +222,24 @@ pub(super) fn difference(coarse: &LayerState, fine: &LayerState, purpose: Purpos
 /// What the profiles look like: observed, for there is no table to gate them by.
 fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
     let variant = run.variant();
-    let millimetres = |name: &str, value: Option<f64>| {
-        Metric::observed(name, &variant, 1e3 * value.unwrap_or(f64::NAN), "mm").with_snapshot_tolerance(0.01, 0.01)
+    let millimetres = |quantity: Quantity, value: Option<f64>| {
+        quantity.of(&variant, 1e3 * value.unwrap_or(f64::NAN)).with_snapshot_tolerance(0.01, 0.01)
     };
     let drag = state.drag_peak(DRAG_RANGE);
     metrics.extend([
-        millimetres("moves_above", state.moves_above(MOVING)),
-        millimetres("top_of_grains", Some(state.top_of_grains())),
-        millimetres("decay_length", state.decay_length(TAIL)),
-        millimetres("drag_peak_height", Some(drag.height)),
-        millimetres("drag_from", Some(drag.from)),
-        millimetres("drag_to", Some(drag.to)),
+        millimetres(MOVES_ABOVE, state.moves_above(MOVING)),
+        millimetres(TOP_OF_GRAINS, Some(state.top_of_grains())),
+        millimetres(DECAY_LENGTH, state.decay_length(TAIL)),
+        millimetres(DRAG_PEAK_HEIGHT, Some(drag.height)),
+        millimetres(DRAG_FROM, Some(drag.from)),
+        millimetres(DRAG_TO, Some(drag.to)),
     ]);
     for (from, to) in LOGARITHMIC_RANGES {
         if let Some(slope) = state.logarithmic_slope(1e-3 * from, 1e-3 * to, run.closures.karman) {
             let variant = variant.clone().and("height", from..=to);
             metrics.push(
-                Metric::observed("logarithmic_slope", &variant, slope, "-")
+                LOGARITHMIC_SLOPE
+                    .of(&variant, slope)
                     .against(Some(1.0), "clear water, du_f/d ln z = u_*/κ", Confidence::High)
                     .with_snapshot_tolerance(0.01, 0.0),
             );
@@ -190,7 +249,8 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
         let deficit = state.at(height).fluid_velocity / run.stream.shear_velocity() - log_law(run, height);
         let variant = variant.clone().and("height", 1e3 * height);
         metrics.push(
-            Metric::observed("velocity_deficit", &variant, deficit, "u_*")
+            VELOCITY_DEFICIT
+                .of(&variant, deficit)
                 .against(Some(0.0), "rough-wall log law of clear water, z_0 = d/30", Confidence::High)
                 .with_snapshot_tolerance(0.01, 0.01),
         );
@@ -219,10 +279,10 @@ fn with_slope(metrics: &mut Vec<Metric>, layers: &[(&BedLoad1dRun, &LayerState)]
     };
     let depth = growth(|state| state.moves_above(MOVING).map(|z| -z));
     let decay = growth(|state| state.decay_length(TAIL));
-    for (name, value) in [("motion_depth_growth", depth), ("decay_length_growth", decay)] {
+    for (quantity, value) in [(MOTION_DEPTH_GROWTH, depth), (DECAY_LENGTH_GROWTH, decay)] {
         metrics.push(
-            Metric::observed(name, &variant, value, "-")
-                .of_kind(Kind::Validation)
+            quantity
+                .of(&variant, value)
                 .against(
                     None,
                     "the bed-load paper's figures 10 and 11: motion reaches deeper on the steeper slope",

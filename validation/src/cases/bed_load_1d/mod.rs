@@ -6,14 +6,13 @@ mod parameters;
 mod runs;
 mod sensitivities;
 
-pub(in crate::cases) use parameters::closures;
 pub use parameters::{BedLoad1dParameters, Grain, Water};
 pub use runs::{BedLoad1dRun, LayerObservation, Purpose};
 pub use sensitivities::Sensitivities;
 
 use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
 /// The case.
@@ -35,6 +34,7 @@ impl Case for BedLoad1d {
         shares their physics, so that agreement of the two verifies and does not validate. Sensitivities (paper tier) \
         tell which closure the transport hangs on.";
     type Parameters = BedLoad1dParameters;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &BedLoad1dParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)

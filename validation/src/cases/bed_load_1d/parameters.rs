@@ -108,7 +108,7 @@ impl Parameters for BedLoad1dParameters {
             let (rule, remedy) = ("greater than the density of the water", "grains that float are no bed load");
             return Err(ParameterError::field("grains.density", grains.density, rule, remedy));
         }
-        closures("closures", &self.closures)?;
+        rules::refuse("closures", self.closures.problem())?;
         self.cells("cell_height", self.cell_height)?;
         for (name, heights) in
             [("dilating_cell_heights", &self.dilating_cell_heights), ("frozen_cell_heights", &self.frozen_cell_heights)]
@@ -161,15 +161,4 @@ impl BedLoad1dParameters {
             "2.5e-4 divides all depths that are given in quarters of a millimetre",
         ))
     }
-}
-
-/// The rule between the closures.
-pub(in crate::cases) fn closures(path: &str, closures: &Closures) -> Result<(), ParameterError> {
-    rules::refuse(&format!("{path}.suspension_viscosity"), closures.suspension_viscosity.pole_problem())?;
-    if closures.limiting_friction > closures.static_friction {
-        return Ok(());
-    }
-    let remedy = "friction grows from μ_s at rest to μ_2 in fast shear";
-    let field = format!("{path}.limiting_friction");
-    Err(ParameterError::field(&field, closures.limiting_friction, "greater than the static friction", remedy))
 }

@@ -3,9 +3,10 @@
 use super::Record;
 use super::figures::percent;
 use super::metrics::of;
-use super::parameters::{BedLoad1dParameters, closures};
+use super::parameters::BedLoad1dParameters;
 use super::runs::{BedLoad1dRun, Purpose};
 use crate::case::ParameterError;
+use crate::cases::rules;
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
 use crate::reference::TransportFormula;
 use crate::reference::bed_load_layer::{Closures, LayerState, MixingLength};
@@ -110,7 +111,7 @@ impl Sensitivities {
     pub(super) fn check(&self, parameters: &BedLoad1dParameters) -> Result<(), ParameterError> {
         for replaced in self.all() {
             let (changed, cell_height) = replaced.apply(parameters.closures, parameters.cell_height);
-            closures("sensitivities", &changed)?;
+            rules::refuse("sensitivities", changed.problem())?;
             parameters.cells("sensitivities.cell_height", cell_height)?;
         }
         Ok(())

@@ -2,6 +2,7 @@
 //! incompressible model share.
 //!
 //! - [`Lattice`]: rows and columns of particles, displaced or not; walls are the rows below one.
+//! - [`Water`]: the parameters that the cases without a sediment share.
 //! - [`Channel`]: fluid, floor, body force, start, numerics and how long it runs. [`Channel::scene`] gives the scene,
 //!   [`Channel::run`] the record; [`Channel::run_observed`] also shows the simulation at every sample, for what a case
 //!   measures beside. A sediment is handed through as the solver takes it.
@@ -15,6 +16,7 @@
 //! body force is (g i, −g), as in the bed-load paper.
 
 mod closure;
+mod metrics;
 mod probe;
 mod profile;
 mod scene;
@@ -22,17 +24,22 @@ mod stationarity;
 mod tables;
 #[cfg(test)]
 mod tests;
+mod water;
 
 pub use closure::TurbulenceClosure;
+pub use metrics::{
+    BED_SHEAR, HEIGHT_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST, PRESSURE_L2, VELOCITY_DRIFT, bed_shear, height_change,
+    momentum_residual, observed, particles_lost, pressure_l2, velocity_drift,
+};
 pub use probe::{ChannelObservation, ChannelSeries, MomentumBalance};
 pub use profile::{BlockProfile, BlockSums, ProfilePoint};
 pub use scene::Lattice;
 pub use stationarity::Mark;
-pub use tables::tables;
+pub use tables::{tables, tables_of_runs};
+pub use water::Water;
 
 use crate::case::Progress;
 use crate::cases::recording::Ending;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
 use crate::observation::{Frame, Recorded};
 use bagnold_solver::incompressible::{
     Bed, IncompressibleSimulation, ProjectionNumerics, Sediment, SolidFraction, Turbulence,
@@ -100,7 +107,32 @@ pub struct Channel<'a> {
     pub may_diverge: bool,
 }
 
-impl Channel<'_> {
+impl<'a> Channel<'a> {
+    /// A fluid without viscosity that slips along a level floor, and runs for no time: a case changes what it needs.
+    #[must_use]
+    pub fn of(fluid: Lattice, density: f64, gravity: f64, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Self {
+        Self {
+            fluid,
+            slope: 0.0,
+            gravity,
+            density,
+            kinematic_viscosity: 0.0,
+            turbulence: Turbulence::Laminar,
+            bed: Bed::Slip,
+            jitter: 0.0,
+            seed: 0,
+            velocity,
+            sediment: None,
+            solid_fraction: SolidFraction::Overlapping,
+            numerics: ProjectionNumerics::default(),
+            until: Until::Time(0.0),
+            window: 0.0,
+            interval: 5e-3,
+            frames: 2,
+            may_diverge: false,
+        }
+    }
+
     /// Longest time that the run may take `[s]`.
     #[must_use]
     pub fn longest(&self) -> f64 {
@@ -170,40 +202,4 @@ impl Channel<'_> {
         };
         Ok(ending.record(&simulation, |_| probe.finish()))
     }
-}
-
-/// Particles that are no longer in the channel.
-pub const PARTICLES_LOST: Quantity =
-    Quantity::verified("particles_lost", "-", "particles that ended below the floor or far above the surface");
-/// How well momentum along the floor closes.
-pub const MOMENTUM_RESIDUAL: Quantity = Quantity::verified(
-    "momentum_residual",
-    "-",
-    "change of momentum less gravity and friction of the bed, over the impulse of the slope",
-);
-
-/// The number of particles that ended below the floor or far above the surface, gated at 0.
-#[must_use]
-pub fn particles_lost(variant: &Variant, record: &Recorded<ChannelObservation>) -> Metric {
-    PARTICLES_LOST
-        .of(variant, record.data.particles_lost as f64)
-        .against(Some(0.0), "no particle passes a wall", Confidence::Exact)
-        .gated(Limit::AtMost(0.0), "a particle below the floor is lost mass")
-}
-
-/// How far momentum along the floor closes over the averaging window, over the impulse of the slope `[-]`, gated.
-#[must_use]
-pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation>) -> Metric {
-    MOMENTUM_RESIDUAL
-        .of(variant, record.data.momentum.residual())
-        .against(
-            Some(0.0),
-            "change of momentum = gravity − friction of the bed, summed over every step",
-            Confidence::Exact,
-        )
-        .gated(
-            Limit::Within(-1e-6, 1e-6),
-            "pairs exchange equal and opposite impulses: rounding, not a tolerance of a solve",
-        )
-        .with_snapshot_tolerance(0.0, 1e-9)
 }

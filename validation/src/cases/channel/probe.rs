@@ -30,6 +30,12 @@ pub struct ChannelSeries {
 }
 
 impl ChannelSeries {
+    /// Points of a curve over time: (t `[s]`, value over `scale`).
+    #[must_use]
+    pub fn curve(&self, array: &[f64], scale: f64) -> Vec<(f64, f64)> {
+        self.time.iter().copied().zip(array.iter().map(|value| value / scale)).collect()
+    }
+
     /// The samples of an array at times in a window `[s]`.
     #[must_use]
     pub fn within(&self, array: &[f64], window: (f64, f64)) -> Vec<f64> {

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::observation::Outcome;
-use bagnold_solver::incompressible::ProjectionNumerics;
 
 struct Unseen;
 
@@ -20,24 +19,15 @@ fn exact(z: f64) -> f64 {
 
 fn film(until: Until, window: f64) -> Channel<'static> {
     Channel {
-        fluid: Lattice { spacing: 2e-3, rows: 6, columns: 6, bottom: 0.0 },
         slope: SLOPE,
-        gravity: 9.81,
-        density: 1000.0,
         kinematic_viscosity: VISCOSITY,
-        turbulence: Turbulence::Laminar,
         bed: Bed::NoSlip(0.0),
         jitter: 0.1,
         seed: 3,
-        velocity: &exact,
-        sediment: None,
-        solid_fraction: SolidFraction::Overlapping,
-        numerics: ProjectionNumerics::default(),
         until,
         window,
         interval: 1e-3,
-        frames: 2,
-        may_diverge: false,
+        ..Channel::of(Lattice { spacing: 2e-3, rows: 6, columns: 6, bottom: 0.0 }, 1000.0, 9.81, &exact)
     }
 }
 

@@ -61,12 +61,14 @@ fn over_time(records: &[Record]) -> Figure {
         let data = &record.data;
         let series = &data.series;
         longest = longest.max(record.simulated_time);
-        let line = |values: &[f64], scale: f64| {
-            series.time.iter().copied().zip(values.iter().map(|value| value / scale)).collect::<Vec<_>>()
-        };
         let mean = law.mean_velocity();
-        velocity.series.push(Series::new(&label(run.slope), Mark::Line, slot, line(&series.mean_velocity, mean)));
-        shear.series.push(Series::new("", Mark::Line, slot, line(&series.bed_shear, law.bed_shear_stress())));
+        velocity.series.push(Series::new(
+            &label(run.slope),
+            Mark::Line,
+            slot,
+            series.curve(&series.mean_velocity, mean),
+        ));
+        shear.series.push(Series::new("", Mark::Line, slot, series.curve(&series.bed_shear, law.bed_shear_stress())));
         let marks = data.marks.iter().map(|mark| (mark.time, mark.mean_velocity / mean)).collect();
         intervals.push(Series::new("", Mark::Points, slot, marks));
     }

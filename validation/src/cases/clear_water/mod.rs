@@ -4,12 +4,12 @@ mod figures;
 mod metrics;
 mod parameters;
 
-pub use parameters::{ClearWaterParameters, ClearWaterRun, Period};
+pub use parameters::{ClearWaterParameters, ClearWaterRun, Flow, Period};
 
 use super::channel;
-use crate::case::{Case, RecordOf, Run};
+use crate::case::{Case, RecordOf};
 use crate::figure::Figure;
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
 /// The case.
@@ -29,6 +29,7 @@ impl Case for ClearWater {
         U/(2 g i) three times in a row. The quick tier starts from the law itself, is too short to be stationary and \
         says so: it judges the balance of momentum only, and reports the rest with its drift.";
     type Parameters = ClearWaterParameters;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &ClearWaterParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
@@ -39,6 +40,6 @@ impl Case for ClearWater {
     }
 
     fn tables(_: &ClearWaterParameters, records: &[Record]) -> Vec<Table> {
-        records.iter().flat_map(|(run, record)| channel::tables(&run.variant(), &record.data)).collect()
+        channel::tables_of_runs(records)
     }
 }

@@ -1,12 +1,12 @@
 //! Parameters, tiers and runs.
 
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
-use crate::cases::channel::{Channel, ChannelObservation, Lattice, TurbulenceClosure, Until};
+use crate::cases::channel::{Channel, ChannelObservation, TurbulenceClosure, Until, Water};
 use crate::cases::rules;
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::{RoughChannel, roughness_ratio};
-use bagnold_solver::incompressible::{Bed, ProjectionNumerics, SolidFraction};
+use bagnold_solver::incompressible::Bed;
 use bagnold_solver::material::turbulence::{MixingLengthShape, RoughWall};
 use bagnold_solver::parameter::{between, each, filled, positive, unique};
 use schemars::JsonSchema;
@@ -40,23 +40,9 @@ pub enum Period {
     },
 }
 
-/// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ClearWaterParameters {
-    /// Depth h `[m]`.
-    #[schemars(transform = positive("give it in metres, such as 0.046"))]
-    pub depth: f64,
-    /// Slopes i of the bed, tangents, one run each `[-]`; 0.03 is 3 %.
-    #[schemars(transform = each(rules::driving_slope()))]
-    #[schemars(transform = unique("name every slope once"))]
-    #[schemars(transform = filled("at least one slope", "3 % is 0.03"))]
-    pub slopes: Vec<f64>,
-    /// Gravity `[m/s²]`.
-    #[schemars(transform = rules::gravity())]
-    pub gravity: f64,
-    /// Density `[kg/m³]`.
-    #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
-    pub density: f64,
+/// The flow over its bed, and how long it is watched.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Flow {
     /// Kinematic viscosity `[m²/s]`.
     #[schemars(transform = positive("give it in m²/s; water has 1e-6"))]
     pub kinematic_viscosity: f64,
@@ -67,23 +53,30 @@ pub struct ClearWaterParameters {
     pub origin_offset: f64,
     /// Closure of the turbulence; the logarithmic law belongs to the parabolic mixing length.
     pub turbulence: TurbulenceClosure,
-    /// Rows of particles over the depth.
-    #[schemars(transform = rules::rows())]
-    pub resolution: usize,
-    /// Columns of particles along the period.
-    pub columns: usize,
     /// Largest random displacement of a particle in spacings `[-]`.
     #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
     pub jitter: f64,
-    /// Seed of the displacements.
-    pub seed: u64,
     /// Initial velocity over the logarithmic law's `[-]`.
     #[schemars(transform = between(0.1, 3.0, "1 starts from the logarithmic law"))]
     pub start_share: f64,
     /// How long.
     pub period: Period,
-    /// Numerics.
-    pub numerics: ProjectionNumerics,
+}
+
+/// Parameters of the case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ClearWaterParameters {
+    /// The water.
+    #[serde(flatten)]
+    pub water: Water,
+    /// Slopes i of the bed, tangents, one run each `[-]`; 0.03 is 3 %.
+    #[schemars(transform = each(rules::driving_slope()))]
+    #[schemars(transform = unique("name every slope once"))]
+    #[schemars(transform = filled("at least one slope", "3 % is 0.03"))]
+    pub slopes: Vec<f64>,
+    /// The flow.
+    #[serde(flatten)]
+    pub flow: Flow,
 }
 
 impl Parameters for ClearWaterParameters {
@@ -91,48 +84,38 @@ impl Parameters for ClearWaterParameters {
 
     fn of_tier(tier: Tier) -> Self {
         let quick = Self {
-            depth: 0.046,
+            water: Water::of_rows(23),
             slopes: vec![0.03],
-            gravity: 9.81,
-            density: 1000.0,
-            kinematic_viscosity: 1e-6,
-            sand_roughness: 5e-3,
-            origin_offset: 6e-4,
-            turbulence: TurbulenceClosure::MixingLength { shape: MixingLengthShape::Parabolic },
-            resolution: 23,
-            columns: 12,
-            jitter: 0.1,
-            seed: 1,
-            start_share: 1.0,
-            period: Period::Fixed { duration: 3.0, averaging_time: 1.0 },
-            numerics: ProjectionNumerics::default(),
+            flow: Flow {
+                kinematic_viscosity: 1e-6,
+                sand_roughness: 5e-3,
+                origin_offset: 6e-4,
+                turbulence: TurbulenceClosure::MixingLength { shape: MixingLengthShape::Parabolic },
+                jitter: 0.1,
+                start_share: 1.0,
+                period: Period::Fixed { duration: 3.0, averaging_time: 1.0 },
+            },
         };
+        let period = Period::Stationary { tolerance: 0.005, checks: 3, at_most: 25.0, averaging_times: 8.0 };
         let paper = Self {
+            water: Water { columns: 20, ..quick.water },
             slopes: vec![0.02, 0.03, 0.05],
-            columns: 20,
-            start_share: 0.8,
-            period: Period::Stationary { tolerance: 0.005, checks: 3, at_most: 25.0, averaging_times: 8.0 },
-            ..quick.clone()
+            flow: Flow { start_share: 0.8, period, ..quick.flow },
         };
         match tier {
             Tier::Quick => quick,
             Tier::Paper => paper,
-            Tier::Fine => Self {
-                resolution: 46,
-                columns: 40,
-                numerics: ProjectionNumerics { time_step: 1.25e-4, ..paper.numerics },
-                ..paper
-            },
+            Tier::Fine => Self { water: paper.water.finer(), ..paper },
         }
     }
 
     fn check(&self) -> Result<(), ParameterError> {
-        rules::between("origin_offset", self.origin_offset, 0.0, 0.1 * self.depth, "a fraction of a grain diameter")?;
-        let first_row = 0.5 * self.depth / self.resolution as f64 + self.origin_offset;
+        let Self { water, flow: Flow { origin_offset, sand_roughness, period, .. }, .. } = *self;
+        rules::between("origin_offset", origin_offset, 0.0, 0.1 * water.depth, "a fraction of a grain diameter")?;
+        let first_row = 0.5 * water.depth / water.resolution as f64 + origin_offset;
         let remedy = "the logarithmic law begins at k_s/30, which must lie below the first row of particles";
-        rules::between("sand_roughness", self.sand_roughness, 0.0, roughness_ratio() * first_row, remedy)?;
-        rules::channel_columns("columns", self.columns, &self.numerics)?;
-        match self.period {
+        rules::between("sand_roughness", sand_roughness, 0.0, roughness_ratio() * first_row, remedy)?;
+        match period {
             Period::Fixed { duration, averaging_time } => {
                 let field = "period.fixed.averaging_time";
                 rules::between(field, averaging_time, 0.2, 0.5 * duration, "the window lies in the second half")?;
@@ -142,28 +125,12 @@ impl Parameters for ClearWaterParameters {
                 rules::between(field, at_most, checks as f64, 1e3, "25 suffice from 80 % of the law")?;
             }
         }
-        rules::projection("numerics", &self.numerics)
+        water.check()
     }
 
     fn runs(&self) -> Vec<ClearWaterRun> {
-        let new = |&slope: &f64| ClearWaterRun {
-            slope,
-            resolution: self.resolution,
-            period: self.period,
-            depth: self.depth,
-            gravity: self.gravity,
-            density: self.density,
-            kinematic_viscosity: self.kinematic_viscosity,
-            sand_roughness: self.sand_roughness,
-            origin_offset: self.origin_offset,
-            turbulence: self.turbulence,
-            columns: self.columns,
-            jitter: self.jitter,
-            seed: self.seed,
-            start_share: self.start_share,
-            numerics: self.numerics,
-        };
-        self.slopes.iter().map(new).collect()
+        let Self { water, flow, .. } = *self;
+        self.slopes.iter().map(|&slope| ClearWaterRun { slope, water, flow }).collect()
     }
 }
 
@@ -172,38 +139,26 @@ impl Parameters for ClearWaterParameters {
 pub struct ClearWaterRun {
     /// Slope i `[-]`.
     pub slope: f64,
-    /// Rows over the depth.
-    pub resolution: usize,
-    /// How long.
-    pub period: Period,
-    depth: f64,
-    gravity: f64,
-    density: f64,
-    kinematic_viscosity: f64,
-    sand_roughness: f64,
-    origin_offset: f64,
-    turbulence: TurbulenceClosure,
-    columns: usize,
-    jitter: f64,
-    seed: u64,
-    start_share: f64,
-    numerics: ProjectionNumerics,
+    /// The water.
+    pub water: Water,
+    /// The flow.
+    pub flow: Flow,
 }
 
 impl Run for ClearWaterRun {
     type Observation = ChannelObservation;
 
     fn variant(&self) -> Variant {
-        Variant::of("slope", self.slope).and("resolution", self.resolution)
+        Variant::of("slope", self.slope).and("resolution", self.water.resolution)
     }
 
     fn particle_steps(&self) -> f64 {
-        self.channel(&|_| 0.0).expected_steps() * (self.resolution * self.columns) as f64
+        self.channel(&|_| 0.0).expected_steps() * self.water.particles()
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         let law = self.reference();
-        Ok(self.channel(&|z| self.start_share * law.velocity(z)).run(progress)?)
+        Ok(self.channel(&|z| self.flow.start_share * law.velocity(z)).run(progress)?)
     }
 }
 
@@ -212,51 +167,34 @@ impl ClearWaterRun {
     #[must_use]
     pub fn reference(&self) -> RoughChannel {
         RoughChannel {
-            depth: self.depth,
+            depth: self.water.depth,
             slope: self.slope,
-            gravity: self.gravity,
-            density: self.density,
-            sand_roughness: self.sand_roughness,
-            origin_offset: self.origin_offset,
+            gravity: self.water.gravity,
+            density: self.water.density,
+            sand_roughness: self.flow.sand_roughness,
+            origin_offset: self.flow.origin_offset,
         }
     }
 
     fn channel<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Channel<'a> {
         let time = self.reference().adjustment_time();
-        let (until, window) = match self.period {
+        let Flow { kinematic_viscosity, sand_roughness, origin_offset, turbulence, jitter, period, .. } = self.flow;
+        let (until, window) = match period {
             Period::Fixed { duration, averaging_time } => (Until::Time(duration), averaging_time),
             Period::Stationary { tolerance, checks, at_most, averaging_times } => {
                 (Until::Stationary { tolerance, checks, at_most: at_most * time }, averaging_times * time)
             }
         };
         Channel {
-            fluid: Lattice {
-                spacing: self.depth / self.resolution as f64,
-                rows: self.resolution,
-                columns: self.columns,
-                bottom: 0.0,
-            },
             slope: self.slope,
-            gravity: self.gravity,
-            density: self.density,
-            kinematic_viscosity: self.kinematic_viscosity,
-            turbulence: self.turbulence.over(self.depth, self.origin_offset),
-            bed: Bed::Rough {
-                level: 0.0,
-                origin_offset: self.origin_offset,
-                law: RoughWall { sand_roughness: self.sand_roughness },
-            },
-            jitter: self.jitter,
-            seed: self.seed,
-            velocity,
-            sediment: None,
-            solid_fraction: SolidFraction::Overlapping,
-            numerics: self.numerics,
+            kinematic_viscosity,
+            turbulence: turbulence.over(self.water.depth, origin_offset),
+            bed: Bed::Rough { level: 0.0, origin_offset, law: RoughWall { sand_roughness } },
+            jitter,
             until,
             window,
             interval: 0.01,
-            frames: 2,
-            may_diverge: false,
+            ..self.water.channel(velocity)
         }
     }
 }

@@ -130,11 +130,11 @@ fn hindered(records: &[(&SuspensionRun, &SettlingObservation)]) -> Figure {
     let mut sinking = Panel::new("sinking velocity", Axis::linear("φ [-]"), Axis::linear("(1 − φ) u_r [m/s]"));
     let mut laws: Vec<DragLaw> = Vec::new();
     for (run, _) in records {
-        if !laws.contains(&run.law) {
-            laws.push(run.law);
+        if !laws.contains(&run.experiment.law) {
+            laws.push(run.experiment.law);
         }
     }
-    let grains = records[0].0.grains();
+    let grains = records[0].0.experiment.grains;
     let fractions = || (1..=120).map(|k| DENSEST * f64::from(k) / 120.0);
     for &law in &laws {
         let slot = drag_curves::slot(law);
@@ -145,7 +145,7 @@ fn hindered(records: &[(&SuspensionRun, &SettlingObservation)]) -> Figure {
         slip.series.push(Series::new("", Mark::Line, slot, curve));
         sinking.series.push(Series::new("", Mark::Line, slot, sunk));
         let measured = |of: fn(&SettlingSeries) -> &[f64]| -> Vec<(f64, f64)> {
-            let of_law = records.iter().filter(|(run, _)| run.law == law);
+            let of_law = records.iter().filter(|(run, _)| run.experiment.law == law);
             of_law.map(|(run, data)| (run.solid_fraction, data.series.mean(of(&data.series)).0)).collect()
         };
         // one legend serves both panels

@@ -6,8 +6,37 @@ use super::probe::{SettlingObservation, SettlingSeries};
 use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;
 use crate::case::Run;
-use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
 use crate::reference::{richardson_zaki_confidence, richardson_zaki_exponent};
+
+const TERMINAL_VELOCITY_ERROR: Quantity = Quantity::verified(
+    "terminal_velocity_error",
+    "%",
+    "slip that the drag is taken from over that of a grain alone, less 1",
+);
+const SLIP_OF_MEANS_ERROR: Quantity =
+    Quantity::verified("slip_of_means_error", "%", "|⟨u_f⟩ − u_s| over the root of the balance, less 1");
+const ROOT_MEAN_SQUARE_SLIP_ERROR: Quantity =
+    Quantity::verified("root_mean_square_slip_error", "%", "√⟨|u_f − u_s|²⟩ over the root of the balance, less 1");
+const SLIP_ERROR: Quantity = Quantity::verified("slip_error", "%", "slip of a suspension over the root, less 1");
+const SINKING_ERROR: Quantity =
+    Quantity::verified("sinking_error", "%", "velocity at which a suspension sinks over the root's, less 1");
+const SINKING_OVER_RICHARDSON_ZAKI: Quantity =
+    Quantity::validated("sinking_over_richardson_zaki", "-", "that velocity over Richardson and Zaki's");
+const UNEVENNESS: Quantity = Quantity::verified("unevenness", "%", "scatter of the grains' velocities over the slip");
+const MOMENTUM_ERROR: Quantity =
+    Quantity::verified("momentum_error", "-", "what does not close of a step's momentum, over the grains' weight");
+
+pub(super) const QUANTITIES: &[Quantity] = &[
+    TERMINAL_VELOCITY_ERROR,
+    SLIP_OF_MEANS_ERROR,
+    ROOT_MEAN_SQUARE_SLIP_ERROR,
+    SLIP_ERROR,
+    SINKING_ERROR,
+    SINKING_OVER_RICHARDSON_ZAKI,
+    UNEVENNESS,
+    MOMENTUM_ERROR,
+];
 
 const ALONE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ½ for the planar form (30)";
 const SPHERE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ¾ for a sphere";
@@ -23,9 +52,16 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
 }
 
 /// Mean of an array over its reference less one `[%]`, observed; its own error is what it may drift by.
-fn error(name: &str, variant: &Variant, series: &SettlingSeries, array: &[f64], (root, source): (f64, &str)) -> Metric {
+fn error(
+    quantity: Quantity,
+    variant: &Variant,
+    series: &SettlingSeries,
+    array: &[f64],
+    (root, source): (f64, &str),
+) -> Metric {
     let (mean, noise) = series.mean(array);
-    Metric::observed(name, variant, 100.0 * (mean / root - 1.0), "%")
+    quantity
+        .of(variant, 100.0 * (mean / root - 1.0))
         .against(Some(0.0), source, Confidence::Exact)
         // displaced particles move chaotically: a mean over the window moves by its own error after any change
         .with_snapshot_tolerance(0.0, 300.0 * noise / root + 1e-3)
@@ -33,12 +69,12 @@ fn error(name: &str, variant: &Variant, series: &SettlingSeries, array: &[f64], 
 
 fn alone(run: &GrainRun, data: &SettlingObservation) -> Vec<Metric> {
     let (variant, series, root) = (run.variant(), &data.series, run.terminal_velocity());
-    let error = |name: &str, array: &[f64]| error(name, &variant, series, array, (root, ALONE));
+    let error = |quantity, array: &[f64]| error(quantity, &variant, series, array, (root, ALONE));
     let reason = "acceptance line 4 of the bed-load model: 1 %, mean over the last 0.6 of the run";
     vec![
-        error("terminal_velocity_error", &series.slip).gated(Limit::Within(-1.0, 1.0), reason),
-        error("slip_of_means_error", &series.slip_of_means),
-        error("root_mean_square_slip_error", &series.root_mean_square_slip),
+        error(TERMINAL_VELOCITY_ERROR, &series.slip).gated(Limit::Within(-1.0, 1.0), reason),
+        error(SLIP_OF_MEANS_ERROR, &series.slip_of_means),
+        error(ROOT_MEAN_SQUARE_SLIP_ERROR, &series.root_mean_square_slip),
         momentum(&variant, data.momentum_error),
     ]
 }
@@ -51,29 +87,30 @@ fn together(run: &SuspensionRun, data: &SettlingObservation) -> Vec<Metric> {
     if run.dilute {
         let reason = "acceptance line 4: 1 %, of which φ = 0.002 itself hinders by 0.1 to 0.6 %";
         metrics.push(
-            error("terminal_velocity_error", &variant, series, &series.slip, (alone, SPHERE))
+            error(TERMINAL_VELOCITY_ERROR, &variant, series, &series.slip, (alone, SPHERE))
                 .gated(Limit::Within(-1.0, 1.0), reason),
         );
     }
     metrics.push(
-        error("slip_error", &variant, series, &series.slip, (slip, HINDERED)).gated(Limit::Within(-2.0, 2.0), reason),
+        error(SLIP_ERROR, &variant, series, &series.slip, (slip, HINDERED)).gated(Limit::Within(-2.0, 2.0), reason),
     );
     metrics.push(
-        error("sinking_error", &variant, series, &series.sinking, (fluid * slip, VESSEL))
+        error(SINKING_ERROR, &variant, series, &series.sinking, (fluid * slip, VESSEL))
             .gated(Limit::Within(-2.0, 2.0), reason),
     );
     if !run.dilute {
-        let exponent = richardson_zaki_exponent(run.grains().reynolds(alone));
+        let exponent = richardson_zaki_exponent(run.experiment.grains.reynolds(alone));
         let published = alone * libm::pow(fluid, exponent);
         metrics.push(
-            Metric::observed("sinking_over_richardson_zaki", &variant, series.mean(&series.sinking).0 / published, "-")
-                .of_kind(Kind::Validation)
+            SINKING_OVER_RICHARDSON_ZAKI
+                .of(&variant, series.mean(&series.sinking).0 / published)
                 .against(Some(1.0), "Richardson & Zaki 1954, u/u_t = (1 − φ)ⁿ", richardson_zaki_confidence())
                 .with_snapshot_tolerance(0.01, 0.0),
         );
     }
     metrics.push(
-        Metric::observed("unevenness", &variant, 100.0 * series.mean(&series.unevenness).0 / slip, "%")
+        UNEVENNESS
+            .of(&variant, 100.0 * series.mean(&series.unevenness).0 / slip)
             .against(Some(0.0), "grains of a uniform suspension sink alike", Confidence::Exact)
             .with_snapshot_tolerance(0.5, 0.01),
     );
@@ -82,7 +119,8 @@ fn together(run: &SuspensionRun, data: &SettlingObservation) -> Vec<Metric> {
 }
 
 fn momentum(variant: &Variant, error: f64) -> Metric {
-    Metric::observed("momentum_error", variant, error, "-")
+    MOMENTUM_ERROR
+        .of(variant, error)
         .against(Some(0.0), "change of momentum = impulse of gravity and floor, in every step", Confidence::Exact)
         .gated(
             Limit::AtMost(1e-10),

@@ -1,6 +1,7 @@
 //! Settling grains: the drag laws, a grain alone and a uniform suspension against the roots of their balances.
 
 mod drag_curves;
+mod experiment;
 mod figures;
 mod grain;
 mod metrics;
@@ -9,6 +10,7 @@ mod probe;
 mod runs;
 mod suspension;
 
+pub use experiment::{Experiment, Vessel};
 pub use grain::{Formulation, GrainRun};
 pub use parameters::{Grain, SettlingParameters, SuspendedGrains, Water};
 pub use probe::{SettlingObservation, SettlingSeries};
@@ -17,7 +19,7 @@ pub use suspension::SuspensionRun;
 
 use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
 /// The case.
@@ -46,6 +48,7 @@ impl Case for Settling {
         pressure are unstable at short waves. The kernel of the drag, two or three spacings wide, holds them back for \
         the time of a run, not for ever; the unevenness of the grains' velocities is observed.";
     type Parameters = SettlingParameters;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &SettlingParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)

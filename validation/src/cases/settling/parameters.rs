@@ -1,5 +1,6 @@
 //! Parameters and tiers.
 
+use super::experiment::{Experiment, Vessel};
 use super::grain::Formulation;
 use super::runs::{self, SettlingRun};
 use super::suspension::{LEAST_BED, covers};
@@ -23,37 +24,27 @@ pub struct Water {
     pub kinematic_viscosity: f64,
 }
 
-/// A grain alone in a periodic box of fluid, whose particles are as large as the grain.
+/// A grain alone in a periodic box of fluid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Grain {
-    /// Diameter d `[m]`.
-    #[schemars(transform = positive("give it in metres; 0.005 for 5 mm"))]
-    pub diameter: f64,
+    /// The box.
+    #[serde(flatten)]
+    pub vessel: Vessel,
     /// Drag laws; Ergun's has no grain alone; empty for none.
     pub laws: Vec<DragLaw>,
     /// Formulations.
     pub formulations: Vec<Formulation>,
-    /// Length of the box in diameters.
-    pub columns: usize,
-    /// Height of the box in diameters.
-    pub rows: usize,
-    /// Smoothing length of the drag in diameters `[-]`.
-    #[schemars(transform = between(1.0, 10.0, "the drag needs some fluid around the grain"))]
-    pub drag_smoothing_ratio: f64,
     /// Simulated time over the time u_t ρ_s/(2 (ρ_s − ρ_f) g) in which a grain gets to its terminal velocity `[-]`.
     #[schemars(transform = between(10.0, 1e4, "40 leaves a window of 24 to average over"))]
     pub relaxation_times: f64,
-    /// Largest random displacement of a fluid particle in spacings `[-]`; the paper's density source wants a lattice.
-    #[schemars(transform = between(0.0, 0.5, "0.001 breaks the symmetry of the lattice"))]
-    pub jitter: f64,
 }
 
-/// A uniform suspension in a periodic column, whose particles are as large as its grains.
+/// A uniform suspension in a periodic column.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SuspendedGrains {
-    /// Diameter d `[m]`.
-    #[schemars(transform = positive("give it in metres; 0.001 for 1 mm"))]
-    pub diameter: f64,
+    /// The column.
+    #[serde(flatten)]
+    pub vessel: Vessel,
     /// Drag laws; Ergun's at φ ≥ 0.2 only; empty for none.
     pub laws: Vec<DragLaw>,
     /// Solid fractions φ `[-]`.
@@ -62,19 +53,9 @@ pub struct SuspendedGrains {
     /// Solid fraction that stands for a grain alone `[-]`; 0 for none.
     #[schemars(transform = between(0.0, 0.005, "0.002 hinders by less than 1 %; 0 for none"))]
     pub dilute_fraction: f64,
-    /// Length of the column in diameters.
-    pub columns: usize,
-    /// Height of the column in diameters.
-    pub rows: usize,
-    /// Smoothing length of the drag in diameters `[-]`.
-    #[schemars(transform = between(1.0, 10.0, "a kernel of 2 to 3 spacings holds short waves back"))]
-    pub drag_smoothing_ratio: f64,
     /// Simulated time over |u_r| ρ_s/((ρ_s − ρ_f) g) `[-]`.
     #[schemars(transform = between(10.0, 1e4, "12 leave a window of 7 to average over"))]
     pub relaxation_times: f64,
-    /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
-    pub jitter: f64,
 }
 
 /// Parameters of the case.
@@ -108,38 +89,30 @@ impl Parameters for SettlingParameters {
             seed: 1,
             water: Water { density: 1000.0, kinematic_viscosity: 1e-6 },
             grain: Grain {
-                diameter: 5e-3,
+                vessel: Vessel { diameter: 5e-3, columns: 8, rows: 12, drag_smoothing_ratio: 2.0, jitter: 0.001 },
                 laws: vec![DragLaw::MorsiAlexander, DragLaw::DiFelice],
                 formulations: vec![Formulation::Paper, Formulation::Stabilised],
-                columns: 8,
-                rows: 12,
-                drag_smoothing_ratio: 2.0,
                 relaxation_times: 40.0,
-                jitter: 0.001,
             },
             suspension: SuspendedGrains {
-                diameter: 1e-3,
+                vessel: Vessel { diameter: 1e-3, columns: 8, rows: 8, drag_smoothing_ratio: 2.0, jitter: 0.1 },
                 laws: vec![DragLaw::WenYu, DragLaw::Ergun, DragLaw::Gidaspow, DragLaw::DiFelice],
                 solid_fractions: vec![0.1, 0.3, 0.5],
                 dilute_fraction: 0.002,
-                columns: 8,
-                rows: 8,
-                drag_smoothing_ratio: 2.0,
                 relaxation_times: 12.0,
-                jitter: 0.1,
             },
             numerics: ProjectionNumerics { time_step: 1e-3, ..ProjectionNumerics::default() },
         };
         let alone = DragLaw::ALL.into_iter().filter(|&law| law != DragLaw::Ergun).collect();
+        let of_size = |vessel: Vessel, columns, rows| Vessel { columns, rows, ..vessel };
+        let (grain, suspension) = (quick.grain.vessel, quick.suspension.vessel);
         let paper = Self {
-            grain: Grain { laws: alone, columns: 12, rows: 16, relaxation_times: 80.0, ..quick.grain.clone() },
+            grain: Grain { vessel: of_size(grain, 12, 16), laws: alone, relaxation_times: 80.0, ..quick.grain.clone() },
             suspension: SuspendedGrains {
+                // the laws that do not hinder have twice the slip, at which short waves grow sooner
+                vessel: Vessel { drag_smoothing_ratio: 3.0, ..of_size(suspension, 12, 24) },
                 laws: DragLaw::ALL.to_vec(),
                 solid_fractions: vec![0.05, 0.1, 0.2, 0.3, 0.4, 0.5],
-                columns: 12,
-                rows: 24,
-                // the laws that do not hinder have twice the slip, at which short waves grow sooner
-                drag_smoothing_ratio: 3.0,
                 ..quick.suspension.clone()
             },
             ..quick.clone()
@@ -148,8 +121,11 @@ impl Parameters for SettlingParameters {
             Tier::Quick => quick,
             Tier::Paper => paper,
             Tier::Fine => Self {
-                grain: Grain { columns: 24, rows: 32, relaxation_times: 160.0, ..paper.grain.clone() },
-                suspension: SuspendedGrains { columns: 24, rows: 48, ..paper.suspension.clone() },
+                grain: Grain { vessel: of_size(grain, 24, 32), relaxation_times: 160.0, ..paper.grain.clone() },
+                suspension: SuspendedGrains {
+                    vessel: of_size(paper.suspension.vessel, 24, 48),
+                    ..paper.suspension.clone()
+                },
                 numerics: ProjectionNumerics { time_step: 5e-4, ..paper.numerics },
                 ..paper
             },
@@ -173,6 +149,19 @@ impl Parameters for SettlingParameters {
 }
 
 impl SettlingParameters {
+    /// An experiment in a vessel for so many of the relaxation times `[s]` that `relaxation` gives.
+    pub(super) fn experiment(
+        &self,
+        vessel: Vessel,
+        law: DragLaw,
+        times: f64,
+        relaxation: impl Fn(&SettlingGrains) -> f64,
+    ) -> Experiment {
+        let grains = self.grains(vessel.diameter);
+        let duration = times * relaxation(&grains);
+        Experiment { law, grains, vessel, seed: self.seed, duration, numerics: self.numerics }
+    }
+
     /// Grains of a diameter `[m]` in the fluid.
     pub(super) fn grains(&self, diameter: f64) -> SettlingGrains {
         SettlingGrains {
@@ -203,9 +192,9 @@ impl SettlingParameters {
 
     fn check_grain(&self) -> Result<(), ParameterError> {
         let grain = &self.grain;
-        self.periods(grain.drag_smoothing_ratio, [("grain.columns", grain.columns), ("grain.rows", grain.rows)])?;
+        grain.vessel.check("grain", &self.numerics)?;
         for (index, &law) in grain.laws.iter().enumerate() {
-            if self.grains(grain.diameter).terminal_velocity(law, GrainForm::Planar).is_none() {
+            if self.grains(grain.vessel.diameter).terminal_velocity(law, GrainForm::Planar).is_none() {
                 let field = format!("grain.laws[{index}]");
                 let rule = "a law of one grain that covers its Reynolds number";
                 let remedy = "leave out \"ergun\", and \"morsi-alexander\" above R = 50 000";
@@ -215,23 +204,9 @@ impl SettlingParameters {
         Ok(())
     }
 
-    /// Periods in diameters that hold both kernels twice.
-    fn periods(&self, drag_smoothing_ratio: f64, lengths: [(&str, usize); 2]) -> Result<(), ParameterError> {
-        let least = (4.0 * drag_smoothing_ratio.max(self.numerics.smoothing_ratio)).ceil() as usize;
-        for (field, value) in lengths {
-            if !(least..=1000).contains(&value) {
-                let rule = format!("between {least} and 1000");
-                let remedy = "the box must hold the reach of the kernels twice; 12 is quick";
-                return Err(ParameterError::field(field, value, &rule, remedy));
-            }
-        }
-        Ok(())
-    }
-
     fn check_suspension(&self) -> Result<(), ParameterError> {
         let suspension = &self.suspension;
-        let reach = suspension.drag_smoothing_ratio;
-        self.periods(reach, [("suspension.columns", suspension.columns), ("suspension.rows", suspension.rows)])?;
+        suspension.vessel.check("suspension", &self.numerics)?;
         for (index, &law) in suspension.laws.iter().enumerate() {
             let field = format!("suspension.laws[{index}]");
             let judged = suspension.solid_fractions.iter().any(|&fraction| covers(law, fraction));
@@ -245,7 +220,8 @@ impl SettlingParameters {
                     "leave it out, or add a denser suspension",
                 ));
             }
-            let in_range = |&fraction: &f64| self.grains(suspension.diameter).hindered_slip(law, fraction).is_some();
+            let in_range =
+                |&fraction: &f64| self.grains(suspension.vessel.diameter).hindered_slip(law, fraction).is_some();
             if !suspension.solid_fractions.iter().all(in_range) {
                 let rule = "a law that covers the grains' Reynolds number";
                 return Err(ParameterError::field(&field, law.name(), rule, "\"morsi-alexander\" ends at R = 50 000"));

@@ -55,8 +55,8 @@ impl SettlingRun {
     #[must_use]
     pub fn law(&self) -> DragLaw {
         match self {
-            Self::Grain(run) => run.law,
-            Self::Suspension(run) => run.law,
+            Self::Grain(run) => run.experiment.law,
+            Self::Suspension(run) => run.experiment.law,
         }
     }
 

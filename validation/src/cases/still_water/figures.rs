@@ -18,11 +18,12 @@ fn label(run: &StillWaterRun) -> String {
 
 /// Height above the floor over the depth, and pressure over that of the floor, of every particle.
 fn pressures(run: &StillWaterRun, frame: &Frame) -> Vec<(f64, f64)> {
-    let scale = run.density * run.gravity * run.depth;
+    let depth = run.water.depth;
+    let scale = run.water.density * run.water.gravity * depth;
     let Some((_, _, pressures)) = frame.scalars.iter().find(|(name, _, _)| name == "pressure") else {
         return Vec::new();
     };
-    frame.position.iter().zip(pressures).map(|(x, p)| (x[1] / run.depth, p / scale)).collect()
+    frame.position.iter().zip(pressures).map(|(x, p)| (x[1] / depth, p / scale)).collect()
 }
 
 fn pressure(records: &[Record]) -> Figure {
@@ -53,13 +54,12 @@ fn rest(records: &[Record]) -> Figure {
     let longest = records.iter().map(|(run, _)| run.duration).fold(0.0, f64::max);
     for (slot, (run, record)) in records.iter().enumerate() {
         let series = &record.data.series;
-        let line = |values: &[f64]| series.time.iter().copied().zip(values.iter().copied()).collect::<Vec<_>>();
         let name = label(run);
         // its height has no bound and would hide that of the others
         if !run.unstabilised {
-            height.series.push(Series::new(&name, Mark::Line, slot, line(&series.relative_height)));
+            height.series.push(Series::new(&name, Mark::Line, slot, series.curve(&series.relative_height, 1.0)));
         }
-        speed.series.push(Series::new(&name, Mark::Line, slot, line(&series.rms_vertical_velocity)));
+        speed.series.push(Series::new(&name, Mark::Line, slot, series.curve(&series.rms_vertical_velocity, 1.0)));
     }
     for bound in [0.999, 1.001] {
         let name = if bound < 1.0 { "limits" } else { "" };
@@ -85,12 +85,12 @@ fn states(records: &[Record]) -> Option<Figure> {
     let panel = |run: &StillWaterRun, frame: &Frame, ending: &str| {
         let title = format!("{}, {:.2} s{ending}", label(run), frame.time);
         let mut panel = Panel::new(&title, Axis::linear("x [mm]"), Axis::linear("z [mm]"));
-        panel.y.limits = Some((0.0, millimetres(2.5 * run.depth)));
+        panel.y.limits = Some((0.0, millimetres(2.5 * run.water.depth)));
         panel.field = Some(Field {
             points: frame.position.iter().map(|x| (millimetres(x[0]), millimetres(x[1]))).collect(),
             values: pressures(run, frame).into_iter().map(|(_, p)| p).collect(),
             label: "p/(ρ g h) [-]".to_owned(),
-            diameter: millimetres(run.spacing()),
+            diameter: millimetres(run.water.spacing()),
             limits: Some((0.0, 1.0)),
         });
         panel

@@ -6,13 +6,9 @@ use crate::case::Run;
 use crate::cases::channel::{self, ChannelObservation};
 use crate::metric::{Confidence, Limit, Metric, Quantity};
 use crate::observation::Recorded;
-use crate::statistics::{Estimate, block_average};
 
-const HEIGHT_CHANGE: Quantity = Quantity::verified("height_change", "%", "mean height over half the depth, less 1");
 const RMS_VERTICAL_VELOCITY: Quantity =
     Quantity::verified("rms_vertical_velocity", "m/s", "root mean square of the vertical velocity");
-const PRESSURE_L2: Quantity =
-    Quantity::verified("pressure_l2", "%", "relative L2 of the pressure against the hydrostatic one");
 const BLOW_UP_TIME: Quantity = Quantity::verified(
     "blow_up_time",
     "s",
@@ -20,13 +16,10 @@ const BLOW_UP_TIME: Quantity = Quantity::verified(
 );
 
 pub(super) const QUANTITIES: &[Quantity] =
-    &[channel::PARTICLES_LOST, HEIGHT_CHANGE, RMS_VERTICAL_VELOCITY, PRESSURE_L2, BLOW_UP_TIME];
+    &[channel::PARTICLES_LOST, channel::HEIGHT_CHANGE, RMS_VERTICAL_VELOCITY, channel::PRESSURE_L2, BLOW_UP_TIME];
 
 /// Time after which the water is expected to be at rest `[s]`.
 const AT_REST_AFTER: f64 = 15.0;
-
-/// Standard errors that a value may move before a change is reported `[-]`.
-const SNAPSHOT_ERRORS: f64 = 2.0;
 
 /// Height over the depth above which a particle was thrown there `[-]`.
 const SPRAY: f64 = 1.2;
@@ -44,26 +37,19 @@ fn stabilised(metrics: &mut Vec<Metric>, run: &StillWaterRun, record: &Recorded<
     let variant = run.variant();
     let data = &record.data;
     metrics.push(channel::particles_lost(&variant, record));
-    let average = |array: &[f64]| {
-        block_average(&data.series.within(array, data.window))
-            .unwrap_or(Estimate { value: f64::NAN, standard_error: 0.0 })
+    // what is 0 has no relative drift
+    let floored = |metric: Metric, floor: f64| {
+        let noise = metric.snapshot_floor;
+        metric.with_snapshot_tolerance(0.0, noise.max(floor))
     };
-    let observed = |quantity: Quantity, estimate: Estimate, factor: f64, floor: f64| {
-        quantity
-            .of(&variant, factor * estimate.value)
-            .with_snapshot_tolerance(0.0, (SNAPSHOT_ERRORS * factor * estimate.standard_error).max(floor))
-    };
-    let height = average(&data.series.relative_height);
+    let height = channel::height_change(&variant, data, "mean height h/2: water keeps its volume");
     metrics.push(
-        observed(HEIGHT_CHANGE, Estimate { value: height.value - 1.0, ..height }, 100.0, 1e-3)
-            .against(Some(0.0), "mean height h/2: water keeps its volume", Confidence::Exact)
+        floored(height, 1e-3)
             .gated(Limit::Within(-0.1, 0.1), "0.1 % of the mean height, averaged over the last window"),
     );
-    let velocity = observed(RMS_VERTICAL_VELOCITY, average(&data.series.rms_vertical_velocity), 1.0, 1e-5).against(
-        Some(0.0),
-        "rest",
-        Confidence::Exact,
-    );
+    let rms = data.average(&data.series.rms_vertical_velocity);
+    let velocity = channel::observed(RMS_VERTICAL_VELOCITY, &variant, rms, 1.0);
+    let velocity = floored(velocity, 1e-5).against(Some(0.0), "rest", Confidence::Exact);
     metrics.push(if run.duration >= AT_REST_AFTER {
         velocity.gated(Limit::AtMost(5e-4), "a thousandth of √(g h), averaged over the last window")
     } else {
@@ -71,8 +57,7 @@ fn stabilised(metrics: &mut Vec<Metric>, run: &StillWaterRun, record: &Recorded<
         Metric { snapshot_tolerance: 0.3, ..velocity }
     });
     metrics.push(
-        observed(PRESSURE_L2, average(&data.series.pressure_error), 100.0, 0.01)
-            .against(Some(0.0), "hydrostatic pressure ρ g (h − z) at every particle", Confidence::Exact)
+        floored(channel::pressure_l2(&variant, data), 0.01)
             .gated(Limit::AtMost(1.0), "1 % of the hydrostatic profile, averaged over the last window"),
     );
 }

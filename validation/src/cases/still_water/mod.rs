@@ -7,7 +7,7 @@ mod parameters;
 pub use parameters::{StillWaterParameters, StillWaterRun};
 
 use super::channel;
-use crate::case::{Case, RecordOf, Run};
+use crate::case::{Case, RecordOf};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
@@ -40,6 +40,6 @@ impl Case for StillWater {
     }
 
     fn tables(_: &StillWaterParameters, records: &[Record]) -> Vec<Table> {
-        records.iter().flat_map(|(run, record)| channel::tables(&run.variant(), &record.data)).collect()
+        channel::tables_of_runs(records)
     }
 }

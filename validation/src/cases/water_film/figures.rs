@@ -3,7 +3,6 @@
 use super::Record;
 use super::metrics::{Depth, convergence_errors, depth_of};
 use super::parameters::WaterFilmRun;
-use crate::cases::Arrangement;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
@@ -34,19 +33,15 @@ const CONVERGENCE: &str = "Relative L2 error of the velocity profile on the latt
      the depth. Against the film of the particles' own depth what remains is the wall and the rows at the surface.";
 
 fn label(run: &WaterFilmRun) -> String {
-    let particles = match run.particles {
-        Arrangement::Lattice => "lattice",
-        Arrangement::Jittered => "jittered",
-    };
-    format!("{} rows, {particles}", run.resolution)
+    format!("{} rows, {}", run.water.resolution, run.particles.name())
 }
 
 fn profiles(records: &[Record]) -> Figure {
     let mut velocity = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("u/u(h) [-]"));
     let mut error = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("(u − u exact)/u(h) [%]"));
     for (slot, (run, record)) in records.iter().enumerate() {
-        let film = run.film(run.depth);
-        let (depth, scale) = (run.depth, run.surface_velocity);
+        let film = run.exact(run.water.depth);
+        let (depth, scale) = (run.water.depth, run.film.surface_velocity);
         if slot == 0 {
             let exact =
                 (0..=100).map(|k| f64::from(k) / 100.0).map(|z| (z, film.velocity(z * depth) / scale)).collect();
@@ -83,14 +78,14 @@ fn over_time(records: &[Record]) -> Figure {
     for (slot, (run, record)) in records.iter().enumerate() {
         let series = &record.data.series;
         let line = |values: &[f64], scale: f64| {
-            let times = series.time.iter().map(|time| time / run.relaxation_time());
-            times.zip(values.iter().map(|value| value / scale)).collect::<Vec<_>>()
+            let curve = series.curve(values, scale);
+            curve.into_iter().map(|(time, value)| (time / run.relaxation_time(), value)).collect::<Vec<_>>()
         };
         longest = longest.max(record.simulated_time / run.relaxation_time());
-        let exact = run.film(run.depth).flux() / run.depth;
+        let exact = run.exact(run.water.depth).flux() / run.water.depth;
         mean.series.push(Series::new(&label(run), Mark::Line, slot, line(&series.mean_velocity, exact)));
         height.series.push(Series::new("", Mark::Line, slot, line(&series.relative_height, 1.0)));
-        let own = depth_of(run, &record.data, Depth::Own) / run.depth;
+        let own = depth_of(run, &record.data, Depth::Own) / run.water.depth;
         let window = record.data.window;
         let at = |time: f64| time / run.relaxation_time();
         height.series.push(Series::new(

@@ -4,16 +4,14 @@ use super::Record;
 use super::parameters::WaterFilmRun;
 use crate::case::Run;
 use crate::cases::Arrangement;
-use crate::cases::channel::{self, ChannelObservation, ProfilePoint};
+use crate::cases::channel::{self, ChannelObservation, ProfilePoint, Water};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
 use crate::observation::Recorded;
-use crate::statistics::{Estimate, block_average, log_log_slope};
+use crate::statistics::{Estimate, log_log_slope};
 
 const VELOCITY_L2: Quantity = Quantity::verified("velocity_l2", "%", "relative L2 of the velocity profile");
 const VELOCITY_L2_OWN_DEPTH: Quantity =
     Quantity::verified("velocity_l2_own_depth", "%", "the same against the film of the particles' own depth");
-const HEIGHT_CHANGE: Quantity = Quantity::verified("height_change", "%", "mean height over half the depth, less 1");
-const BED_SHEAR: Quantity = Quantity::verified("bed_shear", "-", "friction of the bed over the weight's part along it");
 const OBSERVED_ORDER: Quantity = Quantity::verified("observed_order", "-", "order of convergence of `velocity_l2`");
 const OBSERVED_ORDER_OWN_DEPTH: Quantity =
     Quantity::verified("observed_order_own_depth", "-", "order of convergence of `velocity_l2_own_depth`");
@@ -23,14 +21,11 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     channel::MOMENTUM_RESIDUAL,
     VELOCITY_L2,
     VELOCITY_L2_OWN_DEPTH,
-    HEIGHT_CHANGE,
-    BED_SHEAR,
+    channel::HEIGHT_CHANGE,
+    channel::BED_SHEAR,
     OBSERVED_ORDER,
     OBSERVED_ORDER_OWN_DEPTH,
 ];
-
-/// Standard errors that a value may move before a change is reported `[-]`.
-const SNAPSHOT_ERRORS: f64 = 2.0;
 
 /// Which film a profile is compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,51 +72,33 @@ fn of_run(metrics: &mut Vec<Metric>, run: &WaterFilmRun, record: &Recorded<Chann
     let data = &record.data;
     metrics.push(channel::particles_lost(&variant, record));
     metrics.push(channel::momentum_residual(&variant, record));
-    let observed = |quantity: Quantity, estimate: Estimate, factor: f64| {
-        quantity
-            .of(&variant, factor * estimate.value)
-            .with_snapshot_tolerance(1e-3, SNAPSHOT_ERRORS * factor * estimate.standard_error)
-    };
     for (quantity, depth) in [(VELOCITY_L2, Depth::Nominal), (VELOCITY_L2_OWN_DEPTH, Depth::Own)] {
-        let metric = observed(quantity, velocity_l2(run, data, depth), 100.0).against(
-            Some(0.0),
-            source(depth),
-            Confidence::Exact,
-        );
-        metrics.push(if depth == Depth::Nominal && run.resolution >= 20 {
+        let error = channel::observed(quantity, &variant, velocity_l2(run, data, depth), 100.0);
+        let metric = error.against(Some(0.0), source(depth), Confidence::Exact);
+        metrics.push(if depth == Depth::Nominal && run.water.resolution >= 20 {
             metric.gated(Limit::AtMost(0.8), "0.8 % at 20 rows, from the lattice and from displaced particles")
         } else {
             metric
         });
     }
-    let none = Estimate { value: f64::NAN, standard_error: 0.0 };
-    let average = |array: &[f64]| block_average(&data.series.within(array, data.window)).unwrap_or(none);
-    let height = average(&data.series.relative_height);
-    metrics.push(observed(HEIGHT_CHANGE, Estimate { value: height.value - 1.0, ..height }, 100.0).against(
-        Some(0.0),
-        "mean height h/2; the velocity goes with the square of the depth",
-        Confidence::Exact,
-    ));
-    let weight = run.density * run.gravity * run.depth * run.slope;
-    metrics.push(observed(BED_SHEAR, average(&data.series.bed_shear), 1.0 / weight).against(
-        Some(1.0),
-        "ρ g h i",
-        Confidence::Exact,
-    ));
+    let source = "mean height h/2; the velocity goes with the square of the depth";
+    metrics.push(channel::height_change(&variant, data, source));
+    let Water { density, gravity, depth, .. } = run.water;
+    metrics.push(channel::bed_shear(&variant, data, density * gravity * depth * run.film.slope));
 }
 
 /// Depth h `[m]` that a run is compared at.
 pub(super) fn depth_of(run: &WaterFilmRun, data: &ChannelObservation, depth: Depth) -> f64 {
     let heights = data.series.within(&data.series.relative_height, data.window);
     match depth {
-        Depth::Nominal => run.depth,
-        Depth::Own => run.depth * heights.iter().sum::<f64>() / heights.len() as f64,
+        Depth::Nominal => run.water.depth,
+        Depth::Own => run.water.depth * heights.iter().sum::<f64>() / heights.len() as f64,
     }
 }
 
 /// Relative L2 of the velocity over the samples of all bins `[-]`.
 fn velocity_l2(run: &WaterFilmRun, data: &ChannelObservation, depth: Depth) -> Estimate {
-    let film = run.film(depth_of(run, data, depth));
+    let film = run.exact(depth_of(run, data, depth));
     data.profile.estimate(|points: &[ProfilePoint]| {
         let (error, scale) = points.iter().fold((0.0, 0.0), |(error, scale), point| {
             let exact = film.velocity(point.height);
@@ -136,7 +113,7 @@ pub(super) fn convergence_errors(records: &[Record], depth: Depth) -> Vec<(f64, 
     let mut errors: Vec<(f64, f64)> = records
         .iter()
         .filter(|(run, _)| run.particles == Arrangement::Lattice)
-        .map(|(run, record)| (run.resolution as f64, 100.0 * velocity_l2(run, &record.data, depth).value))
+        .map(|(run, record)| (run.water.resolution as f64, 100.0 * velocity_l2(run, &record.data, depth).value))
         .collect();
     errors.sort_by(|a, b| a.0.total_cmp(&b.0));
     errors

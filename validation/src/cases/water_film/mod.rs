@@ -4,10 +4,10 @@ mod figures;
 mod metrics;
 mod parameters;
 
-pub use parameters::{WaterFilmParameters, WaterFilmRun};
+pub use parameters::{Film, WaterFilmParameters, WaterFilmRun};
 
 use super::channel;
-use crate::case::{Case, RecordOf, Run};
+use crate::case::{Case, RecordOf};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
@@ -40,6 +40,6 @@ impl Case for WaterFilm {
     }
 
     fn tables(_: &WaterFilmParameters, records: &[Record]) -> Vec<Table> {
-        records.iter().flat_map(|(run, record)| channel::tables(&run.variant(), &record.data)).collect()
+        channel::tables_of_runs(records)
     }
 }

@@ -8,7 +8,7 @@
 use crate::reference::shipped::read_shipped;
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
-use bagnold_solver::parameter::{between, positive};
+use bagnold_solver::parameter::{ParameterProblem, between, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
@@ -116,6 +116,18 @@ pub(super) struct Stress {
 }
 
 impl Closures {
+    /// The first rule between the closures that they break, once each is in its own range.
+    #[must_use]
+    pub fn problem(&self) -> Option<ParameterProblem> {
+        let pole = self.suspension_viscosity.pole_problem().map(|problem| problem.within("suspension_viscosity"));
+        let grows = self.limiting_friction > self.static_friction;
+        let (rule, remedy) =
+            ("greater than the static friction", "friction grows from μ_s at rest to μ_2 in fast shear");
+        let friction =
+            || (!grows).then(|| ParameterProblem::new("limiting_friction", self.limiting_friction, rule, remedy));
+        pole.or_else(friction)
+    }
+
     /// Stress of the grains, μ(I) p′ γ/√(γ² + γ_r²), at a shear rate `[1/s]` and a pressure p′ `[Pa]`.
     pub(super) fn grain_stress(&self, rate: f64, pressure: f64, inertia_unit: f64) -> Stress {
         if pressure <= 0.0 {

@@ -1,0 +1,180 @@
+//! Formulation `continuum`: grains as volume fractions, beside the 1-D layer of the same closures.
+//!
+//! Its law of friction is that of the layer, which knows no other: it is part of the closures and cannot be chosen.
+
+use super::parameters::{Continuum, Materials, Stage};
+use super::runs::BedLoadRun;
+use crate::case::ParameterError;
+use crate::cases::channel::{Channel, Lattice};
+use crate::reference::ReferenceError;
+use crate::reference::bed_load_layer::{BedLoadLayer, Grains, LayerState, SolidFraction, Start, Stream};
+use bagnold_solver::incompressible as solver;
+use bagnold_solver::incompressible::{Bed, PairLaw, ParticleSet, ProjectionNumerics, Sediment, Turbulence};
+use bagnold_solver::material::dilatancy::Dilatancy;
+use bagnold_solver::material::rheology::{Rheology, RootMuI};
+use bagnold_solver::vector::Vector;
+use serde::Serialize;
+
+/// Height of a cell of the 1-D layer `[m]`.
+pub(super) const LAYER_CELL: f64 = 2.5e-4;
+
+/// What is special to one run.
+#[derive(Debug, Clone, Serialize)]
+pub struct ContinuumRun {
+    /// The formulation's parameters, without its list of runs.
+    pub continuum: Continuum,
+    /// Stage.
+    pub stage: Stage,
+    /// Pair law.
+    pub pair_law: PairLaw,
+    /// Velocities at the start over those of the 1-D layer `[-]`.
+    pub start: f64,
+    /// Spacing `[m]`.
+    pub spacing: f64,
+}
+
+/// The grains of a scene.
+#[derive(Default)]
+struct Placed {
+    free: ParticleSet<2>,
+    filling: Vec<f64>,
+    wall: Vec<Vector<2>>,
+}
+
+impl ContinuumRun {
+    /// Whether its pair law is the one by which its stage is judged.
+    pub(super) fn is_judged(&self) -> bool {
+        self.pair_law == self.stage.judged_pair_law()
+    }
+
+    pub(super) fn numerics(&self) -> ProjectionNumerics {
+        let of_case = self.continuum.numerics;
+        ProjectionNumerics { pair_law: self.pair_law, time_step: of_case.time_step * self.spacing / 1e-3, ..of_case }
+    }
+
+    /// The 1-D layer that the run is verified against.
+    pub(super) fn layer(&self, stream: Stream) -> Result<LayerState, ParameterError> {
+        let closures = self.continuum.closures;
+        let layer = |grains| BedLoadLayer { stream, closures, grains, cell_height: LAYER_CELL };
+        let refused = |error: ReferenceError| {
+            let rule = "such that the 1-D layer has a steady state";
+            ParameterError::field("continuum.closures", error.to_string(), rule, "see bed-load-1d")
+        };
+        let dilating = layer(Grains::Dilating).steady(Start::Moving(2.0)).map_err(refused)?;
+        match self.stage {
+            Stage::Frozen | Stage::Dilating => Ok(dilating),
+            Stage::Porous => {
+                let resting = Grains::Resting(SolidFraction::of_cells(&dilating));
+                layer(resting).steady(Start::Moving(2.0)).map_err(refused)
+            }
+        }
+    }
+
+    pub(super) fn channel<'a>(
+        &self,
+        run: &BedLoadRun,
+        layer: &LayerState,
+        velocity: &'a (dyn Fn(f64) -> f64 + Sync),
+    ) -> Channel<'a> {
+        let (continuum, spacing) = (&self.continuum, self.spacing);
+        let fluid = Lattice {
+            spacing,
+            rows: ((run.materials.depth + continuum.bed_depth) / spacing).round() as usize,
+            columns: (continuum.length / spacing).round() as usize,
+            bottom: -continuum.bed_depth,
+        };
+        let stratification = self.stratification(&run.materials, layer);
+        Channel {
+            turbulence: Turbulence::Stratified,
+            bed: Bed::NoSlip(fluid.bottom),
+            sediment: Some(self.sediment(run, self.placed(fluid, run.seed, layer))),
+            solid_fraction: match self.stage {
+                Stage::Porous | Stage::Frozen => solver::SolidFraction::Given(stratification),
+                Stage::Dilating => solver::SolidFraction::Averaged(stratification),
+            },
+            numerics: self.numerics(),
+            ..run.water(fluid, velocity)
+        }
+    }
+
+    fn stratification(&self, materials: &Materials, layer: &LayerState) -> solver::Stratification {
+        let closures = &self.continuum.closures;
+        solver::Stratification::of(solver::Strata {
+            base: layer.face[0],
+            interval: layer.cell_height,
+            solid_fraction: layer.solid_fraction.clone(),
+            packing: closures.largest_fraction,
+            buoyant_weight: (materials.grain_density - materials.fluid_density) * materials.gravity,
+            bed_level: 0.0,
+            depth: materials.depth,
+            suspension_viscosity: closures.suspension_viscosity,
+        })
+    }
+
+    /// The bed at rest where it dilates, or the layer's own grains; held where they rest and at the base.
+    fn placed(&self, fluid: Lattice, seed: u64, layer: &LayerState) -> Placed {
+        let Continuum { closures, least_fraction, held_depth, bed_depth, .. } = &self.continuum;
+        let held = held_depth - bed_depth;
+        let lattice = Lattice { bottom: fluid.bottom - 3.0 * fluid.spacing, rows: fluid.rows + 3, ..fluid };
+        let jitter = if self.stage == Stage::Dilating { self.continuum.sediment_jitter } else { 0.0 };
+        let mut placed = Placed::default();
+        for (site, place) in lattice.sites().zip(lattice.displaced(jitter, seed.wrapping_add(1))) {
+            let point = layer.at(site[1]);
+            let fraction = match self.stage {
+                Stage::Dilating if site[1] < 0.0 => closures.largest_fraction,
+                Stage::Dilating => 0.0,
+                Stage::Porous | Stage::Frozen => point.solid_fraction,
+            };
+            if site[1] < held || (self.stage == Stage::Porous && fraction > *least_fraction) {
+                placed.wall.push(site);
+            } else if fraction > *least_fraction {
+                placed.free.position.push(place);
+                placed.free.velocity.push(Vector::<2>::new(self.start * point.grain_velocity, 0.0));
+                placed.filling.push(fraction);
+            }
+        }
+        placed
+    }
+
+    fn sediment(&self, run: &BedLoadRun, Placed { free, filling, wall }: Placed) -> Sediment<2> {
+        let Materials { gravity, fluid_density, grain_density, grain_diameter, .. } = run.materials;
+        let (closures, numerics) = (&self.continuum.closures, self.numerics());
+        let packing = closures.largest_fraction;
+        let dilates = self.stage == Stage::Dilating;
+        let buoyancy = if dilates { 1.0 - fluid_density / grain_density } else { 0.0 };
+        Sediment {
+            particles: free,
+            filling,
+            wall,
+            spacing: self.spacing,
+            smoothing_ratio: if dilates { self.continuum.smoothing_ratio } else { numerics.smoothing_ratio },
+            density: grain_density,
+            grain_diameter,
+            law: Rheology::RootMuI(RootMuI {
+                static_friction: closures.static_friction,
+                limiting_friction: closures.limiting_friction,
+                reference_inertia: closures.reference_inertia,
+                grain_diameter,
+                grain_density,
+                regularisation_rate: closures.regularisation_rate,
+            }),
+            load: solver::SedimentLoad::Stratified,
+            pressure: if dilates {
+                let dilatancy = Dilatancy {
+                    dilation: closures.dilation,
+                    packing,
+                    grain_diameter,
+                    grain_density,
+                    bounds: self.continuum.pressure_bounds,
+                };
+                solver::SedimentPressure::Dilatant { dilatancy, fixed_filling: packing }
+            } else {
+                solver::SedimentPressure::AlongBed
+            },
+            drag: closures.drag,
+            drag_form: solver::DragForm::Exchange,
+            drag_smoothing_length: numerics.smoothing_ratio * self.spacing,
+            gravity: Vector::<2>::new(gravity * run.slope, -buoyancy * gravity),
+        }
+    }
+}
