@@ -141,8 +141,8 @@ impl Parameters for FilmParameters {
             },
             slope_angle: self.slope_angle,
             density: self.density,
-            relaxation_times: match kind {
-                FluidKind::Newtonian => self.relaxation_times,
+            relaxation_times: match self.law(kind) {
+                Rheology::Newtonian(_) => self.relaxation_times,
                 _ => self.yield_relaxation_times,
             },
         };
