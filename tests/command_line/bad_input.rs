@@ -233,7 +233,7 @@ fn grains_that_do_not_settle() {
         ),
         (
             "suspension.diameter=0.0",
-            "`suspension.diameter` is 0, but must be positive and finite; give it in metres; 0.001 for 1 mm",
+            "`suspension.diameter` is 0, but must be positive and finite; give it in metres; 0.005 for 5 mm",
         ),
         (
             "suspension.solid_fractions=[0.3, 1.0]",

@@ -3,6 +3,7 @@
 mod quantity;
 pub mod variant;
 
+pub(crate) use quantity::quantities;
 pub use quantity::{Quantity, undeclared};
 pub use variant::{Value, Variant};
 

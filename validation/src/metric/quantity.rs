@@ -38,6 +38,19 @@ impl Quantity {
     }
 }
 
+/// Declares a case's quantities: each a constant, and the list of all, which begins with those that it shares with others.
+///
+/// `quantities! { [channel::BED_SHEAR] FRONT: validated("front", "m", "how far the front has come"), }`
+macro_rules! quantities {
+    ([$($shared:expr),* $(,)?] $($name:ident: $kind:ident($($declared:literal),+ $(,)?),)+) => {
+        $(pub(super) const $name: $crate::metric::Quantity = $crate::metric::Quantity::$kind($($declared),+);)+
+
+        /// All quantities of the case.
+        pub(super) const QUANTITIES: &[$crate::metric::Quantity] = &[$($shared,)* $($name,)+];
+    };
+}
+pub(crate) use quantities;
+
 /// Metrics whose name or unit is not that of a declared quantity; none where a case declares nothing.
 pub fn undeclared<'a>(quantities: &[Quantity], metrics: &'a [Metric]) -> impl Iterator<Item = &'a Metric> {
     metrics.iter().filter(|metric| {

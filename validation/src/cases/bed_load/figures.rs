@@ -92,16 +92,14 @@ fn water(records: &[&Record]) -> Figure {
             .push(Series { error: error.clone(), ..Series::new(&percent(run), Mark::LinePoints, slot, values) });
         deficit.series.push(Series { error, ..Series::new("", Mark::LinePoints, slot, differences) });
     }
-    Figure {
-        name: "water".to_owned(),
-        caption: "Mean velocity of the water over the moving bed in half-logarithmic axes, beside clear water over a fixed \
+    Figure::new(
+        "water",
+        "Mean velocity of the water over the moving bed in half-logarithmic axes, beside clear water over a fixed \
                   bed of the same grains, a straight line with the offset z_0 of its law, and the difference of the two; \
                   bars are statistical errors from blocks of time. \
-                  Figures 7 to 9 of the paper show two layers of different slope at 3 % and three at 5 %."
-            .to_owned(),
-        panels: vec![profile, deficit],
-        columns: 2,
-    }
+                  Figures 7 to 9 of the paper show two layers of different slope at 3 % and three at 5 %.",
+        vec![profile, deficit],
+    )
 }
 
 /// Grains and drag over height.
@@ -117,16 +115,14 @@ fn sediment(records: &[&Record]) -> Figure {
         let forces = record.data.drag_profile().iter().map(|(z, force)| (*force, z / diameter)).collect();
         drag.series.push(Series::new("", Mark::LinePoints, slot, forces));
     }
-    Figure {
-        name: "sediment".to_owned(),
-        caption: "Mean velocity of the grains and drag on them per volume. Figures 10 to 13 of the paper show velocities \
+    Figure::new(
+        "sediment",
+        "Mean velocity of the grains and drag on them per volume. Figures 10 to 13 of the paper show velocities \
                   that are concave above the bed's top and decay below it, and a drag that peaks near the top. With one \
                   particle a grain and friction on the overburden, only the top row moves at small slopes: the tail below \
-                  is not reproduced."
-            .to_owned(),
-        panels: vec![velocity, drag],
-        columns: 2,
-    }
+                  is not reproduced.",
+        vec![velocity, drag],
+    )
 }
 
 /// A stage of `continuum` against the 1-D layer.
@@ -215,15 +211,12 @@ fn transport(records: &[Record]) -> Figure {
     if !held.is_empty() {
         panel.series.push(Series::new("stabilised, slope held out", Mark::Points, 7, held));
     }
-    Figure {
-        name: "transport".to_owned(),
-        caption:
-            "Bed-load transport over the Shields number against published formulas. The band about Wong & Parker's \
-                  formula is the scatter of the experiments behind it."
-                .to_owned(),
-        panels: vec![panel],
-        columns: 1,
-    }
+    Figure::new(
+        "transport",
+        "Bed-load transport over the Shields number against published formulas. The band about Wong & Parker's \
+                  formula is the scatter of the experiments behind it.",
+        vec![panel],
+    )
 }
 
 fn over_time(records: &[Record]) -> Figure {
@@ -237,12 +230,9 @@ fn over_time(records: &[Record]) -> Figure {
         velocity.series.push(Series::new(&label(run), Mark::Line, slot, series.curve(&data.stream_velocity, mean)));
         rate.series.push(Series::new("", Mark::Line, slot, series.curve(&data.transport, 1.0)));
     }
-    Figure {
-        name: "over-time".to_owned(),
-        caption:
-            "Velocity of the stream above the bed over that of clear water, and the transport rate, from the start on."
-                .to_owned(),
-        panels: vec![velocity, rate],
-        columns: 2,
-    }
+    Figure::new(
+        "over-time",
+        "Velocity of the stream above the bed over that of clear water, and the transport rate, from the start on.",
+        vec![velocity, rate],
+    )
 }

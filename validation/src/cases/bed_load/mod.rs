@@ -42,7 +42,7 @@ impl Case for BedLoad {
         that dilate. `paper` is the set-up as printed, which fails in documented ways: its metrics are observations. The \
         quick tier is too short to be stationary and says so: it judges conservation.";
     type Parameters = BedLoadParameters;
-    const QUANTITIES: &'static [Quantity] = quantities::ALL;
+    const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
     fn metrics(_: &BedLoadParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)

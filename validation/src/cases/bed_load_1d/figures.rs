@@ -101,14 +101,12 @@ fn transport(layers: &[Layer<'_>]) -> Figure {
     let mut panel = transport_panel::formulas();
     let points = layers.iter().map(|(run, state)| (run.stream.shields_number(), state.transport())).collect();
     panel.series.push(Series::new("layer, nothing fitted", Mark::Points, 0, points));
-    Figure {
-        name: "transport".to_owned(),
-        caption: "Bed-load transport over the Shields number: the layers with the literature's closures and published \
-                  formulas. The band about Wong & Parker's formula is the scatter of the experiments behind it."
-            .to_owned(),
-        panels: vec![panel],
-        columns: 1,
-    }
+    Figure::new(
+        "transport",
+        "Bed-load transport over the Shields number: the layers with the literature's closures and published \
+                  formulas. The band about Wong & Parker's formula is the scatter of the experiments behind it.",
+        vec![panel],
+    )
 }
 
 /// Differences between neighbouring cell heights.

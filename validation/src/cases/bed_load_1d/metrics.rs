@@ -3,67 +3,37 @@
 use super::Record;
 use super::runs::{BedLoad1dRun, Purpose};
 use crate::case::Run;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Outcome;
 use crate::reference::bed_load_layer::LayerState;
 use crate::reference::{TransportFormula, roughness_ratio};
 
-const TRANSPORT_RATIO: Quantity = Quantity::validated("transport_ratio", "-", "q* over that of the formula");
-const TRANSPORT: Quantity =
-    Quantity::validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)");
-const MEAN_FLUID_VELOCITY: Quantity =
-    Quantity::verified("mean_fluid_velocity", "m/s", "depth mean of the water's velocity");
-const STRESS_BALANCE_ERROR: Quantity =
-    Quantity::verified("stress_balance_error", "-", "what both stresses do not carry of the weight above");
-const DRAG_BALANCE_ERROR: Quantity =
-    Quantity::verified("drag_balance_error", "-", "what the drag does not balance of the grains' stress and weight");
-const START_DIFFERENCE: Quantity =
-    Quantity::verified("start_difference", "-", "difference between the steady states from rest and from a fast start");
-const OBSERVED_ORDER: Quantity =
-    Quantity::verified("observed_order", "-", "order of convergence with the height of a cell");
-const MOVES_ABOVE: Quantity =
-    Quantity::verified("moves_above", "mm", "lowest height at which grains are faster than 1 cm/s");
-const TOP_OF_GRAINS: Quantity = Quantity::verified("top_of_grains", "mm", "height up to which there are grains");
-const DECAY_LENGTH: Quantity =
-    Quantity::verified("decay_length", "mm", "length over which the velocity of the grains falls by e in the bed");
-const DRAG_PEAK_HEIGHT: Quantity =
-    Quantity::verified("drag_peak_height", "mm", "where the drag on the grains is greatest");
-const DRAG_FROM: Quantity =
-    Quantity::verified("drag_from", "mm", "lower end of the range in which it exceeds a tenth of that");
-const DRAG_TO: Quantity = Quantity::verified("drag_to", "mm", "its upper end");
-const LOGARITHMIC_SLOPE: Quantity = Quantity::verified(
-    "logarithmic_slope",
-    "-",
-    "slope of the water's velocity over ln z in a range of heights, over u_*/κ",
-);
-const VELOCITY_DEFICIT: Quantity =
-    Quantity::verified("velocity_deficit", "u_*", "velocity of the water less clear water's at a height");
-const MOTION_DEPTH_GROWTH: Quantity =
-    Quantity::validated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next");
-const DECAY_LENGTH_GROWTH: Quantity = Quantity::validated("decay_length_growth", "-", "the same of the decay length");
-const TRANSPORT_SENSITIVITY: Quantity =
-    Quantity::verified("transport_sensitivity", "-", "q* with a replaced closure over that of the literature's");
-
-pub(super) const QUANTITIES: &[Quantity] = &[
-    TRANSPORT_RATIO,
-    TRANSPORT,
-    MEAN_FLUID_VELOCITY,
-    STRESS_BALANCE_ERROR,
-    DRAG_BALANCE_ERROR,
-    START_DIFFERENCE,
-    OBSERVED_ORDER,
-    MOVES_ABOVE,
-    TOP_OF_GRAINS,
-    DECAY_LENGTH,
-    DRAG_PEAK_HEIGHT,
-    DRAG_FROM,
-    DRAG_TO,
-    LOGARITHMIC_SLOPE,
-    VELOCITY_DEFICIT,
-    MOTION_DEPTH_GROWTH,
-    DECAY_LENGTH_GROWTH,
-    TRANSPORT_SENSITIVITY,
-];
+quantities! {
+    []
+    TRANSPORT_RATIO: validated("transport_ratio", "-", "q* over that of the formula"),
+    TRANSPORT: validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)"),
+    MEAN_FLUID_VELOCITY: verified("mean_fluid_velocity", "m/s", "depth mean of the water's velocity"),
+    STRESS_BALANCE_ERROR: verified("stress_balance_error", "-", "what both stresses do not carry of the weight above"),
+    DRAG_BALANCE_ERROR:
+        verified("drag_balance_error", "-", "what the drag does not balance of the grains' stress and weight"),
+    START_DIFFERENCE:
+        verified("start_difference", "-", "difference between the steady states from rest and from a fast start"),
+    OBSERVED_ORDER: verified("observed_order", "-", "order of convergence with the height of a cell"),
+    MOVES_ABOVE: verified("moves_above", "mm", "lowest height at which grains are faster than 1 cm/s"),
+    TOP_OF_GRAINS: verified("top_of_grains", "mm", "height up to which there are grains"),
+    DECAY_LENGTH: verified("decay_length", "mm", "length over which the velocity of the grains falls by e in the bed"),
+    DRAG_PEAK_HEIGHT: verified("drag_peak_height", "mm", "where the drag on the grains is greatest"),
+    DRAG_FROM: verified("drag_from", "mm", "lower end of the range in which it exceeds a tenth of that"),
+    DRAG_TO: verified("drag_to", "mm", "its upper end"),
+    LOGARITHMIC_SLOPE:
+        verified("logarithmic_slope", "-", "slope of the water's velocity over ln z in a range of heights, over u_*/κ"),
+    VELOCITY_DEFICIT: verified("velocity_deficit", "u_*", "velocity of the water less clear water's at a height"),
+    MOTION_DEPTH_GROWTH:
+        validated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next"),
+    DECAY_LENGTH_GROWTH: validated("decay_length_growth", "-", "the same of the decay length"),
+    TRANSPORT_SENSITIVITY:
+        verified("transport_sensitivity", "-", "q* with a replaced closure over that of the literature's"),
+}
 
 /// Speed above which a grain counts as moving `[m/s]`.
 pub(super) const MOVING: f64 = 0.01;

@@ -40,15 +40,13 @@ fn profiles(records: &[Record]) -> Figure {
             .push(Series { error: error.clone(), ..Series::new(&label(run.slope), Mark::Points, slot, values) });
         residual.series.push(Series { error, ..Series::new("", Mark::LinePoints, slot, deviations) });
     }
-    Figure {
-        name: "velocity-profile".to_owned(),
-        caption: "Mean velocity in units of the friction velocity over the distance from the wall law's origin in units of \
+    Figure::new(
+        "velocity-profile",
+        "Mean velocity in units of the friction velocity over the distance from the wall law's origin in units of \
                   the roughness length, against the logarithmic law, and the difference, both with the statistical error \
-                  from blocks of time. Bins are one spacing high."
-            .to_owned(),
-        panels: vec![profile, residual],
-        columns: 2,
-    }
+                  from blocks of time. Bins are one spacing high.",
+        vec![profile, residual],
+    )
 }
 
 fn over_time(records: &[Record]) -> Figure {
@@ -76,14 +74,11 @@ fn over_time(records: &[Record]) -> Figure {
     for panel in [&mut velocity, &mut shear] {
         panel.series.push(Series::new("", Mark::Reference, 0, vec![(0.0, 1.0), (longest, 1.0)]));
     }
-    Figure {
-        name: "stationarity".to_owned(),
-        caption:
-            "Depth mean of the velocity over that of the logarithmic law, and the friction of the bed over ρ g h i. \
+    Figure::new(
+        "stationarity",
+        "Depth mean of the velocity over that of the logarithmic law, and the friction of the bed over ρ g h i. \
                   Points are the ends of the intervals U/(2 g i) of the criterion; the last of them is where the flow \
-                  counts as stationary and the averaging window begins."
-                .to_owned(),
-        panels: vec![velocity, shear],
-        columns: 2,
-    }
+                  counts as stationary and the averaging window begins.",
+        vec![velocity, shear],
+    )
 }

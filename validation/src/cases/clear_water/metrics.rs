@@ -4,32 +4,22 @@ use super::Record;
 use super::parameters::{ClearWaterRun, Period};
 use crate::case::Run;
 use crate::cases::channel::{self, ChannelObservation, ProfilePoint};
-use crate::metric::{Confidence, Limit, Metric, Quantity};
+use crate::metric::{Confidence, Limit, Metric, quantities};
 use crate::observation::Recorded;
 use crate::reference::RoughChannel;
 use crate::statistics::linear_fit;
 
-const STATIONARY_AFTER: Quantity =
-    Quantity::verified("stationary_after", "s", "when the depth mean had become stationary by the criterion");
-const VELOCITY_RMS: Quantity =
-    Quantity::verified("velocity_rms", "u_*", "root mean square of the velocity less the logarithmic law");
-const SEMI_LOG_SLOPE: Quantity =
-    Quantity::verified("semi_log_slope", "-", "slope of the velocity over the logarithm of the height, over u_*/κ");
-const MEAN_VELOCITY: Quantity =
-    Quantity::verified("mean_velocity", "-", "depth mean of the velocity over that of the logarithmic law");
-
-pub(super) const QUANTITIES: &[Quantity] = &[
-    channel::PARTICLES_LOST,
-    channel::MOMENTUM_RESIDUAL,
-    STATIONARY_AFTER,
-    VELOCITY_RMS,
-    SEMI_LOG_SLOPE,
-    channel::BED_SHEAR,
-    MEAN_VELOCITY,
-    channel::VELOCITY_DRIFT,
-    channel::HEIGHT_CHANGE,
-    channel::PRESSURE_L2,
-];
+quantities! {
+    [
+        channel::PARTICLES_LOST, channel::MOMENTUM_RESIDUAL, channel::BED_SHEAR, channel::VELOCITY_DRIFT,
+        channel::HEIGHT_CHANGE, channel::PRESSURE_L2,
+    ]
+    STATIONARY_AFTER: verified("stationary_after", "s", "when the depth mean had become stationary by the criterion"),
+    VELOCITY_RMS: verified("velocity_rms", "u_*", "root mean square of the velocity less the logarithmic law"),
+    SEMI_LOG_SLOPE:
+        verified("semi_log_slope", "-", "slope of the velocity over the logarithm of the height, over u_*/κ"),
+    MEAN_VELOCITY: verified("mean_velocity", "-", "depth mean of the velocity over that of the logarithmic law"),
+}
 
 /// Heights over the depth between which the profile is compared `[-]`.
 const COMPARED: (f64, f64) = (0.1, 0.9);

@@ -57,15 +57,13 @@ pub(super) fn drag_coefficients() -> Figure {
         ratio.series.push(Series::new("", Mark::Line, slot(law), points.iter().filter_map(relative).collect()));
         coefficient.series.push(Series::new(label, Mark::Line, slot(law), points));
     }
-    Figure {
-        name: "drag-coefficients".to_owned(),
-        caption: "Drag coefficient of one grain alone over its Reynolds number R = |u_r| d/ν, and relative to Schiller and \
+    Figure::new(
+        "drag-coefficients",
+        "Drag coefficient of one grain alone over its Reynolds number R = |u_r| d/ν, and relative to Schiller and \
                   Naumann's. The steps are the joints of Morsi and Alexander's table, which ends at R = 50 000. Ergun's law \
-                  describes beds and has no grain alone."
-            .to_owned(),
-        panels: vec![coefficient, ratio],
-        columns: 2,
-    }
+                  describes beds and has no grain alone.",
+        vec![coefficient, ratio],
+    )
 }
 
 /// Exchange coefficient per grain over that of a grain alone, and the settling velocity that follows, over the fraction.

@@ -114,15 +114,13 @@ fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
             panel.series.push(Series { error, ..Series::new(name, Mark::Points, slot, points) });
         }
     }
-    Figure {
-        name: "terminal-velocity".to_owned(),
-        caption: "Mean slip of a grain alone against the root of its balance, for every law, with the standard error of \
+    Figure::new(
+        "terminal-velocity",
+        "Mean slip of a grain alone against the root of its balance, for every law, with the standard error of \
                   the mean: one planar grain (c = ½) as printed and stabilised, spheres (c = ¾) of a very dilute suspension \
-                  by volume fractions. Wen and Yu's and Gidaspow's grain alone is that of Schiller and Naumann."
-            .to_owned(),
-        panels: vec![panel],
-        columns: 1,
-    }
+                  by volume fractions. Wen and Yu's and Gidaspow's grain alone is that of Schiller and Naumann.",
+        vec![panel],
+    )
 }
 
 fn hindered(records: &[(&SuspensionRun, &SettlingObservation)]) -> Figure {
@@ -157,13 +155,11 @@ fn hindered(records: &[(&SuspensionRun, &SettlingObservation)]) -> Figure {
     let published = |exponent: f64| fractions().map(|phi| (phi, alone * libm::pow(1.0 - phi, exponent))).collect();
     slip.series.push(Series::new("Richardson–Zaki (unverified)", Mark::Reference, 0, published(exponent - 1.0)));
     sinking.series.push(Series::new("", Mark::Reference, 0, published(exponent)));
-    Figure {
-        name: "hindered-settling".to_owned(),
-        caption: "Slip of a uniform suspension and the velocity at which it sinks in a vessel: particles (points) and roots \
+    Figure::new(
+        "hindered-settling",
+        "Slip of a uniform suspension and the velocity at which it sinks in a vessel: particles (points) and roots \
                   of the balance (lines) for every law. Gidaspow's law is Wen and Yu's up to φ = 0.2 and Ergun's above. \
-                  Dashed: Richardson and Zaki (1954) with the grain alone of Wen and Yu, unverified: observed, not judged."
-            .to_owned(),
-        panels: vec![slip, sinking],
-        columns: 2,
-    }
+                  Dashed: Richardson and Zaki (1954) with the grain alone of Wen and Yu, unverified: observed, not judged.",
+        vec![slip, sinking],
+    )
 }

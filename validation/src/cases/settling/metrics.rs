@@ -6,37 +6,24 @@ use super::probe::{SettlingObservation, SettlingSeries};
 use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;
 use crate::case::Run;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::reference::{richardson_zaki_confidence, richardson_zaki_exponent};
 
-const TERMINAL_VELOCITY_ERROR: Quantity = Quantity::verified(
-    "terminal_velocity_error",
-    "%",
-    "slip that the drag is taken from over that of a grain alone, less 1",
-);
-const SLIP_OF_MEANS_ERROR: Quantity =
-    Quantity::verified("slip_of_means_error", "%", "|⟨u_f⟩ − u_s| over the root of the balance, less 1");
-const ROOT_MEAN_SQUARE_SLIP_ERROR: Quantity =
-    Quantity::verified("root_mean_square_slip_error", "%", "√⟨|u_f − u_s|²⟩ over the root of the balance, less 1");
-const SLIP_ERROR: Quantity = Quantity::verified("slip_error", "%", "slip of a suspension over the root, less 1");
-const SINKING_ERROR: Quantity =
-    Quantity::verified("sinking_error", "%", "velocity at which a suspension sinks over the root's, less 1");
-const SINKING_OVER_RICHARDSON_ZAKI: Quantity =
-    Quantity::validated("sinking_over_richardson_zaki", "-", "that velocity over Richardson and Zaki's");
-const UNEVENNESS: Quantity = Quantity::verified("unevenness", "%", "scatter of the grains' velocities over the slip");
-const MOMENTUM_ERROR: Quantity =
-    Quantity::verified("momentum_error", "-", "what does not close of a step's momentum, over the grains' weight");
-
-pub(super) const QUANTITIES: &[Quantity] = &[
-    TERMINAL_VELOCITY_ERROR,
-    SLIP_OF_MEANS_ERROR,
-    ROOT_MEAN_SQUARE_SLIP_ERROR,
-    SLIP_ERROR,
-    SINKING_ERROR,
-    SINKING_OVER_RICHARDSON_ZAKI,
-    UNEVENNESS,
-    MOMENTUM_ERROR,
-];
+quantities! {
+    []
+    TERMINAL_VELOCITY_ERROR:
+        verified("terminal_velocity_error", "%", "slip that the drag is taken from over that of a grain alone, less 1"),
+    SLIP_OF_MEANS_ERROR: verified("slip_of_means_error", "%", "|⟨u_f⟩ − u_s| over the root of the balance, less 1"),
+    ROOT_MEAN_SQUARE_SLIP_ERROR:
+        verified("root_mean_square_slip_error", "%", "√⟨|u_f − u_s|²⟩ over the root of the balance, less 1"),
+    SLIP_ERROR: verified("slip_error", "%", "slip of a suspension over the root, less 1"),
+    SINKING_ERROR: verified("sinking_error", "%", "velocity at which a suspension sinks over the root's, less 1"),
+    SINKING_OVER_RICHARDSON_ZAKI:
+        validated("sinking_over_richardson_zaki", "-", "that velocity over Richardson and Zaki's"),
+    UNEVENNESS: verified("unevenness", "%", "scatter of the grains' velocities over the slip"),
+    MOMENTUM_ERROR:
+        verified("momentum_error", "-", "what does not close of a step's momentum, over the grains' weight"),
+}
 
 const ALONE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ½ for the planar form (30)";
 const SPHERE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ¾ for a sphere";

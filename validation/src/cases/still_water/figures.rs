@@ -37,15 +37,12 @@ fn pressure(records: &[Record]) -> Figure {
     }
     profile.series.push(Series::new("hydrostatic", Mark::Reference, 0, vec![(0.0, 1.0), (1.0, 0.0)]));
     error.series.push(Series::new("", Mark::Reference, 0, vec![(0.0, 0.0), (1.0, 0.0)]));
-    Figure {
-        name: "pressure".to_owned(),
-        caption:
-            "Pressure of every particle at the end against the hydrostatic one, and the difference in per cent of the \
-                  pressure on the floor."
-                .to_owned(),
-        panels: vec![profile, error],
-        columns: 2,
-    }
+    Figure::new(
+        "pressure",
+        "Pressure of every particle at the end against the hydrostatic one, and the difference in per cent of the \
+                  pressure on the floor.",
+        vec![profile, error],
+    )
 }
 
 fn rest(records: &[Record]) -> Figure {
@@ -66,15 +63,13 @@ fn rest(records: &[Record]) -> Figure {
         height.series.push(Series::new(name, Mark::Reference, 0, vec![(0.0, bound), (longest, bound)]));
     }
     speed.series.push(Series::new("limit at the end", Mark::Reference, 0, vec![(1e-3, 5e-4), (longest, 5e-4)]));
-    Figure {
-        name: "rest".to_owned(),
-        caption: "Mean height and root mean square vertical velocity over time. The displaced column first shakes itself \
+    Figure::new(
+        "rest",
+        "Mean height and root mean square vertical velocity over time. The displaced column first shakes itself \
                   into place and then comes to rest. Without the stabilisation a strongly displaced one blows up within \
-                  milliseconds."
-            .to_owned(),
-        panels: vec![height, speed],
-        columns: 2,
-    }
+                  milliseconds.",
+        vec![height, speed],
+    )
 }
 
 /// The last state of a run with and without stabilisation.
@@ -96,13 +91,10 @@ fn states(records: &[Record]) -> Option<Figure> {
         panel
     };
     let ending = if matches!(failed.outcome, Outcome::Diverged { .. }) { ", diverged" } else { "" };
-    Some(Figure {
-        name: "states".to_owned(),
-        caption:
-            "Particles in the colour of their pressure at the end of the run and, without the stabilisation of the \
-                  pressure Poisson equation, at the end of its shorter run."
-                .to_owned(),
-        panels: vec![panel(stabilised, held.frames.last()?, ""), panel(unstabilised, failed.frames.last()?, ending)],
-        columns: 2,
-    })
+    Some(Figure::new(
+        "states",
+        "Particles in the colour of their pressure at the end of the run and, without the stabilisation of the \
+                  pressure Poisson equation, at the end of its shorter run.",
+        vec![panel(stabilised, held.frames.last()?, ""), panel(unstabilised, failed.frames.last()?, ending)],
+    ))
 }

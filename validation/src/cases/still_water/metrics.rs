@@ -4,19 +4,15 @@ use super::Record;
 use super::parameters::StillWaterRun;
 use crate::case::Run;
 use crate::cases::channel::{self, ChannelObservation};
-use crate::metric::{Confidence, Limit, Metric, Quantity};
+use crate::metric::{Confidence, Limit, Metric, quantities};
 use crate::observation::Recorded;
 
-const RMS_VERTICAL_VELOCITY: Quantity =
-    Quantity::verified("rms_vertical_velocity", "m/s", "root mean square of the vertical velocity");
-const BLOW_UP_TIME: Quantity = Quantity::verified(
-    "blow_up_time",
-    "s",
-    "when a column without stabilisation threw a particle above 1.2 h or diverged",
-);
-
-pub(super) const QUANTITIES: &[Quantity] =
-    &[channel::PARTICLES_LOST, channel::HEIGHT_CHANGE, RMS_VERTICAL_VELOCITY, channel::PRESSURE_L2, BLOW_UP_TIME];
+quantities! {
+    [channel::PARTICLES_LOST, channel::HEIGHT_CHANGE, channel::PRESSURE_L2]
+    RMS_VERTICAL_VELOCITY: verified("rms_vertical_velocity", "m/s", "root mean square of the vertical velocity"),
+    BLOW_UP_TIME:
+        verified("blow_up_time", "s", "when a column without stabilisation threw a particle above 1.2 h or diverged"),
+}
 
 /// Time after which the water is expected to be at rest `[s]`.
 const AT_REST_AFTER: f64 = 15.0;

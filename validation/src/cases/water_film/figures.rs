@@ -17,12 +17,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         panel.series.push(Series::new("against the film of the nominal depth", Mark::LinePoints, 0, errors));
         panel.series.push(Series::new("against the film of the particles' own depth", Mark::LinePoints, 1, own));
         panel.series.push(Series::new("first order", Mark::Reference, 0, guide));
-        figures.push(Figure {
-            name: "convergence".to_owned(),
-            caption: CONVERGENCE.to_owned(),
-            panels: vec![panel],
-            columns: 1,
-        });
+        figures.push(Figure::new("convergence", CONVERGENCE, vec![panel]));
     }
     figures
 }
@@ -61,14 +56,12 @@ fn profiles(records: &[Record]) -> Figure {
             ..Series::new("", Mark::LinePoints, slot, deviations)
         });
     }
-    Figure {
-        name: "velocity-profile".to_owned(),
-        caption: "Velocity over the depth, averaged over the last relaxation times, against the exact film, and the \
-                  difference in per cent of the surface velocity with its statistical error from blocks."
-            .to_owned(),
-        panels: vec![velocity, error],
-        columns: 2,
-    }
+    Figure::new(
+        "velocity-profile",
+        "Velocity over the depth, averaged over the last relaxation times, against the exact film, and the \
+                  difference in per cent of the surface velocity with its statistical error from blocks.",
+        vec![velocity, error],
+    )
 }
 
 fn over_time(records: &[Record]) -> Figure {
@@ -77,30 +70,23 @@ fn over_time(records: &[Record]) -> Figure {
     let mut longest: f64 = 0.0;
     for (slot, (run, record)) in records.iter().enumerate() {
         let series = &record.data.series;
+        let at = |time: f64| time / run.relaxation_time();
         let line = |values: &[f64], scale: f64| {
-            let curve = series.curve(values, scale);
-            curve.into_iter().map(|(time, value)| (time / run.relaxation_time(), value)).collect::<Vec<_>>()
+            series.curve(values, scale).into_iter().map(|(time, value)| (at(time), value)).collect::<Vec<_>>()
         };
-        longest = longest.max(record.simulated_time / run.relaxation_time());
+        longest = longest.max(at(record.simulated_time));
         let exact = run.exact(run.water.depth).flux() / run.water.depth;
         mean.series.push(Series::new(&label(run), Mark::Line, slot, line(&series.mean_velocity, exact)));
         height.series.push(Series::new("", Mark::Line, slot, line(&series.relative_height, 1.0)));
         let own = depth_of(run, &record.data, Depth::Own) / run.water.depth;
-        let window = record.data.window;
-        let at = |time: f64| time / run.relaxation_time();
-        height.series.push(Series::new(
-            "mean over the window",
-            Mark::Reference,
-            0,
-            vec![(at(window.0), own), (at(window.1), own)],
-        ));
+        let (from, to) = record.data.window;
+        let window = vec![(at(from), own), (at(to), own)];
+        height.series.push(Series::new("mean over the window", Mark::Reference, 0, window));
     }
     mean.series.push(Series::new("exact", Mark::Reference, 0, vec![(0.0, 1.0), (longest, 1.0)]));
-    Figure {
-        name: "steadiness".to_owned(),
-        caption: "Depth mean of the velocity and mean height over time, from the exact profile at the nominal depth."
-            .to_owned(),
-        panels: vec![mean, height],
-        columns: 2,
-    }
+    Figure::new(
+        "steadiness",
+        "Depth mean of the velocity and mean height over time, from the exact profile at the nominal depth.",
+        vec![mean, height],
+    )
 }

@@ -5,27 +5,19 @@ use super::parameters::WaterFilmRun;
 use crate::case::Run;
 use crate::cases::Arrangement;
 use crate::cases::channel::{self, ChannelObservation, ProfilePoint, Water};
-use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
+use crate::metric::{Confidence, Limit, Metric, Value, Variant, quantities};
 use crate::observation::Recorded;
 use crate::statistics::{Estimate, log_log_slope};
 
-const VELOCITY_L2: Quantity = Quantity::verified("velocity_l2", "%", "relative L2 of the velocity profile");
-const VELOCITY_L2_OWN_DEPTH: Quantity =
-    Quantity::verified("velocity_l2_own_depth", "%", "the same against the film of the particles' own depth");
-const OBSERVED_ORDER: Quantity = Quantity::verified("observed_order", "-", "order of convergence of `velocity_l2`");
-const OBSERVED_ORDER_OWN_DEPTH: Quantity =
-    Quantity::verified("observed_order_own_depth", "-", "order of convergence of `velocity_l2_own_depth`");
-
-pub(super) const QUANTITIES: &[Quantity] = &[
-    channel::PARTICLES_LOST,
-    channel::MOMENTUM_RESIDUAL,
-    VELOCITY_L2,
-    VELOCITY_L2_OWN_DEPTH,
-    channel::HEIGHT_CHANGE,
-    channel::BED_SHEAR,
-    OBSERVED_ORDER,
-    OBSERVED_ORDER_OWN_DEPTH,
-];
+quantities! {
+    [channel::PARTICLES_LOST, channel::MOMENTUM_RESIDUAL, channel::HEIGHT_CHANGE, channel::BED_SHEAR]
+    VELOCITY_L2: verified("velocity_l2", "%", "relative L2 of the velocity profile"),
+    VELOCITY_L2_OWN_DEPTH:
+        verified("velocity_l2_own_depth", "%", "the same against the film of the particles' own depth"),
+    OBSERVED_ORDER: verified("observed_order", "-", "order of convergence of `velocity_l2`"),
+    OBSERVED_ORDER_OWN_DEPTH:
+        verified("observed_order_own_depth", "-", "order of convergence of `velocity_l2_own_depth`"),
+}
 
 /// Which film a profile is compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,19 +33,16 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     for (run, record) in records {
         of_run(&mut metrics, run, record);
     }
-    for (quantity, depth) in [(OBSERVED_ORDER, Depth::Nominal), (OBSERVED_ORDER_OWN_DEPTH, Depth::Own)] {
+    for (quantity, depth, reason) in [
+        (OBSERVED_ORDER, Depth::Nominal, "first order is expected of walls and surface"),
+        (OBSERVED_ORDER_OWN_DEPTH, Depth::Own, "the same, where the depth is not part of the error"),
+    ] {
         let errors = convergence_errors(records, depth);
         if errors.len() >= 3 {
             let rows = Value::list(errors.iter().map(|(rows, _)| *rows));
             let variant = Variant::of("particles", "lattice").and("resolution", rows);
-            let metric = quantity
-                .of(&variant, -log_log_slope(&errors).unwrap_or(f64::NAN))
-                .against(None, source(depth), Confidence::Exact)
-                .with_snapshot_tolerance(0.1, 0.05);
-            let reason = match depth {
-                Depth::Nominal => "first order is expected of walls and surface",
-                Depth::Own => "the same, where the depth is not part of the error",
-            };
+            let order = quantity.of(&variant, -log_log_slope(&errors).unwrap_or(f64::NAN));
+            let metric = order.against(None, source(depth), Confidence::Exact).with_snapshot_tolerance(0.1, 0.05);
             metrics.push(metric.gated(Limit::AtLeast(0.7), reason));
         }
     }
@@ -74,12 +63,12 @@ fn of_run(metrics: &mut Vec<Metric>, run: &WaterFilmRun, record: &Recorded<Chann
     metrics.push(channel::momentum_residual(&variant, record));
     for (quantity, depth) in [(VELOCITY_L2, Depth::Nominal), (VELOCITY_L2_OWN_DEPTH, Depth::Own)] {
         let error = channel::observed(quantity, &variant, velocity_l2(run, data, depth), 100.0);
-        let metric = error.against(Some(0.0), source(depth), Confidence::Exact);
-        metrics.push(if depth == Depth::Nominal && run.water.resolution >= 20 {
-            metric.gated(Limit::AtMost(0.8), "0.8 % at 20 rows, from the lattice and from displaced particles")
-        } else {
-            metric
-        });
+        let mut metric = error.against(Some(0.0), source(depth), Confidence::Exact);
+        if depth == Depth::Nominal && run.water.resolution >= 20 {
+            metric =
+                metric.gated(Limit::AtMost(0.8), "0.8 % at 20 rows, from the lattice and from displaced particles");
+        }
+        metrics.push(metric);
     }
     let source = "mean height h/2; the velocity goes with the square of the depth";
     metrics.push(channel::height_change(&variant, data, source));
