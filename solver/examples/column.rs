@@ -20,7 +20,7 @@ const COLUMN: (f64, f64) = (0.1, 0.2);
 const SPACING: f64 = 0.01;
 const GRAVITY: f64 = 9.81;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The material: its bulk density, its pressure, its stress. Dry grains carry no tension. The bulk modulus is not that
     // of glass, but large enough for nearly constant density: sound ten times as fast as the fall of the column.
     let density = 1500.0;

@@ -1,4 +1,7 @@
-//! The examples of the validation package do what they say.
+//! The examples of both packages do what they say.
+
+#[path = "../../solver/examples/column.rs"]
+mod column;
 
 #[path = "../../validation/examples/own_case.rs"]
 #[expect(dead_code, reason = "its main reads the arguments of a program of its own")]
@@ -40,4 +43,10 @@ fn a_law_of_ones_own_is_found_by_its_key_and_run() {
     assert!((newtonian / exact - 1.0).abs() < 0.03, "{newtonian} m/s for {exact} m/s");
     assert!(thinning > 1.1 * newtonian, "at a few 1/s it is thinner: {thinning} m/s");
     assert!(length("own_law.rs") < 80);
+}
+
+#[test]
+fn a_column_collapses_and_comes_to_rest() {
+    // it ends in an error if the run diverges
+    column::main().expect("a run to its end");
 }
