@@ -2,6 +2,7 @@
 
 use super::error::{ParameterError, SettingError};
 use super::fault;
+use bagnold_solver::material::rheology::open::registered;
 use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
 use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};
@@ -41,13 +42,38 @@ where
     // Together, so that a law and its parameters may come in any order.
     overlay(schema, &mut table, &settings);
     let value = Value::Table(table);
-    match first_fault(schema, &value) {
+    match first_fault(schema, &value).or_else(|| unknown_law(schema, &value, "")) {
         Some(fault) => Err(blame(fault, case, &defaults, changes)),
-        // What no schema can tell, such as whether a law of the user's own is known.
+        // What no schema can tell, such as what the maker of a law of the user's own says of its parameters.
         None => value.try_into().map_err(|error: toml::de::Error| {
             let remedy = format!("`bagnold show {case}` prints valid ones");
             ParameterError::field("parameters", "not valid", error.message(), &remedy)
         }),
+    }
+}
+
+/// A law that is neither the solver's nor one of the user's own: the schema leaves the names of the latter open.
+fn unknown_law(schema: &Schema, value: &Value, path: &str) -> Option<Fault> {
+    let below = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
+    match (Shape::of(schema), value) {
+        (Shape::Tagged { tag, variants, open: true }, Value::Table(fields)) => {
+            let name = fields.get(tag)?.as_str()?;
+            let built_in = variants.iter().map(|variant| variant.name);
+            let names: Vec<String> = built_in.chain(registered()).map(str::to_owned).collect();
+            (!names.iter().any(|known| known == name)).then(|| Fault::Kind {
+                path: below(tag),
+                value: Some(format!("{name:?}")),
+                rule: format!("one of `{}`", names.join("`, `")),
+                choice: Some((name.to_owned(), names)),
+            })
+        }
+        (Shape::Fields { properties, .. }, Value::Table(fields)) => fields
+            .iter()
+            .find_map(|(name, value)| properties.get(name).and_then(|schema| unknown_law(schema, value, &below(name)))),
+        (Shape::List(item), Value::Array(values)) => {
+            values.iter().enumerate().find_map(|(index, value)| unknown_law(item, value, &format!("{path}[{index}]")))
+        }
+        _ => None,
     }
 }
 

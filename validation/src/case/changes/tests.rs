@@ -1,4 +1,5 @@
 use super::*;
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::parameter::not_negative;
 use serde::Deserialize;
 
@@ -192,4 +193,21 @@ fn laws_that_do_not_exist_or_lack_a_parameter_are_refused() {
         message("", &["material.law=newtonian", "material.viscosity=-1"]),
         "`material.viscosity` is -1, but must be finite and not negative; give it in Pa·s"
     );
+}
+
+#[test]
+fn a_law_that_nobody_knows_is_refused_at_its_key() {
+    #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+    struct Bed {
+        material: Rheology,
+    }
+    let defaults = Bed { material: Rheology::Newtonian(Newtonian { viscosity: 1.0 }) };
+    let settings = ["material.law=newtonain".to_owned()];
+    let error =
+        resolve("bed", &defaults, &Changes { file: None, settings: &settings }).expect_err("refused").to_string();
+    assert!(
+        error.starts_with("`--set material.law=newtonain`: `material.law` is newtonain, but must be one of "),
+        "{error}"
+    );
+    assert!(error.contains("`mu-i`") && error.ends_with("did you mean `newtonian`?"), "{error}");
 }
