@@ -130,6 +130,16 @@ pub fn deviatoric_rate<V: Real, const D: usize>(gradient: &[[V; D]; D]) -> [[V; 
     lanes
 }
 
+/// A:B.
+#[inline(always)]
+pub fn contraction<V: Real, const D: usize>(a: &[[V; D]; D], b: &[[V; D]; D]) -> V {
+    let mut sum = dot(&a[0], &b[0]);
+    for i in 1..D {
+        sum = sum + dot(&a[i], &b[i]);
+    }
+    sum
+}
+
 /// √(c T:T).
 #[inline(always)]
 pub fn invariant<V: Real, const D: usize>(factor: f64, tensor: &[[V; D]; D]) -> V {

@@ -5,6 +5,7 @@
 
 pub mod boundary;
 pub mod divergence;
+pub mod energy;
 mod model;
 pub mod neighbours;
 pub mod numerics;

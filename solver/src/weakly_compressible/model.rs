@@ -1,10 +1,11 @@
 //! Material, numerics and neighbour list: all that a pass needs beside the particles.
 
 use crate::kernel::Kernel;
-use crate::lanes::InstructionSet;
+use crate::lanes::algebra::{deviatoric_rate, invariant};
+use crate::lanes::{InstructionSet, Lanes};
 use crate::material::equation_of_state::EquationOfState;
 use crate::material::rheology::Rheology;
-use crate::material::turbulence::Smagorinsky;
+use crate::material::turbulence::{Smagorinsky, dynamic_eddy_viscosity};
 use crate::vector::Vector;
 use crate::weakly_compressible::neighbours::VerletList;
 use crate::weakly_compressible::numerics::{MomentumOperator, Numerics};
@@ -48,6 +49,12 @@ impl<const D: usize> Model<D> {
         }
     }
 
+    /// Whether the flow may slide along a rough wall as far as its volume is concerned: a liquid, whose boundary layer can
+    /// be thinner than a spacing, but no grains.
+    pub(crate) fn slides(&self) -> bool {
+        self.contact_friction == 0.0 && self.gradient_use() == GradientUse::Stress
+    }
+
     /// How far the neighbour list reaches beyond the kernel `[m]`.
     pub(crate) fn skin(&self) -> f64 {
         self.numerics.verlet_skin * self.kernel.support()
@@ -66,6 +73,43 @@ impl<const D: usize> Model<D> {
             * self.equation_of_state.sound_speed()
             * self.numerics.shear_modulus_ratio.sqrt()
             * self.kernel.smoothing_length()
+    }
+
+    /// Viscosity beside the law's `[Pa·s]` of eight particles, of elastic damping and eddies, at a velocity gradient
+    /// `[1/s]`, a stress and a pressure `[Pa]` and a density `[kg/m³]`; none where there is neither.
+    #[inline(always)]
+    pub(crate) fn added_viscosity<V: Lanes>(
+        &self,
+        gradient: &[[V; D]; D],
+        stress: &[[V; D]; D],
+        pressure: V,
+        density: V,
+    ) -> Option<V> {
+        let (elastic_viscosity, mixing_area) = (self.elastic_viscosity(), self.mixing_area());
+        let damped = elastic_viscosity > 0.0 && self.rheology.is_plastic();
+        if !damped && mixing_area <= 0.0 {
+            return None;
+        }
+        let mut viscosity = V::splat(0.0);
+        if damped {
+            let elasticity = self.rheology.elasticity(invariant(0.5, stress), pressure);
+            viscosity = elasticity * V::splat(elastic_viscosity);
+        }
+        if mixing_area > 0.0 {
+            let shear_rate = invariant(2.0, &deviatoric_rate(gradient));
+            viscosity = viscosity + dynamic_eddy_viscosity(density, mixing_area, shear_rate);
+        }
+        Some(viscosity)
+    }
+
+    /// δ c h `[m²/s]`: diffusivity of the stress ratio among yielding particles.
+    pub(crate) fn stress_diffusivity(&self) -> f64 {
+        self.numerics.stress_diffusion * self.equation_of_state.sound_speed() * self.kernel.smoothing_length()
+    }
+
+    /// Whether the stress ratio diffuses: where a law carries its stress along.
+    pub(crate) fn stress_diffuses(&self) -> bool {
+        self.rheology.is_plastic() && self.numerics.stress_diffusion > 0.0 && self.gradient_use() == GradientUse::Stress
     }
 
     /// (C_s Δ)² `[m²]` of the eddy viscosity (5).

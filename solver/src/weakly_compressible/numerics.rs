@@ -41,6 +41,20 @@ pub enum Contact {
     None,
 }
 
+/// Along which directions the velocity hourglass control acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum HourglassDirection {
+    /// Along all, at rough walls too, where it acts as a friction of the bed on curved flow.
+    All,
+    /// Along all among the flow, along the normal only at walls.
+    NormalAtWalls,
+    /// Along the line between two flow particles, and along the normal at walls (default).
+    RadialAndNormal,
+    /// Along the line between two flow particles, none at walls.
+    Radial,
+}
+
 /// How a viscous law's stress enters the momentum equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -83,6 +97,11 @@ pub struct Numerics {
     /// Coefficient of the velocity hourglass control `[-]`.
     #[schemars(transform = between(0.0, 2.0, DEFAULTS))]
     pub hourglass: f64,
+    /// Directions along which the hourglass control acts.
+    pub hourglass_direction: HourglassDirection,
+    /// Diffusion δ of the stress ratio among yielding particles, as a diffusivity δ c h `[-]`; 0 switches it off.
+    #[schemars(transform = between(0.0, 1.0, DEFAULTS))]
+    pub stress_diffusion: f64,
     /// Damping ζ of elastic shear below the yield, as a viscosity ζ ρ0 c_s h `[-]`; none where the material yields.
     #[schemars(transform = between(0.0, 1.0, DEFAULTS))]
     pub elastic_damping: f64,
@@ -121,7 +140,9 @@ impl Default for Numerics {
             artificial_viscosity: 0.02,
             viscosity_switch: ViscositySwitch::Constant,
             smagorinsky_constant: 0.0,
-            hourglass: 0.2,
+            hourglass: 0.4,
+            hourglass_direction: HourglassDirection::RadialAndNormal,
+            stress_diffusion: 0.1,
             elastic_damping: 0.5,
             shear_modulus_ratio: 0.3,
             acoustic_courant: 0.4,
@@ -147,6 +168,8 @@ impl Numerics {
             artificial_viscosity: 0.1,
             viscosity_switch: ViscositySwitch::MorrisMonaghan,
             hourglass: 0.0,
+            hourglass_direction: HourglassDirection::All,
+            stress_diffusion: 0.0,
             acoustic_courant: 0.2,
             advective_courant: 0.2,
             ..Self::default()

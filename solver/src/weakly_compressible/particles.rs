@@ -42,6 +42,8 @@ pub struct Particles<const D: usize> {
     pub(crate) wall_depth: Vec<f64>,
     /// Velocities of the walls `[m/s]`.
     pub(crate) wall_velocity: Vec<Vector<D>>,
+    /// Velocities of walls as the continuity of a sliding liquid takes them `[m/s]`.
+    pub(crate) sliding_velocity: Vec<Vector<D>>,
     /// 1 on particles of smooth walls, 0 elsewhere `[-]`.
     pub(crate) wall_smoothness: Vec<f64>,
     /// 1 on images behind a mirror, 0 elsewhere `[-]`.
@@ -59,6 +61,12 @@ pub struct Particles<const D: usize> {
     pub(crate) acceleration: Vec<Vector<D>>,
     /// The part of the accelerations that walls and mirrors cause `[m/s²]`.
     pub(crate) support: Vec<Vector<D>>,
+    /// Accelerations by the tractions of walls `[m/s²]`.
+    pub(crate) by_walls: Vec<Vector<D>>,
+    /// Accelerations by artificial viscosity and hourglass control among the flow `[m/s²]`.
+    pub(crate) by_damping: Vec<Vector<D>>,
+    /// Accelerations by the hourglass control at walls `[m/s²]`.
+    pub(crate) by_wall_control: Vec<Vector<D>>,
     /// Impulse that walls, mirrors and contacts have given each particle since the start `[kg m/s]`.
     pub(crate) support_impulse: Vec<Vector<D>>,
 
@@ -72,7 +80,7 @@ macro_rules! for_each_shared_array {
     ($particles:ident, $array:ident => $body:expr) => {
         for_each_shared_array!($particles, $array => $body, of position velocity velocity_gradient stress density
             pressure volume artificial_viscosity corrected_stress pressure_gradient viscosity wall_normal wall_depth
-            wall_velocity wall_smoothness mirrored)
+            wall_velocity sliding_velocity wall_smoothness mirrored)
     };
     ($particles:ident, $array:ident => $body:expr, of $($field:ident)*) => {
         $({
@@ -108,6 +116,7 @@ impl<const D: usize> Particles<D> {
             wall_normal: vec![Vector::zeros(); n],
             wall_depth: vec![0.0; n],
             wall_velocity: vec![Vector::zeros(); n],
+            sliding_velocity: vec![Vector::zeros(); real],
             wall_smoothness: vec![0.0; n],
             mirrored: vec![0.0; real],
             identity: (0..n as u32).collect(),
@@ -116,6 +125,9 @@ impl<const D: usize> Particles<D> {
             force_correction: vec![Tensor::identity(); n],
             acceleration: vec![Vector::zeros(); n],
             support: vec![Vector::zeros(); n],
+            by_walls: vec![Vector::zeros(); n],
+            by_damping: vec![Vector::zeros(); n],
+            by_wall_control: vec![Vector::zeros(); n],
             support_impulse: vec![Vector::zeros(); n],
             wall: Vec::with_capacity(m),
             flow: n,

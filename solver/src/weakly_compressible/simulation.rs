@@ -5,6 +5,8 @@ use crate::material::equation_of_state::EquationOfState;
 use crate::material::rheology::Rheology;
 use crate::run::observed_run::{self, Stepping};
 use crate::run::{Divergence, SceneError, StopReason};
+use crate::weakly_compressible::energy::EnergyAccount;
+use crate::weakly_compressible::model::GradientUse;
 use crate::weakly_compressible::neighbours::VerletList;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::scene::Scene;
@@ -202,6 +204,16 @@ impl<const D: usize> Simulation<D> {
     /// A copy of the state in the order of the scene.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot<D> {
-        Snapshot::new(self.state.time, &self.state.particles, &self.state.model.equation_of_state)
+        let State { particles, model, .. } = &self.state;
+        Snapshot::new(self.state.time, particles, &model.equation_of_state, self.energy())
+    }
+
+    /// Energies and where they came from; with the single divergence only, whose terms book their work.
+    #[must_use]
+    pub fn energy(&self) -> Option<EnergyAccount> {
+        let State { particles, model, energy, .. } = &self.state;
+        let shear_modulus = model.rheology.is_plastic().then(|| model.shear_modulus());
+        (model.gradient_use() == GradientUse::Stress)
+            .then(|| EnergyAccount::of(particles, &model.equation_of_state, shear_modulus, *energy))
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::material::equation_of_state::EquationOfState;
 use crate::vector::{Tensor, Vector};
+use crate::weakly_compressible::energy::EnergyAccount;
 use crate::weakly_compressible::particles::Particles;
 
 /// Plain state; every array has the shape `[flow particles]`, ordered by identity.
@@ -26,10 +27,17 @@ pub struct Snapshot<const D: usize> {
     /// Impulses that walls, mirror planes and contacts have given each particle since the start `[kg m/s]`; with the
     /// single divergence only.
     pub support_impulse: Vec<Vector<D>>,
+    /// Energies and where they came from; with the single divergence only.
+    pub energy: Option<EnergyAccount>,
 }
 
 impl<const D: usize> Snapshot<D> {
-    pub(crate) fn new(time: f64, particles: &Particles<D>, equation_of_state: &EquationOfState) -> Self {
+    pub(crate) fn new(
+        time: f64,
+        particles: &Particles<D>,
+        equation_of_state: &EquationOfState,
+        energy: Option<EnergyAccount>,
+    ) -> Self {
         let order = particles.by_identity();
         fn pick<T: Copy>(array: &[T], order: &[usize]) -> Vec<T> {
             order.iter().map(|&index| array[index]).collect()
@@ -45,6 +53,7 @@ impl<const D: usize> Snapshot<D> {
             density,
             mass: pick(&particles.mass, &order),
             support_impulse: pick(&particles.support_impulse, &order),
+            energy,
         }
     }
 

@@ -6,6 +6,7 @@ use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::{Images, Wall};
 use crate::weakly_compressible::divergence::Quantity;
+use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{LARGEST_ROW, VerletList};
 use crate::weakly_compressible::numerics::ViscositySwitch;
@@ -29,6 +30,7 @@ pub(crate) struct State<const D: usize> {
     pub(crate) pairs: PairData<D>,
     pub(crate) viscous: ViscousSystem<D>,
     pub(crate) search: Search<D>,
+    pub(crate) energy: EnergyLedger,
     pub(crate) time: f64,
     pub(crate) steps: u64,
     pub(crate) largest_speed: f64,
@@ -69,6 +71,7 @@ impl<const D: usize> State<D> {
             pairs: PairData::new(),
             viscous: ViscousSystem::new(),
             search: Search::new(scene.domain),
+            energy: EnergyLedger::default(),
             time: 0.0,
             steps: 0,
             largest_speed: 0.0,

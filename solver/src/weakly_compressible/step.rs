@@ -4,7 +4,9 @@ use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::contact;
 use crate::weakly_compressible::divergence::{DENSITY_RANGE, LARGEST_MACH_NUMBER, Quantity};
+use crate::weakly_compressible::energy::VelocityStep;
 use crate::weakly_compressible::model::GradientUse;
+use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::numerics::{Contact, MomentumOperator, ViscousStep};
 use crate::weakly_compressible::passes::{continuity, geometry, momentum, pairwise, wall_stress, wall_velocity};
 use crate::weakly_compressible::state::State;
@@ -78,7 +80,10 @@ impl<const D: usize> State<D> {
     fn accelerate_by_viscosity(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
         let solve = ViscousSolve { model: &self.model, pairs: &self.pairs, time_step };
         match solve.run(&mut self.particles, &self.images, &mut self.viscous) {
-            Ok(()) => Ok(()),
+            Ok(()) => {
+                self.energy.viscous -= self.viscous.work();
+                Ok(())
+            }
             Err(NotConverged { worst }) => {
                 let tolerance = self.model.numerics.viscous_tolerance;
                 let quantity = Quantity::ViscousResidual { tolerance, most_iterations: MOST_ITERATIONS };
@@ -96,28 +101,50 @@ impl<const D: usize> State<D> {
             Contact::None => f64::NEG_INFINITY,
         };
         let (walls, friction) = (&self.walls, self.model.contact_friction);
-        let particles = &mut self.particles;
+        self.pairs.open_ledger(flow);
+        let (particles, gravity) = (&mut self.particles, &self.model.gravity);
+        let (acceleration, support) = (&particles.acceleration, &particles.support);
+        let (position, mass) = (&particles.position[..flow], &particles.mass);
+        let (by_walls, by_damping) = (&particles.by_walls, &particles.by_damping);
+        let by_wall_control = &particles.by_wall_control;
         let (largest, bad) = (
-            &mut particles.velocity[..flow],
-            &mut particles.support_impulse,
-            &particles.acceleration,
-            &particles.support,
-            &particles.position[..flow],
-            &particles.mass,
+            particles.velocity[..flow].par_chunks_mut(BLOCK),
+            particles.support_impulse.par_chunks_mut(BLOCK),
+            &mut self.pairs.energy,
         )
             .into_par_iter()
-            .with_min_len(4096)
+            .with_min_len(16)
             .enumerate()
-            .map(|(index, (velocity, support_impulse, acceleration, support, position, mass))| {
-                *velocity += acceleration * time_step;
-                let contact = contact::impulse(walls, position, velocity, range, friction);
-                *velocity += contact;
-                *support_impulse += (support * time_step + contact) * *mass;
-                let square = velocity.norm_squared();
-                // written so that a NaN is bad
-                (square, if square <= limit { usize::MAX } else { index })
+            .map(|(block, (velocities, support_impulses, energy))| {
+                let mut extremes = (0.0_f64, usize::MAX);
+                for (offset, (velocity, support_impulse)) in velocities.iter_mut().zip(support_impulses).enumerate() {
+                    let index = block * BLOCK + offset;
+                    let before = *velocity;
+                    let after = before + acceleration[index] * time_step;
+                    let contact = contact::impulse(walls, &position[index], &after, range, friction);
+                    *velocity = after + contact;
+                    *support_impulse += (support[index] * time_step + contact) * mass[index];
+                    VelocityStep {
+                        mass: mass[index],
+                        time_step,
+                        gravity,
+                        before,
+                        after,
+                        contact,
+                        by_walls: &by_walls[index],
+                        by_damping: &by_damping[index],
+                        by_wall_control: &by_wall_control[index],
+                    }
+                    .add_to(energy);
+                    let square = velocity.norm_squared();
+                    // written so that a NaN is bad
+                    extremes =
+                        (extremes.0.max(square), extremes.1.min(if square <= limit { usize::MAX } else { index }));
+                }
+                extremes
             })
             .reduce(|| (0.0, usize::MAX), |a, b| (a.0.max(b.0), a.1.min(b.1)));
+        self.pairs.close_ledger(&mut self.energy);
         self.largest_speed = largest.sqrt();
         if bad != usize::MAX {
             let speed = self.particles.velocity[bad].norm();
@@ -130,7 +157,9 @@ impl<const D: usize> State<D> {
         self.images.copy_vectors(&mut self.particles.velocity);
         wall_velocity::run(&self.model, &mut self.particles, &mut self.pairs);
         self.images.copy_vectors(&mut self.particles.velocity);
+        self.images.copy_vectors(&mut self.particles.sliding_velocity);
         let extremes = continuity::run(&self.model, &mut self.particles, &mut self.pairs, time_step);
+        self.pairs.close_ledger(&mut self.energy);
         self.kinematic_viscosity = match self.model.gradient_use() {
             GradientUse::None => self.particles.viscosity[0] / self.model.equation_of_state.reference_density,
             _ => extremes.kinematic_viscosity,

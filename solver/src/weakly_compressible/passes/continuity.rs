@@ -2,24 +2,31 @@
 //! it needs is then at hand, the new stress of each particle.
 
 use super::PairData;
-use super::records::{self, LaneRecord, Records};
+use super::records::{self, LaneRecord};
 use crate::lanes::algebra::{
-    accumulate_outer, difference, dot, load, load_tensor, matrix_product, store, store_tensor, sum_of, zero_tensor,
+    accumulate, accumulate_outer, deviatoric_rate, difference, dot, load, load_tensor, matrix_product, store,
+    store_tensor, sum_of, zero_tensor,
 };
-use crate::lanes::{LANES, LaneIndices, LanePass, Lanes};
-use crate::vector::{Tensor, shear_rate};
+use crate::lanes::{LANES, LanePass, Lanes};
+use crate::vector::{Tensor, equivalent_shear_stress, shear_rate};
 use crate::weakly_compressible::divergence::DENSITY_RANGE;
+use crate::weakly_compressible::energy::{CompressionStep, DeformationStep, EnergyLedger, StressWork};
 use crate::weakly_compressible::model::{GradientUse, Model};
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::numerics::ViscositySwitch;
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::terms::{artificial_viscosity, continuity, density_coupling};
+use crate::weakly_compressible::terms::{artificial_viscosity, continuity, density_coupling, stress_diffusion};
 use rayon::prelude::*;
 use std::ops::Range;
 
 /// Values of a record: the layout of [`Partner`].
 pub(super) const fn values(dimension: usize) -> usize {
     3 * dimension + 1
+}
+
+/// Values of a record with the stress that diffuses: [`Partner`], then [`Yielding`].
+const fn long_values(dimension: usize) -> usize {
+    values(dimension) + 1 + records::deviator_values(dimension)
 }
 
 /// Values of a record if the density alone is updated: position, velocity.
@@ -32,20 +39,41 @@ struct Partner<V, const D: usize> {
     position: [V; D],
     velocity: [V; D],
     pressure: V,
+    /// Corrected pressure gradient; of a wall particle the velocity that the continuity of a liquid takes.
     pressure_gradient: [V; D],
 }
 
 impl<V: Lanes, const D: usize> Partner<V, D> {
     #[inline(always)]
-    fn load(records: &Records, indices: &LaneIndices<'_>) -> Self {
-        let record: LaneRecord<V> = records.load(const { values(D).div_ceil(4) }, indices);
+    fn of(record: &LaneRecord<V>) -> Self {
         Self {
-            position: records::vector(&record, 0),
-            velocity: records::vector(&record, D),
-            pressure: records::scalar(&record, 2 * D),
-            pressure_gradient: records::vector(&record, 2 * D + 1),
+            position: records::vector(record, 0),
+            velocity: records::vector(record, D),
+            pressure: records::scalar(record, 2 * D),
+            pressure_gradient: records::vector(record, 2 * D + 1),
         }
     }
+}
+
+/// What the diffusion of the stress ratio reads beside it.
+struct Yielding<V, const D: usize> {
+    /// What of the particle yields `[-]`.
+    part: V,
+    /// Upper triangle of s `[Pa]`.
+    stress: [[V; D]; D],
+}
+
+impl<V: Lanes, const D: usize> Yielding<V, D> {
+    #[inline(always)]
+    fn of(record: &LaneRecord<V>) -> Self {
+        Self { part: records::scalar(record, values(D)), stress: records::deviator(record, values(D) + 1) }
+    }
+}
+
+/// Values and quads of a record of continuity.
+#[inline(always)]
+const fn quads(dimension: usize, diffuses: bool) -> usize {
+    if diffuses { long_values(dimension).div_ceil(4) } else { values(dimension).div_ceil(4) }
 }
 
 /// What the pass found on its way.
@@ -78,8 +106,10 @@ pub(crate) fn run<const D: usize>(
 ) -> Extremes {
     let flow = particles.flow_count();
     let gradient = model.gradient_use();
-    fill_records(particles, pairs, gradient != GradientUse::None);
-    let pairs = &*pairs;
+    fill_records(model, particles, pairs, gradient);
+    pairs.open_ledger(flow);
+    let mut energy = std::mem::take(&mut pairs.energy);
+    let shared_pairs = &*pairs;
     let mut density = std::mem::take(&mut particles.density);
     let mut velocity_gradient = std::mem::take(&mut particles.velocity_gradient);
     let mut stress = std::mem::take(&mut particles.stress);
@@ -92,19 +122,21 @@ pub(crate) fn run<const D: usize>(
         stress[..flow].par_chunks_mut(BLOCK),
         viscosity[..flow].par_chunks_mut(BLOCK),
         artificial_viscosity[..flow].par_chunks_mut(BLOCK),
+        &mut energy,
     )
         .into_par_iter()
         .enumerate()
         .with_min_len(4)
-        .map(|(block, (density, velocity_gradient, stress, viscosity, artificial_viscosity))| {
-            let out = Output { density, velocity_gradient, stress, viscosity, artificial_viscosity };
+        .map(|(block, (density, velocity_gradient, stress, viscosity, artificial_viscosity, energy))| {
+            let out = Output { density, velocity_gradient, stress, viscosity, artificial_viscosity, energy };
             let advance = Advance { model, particles: shared, gradient, time_step, block_start: block * BLOCK };
             let mut extremes = Extremes::NONE;
             let extremes_of_block = &mut extremes;
-            model.instruction_set.run(Pass { advance, pairs, out, extremes: extremes_of_block });
+            model.instruction_set.run(Pass { advance, pairs: shared_pairs, out, extremes: extremes_of_block });
             extremes
         })
         .reduce(|| Extremes::NONE, Extremes::merge);
+    pairs.energy = energy;
     particles.density = density;
     particles.velocity_gradient = velocity_gradient;
     particles.stress = stress;
@@ -113,15 +145,33 @@ pub(crate) fn run<const D: usize>(
     extremes
 }
 
-/// Records in the layout of [`Partner`], or the first part of it.
-fn fill_records<const D: usize>(particles: &Particles<D>, pairs: &mut PairData<D>, full: bool) {
-    pairs.continuity.set_values(if full { values(D) } else { short_values(D) });
+/// Records in the layout of [`Partner`] with [`Yielding`] behind it, or the first part of it.
+fn fill_records<const D: usize>(
+    model: &Model<D>,
+    particles: &Particles<D>,
+    pairs: &mut PairData<D>,
+    gradient: GradientUse,
+) {
+    let (full, diffuses) = (gradient != GradientUse::None, model.stress_diffuses());
+    pairs.continuity.set_values(match (full, diffuses) {
+        (false, _) => short_values(D),
+        (true, false) => values(D),
+        (true, true) => long_values(D),
+    });
     pairs.continuity.fill(particles.position.len(), |index, record| {
         record.vector(&particles.position[index]);
         record.vector(&particles.velocity[index]);
         if full {
-            record.scalar(particles.pressure[index]);
-            record.vector(&particles.pressure_gradient[index]);
+            let pressure = particles.pressure[index];
+            record.scalar(pressure);
+            let wall = particles.wall_depth[index] > 0.0;
+            record.vector(if wall { &particles.sliding_velocity[index] } else { &particles.pressure_gradient[index] });
+            if diffuses {
+                let stress = &particles.stress[index];
+                let elasticity = model.rheology.elasticity(equivalent_shear_stress(stress), pressure);
+                record.scalar(stress_diffusion::yielding(elasticity, pressure));
+                record.deviator(stress);
+            }
         }
     });
 }
@@ -132,6 +182,7 @@ struct Output<'a, const D: usize> {
     stress: &'a mut [Tensor<D>],
     viscosity: &'a mut [f64],
     artificial_viscosity: &'a mut [f64],
+    energy: &'a mut EnergyLedger,
 }
 
 struct Pass<'a, const D: usize> {
@@ -146,18 +197,22 @@ impl<const D: usize> LanePass for Pass<'_, D> {
     fn run<V: Lanes>(self) {
         let Self { advance, pairs, mut out, extremes } = self;
         let count = out.density.len();
+        let mut work = StressWork::<V>::new();
         let mut offset = 0;
         while offset < count {
             let group = advance.model.list.group((advance.block_start + offset) / LANES);
             let sums = if advance.gradient == GradientUse::None {
                 divergence_only::<V, D>(pairs, &group)
+            } else if advance.model.stress_diffuses() {
+                all_sums::<V, D, true>(pairs, &group)
             } else {
-                all_sums::<V, D>(pairs, &group)
+                all_sums::<V, D, false>(pairs, &group)
             };
             let end = (offset + LANES).min(count);
-            advance.particles_at(offset..end, &sums, &mut out, extremes);
+            advance.particles_at(offset..end, &sums, &mut out, &mut work, extremes);
             offset = end;
         }
+        work.add_to(out.energy);
     }
 }
 
@@ -165,36 +220,68 @@ impl<const D: usize> LanePass for Pass<'_, D> {
 struct RateSums<V, const D: usize> {
     /// Σ V_b v_ab·∇_aW_ab = −∇·v `[1/s]`.
     compression: V,
+    /// What walls have of it.
+    wall_compression: V,
     /// The coupling's pair sum `[Pa/m²]`.
     coupling: V,
     /// Velocity gradient before its correction `[1/s]`.
     gradient: [[V; D]; D],
+    /// What walls have of it.
+    wall_gradient: [[V; D]; D],
+    /// The pair sum of the stress ratio's diffusion `[Pa/m²]`.
+    stress_diffusion: [[V; D]; D],
 }
 
 #[inline(always)]
-fn all_sums<V: Lanes, const D: usize>(pairs: &PairData<D>, group: &NeighbourGroup<'_>) -> RateSums<V, D> {
+fn all_sums<V: Lanes, const D: usize, const DIFFUSES: bool>(
+    pairs: &PairData<D>,
+    group: &NeighbourGroup<'_>,
+) -> RateSums<V, D> {
     let all = &pairs.continuity;
-    let own = Partner::<V, D>::load(all, &group.own);
+    let quads = const { quads(D, DIFFUSES) };
+    let record = all.load::<V>(quads, &group.own);
+    let own = Partner::<V, D>::of(&record);
+    let own_yielding = Yielding::<V, D>::of(&record);
     let mut coupling = V::splat(0.0);
-    let mut gradient = zero_tensor::<V, D>();
+    let (mut gradient, mut wall_gradient) = (zero_tensor::<V, D>(), zero_tensor::<V, D>());
+    let mut wall_compression = V::splat(0.0);
+    let mut diffusion = zero_tensor::<V, D>();
     let (flow_weights, wall_weights) = pairs.weights[group.first_pair..].split_at(group.flow.len());
     for (b, weight) in group.flow.zip(flow_weights) {
-        let other = Partner::<V, D>::load(all, &b);
+        let record = all.load::<V>(quads, &b);
+        let other = Partner::<V, D>::of(&record);
         let r = difference(&own.position, &other.position);
         let weight = V::load(weight);
+        if DIFFUSES {
+            let yielding = Yielding::<V, D>::of(&record);
+            let pressure_sum = own.pressure + other.pressure;
+            let factor = stress_diffusion::pair_factor(own_yielding.part, yielding.part, pressure_sum);
+            stress_diffusion::accumulate_bracket(
+                &mut diffusion,
+                weight * factor,
+                (&own_yielding.stress, own.pressure),
+                (&yielding.stress, other.pressure),
+            );
+        }
         let sum = sum_of(&own.pressure_gradient, &other.pressure_gradient);
         coupling = coupling + weight * density_coupling::bracket(own.pressure - other.pressure, &sum, &r);
         accumulate_outer(&mut gradient, weight, &difference(&other.velocity, &own.velocity), &r);
     }
     for (w, weight) in group.wall.zip(wall_weights) {
-        let (quads, wanted) = const { (values(D).div_ceil(4), short_values(D).div_ceil(4)) };
-        let record = all.load_start::<V>(quads, wanted, &w);
-        let position = records::vector::<V, D>(&record, 0);
-        let velocity = records::vector::<V, D>(&record, D);
-        let r = difference(&own.position, &position);
-        accumulate_outer(&mut gradient, V::load(weight), &difference(&velocity, &own.velocity), &r);
+        let record = all.load_start::<V>(quads, const { values(D).div_ceil(4) }, &w);
+        let wall = Partner::<V, D>::of(&record);
+        let r = difference(&own.position, &wall.position);
+        let weight = V::load(weight);
+        accumulate_outer(&mut wall_gradient, weight, &difference(&wall.velocity, &own.velocity), &r);
+        let sliding = difference(&own.velocity, &wall.pressure_gradient);
+        wall_compression = wall_compression + weight * dot(&sliding, &r);
     }
-    RateSums { compression: continuity::compression(&gradient), coupling, gradient }
+    let compression = continuity::compression(&gradient) + wall_compression;
+    for i in 0..D {
+        accumulate(&mut gradient[i], V::splat(1.0), &wall_gradient[i]);
+    }
+    stress_diffusion::complete(&mut diffusion);
+    RateSums { compression, wall_compression, coupling, gradient, wall_gradient, stress_diffusion: diffusion }
 }
 
 #[inline(always)]
@@ -211,7 +298,15 @@ fn divergence_only<V: Lanes, const D: usize>(pairs: &PairData<D>, group: &Neighb
         let r = difference(&place, &position);
         compression = compression + V::load(weight) * dot(&difference(&velocity_a, &velocity), &r);
     }
-    RateSums { compression, coupling: V::splat(0.0), gradient: zero_tensor() }
+    let (zero, none) = (V::splat(0.0), zero_tensor());
+    RateSums {
+        compression,
+        wall_compression: zero,
+        coupling: zero,
+        gradient: none,
+        wall_gradient: none,
+        stress_diffusion: none,
+    }
 }
 
 /// A block of particles on its way to the next step.
@@ -232,12 +327,23 @@ impl<const D: usize> Advance<'_, D> {
         places: Range<usize>,
         sums: &RateSums<V, D>,
         out: &mut Output<'_, D>,
+        work: &mut StressWork<V>,
         extremes: &mut Extremes,
     ) {
         let equation_of_state = &self.model.equation_of_state;
         let previous = load::<V>(&out.density[places.clone()]);
         let strength = self.model.numerics.density_coupling;
         let density = continuity::advanced(previous, sums.compression, sums.coupling, strength, self.time_step);
+        let here = self.block_start + places.start..self.block_start + places.end;
+        let time_step = V::splat(self.time_step);
+        CompressionStep {
+            mass: load::<V>(&self.particles.mass[here.clone()]),
+            density: (previous, density),
+            pressure: (load::<V>(&self.particles.pressure[here]), equation_of_state.pressure(density)),
+            by_walls: time_step * previous * sums.wall_compression,
+            by_coupling: time_step * time_step * V::splat(strength) * sums.coupling,
+        }
+        .add_to(work);
         let inverse_reference = 1.0 / equation_of_state.reference_density;
         store(density, &mut out.density[places.clone()]);
         for place in places.clone() {
@@ -253,7 +359,7 @@ impl<const D: usize> Advance<'_, D> {
             store(switched, &mut out.artificial_viscosity[places.clone()]);
         }
         if self.gradient != GradientUse::None {
-            self.stress_of(places, density, &sums.gradient, out, extremes);
+            self.stress_of(places, density, sums, out, work, extremes);
         }
     }
 
@@ -263,20 +369,57 @@ impl<const D: usize> Advance<'_, D> {
         &self,
         places: Range<usize>,
         density: V,
-        gradient: &[[V; D]; D],
+        sums: &RateSums<V, D>,
         out: &mut Output<'_, D>,
+        work: &mut StressWork<V>,
         extremes: &mut Extremes,
     ) {
         let law = &self.model.rheology;
         let particles_here = self.block_start + places.start..self.block_start + places.end;
-        let correction = load_tensor::<V, D>(&self.particles.correction[particles_here]);
-        let gradient = matrix_product(gradient, &correction);
+        let correction = load_tensor::<V, D>(&self.particles.correction[particles_here.clone()]);
+        let gradient = matrix_product(&sums.gradient, &correction);
         let pressure = self.model.equation_of_state.pressure(density);
+        let gradient_before = load_tensor::<V, D>(&out.velocity_gradient[places.clone()]);
         store_tensor(&gradient, &mut out.velocity_gradient[places.clone()]);
         if self.gradient == GradientUse::Stress {
-            let stress = load_tensor::<V, D>(&out.stress[places.clone()]);
-            let stress = law.updated_stresses(&stress, &gradient, pressure, self.model.shear_modulus(), self.time_step);
+            let before = load_tensor::<V, D>(&out.stress[places.clone()]);
+            let mut diffused = before;
+            if self.model.stress_diffuses() {
+                let strength = V::splat(self.time_step * self.model.stress_diffusivity());
+                for i in 0..D {
+                    accumulate(&mut diffused[i], strength, &sums.stress_diffusion[i]);
+                }
+            }
+            let modulus = self.model.shear_modulus();
+            let stress = law.updated_stresses(&diffused, &gradient, pressure, modulus, self.time_step);
             store_tensor(&stress, &mut out.stress[places.clone()]);
+            let pressure_before = load::<V>(&self.particles.pressure[particles_here.clone()]);
+            let mut added = zero_tensor::<V, D>();
+            if let Some(viscosity) = self.model.added_viscosity(&gradient_before, &before, pressure_before, density) {
+                let rate = deviatoric_rate(&gradient_before);
+                for i in 0..D {
+                    accumulate(&mut added[i], V::splat(2.0) * viscosity, &rate[i]);
+                }
+            }
+            let mut flow_gradient = sums.gradient;
+            for i in 0..D {
+                accumulate(&mut flow_gradient[i], V::splat(-1.0), &sums.wall_gradient[i]);
+            }
+            DeformationStep {
+                volume: load::<V>(&self.particles.volume[particles_here.clone()]),
+                time_step: self.time_step,
+                shear_modulus: law.is_plastic().then_some(modulus),
+                added_stress: &added,
+                pressure: pressure_before,
+                divergence: sums.wall_compression - sums.compression,
+                raw_gradient: &flow_gradient,
+                force_correction: &load_tensor::<V, D>(&self.particles.force_correction[particles_here]),
+                rate: &deviatoric_rate(&gradient),
+                rate_by_walls: &deviatoric_rate(&matrix_product(&sums.wall_gradient, &correction)),
+                stress_before: &before,
+                stress: &stress,
+            }
+            .add_to(work);
         }
         if self.gradient == GradientUse::Viscosity || !law.is_plastic() {
             let pressure = pressure.to_array();

@@ -4,11 +4,10 @@
 use super::PairData;
 use super::records;
 use crate::lanes::algebra::{
-    accumulate, deviatoric_rate, difference, dot, invariant, load, load_tensor, matrix_product, product, store_tensor,
+    accumulate, deviatoric_rate, difference, dot, load, load_tensor, matrix_product, product, store_tensor,
     store_vector, zero_tensor, zero_vector,
 };
 use crate::lanes::{LANES, LanePass, Lanes};
-use crate::material::turbulence::dynamic_eddy_viscosity;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
@@ -48,7 +47,6 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
     let region = model.list.region();
     weights.resize(flow.div_ceil(BLOCK) * region, [0.0; LANES]);
     let shared = &*particles;
-    let elastic_viscosity = model.elastic_viscosity();
     (
         correction.par_chunks_mut(BLOCK),
         force_correction.par_chunks_mut(BLOCK),
@@ -61,14 +59,7 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
         .with_min_len(4)
         .for_each(|(block, (correction, force_correction, pressure_gradient, corrected_stress, weights))| {
             let out = Output { correction, force_correction, pressure_gradient, corrected_stress, weights };
-            model.instruction_set.run(Pass {
-                model,
-                elastic_viscosity,
-                particles: shared,
-                records: geometry,
-                block,
-                out,
-            });
+            model.instruction_set.run(Pass { model, particles: shared, records: geometry, block, out });
         });
     particles.correction = correction;
     particles.force_correction = force_correction;
@@ -78,7 +69,6 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
 
 struct Pass<'a, const D: usize> {
     model: &'a Model<D>,
-    elastic_viscosity: f64,
     particles: &'a Particles<D>,
     records: &'a records::Records,
     block: usize,
@@ -174,21 +164,12 @@ impl<const D: usize> Pass<'_, D> {
     /// σ = s − pI `[Pa]` of eight particles with the stresses that their law does not carry.
     #[inline(always)]
     fn stress<V: Lanes>(&self, places: Range<usize>, pressure: V) -> [[V; D]; D] {
-        let (particles, law) = (self.particles, &self.model.rheology);
-        let mixing_area = self.model.mixing_area();
+        let particles = self.particles;
         let mut stress = load_tensor::<V, D>(&particles.stress[places.clone()]);
-        let damped = self.elastic_viscosity > 0.0 && law.is_plastic();
-        if damped || mixing_area > 0.0 {
-            let rate = deviatoric_rate(&load_tensor::<V, D>(&particles.velocity_gradient[places.clone()]));
-            let mut viscosity = V::splat(0.0);
-            if damped {
-                let elasticity = law.elasticity(invariant(0.5, &stress), pressure);
-                viscosity = elasticity * V::splat(self.elastic_viscosity);
-            }
-            if mixing_area > 0.0 {
-                let density = load::<V>(&particles.density[places]);
-                viscosity = viscosity + dynamic_eddy_viscosity(density, mixing_area, invariant(2.0, &rate));
-            }
+        let gradient = load_tensor::<V, D>(&particles.velocity_gradient[places.clone()]);
+        let density = load::<V>(&particles.density[places]);
+        if let Some(viscosity) = self.model.added_viscosity(&gradient, &stress, pressure, density) {
+            let rate = deviatoric_rate(&gradient);
             for i in 0..D {
                 accumulate(&mut stress[i], V::splat(2.0) * viscosity, &rate[i]);
             }

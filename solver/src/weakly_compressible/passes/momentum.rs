@@ -8,7 +8,7 @@ use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, gather};
 use crate::vector::Vector;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
-use crate::weakly_compressible::numerics::ViscositySwitch;
+use crate::weakly_compressible::numerics::{HourglassDirection, ViscositySwitch};
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{artificial_viscosity, hourglass, pair_distance, stress_divergence, wall_slip};
 use rayon::prelude::*;
@@ -105,16 +105,29 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
     let pairs = &*pairs;
     let mut acceleration = std::mem::take(&mut particles.acceleration);
     let mut support = std::mem::take(&mut particles.support);
+    let mut by_walls = std::mem::take(&mut particles.by_walls);
+    let mut by_damping = std::mem::take(&mut particles.by_damping);
+    let mut by_wall_control = std::mem::take(&mut particles.by_wall_control);
     let shared = &*particles;
-    (acceleration.par_chunks_mut(BLOCK), support.par_chunks_mut(BLOCK))
+    (
+        acceleration.par_chunks_mut(BLOCK),
+        support.par_chunks_mut(BLOCK),
+        by_walls.par_chunks_mut(BLOCK),
+        by_damping.par_chunks_mut(BLOCK),
+        by_wall_control.par_chunks_mut(BLOCK),
+    )
         .into_par_iter()
         .enumerate()
         .with_min_len(4)
-        .for_each(|(block, (acceleration, support))| {
-            model.instruction_set.run(Pass { model, particles: shared, pairs, block, acceleration, support });
+        .for_each(|(block, (acceleration, support, by_walls, by_damping, by_wall_control))| {
+            let out = Output { acceleration, support, by_walls, by_damping, by_wall_control };
+            model.instruction_set.run(Pass { model, particles: shared, pairs, block, out });
         });
     particles.acceleration = acceleration;
     particles.support = support;
+    particles.by_walls = by_walls;
+    particles.by_damping = by_damping;
+    particles.by_wall_control = by_wall_control;
 }
 
 struct Pass<'a, const D: usize> {
@@ -122,8 +135,17 @@ struct Pass<'a, const D: usize> {
     particles: &'a Particles<D>,
     pairs: &'a PairData<D>,
     block: usize,
+    out: Output<'a, D>,
+}
+
+/// Accelerations `[m/s²]`: all, what walls and mirrors cause, and for the energy ledger the parts that do not come from
+/// the stress of the flow.
+struct Output<'a, const D: usize> {
     acceleration: &'a mut [Vector<D>],
     support: &'a mut [Vector<D>],
+    by_walls: &'a mut [Vector<D>],
+    by_damping: &'a mut [Vector<D>],
+    by_wall_control: &'a mut [Vector<D>],
 }
 
 /// What the loops need of the numerics.
@@ -135,22 +157,26 @@ struct Constants {
     hourglass_strength: f64,
     artificial_viscosity: f64,
     viscosity_switch: ViscositySwitch,
+    hourglass_direction: HourglassDirection,
 }
 
-/// The pair sums of eight particles, and the parts of them that walls and mirrors cause.
+/// The pair sums of eight particles with the flow, images included, the part of them that images behind mirrors cause,
+/// and the pair sums with walls.
 struct Forces<V, const D: usize> {
     /// Σ V F traction `[N/m³]`.
     divergence: [V; D],
     /// Artificial viscosity and hourglass control `[m/s²]`.
     damping: [V; D],
-    support_divergence: [V; D],
-    support_damping: [V; D],
+    mirror_divergence: [V; D],
+    mirror_damping: [V; D],
+    wall_divergence: [V; D],
+    wall_control: [V; D],
 }
 
 impl<const D: usize> LanePass for Pass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { model, particles, pairs, block, acceleration, support } = self;
+        let Self { model, particles, pairs, block, out } = self;
         let smoothing_length = model.kernel.smoothing_length();
         let constants = Constants {
             smoothing_length,
@@ -158,26 +184,40 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             hourglass_strength: model.numerics.hourglass * smoothing_length,
             artificial_viscosity: model.numerics.artificial_viscosity,
             viscosity_switch: model.numerics.viscosity_switch,
+            hourglass_direction: model.numerics.hourglass_direction,
         };
-        let out = acceleration.chunks_mut(LANES).zip(support.chunks_mut(LANES));
-        for (offset, (acceleration, support)) in out.enumerate() {
+        let count = out.acceleration.len();
+        for offset in 0..count.div_ceil(LANES) {
             let group = model.list.group(block * (BLOCK / LANES) + offset);
             let own = FlowPartner::<V, D>::load(&pairs.momentum, &group.own);
             let none = zero_vector::<V, D>();
-            let mut forces =
-                Forces { divergence: none, damping: none, support_divergence: none, support_damping: none };
+            let mut forces = Forces {
+                divergence: none,
+                damping: none,
+                mirror_divergence: none,
+                mirror_damping: none,
+                wall_divergence: none,
+                wall_control: none,
+            };
             let (flow_weights, wall_weights) = pairs.weights[group.first_pair..].split_at(group.flow.len());
             flow_forces(&constants, particles, &pairs.momentum, &group, flow_weights, &own, &mut forces);
-            let first = block * BLOCK + offset * LANES;
-            let correction = load_tensor::<V, D>(&particles.force_correction[first..first + acceleration.len()]);
+            let places = offset * LANES..(offset * LANES + LANES).min(count);
+            let first = block * BLOCK + places.start;
+            let correction = load_tensor::<V, D>(&particles.force_correction[first..first + places.len()]);
             wall_forces(&constants, &pairs.momentum, &group, wall_weights, &own, &correction, &mut forces);
-            let (mut total, mut supported) = (forces.damping, forces.damping);
+            let (mut total, mut supported, mut by_walls) = (forces.damping, forces.damping, forces.damping);
             for i in 0..D {
-                total[i] = forces.divergence[i] / own.density + forces.damping[i] + V::splat(model.gravity[i]);
-                supported[i] = forces.support_divergence[i] / own.density + forces.support_damping[i];
+                by_walls[i] = forces.wall_divergence[i] / own.density;
+                let from_walls = by_walls[i] + forces.wall_control[i];
+                total[i] =
+                    forces.divergence[i] / own.density + forces.damping[i] + from_walls + V::splat(model.gravity[i]);
+                supported[i] = forces.mirror_divergence[i] / own.density + forces.mirror_damping[i] + from_walls;
             }
-            store_vector(&total, acceleration);
-            store_vector(&supported, support);
+            store_vector(&total, &mut out.acceleration[places.clone()]);
+            store_vector(&supported, &mut out.support[places.clone()]);
+            store_vector(&by_walls, &mut out.by_walls[places.clone()]);
+            store_vector(&forces.damping, &mut out.by_damping[places.clone()]);
+            store_vector(&forces.wall_control, &mut out.by_wall_control[places]);
         }
     }
 }
@@ -211,16 +251,19 @@ fn flow_forces<V: Lanes, const D: usize>(
         let push = artificial_viscosity::pair_factor(alpha, dot(&r, &slip), inverse);
         let speed_sum = own.pressure_speed + other.pressure_speed;
         let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum) * (inverse * regular);
-        let unexplained = hourglass::unexplained(&slip, &own.velocity_gradient, &other.velocity_gradient, &r);
+        let mut unexplained = hourglass::unexplained(&slip, &own.velocity_gradient, &other.velocity_gradient, &r);
+        if matches!(constants.hourglass_direction, HourglassDirection::RadialAndNormal | HourglassDirection::Radial) {
+            unexplained = hourglass::along_pair(&unexplained, &r, regular);
+        }
         let mass_weight = weight * other.density;
         accumulate(&mut forces.divergence, weight, &traction);
         accumulate(&mut forces.damping, mass_weight * push, &r);
         accumulate(&mut forces.damping, mass_weight * drag, &unexplained);
         if group.has_images {
             let mirrored: V = gather(&particles.mirrored, &b);
-            accumulate(&mut forces.support_divergence, mirrored * weight, &traction);
-            accumulate(&mut forces.support_damping, mirrored * (mass_weight * push), &r);
-            accumulate(&mut forces.support_damping, mirrored * (mass_weight * drag), &unexplained);
+            accumulate(&mut forces.mirror_divergence, mirrored * weight, &traction);
+            accumulate(&mut forces.mirror_damping, mirrored * (mass_weight * push), &r);
+            accumulate(&mut forces.mirror_damping, mirrored * (mass_weight * drag), &unexplained);
         }
     }
 }
@@ -235,6 +278,8 @@ fn wall_forces<V: Lanes, const D: usize>(
     correction: &[[V; D]; D],
     forces: &mut Forces<V, D>,
 ) {
+    let none = constants.hourglass_direction == HourglassDirection::Radial;
+    let rough = constants.hourglass_direction == HourglassDirection::All;
     for (w, weight) in group.wall.zip(weights) {
         let wall = WallPartner::<V, D>::load(records, &w);
         let r = difference(&own.position, &wall.position);
@@ -243,12 +288,11 @@ fn wall_forces<V: Lanes, const D: usize>(
         let slip = scaled(beta, &difference(&own.velocity, &wall.velocity));
         let traction = stress_divergence::wall_traction(&own.corrected_stress, &wall.stress, correction, &r);
         let speed_sum = own.pressure_speed + wall.pressure_speed;
-        let drag = hourglass::twice_viscosity::<V>(constants.hourglass_strength, speed_sum);
-        let unexplained =
-            hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, &r, &wall.normal, wall.smoothness);
-        accumulate(&mut forces.divergence, weight, &traction);
-        accumulate(&mut forces.damping, weight * drag, &unexplained);
-        accumulate(&mut forces.support_divergence, weight, &traction);
-        accumulate(&mut forces.support_damping, weight * drag, &unexplained);
+        let strength = if none { 0.0 } else { constants.hourglass_strength };
+        let drag = hourglass::twice_viscosity::<V>(strength, speed_sum);
+        let normal_only = if rough { wall.smoothness } else { V::splat(1.0) };
+        let unexplained = hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, &r, &wall.normal, normal_only);
+        accumulate(&mut forces.wall_divergence, weight, &traction);
+        accumulate(&mut forces.wall_control, weight * drag, &unexplained);
     }
 }

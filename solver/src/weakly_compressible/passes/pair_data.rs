@@ -4,6 +4,8 @@ use super::records::Records;
 use super::{continuity, geometry, momentum};
 use crate::lanes::LANES;
 use crate::vector::{Tensor, Vector};
+use crate::weakly_compressible::energy::EnergyLedger;
+use crate::weakly_compressible::neighbours::BLOCK;
 
 /// Weights of all pairs, packed copies of what a loop reads of a neighbour, and buffers.
 #[derive(Debug)]
@@ -19,8 +21,10 @@ pub(crate) struct PairData<const D: usize> {
     pub(super) continuity: Records,
     /// Pressure and stress of the walls until they are stored, shape `[wall]`.
     pub(super) wall_stress: Vec<(f64, Tensor<D>)>,
-    /// Velocities of the walls until they are stored, shape `[wall]`.
-    pub(super) wall_velocity: Vec<Vector<D>>,
+    /// What a step adds to the energy ledger, block by block of particles.
+    pub(crate) energy: Vec<EnergyLedger>,
+    /// Velocities of the walls until they are stored, and those that continuity takes of a liquid, shape `[wall]`.
+    pub(super) wall_velocity: Vec<(Vector<D>, Vector<D>)>,
 }
 
 impl<const D: usize> PairData<D> {
@@ -30,8 +34,21 @@ impl<const D: usize> PairData<D> {
             geometry: Records::new(geometry::values(D)),
             momentum: Records::new(momentum::values(D)),
             continuity: Records::new(continuity::values(D)),
+            energy: Vec::new(),
             wall_stress: Vec::new(),
             wall_velocity: Vec::new(),
+        }
+    }
+
+    /// Room for the ledger of every block of flow particles.
+    pub(crate) fn open_ledger(&mut self, flow: usize) {
+        self.energy.resize(flow.div_ceil(BLOCK), EnergyLedger::default());
+    }
+
+    /// Moves what the blocks have added to the ledger into a sum, in their order.
+    pub(crate) fn close_ledger(&mut self, sum: &mut EnergyLedger) {
+        for block in &mut self.energy {
+            sum.add(std::mem::take(block));
         }
     }
 }

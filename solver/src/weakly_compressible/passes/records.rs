@@ -111,6 +111,16 @@ impl Writer<'_> {
         }
     }
 
+    /// The upper triangle of a symmetric tensor without trace, but for the last entry of its diagonal.
+    #[inline(always)]
+    pub(crate) fn deviator<const D: usize>(&mut self, deviator: &Tensor<D>) {
+        for i in 0..D - 1 {
+            for j in i..D {
+                self.scalar(deviator[(i, j)]);
+            }
+        }
+    }
+
     #[inline(always)]
     pub(crate) fn tensor<const D: usize>(&mut self, tensor: &Tensor<D>) {
         for i in 0..D {
@@ -143,6 +153,26 @@ pub(crate) fn tensor<V: Lanes, const D: usize>(record: &LaneRecord<V>, place: us
     let mut lanes = [[V::splat(0.0); D]; D];
     for i in 0..D {
         lanes[i] = vector(record, place + D * i);
+    }
+    lanes
+}
+
+/// Values of a symmetric tensor without trace in a record.
+pub(crate) const fn deviator_values(dimension: usize) -> usize {
+    dimension * (dimension + 1) / 2 - 1
+}
+
+/// The symmetric tensor without trace that starts at `place` of a record: its upper triangle but for the last entry of
+/// the diagonal, the rest zero.
+#[inline(always)]
+pub(crate) fn deviator<V: Lanes, const D: usize>(record: &LaneRecord<V>, place: usize) -> [[V; D]; D] {
+    let mut lanes = [[V::splat(0.0); D]; D];
+    let mut next = place;
+    for i in 0..D - 1 {
+        for j in i..D {
+            lanes[i][j] = scalar(record, next);
+            next += 1;
+        }
     }
     lanes
 }

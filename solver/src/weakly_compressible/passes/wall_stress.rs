@@ -106,7 +106,9 @@ fn sums<V: Lanes, const D: usize>(
                 let extrapolated = pressure + growth;
                 sums.pressure = sums.pressure + weight * extrapolated;
                 let stress = gather_tensors::<V, D>(&particles.stress, &f);
-                let ratio = weight * extrapolated / pressure.max(smallest_pressure);
+                let growth = extrapolated / pressure.max(smallest_pressure);
+                // under tension nothing is extrapolated: the stress is that of the flow, not a multiple of it
+                let ratio = weight * V::splat(1.0).if_less(pressure, V::splat(0.0), growth);
                 for i in 0..D {
                     for j in 0..D {
                         sums.stress[i][j] = sums.stress[i][j] + ratio * stress[i][j];

@@ -5,7 +5,7 @@
 //! it vanishes with the pressure, so that a loose particle flies freely. Not in the paper; antisymmetric in a and b.
 
 use crate::lanes::Lanes;
-use crate::lanes::algebra::{difference, dot, product, sum_of};
+use crate::lanes::algebra::{difference, dot, product, scaled, sum_of};
 
 /// √(p/ρ0) `[m/s]` of a pressure `[Pa]`, from 1/ρ0 `[m³/kg]`.
 #[inline(always)]
@@ -34,6 +34,12 @@ pub fn unexplained<V: Lanes, const D: usize>(
         lanes[i] = velocity_difference[i] - half * dot(&sum_of(&gradient_a[i], &gradient_b[i]), r);
     }
     lanes
+}
+
+/// The part of a vector along r `[unit of the vector]`; `regular` is r² `[m²]`, kept from zero.
+#[inline(always)]
+pub fn along_pair<V: Lanes, const D: usize>(vector: &[V; D], r: &[V; D], regular: V) -> [V; D] {
+    scaled(dot(vector, r) / regular, r)
 }
 
 /// The same at a wall, whose gradient is that of a: `slip` is β (v_a − v_wall) `[m/s]`. A smooth wall (`smoothness` 1)

@@ -9,6 +9,7 @@ pub mod kernel_correction;
 pub mod pair_distance;
 pub mod pair_viscosity;
 pub mod pressure_force;
+pub mod stress_diffusion;
 pub mod stress_divergence;
 pub mod wall_extrapolation;
 pub mod wall_slip;

@@ -15,6 +15,16 @@ pub fn wet_inverse<V: Lanes>(weights: V) -> V {
     V::splat(1.0).where_less(V::splat(DRY), weights) / weights.max(V::splat(DRY))
 }
 
+/// Part of a spacing's square that keeps the fit of a line to a single row of particles from a slope of its own `[-]`.
+const RIDGE: f64 = 0.1;
+
+/// The divisor of a line's slope, M_0 M_2 − M_1² with a ridge, from the moments Σ V W dᵏ of the distances to the surface.
+#[inline(always)]
+pub fn spread<V: Lanes>(weights: V, first_moment: V, moment: V, spacing: f64) -> V {
+    let ridge = V::splat(RIDGE * spacing * spacing) * weights * weights;
+    (weights * moment - first_moment * first_moment + ridge).max(V::splat(f64::MIN_POSITIVE))
+}
+
 /// Hydrostatic growth of the pressure from a flow particle to the wall along its normal `[Pa]`: ρ g_n r_n with the part
 /// min(1, p/p_full). A layer of half a spacing's weight, `full_increment` `[Pa]`, carries the full growth, a weightless
 /// one none: without this factor particles without pressure ride on a frictionless cushion.

@@ -92,7 +92,7 @@ impl<const D: usize> ViscousSolve<'_, D> {
                 return Err(NotConverged { worst: system.worst(flow) });
             }
         }
-        system.write_accelerations(&mut particles.acceleration, self.time_step);
+        system.write_accelerations(particles, self.time_step);
         Ok(())
     }
 

@@ -3,7 +3,7 @@
 
 use super::lane;
 use crate::lanes::LANES;
-use crate::vector::{Tensor, Vector};
+use crate::vector::Tensor;
 use crate::weakly_compressible::boundary::Images;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
@@ -71,6 +71,7 @@ pub(crate) struct ViscousSystem<const D: usize> {
     pub(super) sums: Vec<BlockSums>,
     iterations: u64,
     residual: f64,
+    work: f64,
 }
 
 impl<const D: usize> ViscousSystem<D> {
@@ -84,6 +85,7 @@ impl<const D: usize> ViscousSystem<D> {
             sums: Vec::new(),
             iterations: 0,
             residual: 0.0,
+            work: 0.0,
         }
     }
 
@@ -165,13 +167,20 @@ impl<const D: usize> ViscousSystem<D> {
         worst.0
     }
 
-    /// Writes δ/Δt.
-    pub(super) fn write_accelerations(&self, accelerations: &mut [Vector<D>], time_step: f64) {
-        for (group, out) in self.unknowns.iter().zip(accelerations.chunks_mut(LANES)) {
-            for (k, acceleration) in out.iter_mut().enumerate() {
-                *acceleration = lane(&group.increment, k) / time_step;
-            }
+    /// Writes δ/Δt, and keeps the work of what the solve has added to the explicit accelerations.
+    pub(super) fn write_accelerations(&mut self, particles: &mut Particles<D>, time_step: f64) {
+        self.work = 0.0;
+        for (index, acceleration) in particles.acceleration.iter_mut().enumerate() {
+            let increment = lane(&self.unknowns[index / LANES].increment, index % LANES);
+            let mean_velocity = particles.velocity[index] + increment * 0.5;
+            self.work += particles.mass[index] * mean_velocity.dot(&(increment - *acceleration * time_step));
+            *acceleration = increment / time_step;
         }
+    }
+
+    /// Work of the last solve `[J]`: that of the viscous forces beside those of the explicit step.
+    pub(crate) fn work(&self) -> f64 {
+        self.work
     }
 }
 

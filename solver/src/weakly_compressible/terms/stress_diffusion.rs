@@ -1,0 +1,54 @@
+//! Diffusion of the stress ratio s/p among yielding particles.
+//!
+//! Local μ(I) is ill-posed at small inertial numbers (Barker et al. 2015): below the friction angle of a thick layer a
+//! wave as long as the layer grows, and its swings of the pressure let the bulk creep for ever. Each step therefore
+//! adds, before the return mapping,
+//!
+//! Δs_a = Δt δ c h Σ_b V_b F 4 w_a w_b (s_a p_b − s_b p_a)/(p_a + p_b),
+//!
+//! near to Δt δ c h p ∇²(s/p), with w 1 where a particle yields and 0 where it is elastic or without pressure. It
+//! vanishes for a uniform stress ratio, such as Bagnold's flow, at walls and in a heap at rest; antisymmetric but for V.
+//! Not in the paper.
+
+use crate::lanes::{Lanes, Real};
+
+/// w `[-]`: what of a particle yields, from its elasticity and its pressure `[Pa]`.
+#[inline(always)]
+pub fn yielding<R: Real>(elasticity: R, pressure: R) -> R {
+    (R::splat(1.0) - elasticity).where_less(R::splat(0.0), pressure)
+}
+
+/// 4 w_a w_b/(p_a + p_b) `[1/Pa]`, the factor of s_a p_b − s_b p_a; 0 without pressure.
+#[inline(always)]
+pub fn pair_factor<V: Lanes>(yielding_a: V, yielding_b: V, pressure_sum: V) -> V {
+    V::splat(4.0) * yielding_a * yielding_b / pressure_sum.max(V::splat(f64::MIN_POSITIVE))
+}
+
+/// Adds f (s_a p_b − s_b p_a) to the upper triangle of a sum, without the last entry of the diagonal.
+#[inline(always)]
+pub fn accumulate_bracket<V: Lanes, const D: usize>(
+    sum: &mut [[V; D]; D],
+    factor: V,
+    stress_a: (&[[V; D]; D], V),
+    stress_b: (&[[V; D]; D], V),
+) {
+    let (from_a, from_b) = (factor * stress_b.1, factor * stress_a.1);
+    for i in 0..D - 1 {
+        for j in i..D {
+            sum[i][j] = sum[i][j] + (from_a * stress_a.0[i][j] - from_b * stress_b.0[i][j]);
+        }
+    }
+}
+
+/// Fills what [`accumulate_bracket`] leaves out: the lower triangle, and the last entry of a tensor without trace.
+#[inline(always)]
+pub fn complete<V: Lanes, const D: usize>(deviator: &mut [[V; D]; D]) {
+    let mut rest = V::splat(0.0);
+    for i in 0..D - 1 {
+        rest = rest - deviator[i][i];
+        for j in i + 1..D {
+            deviator[j][i] = deviator[i][j];
+        }
+    }
+    deviator[D - 1][D - 1] = rest;
+}
