@@ -157,6 +157,12 @@ impl Metric {
         self
     }
 
+    /// Adds a reference that is exact for the model: what its equations, a conservation law or its definition give.
+    #[must_use]
+    pub fn exactly(self, value: f64, source: &str) -> Self {
+        self.against(Some(value), source, Confidence::Exact)
+    }
+
     /// Sets what the verdict rests on.
     #[must_use]
     pub fn of_kind(mut self, kind: Kind) -> Self {

@@ -39,14 +39,18 @@ impl Quantity {
 }
 
 /// Declares a case's quantities: each a constant, and the list of all, which begins with those that it shares with others.
+/// They are seen by the parent of the module, or as a visibility in front says.
 ///
 /// `quantities! { [channel::BED_SHEAR] FRONT: validated("front", "m", "how far the front has come"), }`
 macro_rules! quantities {
-    ([$($shared:expr),* $(,)?] $($name:ident: $kind:ident($($declared:literal),+ $(,)?),)+) => {
-        $(pub(super) const $name: $crate::metric::Quantity = $crate::metric::Quantity::$kind($($declared),+);)+
+    ([$($shared:expr),* $(,)?] $($declared:tt)+) => {
+        $crate::metric::quantities! { pub(super) [$($shared),*] $($declared)+ }
+    };
+    ($seen:vis [$($shared:expr),*] $($name:ident: $kind:ident($($declared:literal),+ $(,)?),)+) => {
+        $($seen const $name: $crate::metric::Quantity = $crate::metric::Quantity::$kind($($declared),+);)+
 
         /// All quantities of the case.
-        pub(super) const QUANTITIES: &[$crate::metric::Quantity] = &[$($shared,)* $($name,)+];
+        $seen const QUANTITIES: &[$crate::metric::Quantity] = &[$($shared,)* $($name,)+];
     };
 }
 pub(crate) use quantities;

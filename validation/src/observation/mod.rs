@@ -39,6 +39,20 @@ pub struct Frame {
     pub vectors: Vec<(String, String, Vec<[f64; 3]>)>,
 }
 
+impl Frame {
+    /// A scalar of every particle by its name; empty where the picture has no such scalar.
+    #[must_use]
+    pub fn scalar(&self, name: &str) -> &[f64] {
+        self.scalars.iter().find(|(other, _, _)| other == name).map_or(&[], |(_, _, values)| values)
+    }
+
+    /// A vector of every particle by its name; empty where the picture has no such vector.
+    #[must_use]
+    pub fn vector(&self, name: &str) -> &[[f64; 3]] {
+        self.vectors.iter().find(|(other, _, _)| other == name).map_or(&[], |(_, _, values)| values)
+    }
+}
+
 /// A run's record: the observation and how it came about.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Recorded<O> {

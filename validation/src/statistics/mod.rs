@@ -3,6 +3,7 @@
 mod block_average;
 mod fit;
 mod grid_convergence;
+mod mean;
 mod segmented;
 mod student;
 
@@ -11,5 +12,6 @@ pub use fit::{
     Estimate, Exponent, LinearFit, Regression, common_slope, linear_fit, linear_regression, log_log_slope, power_law,
 };
 pub use grid_convergence::{GridConvergence, Mean, grid_convergence};
+pub use mean::{mean, relative_l2};
 pub use segmented::{Segmented, curvature, number_of_pieces, segmented_regression};
 pub use student::student_quantile;

@@ -1,5 +1,6 @@
 //! Dry grains flowing down an incline: Bagnold's profile (36)–(37), the way to it, arrest and runaway.
 
+mod errors;
 mod figures;
 mod metrics;
 mod parameters;
@@ -44,9 +45,6 @@ impl Case for Bagnold {
     }
 
     fn tables(_: &BagnoldParameters, records: &[Record]) -> Vec<Table> {
-        records
-            .iter()
-            .flat_map(|(run, record)| super::layer::tables(&crate::case::Run::variant(run), &record.data))
-            .collect()
+        super::layer::tables_of_runs(records)
     }
 }

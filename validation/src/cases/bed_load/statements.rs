@@ -90,11 +90,10 @@ pub(super) fn stabilised(
         let estimate = profile.estimate(|points| profiles::semi_log_slope(run, points, lower, upper));
         slopes.push(estimate.value);
         let named = variant.clone().and("height", 1e3 * lower..=1e3 * upper);
-        metrics.push(channel::observed(SEMI_LOG_SLOPE, &named, estimate, 1.0).against(
-            Some(1.0),
-            "u_*/κ, fitted to u over ln(z + z_0)",
-            Confidence::Exact,
-        ));
+        metrics.push(
+            channel::observed(SEMI_LOG_SLOPE, &named, estimate, 1.0)
+                .exactly(1.0, "u_*/κ, fitted to u over ln(z + z_0)"),
+        );
     }
     let ratio = LAYER_SLOPE_RATIO
         .of(&variant, slopes[0] / slopes[3])
@@ -151,7 +150,7 @@ fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoad
         };
         let named = variant.clone().and("layer", layer + 1);
         let slope = of(&|fit| fit.slopes[layer] / scale);
-        metrics.push(channel::observed(LAYER_SLOPE, &named, slope, 1.0).against(Some(1.0), "u_*/κ", Confidence::Exact));
+        metrics.push(channel::observed(LAYER_SLOPE, &named, slope, 1.0).exactly(1.0, "u_*/κ"));
         if layer + 1 < count {
             let border = of(&|fit| profiles::height_of(run, fit.breaks[layer]));
             metrics.push(channel::observed(LAYER_BORDER, &named, border, 1.0 / run.materials.grain_diameter));

@@ -60,27 +60,19 @@ fn of_run(metrics: &mut Vec<Metric>, run: &ClearWaterRun, record: &Recorded<Chan
     let gated =
         |metric: Metric, limit: Limit, reason: &str| if stationary { metric.gated(limit, reason) } else { metric };
     let rms = data.profile.estimate(|points| rms(&law, points));
-    let rms = channel::observed(VELOCITY_RMS, &variant, rms, 1.0).against(
-        Some(0.0),
-        "logarithmic law, over 0.1 h … 0.9 h",
-        Confidence::Exact,
-    );
+    let rms = channel::observed(VELOCITY_RMS, &variant, rms, 1.0).exactly(0.0, "logarithmic law, over 0.1 h … 0.9 h");
     metrics.push(gated(rms, Limit::AtMost(0.25), "a quarter of u_*, 2 % of the depth mean"));
     let slope = data.profile.estimate(|points| slope(&law, points));
-    let slope = channel::observed(SEMI_LOG_SLOPE, &variant, slope, 1.0).against(
-        Some(1.0),
-        "u_*/κ, fitted to u over ln z′ in 0.1 h … 0.9 h",
-        Confidence::Exact,
-    );
+    let slope = channel::observed(SEMI_LOG_SLOPE, &variant, slope, 1.0)
+        .exactly(1.0, "u_*/κ, fitted to u over ln z′ in 0.1 h … 0.9 h");
     metrics.push(gated(slope, Limit::Within(0.97, 1.03), "3 % of the slope of the logarithmic law"));
     let shear = channel::bed_shear(&variant, data, law.bed_shear_stress());
     metrics.push(gated(shear, Limit::Within(0.97, 1.03), "3 %: the bed carries the weight along the slope"));
     let mean = data.average(&data.series.mean_velocity);
-    metrics.push(channel::observed(MEAN_VELOCITY, &variant, mean, 1.0 / law.mean_velocity()).against(
-        Some(1.0),
-        "depth mean of the logarithmic law",
-        Confidence::Exact,
-    ));
+    metrics.push(
+        channel::observed(MEAN_VELOCITY, &variant, mean, 1.0 / law.mean_velocity())
+            .exactly(1.0, "depth mean of the logarithmic law"),
+    );
     let change = data.trend(&data.series.mean_velocity) * law.adjustment_time() / law.mean_velocity();
     metrics.push(channel::velocity_drift(&variant, change, "depth mean"));
     metrics.push(channel::height_change(&variant, data, "mean height h/2: water keeps its volume"));

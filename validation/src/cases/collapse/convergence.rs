@@ -41,7 +41,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
                 GRID_CONVERGENCE_INDEX
                     .of(&variant, 100.0 * found.index)
                     .with_snapshot_tolerance(0.05, 0.2)
-                    .against(Some(0.0), "1.25 |f_3 − f_2|/(r^p − 1)/f_3 of the three finest means", Confidence::Exact)
+                    .exactly(0.0, "1.25 |f_3 − f_2|/(r^p − 1)/f_3 of the three finest means")
                     .gated(
                         Limit::AtMost(100.0 * (largest + found.scatter)),
                         "specification 2: 3 % for the centroid, 8 % for the run-out, plus the standard error of the \
@@ -132,15 +132,15 @@ pub(super) fn figures(records: &[Record]) -> Vec<Figure> {
             }
             panel
         });
-        figures.push(Figure {
-            name: "grid-convergence".to_owned(),
-            caption:
-                "Centroid and run-out of the deposit over the resolution, relative to the finest: means over several seeds \
-                      of the initial displacements, with the standard error of the mean."
-                    .to_owned(),
-            panels: panels.to_vec(),
-            columns: 2,
-        });
+        figures.push(
+            Figure::new(
+                "grid-convergence",
+                "Centroid and run-out of the deposit over the resolution, relative to the finest: means over several \
+             seeds of the initial displacements, with the standard error of the mean.",
+                panels.to_vec(),
+            )
+            .in_columns(2),
+        );
     }
     if !coefficient.is_empty() {
         let mut panel =
@@ -150,19 +150,16 @@ pub(super) fn figures(records: &[Record]) -> Vec<Figure> {
             for resolution in resolutions(records, material, aspect_ratio) {
                 let points = hourglass(records, material, aspect_ratio, resolution);
                 let label = format!("{material}, a = {aspect_ratio}, {resolution} over r0");
-                panel.series.push(Series::new(&label, Mark::LinePoints, slot, points));
+                panel.line_points(&label, slot, points);
                 slot += 1;
             }
         }
-        figures.push(Figure {
-            name: "hourglass".to_owned(),
-            caption:
-                "Run-out over the coefficient of the hourglass control: what the choice of a numerical parameter does \
-                      to the result, at two resolutions."
-                    .to_owned(),
-            panels: vec![panel],
-            columns: 1,
-        });
+        figures.push(Figure::new(
+            "hourglass",
+            "Run-out over the coefficient of the hourglass control: what the choice of a numerical parameter does to \
+             the result, at two resolutions.",
+            vec![panel],
+        ));
     }
     figures
 }

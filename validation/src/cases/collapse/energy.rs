@@ -1,6 +1,6 @@
 //! Where the potential energy of a collapse goes.
 
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 
 /// End of the time axis over √(h_0/g) `[-]`: the deposits rest by then.
 const LONGEST: f64 = 6.0;
@@ -42,16 +42,17 @@ pub(in crate::cases) fn figure(name: &str, caption: &str, runs: &[(String, f64, 
         let axis = Axis { limits: Some((-0.05, 1.1)), ..Axis::linear("energy/released [-]") };
         let time = Axis { limits: Some((0.0, LONGEST)), ..Axis::linear("t/√(h0/g) [-]") };
         let mut panel = Panel::new(title, time, axis);
-        let curve = |pick: &dyn Fn(usize) -> f64| {
-            (0..energies.time.len()).map(|k| (energies.time[k] / time_scale, pick(k) / whole)).collect()
+        let mut curve = |label: &str, slot: usize, value: &dyn Fn(usize) -> f64| {
+            let points = energies.time.iter().enumerate().map(|(k, time)| (time / time_scale, value(k) / whole));
+            panel.line(label, slot, points);
         };
         let released = |k: usize| start - energies.potential[k];
-        panel.series.push(Series::new("released", Mark::Line, 0, curve(&released)));
-        panel.series.push(Series::new("kinetic", Mark::Line, 1, curve(&|k| energies.kinetic[k])));
-        panel.series.push(Series::new("dissipated", Mark::Line, 2, curve(&|k| released(k) - energies.kinetic[k])));
+        curve("released", 0, &released);
+        curve("kinetic", 1, &|k| energies.kinetic[k]);
+        curve("dissipated", 2, &|k| released(k) - energies.kinetic[k]);
         Some(panel)
     });
-    Figure { name: name.to_owned(), caption: caption.to_owned(), panels: panels.collect(), columns: 3 }
+    Figure::new(name, caption, panels.collect()).in_columns(3)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use super::pictures::{View, animation, halves, nearest, pressures, speeds};
 use super::wedge::{self, Deposit};
 use super::{convergence, energy, scaling, stress_updates, velocity_profile};
 use crate::case::Run;
-use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel, Series};
+use crate::figure::{Animation, Axis, Field, Figure, Panel};
 use crate::observation::{Frame, Recorded};
 use crate::reference::{CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
@@ -80,7 +80,7 @@ fn scaling_figure(records: &[&Record]) -> Figure {
             let slot = known.unwrap_or(run_out_laws.len());
             for (part, curve) in law.curves().into_iter().enumerate() {
                 let entry = if legend && part == 0 { law.source.as_str() } else { "" };
-                panel.series.push(Series::new(entry, Mark::Line, slot + 3, curve));
+                panel.line(entry, slot + 3, curve);
             }
         }
         for (slot, material) in materials(records).into_iter().enumerate() {
@@ -91,29 +91,27 @@ fn scaling_figure(records: &[&Record]) -> Figure {
                 .collect();
             if !points.is_empty() {
                 let entry = if legend { material.title() } else { String::new() };
-                panel.series.push(Series::new(&entry, Mark::Points, slot, points));
+                panel.points(&entry, slot, points);
             }
             if let Some(found) = scaling::fit(records, material, measure) {
                 let ends = [found.range.0, found.range.1];
                 let curve = ends.map(|a| (a, found.law.coefficient * libm::pow(a, found.law.value)));
                 let exponent = format!("fit: {:.2} ± {:.2}", found.law.value, found.half_width);
-                panel.series.push(Series::new(&exponent, Mark::Reference, slot, curve.to_vec()));
+                panel.reference(&exponent, curve.to_vec());
             }
         }
         panel
     };
-    Figure {
-        name: "scaling".to_owned(),
-        caption: "Run-out and final height of the columns over their aspect ratio, with the published laws of their \
-                  geometry and Lube's run-out of the other one. Fits are power laws through the tall columns, with the 95 % \
-                  interval of the exponent. Coefficients depend on the grains, exponents much less."
-            .to_owned(),
-        panels: vec![
+    Figure::new(
+        "scaling",
+        "Run-out and final height of the columns over their aspect ratio, with the published laws of their geometry \
+         and Lube's run-out of the other one. Fits are power laws through the tall columns, with the 95 % interval \
+         of the exponent. Coefficients depend on the grains, exponents much less.",
+        vec![
             panel("run-out (r∞ − r0)/r0 [-]", &run_out_laws, Collapse::run_out, true),
             panel("final height h∞/r0 [-]", &height_laws, Collapse::final_height, false),
         ],
-        columns: 2,
-    }
+    )
 }
 
 fn label(run: &ColumnRun) -> String {
@@ -129,17 +127,14 @@ fn deposits(records: &[&Record]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("x/r0 [-]"), Axis::linear("thickness/r0 [-]"));
     for (slot, (run, record)) in records.iter().enumerate() {
         let end = record.data.deposit.iter().rposition(|bin| bin.1 > 0.0).map_or(0, |last| last + 1);
-        panel.series.push(Series::new(&label(run), Mark::Line, slot, record.data.deposit[..end].to_vec()));
+        panel.line(&label(run), slot, record.data.deposit[..end].to_vec());
     }
-    Figure {
-        name: of_material("deposits", records),
-        caption:
-            "Thickness of the deposits, volume per bin of 0.1 r0. Run-out is read where the thickness first falls \
-                  below 0.02 r0."
-                .to_owned(),
-        panels: vec![panel],
-        columns: 1,
-    }
+    Figure::new(
+        &of_material("deposits", records),
+        "Thickness of the deposits, volume per bin of 0.1 r0. Run-out is read where the thickness first falls below \
+         0.02 r0.",
+        vec![panel],
+    )
 }
 
 fn histories(records: &[&Record]) -> Figure {
@@ -149,20 +144,18 @@ fn histories(records: &[&Record]) -> Figure {
     for (slot, (run, record)) in records.iter().enumerate() {
         let (data, a, scale) = (&record.data, run.initial_height(), run.time_scale());
         let time = || data.time.iter().map(|t| t / scale);
-        let way = time().zip(data.front.iter().map(|front| (front - 1.0) / a)).collect();
+        let way = time().zip(data.front.iter().map(|front| (front - 1.0) / a));
         let initial = data.potential_energy.first().copied().unwrap_or(f64::NAN);
-        let share = time().zip(data.kinetic_energy.iter().map(|kinetic| kinetic / initial)).collect();
-        front.series.push(Series::new(&label(run), Mark::Line, slot, way));
-        energy.series.push(Series::new("", Mark::Line, slot, share));
+        let share = time().zip(data.kinetic_energy.iter().map(|kinetic| kinetic / initial));
+        front.line(&label(run), slot, way);
+        energy.line("", slot, share);
     }
-    Figure {
-        name: of_material("histories", records),
-        caption: "The front's way over the aspect ratio and the kinetic energy over the initial potential energy, in \
-                  times of free fall √(h0/g). Deposits come to rest."
-            .to_owned(),
-        panels: vec![front, energy],
-        columns: 2,
-    }
+    Figure::new(
+        &of_material("histories", records),
+        "The front's way over the aspect ratio and the kinetic energy over the initial potential energy, in times of \
+         free fall √(h0/g). Deposits come to rest.",
+        vec![front, energy],
+    )
 }
 
 /// The values of a run's variant as a file name: `sand-0.9-20`.
@@ -287,10 +280,10 @@ fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
             panels.push(panel);
         }
     }
-    Figure {
-        name: format!("pictures-{}", stem(run)),
-        caption: format!("{}: speed (left) and pressure (right) through the collapse and in the deposit.", label(run)),
+    Figure::new(
+        &format!("pictures-{}", stem(run)),
+        &format!("{}: speed (left) and pressure (right) through the collapse and in the deposit.", label(run)),
         panels,
-        columns: 2,
-    }
+    )
+    .in_columns(2)
 }

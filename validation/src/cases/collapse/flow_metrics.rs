@@ -51,7 +51,7 @@ pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric
     let mut metrics = vec![
         ENERGY_GAIN
             .of(&variant, 100.0 * energies(&record.data).largest_gain())
-            .against(Some(0.0), "kinetic and potential energy never exceed those of the start", Confidence::Exact)
+            .exactly(0.0, "kinetic and potential energy never exceed those of the start")
             .gated(
                 Limit::AtMost(100.0 * run.elastic_share()),
                 "of the initial potential energy: no more than the elastic energy of the hydrostatic start is there to be given back",

@@ -10,7 +10,7 @@ use super::quantities::{
     PARTICLES_LOST, RUN_OUT, STOPPING_TIME,
 };
 use crate::case::Run;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
+use crate::metric::{Limit, Metric, Quantity, Variant};
 use crate::reference::{COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
@@ -53,11 +53,11 @@ pub(in crate::cases) fn conservation(variant: &Variant, collapse: &Collapse, num
     let mut metrics = vec![
         PARTICLES_LOST
             .of(variant, collapse.lost as f64)
-            .against(Some(0.0), "no particle passes the bed, the symmetry plane or the bed's end", Confidence::Exact)
+            .exactly(0.0, "no particle passes the bed, the symmetry plane or the bed's end")
             .gated(Limit::AtMost(0.0), "grains do not vanish"),
         MASS_CHANGE
             .of(variant, collapse.mass_change)
-            .against(Some(0.0), "the mass of a particle never changes", Confidence::Exact)
+            .exactly(0.0, "the mass of a particle never changes")
             .gated(Limit::Within(0.0, 0.0), "exact by construction"),
     ];
     // an implicit step keeps no account of what the walls gave
@@ -65,11 +65,7 @@ pub(in crate::cases) fn conservation(variant: &Variant, collapse: &Collapse, num
         metrics.push(
             MOMENTUM_RESIDUAL
                 .of(variant, collapse.momentum_residual)
-                .against(
-                    Some(0.0),
-                    "momentum against gravity and what bed, planes, gate and contacts gave, over M g t",
-                    Confidence::Exact,
-                )
+                .exactly(0.0, "momentum against gravity and what bed, planes, gate and contacts gave, over M g t")
                 .gated(Limit::AtMost(1e-6), "specification 2: forces between grains cancel in pairs")
                 .with_snapshot_tolerance(0.0, 1e-10),
         );
@@ -81,7 +77,7 @@ pub(in crate::cases) fn conservation(variant: &Variant, collapse: &Collapse, num
 pub(in crate::cases) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rheology) -> Metric {
     let share = KINETIC_ENERGY_SHARE
         .of(variant, collapse.agitation())
-        .against(Some(0.0), "a static deposit", Confidence::Exact)
+        .exactly(0.0, "a static deposit")
         .with_snapshot_tolerance(0.0, 1e-6);
     if law.is_plastic() {
         share.gated(Limit::AtMost(1e-6), "specification 2: at most 1e-6 of the potential energy that was released")
@@ -147,17 +143,16 @@ fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse, sp
     metrics.push(at_rest(&variant, collapse, &run.law));
     let slope = observed(DEPOSIT_SLOPE_ANGLE, collapse.slope_angle());
     metrics.push(match run.law.contact_friction() {
-        friction if friction > 0.0 => slope.against(
-            Some(libm::atan(friction).to_degrees()),
+        friction if friction > 0.0 => slope.exactly(
+            libm::atan(friction).to_degrees(),
             "arctan μ_s, the steepest slope that can rest; line over 20–80 % of the front",
-            Confidence::Exact,
         ),
         _ => slope,
     });
     let excess = 100.0 * (collapse.top / collapse.final_height() - 1.0);
     let top = HEIGHT_BY_TOP
         .of(&variant, excess)
-        .against(Some(0.0), "highest particle beside the symmetry plane against the volume there", Confidence::Exact)
+        .exactly(0.0, "highest particle beside the symmetry plane against the volume there")
         .with_snapshot_tolerance(0.01, 0.2);
     metrics.push(if a <= 5.0 {
         top.gated(

@@ -125,7 +125,7 @@ pub(in crate::cases) fn halves(name: &str, caption: &str, frames: &[&Frame], vie
         panel.opposite = Some(field(places(frame, 1.0), pressures(frame), "p [kPa]", deepest));
         panels.push(panel);
     }
-    Figure { name: name.to_owned(), caption: caption.to_owned(), panels, columns: 1 }
+    Figure::new(name, caption, panels).in_columns(1)
 }
 
 /// Speeds `[m/s]`.

@@ -6,7 +6,7 @@ use super::deposit::Collapse;
 use super::quantities::{EXPLICIT_STEPS, REGULARISED_DIFFERENCE, RUN_OUT};
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::metric::{Confidence, Metric, Variant};
+use crate::metric::{Metric, Variant};
 
 /// The regularised runs.
 fn regularised(records: &[Record]) -> impl Iterator<Item = &Record> {
@@ -35,11 +35,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
         metrics.push(
             EXPLICIT_STEPS
                 .of(&variant, run.explicit_viscous_steps(record.simulated_time))
-                .against(
-                    Some(record.steps as f64),
-                    "the steps that the implicit run took; an explicit one was not made",
-                    Confidence::Exact,
-                )
+                .exactly(record.steps as f64, "the steps that the implicit run took; an explicit one was not made")
                 .with_snapshot_tolerance(0.02, 1.0),
         );
         metrics.push(RUN_OUT.of(&variant, record.data.run_out()).with_snapshot_tolerance(1e-3, 1e-3));
@@ -54,7 +50,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
             metrics.push(
                 REGULARISED_DIFFERENCE
                     .of(&variant, value)
-                    .against(Some(0.0), "the same column by return mapping", Confidence::Exact)
+                    .exactly(0.0, "the same column by return mapping")
                     .with_snapshot_tolerance(0.02, 0.1),
             );
         }
@@ -81,15 +77,13 @@ pub(super) fn figure(records: &[Record]) -> Option<Figure> {
             front.series.push(Series::new("", mark, slot, way));
         }
     }
-    Some(Figure {
-        name: "stress-updates".to_owned(),
-        caption: "The two stress updates: return mapping with a true yield, and the paper's regularised viscosity (35) with \
-                  an implicit step. The regularised deposit creeps for ever, so its front is that of the time at which the \
-                  run ended."
-            .to_owned(),
-        panels: vec![deposit, front],
-        columns: 2,
-    })
+    Some(Figure::new(
+        "stress-updates",
+        "The two stress updates: return mapping with a true yield, and the paper's regularised viscosity (35) with \
+         an implicit step. The regularised deposit creeps for ever, so its front is that of the time at which the \
+         run ended.",
+        vec![deposit, front],
+    ))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What never moved: the part of a heap that the collapse leaves in its place, and the surface that bounds it.
 
-use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Field, Figure, Panel};
 use crate::observation::Frame;
 use crate::statistics::linear_regression;
 
@@ -78,12 +78,7 @@ pub(in crate::cases) struct Deposit<'a> {
 /// Deposits in the colours of the displacement, undisturbed particles in grey, dashed the initial column and the line
 /// through the failure surface.
 pub(in crate::cases) fn figure(name: &str, caption: &str, deposits: &[Deposit<'_>]) -> Figure {
-    Figure {
-        name: name.to_owned(),
-        caption: caption.to_owned(),
-        panels: deposits.iter().map(panel).collect(),
-        columns: 2,
-    }
+    Figure::new(name, caption, deposits.iter().map(panel).collect()).in_columns(2)
 }
 
 fn panel(deposit: &Deposit<'_>) -> Panel {
@@ -111,11 +106,11 @@ fn panel(deposit: &Deposit<'_>) -> Panel {
     });
     let height = deposit.height / unit;
     let column = vec![(0.0, height), (1.0, height), (1.0, 0.0)];
-    panel.series.push(Series::new("", Mark::Reference, 0, column));
+    panel.reference("", column);
     if let (Some((start, lean)), Some(_)) = (deposit.wedge.line, deposit.wedge.angle()) {
         let top = (-start / lean).min(deposit.height);
         let ends = vec![(start / unit, 0.0), ((start + lean * top) / unit, top / unit)];
-        panel.series.push(Series::new("", Mark::Line, 1, ends));
+        panel.line("", 1, ends);
     }
     panel
 }

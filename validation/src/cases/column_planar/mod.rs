@@ -26,7 +26,7 @@ impl Case for ColumnPlanar {
         not give. The coefficients of the published laws depend on the material, their exponents much less. With another \
         law than μ(I) the published laws are shown and do not gate.";
     type Parameters = ColumnPlanarParameters;
-    const QUANTITIES: &'static [Quantity] = collapse::quantities::OF_COLUMNS;
+    const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
 
     fn metrics(_: &ColumnPlanarParameters, records: &[Record]) -> Vec<Metric> {
         collapse::metrics::all(records)

@@ -2,15 +2,13 @@
 
 mod comparison;
 mod figures;
-mod fluid;
 mod metrics;
 mod parameters;
 
-pub use fluid::{Film as SteadyFilm, FluidKind};
-pub use parameters::{FilmParameters, FilmRun};
+pub use parameters::{FilmParameters, FilmRun, FluidKind};
 
 use super::layer;
-use crate::case::{Case, RecordOf, Run};
+use crate::case::{Case, RecordOf};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
@@ -44,6 +42,6 @@ impl Case for Film {
     }
 
     fn tables(_: &FilmParameters, records: &[Record]) -> Vec<Table> {
-        records.iter().flat_map(|(run, record)| layer::tables(&run.variant(), &record.data)).collect()
+        layer::tables_of_runs(records)
     }
 }

@@ -1,19 +1,32 @@
 //! Parameters, tiers and runs.
 
 use super::comparison::NumericsSet;
-use super::fluid::{Film, FluidKind};
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
 use crate::cases::Arrangement;
-use crate::cases::layer::{Layer, LayerObservation, PeriodicLayer, Preparation, bulk_modulus};
+use crate::cases::layer::{Layer, LayerObservation, PeriodicLayer, bulk_modulus};
 use crate::cases::rules;
 use crate::metric::Variant;
 use crate::observation::Recorded;
-use crate::reference::Incline;
+use crate::reference::{Incline, SteadyFilm};
 use bagnold_solver::material::rheology::{Bingham, CoulombBingham, HerschelBulkley, Newtonian, Rheology};
 use bagnold_solver::parameter::{between, each, positive};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// Which fluid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FluidKind {
+    /// Newtonian.
+    Newtonian,
+    /// Bingham.
+    Bingham,
+    /// Herschel–Bulkley.
+    HerschelBulkley,
+    /// That of any law, under `material`.
+    Material,
+}
 
 /// Parameters of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -56,16 +69,10 @@ impl Parameters for FilmParameters {
 
     fn of_tier(tier: Tier) -> Self {
         let quick = Self {
+            // a viscous fluid needs no artificial viscosity, which is first order: α h c/8 is 0.4 % of ν at 20 rows
             layer: PeriodicLayer {
-                layer_height: 0.01,
-                gravity: 9.81,
-                resolution: 20,
-                columns: 8,
-                jitter: 0.1,
-                seed: 1,
-                preparation: Preparation::Settled,
-                // a viscous fluid needs no artificial viscosity, which is first order: α h c/8 is 0.4 % of ν at 20 rows
                 numerics: Numerics { artificial_viscosity: 0.0, ..Numerics::default() },
+                ..PeriodicLayer::settled(0.01, 20, 8)
             },
             slope_angle: 10.0,
             density: 1000.0,
@@ -192,7 +199,7 @@ impl FilmParameters {
         if others.into_iter().any(|&kind| self.law(kind).name() == self.material.name()) {
             return refused("another law than those of the other `fluids`", "or leave that one out of `fluids`");
         }
-        let flux = Film::of(self.material, self.incline()).flux();
+        let flux = SteadyFilm::of(self.material, self.incline()).flux();
         if !(flux > 0.0 && flux.is_finite()) {
             let rule = format!("a law that flows steadily at {}°", self.slope_angle);
             return refused(&rule, "choose another `slope_angle`, or other parameters of the law");
@@ -257,8 +264,8 @@ impl FilmRun {
 
     /// Its steady flow.
     #[must_use]
-    pub fn film(&self) -> Film {
-        Film::of(self.law, self.incline())
+    pub fn film(&self) -> SteadyFilm {
+        SteadyFilm::of(self.law, self.incline())
     }
 
     /// Whether it is the Newtonian film, which is studied for its convergence and its numerics.

@@ -5,29 +5,19 @@ use crate::case::Run;
 use crate::cases::collapse::metrics::conservation;
 use crate::cases::collapse::quantities::{MASS_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST};
 use crate::cases::layer::LayerObservation;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::reference::{GLASS_BEADS_FLOW_RULE, RoughIncline};
 use bagnold_solver::material::rheology::Rheology;
 
-const STOPPING_ANGLE: Quantity = Quantity::verified("stopping_angle", "°", "slope at which a layer stops");
-const EXPERIMENTAL_EXCESS: Quantity =
-    Quantity::validated("experimental_excess", "°", "slope at which layers stop in experiments, less the one found");
-const LARGEST_THICKNESS: Quantity =
-    Quantity::validated("largest_thickness", "cm", "largest thickness of the flow at a station");
-const FLOW_COEFFICIENT: Quantity = Quantity::verified("flow_coefficient", "-", "β of (42) from the steady flows");
-const FLOW_COEFFICIENT_PUBLISHED: Quantity =
-    Quantity::validated("flow_coefficient_published", "-", "the same β, against the published one");
-
-pub(super) const QUANTITIES: &[Quantity] = &[
-    PARTICLES_LOST,
-    MASS_CHANGE,
-    MOMENTUM_RESIDUAL,
-    LARGEST_THICKNESS,
-    STOPPING_ANGLE,
-    EXPERIMENTAL_EXCESS,
-    FLOW_COEFFICIENT,
-    FLOW_COEFFICIENT_PUBLISHED,
-];
+quantities! {
+    [PARTICLES_LOST, MASS_CHANGE, MOMENTUM_RESIDUAL]
+    LARGEST_THICKNESS: validated("largest_thickness", "cm", "largest thickness of the flow at a station"),
+    STOPPING_ANGLE: verified("stopping_angle", "°", "slope at which a layer stops"),
+    EXPERIMENTAL_EXCESS:
+        validated("experimental_excess", "°", "slope at which layers stop in experiments, less the one found"),
+    FLOW_COEFFICIENT: verified("flow_coefficient", "-", "β of (42) from the steady flows"),
+    FLOW_COEFFICIENT_PUBLISHED: validated("flow_coefficient_published", "-", "the same β, against the published one"),
+}
 
 /// Part of a steady flow's time series that its mean velocity is taken over, the last `[-]`.
 const WINDOW: f64 = 0.3;
@@ -42,7 +32,7 @@ pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> V
         metrics.push(
             PARTICLES_LOST
                 .of(&variant, lost as f64)
-                .against(Some(0.0), "no particle passes the bed", Confidence::Exact)
+                .exactly(0.0, "no particle passes the bed")
                 .gated(Limit::AtMost(0.0), "grains do not vanish"),
         );
         let local = libm::atan(run.layer.material.static_friction).to_degrees();
@@ -50,7 +40,7 @@ pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> V
         let angle = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(0.0, 1e-6);
         metrics.push(
             angle(STOPPING_ANGLE, measured)
-                .against(Some(local), "arctan μ_s: the local μ(I) law, whatever the thickness", Confidence::Exact)
+                .exactly(local, "arctan μ_s: the local μ(I) law, whatever the thickness")
                 .gated(
                     Limit::Within(local - run.tolerance, local + run.tolerance),
                     "the width of the bracket: its middle lies within half of it of the true angle, the rest is the \
@@ -150,11 +140,7 @@ fn flow_rule(
     metrics.push(
         FLOW_COEFFICIENT
             .of(&Variant::default(), measured)
-            .against(
-                Some(expected),
-                "(41) solved for β at the slopes of the flows: an identity of the law",
-                Confidence::Exact,
-            )
+            .exactly(expected, "(41) solved for β at the slopes of the flows: an identity of the law")
             .gated(
                 Limit::Within(0.97 * expected, 1.03 * expected),
                 "3 %: an error of 0.1 % of the friction coefficient is one of 0.8 % (25°) to 2 % (22°) of the velocity",

@@ -7,7 +7,7 @@ mod parameters;
 pub use parameters::{HydrostaticParameters, HydrostaticRun};
 
 use super::layer;
-use crate::case::{Case, RecordOf, Run};
+use crate::case::{Case, RecordOf};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
@@ -40,6 +40,6 @@ impl Case for Hydrostatic {
     }
 
     fn tables(_: &HydrostaticParameters, records: &[Record]) -> Vec<Table> {
-        records.iter().flat_map(|(run, record)| layer::tables(&run.variant(), &record.data)).collect()
+        layer::tables_of_runs(records)
     }
 }

@@ -3,7 +3,7 @@
 use super::Record;
 use crate::cases::collapse::pictures::{View, animation, speeds};
 use crate::cases::collapse::{BIN_WIDTH, SlopeRun};
-use crate::figure::{Animation, Axis, Band, Field, Figure, Mark, Panel, Series};
+use crate::figure::{Animation, Axis, Field, Figure, Panel};
 use crate::observation::Frame;
 use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
 
@@ -58,20 +58,17 @@ fn fronts(records: &[Record]) -> Figure {
     for (slot, (run, record)) in records.iter().enumerate() {
         let data = &record.data.collapse;
         let way = |front: &f64| (front - 1.0) * run.reservoir.reservoir_length;
-        let points = data.time.iter().copied().zip(data.front.iter().map(way)).collect();
-        front.series.push(Series::new(&label(run), Mark::Line, slot, points));
-        let points = data.time.iter().copied().zip(data.kinetic_energy.iter().copied()).collect();
-        energy.series.push(Series::new("", Mark::Line, slot, points));
+        let points = data.time.iter().copied().zip(data.front.iter().map(way));
+        front.line(&label(run), slot, points);
+        let points = data.time.iter().copied().zip(data.kinetic_energy.iter().copied());
+        energy.line("", slot, points);
     }
-    Figure {
-        name: "fronts".to_owned(),
-        caption:
-            "The front's way from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come \
-                  to rest; above it they run until the channel ends."
-                .to_owned(),
-        panels: vec![front, energy],
-        columns: 2,
-    }
+    Figure::new(
+        "fronts",
+        "The front's way from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come to \
+         rest; above it they run until the channel ends.",
+        vec![front, energy],
+    )
 }
 
 fn thickness(records: &[Record]) -> Figure {
@@ -85,18 +82,18 @@ fn thickness(records: &[Record]) -> Figure {
             let profile = &record.data.thickness[index];
             let end = profile.iter().rposition(|&thickness| thickness > 0.0).map_or(0, |last| last + 1);
             let place_of = |bin: usize| (bin as f64 + 0.5) * BIN_WIDTH * r;
-            let points = profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r)).collect();
+            let points = profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r));
             let entry = if place == 0 { format!("{time} s") } else { String::new() };
-            panel.series.push(Series::new(&entry, Mark::Line, slot, points));
+            panel.line(&entry, slot, points);
         }
         panel
     });
-    Figure {
-        name: "thickness".to_owned(),
-        caption: "Thickness along the slope in time: volume per bin of 2 cm. The gate stands at 0.2 m.".to_owned(),
-        panels: panels.collect(),
-        columns: 2,
-    }
+    Figure::new(
+        "thickness",
+        "Thickness along the slope in time: volume per bin of 2 cm. The gate stands at 0.2 m.",
+        panels.collect(),
+    )
+    .in_columns(2)
 }
 
 /// Final run-out over the slope, with the band of the experiments' fit.
@@ -111,30 +108,24 @@ fn run_outs(records: &[Record]) -> Figure {
     };
     let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
     let (short, long) = (curve(friction, lower), curve(friction, upper));
-    panel.bands.push(Band {
-        label: "k = 0.4 to 0.5, tanδ = μ_s of the run".to_owned(),
-        points: short.iter().zip(&long).map(|(a, b)| (a.0, a.1, b.1)).collect(),
-    });
+    panel.band("k = 0.4 to 0.5, tanδ = μ_s of the run", short.iter().zip(&long).map(|(a, b)| (a.0, a.1, b.1)));
     let entry = format!("k = {lower} and {upper}, δ = {}° of the experiment", SLOPE_EXPERIMENT.repose_angle);
     let experiment = libm::tan(SLOPE_EXPERIMENT.repose_angle.to_radians());
     for (k, entry) in [(lower, entry.as_str()), (upper, "")] {
-        panel.series.push(Series::new(entry, Mark::Reference, 0, curve(experiment, k)));
+        panel.reference(entry, curve(experiment, k));
     }
     let points: Vec<(f64, f64)> = records
         .iter()
         .filter(|(run, record)| run.regularisation_rate.is_none() && record.data.came_to_rest())
         .map(|(run, record)| (run.slope_angle, record.data.collapse.run_out() * run.reservoir.reservoir_length))
         .collect();
-    panel.series.push(Series::new("at rest", Mark::Points, 0, points));
-    Figure {
-        name: "run-out".to_owned(),
-        caption:
-            "Final run-out from the gate of the grains that came to rest, over the slope, with the fit to experiments \
-                  h_0 2k/(tanδ − tanθ)."
-                .to_owned(),
-        panels: vec![panel],
-        columns: 1,
-    }
+    panel.points("at rest", 0, points);
+    Figure::new(
+        "run-out",
+        "Final run-out from the gate of the grains that came to rest, over the slope, with the fit to experiments \
+         h_0 2k/(tanδ − tanθ).",
+        vec![panel],
+    )
 }
 
 /// Speed and viscosity in time: the paper's figures 4 to 6.
@@ -169,14 +160,14 @@ fn fields((run, record): &Record) -> Figure {
             panels.push(panel);
         }
     }
-    Figure {
-        name: format!("fields-{}", stem(run)),
-        caption: format!(
+    Figure::new(
+        &format!("fields-{}", stem(run)),
+        &format!(
             "{}: speed, and apparent viscosity on the paper's scale of 0 to 1.5 Pa·s and on a logarithmic one. The \
              viscosity of grains that hardly move has no upper bound.",
             label(run)
         ),
         panels,
-        columns: 1,
-    }
+    )
+    .in_columns(1)
 }

@@ -6,22 +6,14 @@ use crate::cases::collapse::metrics::{at_rest, conservation};
 use crate::cases::collapse::quantities::{
     DEPOSIT_SLOPE_ANGLE, KINETIC_ENERGY_SHARE, MASS_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST,
 };
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
+use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
 use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
 
-const FRONT_DISPLACEMENT: Quantity =
-    Quantity::validated("front_displacement", "m", "the front's way from the gate to the end of the deposit");
-const FRONT: Quantity = Quantity::validated("front", "-", "place of the front at a time, over r_0");
-
-pub(super) const QUANTITIES: &[Quantity] = &[
-    PARTICLES_LOST,
-    MASS_CHANGE,
-    MOMENTUM_RESIDUAL,
-    FRONT_DISPLACEMENT,
-    KINETIC_ENERGY_SHARE,
-    DEPOSIT_SLOPE_ANGLE,
-    FRONT,
-];
+quantities! {
+    [PARTICLES_LOST, MASS_CHANGE, MOMENTUM_RESIDUAL, KINETIC_ENERGY_SHARE, DEPOSIT_SLOPE_ANGLE]
+    FRONT_DISPLACEMENT: validated("front_displacement", "m", "the front's way from the gate to the end of the deposit"),
+    FRONT: validated("front", "-", "place of the front at a time, over r_0"),
+}
 
 /// What the gate allows beyond the band of the law's two quotations `[-]`.
 const MARGIN: f64 = 0.15;
@@ -57,10 +49,9 @@ pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
         });
         metrics.push(at_rest(&variant, data, &run.law));
         let friction_angle = libm::atan(run.static_friction()).to_degrees() - run.slope_angle;
-        metrics.push(observed(DEPOSIT_SLOPE_ANGLE, &variant, data.slope_angle()).against(
-            Some(friction_angle),
+        metrics.push(observed(DEPOSIT_SLOPE_ANGLE, &variant, data.slope_angle()).exactly(
+            friction_angle,
             "arctan μ_s − θ, the steepest surface that can rest, from the bed; line over 20–80 % of the front",
-            Confidence::Exact,
         ));
     }
     for time in FRONT_TIMES {

@@ -8,9 +8,9 @@ pub use periodic::PeriodicLayer;
 pub use preparation::Preparation;
 pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 
-use crate::case::Progress;
+use crate::case::{Progress, Run};
 use crate::cases::recording::Ending;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
+use crate::metric::{Limit, Metric, Quantity, Variant};
 use crate::observation::{Frame, Recorded};
 use crate::output::Table;
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -247,34 +247,30 @@ pub fn hydrostatic_pressure(bulk_modulus: f64, reference_density: f64, gravity_a
     bulk_modulus * libm::expm1(reference_density * gravity_across * depth.max(0.0) / bulk_modulus)
 }
 
-/// Tables of one run: depth profile and time series.
+/// Tables of all runs of a case.
 #[must_use]
-pub fn tables(variant: &Variant, data: &LayerObservation) -> Vec<Table> {
+pub fn tables_of_runs<R: Run>(records: &[(R, Recorded<LayerObservation>)]) -> Vec<Table> {
+    records.iter().flat_map(|(run, record)| tables(&run.variant(), &record.data)).collect()
+}
+
+/// Tables of one run: depth profile and time series.
+fn tables(variant: &Variant, data: &LayerObservation) -> Vec<Table> {
     let stem = variant.file_name();
-    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-    let profile = &data.profile;
-    let series = &data.series;
+    let (profile, series) = (&data.profile, &data.series);
+    let row = |bin: usize| {
+        let DepthProfile { height, velocity, pressure, normal_stress, shear_stress, samples } = profile;
+        [height, velocity, pressure, normal_stress, shear_stress, samples].map(|column| column[bin]).to_vec()
+    };
+    let headings = ["y [m]", "u [m/s]", "p [Pa]", "p - s_yy [Pa]", "s_xy [Pa]", "samples [-]"];
+    let columns: [(&str, &[f64]); 4] = [
+        ("t [s]", &series.time),
+        ("mean u [m/s]", &series.mean_velocity),
+        ("rms speed [m/s]", &series.rms_speed),
+        ("relative height [-]", &series.relative_height),
+    ];
     let mut tables = vec![
-        Table {
-            name: format!("profile-{stem}"),
-            columns: names(&["y [m]", "u [m/s]", "p [Pa]", "p - s_yy [Pa]", "s_xy [Pa]", "samples [-]"]),
-            rows: (0..profile.height.len())
-                .filter(|&bin| profile.samples[bin] > 0.0)
-                .map(|bin| {
-                    let columns = [&profile.height, &profile.velocity, &profile.pressure, &profile.normal_stress];
-                    let mut row: Vec<f64> = columns.iter().map(|column| column[bin]).collect();
-                    row.extend([profile.shear_stress[bin], profile.samples[bin]]);
-                    row
-                })
-                .collect(),
-        },
-        Table {
-            name: format!("series-{stem}"),
-            columns: names(&["t [s]", "mean u [m/s]", "rms speed [m/s]", "relative height [-]"]),
-            rows: (0..series.time.len())
-                .map(|k| vec![series.time[k], series.mean_velocity[k], series.rms_speed[k], series.relative_height[k]])
-                .collect(),
-        },
+        Table::of_rows(format!("profile-{stem}"), &headings, profile.filled().map(row)),
+        Table::of_columns(format!("series-{stem}"), &columns),
     ];
     // a run that diverged before its averaging window has no profile
     tables.retain(|table| !table.rows.is_empty());
@@ -290,6 +286,6 @@ pub(in crate::cases) const PARTICLES_LOST: Quantity =
 pub fn particles_lost(variant: &Variant, record: &Recorded<LayerObservation>) -> Metric {
     PARTICLES_LOST
         .of(variant, record.data.particles_lost as f64)
-        .against(Some(0.0), "no particle passes a wall", Confidence::Exact)
+        .exactly(0.0, "no particle passes a wall")
         .gated(Limit::AtMost(0.0), "a particle below the bed is lost mass")
 }

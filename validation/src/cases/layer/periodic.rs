@@ -36,6 +36,20 @@ pub struct PeriodicLayer {
 }
 
 impl PeriodicLayer {
+    /// A settled layer of displaced particles, as high `[m]` and of as many rows and columns as are given.
+    pub(in crate::cases) fn settled(layer_height: f64, resolution: usize, columns: usize) -> Self {
+        Self {
+            layer_height,
+            gravity: 9.81,
+            resolution,
+            columns,
+            jitter: 0.1,
+            seed: 1,
+            preparation: Preparation::Settled,
+            numerics: Numerics::default(),
+        }
+    }
+
     /// The period must hold the reach of the kernel.
     pub(in crate::cases) fn check(&self) -> Result<(), ParameterError> {
         rules::columns("columns", self.columns, &self.numerics)

@@ -6,7 +6,7 @@ use super::probe::{SettlingObservation, SettlingSeries};
 use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;
 use crate::case::Run;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
+use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
 use crate::reference::{richardson_zaki_confidence, richardson_zaki_exponent};
 
 quantities! {
@@ -49,7 +49,7 @@ fn error(
     let (mean, noise) = series.mean(array);
     quantity
         .of(variant, 100.0 * (mean / root - 1.0))
-        .against(Some(0.0), source, Confidence::Exact)
+        .exactly(0.0, source)
         // displaced particles move chaotically: a mean over the window moves by its own error after any change
         .with_snapshot_tolerance(0.0, 300.0 * noise / root + 1e-3)
 }
@@ -98,7 +98,7 @@ fn together(run: &SuspensionRun, data: &SettlingObservation) -> Vec<Metric> {
     metrics.push(
         UNEVENNESS
             .of(&variant, 100.0 * series.mean(&series.unevenness).0 / slip)
-            .against(Some(0.0), "grains of a uniform suspension sink alike", Confidence::Exact)
+            .exactly(0.0, "grains of a uniform suspension sink alike")
             .with_snapshot_tolerance(0.5, 0.01),
     );
     metrics.push(momentum(&variant, data.momentum_error));
@@ -108,7 +108,7 @@ fn together(run: &SuspensionRun, data: &SettlingObservation) -> Vec<Metric> {
 fn momentum(variant: &Variant, error: f64) -> Metric {
     MOMENTUM_ERROR
         .of(variant, error)
-        .against(Some(0.0), "change of momentum = impulse of gravity and floor, in every step", Confidence::Exact)
+        .exactly(0.0, "change of momentum = impulse of gravity and floor, in every step")
         .gated(
             Limit::AtMost(1e-10),
             "acceptance line 4: 1e-10 of the grains' weight; pairs exchange equal and opposite impulses",

@@ -45,7 +45,7 @@ fn stabilised(metrics: &mut Vec<Metric>, run: &StillWaterRun, record: &Recorded<
     );
     let rms = data.average(&data.series.rms_vertical_velocity);
     let velocity = channel::observed(RMS_VERTICAL_VELOCITY, &variant, rms, 1.0);
-    let velocity = floored(velocity, 1e-5).against(Some(0.0), "rest", Confidence::Exact);
+    let velocity = floored(velocity, 1e-5).exactly(0.0, "rest");
     metrics.push(if run.duration >= AT_REST_AFTER {
         velocity.gated(Limit::AtMost(5e-4), "a thousandth of √(g h), averaged over the last window")
     } else {

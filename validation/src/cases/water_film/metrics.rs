@@ -63,7 +63,7 @@ fn of_run(metrics: &mut Vec<Metric>, run: &WaterFilmRun, record: &Recorded<Chann
     metrics.push(channel::momentum_residual(&variant, record));
     for (quantity, depth) in [(VELOCITY_L2, Depth::Nominal), (VELOCITY_L2_OWN_DEPTH, Depth::Own)] {
         let error = channel::observed(quantity, &variant, velocity_l2(run, data, depth), 100.0);
-        let mut metric = error.against(Some(0.0), source(depth), Confidence::Exact);
+        let mut metric = error.exactly(0.0, source(depth));
         if depth == Depth::Nominal && run.water.resolution >= 20 {
             metric =
                 metric.gated(Limit::AtMost(0.8), "0.8 % at 20 rows, from the lattice and from displaced particles");
