@@ -21,7 +21,7 @@ impl Progress for Unseen {
 /// The column a = 1 of Lagrée's grains from a lattice with displacements of this many spacings.
 fn collapse(jitter: f64) -> Collapse {
     let mut parameters = ColumnPlanarParameters::of_tier(Tier::Quick);
-    parameters.jitter = jitter;
+    parameters.release.jitter = jitter;
     parameters.sand.aspect_ratios.clear();
     parameters.lagree.aspect_ratios = vec![1.0];
     parameters.regularised.aspect_ratios.clear();

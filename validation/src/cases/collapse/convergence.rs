@@ -213,7 +213,7 @@ fn hourglass(records: &[Record], material: Material, aspect_ratio: f64, resoluti
         .iter()
         .filter(|(run, _)| run.purpose == Purpose::Hourglass && run.resolution == resolution)
         .filter(|(run, _)| is_of(run, material, aspect_ratio))
-        .map(|(run, record)| (run.numerics.hourglass, record.data.run_out()))
+        .map(|(run, record)| (run.release.numerics.hourglass, record.data.run_out()))
         .collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     points

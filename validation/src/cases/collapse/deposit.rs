@@ -97,12 +97,6 @@ impl Surveyor {
         if snapshot.time > 0.0 { residual.norm() / given.norm() } else { 0.0 }
     }
 
-    /// Kinetic energy over the potential energy released so far `[-]`.
-    #[must_use]
-    pub(super) fn agitation(&self) -> f64 {
-        self.collapse.agitation()
-    }
-
     /// Measures the deposit and ends the survey.
     #[must_use]
     pub(super) fn finish<const D: usize>(mut self, end: &Snapshot<D>) -> Collapse {

@@ -29,7 +29,7 @@ pub(in crate::cases) fn all(records: &[Record]) -> Vec<Metric> {
             of_column(&mut metrics, run, &record.data, spread);
             metrics.extend(super::flow_metrics::of_run(run, record));
         } else {
-            metrics.extend(conservation(&run.variant(), &record.data, &run.numerics));
+            metrics.extend(conservation(&run.variant(), &record.data, &run.release.numerics));
         }
     }
     metrics.extend(super::convergence::metrics(records));
@@ -104,7 +104,7 @@ fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse, sp
     let a = run.initial_height();
     let observed = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
     let of_sand = run.material == Material::SAND && run.has_published_law();
-    metrics.extend(conservation(&variant, collapse, &run.numerics));
+    metrics.extend(conservation(&variant, collapse, &run.release.numerics));
     let (run_out_law, height_law) = laws_of(run);
     let run_out = observed(RUN_OUT, collapse.run_out()).against(
         run_out_law.value(a),

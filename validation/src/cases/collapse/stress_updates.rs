@@ -89,7 +89,7 @@ pub(super) fn figure(records: &[Record]) -> Option<Figure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cases::collapse::{Geometry, Material};
+    use crate::cases::collapse::{Geometry, Material, Release};
     use crate::observation::{Outcome, Recorded};
     use crate::reference::TABLE_2_SAND;
     use bagnold_solver::material::rheology::Rheology;
@@ -109,12 +109,8 @@ mod tests {
                 .map_or(Rheology::MuI(grains), |rate| Rheology::RegularisedMuI(grains.regularised(rate))),
             bulk_density: 1500.0,
             regularisation_rate,
-            gravity: 9.81,
-            jitter: 0.0,
-            seed: 1,
-            duration: 10.0,
             shown_times: Vec::new(),
-            numerics: Numerics::default(),
+            release: Release::with(Numerics::default()),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Planar granular columns that collapse and spread on a rough horizontal bed.
 
 mod parameters;
+mod runs;
 
 pub use parameters::{ColumnPlanarParameters, Columns, Regularised, Sensitivity, Variants};
 

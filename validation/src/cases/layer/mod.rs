@@ -9,7 +9,7 @@ pub use preparation::Preparation;
 pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 
 use crate::case::{Progress, Run};
-use crate::cases::recording::Ending;
+use crate::cases::recording::{self, Ending};
 use crate::metric::{Limit, Metric, Quantity, Variant};
 use crate::observation::{Frame, Recorded};
 use crate::output::Table;
@@ -210,33 +210,20 @@ impl Layer<'_> {
                 tracing::info!("explicit viscous step: about {steps:.1e} steps for {} s", self.duration);
             }
         }
-        let particles = self.rows * self.columns;
         let mut probe = LayerProbe::new(self);
         let mut frames = Vec::new();
-        let mut last_good = simulation.snapshot();
         let frame_interval = self.duration / (self.frames.max(2) - 1) as f64;
-        let reason = simulation.run(self.duration, self.interval, |simulation| {
-            let snapshot = simulation.snapshot();
-            probe.observe(&snapshot);
+        let ending = recording::watch(&mut simulation, (self.duration, self.interval), progress, |snapshot| {
+            probe.observe(snapshot);
             if snapshot.time >= frame_interval * frames.len() as f64 && frames.len() + 1 < self.frames.max(2) {
-                frames.push(Frame::of_flow(&snapshot));
+                frames.push(Frame::of_flow(snapshot));
             }
-            progress.advance(snapshot.time, self.duration, simulation.steps() as f64 * particles as f64);
             let stop = probe.mean_velocity() > self.stop_above;
-            last_good = snapshot;
             if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let ending = Ending {
-            reason,
-            last_good,
-            criterion: format!(
-                "the depth mean of the velocity passed {:.3} m/s, half the sound speed",
-                self.stop_above
-            ),
-            may_diverge: self.may_diverge,
-            frames,
-            started,
-        };
+        let limit = self.stop_above;
+        let criterion = format!("the depth mean of the velocity passed {limit:.3} m/s, half the sound speed");
+        let ending = Ending { criterion, may_diverge: self.may_diverge, frames, started, ..ending };
         Ok(ending.record(&simulation, |_| probe.finish()))
     }
 }
