@@ -15,7 +15,6 @@ pub mod flow_thickness;
 pub mod hydrostatic;
 pub mod incline_collapse;
 pub mod layer;
-pub mod recording;
 mod rules;
 pub mod settling;
 pub mod still_water;

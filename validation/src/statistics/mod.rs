@@ -1,6 +1,7 @@
 //! Fits and their uncertainty.
 
 mod block_average;
+mod block_profile;
 mod fit;
 mod grid_convergence;
 mod mean;
@@ -8,6 +9,7 @@ mod segmented;
 mod student;
 
 pub use block_average::{BLOCKS, block_average, block_jackknife};
+pub use block_profile::{BlockProfile, BlockSums, ProfilePoint};
 pub use fit::{
     Estimate, Exponent, LinearFit, Regression, common_slope, linear_fit, linear_regression, log_log_slope, power_law,
 };

@@ -5,11 +5,11 @@ use super::column::{ColumnRun, Geometry, PICTURES, Purpose};
 use super::deposit::Collapse;
 use super::flow_metrics::{self, energies, stations};
 use super::material::Material;
-use super::pictures::{View, animation, halves, nearest, pressures, speeds};
 use super::wedge::{self, Deposit};
 use super::{convergence, energy, scaling, stress_updates, velocity_profile};
 use crate::case::Run;
 use crate::figure::{Animation, Axis, Field, Figure, Panel};
+use crate::observation::pictures::{View, animation, halves};
 use crate::observation::{Frame, Recorded};
 use crate::reference::{CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
@@ -190,7 +190,7 @@ pub(in crate::cases) fn animations(records: &[Record]) -> Vec<Animation> {
 
 /// The paper's pictures: speed and pressure at absolute times.
 fn shown(run: &ColumnRun, frames: &[Frame]) -> Option<Figure> {
-    let shown: Vec<&Frame> = run.shown_times.iter().filter_map(|&time| nearest(frames, time)).collect();
+    let shown: Vec<&Frame> = run.shown_times.iter().filter_map(|&time| Frame::nearest(frames, time)).collect();
     let caption = format!(
         "{}: speed on the left and pressure on the right of the symmetry plane, at the times of the collapse paper's \
          figures 7–9; the left half is the mirror image of the simulated right one.",
@@ -248,7 +248,7 @@ fn wedges(records: &[&Record]) -> Figure {
 fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
     let r = run.half_width;
     let times = PICTURES.iter().map(|time| time * run.time_scale());
-    let mut frames: Vec<&Frame> = times.filter_map(|time| nearest(frames, time)).chain(frames.last()).collect();
+    let mut frames: Vec<&Frame> = times.filter_map(|time| Frame::nearest(frames, time)).chain(frames.last()).collect();
     // a run that ended early has no more than its deposit to show
     frames.dedup_by(|a, b| a.time == b.time);
     let slice = |frame: &Frame| -> Vec<usize> {
@@ -259,11 +259,12 @@ fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
     let largest = |values: fn(&Frame) -> Vec<f64>| {
         frames.iter().flat_map(|frame| values(frame)).fold(0.0, f64::max).max(f64::MIN_POSITIVE)
     };
-    let (fastest, deepest) = (largest(speeds), largest(pressures));
+    let (fastest, deepest) = (largest(Frame::speeds), largest(Frame::pressures));
     let mut panels = Vec::new();
     for frame in frames {
         let title = format!("t = {:.2} √(h0/g)", frame.time / run.time_scale());
-        for (values, label, limit) in [(speeds(frame), "|v| [m/s]", fastest), (pressures(frame), "p [kPa]", deepest)] {
+        for (values, label, limit) in [(frame.speeds(), "|v| [m/s]", fastest), (frame.pressures(), "p [kPa]", deepest)]
+        {
             let x = Axis { limits: Some((0.0, far)), ..Axis::linear("x/r0 [-]") };
             let y = Axis { limits: Some((0.0, high)), ..Axis::linear("y/r0 [-]") };
             let mut panel = Panel::new(&title, x, y);

@@ -3,7 +3,6 @@
 use super::column::{ColumnRun, Geometry};
 use super::deposit::{BIN_WIDTH, Collapse};
 use super::energy::Energies;
-use super::pictures::nearest;
 use super::quantities::{
     ENERGY_GAIN, FAILURE_SURFACE_ANGLE, FLOWING_LAYER_R_SQUARED, FLOWING_LAYER_SHEAR_RATE,
     TAIL_DECAY_LENGTH_OVER_DIAMETER, TAIL_DECAY_LENGTH_OVER_SPACING, TAIL_DECAY_LENGTH_STANDARD_ERROR,
@@ -27,7 +26,7 @@ pub(super) fn energies(collapse: &Collapse) -> Energies<'_> {
 pub(super) fn stations(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Station> {
     // a ring is no bin along x
     let time = PROFILE_TIME * run.time_scale();
-    let Some(frame) = nearest(&record.frames, time).filter(|_| run.geometry == Geometry::Planar) else {
+    let Some(frame) = Frame::nearest(&record.frames, time).filter(|_| run.geometry == Geometry::Planar) else {
         return Vec::new();
     };
     let data = &record.data;

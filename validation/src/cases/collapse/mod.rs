@@ -12,7 +12,6 @@ mod flow_metrics;
 mod incline;
 mod material;
 pub(super) mod metrics;
-pub(super) mod pictures;
 pub(super) mod quantities;
 mod scaling;
 mod slope;

@@ -41,9 +41,8 @@ pub(in crate::cases) struct DecayLength {
 impl Station {
     /// Averages the particles within half a `width` of `x`, in bins one `layer` high `[m]`.
     pub(in crate::cases) fn of(frame: &Frame, x: f64, width: f64, layer: f64) -> Self {
-        let velocity = frame.vectors.iter().find(|(name, _, _)| name == "velocity").map(|(_, _, values)| values);
         let mut bins: Vec<(f64, usize)> = Vec::new();
-        for (position, velocity) in frame.position.iter().zip(velocity.into_iter().flatten()) {
+        for (position, velocity) in frame.position.iter().zip(frame.vector("velocity")) {
             if (position[0] - x).abs() > 0.5 * width {
                 continue;
             }

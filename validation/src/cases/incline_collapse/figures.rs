@@ -1,10 +1,10 @@
 //! The case's figures.
 
 use super::Record;
-use crate::cases::collapse::pictures::{View, animation, speeds};
 use crate::cases::collapse::{BIN_WIDTH, SlopeRun};
 use crate::figure::{Animation, Axis, Field, Figure, Panel};
 use crate::observation::Frame;
+use crate::observation::pictures::{View, animation};
 use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
 
 /// Times at which thickness profiles are drawn `[s]`.
@@ -130,19 +130,16 @@ fn run_outs(records: &[Record]) -> Figure {
 
 /// Speed and viscosity in time: the paper's figures 4 to 6.
 fn fields((run, record): &Record) -> Figure {
-    let scalar = |frame: &Frame, wanted: &str| -> Vec<f64> {
-        frame.scalars.iter().find(|(name, _, _)| name == wanted).map_or(Vec::new(), |(_, _, values)| values.clone())
-    };
     let moving: Vec<&Frame> = record.frames.iter().filter(|frame| frame.time > 0.3).collect();
-    let fastest = moving.iter().flat_map(|frame| speeds(frame)).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let fastest = moving.iter().flat_map(|frame| frame.speeds()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let far = moving.iter().flat_map(|frame| &frame.position).map(|x| x[0]).fold(0.0, f64::max);
     let mut panels = Vec::new();
     for frame in moving {
         let title = format!("t = {:.2} s", frame.time);
-        let viscosity = scalar(frame, "viscosity");
+        let viscosity = frame.scalar("viscosity").to_vec();
         let decades = viscosity.iter().map(|v| libm::log10(v.max(1e-3))).collect();
         let columns = [
-            (speeds(frame), "|v| [m/s]", (0.0, fastest)),
+            (frame.speeds(), "|v| [m/s]", (0.0, fastest)),
             (viscosity, "η [Pa·s]", PAPER_SCALE),
             (decades, "log10 η [Pa·s]", (-1.0, 4.0)),
         ];

@@ -8,8 +8,8 @@ pub use periodic::PeriodicLayer;
 pub use preparation::Preparation;
 pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 
+use crate::case::recording::{self, Ending};
 use crate::case::{Progress, Run};
-use crate::cases::recording::{self, Ending};
 use crate::metric::{Limit, Metric, Quantity, Variant};
 use crate::observation::{Frame, Recorded};
 use crate::output::Table;

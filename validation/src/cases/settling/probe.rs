@@ -1,7 +1,7 @@
 //! What a settling run leaves behind: slip over time, and how far momentum closes in every step.
 
 use crate::case::Progress;
-use crate::cases::recording::Ending;
+use crate::case::recording::Ending;
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::output::Table;
