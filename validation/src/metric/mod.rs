@@ -150,6 +150,15 @@ impl Metric {
         self
     }
 
+    /// Adds a gate where there is a limit; else it stays observed.
+    #[must_use]
+    pub fn gated_by(self, limit: Option<Limit>, reason: &str) -> Self {
+        match limit {
+            Some(limit) => self.gated(limit, reason),
+            None => self,
+        }
+    }
+
     /// Adds a reference.
     #[must_use]
     pub fn against(mut self, value: Option<f64>, source: &str, confidence: Confidence) -> Self {

@@ -39,9 +39,8 @@ impl Energies<'_> {
 pub(in crate::cases) fn figure(name: &str, caption: &str, runs: &[(String, f64, Energies<'_>)]) -> Figure {
     let panels = runs.iter().filter_map(|(title, time_scale, energies)| {
         let (whole, start) = (energies.released()?, energies.potential.first()?);
-        let axis = Axis { limits: Some((-0.05, 1.1)), ..Axis::linear("energy/released [-]") };
-        let time = Axis { limits: Some((0.0, LONGEST)), ..Axis::linear("t/√(h0/g) [-]") };
-        let mut panel = Panel::new(title, time, axis);
+        let time = Axis::linear("t/√(h0/g) [-]").between(0.0, LONGEST);
+        let mut panel = Panel::new(title, time, Axis::linear("energy/released [-]").between(-0.05, 1.1));
         let mut curve = |label: &str, slot: usize, value: &dyn Fn(usize) -> f64| {
             let points = energies.time.iter().enumerate().map(|(k, time)| (time / time_scale, value(k) / whole));
             panel.line(label, slot, points);

@@ -18,7 +18,7 @@ pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> V
 /// Thickness at the stations over time, one panel a slope.
 fn histories(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[Record]) -> Figure {
     let panels = collapses(records).enumerate().map(|(place, (run, data))| {
-        let y = Axis { limits: Some((0.0, 6.0)), ..Axis::linear("thickness [cm]") };
+        let y = Axis::linear("thickness [cm]").between(0.0, 6.0);
         let mut panel = Panel::new(&format!("{}°", run.slope_angle), Axis::linear("t [s]"), y);
         let time = &data.collapse.time;
         for (slot, &station) in parameters.stations.iter().enumerate() {

@@ -74,7 +74,7 @@ fn fronts(records: &[Record]) -> Figure {
 fn thickness(records: &[Record]) -> Figure {
     let high = records.first().map_or(0.14, |(run, _)| run.reservoir.initial_height);
     let panels = records.iter().enumerate().map(|(place, (run, record))| {
-        let y = Axis { limits: Some((0.0, 100.0 * high)), ..Axis::linear("thickness [cm]") };
+        let y = Axis::linear("thickness [cm]").between(0.0, 100.0 * high);
         let mut panel = Panel::new(&label(run), Axis::linear("x [m]"), y);
         for (slot, time) in PROFILES.iter().enumerate() {
             let Some(index) = record.data.collapse.time.iter().position(|t| *t >= time - 1e-9) else { continue };
@@ -132,6 +132,7 @@ fn run_outs(records: &[Record]) -> Figure {
 fn fields((run, record): &Record) -> Figure {
     let moving: Vec<&Frame> = record.frames.iter().filter(|frame| frame.time > 0.3).collect();
     let fastest = moving.iter().flat_map(|frame| frame.speeds()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let high = run.reservoir.initial_height;
     let far = moving.iter().flat_map(|frame| &frame.position).map(|x| x[0]).fold(0.0, f64::max);
     let mut panels = Vec::new();
     for frame in moving {
@@ -144,8 +145,7 @@ fn fields((run, record): &Record) -> Figure {
             (decades, "log10 η [Pa·s]", (-1.0, 4.0)),
         ];
         for (values, label, limits) in columns {
-            let x = Axis { limits: Some((0.0, far)), ..Axis::linear("x [m]") };
-            let y = Axis { limits: Some((0.0, run.reservoir.initial_height)), ..Axis::linear("y [m]") };
+            let (x, y) = (Axis::linear("x [m]").between(0.0, far), Axis::linear("y [m]").between(0.0, high));
             let mut panel = Panel::new(&title, x, y);
             panel.field = Some(Field {
                 points: frame.position.iter().map(|x| (x[0], x[1])).collect(),

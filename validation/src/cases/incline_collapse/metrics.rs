@@ -21,38 +21,35 @@ const MARGIN: f64 = 0.15;
 const FRONT_TIMES: [f64; 2] = [0.3, 0.4];
 
 pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
-    let variant = run.variant();
-    let data = &record.data.collapse;
-    let mut metrics = conservation(&variant, data, &run.reservoir.numerics);
+    let (variant, data) = (run.variant(), &record.data.collapse);
     let observed = |quantity: Quantity, variant: &Variant, value: f64| {
         quantity.of(variant, value).with_snapshot_tolerance(1e-3, 1e-3)
     };
-    let angle = run.slope_angle.to_radians();
-    // the front's way from the gate
-    let way = (data.run_out()) * run.reservoir.reservoir_length;
-    let law = |k: f64| slope_run_out(run.reservoir.initial_height, angle, run.static_friction(), k);
+    let mut metrics = conservation(&variant, data, &run.reservoir.numerics);
+    let (angle, friction) = (run.slope_angle.to_radians(), run.static_friction());
+    let law = |k: f64| slope_run_out(run.reservoir.initial_height, angle, friction, k);
     let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
     if run.regularisation_rate.is_none()
         && let (Some(short), Some(long)) = (law(lower), law(upper))
     {
-        let front = observed(FRONT_DISPLACEMENT, &variant, way).against(
-            Some(0.5 * (short + long)),
-            &format!("h_0 2k/(tanδ − tanθ), k = {lower} to {upper}, tanδ = μ_s: Mangeney et al. 2010 as quoted"),
-            SLOPE_EXPERIMENT.confidence,
-        );
         // on a horizontal bed the fit was not made for the paper's case
-        metrics.push(if run.slope_angle > 0.0 && run.is_resolved() && run.law.is_plastic() {
-            let limit = Limit::Within((1.0 - MARGIN) * short, (1.0 + MARGIN) * long);
-            front.gated(limit, "specification 2: the band of k = 0.4 to 0.5, 15 % to either side; at 20 rows and more")
-        } else {
-            front
-        });
-        metrics.push(at_rest(&variant, data, &run.law));
-        let friction_angle = libm::atan(run.static_friction()).to_degrees() - run.slope_angle;
-        metrics.push(observed(DEPOSIT_SLOPE_ANGLE, &variant, data.slope_angle()).exactly(
-            friction_angle,
-            "arctan μ_s − θ, the steepest surface that can rest, from the bed; line over 20–80 % of the front",
-        ));
+        let is_judged = run.slope_angle > 0.0 && run.is_resolved() && run.law.is_plastic();
+        let limit = Limit::Within((1.0 - MARGIN) * short, (1.0 + MARGIN) * long);
+        let source =
+            format!("h_0 2k/(tanδ − tanθ), k = {lower} to {upper}, tanδ = μ_s: Mangeney et al. 2010 as quoted");
+        metrics.extend([
+            observed(FRONT_DISPLACEMENT, &variant, data.run_out() * run.reservoir.reservoir_length)
+                .against(Some(0.5 * (short + long)), &source, SLOPE_EXPERIMENT.confidence)
+                .gated_by(
+                    is_judged.then_some(limit),
+                    "specification 2: the band of k = 0.4 to 0.5, 15 % to either side; at 20 rows and more",
+                ),
+            at_rest(&variant, data, &run.law),
+            observed(DEPOSIT_SLOPE_ANGLE, &variant, data.slope_angle()).exactly(
+                libm::atan(friction).to_degrees() - run.slope_angle,
+                "arctan μ_s − θ, the steepest surface that can rest, from the bed; line over 20–80 % of the front",
+            ),
+        ]);
     }
     for time in FRONT_TIMES {
         if let Some(index) = data.time.iter().position(|&t| t >= time) {

@@ -19,13 +19,7 @@ const CONTINUUM: &str = "continuum";
 const DENSEST: f64 = 0.6;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
-    let suspensions: Vec<(&SuspensionRun, &SettlingObservation)> = records
-        .iter()
-        .filter_map(|(run, record)| match run {
-            SettlingRun::Grain(_) => None,
-            SettlingRun::Suspension(run) => Some((run, &record.data)),
-        })
-        .collect();
+    let suspensions: Vec<_> = suspensions(records).collect();
     let mut figures = vec![approach(records)];
     let alone = alone(records);
     if !alone.is_empty() {
@@ -38,36 +32,37 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     figures
 }
 
+/// The suspensions among the records.
+fn suspensions(records: &[Record]) -> impl Iterator<Item = (&SuspensionRun, &SettlingObservation)> {
+    records.iter().filter_map(|(run, record)| match run {
+        SettlingRun::Grain(_) => None,
+        SettlingRun::Suspension(run) => Some((run, &record.data)),
+    })
+}
+
 fn approach(records: &[Record]) -> Figure {
-    let mut fractions: Vec<f64> = records
-        .iter()
-        .filter_map(|(run, _)| match run {
-            SettlingRun::Grain(_) => None,
-            SettlingRun::Suspension(run) => Some(run.solid_fraction),
-        })
-        .collect();
+    let title = |run: &SettlingRun| match run {
+        SettlingRun::Grain(run) => format!("one grain, {}", run.formulation.name()),
+        SettlingRun::Suspension(run) => format!("suspension, φ = {}", run.solid_fraction),
+    };
+    let mut fractions: Vec<f64> = suspensions(records).map(|(run, _)| run.solid_fraction).collect();
     fractions.sort_by(f64::total_cmp);
     fractions.dedup();
-    let formulations = FORMULATIONS.map(|formulation| {
-        let of = move |run: &SettlingRun| matches!(run, SettlingRun::Grain(run) if run.formulation == formulation);
-        (format!("one grain, {}", formulation.name()), Box::new(of) as Box<dyn Fn(&SettlingRun) -> bool>)
-    });
-    let columns = fractions.into_iter().map(|fraction| {
-        let of = move |run: &SettlingRun| matches!(run, SettlingRun::Suspension(run) if run.solid_fraction == fraction);
-        (format!("suspension, φ = {fraction}"), Box::new(of) as Box<dyn Fn(&SettlingRun) -> bool>)
-    });
+    let titles = FORMULATIONS.map(|formulation| format!("one grain, {}", formulation.name())).into_iter();
+    let titles = titles.chain(fractions.into_iter().map(|fraction| format!("suspension, φ = {fraction}")));
     let mut named: Vec<DragLaw> = Vec::new();
     let mut panels = Vec::new();
-    for (title, of) in formulations.into_iter().chain(columns) {
-        let mut panel = Panel::new(&title, Axis::linear("t [s]"), Axis::linear("slip over the root [-]"));
-        panel.y.limits = Some((0.0, 1.2));
-        for (run, record) in records.iter().filter(|(run, _)| of(run)) {
+    for name in titles {
+        let y = Axis::linear("slip over the root [-]").between(0.0, 1.2);
+        let mut panel = Panel::new(&name, Axis::linear("t [s]"), y);
+        for (run, record) in records.iter().filter(|(run, _)| title(run) == name) {
             let (series, root) = (&record.data.series, run.root());
             let points = series.time.iter().zip(&series.slip).map(|(t, slip)| (*t, slip / root));
             // a law has its name where it is drawn first
-            let label = if named.contains(&run.law()) { "" } else { drag_curves::label(run.law()) };
-            named.push(run.law());
-            panel.line(label, drag_curves::slot(run.law()), points);
+            let label =
+                if named.contains(&run.experiment().law) { "" } else { drag_curves::label(run.experiment().law) };
+            named.push(run.experiment().law);
+            panel.line(label, drag_curves::slot(run.experiment().law), points);
         }
         let end = panel.series.iter().flat_map(|series| series.points.last()).fold(0.0, |end: f64, p| end.max(p.0));
         if end > 0.0 {
