@@ -5,7 +5,7 @@ use super::column::{ColumnRun, Purpose};
 use super::deposit::Collapse;
 use super::quantities::{EXPLICIT_STEPS, REGULARISED_DIFFERENCE, RUN_OUT};
 use crate::case::Run;
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Mark, Panel};
 use crate::metric::{Metric, Variant};
 
 /// The regularised runs.
@@ -22,44 +22,39 @@ fn partner<'a>(records: &'a [Record], run: &ColumnRun) -> Option<&'a Record> {
     })
 }
 
-/// Pairs of a regularised run and its partner.
-fn pairs(records: &[Record]) -> Vec<(&Record, &Record)> {
-    regularised(records).filter_map(|record| Some((record, partner(records, &record.0)?))).collect()
+pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
+    regularised(records).flat_map(|record| of_regularised(record, partner(records, &record.0))).collect()
 }
 
-pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
-    let mut metrics = Vec::new();
-    for (run, record) in regularised(records) {
-        let variant = run.variant();
+fn of_regularised((run, record): &Record, partner: Option<&Record>) -> Vec<Metric> {
+    let variant = run.variant();
+    let mut metrics = vec![
         // what (29) would ask for with the viscosity of (35) at rest under the whole column
-        metrics.push(
-            EXPLICIT_STEPS
-                .of(&variant, run.explicit_viscous_steps(record.simulated_time))
-                .exactly(record.steps as f64, "the steps that the implicit run took; an explicit one was not made")
-                .with_snapshot_tolerance(0.02, 1.0),
-        );
-        metrics.push(RUN_OUT.of(&variant, record.data.run_out()).with_snapshot_tolerance(1e-3, 1e-3));
-        let Some((_, mapped)) = partner(records, run) else { continue };
+        EXPLICIT_STEPS
+            .of(&variant, run.explicit_viscous_steps(record.simulated_time))
+            .exactly(record.steps as f64, "the steps that the implicit run took; an explicit one was not made")
+            .with_snapshot_tolerance(0.02, 1.0),
+        RUN_OUT.of(&variant, record.data.run_out()).with_snapshot_tolerance(1e-3, 1e-3),
+    ];
+    if let Some((_, mapped)) = partner {
         let difference = |of: fn(&Collapse) -> f64| 100.0 * (of(&record.data) / of(&mapped.data) - 1.0);
-        for (quantity, value) in [
+        let values = [
             ("run_out", difference(Collapse::run_out)),
             ("centroid", difference(|collapse| collapse.centroid)),
             ("final_height", difference(Collapse::final_height)),
-        ] {
+        ];
+        metrics.extend(values.map(|(quantity, value)| {
             let variant = Variant::of("quantity", quantity).followed_by(&variant);
-            metrics.push(
-                REGULARISED_DIFFERENCE
-                    .of(&variant, value)
-                    .exactly(0.0, "the same column by return mapping")
-                    .with_snapshot_tolerance(0.02, 0.1),
-            );
-        }
+            let metric = REGULARISED_DIFFERENCE.of(&variant, value);
+            metric.exactly(0.0, "the same column by return mapping").with_snapshot_tolerance(0.02, 0.1)
+        }));
     }
     metrics
 }
 
 pub(super) fn figure(records: &[Record]) -> Option<Figure> {
-    let pairs = pairs(records);
+    let pairs: Vec<(&Record, &Record)> =
+        regularised(records).filter_map(|record| Some((record, partner(records, &record.0)?))).collect();
     if pairs.is_empty() {
         return None;
     }
@@ -72,9 +67,9 @@ pub(super) fn figure(records: &[Record]) -> Option<Figure> {
             let label = format!("{}, a = {}: {kind}", run.material, run.aspect_ratio);
             let data = &record.data;
             let end = data.deposit.iter().rposition(|bin| bin.1 > 0.0).map_or(0, |last| last + 1);
-            deposit.series.push(Series::new(&label, mark, slot, data.deposit[..end].to_vec()));
-            let way = data.time.iter().zip(&data.front).map(|(t, x)| (t / run.time_scale(), x - 1.0)).collect();
-            front.series.push(Series::new("", mark, slot, way));
+            deposit.draw(&label, mark, slot, data.deposit[..end].iter().copied());
+            let way = data.time.iter().zip(&data.front).map(|(t, x)| (t / run.time_scale(), x - 1.0));
+            front.draw("", mark, slot, way);
         }
     }
     Some(Figure::new(
