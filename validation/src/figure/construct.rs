@@ -1,6 +1,6 @@
 //! Short ways to make the parts of a figure.
 
-use super::{Axis, Band, Figure, Mark, Panel, Scale, Series};
+use super::{Axis, Band, Field, Figure, Mark, Panel, Scale, Series};
 
 impl Axis {
     /// A linear axis that fits its data.
@@ -76,6 +76,26 @@ impl Panel {
     /// Adds a shaded band of (x, lower, upper).
     pub fn band(&mut self, label: &str, points: impl IntoIterator<Item = (f64, f64, f64)>) {
         self.bands.push(Band { label: label.to_owned(), points: points.into_iter().collect() });
+    }
+}
+
+impl Field {
+    /// Particles of a diameter in axis units, coloured between two limits.
+    #[must_use]
+    pub fn new(
+        label: &str,
+        diameter: f64,
+        limits: (f64, f64),
+        points: impl IntoIterator<Item = (f64, f64)>,
+        values: impl IntoIterator<Item = f64>,
+    ) -> Self {
+        Self {
+            points: points.into_iter().collect(),
+            values: values.into_iter().collect(),
+            label: label.to_owned(),
+            diameter,
+            limits: Some(limits),
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use super::fit::held_out;
 use super::parameters::Stage;
 use super::runs::{BedLoadRun, Formulation, pair_law_name};
 use crate::cases::transport_panel;
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 use crate::reference::TransportFormula;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
@@ -74,23 +74,16 @@ fn water(records: &[&Record]) -> Figure {
         let velocities = record.data.channel.profile.velocities();
         let above: Vec<usize> = (0..points.len()).filter(|&k| points[k].height > 0.0).collect();
         let error: Vec<f64> = above.iter().map(|&k| velocities[k].standard_error / scale).collect();
-        let values = above
-            .iter()
-            .map(|&k| ((points[k].height + law.origin_offset) / diameter, points[k].velocity / scale))
-            .collect();
-        let differences = above
-            .iter()
-            .map(|&k| (points[k].height / diameter, (points[k].velocity - law.velocity(points[k].height)) / scale))
-            .collect();
+        let in_axes = |z: f64, velocity: f64| ((z + law.origin_offset) / diameter, velocity / scale);
+        let values = above.iter().map(|&k| in_axes(points[k].height, points[k].velocity));
+        let difference = |z: f64, velocity: f64| (z / diameter, (velocity - law.velocity(z)) / scale);
+        let differences = above.iter().map(|&k| difference(points[k].height, points[k].velocity));
         if slot == 0 {
             let heights = (1..=80).map(|k| 0.1 * diameter * libm::pow(92.0, f64::from(k) / 80.0));
-            let exact = heights.map(|z| ((z + law.origin_offset) / diameter, law.velocity(z) / scale));
-            profile.reference("clear water", exact);
+            profile.reference("clear water", heights.map(|z| in_axes(z, law.velocity(z))));
         }
-        profile
-            .series
-            .push(Series { error: error.clone(), ..Series::new(&percent(run), Mark::LinePoints, slot, values) });
-        deficit.series.push(Series { error, ..Series::new("", Mark::LinePoints, slot, differences) });
+        profile.line_points(&percent(run), slot, values).error.clone_from(&error);
+        deficit.line_points("", slot, differences).error = error;
     }
     Figure::new(
         "water",

@@ -28,15 +28,11 @@ fn profiles(records: &[Record]) -> Figure {
         }
         let (points, velocities) = (record.data.profile.points(), record.data.profile.velocities());
         let error: Vec<f64> = velocities.iter().map(|velocity| velocity.standard_error / scale).collect();
-        let values = points.iter().map(|point| (distance(point.height), point.velocity / scale)).collect();
-        let deviations = points
-            .iter()
-            .map(|point| (point.height / law.depth, (point.velocity - law.velocity(point.height)) / scale))
-            .collect();
-        profile
-            .series
-            .push(Series { error: error.clone(), ..Series::new(&label(run.slope), Mark::Points, slot, values) });
-        residual.series.push(Series { error, ..Series::new("", Mark::LinePoints, slot, deviations) });
+        let values = points.iter().map(|point| (distance(point.height), point.velocity / scale));
+        profile.points(&label(run.slope), slot, values).error.clone_from(&error);
+        let deviation = |z: f64, velocity: f64| (z / law.depth, (velocity - law.velocity(z)) / scale);
+        let deviations = points.iter().map(|point| deviation(point.height, point.velocity));
+        residual.line_points("", slot, deviations).error = error;
     }
     Figure::new(
         "velocity-profile",

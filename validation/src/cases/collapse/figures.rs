@@ -265,19 +265,12 @@ fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
         let title = format!("t = {:.2} √(h0/g)", frame.time / run.time_scale());
         for (values, label, limit) in [(frame.speeds(), "|v| [m/s]", fastest), (frame.pressures(), "p [kPa]", deepest)]
         {
-            let x = Axis { limits: Some((0.0, far)), ..Axis::linear("x/r0 [-]") };
-            let y = Axis { limits: Some((0.0, high)), ..Axis::linear("y/r0 [-]") };
-            let mut panel = Panel::new(&title, x, y);
-            panel.field = Some(Field {
-                points: slice(frame)
-                    .into_iter()
-                    .map(|index| (frame.position[index][0] / r, frame.position[index][1] / r))
-                    .collect(),
-                values: slice(frame).into_iter().map(|index| values[index]).collect(),
-                label: label.to_owned(),
-                diameter: run.spacing() / r,
-                limits: Some((0.0, limit)),
-            });
+            let x = Axis::linear("x/r0 [-]").between(0.0, far);
+            let mut panel = Panel::new(&title, x, Axis::linear("y/r0 [-]").between(0.0, high));
+            let seen = slice(frame);
+            let points = seen.iter().map(|&index| (frame.position[index][0] / r, frame.position[index][1] / r));
+            let values = seen.iter().map(|&index| values[index]);
+            panel.field = Some(Field::new(label, run.spacing() / r, (0.0, limit), points, values));
             panels.push(panel);
         }
     }

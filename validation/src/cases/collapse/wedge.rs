@@ -97,13 +97,10 @@ fn panel(deposit: &Deposit<'_>) -> Panel {
         // grey
         if way < deposit.spacing { f64::NAN } else { way / unit }
     };
-    panel.field = Some(Field {
-        points: seen.iter().map(place).collect(),
-        values: seen.iter().map(way).collect(),
-        label: "d/r0 [-]".to_owned(),
-        diameter: deposit.spacing / unit,
-        limits: Some((0.0, deposit.wedge.displacement.iter().copied().fold(0.0, f64::max) / unit)),
-    });
+    let farthest = deposit.wedge.displacement.iter().copied().fold(0.0, f64::max) / unit;
+    let diameter = deposit.spacing / unit;
+    let (points, values) = (seen.iter().map(place), seen.iter().map(way));
+    panel.field = Some(Field::new("d/r0 [-]", diameter, (0.0, farthest), points, values));
     let height = deposit.height / unit;
     let column = vec![(0.0, height), (1.0, height), (1.0, 0.0)];
     panel.reference("", column);

@@ -147,13 +147,8 @@ fn fields((run, record): &Record) -> Figure {
         for (values, label, limits) in columns {
             let (x, y) = (Axis::linear("x [m]").between(0.0, far), Axis::linear("y [m]").between(0.0, high));
             let mut panel = Panel::new(&title, x, y);
-            panel.field = Some(Field {
-                points: frame.position.iter().map(|x| (x[0], x[1])).collect(),
-                values,
-                label: label.to_owned(),
-                diameter: run.spacing(),
-                limits: Some(limits),
-            });
+            let points = frame.position.iter().map(|x| (x[0], x[1]));
+            panel.field = Some(Field::new(label, run.spacing(), limits, points, values));
             panels.push(panel);
         }
     }

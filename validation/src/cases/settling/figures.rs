@@ -5,7 +5,7 @@ use super::probe::{SettlingObservation, SettlingSeries};
 use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;
 use super::{Record, drag_curves};
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 use crate::reference::{GrainForm, richardson_zaki_exponent};
 use bagnold_solver::material::drag::DragLaw;
 
@@ -104,9 +104,10 @@ fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
             let (mean, noise) = data.series.mean(&data.series.slip);
             ((root, 100.0 * (mean / root - 1.0)), 100.0 * noise / root)
         };
-        let (points, error): (Vec<_>, Vec<_>) = records.iter().filter(|record| record.0 == name).map(measured).unzip();
+        let (points, error): (Vec<(f64, f64)>, Vec<f64>) =
+            records.iter().filter(|record| record.0 == name).map(measured).unzip();
         if !points.is_empty() {
-            panel.series.push(Series { error, ..Series::new(name, Mark::Points, slot, points) });
+            panel.points(name, slot, points).error = error;
         }
     }
     Figure::new(

@@ -78,13 +78,9 @@ fn states(records: &[Record]) -> Option<Figure> {
         let title = format!("{}, {:.2} s{ending}", label(run), frame.time);
         let mut panel = Panel::new(&title, Axis::linear("x [mm]"), Axis::linear("z [mm]"));
         panel.y.limits = Some((0.0, millimetres(2.5 * run.water.depth)));
-        panel.field = Some(Field {
-            points: frame.position.iter().map(|x| (millimetres(x[0]), millimetres(x[1]))).collect(),
-            values: pressures(run, frame).into_iter().map(|(_, p)| p).collect(),
-            label: "p/(ρ g h) [-]".to_owned(),
-            diameter: millimetres(run.water.spacing()),
-            limits: Some((0.0, 1.0)),
-        });
+        let points = frame.position.iter().map(|x| (millimetres(x[0]), millimetres(x[1])));
+        let values = pressures(run, frame).into_iter().map(|(_, p)| p);
+        panel.field = Some(Field::new("p/(ρ g h) [-]", millimetres(run.water.spacing()), (0.0, 1.0), points, values));
         panel
     };
     let ending = if matches!(failed.outcome, Outcome::Diverged { .. }) { ", diverged" } else { "" };

@@ -3,7 +3,7 @@
 use super::Record;
 use super::metrics::{Depth, convergence_errors, depth_of};
 use super::parameters::WaterFilmRun;
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let mut figures = vec![profiles(records), over_time(records)];
@@ -44,14 +44,10 @@ fn profiles(records: &[Record]) -> Figure {
         let (points, errors) = (profile.points(), profile.velocities());
         let values = points.iter().map(|point| (point.height / depth, point.velocity / scale));
         velocity.points(&label(run), slot, values);
-        let deviations = points
-            .iter()
-            .map(|point| (point.height / depth, 100.0 * (point.velocity - film.velocity(point.height)) / scale))
-            .collect();
-        error.series.push(Series {
-            error: errors.iter().map(|velocity| 100.0 * velocity.standard_error / scale).collect(),
-            ..Series::new("", Mark::LinePoints, slot, deviations)
-        });
+        let deviation = |z: f64, velocity: f64| (z / depth, 100.0 * (velocity - film.velocity(z)) / scale);
+        let deviations = points.iter().map(|point| deviation(point.height, point.velocity));
+        error.line_points("", slot, deviations).error =
+            errors.iter().map(|velocity| 100.0 * velocity.standard_error / scale).collect();
     }
     Figure::new(
         "velocity-profile",
