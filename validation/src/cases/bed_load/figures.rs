@@ -8,6 +8,7 @@ use super::runs::{BedLoadRun, Formulation, pair_law_name};
 use crate::cases::transport_panel;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::TransportFormula;
+use crate::statistics::{BlockProfile, mean};
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let mut figures = Vec::new();
@@ -121,8 +122,8 @@ fn sediment(records: &[&Record]) -> Figure {
 /// A stage of `continuum` against the 1-D layer.
 fn against_layer(stage: Stage, records: &[&Record]) -> Figure {
     let mut water = Panel::new("", Axis::linear("u_f/u_* [-]"), Axis::linear("z [mm]"));
-    let near = || Axis { limits: Some((-8.0, 12.0)), ..Axis::linear("z [mm]") };
-    let mut close = Panel::new("", Axis { limits: Some((0.0, 12.0)), ..Axis::linear("u_f/u_* [-]") }, near());
+    let near = || Axis::linear("z [mm]").between(-8.0, 12.0);
+    let mut close = Panel::new("", Axis::linear("u_f/u_* [-]").between(0.0, 12.0), near());
     let mut grains = Panel::new("", Axis::linear("u_s/u_* [-]"), near());
     let mut fraction = Panel::new("", Axis::linear("φ [-]"), near());
     for (slot, (run, record)) in records.iter().enumerate() {
@@ -139,13 +140,13 @@ fn against_layer(stage: Stage, records: &[&Record]) -> Figure {
         close.reference("", exact);
         grains.reference("", curve(&layer.grain_velocity, scale, &with_grains));
         fraction.reference("", curve(&layer.solid_fraction, 1.0, &|_| true));
-        let of = |points: Vec<crate::cases::channel::ProfilePoint>| -> Vec<(f64, f64)> {
-            points.iter().map(|point| (point.velocity / scale, 1e3 * point.height)).collect()
+        let of = |profile: &BlockProfile| -> Vec<(f64, f64)> {
+            profile.points().iter().map(|point| (point.velocity / scale, 1e3 * point.height)).collect()
         };
-        let own = of(record.data.channel.profile.points());
+        let own = of(&record.data.channel.profile);
         water.points(&label(run), slot, own.clone());
         close.points("", slot, own);
-        grains.points("", slot, of(record.data.sediment.points()));
+        grains.points("", slot, of(&record.data.sediment));
         if stage == Stage::Dilating {
             let own = record.data.solid_fraction().into_iter().map(|(z, value)| (value, 1e3 * z));
             fraction.points("", slot, own);
@@ -156,11 +157,12 @@ fn against_layer(stage: Stage, records: &[&Record]) -> Figure {
         Stage::Frozen => vec![water, close, grains],
         Stage::Dilating => vec![water, close, grains, fraction],
     };
-    Figure::new(&format!("layer-{}", stage.name()), &format!(
-            "Stage `{}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is \
-             independent: the whole depth of the water and the neighbourhood of the bed.",
-            stage.name()
-        ), panels).in_columns(2)
+    let name = stage.name();
+    let caption = format!(
+        "Stage `{name}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is \
+         independent: the whole depth of the water and the neighbourhood of the bed."
+    );
+    Figure::new(&format!("layer-{name}"), &caption, panels)
 }
 
 fn has_judged_law(run: &BedLoadRun) -> bool {
@@ -182,10 +184,7 @@ fn transport(records: &[Record]) -> Figure {
         let points: Vec<(f64, f64)> = records
             .iter()
             .filter(|(run, _)| belongs(run))
-            .map(|(run, record)| {
-                let values = record.data.transport_in_window();
-                (run.stream().shields_number(), values.iter().sum::<f64>() / values.len() as f64)
-            })
+            .map(|(run, record)| (run.stream().shields_number(), mean(&record.data.transport_in_window())))
             .filter(|(_, value)| *value > 0.0)
             .collect();
         if !points.is_empty() {
