@@ -23,11 +23,7 @@ quantities! {
 /// Heights over the depth between which the profile is compared `[-]`.
 const COMPARED: (f64, f64) = (0.1, 0.9);
 
-pub(super) fn all(records: &[Record]) -> Vec<Metric> {
-    records.iter().flat_map(of_run).collect()
-}
-
-fn of_run((run, record): &Record) -> Vec<Metric> {
+pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
     let (variant, data, law) = (run.variant(), &record.data, run.reference());
     let mut metrics = vec![channel::particles_lost(&variant, record), channel::momentum_residual(&variant, record)];
     let stationary = matches!(run.flow.period, Period::Stationary { .. });

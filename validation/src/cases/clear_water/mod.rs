@@ -32,11 +32,11 @@ impl Case for ClearWater {
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &ClearWaterParameters, records: &[Record]) -> Vec<Metric> {
-        metrics::all(records)
+        records.iter().flat_map(metrics::of_run).collect()
     }
 
     fn figures(_: &ClearWaterParameters, records: &[Record]) -> Vec<Figure> {
-        figures::all(records)
+        vec![figures::profiles(records), figures::over_time(records)]
     }
 
     fn tables(_: &ClearWaterParameters, records: &[Record]) -> Vec<Table> {

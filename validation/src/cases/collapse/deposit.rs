@@ -192,6 +192,12 @@ impl Collapse {
         front(&self.deposit) - 1.0
     }
 
+    /// The deposit's bins up to the last that holds grains.
+    pub(super) fn drawn(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let end = self.deposit.iter().rposition(|bin| bin.1 > 0.0).map_or(0, |last| last + 1);
+        self.deposit[..end].iter().copied()
+    }
+
     /// Thickness of the deposit at the symmetry plane, by volume, over r_0 `[-]`.
     #[must_use]
     pub fn final_height(&self) -> f64 {

@@ -126,8 +126,7 @@ fn label(run: &ColumnRun) -> String {
 fn deposits(records: &[&Record]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("x/r0 [-]"), Axis::linear("thickness/r0 [-]"));
     for (slot, (run, record)) in records.iter().enumerate() {
-        let end = record.data.deposit.iter().rposition(|bin| bin.1 > 0.0).map_or(0, |last| last + 1);
-        panel.line(&label(run), slot, record.data.deposit[..end].to_vec());
+        panel.line(&label(run), slot, record.data.drawn());
     }
     Figure::new(
         &of_material("deposits", records),

@@ -66,8 +66,7 @@ pub(super) fn figure(records: &[Record]) -> Option<Figure> {
         {
             let label = format!("{}, a = {}: {kind}", run.material, run.aspect_ratio);
             let data = &record.data;
-            let end = data.deposit.iter().rposition(|bin| bin.1 > 0.0).map_or(0, |last| last + 1);
-            deposit.draw(&label, mark, slot, data.deposit[..end].iter().copied());
+            deposit.draw(&label, mark, slot, data.drawn());
             let way = data.time.iter().zip(&data.front).map(|(t, x)| (t / run.time_scale(), x - 1.0));
             front.draw("", mark, slot, way);
         }

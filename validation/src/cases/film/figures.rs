@@ -3,7 +3,7 @@
 use super::Record;
 use super::comparison::NumericsSet;
 use super::metrics::convergence_errors;
-use super::parameters::FilmRun;
+use super::runs::FilmRun;
 use crate::cases::Arrangement;
 use crate::figure::{Axis, Figure, Panel};
 use crate::observation::Outcome;

@@ -4,8 +4,10 @@ mod comparison;
 mod figures;
 mod metrics;
 mod parameters;
+mod runs;
 
-pub use parameters::{FilmParameters, FilmRun, FluidKind};
+pub use parameters::{FilmParameters, FluidKind};
+pub use runs::FilmRun;
 
 use super::layer;
 use crate::case::{Case, RecordOf};

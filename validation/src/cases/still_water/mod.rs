@@ -36,7 +36,7 @@ impl Case for StillWater {
     }
 
     fn figures(_: &StillWaterParameters, records: &[Record]) -> Vec<Figure> {
-        figures::all(records)
+        [figures::pressure(records), figures::rest(records)].into_iter().chain(figures::states(records)).collect()
     }
 
     fn tables(_: &StillWaterParameters, records: &[Record]) -> Vec<Table> {
