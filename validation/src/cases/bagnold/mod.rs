@@ -18,7 +18,6 @@ use crate::output::Table;
 #[derive(Debug)]
 pub struct Bagnold;
 
-/// A run with what it left behind.
 type Record = RecordOf<BagnoldParameters>;
 
 impl Case for Bagnold {

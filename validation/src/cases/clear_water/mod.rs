@@ -16,7 +16,6 @@ use crate::output::Table;
 #[derive(Debug)]
 pub struct ClearWater;
 
-/// A run with what it left behind.
 type Record = RecordOf<ClearWaterParameters>;
 
 impl Case for ClearWater {

@@ -5,8 +5,7 @@ use super::column::{ColumnRun, Geometry, PICTURES, Purpose};
 use super::deposit::Collapse;
 use super::flow_metrics::{self, energies, stations};
 use super::material::Material;
-use super::wedge::{self, Deposit};
-use super::{convergence, energy, scaling, stress_updates, velocity_profile};
+use super::{convergence, energy, scaling, stress_updates, velocity_profile, wedge};
 use crate::case::Run;
 use crate::figure::{Animation, Axis, Field, Figure, Panel};
 use crate::observation::pictures::{View, animation, halves};
@@ -222,25 +221,17 @@ fn velocity_profiles(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<Fig
 }
 
 fn wedges(records: &[&Record]) -> Figure {
-    let deposits: Vec<Deposit<'_>> = records
-        .iter()
-        .filter_map(|(run, record)| {
-            Some(Deposit {
-                title: label(run),
-                end: record.frames.last()?,
-                wedge: flow_metrics::wedge(run, &record.frames)?,
-                half_width: run.half_width,
-                height: run.initial_height() * run.half_width,
-                spacing: run.spacing(),
-            })
-        })
-        .collect();
-    wedge::figure(
+    let panels = records.iter().filter_map(|(run, record)| {
+        let wedge = flow_metrics::wedge(run, &record.frames)?;
+        Some(wedge::panel(&label(run), run, record.frames.last()?, &wedge))
+    });
+    Figure::new(
         &of_material("wedges", records),
-        "Deposits in the colours of the displacement d since the start; particles that moved by less than a spacing are grey. Dashed \
-         is the initial column, solid the line through the surface of the undisturbed part.",
-        &deposits,
+        "Deposits in the colours of the displacement d since the start; particles that moved by less than a spacing are \
+         grey. Dashed is the initial column, solid the line through the surface of the undisturbed part.",
+        panels.collect(),
     )
+    .in_columns(2)
 }
 
 /// Speed and pressure at the pictures' times; of a round column the slice beside a symmetry plane.
@@ -250,9 +241,6 @@ fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
     let mut frames: Vec<&Frame> = times.filter_map(|time| Frame::nearest(frames, time)).chain(frames.last()).collect();
     // a run that ended early has no more than its deposit to show
     frames.dedup_by(|a, b| a.time == b.time);
-    let slice = |frame: &Frame| -> Vec<usize> {
-        (0..frame.position.len()).filter(|&index| frame.position[index][2] < run.spacing()).collect()
-    };
     let far = frames.iter().flat_map(|frame| &frame.position).map(|x| x[0] / r).fold(1.0, f64::max);
     let high = frames.iter().flat_map(|frame| &frame.position).map(|x| x[1] / r).fold(0.0, f64::max);
     let largest = |values: fn(&Frame) -> Vec<f64>| {
@@ -266,7 +254,8 @@ fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
         {
             let x = Axis::linear("x/r0 [-]").between(0.0, far);
             let mut panel = Panel::new(&title, x, Axis::linear("y/r0 [-]").between(0.0, high));
-            let seen = slice(frame);
+            let seen: Vec<usize> =
+                (0..frame.position.len()).filter(|&index| frame.position[index][2] < run.spacing()).collect();
             let points = seen.iter().map(|&index| (frame.position[index][0] / r, frame.position[index][1] / r));
             let values = seen.iter().map(|&index| values[index]);
             panel.field = Some(Field::new(label, run.spacing() / r, (0.0, limit), points, values));

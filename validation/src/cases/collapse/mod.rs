@@ -13,6 +13,7 @@ mod incline;
 mod material;
 pub(super) mod metrics;
 pub(super) mod quantities;
+mod release;
 mod scaling;
 mod slope;
 mod stress_updates;
@@ -20,10 +21,11 @@ mod velocity_profile;
 mod watch;
 mod wedge;
 
-pub use column::{ColumnRun, Geometry, Purpose, Release};
+pub use column::{ColumnRun, Geometry, Purpose};
 pub use deposit::{BIN_WIDTH, Collapse, FRONT_THICKNESS, front};
 pub use incline::{InclineCollapseParameters, Reservoir};
 pub use material::{Alteration, Grains, Material};
+pub use release::Release;
 pub use slope::{SlopeCollapse, SlopeRun};
 
 use crate::case::{ParameterError, Run};

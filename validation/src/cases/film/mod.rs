@@ -19,7 +19,6 @@ use crate::output::Table;
 #[derive(Debug)]
 pub struct Film;
 
-/// A run with what it left behind.
 type Record = RecordOf<FilmParameters>;
 
 impl Case for Film {

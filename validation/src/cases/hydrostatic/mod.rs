@@ -16,7 +16,6 @@ use crate::output::Table;
 #[derive(Debug)]
 pub struct Hydrostatic;
 
-/// A run with what it left behind.
 type Record = RecordOf<HydrostaticParameters>;
 
 impl Case for Hydrostatic {

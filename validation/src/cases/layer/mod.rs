@@ -192,23 +192,21 @@ impl Layer<'_> {
     pub fn run(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, SceneError> {
         let started = std::time::Instant::now();
         let mut simulation = Simulation::new(self.prepared_scene()?)?;
-        if simulation.estimated_steps(self.duration) * simulation.time_step_bounds().acoustic > self.duration {
-            let (steps, acoustic) =
-                (simulation.estimated_steps(self.duration), self.duration / simulation.time_step_bounds().acoustic);
-            if steps > WORTH_A_WARNING * acoustic {
-                tracing::warn!(
-                    "slope angle {:.1}°, {} rows: the explicit viscous step needs about {steps:.1e} steps for {} s, {:.0} \
-                     times as many as the speed of sound would; that is {:.1} h on one core. A larger regularisation \
-                     rate shortens it, but lets the material creep: it is still compared with the unregularised law",
-                    self.slope_angle.to_degrees(),
-                    self.rows,
-                    self.duration,
-                    steps / acoustic,
-                    steps * (self.rows * self.columns) as f64 * SECONDS_PER_PARTICLE_STEP / 3600.0
-                );
-            } else {
-                tracing::info!("explicit viscous step: about {steps:.1e} steps for {} s", self.duration);
-            }
+        let steps = simulation.estimated_steps(self.duration);
+        let acoustic = self.duration / simulation.time_step_bounds().acoustic;
+        if steps > WORTH_A_WARNING * acoustic {
+            tracing::warn!(
+                "slope angle {:.1}°, {} rows: the explicit viscous step needs about {steps:.1e} steps for {} s, {:.0} times \
+                 as many as the speed of sound would; that is {:.1} h on one core. A larger regularisation rate shortens \
+                 it, but lets the material creep: it is still compared with the unregularised law",
+                self.slope_angle.to_degrees(),
+                self.rows,
+                self.duration,
+                steps / acoustic,
+                steps * (self.rows * self.columns) as f64 * SECONDS_PER_PARTICLE_STEP / 3600.0
+            );
+        } else if steps > acoustic {
+            tracing::info!("explicit viscous step: about {steps:.1e} steps for {} s", self.duration);
         }
         let mut probe = LayerProbe::new(self);
         let mut frames = Vec::new();

@@ -16,7 +16,6 @@ use crate::output::Table;
 #[derive(Debug)]
 pub struct StillWater;
 
-/// A run with what it left behind.
 type Record = RecordOf<StillWaterParameters>;
 
 impl Case for StillWater {
