@@ -1,5 +1,6 @@
 //! What a run leaves behind: plain data that knows nothing of the simulation it came from.
 
+pub mod energy;
 mod motion;
 pub mod pictures;
 

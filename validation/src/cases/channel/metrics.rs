@@ -1,30 +1,23 @@
 //! Quantities and metrics that the cases of a channel share.
 
 use super::ChannelObservation;
-use crate::metric::{Limit, Metric, Quantity, Variant};
+use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
 use crate::observation::Recorded;
 use crate::statistics::{Estimate, block_average, linear_fit};
 
-/// Particles that are no longer in the channel.
-pub const PARTICLES_LOST: Quantity =
-    Quantity::verified("particles_lost", "-", "particles that ended below the floor or far above the surface");
-/// How well momentum along the floor closes.
-pub const MOMENTUM_RESIDUAL: Quantity = Quantity::verified(
-    "momentum_residual",
-    "-",
-    "change of momentum less gravity and friction of the bed, over the impulse of the slope",
-);
-/// Whether water keeps its volume.
-pub const HEIGHT_CHANGE: Quantity = Quantity::verified("height_change", "%", "mean height over half the depth, less 1");
-/// Whether the pressure is hydrostatic.
-pub const PRESSURE_L2: Quantity =
-    Quantity::verified("pressure_l2", "%", "relative L2 of the pressure against the hydrostatic one");
-/// Whether the bed carries the flow.
-pub const BED_SHEAR: Quantity =
-    Quantity::verified("bed_shear", "-", "friction of the bed over the weight's part along it");
-/// How far from stationary a flow is.
-pub const VELOCITY_DRIFT: Quantity =
-    Quantity::verified("velocity_drift", "%", "relative change of the mean velocity over U/(2 g i) in the window");
+quantities! {
+    shared pub(in crate::cases)
+    PARTICLES_LOST:
+        verified("particles_lost", "-", "particles that ended below the floor or far above the surface"),
+    MOMENTUM_RESIDUAL: verified(
+        "momentum_residual", "-",
+        "change of momentum less gravity and friction of the bed, over the impulse of the slope",
+    ),
+    HEIGHT_CHANGE: verified("height_change", "%", "mean height over half the depth, less 1"),
+    PRESSURE_L2: verified("pressure_l2", "%", "relative L2 of the pressure against the hydrostatic one"),
+    BED_SHEAR: verified("bed_shear", "-", "friction of the bed over the weight's part along it"),
+    VELOCITY_DRIFT: verified("velocity_drift", "%", "relative change of the mean velocity over U/(2 g i) in the window"),
+}
 
 /// Standard errors that a value may move before a change is reported `[-]`.
 const SNAPSHOT_ERRORS: f64 = 2.0;

@@ -27,10 +27,8 @@ mod water;
 
 pub use crate::statistics::{BlockProfile, ProfilePoint};
 pub use closure::TurbulenceClosure;
-pub use metrics::{
-    BED_SHEAR, HEIGHT_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST, PRESSURE_L2, VELOCITY_DRIFT, bed_shear, height_change,
-    momentum_residual, observed, particles_lost, pressure_l2, velocity_drift,
-};
+pub(super) use metrics::{BED_SHEAR, HEIGHT_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST, PRESSURE_L2, VELOCITY_DRIFT};
+pub use metrics::{bed_shear, height_change, momentum_residual, observed, particles_lost, pressure_l2, velocity_drift};
 pub use probe::{ChannelObservation, ChannelSeries, MomentumBalance};
 pub use scene::Lattice;
 pub use stationarity::Mark;

@@ -5,9 +5,10 @@ use super::column::{ColumnRun, Geometry, PICTURES, Purpose};
 use super::deposit::Collapse;
 use super::flow_metrics::{self, energies, stations};
 use super::material::Material;
-use super::{convergence, energy, scaling, stress_updates, velocity_profile, wedge};
+use super::{convergence, scaling, stress_updates, velocity_profile, wedge};
 use crate::case::Run;
 use crate::figure::{Animation, Axis, Field, Figure, Panel};
+use crate::observation::energy;
 use crate::observation::pictures::{View, animation, halves};
 use crate::observation::{Frame, Recorded};
 use crate::reference::{CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
@@ -58,18 +59,12 @@ fn is_shown(run: &ColumnRun) -> bool {
 /// Run-out and height over the aspect ratio, with every published law of the geometry.
 fn scaling_figure(records: &[&Record]) -> Figure {
     let round = records.iter().any(|(run, _)| run.geometry == Geometry::Round);
+    let (own, other) =
+        if round { (&*ROUND_COLLAPSE, &*PLANAR_COLLAPSE) } else { (&*PLANAR_COLLAPSE, &*ROUND_COLLAPSE) };
     // the laws of the geometry, and Lube's of the other one: the paper compared planar runs with the round law
-    let (planar_laws, round_laws) = (&*PLANAR_COLLAPSE, &*ROUND_COLLAPSE);
-    let run_out_laws: Vec<&CollapseLaw> = if round {
-        round_laws.run_out.iter().chain(&planar_laws.run_out[..1]).collect()
-    } else {
-        planar_laws.run_out.iter().chain(&round_laws.run_out[..1]).collect()
-    };
-    let height_laws: Vec<&CollapseLaw> = if round {
-        round_laws.height.iter().chain(&planar_laws.height[..1]).collect()
-    } else {
-        planar_laws.height.iter().collect()
-    };
+    let run_out_laws: Vec<&CollapseLaw> = own.run_out.iter().chain(&other.run_out[..1]).collect();
+    let lube_of_planar = if round { &other.height[..1] } else { &[] };
+    let height_laws: Vec<&CollapseLaw> = own.height.iter().chain(lube_of_planar).collect();
     let panel = |label: &str, laws: &[&CollapseLaw], measure: fn(&Collapse) -> f64, legend: bool| {
         let mut panel = Panel::new("", Axis::logarithmic("h0/r0 [-]"), Axis::logarithmic(label));
         for law in laws {

@@ -2,7 +2,6 @@
 
 use super::column::{ColumnRun, Geometry};
 use super::deposit::{BIN_WIDTH, Collapse};
-use super::energy::Energies;
 use super::quantities::{
     ENERGY_GAIN, FAILURE_SURFACE_ANGLE, FLOWING_LAYER_R_SQUARED, FLOWING_LAYER_SHEAR_RATE,
     TAIL_DECAY_LENGTH_OVER_DIAMETER, TAIL_DECAY_LENGTH_OVER_SPACING, TAIL_DECAY_LENGTH_STANDARD_ERROR,
@@ -12,6 +11,7 @@ use super::velocity_profile::{Station, decay_length};
 use super::wedge::Wedge;
 use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Quantity};
+use crate::observation::energy::Energies;
 use crate::observation::{Frame, Recorded};
 
 /// Time of the velocity profiles over √(h_0/g) `[-]`: in mid-collapse.

@@ -6,7 +6,6 @@ mod camera;
 mod column;
 mod convergence;
 mod deposit;
-mod energy;
 pub(super) mod figures;
 mod flow_metrics;
 mod incline;

@@ -31,7 +31,7 @@ pub struct Columns {
 }
 
 /// Columns of grains that differ from others in one number.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Variants {
     /// What that number is instead; empty for none.
     pub values: Vec<f64>,
@@ -41,7 +41,7 @@ pub struct Variants {
 }
 
 /// How far results depend on what should not matter, for the grains of Lagrée et al.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Sensitivity {
     /// Aspect ratios `[-]`; empty for none.
     #[schemars(transform = each(between(0.1, 100.0, "the published laws reach from 0.3 to 20")))]
@@ -130,15 +130,14 @@ impl Parameters for ColumnPlanarParameters {
                 ..Columns::of(&GLASS_BEADS)
             },
             lagree: Columns { aspect_ratios: vec![1.0], ..Columns::of(&LAGREE_GRAINS) },
-            sand_inertias: Variants { values: Vec::new(), aspect_ratios: Vec::new() },
-            lagree_diameters: Variants { values: Vec::new(), aspect_ratios: Vec::new() },
+            sand_inertias: Variants::default(),
+            lagree_diameters: Variants::default(),
             // the spread over five seeds, which the gates of run-out and height take into account
             sensitivity: Sensitivity {
                 aspect_ratios: vec![1.0],
                 resolutions: vec![20],
                 seeds: vec![1, 2, 3, 4, 5],
-                hourglass: Vec::new(),
-                hourglass_resolutions: Vec::new(),
+                ..Sensitivity::default()
             },
             regularised: Regularised { aspect_ratios: vec![0.9], rate: 0.01 },
         };
@@ -179,9 +178,11 @@ impl Parameters for ColumnPlanarParameters {
             rules::material(&format!("{name}.law"), &columns.law)?;
             columns.bulk.check(&columns.law).map_err(|error| error.within(name))?;
         }
-        let altered = [("sand", &self.sand, "sand_inertias"), ("lagree", &self.lagree, "lagree_diameters")];
-        for ((name, columns, list), variants) in altered.into_iter().zip([&self.sand_inertias, &self.lagree_diameters])
-        {
+        let altered = [
+            ("sand", &self.sand, "sand_inertias", &self.sand_inertias),
+            ("lagree", &self.lagree, "lagree_diameters", &self.lagree_diameters),
+        ];
+        for (name, columns, list, variants) in altered {
             if !variants.values.is_empty() && !variants.aspect_ratios.is_empty() {
                 let remedy = format!("`{list}` alters a number of μ(I): choose it, or empty `{list}.values`");
                 rules::only_mu_i(&format!("{name}.law"), &columns.law, &remedy)?;

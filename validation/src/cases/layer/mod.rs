@@ -10,7 +10,7 @@ pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 
 use crate::case::recording::{self, Ending};
 use crate::case::{Progress, Run};
-use crate::metric::{Limit, Metric, Quantity, Variant};
+use crate::metric::{Limit, Metric, Variant, quantities};
 use crate::observation::{Frame, Recorded};
 use crate::output::Table;
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -20,7 +20,7 @@ use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::boundary::Wall;
 use bagnold_solver::weakly_compressible::boundary::wall::fill;
-use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+use bagnold_solver::weakly_compressible::numerics::ViscousStep;
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use rand::{RngExt, SeedableRng};
@@ -29,30 +29,16 @@ use std::ops::ControlFlow;
 /// A layer and how it is run. Lengths in `[m]`, angles in `[rad]`, SI units throughout.
 #[derive(Clone)]
 pub struct Layer<'a> {
-    /// Layer height H `[m]`.
-    pub height: f64,
-    /// Rows of particles over the height.
-    pub rows: usize,
-    /// Columns of particles along the period.
-    pub columns: usize,
+    /// Its size, its particles and their numerics.
+    pub layer: PeriodicLayer,
     /// Slope angle θ `[rad]`.
     pub slope_angle: f64,
-    /// Gravity `[m/s²]`.
-    pub gravity: f64,
     /// Reference density ρ0 `[kg/m³]`.
     pub reference_density: f64,
     /// Bulk modulus K `[Pa]`.
     pub bulk_modulus: f64,
     /// Constitutive law.
     pub rheology: Rheology,
-    /// Numerics.
-    pub numerics: Numerics,
-    /// Largest random displacement of a particle, in spacings, along each axis `[-]`.
-    pub jitter: f64,
-    /// Seed of the displacements.
-    pub seed: u64,
-    /// Whether displaced particles settle before the start.
-    pub preparation: Preparation,
     /// Initial velocity along the slope `[m/s]` at a height `[m]`.
     pub velocity: &'a (dyn Fn(f64) -> f64 + Sync),
     /// Initial shear stress `[Pa]` at a height `[m]`.
@@ -90,29 +76,27 @@ impl Layer<'_> {
     /// Particle spacing Δ `[m]`.
     #[must_use]
     pub fn spacing(&self) -> f64 {
-        self.height / self.rows as f64
+        self.layer.layer_height / self.layer.resolution as f64
     }
 
     /// Exact pressure `[Pa]` of the compressible layer at rest, K (exp(ρ0 g cosθ (H − y)/K) − 1).
     #[must_use]
     pub fn hydrostatic_pressure(&self, y: f64) -> f64 {
-        hydrostatic_pressure(
-            self.bulk_modulus,
-            self.reference_density,
-            self.gravity * libm::cos(self.slope_angle),
-            self.height - y,
-        )
+        let across = self.layer.gravity * libm::cos(self.slope_angle);
+        hydrostatic_pressure(self.bulk_modulus, self.reference_density, across, self.layer.layer_height - y)
     }
 
     /// Expected number of steps for the whole run, from the acoustic bound.
     #[must_use]
     pub fn expected_steps(&self) -> f64 {
         let sound_speed = (self.bulk_modulus / self.reference_density).sqrt();
-        let smoothing_length = self.numerics.smoothing_ratio * self.spacing();
-        let acoustic = self.numerics.acoustic_courant * smoothing_length / sound_speed;
-        let viscosity = self.rheology.largest_viscosity(self.reference_density * self.gravity * self.height);
-        let viscous = if viscosity > 0.0 && self.numerics.viscous_step == ViscousStep::Explicit {
-            self.numerics.viscous_courant * smoothing_length * smoothing_length * self.reference_density / viscosity
+        let smoothing_length = self.layer.numerics.smoothing_ratio * self.spacing();
+        let acoustic = self.layer.numerics.acoustic_courant * smoothing_length / sound_speed;
+        let viscosity =
+            self.rheology.largest_viscosity(self.reference_density * self.layer.gravity * self.layer.layer_height);
+        let viscous = if viscosity > 0.0 && self.layer.numerics.viscous_step == ViscousStep::Explicit {
+            self.layer.numerics.viscous_courant * smoothing_length * smoothing_length * self.reference_density
+                / viscosity
         } else {
             f64::INFINITY
         };
@@ -124,7 +108,7 @@ impl Layer<'_> {
     /// # Errors
     /// A scene that breaks a rule of the solver.
     pub fn prepared_scene(&self) -> Result<Scene<2>, SceneError> {
-        Ok(self.started(match self.preparation {
+        Ok(self.started(match self.layer.preparation {
             Preparation::Settled => preparation::settled(self.scene())?,
             Preparation::None => self.scene(),
         }))
@@ -145,22 +129,23 @@ impl Layer<'_> {
     #[must_use]
     pub fn scene(&self) -> Scene<2> {
         let spacing = self.spacing();
-        let length = self.columns as f64 * spacing;
+        let length = self.layer.columns as f64 * spacing;
         let domain = Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: length }, AxisBoundary::Open] };
         let bed = Wall::still(1, 0.0, 1.0);
-        let wall_rows = (2.0 * self.numerics.smoothing_ratio).ceil() as usize + 1;
-        let extent = (Vector::<2>::zeros(), Vector::<2>::new(length, self.height));
+        let wall_rows = (2.0 * self.layer.numerics.smoothing_ratio).ceil() as usize + 1;
+        let extent = (Vector::<2>::zeros(), Vector::<2>::new(length, self.layer.layer_height));
         let equation_of_state = EquationOfState {
             reference_density: self.reference_density,
             bulk_modulus: self.bulk_modulus,
             tension: Tension::Cut,
         };
-        let mut random = rand_pcg::Pcg64::seed_from_u64(self.seed);
+        let mut random = rand_pcg::Pcg64::seed_from_u64(self.layer.seed);
         let mut flow = Flow::default();
-        for row in 0..self.rows {
-            for column in 0..self.columns {
+        for row in 0..self.layer.resolution {
+            for column in 0..self.layer.columns {
                 let site = Vector::<2>::new((column as f64 + 0.5) * spacing, (row as f64 + 0.5) * spacing);
-                let shift = Vector::<2>::from_fn(|_, _| self.jitter * spacing * (2.0 * random.random::<f64>() - 1.0));
+                let shift =
+                    Vector::<2>::from_fn(|_, _| self.layer.jitter * spacing * (2.0 * random.random::<f64>() - 1.0));
                 let position = site + shift;
                 // the density belongs to the site and the mass to the density, so that the layer neither
                 // sinks nor swells when it is released
@@ -177,11 +162,11 @@ impl Layer<'_> {
             wall_particles: fill(&[bed], &domain, extent, spacing, wall_rows),
             walls: vec![bed],
             domain,
-            gravity: Vector::<2>::new(libm::sin(self.slope_angle), -libm::cos(self.slope_angle)) * self.gravity,
+            gravity: Vector::<2>::new(libm::sin(self.slope_angle), -libm::cos(self.slope_angle)) * self.layer.gravity,
             spacing,
             equation_of_state,
             rheology: self.rheology,
-            numerics: self.numerics,
+            numerics: self.layer.numerics,
         }
     }
 
@@ -200,10 +185,10 @@ impl Layer<'_> {
                  as many as the speed of sound would; that is {:.1} h on one core. A larger regularisation rate shortens \
                  it, but lets the material creep: it is still compared with the unregularised law",
                 self.slope_angle.to_degrees(),
-                self.rows,
+                self.layer.resolution,
                 self.duration,
                 steps / acoustic,
-                steps * (self.rows * self.columns) as f64 * SECONDS_PER_PARTICLE_STEP / 3600.0
+                steps * self.layer.particles() * SECONDS_PER_PARTICLE_STEP / 3600.0
             );
         } else if steps > acoustic {
             tracing::info!("explicit viscous step: about {steps:.1e} steps for {} s", self.duration);
@@ -262,9 +247,10 @@ fn tables(variant: &Variant, data: &LayerObservation) -> Vec<Table> {
     tables
 }
 
-/// Particles that ended below the bed or far above the layer.
-pub(in crate::cases) const PARTICLES_LOST: Quantity =
-    Quantity::verified("particles_lost", "-", "particles that ended below the bed or far above the layer");
+quantities! {
+    shared pub(in crate::cases)
+    PARTICLES_LOST: verified("particles_lost", "-", "particles that ended below the bed or far above the layer"),
+}
 
 /// The number of particles that ended below the bed or far above the layer, gated at 0.
 #[must_use]

@@ -65,18 +65,11 @@ impl PeriodicLayer {
     #[must_use]
     pub fn of(&self, rheology: Rheology, reference_density: f64, slope_angle: f64) -> Layer<'static> {
         Layer {
-            height: self.layer_height,
-            rows: self.resolution,
-            columns: self.columns,
+            layer: *self,
             slope_angle: slope_angle.to_radians(),
-            gravity: self.gravity,
             reference_density,
             bulk_modulus: bulk_modulus(reference_density, self.gravity, self.layer_height, 0.0),
             rheology,
-            numerics: self.numerics,
-            jitter: self.jitter,
-            seed: self.seed,
-            preparation: self.preparation,
             velocity: &|_| 0.0,
             shear_stress: &|_| 0.0,
             duration: 0.0,

@@ -1,6 +1,6 @@
 //! What a layer leaves behind: time series of depth means, depth profiles averaged over a window, pressure noise.
 
-use super::{BINS, Layer};
+use super::{BINS, Layer, PeriodicLayer};
 use crate::statistics::relative_l2;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
@@ -101,12 +101,13 @@ pub struct LayerProbe {
 
 impl LayerProbe {
     pub(super) fn new(layer: &Layer<'_>) -> Self {
-        let across = layer.gravity * libm::cos(layer.slope_angle);
+        let PeriodicLayer { layer_height, gravity, columns, numerics, .. } = layer.layer;
+        let across = gravity * libm::cos(layer.slope_angle);
         Self {
-            height: layer.height,
-            length: layer.columns as f64 * layer.spacing(),
-            reach: 2.0 * layer.numerics.smoothing_ratio * layer.spacing(),
-            weight: layer.reference_density * across * layer.height,
+            height: layer_height,
+            length: columns as f64 * layer.spacing(),
+            reach: 2.0 * numerics.smoothing_ratio * layer.spacing(),
+            weight: layer.reference_density * across * layer_height,
             hydrostatic: (layer.bulk_modulus, layer.reference_density, across),
             window_start: layer.duration - layer.window,
             noise: layer.slope_angle == 0.0,

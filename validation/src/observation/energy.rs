@@ -1,4 +1,4 @@
-//! Where the potential energy of a collapse goes.
+//! Where the potential energy of a flow goes.
 
 use crate::figure::{Axis, Figure, Panel};
 
@@ -7,13 +7,13 @@ const LONGEST: f64 = 6.0;
 
 /// Kinetic and potential energy over time, in any one unit.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::cases) struct Energies<'a> {
+pub struct Energies<'a> {
     /// Times `[s]`.
-    pub(in crate::cases) time: &'a [f64],
+    pub time: &'a [f64],
     /// Kinetic energy.
-    pub(in crate::cases) kinetic: &'a [f64],
+    pub kinetic: &'a [f64],
     /// Potential energy above the bed.
-    pub(in crate::cases) potential: &'a [f64],
+    pub potential: &'a [f64],
 }
 
 impl Energies<'_> {
@@ -25,7 +25,8 @@ impl Energies<'_> {
 
     /// Largest excess of kinetic plus potential energy over that of the start, over the initial potential energy `[-]`;
     /// never negative, since the start counts.
-    pub(in crate::cases) fn largest_gain(&self) -> f64 {
+    #[must_use]
+    pub fn largest_gain(&self) -> f64 {
         let total = self.kinetic.iter().zip(self.potential).map(|(kinetic, potential)| kinetic + potential);
         let largest = total.fold(f64::NEG_INFINITY, f64::max);
         match (self.kinetic.first(), self.potential.first()) {
@@ -36,7 +37,8 @@ impl Energies<'_> {
 }
 
 /// One panel a run: energy released, kinetic, and the rest, over the energy released at the end.
-pub(in crate::cases) fn figure(name: &str, caption: &str, runs: &[(String, f64, Energies<'_>)]) -> Figure {
+#[must_use]
+pub fn figure(name: &str, caption: &str, runs: &[(String, f64, Energies<'_>)]) -> Figure {
     let panels = runs.iter().filter_map(|(title, time_scale, energies)| {
         let (whole, start) = (energies.released()?, energies.potential.first()?);
         let time = Axis::linear("t/√(h0/g) [-]").between(0.0, LONGEST);
