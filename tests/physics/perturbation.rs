@@ -1,7 +1,7 @@
 //! The deterministic path of a collapse is not a matter of chance: a displacement of 1e-10 spacings changes nothing
 //! that is measured.
 
-use bagnold_validation::case::{Parameters, Progress, Run, Tier};
+use bagnold_validation::case::{Parameters, Run, Silent, Tier};
 use bagnold_validation::cases::collapse::Collapse;
 use bagnold_validation::cases::column_planar::ColumnPlanarParameters;
 
@@ -12,23 +12,17 @@ const TOLERANCE: f64 = 1e-3;
 const STOPPING_TIME_TOLERANCE: f64 = 1e-2;
 
 /// Tells nobody.
-struct Unseen;
-
-impl Progress for Unseen {
-    fn advance(&self, _: f64, _: f64, _: f64) {}
-}
-
 /// The column a = 1 of Lagrée's grains from a lattice with displacements of this many spacings.
 fn collapse(jitter: f64) -> Collapse {
     let mut parameters = ColumnPlanarParameters::of_tier(Tier::Quick);
-    parameters.jitter = jitter;
+    parameters.release.jitter = jitter;
     parameters.sand.aspect_ratios.clear();
     parameters.lagree.aspect_ratios = vec![1.0];
     parameters.regularised.aspect_ratios.clear();
     parameters.sensitivity.aspect_ratios.clear();
     let runs = parameters.runs();
     assert_eq!(runs.len(), 1);
-    runs[0].simulate(&Unseen).expect("a valid scene").data
+    runs[0].simulate(&Silent).expect("a valid scene").data
 }
 
 #[test]

@@ -9,7 +9,7 @@ use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::{domain::Domain, vector::Vector};
 use bagnold_validation::case::{Case, ParameterError, Parameters, Progress, Registry, Run, Tier};
 use bagnold_validation::metric::{Confidence, Limit, Metric, Variant};
-use bagnold_validation::{cases::recording::record, observation::Recorded};
+use bagnold_validation::{case::recording::record, observation::Recorded};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;

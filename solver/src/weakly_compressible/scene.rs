@@ -90,6 +90,14 @@ impl<const D: usize> Scene<D> {
     /// # Errors
     /// The first rule that is broken.
     pub fn check(&self) -> Result<(), SceneError> {
+        self.check_lengths()?;
+        self.check_parameters()?;
+        self.check_values()?;
+        self.check_domain()
+    }
+
+    /// Arrays of one length, neither empty nor too long.
+    fn check_lengths(&self) -> Result<(), SceneError> {
         let expected = self.flow.position.len();
         if expected == 0 {
             return Err(SceneError::Empty);
@@ -108,14 +116,18 @@ impl<const D: usize> Scene<D> {
                 return Err(SceneError::Length { array, found, expected });
             }
         }
-        let positive = |value: f64| value > 0.0 && value.is_finite();
+        Ok(())
+    }
+
+    /// Parameters in their ranges, alone and together.
+    fn check_parameters(&self) -> Result<(), SceneError> {
         let parameters = [
             ("spacing", self.spacing),
             ("reference_density", self.equation_of_state.reference_density),
             ("bulk_modulus", self.equation_of_state.bulk_modulus),
         ];
         for (field, value) in parameters {
-            if !positive(value) {
+            if !is_positive(value) {
                 let (rule, remedy) = ("positive and finite", "give it in SI units");
                 return Err(ParameterProblem::new(field, value, rule, remedy).into());
             }
@@ -127,9 +139,11 @@ impl<const D: usize> Scene<D> {
             .or_else(|| self.rheology.parameter_problem())
             .or_else(|| surfaces.find_map(|roughness| self.numerics.wall_problem(roughness)))
             .or_else(|| self.numerics.step_problem(&self.rheology));
-        if let Some(problem) = problem {
-            return Err(problem.into());
-        }
+        problem.map_or(Ok(()), |problem| Err(problem.into()))
+    }
+
+    /// Values of every particle that make sense.
+    fn check_values(&self) -> Result<(), SceneError> {
         for (particle, position) in self.flow.position.iter().enumerate() {
             let finite = [
                 ("position", position.sum()),
@@ -142,11 +156,16 @@ impl<const D: usize> Scene<D> {
                 }
             }
             for (quantity, value) in [("density", self.flow.density[particle]), ("mass", self.flow.mass[particle])] {
-                if !positive(value) {
+                if !is_positive(value) {
                     return Err(SceneError::Value { quantity, particle, value, rule: "positive and finite" });
                 }
             }
         }
+        Ok(())
+    }
+
+    /// Bounds that hold the reach of the kernel.
+    fn check_domain(&self) -> Result<(), SceneError> {
         for (axis, boundary) in self.domain.axes.iter().enumerate() {
             if let crate::domain::AxisBoundary::Periodic { lower, upper } = boundary {
                 let (length, least) = (upper - lower, self.search_radius());
@@ -157,4 +176,8 @@ impl<const D: usize> Scene<D> {
         }
         Ok(())
     }
+}
+
+fn is_positive(value: f64) -> bool {
+    value > 0.0 && value.is_finite()
 }

@@ -1,7 +1,7 @@
 //! Figures of a calibration, from its outcome alone.
 
 use super::result::{Compared, Outcome};
-use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::inference::chi_squared_quantile;
 
 /// All figures that the outcome has the numbers for.
@@ -48,26 +48,22 @@ fn history(outcome: &Outcome) -> Option<Figure> {
     });
     let best: Vec<(f64, f64)> = best.collect();
     let mut first = Panel::new("", Axis::linear("evaluation [-]"), Axis::logarithmic("χ² [-]"));
-    first.series.push(Series::new("evaluation", Mark::Points, 0, points));
-    first.series.push(Series::new("best so far", Mark::Line, 1, best));
+    first.points("evaluation", 0, points);
+    first.line("best so far", 1, best);
     let mut panels = vec![first];
     for (k, parameter) in outcome.parameters.iter().enumerate() {
         let label = labelled(&parameter.name, &parameter.unit);
         let mut panel = Panel::new("", Axis::linear("evaluation [-]"), axis(parameter.logarithmic, &label));
-        let values = outcome.evaluations.iter().enumerate().map(|(n, e)| ((n + 1) as f64, e.values[k])).collect();
-        panel.series.push(Series::new("", Mark::Points, 0, values));
+        let values = outcome.evaluations.iter().enumerate().map(|(n, e)| ((n + 1) as f64, e.values[k]));
+        panel.points("", 0, values);
         if let Some(truth) = parameter.truth {
             let last = outcome.evaluations.len() as f64;
-            panel.series.push(Series::new("truth", Mark::Reference, 0, vec![(1.0, truth), (last, truth)]));
+            panel.reference("truth", [(1.0, truth), (last, truth)]);
         }
         panels.push(panel);
     }
-    Some(Figure {
-        name: "history".to_owned(),
-        caption: "Every evaluation of the search and, last, of the ends of the intervals.".to_owned(),
-        columns: panels.len().min(2),
-        panels,
-    })
+    let caption = "Every evaluation of the search and, last, of the ends of the intervals.";
+    Some(Figure::new("history", caption, panels))
 }
 
 fn profiles(outcome: &Outcome) -> Option<Figure> {
@@ -79,22 +75,23 @@ fn profiles(outcome: &Outcome) -> Option<Figure> {
         let highest = 3.0 * threshold;
         let points: Vec<(f64, f64)> = parameter.profile.iter().copied().filter(|point| point.1 <= highest).collect();
         let ends = points.first().zip(points.last()).map(|(first, last)| (first.0, last.0)).unwrap_or_default();
-        panel.series.push(Series::new("profile", Mark::Line, 0, points));
-        panel.series.push(Series::new("95 %", Mark::Reference, 0, vec![(ends.0, threshold), (ends.1, threshold)]));
-        panel.series.push(Series::new("best", Mark::Points, 1, vec![(parameter.best, 0.0)]));
+        panel.line("profile", 0, points);
+        panel.reference("95 %", [(ends.0, threshold), (ends.1, threshold)]);
+        panel.points("best", 1, [(parameter.best, 0.0)]);
         if let Some(truth) = parameter.truth.filter(|truth| *truth >= ends.0 && *truth <= ends.1) {
-            panel.series.push(Series::new("truth", Mark::Points, 2, vec![(truth, 0.0)]));
+            panel.points("truth", 2, [(truth, 0.0)]);
         }
         panels.push(panel);
     }
-    (!panels.is_empty()).then(|| Figure {
-        name: "profiles".to_owned(),
-        caption:
-            "Profile likelihood: χ² with all other parameters at their best, on a polynomial through the evaluations. \
-                  Values below the dashed line agree with the data at 95 %."
-                .to_owned(),
-        columns: panels.len().min(3),
-        panels,
+    let columns = panels.len().min(3);
+    (columns > 0).then(|| {
+        Figure::new(
+            "profiles",
+            "Profile likelihood: χ² with all other parameters at their best, on a polynomial through the \
+             evaluations. Values below the dashed line agree with the data at 95 %.",
+            panels,
+        )
+        .in_columns(columns)
     })
 }
 
@@ -125,7 +122,8 @@ fn agreement(name: &str, caption: &str, data: &[Compared]) -> Option<Figure> {
         let middle = if tables.len() > 1 { "…" } else { &first[head..first.len() - tail] };
         caption += &format!(" Profiles of {}{middle}{}.", &first[..head], &first[first.len() - tail..]);
     }
-    (!panels.is_empty()).then(|| Figure { name: name.to_owned(), caption, columns: panels.len().min(3), panels })
+    let columns = panels.len().min(3);
+    (columns > 0).then(|| Figure::new(name, &caption, panels).in_columns(columns))
 }
 
 /// Bytes that all names begin and end with, without splitting a word at a hyphen.
@@ -152,7 +150,7 @@ fn panel(title: &str, members: &[&Compared]) -> Panel {
         let of = |value: fn(&Compared) -> f64| -> Vec<(f64, f64)> {
             members.iter().filter_map(|datum| Some((datum.at.as_ref()?.at, value(datum)))).collect()
         };
-        panel.series.push(Series::new("model", Mark::Line, 0, of(|datum| datum.model)));
+        panel.line("model", 0, of(|datum| datum.model));
         let mut points = Series::new("data", Mark::Points, 1, of(|datum| datum.datum));
         points.error = errors;
         panel.series.push(points);
@@ -162,7 +160,7 @@ fn panel(title: &str, members: &[&Compared]) -> Panel {
     let mut panel = Panel::new("", Axis::linear(&label("model")), Axis::linear(&label("datum")));
     let values: Vec<f64> = members.iter().flat_map(|datum| [datum.datum, datum.model]).collect();
     let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
-    panel.series.push(Series::new("equal", Mark::Reference, 0, vec![(low, low), (high, high)]));
+    panel.reference("equal", [(low, low), (high, high)]);
     let mut points =
         Series::new("data", Mark::Points, 1, members.iter().map(|datum| (datum.model, datum.datum)).collect());
     points.error = errors;
@@ -174,19 +172,12 @@ fn trials(outcome: &Outcome) -> Option<Figure> {
     let worked: Vec<_> = outcome.trials.iter().filter(|trial| trial.failure.is_none()).collect();
     let data = worked.first()?.fit.len();
     let mut panel = Panel::new("", Axis::linear("datum by number [-]"), Axis::linear("(model − datum)/σ [-]"));
-    panel
-        .bands
-        .push(Band { label: "±2 σ".to_owned(), points: vec![(0.5, -2.0, 2.0), (data as f64 + 0.5, -2.0, 2.0)] });
+    panel.band("±2 σ", [(0.5, -2.0, 2.0), (data as f64 + 0.5, -2.0, 2.0)]);
     for (slot, trial) in worked.iter().enumerate() {
-        let points = trial.fit.iter().enumerate().map(|(k, datum)| ((k + 1) as f64, datum.residual)).collect();
-        panel.series.push(Series::new(&trial.name, Mark::LinePoints, slot, points));
+        let points = trial.fit.iter().enumerate().map(|(k, datum)| ((k + 1) as f64, datum.residual));
+        panel.line_points(&trial.name, slot, points);
     }
-    Some(Figure {
-        name: "choices".to_owned(),
-        caption: "Weighted residuals of every choice, in the order of the table of data.".to_owned(),
-        columns: 1,
-        panels: vec![panel],
-    })
+    Some(Figure::new("choices", "Weighted residuals of every choice, in the order of the table of data.", vec![panel]))
 }
 
 fn sensitivity(outcome: &Outcome) -> Option<Figure> {
@@ -200,17 +191,15 @@ fn sensitivity(outcome: &Outcome) -> Option<Figure> {
     );
     for (slot, effect) in outcome.sensitivity.iter().enumerate() {
         if effect.effect.is_finite() && effect.spread.is_finite() {
-            panel.series.push(Series::new(&effect.name, Mark::Points, slot, vec![(effect.effect, effect.spread)]));
+            panel.points(&effect.name, slot, [(effect.effect, effect.spread)]);
         }
     }
-    Some(Figure {
-        name: "sensitivity".to_owned(),
-        caption: "Morris screening over the whole ranges: to the right, parameters that the data feel; high up, those that act \
-                  non-linearly or together with others."
-            .to_owned(),
-        columns: 1,
-        panels: vec![panel],
-    })
+    Some(Figure::new(
+        "sensitivity",
+        "Morris screening over the whole ranges: to the right, parameters that the data feel; high up, those that \
+         act non-linearly or together with others.",
+        vec![panel],
+    ))
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod file;
 mod notes;
 #[cfg(test)]
 pub(crate) mod pendulum;
+pub mod recording;
 mod registry;
 mod result;
 mod schedule;

@@ -28,6 +28,11 @@ impl Monitor for Silent {
     fn finished(&self, _run: usize) {}
 }
 
+/// A simulation that nobody waits for.
+impl Progress for Silent {
+    fn advance(&self, _simulated: f64, _total: f64, _particle_steps: f64) {}
+}
+
 struct RunProgress<'a> {
     run: usize,
     monitor: &'a dyn Monitor,

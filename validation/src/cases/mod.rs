@@ -15,7 +15,6 @@ pub mod flow_thickness;
 pub mod hydrostatic;
 pub mod incline_collapse;
 pub mod layer;
-pub mod recording;
 mod rules;
 pub mod settling;
 pub mod still_water;
@@ -62,7 +61,7 @@ registry!($
 #[cfg(test)]
 mod tests {
     use super::REGISTRY;
-    use crate::case::{Changes, Prepared, Progress, Tier};
+    use crate::case::{Changes, Prepared, Silent, Tier};
     use crate::metric::Variant;
     use crate::store::{Store, StorePolicy};
     use bagnold_solver::material::rheology::ViscousLaw;
@@ -100,13 +99,6 @@ mod tests {
         }
     }
 
-    /// Tells nobody.
-    struct Unseen;
-
-    impl Progress for Unseen {
-        fn advance(&self, _: f64, _: f64, _: f64) {}
-    }
-
     fn prepared(case: &str, settings: &[&str]) -> Result<Box<dyn Prepared>, String> {
         let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
         let case = REGISTRY.iter().find(|other| other.name() == case).expect("a case");
@@ -132,7 +124,7 @@ mod tests {
             let settings: Vec<&str> = own.into_iter().chain(law.iter().map(String::as_str)).collect();
             let prepared = prepared(case, &settings).expect("valid");
             let store = Store::at(std::path::Path::new("unused"), StorePolicy::Bypass);
-            prepared.simulate(0, &store, &Unseen).expect("a scene");
+            prepared.simulate(0, &store, &Silent).expect("a scene");
             let result = prepared.finish();
             assert!(!result.metrics.is_empty(), "{case}: {settings:?}");
         }

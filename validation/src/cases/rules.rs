@@ -104,12 +104,8 @@ pub(super) fn gate(path: &str, numerics: &Numerics) -> Result<(), ParameterError
 pub(super) fn implicit_runs(path: &str, numerics: &Numerics, list: &str) -> Result<(), ParameterError> {
     let Some(operator) = numerics.pairwise_operator() else { return Ok(()) };
     let rule = format!("\"single-divergence\" or \"uncorrected-divergence\" with the implicit runs of `{list}`");
-    Err(ParameterError::field(
-        &format!("{path}.momentum_operator"),
-        operator,
-        &rule,
-        "choose one of these, or empty that list",
-    ))
+    let field = format!("{path}.momentum_operator");
+    Err(ParameterError::field(&field, operator, &rule, "choose one of these, or empty that list"))
 }
 
 /// Columns of fluid particles along the period of a channel: no particle may see another one twice.

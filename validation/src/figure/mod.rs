@@ -132,15 +132,6 @@ pub struct Figure {
     pub columns: usize,
 }
 
-impl Figure {
-    /// Panels, two a row.
-    #[must_use]
-    pub fn new(name: &str, caption: &str, panels: Vec<Panel>) -> Self {
-        let columns = panels.len().clamp(1, 2);
-        Self { name: name.to_owned(), caption: caption.to_owned(), panels, columns }
-    }
-}
-
 /// The files of a written figure.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Written {

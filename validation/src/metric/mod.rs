@@ -150,11 +150,26 @@ impl Metric {
         self
     }
 
+    /// Adds a gate where there is a limit; else it stays observed.
+    #[must_use]
+    pub fn gated_by(self, limit: Option<Limit>, reason: &str) -> Self {
+        match limit {
+            Some(limit) => self.gated(limit, reason),
+            None => self,
+        }
+    }
+
     /// Adds a reference.
     #[must_use]
     pub fn against(mut self, value: Option<f64>, source: &str, confidence: Confidence) -> Self {
         self.reference = Some(Reference { value, source: source.to_owned(), confidence });
         self
+    }
+
+    /// Adds a reference that is exact for the model: what its equations, a conservation law or its definition give.
+    #[must_use]
+    pub fn exactly(self, value: f64, source: &str) -> Self {
+        self.against(Some(value), source, Confidence::Exact)
     }
 
     /// Sets what the verdict rests on.

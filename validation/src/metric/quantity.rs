@@ -39,14 +39,22 @@ impl Quantity {
 }
 
 /// Declares a case's quantities: each a constant, and the list of all, which begins with those that it shares with others.
+/// They are seen by the parent of the module, or as a visibility in front says. What several cases share is declared
+/// likewise, behind the word `shared` and without a list.
 ///
 /// `quantities! { [channel::BED_SHEAR] FRONT: validated("front", "m", "how far the front has come"), }`
 macro_rules! quantities {
-    ([$($shared:expr),* $(,)?] $($name:ident: $kind:ident($($declared:literal),+ $(,)?),)+) => {
-        $(pub(super) const $name: $crate::metric::Quantity = $crate::metric::Quantity::$kind($($declared),+);)+
+    ([$($shared:expr),* $(,)?] $($declared:tt)+) => {
+        $crate::metric::quantities! { pub(super) [$($shared),*] $($declared)+ }
+    };
+    ($seen:vis [$($shared:expr),*] $($name:ident: $kind:ident($($declared:literal),+ $(,)?),)+) => {
+        $crate::metric::quantities! { shared $seen $($name: $kind($($declared),+),)+ }
 
         /// All quantities of the case.
-        pub(super) const QUANTITIES: &[$crate::metric::Quantity] = &[$($shared,)* $($name,)+];
+        $seen const QUANTITIES: &[$crate::metric::Quantity] = &[$($shared,)* $($name,)+];
+    };
+    (shared $seen:vis $($name:ident: $kind:ident($($declared:literal),+ $(,)?),)+) => {
+        $($seen const $name: $crate::metric::Quantity = $crate::metric::Quantity::$kind($($declared),+);)+
     };
 }
 pub(crate) use quantities;

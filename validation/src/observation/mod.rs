@@ -1,6 +1,8 @@
 //! What a run leaves behind: plain data that knows nothing of the simulation it came from.
 
+pub mod energy;
 mod motion;
+pub mod pictures;
 
 pub use motion::{Motion, MotionFrame};
 
@@ -37,6 +39,38 @@ pub struct Frame {
     pub scalars: Vec<(String, String, Vec<f64>)>,
     /// Named vectors with their units, such as ("velocity", "m/s", values).
     pub vectors: Vec<(String, String, Vec<[f64; 3]>)>,
+}
+
+impl Frame {
+    /// A scalar of every particle by its name; empty where the picture has no such scalar.
+    #[must_use]
+    pub fn scalar(&self, name: &str) -> &[f64] {
+        self.scalars.iter().find(|(other, _, _)| other == name).map_or(&[], |(_, _, values)| values)
+    }
+
+    /// A vector of every particle by its name; empty where the picture has no such vector.
+    #[must_use]
+    pub fn vector(&self, name: &str) -> &[[f64; 3]] {
+        self.vectors.iter().find(|(other, _, _)| other == name).map_or(&[], |(_, _, values)| values)
+    }
+
+    /// Speeds of all particles `[m/s]`.
+    #[must_use]
+    pub fn speeds(&self) -> Vec<f64> {
+        self.vector("velocity").iter().map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt()).collect()
+    }
+
+    /// Pressures of all particles `[kPa]`.
+    #[must_use]
+    pub fn pressures(&self) -> Vec<f64> {
+        self.scalar("pressure").iter().map(|p| p * 1e-3).collect()
+    }
+
+    /// The frame whose time is nearest.
+    #[must_use]
+    pub fn nearest(frames: &[Self], time: f64) -> Option<&Self> {
+        frames.iter().min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()))
+    }
 }
 
 /// A run's record: the observation and how it came about.

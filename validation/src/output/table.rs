@@ -16,6 +16,21 @@ pub struct Table {
 }
 
 impl Table {
+    /// A table from its rows.
+    #[must_use]
+    pub fn of_rows(name: String, columns: &[&str], rows: impl IntoIterator<Item = Vec<f64>>) -> Self {
+        let columns = columns.iter().map(|&column| column.to_owned()).collect();
+        Self { name, columns, rows: rows.into_iter().collect() }
+    }
+
+    /// A table from arrays of the same length, each under its heading.
+    #[must_use]
+    pub fn of_columns(name: String, columns: &[(&str, &[f64])]) -> Self {
+        let rows = columns.iter().map(|(_, array)| array.len()).min().unwrap_or(0);
+        let headings: Vec<&str> = columns.iter().map(|(heading, _)| *heading).collect();
+        Self::of_rows(name, &headings, (0..rows).map(|row| columns.iter().map(|(_, array)| array[row]).collect()))
+    }
+
     /// Writes the table as `<name>.csv` into a folder, every number with all its digits.
     ///
     /// # Errors
@@ -33,6 +48,13 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn arrays_become_columns() {
+        let table = Table::of_columns("series".to_owned(), &[("t [s]", &[0.0, 1.0]), ("u [m/s]", &[2.0, 3.0])]);
+        assert_eq!(table.columns, ["t [s]", "u [m/s]"]);
+        assert_eq!(table.rows, [[0.0, 2.0], [1.0, 3.0]]);
+    }
 
     #[test]
     fn a_table_is_written_with_its_heading_and_every_digit() {

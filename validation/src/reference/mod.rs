@@ -24,6 +24,7 @@ mod rough_channel;
 mod settling;
 mod shipped;
 mod slope_laws;
+mod steady_film;
 
 pub use bagnold_profile::BagnoldProfile;
 pub use bed_load_transport::{HONEST_BAND, TransportFormula};
@@ -39,3 +40,4 @@ pub use rough_channel::{RoughChannel, roughness_ratio};
 pub use settling::{GrainForm, SettlingGrains, richardson_zaki_confidence, richardson_zaki_exponent};
 pub use shipped::{shipped_table, shipped_tables};
 pub use slope_laws::{RoughIncline, SLOPE_EXPERIMENT, SlopeExperiment, slope_run_out};
+pub use steady_film::SteadyFilm;

@@ -4,39 +4,19 @@
 //! At rest η = μ_s p/α_r + (μ_2 − μ_s) p/(ξ √p + α_r): finite, but tens of kPa·s for α_r = 0.01 1/s and p = 1 kPa,
 //! so that an explicit step is hundreds of times shorter than the acoustic one. For p ≤ 0 there is no stress.
 
-use super::mu_i::reference_rate;
+use super::mu_i::{law_of_grains, reference_rate};
 use super::regularisation::inverse_shear_rate;
 use super::{ViscousLaw, rising_friction};
 use crate::parameter::{ParameterProblem, above};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Dry grains as a liquid that creeps below the yield stress: the paper's own setting.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct RegularisedMuI {
-    /// Friction coefficient μ_s `[-]` of slow flow.
-    #[schemars(transform = above(0.0, "give the tangent of the angle at which grains stop; 0.382 for glass beads"))]
-    pub static_friction: f64,
-    /// Friction coefficient μ_2 `[-]` that fast flow tends to, ≥ μ_s.
-    pub limiting_friction: f64,
-    /// Inertial number I_0 `[-]` at which friction is midway between μ_s and μ_2.
-    #[schemars(transform = above(0.0, "give the inertial number where friction is midway; 0.279 for glass beads"))]
-    pub reference_inertia: f64,
-    /// Grain diameter D `[m]`.
-    #[schemars(transform = above(0.0, "give the diameter in metres; 0.0005 for 0.5 mm"))]
-    pub grain_diameter: f64,
-    /// Density ρ_s `[kg/m³]` of a grain, not of the bulk.
-    #[schemars(transform = above(0.0, "give the density of a grain in kg/m³, not of the bulk; 2500 for glass"))]
-    pub grain_density: f64,
-    /// Regularisation rate α_r `[1/s]`; the paper's value is 0.01.
-    #[schemars(transform = above(0.0, "give a creep rate in 1/s; 0.01 in the paper"))]
-    pub regularisation_rate: f64,
-}
-
-impl RegularisedMuI {
-    pub(super) fn friction_problem(&self) -> Option<ParameterProblem> {
-        rising_friction(self.static_friction, self.limiting_friction)
+law_of_grains! {
+    /// Dry grains as a liquid that creeps below the yield stress: the paper's own setting.
+    pub struct RegularisedMuI {
+        /// Regularisation rate α_r `[1/s]`; the paper's value is 0.01.
+        #[schemars(transform = above(0.0, "give a creep rate in 1/s; 0.01 in the paper"))]
+        pub regularisation_rate: f64,
     }
 }
 

@@ -1,44 +1,24 @@
 //! The μ(I) law as a viscosity regularised by a root, as two-phase Eulerian codes of bed load take it
 //! (Maurin et al. 2016 for the parameters; Chauchat 2018, J. Hydraul. Res. 56, for the form).
 //!
-//! η = μ(I) p/√(γ̇² + γ_r²), μ = μ_s + (μ_2 − μ_s) γ̇/(γ̇ + γ̇_0), where γ̇_0 = I_0 √(p/ρ_s)/d is the rate at which
-//! I = γ̇ d √(ρ_s/p) is I_0. At rest η = μ_s p/γ_r. Unlike (35) of the collapse paper, which bounds the static part by an
+//! η = μ(I) p/√(γ̇² + γ_r²), μ = μ_s + (μ_2 − μ_s) γ̇/(γ̇ + γ̇_0), where γ̇_0 = I_0 √(p/ρ_s)/D is the rate at which
+//! I = γ̇ D √(ρ_s/p) is I_0. At rest η = μ_s p/γ_r. Unlike (35) of the collapse paper, which bounds the static part by an
 //! exponential and shifts the rate of the other, the whole stress falls by γ̇/√(γ̇² + γ_r²): the two differ by
 //! ½ (γ_r/γ̇)² in flow. For p ≤ 0 there is no stress.
 
-use super::mu_i::reference_rate;
+use super::mu_i::{law_of_grains, reference_rate};
 use super::regularisation::root_shear_rate;
 use super::{ViscousLaw, rising_friction};
 use crate::parameter::{ParameterProblem, above, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Grains that creep below a rate instead of standing still.
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct RootMuI {
-    /// Friction coefficient μ_s `[-]` of slow flow.
-    #[schemars(transform = above(0.0, "give the tangent of the angle at which grains stop; 0.382 for glass beads"))]
-    pub static_friction: f64,
-    /// Friction coefficient μ_2 `[-]` that fast flow tends to, ≥ μ_s.
-    pub limiting_friction: f64,
-    /// Inertial number I_0 `[-]` at which friction is midway between μ_s and μ_2.
-    #[schemars(transform = above(0.0, "give the inertial number where friction is midway; 0.279 for glass beads"))]
-    pub reference_inertia: f64,
-    /// Grain diameter d `[m]`.
-    #[schemars(transform = above(0.0, "give the diameter in metres; 0.0005 for 0.5 mm"))]
-    pub grain_diameter: f64,
-    /// Density ρ_s `[kg/m³]` of a grain, not of the bulk.
-    #[schemars(transform = above(0.0, "give the density of a grain in kg/m³, not of the bulk; 2500 for glass"))]
-    pub grain_density: f64,
-    /// Regularisation rate γ_r `[1/s]`.
-    #[schemars(transform = positive("give a creep rate in 1/s, such as 5e-3"))]
-    pub regularisation_rate: f64,
-}
-
-impl RootMuI {
-    pub(super) fn friction_problem(&self) -> Option<ParameterProblem> {
-        rising_friction(self.static_friction, self.limiting_friction)
+law_of_grains! {
+    /// Grains that creep below a rate instead of standing still.
+    pub struct RootMuI {
+        /// Regularisation rate γ_r `[1/s]`.
+        #[schemars(transform = positive("give a creep rate in 1/s, such as 5e-3"))]
+        pub regularisation_rate: f64,
     }
 }
 

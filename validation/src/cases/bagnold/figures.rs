@@ -1,28 +1,26 @@
 //! The case's figures.
 
 use super::Record;
-use super::metrics::{convergence_errors, friction, history_from_rest, inertial_numbers, particle_history};
+use super::errors::{
+    convergence_errors, history_from_rest, implied_stress, inertial_numbers, particle_history, transient_of,
+};
 use super::parameters::{BagnoldParameters, Start};
 use super::runs::{BagnoldRun, Purpose};
 use crate::cases::Arrangement;
-use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
-use crate::reference::LayerTransient;
+use crate::figure::{Axis, Figure, Panel};
+use crate::reference::TransientHistory;
 
 pub(super) fn all(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Figure> {
+    let first_start = parameters.starts.first().copied().unwrap_or(Start::Rest);
+    let of = |belongs: &dyn Fn(&BagnoldRun) -> bool| -> Vec<&Record> {
+        records.iter().filter(|(run, _)| belongs(run)).collect()
+    };
+    let steady = of(&|run| run.purpose == Purpose::Steady && run.start == first_start);
+    let outside = of(&|run| matches!(run.purpose, Purpose::Arrest | Purpose::Runaway));
     let mut figures = Vec::new();
-    let steady: Vec<&Record> = records
-        .iter()
-        .filter(|(run, _)| {
-            run.purpose == Purpose::Steady && run.start == parameters.starts.first().copied().unwrap_or(Start::Rest)
-        })
-        .collect();
     if !steady.is_empty() {
-        figures.push(profiles(&steady));
-        figures.push(stresses(&steady));
-        figures.push(transients(&steady));
+        figures.extend([profiles(&steady), stresses(&steady), transients(&steady)]);
     }
-    let outside: Vec<&Record> =
-        records.iter().filter(|(run, _)| matches!(run.purpose, Purpose::Arrest | Purpose::Runaway)).collect();
     if !outside.is_empty() {
         figures.push(arrest_and_runaway(&outside));
     }
@@ -37,81 +35,53 @@ fn label(run: &BagnoldRun) -> String {
 fn profiles(records: &[&Record]) -> Figure {
     let mut absolute = Panel::new("", Axis::linear("u [m/s]"), Axis::linear("y/h [-]"));
     let mut error = Panel::new("", Axis::linear("(u − exact)/u(h) [%]"), Axis::linear("y/h [-]"));
-    error.series.push(Series::new("exact", Mark::Reference, 0, vec![(0.0, 0.0), (0.0, 1.0)]));
+    error.reference("exact", [(0.0, 0.0), (0.0, 1.0)]);
     for (slot, (run, record)) in records.iter().enumerate() {
         let exact = run.profile();
         let Some(surface) = exact.surface_velocity() else { continue };
         let h = exact.layer_height;
-        let data = &record.data.profile;
-        let bins: Vec<usize> = (0..data.height.len()).filter(|&bin| data.samples[bin] > 0.0).collect();
-        let curve: Vec<f64> = (0..=100).map(|k| f64::from(k) / 100.0).collect();
+        let velocity = |y: f64| exact.velocity(y).unwrap_or(0.0);
         let exact_label = if slot == 0 { "Bagnold (36), exact" } else { "" };
-        let reference = curve.iter().map(|y| (exact.velocity(y * h).unwrap_or(0.0), *y)).collect();
-        absolute.series.push(Series::new(exact_label, Mark::Reference, slot, reference));
-        let points = bins.iter().map(|&b| (data.velocity[b], data.height[b] / h)).collect();
-        absolute.series.push(Series::new(&label(run), Mark::Points, slot, points));
-        let differences = bins
-            .iter()
-            .map(|&b| {
-                let expected = exact.velocity(data.height[b]).unwrap_or(0.0);
-                (100.0 * (data.velocity[b] - expected) / surface, data.height[b] / h)
-            })
-            .collect();
-        error.series.push(Series::new(&label(run), Mark::LinePoints, slot, differences));
+        absolute.reference(exact_label, (0..=100).map(|k| f64::from(k) / 100.0).map(|y| (velocity(y * h), y)));
+        let data = &record.data.profile;
+        absolute.points(&label(run), slot, data.drawn(&data.velocity, h));
+        let difference = |bin: usize| 100.0 * (data.velocity[bin] - velocity(data.height[bin])) / surface;
+        let differences = data.filled().map(|bin| (difference(bin), data.height[bin] / h));
+        error.line_points(&label(run), slot, differences);
     }
-    Figure {
-        name: "velocity-profile".to_owned(),
-        caption: "Mean velocity along the slope in 20 bins over the depth, against Bagnold's profile (36), which is exact \
-                  for the μ(I) law. Left in metres per second, right the difference in percent of the exact surface velocity."
-            .to_owned(),
-        panels: vec![absolute, error],
-        columns: 2,
-    }
+    Figure::new(
+        "velocity-profile",
+        "Mean velocity along the slope in 20 bins over the depth, against Bagnold's profile (36), which is exact for \
+         the μ(I) law. Left in metres per second, right the difference in percent of the exact surface velocity.",
+        vec![absolute, error],
+    )
 }
 
 fn stresses(records: &[&Record]) -> Figure {
     let mut pressure = Panel::new("", Axis::linear("p [Pa]"), Axis::linear("y/h [-]"));
     let mut inertia = Panel::new("", Axis::linear("I/I(θ), exact [-]"), Axis::linear("y/h [-]"));
     let mut implied = Panel::new("", Axis::linear("μ(I)/tanθ − 1 [%]"), Axis::linear("y/h [-]"));
-    inertia.series.push(Series::new("exact", Mark::Reference, 0, vec![(1.0, 0.0), (1.0, 1.0)]));
-    implied.series.push(Series::new("exact", Mark::Reference, 0, vec![(0.0, 0.0), (0.0, 1.0)]));
+    inertia.reference("exact", [(1.0, 0.0), (1.0, 1.0)]);
+    implied.reference("exact", [(0.0, 0.0), (0.0, 1.0)]);
     for (slot, (run, record)) in records.iter().enumerate() {
         let exact = run.profile();
         let Some(steady) = exact.inertial_number() else { continue };
-        let h = exact.layer_height;
-        let data = &record.data.profile;
-        let line = vec![(exact.pressure(0.0), 0.0), (0.0, 1.0)];
-        pressure.series.push(Series::new(if slot == 0 { "hydrostatic" } else { "" }, Mark::Reference, slot, line));
-        let points = (0..data.height.len())
-            .filter(|&b| data.samples[b] > 0.0)
-            .map(|b| (data.pressure[b], data.height[b] / h))
-            .collect();
-        pressure.series.push(Series::new(&label(run), Mark::Points, slot, points));
-        let numbers = inertial_numbers(data, &exact);
-        let inside: Vec<_> = numbers.iter().filter(|(y, _)| (0.1..=0.9).contains(&(y / h))).collect();
-        inertia.series.push(Series::new(
-            &label(run),
-            Mark::LinePoints,
-            slot,
-            inside.iter().map(|(y, i)| (i / steady, y / h)).collect(),
-        ));
-        let tangent = libm::tan(exact.slope_angle);
-        implied.series.push(Series::new(
-            &label(run),
-            Mark::LinePoints,
-            slot,
-            inside.iter().map(|(y, i)| (100.0 * (friction(&exact, *i) / tangent - 1.0), y / h)).collect(),
-        ));
+        let (h, data) = (exact.layer_height, &record.data.profile);
+        pressure.reference(if slot == 0 { "hydrostatic" } else { "" }, [(exact.pressure(0.0), 0.0), (0.0, 1.0)]);
+        pressure.points(&label(run), slot, data.drawn(&data.pressure, h));
+        let numbers = inertial_numbers(data, &exact).into_iter();
+        inertia.line_points(&label(run), slot, numbers.map(|(y, number)| (number / steady, y / h)));
+        let errors = implied_stress(data, &exact).into_iter();
+        implied.line_points(&label(run), slot, errors.map(|(y, error)| (100.0 * error, y / h)));
     }
-    Figure {
-        name: "pressure-and-stress".to_owned(),
-        caption: "Pressure against the hydrostatic line, inertial number against its constant exact value, and the stress \
-                  ratio that the measured inertial number implies, relative to tanθ. The flow turns an error of 0.1 % of the \
-                  friction coefficient into one of 0.8 % (25°) to 2 % (22°) of the velocity."
-            .to_owned(),
-        panels: vec![pressure, inertia, implied],
-        columns: 3,
-    }
+    Figure::new(
+        "pressure-and-stress",
+        "Pressure against the hydrostatic line, inertial number against its constant exact value, and the stress \
+         ratio that the measured inertial number implies, relative to tanθ. The flow turns an error of 0.1 % of the \
+         friction coefficient into one of 0.8 % (25°) to 2 % (22°) of the velocity.",
+        vec![pressure, inertia, implied],
+    )
+    .in_columns(3)
 }
 
 fn transients(records: &[&Record]) -> Figure {
@@ -120,56 +90,37 @@ fn transients(records: &[&Record]) -> Figure {
         if run.start == Start::Rest
             && let Some((history, _)) = history_from_rest(run)
         {
-            let end = record.simulated_time;
-            let points = history.times.iter().zip(&history.depth_means).filter(|(t, _)| **t <= end);
             let name = if slot == 0 { "1-D transient solver" } else { "" };
-            panel.series.push(Series::new(name, Mark::Reference, slot, thinned(points.map(|(t, u)| (*t, *u)))));
+            panel.reference(name, drawn(&history, record.simulated_time));
         }
-        let history = particle_history(&record.data);
-        let points = thinned(history.times.iter().zip(&history.depth_means).map(|(t, u)| (*t, *u)));
-        panel.series.push(Series::new(&label(run), Mark::Line, slot, points));
+        panel.line(&label(run), slot, drawn(&particle_history(&record.data), f64::INFINITY));
     }
-    Figure {
-        name: "approach".to_owned(),
-        caption:
-            "Depth mean of the velocity from rest, against the one-dimensional solver, which shares nothing with the \
-                  particles but the law."
-                .to_owned(),
-        panels: vec![panel],
-        columns: 1,
-    }
+    Figure::new(
+        "approach",
+        "Depth mean of the velocity from rest, against the one-dimensional solver, which shares nothing with the \
+         particles but the law.",
+        vec![panel],
+    )
 }
 
 fn arrest_and_runaway(records: &[&Record]) -> Figure {
-    let mut panels = Vec::new();
-    for (slot, (run, record)) in records.iter().enumerate() {
-        let title =
-            format!("{}°: {}", run.slope_angle, if run.purpose == Purpose::Arrest { "arrest" } else { "runaway" });
+    let panels = records.iter().enumerate().map(|(slot, (run, record))| {
+        let fate = if run.purpose == Purpose::Arrest { "arrest" } else { "runaway" };
+        let title = format!("{}: {fate}", label(run));
         let mut panel = Panel::new(&title, Axis::linear("t [s]"), Axis::linear("depth mean of u [m/s]"));
-        let end = record.simulated_time;
-        let start = run.start_profile();
-        let reference = if run.purpose == Purpose::Arrest {
-            LayerTransient::from_profile(run.profile(), 100, 1e-3, |y| start.velocity(y).unwrap_or(0.0))
-        } else {
-            LayerTransient::from_rest(run.profile(), 100, 2e-3)
-        };
-        if let Ok(history) = reference.and_then(|mut layer| layer.run(end, &[])) {
-            let points = thinned(history.times.iter().zip(&history.depth_means).map(|(t, u)| (*t, *u)));
-            panel.series.push(Series::new("1-D transient solver", Mark::Reference, slot, points));
+        if let Some(history) = transient_of(run, record.simulated_time) {
+            panel.reference("1-D transient solver", drawn(&history, f64::INFINITY));
         }
-        let history = particle_history(&record.data);
-        let points = thinned(history.times.iter().zip(&history.depth_means).map(|(t, u)| (*t, *u)));
-        panel.series.push(Series::new("particles", Mark::Line, slot, points));
-        panels.push(panel);
-    }
-    Figure {
-        name: "arrest-and-runaway".to_owned(),
-        caption: "Below the static friction angle a layer that starts with a steady profile comes to rest; above the limiting \
-                  friction angle a layer from rest accelerates without end (stopped when its mean passes half the sound speed)."
-            .to_owned(),
-        columns: panels.len().min(2),
-        panels,
-    }
+        panel.line("particles", slot, drawn(&particle_history(&record.data), f64::INFINITY));
+        panel
+    });
+    Figure::new(
+        "arrest-and-runaway",
+        "Below the static friction angle a layer that starts with a steady profile comes to rest; above the limiting \
+         friction angle a layer from rest accelerates without end (stopped when its mean passes half the sound \
+         speed).",
+        panels.collect(),
+    )
 }
 
 fn convergence(parameters: &BagnoldParameters, records: &[Record]) -> Option<Figure> {
@@ -184,35 +135,23 @@ fn convergence(parameters: &BagnoldParameters, records: &[Record]) -> Option<Fig
         let errors = convergence_errors(records, angle, particles, start);
         if errors.len() >= 2 {
             if slot == 0 {
-                let (rows, error) = errors[0];
-                let guide = errors.iter().map(|(n, _)| (*n, error * rows / n)).collect();
-                panel.series.push(Series::new("first order", Mark::Reference, slot, guide));
+                panel.order(1, "first order", &errors);
             }
-            panel.series.push(Series::new(name, Mark::LinePoints, slot, errors));
+            panel.line_points(name, slot, errors);
         }
     }
-    if panel.series.is_empty() {
-        return None;
-    }
-    if let (Some(first), Some(last)) = (panel.series[0].points.first(), panel.series[0].points.last()) {
-        panel.bands.push(Band {
-            label: "gate at 40 rows".to_owned(),
-            points: vec![(first.0, 1e-3, 0.7), (last.0, 1e-3, 0.7)],
-        });
-    }
-    Some(Figure {
-        name: "convergence".to_owned(),
-        caption: format!(
-            "Relative L2 error of the velocity profile at {angle}° with the number of rows over the layer."
-        ),
-        panels: vec![panel],
-        columns: 1,
-    })
+    let first = panel.series.first()?;
+    let (from, to) = (first.points.first()?.0, first.points.last()?.0);
+    panel.band("gate at 40 rows", [(from, 1e-3, 0.7), (to, 1e-3, 0.7)]);
+    let caption =
+        format!("Relative L2 error of the velocity profile at {angle}° with the number of rows over the layer.");
+    Some(Figure::new("convergence", &caption, vec![panel]))
 }
 
-/// At most a few hundred points of a long series.
-fn thinned(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
-    let points: Vec<_> = points.collect();
+/// Depth means up to a time `[s]`, at most a few hundred points of them.
+fn drawn(history: &TransientHistory, end: f64) -> Vec<(f64, f64)> {
+    let points = history.times.iter().copied().zip(history.depth_means.iter().copied());
+    let points: Vec<(f64, f64)> = points.filter(|(time, _)| *time <= end).collect();
     let stride = points.len().div_ceil(400).max(1);
     points.into_iter().step_by(stride).collect()
 }

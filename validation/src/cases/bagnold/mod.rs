@@ -1,5 +1,6 @@
 //! Dry grains flowing down an incline: Bagnold's profile (36)–(37), the way to it, arrest and runaway.
 
+mod errors;
 mod figures;
 mod metrics;
 mod parameters;
@@ -17,7 +18,6 @@ use crate::output::Table;
 #[derive(Debug)]
 pub struct Bagnold;
 
-/// A run with what it left behind.
 type Record = RecordOf<BagnoldParameters>;
 
 impl Case for Bagnold {
@@ -44,9 +44,6 @@ impl Case for Bagnold {
     }
 
     fn tables(_: &BagnoldParameters, records: &[Record]) -> Vec<Table> {
-        records
-            .iter()
-            .flat_map(|(run, record)| super::layer::tables(&crate::case::Run::variant(run), &record.data))
-            .collect()
+        super::layer::tables_of_runs(records)
     }
 }

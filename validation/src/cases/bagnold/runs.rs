@@ -74,45 +74,34 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
     // the recipe's 3.5, 4, 4.5 and 5 s at 22, 23, 24 and 25°
     let from_rest = |angle: f64| (3.5 + 0.5 * (angle - 22.0)).clamp(3.5, 5.0) * scale;
     let from_profile = 2.0 * scale;
+    let jittered =
+        |purpose, angle, start, duration| new(purpose, angle, start, Arrangement::Jittered, own_rows, duration);
     let mut runs: Vec<BagnoldRun> = Vec::new();
     for &start in &parameters.starts {
-        for &angle in &parameters.slope_angles {
-            let duration = if start == Start::Rest { from_rest(angle) } else { from_profile };
-            runs.push(new(Purpose::Steady, angle, start, Arrangement::Jittered, own_rows, duration));
-        }
+        let duration = |angle| if start == Start::Rest { from_rest(angle) } else { from_profile };
+        let steady = parameters.slope_angles.iter();
+        runs.extend(steady.map(|&angle| jittered(Purpose::Steady, angle, start, duration(angle))));
     }
-    for &angle in &parameters.regularised_slope_angles {
-        let run = new(Purpose::Regularised, angle, Start::Profile, Arrangement::Jittered, own_rows, from_profile);
-        let numerics = Numerics { viscous_step: ViscousStep::Implicit, ..own_numerics };
-        runs.push(BagnoldRun {
-            regularisation_rate: parameters.regularised_rate,
-            layer: PeriodicLayer { numerics, ..run.layer },
-            ..run
-        });
-    }
-    let angle = parameters.convergence_slope_angle;
-    for &rows in &parameters.convergence_resolutions {
-        runs.push(new(Purpose::Convergence, angle, Start::Profile, Arrangement::Lattice, rows, from_profile));
-    }
-    for &rows in &parameters.convergence_resolutions {
-        let run = new(Purpose::Convergence, angle, Start::Rest, Arrangement::Jittered, rows, from_rest(angle));
+    let numerics = Numerics { viscous_step: ViscousStep::Implicit, ..own_numerics };
+    runs.extend(parameters.regularised_slope_angles.iter().map(|&angle| {
+        let run = jittered(Purpose::Regularised, angle, Start::Profile, from_profile);
+        let layer = PeriodicLayer { numerics, ..run.layer };
+        BagnoldRun { regularisation_rate: parameters.regularised_rate, layer, ..run }
+    }));
+    let (angle, study) = (parameters.convergence_slope_angle, &parameters.convergence_resolutions);
+    let convergence =
+        |start, particles, rows: usize, duration| new(Purpose::Convergence, angle, start, particles, rows, duration);
+    runs.extend(study.iter().map(|&rows| convergence(Start::Profile, Arrangement::Lattice, rows, from_profile)));
+    for &rows in study {
+        let run = convergence(Start::Rest, Arrangement::Jittered, rows, from_rest(angle));
         if !runs.iter().any(|other| other.variant() == run.variant()) {
             runs.push(run);
         }
     }
-    for &angle in &parameters.arrest_slope_angles {
-        runs.push(new(
-            Purpose::Arrest,
-            angle,
-            Start::Profile,
-            Arrangement::Jittered,
-            own_rows,
-            ARREST_DURATION * scale,
-        ));
-    }
-    for &angle in &parameters.runaway_slope_angles {
-        runs.push(new(Purpose::Runaway, angle, Start::Rest, Arrangement::Jittered, own_rows, 20.0 * scale));
-    }
+    let arrest = |&angle: &f64| jittered(Purpose::Arrest, angle, Start::Profile, ARREST_DURATION * scale);
+    runs.extend(parameters.arrest_slope_angles.iter().map(arrest));
+    let runaway = |&angle: &f64| jittered(Purpose::Runaway, angle, Start::Rest, 20.0 * scale);
+    runs.extend(parameters.runaway_slope_angles.iter().map(runaway));
     runs
 }
 

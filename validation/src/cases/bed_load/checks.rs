@@ -57,21 +57,16 @@ impl BedLoadParameters {
             return Err(ParameterError::field(&field("drag"), "ergun", rule, remedy));
         }
         let diameter = self.materials.grain_diameter;
-        whole(&field("bed_depth"), grains.bed_depth, diameter, "of the grain diameter")?;
-        whole(&field("bed_depth"), grains.bed_depth, grains.spacing, "of the spacing")?;
-        whole(&field("length"), grains.length, diameter, "of the grain diameter")?;
-        whole(&field("length"), grains.length, grains.spacing, "of the spacing")?;
+        for (name, length) in [("bed_depth", grains.bed_depth), ("length", grains.length)] {
+            whole(&field(name), length, diameter, "of the grain diameter")?;
+            whole(&field(name), length, grains.spacing, "of the spacing")?;
+        }
         let least = 4.8 * diameter;
         rules::between(&field("length"), grains.length, least, 10.0, "the period must hold twice the grains' kernel")?;
         whole("materials.depth", self.materials.depth, grains.spacing, "of the spacing of every formulation")?;
         let remedy = "it must hold grains and reach less than a quarter of the period";
-        rules::between(
-            &field("drag_smoothing_length"),
-            grains.drag_smoothing_length,
-            1e-4,
-            0.25 * grains.length,
-            remedy,
-        )?;
+        let most = 0.25 * grains.length;
+        rules::between(&field("drag_smoothing_length"), grains.drag_smoothing_length, 1e-4, most, remedy)?;
         check_time(path, grains.duration, grains.averaging_time)?;
         rules::projection(&field("numerics"), &grains.numerics)
     }
@@ -104,13 +99,8 @@ impl BedLoadParameters {
             let path = format!("continuum.runs[{index}]");
             for (place, &spacing) in runs.spacings.iter().enumerate() {
                 let field = format!("{path}.spacings[{place}]");
-                rules::between(
-                    &field,
-                    spacing,
-                    1e-4,
-                    continuum.length / 7.2,
-                    "0.001 for 1 mm; the period must hold 7",
-                )?;
+                let remedy = "0.001 for 1 mm; the period must hold 7";
+                rules::between(&field, spacing, 1e-4, continuum.length / 7.2, remedy)?;
             }
             check_time(&path, runs.duration, runs.averaging_time)?;
         }

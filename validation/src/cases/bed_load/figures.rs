@@ -6,8 +6,9 @@ use super::fit::held_out;
 use super::parameters::Stage;
 use super::runs::{BedLoadRun, Formulation, pair_law_name};
 use crate::cases::transport_panel;
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 use crate::reference::TransportFormula;
+use crate::statistics::{BlockProfile, mean};
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let mut figures = Vec::new();
@@ -74,30 +75,23 @@ fn water(records: &[&Record]) -> Figure {
         let velocities = record.data.channel.profile.velocities();
         let above: Vec<usize> = (0..points.len()).filter(|&k| points[k].height > 0.0).collect();
         let error: Vec<f64> = above.iter().map(|&k| velocities[k].standard_error / scale).collect();
-        let values = above
-            .iter()
-            .map(|&k| ((points[k].height + law.origin_offset) / diameter, points[k].velocity / scale))
-            .collect();
-        let differences = above
-            .iter()
-            .map(|&k| (points[k].height / diameter, (points[k].velocity - law.velocity(points[k].height)) / scale))
-            .collect();
+        let in_axes = |z: f64, velocity: f64| ((z + law.origin_offset) / diameter, velocity / scale);
+        let values = above.iter().map(|&k| in_axes(points[k].height, points[k].velocity));
+        let difference = |z: f64, velocity: f64| (z / diameter, (velocity - law.velocity(z)) / scale);
+        let differences = above.iter().map(|&k| difference(points[k].height, points[k].velocity));
         if slot == 0 {
             let heights = (1..=80).map(|k| 0.1 * diameter * libm::pow(92.0, f64::from(k) / 80.0));
-            let exact = heights.map(|z| ((z + law.origin_offset) / diameter, law.velocity(z) / scale)).collect();
-            profile.series.push(Series::new("clear water", Mark::Reference, 0, exact));
+            profile.reference("clear water", heights.map(|z| in_axes(z, law.velocity(z))));
         }
-        profile
-            .series
-            .push(Series { error: error.clone(), ..Series::new(&percent(run), Mark::LinePoints, slot, values) });
-        deficit.series.push(Series { error, ..Series::new("", Mark::LinePoints, slot, differences) });
+        profile.line_points(&percent(run), slot, values).error.clone_from(&error);
+        deficit.line_points("", slot, differences).error = error;
     }
     Figure::new(
         "water",
         "Mean velocity of the water over the moving bed in half-logarithmic axes, beside clear water over a fixed \
-                  bed of the same grains, a straight line with the offset z_0 of its law, and the difference of the two; \
-                  bars are statistical errors from blocks of time. \
-                  Figures 7 to 9 of the paper show two layers of different slope at 3 % and three at 5 %.",
+         bed of the same grains, a straight line with the offset z_0 of its law, and the difference of the two; bars \
+         are statistical errors from blocks of time. Figures 7 to 9 of the paper show two layers of different slope \
+         at 3 % and three at 5 %.",
         vec![profile, deficit],
     )
 }
@@ -110,17 +104,17 @@ fn sediment(records: &[&Record]) -> Figure {
         let diameter = run.materials.grain_diameter;
         let points = record.data.sediment.points();
         let moving = points.iter().filter(|point| point.velocity > 1e-5);
-        let values = moving.map(|point| (point.velocity, point.height / diameter)).collect();
-        velocity.series.push(Series::new(&percent(run), Mark::LinePoints, slot, values));
-        let forces = record.data.drag_profile().iter().map(|(z, force)| (*force, z / diameter)).collect();
-        drag.series.push(Series::new("", Mark::LinePoints, slot, forces));
+        let values = moving.map(|point| (point.velocity, point.height / diameter));
+        velocity.line_points(&percent(run), slot, values);
+        let forces = record.data.drag_profile().into_iter().map(|(z, force)| (force, z / diameter));
+        drag.line_points("", slot, forces);
     }
     Figure::new(
         "sediment",
-        "Mean velocity of the grains and drag on them per volume. Figures 10 to 13 of the paper show velocities \
-                  that are concave above the bed's top and decay below it, and a drag that peaks near the top. With one \
-                  particle a grain and friction on the overburden, only the top row moves at small slopes: the tail below \
-                  is not reproduced.",
+        "Mean velocity of the grains and drag on them per volume. Figures 10 to 13 of the paper show velocities that \
+         are concave above the bed's top and decay below it, and a drag that peaks near the top. With one particle a \
+         grain and friction on the overburden, only the top row moves at small slopes: the tail below is not \
+         reproduced.",
         vec![velocity, drag],
     )
 }
@@ -128,8 +122,8 @@ fn sediment(records: &[&Record]) -> Figure {
 /// A stage of `continuum` against the 1-D layer.
 fn against_layer(stage: Stage, records: &[&Record]) -> Figure {
     let mut water = Panel::new("", Axis::linear("u_f/u_* [-]"), Axis::linear("z [mm]"));
-    let near = || Axis { limits: Some((-8.0, 12.0)), ..Axis::linear("z [mm]") };
-    let mut close = Panel::new("", Axis { limits: Some((0.0, 12.0)), ..Axis::linear("u_f/u_* [-]") }, near());
+    let near = || Axis::linear("z [mm]").between(-8.0, 12.0);
+    let mut close = Panel::new("", Axis::linear("u_f/u_* [-]").between(0.0, 12.0), near());
     let mut grains = Panel::new("", Axis::linear("u_s/u_* [-]"), near());
     let mut fraction = Panel::new("", Axis::linear("φ [-]"), near());
     for (slot, (run, record)) in records.iter().enumerate() {
@@ -142,20 +136,20 @@ fn against_layer(stage: Stage, records: &[&Record]) -> Figure {
         let with_grains = |k: usize| layer.solid_fraction[k] > 0.0;
         let name = if slot == 0 { "1-D layer" } else { "" };
         let exact = curve(&layer.fluid_velocity, scale, &|_| true);
-        water.series.push(Series::new(name, Mark::Reference, slot, exact.clone()));
-        close.series.push(Series::new("", Mark::Reference, slot, exact));
-        grains.series.push(Series::new("", Mark::Reference, slot, curve(&layer.grain_velocity, scale, &with_grains)));
-        fraction.series.push(Series::new("", Mark::Reference, slot, curve(&layer.solid_fraction, 1.0, &|_| true)));
-        let of = |points: Vec<crate::cases::channel::ProfilePoint>| -> Vec<(f64, f64)> {
-            points.iter().map(|point| (point.velocity / scale, 1e3 * point.height)).collect()
+        water.reference(name, exact.clone());
+        close.reference("", exact);
+        grains.reference("", curve(&layer.grain_velocity, scale, &with_grains));
+        fraction.reference("", curve(&layer.solid_fraction, 1.0, &|_| true));
+        let of = |profile: &BlockProfile| -> Vec<(f64, f64)> {
+            profile.points().iter().map(|point| (point.velocity / scale, 1e3 * point.height)).collect()
         };
-        let own = of(record.data.channel.profile.points());
-        water.series.push(Series::new(&label(run), Mark::Points, slot, own.clone()));
-        close.series.push(Series::new("", Mark::Points, slot, own));
-        grains.series.push(Series::new("", Mark::Points, slot, of(record.data.sediment.points())));
+        let own = of(&record.data.channel.profile);
+        water.points(&label(run), slot, own.clone());
+        close.points("", slot, own);
+        grains.points("", slot, of(&record.data.sediment));
         if stage == Stage::Dilating {
-            let own = record.data.solid_fraction().iter().map(|(z, value)| (*value, 1e3 * z)).collect();
-            fraction.series.push(Series::new("", Mark::Points, slot, own));
+            let own = record.data.solid_fraction().into_iter().map(|(z, value)| (value, 1e3 * z));
+            fraction.points("", slot, own);
         }
     }
     let panels = match stage {
@@ -163,16 +157,12 @@ fn against_layer(stage: Stage, records: &[&Record]) -> Figure {
         Stage::Frozen => vec![water, close, grains],
         Stage::Dilating => vec![water, close, grains, fraction],
     };
-    Figure {
-        name: format!("layer-{}", stage.name()),
-        caption: format!(
-            "Stage `{}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is \
-             independent: the whole depth of the water and the neighbourhood of the bed.",
-            stage.name()
-        ),
-        panels,
-        columns: 2,
-    }
+    let name = stage.name();
+    let caption = format!(
+        "Stage `{name}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is \
+         independent: the whole depth of the water and the neighbourhood of the bed."
+    );
+    Figure::new(&format!("layer-{name}"), &caption, panels)
 }
 
 fn has_judged_law(run: &BedLoadRun) -> bool {
@@ -194,14 +184,11 @@ fn transport(records: &[Record]) -> Figure {
         let points: Vec<(f64, f64)> = records
             .iter()
             .filter(|(run, _)| belongs(run))
-            .map(|(run, record)| {
-                let values = record.data.transport_in_window();
-                (run.stream().shields_number(), values.iter().sum::<f64>() / values.len() as f64)
-            })
+            .map(|(run, record)| (run.stream().shields_number(), mean(&record.data.transport_in_window())))
             .filter(|(_, value)| *value > 0.0)
             .collect();
         if !points.is_empty() {
-            panel.series.push(Series::new(name, Mark::Points, slot, points));
+            panel.points(name, slot, points);
         }
     }
     let held: Vec<(f64, f64)> = held_out(records)
@@ -209,12 +196,12 @@ fn transport(records: &[Record]) -> Figure {
         .map(|fit| (fit.shields_number, fit.ratio * TransportFormula::WongParker.transport(fit.shields_number)))
         .collect();
     if !held.is_empty() {
-        panel.series.push(Series::new("stabilised, slope held out", Mark::Points, 7, held));
+        panel.points("stabilised, slope held out", 7, held);
     }
     Figure::new(
         "transport",
         "Bed-load transport over the Shields number against published formulas. The band about Wong & Parker's \
-                  formula is the scatter of the experiments behind it.",
+         formula is the scatter of the experiments behind it.",
         vec![panel],
     )
 }
@@ -227,8 +214,8 @@ fn over_time(records: &[Record]) -> Figure {
         let data = &record.data;
         let mean = run.clear_water().mean_velocity();
         let series = &data.channel.series;
-        velocity.series.push(Series::new(&label(run), Mark::Line, slot, series.curve(&data.stream_velocity, mean)));
-        rate.series.push(Series::new("", Mark::Line, slot, series.curve(&data.transport, 1.0)));
+        velocity.line(&label(run), slot, series.curve(&data.stream_velocity, mean));
+        rate.line("", slot, series.curve(&data.transport, 1.0));
     }
     Figure::new(
         "over-time",

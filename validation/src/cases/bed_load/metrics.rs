@@ -76,11 +76,8 @@ pub(super) fn common(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recor
     let mean = run.clear_water().mean_velocity();
     metrics.push(transport(run, record));
     metrics.push(
-        channel::observed(STREAM_VELOCITY, &variant, data.channel.average(&data.stream_velocity), 1.0 / mean).against(
-            Some(1.0),
-            "clear water over a fixed bed",
-            Confidence::Exact,
-        ),
+        channel::observed(STREAM_VELOCITY, &variant, data.channel.average(&data.stream_velocity), 1.0 / mean)
+            .exactly(1.0, "clear water over a fixed bed"),
     );
     metrics.push(channel::velocity_drift(&variant, drift(run, data), "stream's velocity"));
 }
@@ -101,10 +98,7 @@ fn printed(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoa
     metrics.push(END_TIME.of(&variant, record.simulated_time).with_snapshot_tolerance(0.05, 0.0));
     let highest = data.channel.series.highest.iter().copied().fold(0.0, f64::max);
     metrics.push(
-        HIGHEST_PARTICLE
-            .of(&variant, highest)
-            .against(Some(1.0), "the depth of the water", Confidence::Exact)
-            .with_snapshot_tolerance(0.1, 0.0),
+        HIGHEST_PARTICLE.of(&variant, highest).exactly(1.0, "the depth of the water").with_snapshot_tolerance(0.1, 0.0),
     );
     let last = data.transport.last().copied().unwrap_or(f64::NAN);
     let formula = TransportFormula::WongParker;
@@ -137,7 +131,7 @@ pub(super) fn grains(metrics: &mut Vec<Metric>, run: &BedLoadRun, data: &BedLoad
     for (quantity, value, reference) in values {
         let metric = quantity.of(&variant, value).with_snapshot_tolerance(0.1, 0.5);
         metrics.push(match reference {
-            Some(reference) => metric.against(Some(reference), source, Confidence::Exact),
+            Some(reference) => metric.exactly(reference, source),
             None => metric,
         });
     }
@@ -172,8 +166,7 @@ fn continuum(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedL
     let water = stage != Stage::Dilating;
     let profile = &data.channel.profile;
     let rms = profile.estimate(|points| profiles::fluid_rms(run, points, layer));
-    let metric =
-        channel::observed(FLUID_VELOCITY_RMS, &variant, rms, 1.0).against(Some(0.0), source, Confidence::Exact);
+    let metric = channel::observed(FLUID_VELOCITY_RMS, &variant, rms, 1.0).exactly(0.0, source);
     metrics.push(gated(
         metric,
         water,
@@ -181,15 +174,13 @@ fn continuum(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedL
         "a profile shifted by a fifth of a spacing of 1 mm where it is steepest, 1.4 u_* a mm",
     ));
     let mean = profile.estimate(|points| profiles::fluid_mean(run, points, layer));
-    let metric =
-        channel::observed(FLUID_VELOCITY_MEAN, &variant, mean, 1.0).against(Some(1.0), source, Confidence::Exact);
+    let metric = channel::observed(FLUID_VELOCITY_MEAN, &variant, mean, 1.0).exactly(1.0, source);
     metrics.push(gated(metric, water, Limit::Within(0.97, 1.03), "the same shift over a depth mean of 10 u_*"));
     if stage == Stage::Porous {
         return;
     }
     let rms = data.sediment.estimate(|points| profiles::grain_rms(run, points, layer));
-    let metric =
-        channel::observed(GRAIN_VELOCITY_RMS, &variant, rms, 1.0).against(Some(0.0), source, Confidence::Exact);
+    let metric = channel::observed(GRAIN_VELOCITY_RMS, &variant, rms, 1.0).exactly(0.0, source);
     metrics.push(gated(
         metric,
         stage == Stage::Frozen,
@@ -202,11 +193,7 @@ fn continuum(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedL
         _ if run.slope < 0.025 => 0.25,
         _ => 0.15,
     };
-    let metric = channel::observed(TRANSPORT_RATIO, &variant, ratio, 1.0 / layer.transport()).against(
-        Some(1.0),
-        source,
-        Confidence::Exact,
-    );
+    let metric = channel::observed(TRANSPORT_RATIO, &variant, ratio, 1.0 / layer.transport()).exactly(1.0, source);
     let limit = Limit::Within(1.0 - within, 1.0 + within);
     metrics.push(gated(
         metric,

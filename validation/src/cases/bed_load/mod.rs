@@ -29,7 +29,6 @@ use crate::output::Table;
 #[derive(Debug)]
 pub struct BedLoad;
 
-/// A run with what it left behind.
 type Record = RecordOf<BedLoadParameters>;
 
 impl Case for BedLoad {

@@ -170,11 +170,7 @@ pub(super) fn grain_table(variant: &Variant, data: &BedLoadObservation) -> Optio
         vec![point.height, point.velocity, error.standard_error, fraction[k].1, drag[k].1]
     });
     let names = ["z [m]", "u_s [m/s]", "standard error of u_s [m/s]", "solid fraction [-]", "drag [N/m³]"];
-    Some(Table {
-        name: format!("grains-{stem}"),
-        columns: names.iter().map(|name| (*name).to_owned()).collect(),
-        rows: rows.collect(),
-    })
+    Some(Table::of_rows(format!("grains-{stem}"), &names, rows))
 }
 
 #[cfg(test)]

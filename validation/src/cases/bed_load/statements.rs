@@ -66,63 +66,52 @@ pub(super) fn stabilised(
     record: &Recorded<BedLoadObservation>,
     bed: &Grains,
 ) {
-    let variant = run.variant();
-    let data = &record.data;
+    let (variant, data) = (run.variant(), &record.data);
     let outer = record.clone().map(|data| data.channel);
-    metrics.push(channel::particles_lost(&variant, &outer));
-    metrics.push(channel::momentum_residual(&variant, &outer));
+    metrics.extend([channel::particles_lost(&variant, &outer), channel::momentum_residual(&variant, &outer)]);
     common(metrics, run, record);
     let judged = run.averaging_time >= JUDGED_FROM && GENTLE.is_of(run);
+    let observed = |quantity, estimate, factor| channel::observed(quantity, &variant, estimate, factor);
     // of the fitted slopes the transport says nothing
     if judged && bed.material == Rheology::CoulombBingham(FITTED) {
         let formula = TransportFormula::WongParker;
         let reference = formula.transport(run.stream().shields_number());
-        let ratio =
-            channel::observed(TRANSPORT_RATIO, &variant, data.channel.average(&data.transport), 1.0 / reference);
+        let ratio = observed(TRANSPORT_RATIO, data.channel.average(&data.transport), 1.0 / reference);
         let reason = "yield stress and viscosity are fitted to the two other slopes";
         let metric = ratio.against(Some(1.0), formula.name(), formula.confidence()).of_kind(Kind::Validation);
         metrics.push(metric.gated(Limit::Within(HONEST_BAND.0, HONEST_BAND.1), reason));
     }
-    let gated = |metric: Metric, limit, reason: &str| if judged { metric.gated(limit, reason) } else { metric };
+    let gate = |limit: Limit| judged.then_some(limit);
     let profile = &data.channel.profile;
     let mut slopes = Vec::new();
     for (lower, upper) in LAYERS {
         let estimate = profile.estimate(|points| profiles::semi_log_slope(run, points, lower, upper));
         slopes.push(estimate.value);
         let named = variant.clone().and("height", 1e3 * lower..=1e3 * upper);
-        metrics.push(channel::observed(SEMI_LOG_SLOPE, &named, estimate, 1.0).against(
-            Some(1.0),
-            "u_*/κ, fitted to u over ln(z + z_0)",
-            Confidence::Exact,
-        ));
+        let slope = channel::observed(SEMI_LOG_SLOPE, &named, estimate, 1.0);
+        metrics.push(slope.exactly(1.0, "u_*/κ, fitted to u over ln(z + z_0)"));
     }
-    let ratio = LAYER_SLOPE_RATIO
-        .of(&variant, slopes[0] / slopes[3])
-        .against(None, "statement of the paper: two layers at 3 %, the lower one less steep", Confidence::Medium)
-        .with_snapshot_tolerance(0.1, 0.0);
-    metrics.push(gated(
-        ratio,
-        Limit::AtMost(0.8),
-        "two layers: the lower semi-logarithmic slope is smaller by a fifth",
-    ));
-    layers(metrics, run, record);
-    let near = profile.estimate(|points| profiles::deficit(run, points, 2.5e-3));
-    let deficit = channel::observed(NEAR_BED_DEFICIT, &variant, near, 1.0).against(
-        None,
-        "statement of the paper: near the bed slower than clear water",
-        Confidence::Medium,
+    let stated = |metric: Metric, value: Option<f64>, statement: &str| {
+        metric.against(value, &format!("statement of the paper: {statement}"), Confidence::Medium)
+    };
+    let ratio = LAYER_SLOPE_RATIO.of(&variant, slopes[0] / slopes[3]).with_snapshot_tolerance(0.1, 0.0);
+    let reason = "two layers: the lower semi-logarithmic slope is smaller by a fifth";
+    metrics.push(
+        stated(ratio, None, "two layers at 3 %, the lower one less steep").gated_by(gate(Limit::AtMost(0.8)), reason),
     );
-    metrics.push(gated(deficit, Limit::AtMost(-0.1), "slower than clear water by a tenth of u_*"));
-    let far = profile.estimate(|points| profiles::deficit(run, points, 0.5 * run.materials.depth));
-    metrics.push(channel::observed(OUTER_DEFICIT, &variant, far, 1.0).against(
-        Some(0.0),
-        "statement of the paper: above as fast as clear water",
-        Confidence::Medium,
-    ));
+    layers(metrics, run, record);
+    let near = observed(NEAR_BED_DEFICIT, profile.estimate(|points| profiles::deficit(run, points, 2.5e-3)), 1.0);
+    let middle = 0.5 * run.materials.depth;
+    let far = observed(OUTER_DEFICIT, profile.estimate(|points| profiles::deficit(run, points, middle)), 1.0);
     let above = profile.estimate(|points| profiles::sheared_borders(run, points).1);
-    metrics.push(channel::observed(SHEARED_UP_TO, &variant, above, 1e3));
     let below = profile.estimate(|points| profiles::sheared_borders(run, points).0);
-    metrics.push(channel::observed(SHEARED_FROM, &variant, below, 1e3));
+    metrics.extend([
+        stated(near, None, "near the bed slower than clear water")
+            .gated_by(gate(Limit::AtMost(-0.1)), "slower than clear water by a tenth of u_*"),
+        stated(far, Some(0.0), "above as fast as clear water"),
+        observed(SHEARED_UP_TO, above, 1e3),
+        observed(SHEARED_FROM, below, 1e3),
+    ]);
     grains(metrics, run, data);
 }
 
@@ -151,7 +140,7 @@ fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoad
         };
         let named = variant.clone().and("layer", layer + 1);
         let slope = of(&|fit| fit.slopes[layer] / scale);
-        metrics.push(channel::observed(LAYER_SLOPE, &named, slope, 1.0).against(Some(1.0), "u_*/κ", Confidence::Exact));
+        metrics.push(channel::observed(LAYER_SLOPE, &named, slope, 1.0).exactly(1.0, "u_*/κ"));
         if layer + 1 < count {
             let border = of(&|fit| profiles::height_of(run, fit.breaks[layer]));
             metrics.push(channel::observed(LAYER_BORDER, &named, border, 1.0 / run.materials.grain_diameter));

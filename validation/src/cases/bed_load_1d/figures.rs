@@ -4,7 +4,7 @@ use super::Record;
 use super::metrics::{difference, literature, log_law, of};
 use super::runs::{BedLoad1dRun, Purpose};
 use crate::cases::transport_panel;
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 use crate::reference::bed_load_layer::LayerState;
 
 type Layer<'a> = (&'a BedLoad1dRun, &'a LayerState);
@@ -59,30 +59,29 @@ fn profiles(layers: &[Layer<'_>]) -> Figure {
             cells(&drag, &|_| true),
         ];
         for (place, (panel, curve)) in panels.iter_mut().zip(curves).enumerate() {
-            panel.series.push(Series::new(if place == 0 { &label } else { "" }, Mark::Line, slot, curve));
+            panel.line(if place == 0 { &label } else { "" }, slot, curve);
         }
         let faces = |values: &[f64]| -> Vec<(f64, f64)> {
             values.iter().zip(&state.face).map(|(tau, z)| (tau / stream.bed_stress(), 1e3 * z)).collect()
         };
         let name = |text: &str| if slot == 0 { text.to_owned() } else { String::new() };
-        panels[5].series.push(Series::new(&name("τ_f"), Mark::Line, slot, faces(&state.fluid_stress)));
-        panels[5].series.push(Series::new(&name("τ_s"), Mark::LinePoints, slot, faces(&state.grain_stress)));
+        panels[5].line(&name("τ_f"), slot, faces(&state.fluid_stress));
+        panels[5].line_points(&name("τ_s"), slot, faces(&state.grain_stress));
         let weight = carried(state);
-        panels[5].series.push(Series::new(&name("g sinθ ∫ ρ dz"), Mark::Reference, slot, faces(&weight)));
+        panels[5].reference(&name("g sinθ ∫ ρ dz"), faces(&weight));
     }
     let (run, state) = layers[0];
     let law =
         state.height.iter().filter(|z| **z > run.stream.grain_diameter / 20.0).map(|&z| (log_law(run, z), 1e3 * z));
-    panels[0].series.push(Series::new("clear water, z_0 = d/30", Mark::Reference, 0, law.collect()));
-    Figure {
-        name: "profiles".to_owned(),
-        caption: "Steady layers on the slopes. The water's velocity in half-logarithmic axes bends where grains move and \
-                  has the slope of clear water above; the grains' velocity decays exponentially in the bed; the drag peaks \
-                  where the moving grains are dense; the stresses of both phases together carry the weight above."
-            .to_owned(),
-        panels: panels.into(),
-        columns: 2,
-    }
+    panels[0].reference("clear water, z_0 = d/30", law);
+    Figure::new(
+        "profiles",
+        "Steady layers on the slopes. The water's velocity in half-logarithmic axes bends where grains move and has \
+         the slope of clear water above; the grains' velocity decays exponentially in the bed; the drag peaks where \
+         the moving grains are dense; the stresses of both phases together carry the weight above.",
+        panels.into(),
+    )
+    .in_columns(2)
 }
 
 /// g sinθ ∫_z ρ dz at the faces `[Pa]`.
@@ -99,12 +98,12 @@ fn carried(state: &LayerState) -> Vec<f64> {
 
 fn transport(layers: &[Layer<'_>]) -> Figure {
     let mut panel = transport_panel::formulas();
-    let points = layers.iter().map(|(run, state)| (run.stream.shields_number(), state.transport())).collect();
-    panel.series.push(Series::new("layer, nothing fitted", Mark::Points, 0, points));
+    let points = layers.iter().map(|(run, state)| (run.stream.shields_number(), state.transport()));
+    panel.points("layer, nothing fitted", 0, points);
     Figure::new(
         "transport",
         "Bed-load transport over the Shields number: the layers with the literature's closures and published \
-                  formulas. The band about Wong & Parker's formula is the scatter of the experiments behind it.",
+         formulas. The band about Wong & Parker's formula is the scatter of the experiments behind it.",
         vec![panel],
     )
 }
@@ -132,23 +131,23 @@ fn convergence(records: &[Record], layers: &[Layer<'_>]) -> Option<Figure> {
             {
                 let end = first.1 * (last.0 / first.0) * (last.0 / first.0);
                 let guide = vec![*first, (last.0, end)];
-                panel.series.push(Series::new("second order", Mark::Reference, 0, guide));
+                panel.reference("second order", guide);
             }
             if !points.is_empty() {
-                panel.series.push(Series::new(&percent(run), Mark::LinePoints, slot, points));
+                panel.line_points(&percent(run), slot, points);
             }
         }
         if !panel.series.is_empty() {
             panels.push(panel);
         }
     }
-    (!panels.is_empty()).then(|| Figure {
-        name: "convergence".to_owned(),
-        caption:
-            "Difference between each height of cells and half of it, over that height, for the transport of dilating layers \
-                  and for the profiles of layers with a given smooth fraction."
-                .to_owned(),
-        panels,
-        columns: 2,
+    (!panels.is_empty()).then(|| {
+        Figure::new(
+            "convergence",
+            "Difference between each height of cells and half of it, over that height, for the transport of dilating \
+         layers and for the profiles of layers with a given smooth fraction.",
+            panels,
+        )
+        .in_columns(2)
     })
 }

@@ -1,30 +1,23 @@
 //! Quantities and metrics that the cases of a channel share.
 
 use super::ChannelObservation;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
+use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
 use crate::observation::Recorded;
 use crate::statistics::{Estimate, block_average, linear_fit};
 
-/// Particles that are no longer in the channel.
-pub const PARTICLES_LOST: Quantity =
-    Quantity::verified("particles_lost", "-", "particles that ended below the floor or far above the surface");
-/// How well momentum along the floor closes.
-pub const MOMENTUM_RESIDUAL: Quantity = Quantity::verified(
-    "momentum_residual",
-    "-",
-    "change of momentum less gravity and friction of the bed, over the impulse of the slope",
-);
-/// Whether water keeps its volume.
-pub const HEIGHT_CHANGE: Quantity = Quantity::verified("height_change", "%", "mean height over half the depth, less 1");
-/// Whether the pressure is hydrostatic.
-pub const PRESSURE_L2: Quantity =
-    Quantity::verified("pressure_l2", "%", "relative L2 of the pressure against the hydrostatic one");
-/// Whether the bed carries the flow.
-pub const BED_SHEAR: Quantity =
-    Quantity::verified("bed_shear", "-", "friction of the bed over the weight's part along it");
-/// How far from stationary a flow is.
-pub const VELOCITY_DRIFT: Quantity =
-    Quantity::verified("velocity_drift", "%", "relative change of the mean velocity over U/(2 g i) in the window");
+quantities! {
+    shared pub(in crate::cases)
+    PARTICLES_LOST:
+        verified("particles_lost", "-", "particles that ended below the floor or far above the surface"),
+    MOMENTUM_RESIDUAL: verified(
+        "momentum_residual", "-",
+        "change of momentum less gravity and friction of the bed, over the impulse of the slope",
+    ),
+    HEIGHT_CHANGE: verified("height_change", "%", "mean height over half the depth, less 1"),
+    PRESSURE_L2: verified("pressure_l2", "%", "relative L2 of the pressure against the hydrostatic one"),
+    BED_SHEAR: verified("bed_shear", "-", "friction of the bed over the weight's part along it"),
+    VELOCITY_DRIFT: verified("velocity_drift", "%", "relative change of the mean velocity over U/(2 g i) in the window"),
+}
 
 /// Standard errors that a value may move before a change is reported `[-]`.
 const SNAPSHOT_ERRORS: f64 = 2.0;
@@ -58,7 +51,7 @@ pub fn observed(quantity: Quantity, variant: &Variant, estimate: Estimate, facto
 pub fn particles_lost(variant: &Variant, record: &Recorded<ChannelObservation>) -> Metric {
     PARTICLES_LOST
         .of(variant, record.data.particles_lost as f64)
-        .against(Some(0.0), "no particle passes a wall", Confidence::Exact)
+        .exactly(0.0, "no particle passes a wall")
         .gated(Limit::AtMost(0.0), "a particle below the floor is lost mass")
 }
 
@@ -67,11 +60,7 @@ pub fn particles_lost(variant: &Variant, record: &Recorded<ChannelObservation>) 
 pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation>) -> Metric {
     MOMENTUM_RESIDUAL
         .of(variant, record.data.momentum.residual())
-        .against(
-            Some(0.0),
-            "change of momentum = gravity − friction of the bed, summed over every step",
-            Confidence::Exact,
-        )
+        .exactly(0.0, "change of momentum = gravity − friction of the bed, summed over every step")
         .gated(
             Limit::Within(-1e-6, 1e-6),
             "pairs exchange equal and opposite impulses: rounding, not a tolerance of a solve",
@@ -84,33 +73,26 @@ pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation
 pub fn height_change(variant: &Variant, data: &ChannelObservation, source: &str) -> Metric {
     let height = data.average(&data.series.relative_height);
     let change = Estimate { value: height.value - 1.0, ..height };
-    observed(HEIGHT_CHANGE, variant, change, 100.0).against(Some(0.0), source, Confidence::Exact)
+    observed(HEIGHT_CHANGE, variant, change, 100.0).exactly(0.0, source)
 }
 
 /// Relative L2 of the pressure `[%]`.
 #[must_use]
 pub fn pressure_l2(variant: &Variant, data: &ChannelObservation) -> Metric {
     let source = "hydrostatic pressure ρ g (h − z) at every particle";
-    observed(PRESSURE_L2, variant, data.average(&data.series.pressure_error), 100.0).against(
-        Some(0.0),
-        source,
-        Confidence::Exact,
-    )
+    observed(PRESSURE_L2, variant, data.average(&data.series.pressure_error), 100.0).exactly(0.0, source)
 }
 
 /// Friction of the bed over the weight's part along it, which is given `[Pa]`.
 #[must_use]
 pub fn bed_shear(variant: &Variant, data: &ChannelObservation, weight: f64) -> Metric {
     let shear = data.average(&data.series.bed_shear);
-    observed(BED_SHEAR, variant, shear, 1.0 / weight).against(Some(1.0), "ρ g h i", Confidence::Exact)
+    observed(BED_SHEAR, variant, shear, 1.0 / weight).exactly(1.0, "ρ g h i")
 }
 
 /// Relative change `[-]` of the velocity of `what` over U/(2 g i).
 #[must_use]
 pub fn velocity_drift(variant: &Variant, change: f64, what: &str) -> Metric {
     let source = format!("change of the {what} over U/(2 g i), by a line through the window");
-    VELOCITY_DRIFT
-        .of(variant, 100.0 * change)
-        .against(Some(0.0), &source, Confidence::Exact)
-        .with_snapshot_tolerance(0.2, 0.1)
+    VELOCITY_DRIFT.of(variant, 100.0 * change).exactly(0.0, &source).with_snapshot_tolerance(0.2, 0.1)
 }

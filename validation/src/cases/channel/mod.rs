@@ -18,7 +18,6 @@
 mod closure;
 mod metrics;
 mod probe;
-mod profile;
 mod scene;
 mod stationarity;
 mod tables;
@@ -26,20 +25,18 @@ mod tables;
 mod tests;
 mod water;
 
+pub use crate::statistics::{BlockProfile, ProfilePoint};
 pub use closure::TurbulenceClosure;
-pub use metrics::{
-    BED_SHEAR, HEIGHT_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST, PRESSURE_L2, VELOCITY_DRIFT, bed_shear, height_change,
-    momentum_residual, observed, particles_lost, pressure_l2, velocity_drift,
-};
+pub(super) use metrics::{BED_SHEAR, HEIGHT_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST, PRESSURE_L2, VELOCITY_DRIFT};
+pub use metrics::{bed_shear, height_change, momentum_residual, observed, particles_lost, pressure_l2, velocity_drift};
 pub use probe::{ChannelObservation, ChannelSeries, MomentumBalance};
-pub use profile::{BlockProfile, BlockSums, ProfilePoint};
 pub use scene::Lattice;
 pub use stationarity::Mark;
 pub use tables::{tables, tables_of_runs};
 pub use water::Water;
 
 use crate::case::Progress;
-use crate::cases::recording::Ending;
+use crate::case::recording::Ending;
 use crate::observation::{Frame, Recorded};
 use bagnold_solver::incompressible::{
     Bed, IncompressibleSimulation, ProjectionNumerics, Sediment, SolidFraction, Turbulence,

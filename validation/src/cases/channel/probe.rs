@@ -1,8 +1,8 @@
 //! What a channel leaves behind: time series, and over the averaging window a profile and the balance of momentum.
 
-use super::profile::BlockProfile;
 use super::stationarity::{Mark, Stationarity};
 use super::{Channel, Until};
+use crate::statistics::BlockProfile;
 use bagnold_solver::incompressible::IncompressibleSimulation;
 use bagnold_solver::vector::Vector;
 use serde::{Deserialize, Serialize};

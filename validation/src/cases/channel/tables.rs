@@ -16,45 +16,23 @@ pub fn tables_of_runs<R: Run>(records: &[(R, Recorded<ChannelObservation>)]) -> 
 #[must_use]
 pub fn tables(variant: &Variant, data: &ChannelObservation) -> Vec<Table> {
     let stem = variant.file_name();
-    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-    let series = &data.series;
-    let profile = data.profile.points().into_iter().zip(data.profile.velocities());
+    let (series, profile) = (&data.series, data.profile.points().into_iter().zip(data.profile.velocities()));
+    let headings = ["z [m]", "u [m/s]", "standard error of u [m/s]", "p [Pa]", "samples [-]"];
+    let rows = profile.map(|(point, velocity)| {
+        vec![point.height, point.velocity, velocity.standard_error, point.pressure, point.samples]
+    });
+    let columns: [(&str, &[f64]); 7] = [
+        ("t [s]", &series.time),
+        ("mean u [m/s]", &series.mean_velocity),
+        ("relative height [-]", &series.relative_height),
+        ("highest [-]", &series.highest),
+        ("rms vertical velocity [m/s]", &series.rms_vertical_velocity),
+        ("bed shear [Pa]", &series.bed_shear),
+        ("pressure error [-]", &series.pressure_error),
+    ];
     let mut tables = vec![
-        Table {
-            name: format!("profile-{stem}"),
-            columns: names(&["z [m]", "u [m/s]", "standard error of u [m/s]", "p [Pa]", "samples [-]"]),
-            rows: profile
-                .map(|(point, velocity)| {
-                    vec![point.height, point.velocity, velocity.standard_error, point.pressure, point.samples]
-                })
-                .collect(),
-        },
-        Table {
-            name: format!("series-{stem}"),
-            columns: names(&[
-                "t [s]",
-                "mean u [m/s]",
-                "relative height [-]",
-                "highest [-]",
-                "rms vertical velocity [m/s]",
-                "bed shear [Pa]",
-                "pressure error [-]",
-            ]),
-            rows: (0..series.time.len())
-                .map(|k| {
-                    let columns = [
-                        &series.time,
-                        &series.mean_velocity,
-                        &series.relative_height,
-                        &series.highest,
-                        &series.rms_vertical_velocity,
-                        &series.bed_shear,
-                        &series.pressure_error,
-                    ];
-                    columns.iter().map(|column| column[k]).collect()
-                })
-                .collect(),
-        },
+        Table::of_rows(format!("profile-{stem}"), &headings, rows),
+        Table::of_columns(format!("series-{stem}"), &columns),
     ];
     // a run that diverged before its averaging window has no profile
     tables.retain(|table| !table.rows.is_empty());

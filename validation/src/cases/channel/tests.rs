@@ -1,13 +1,8 @@
 //! A small film through scene, probe and record.
 
 use super::*;
+use crate::case::Silent;
 use crate::observation::Outcome;
-
-struct Unseen;
-
-impl Progress for Unseen {
-    fn advance(&self, _: f64, _: f64, _: f64) {}
-}
 
 const DEPTH: f64 = 0.012;
 const SLOPE: f64 = 0.03;
@@ -35,7 +30,7 @@ fn film(until: Until, window: f64) -> Channel<'static> {
 fn momentum_closes_and_samples_are_evenly_spaced() {
     let mut seen = (0, 0);
     let record = film(Until::Time(0.1), 0.05)
-        .run_observed(&Unseen, |simulation, in_window| {
+        .run_observed(&Silent, |simulation, in_window| {
             assert_eq!(simulation.fluid().0.len(), 36);
             seen.0 += 1;
             seen.1 += usize::from(in_window);
@@ -59,7 +54,7 @@ fn momentum_closes_and_samples_are_evenly_spaced() {
 #[test]
 fn a_stationary_flow_ends_one_window_after_the_criterion() {
     let until = Until::Stationary { tolerance: 0.1, checks: 2, at_most: 10.0 };
-    let record = film(until, 0.02).run(&Unseen).expect("a valid scene");
+    let record = film(until, 0.02).run(&Silent).expect("a valid scene");
     let data = &record.data;
     assert!(matches!(record.outcome, Outcome::Stopped { .. }), "{:?}", record.outcome);
     assert_eq!(data.marks.len(), 3);
@@ -67,7 +62,7 @@ fn a_stationary_flow_ends_one_window_after_the_criterion() {
     assert!((data.window.1 - data.window.0 - 0.02).abs() < 1.1e-3);
 
     let never = Until::Stationary { tolerance: 0.1, checks: 2, at_most: 0.01 };
-    let record = film(never, 0.02).run(&Unseen).expect("a valid scene");
+    let record = film(never, 0.02).run(&Silent).expect("a valid scene");
     assert_eq!(record.outcome, Outcome::Finished);
     assert_eq!(record.data.stationary_since, None);
     assert!((record.data.window.0 - 0.01).abs() < 1e-9);

@@ -1,23 +1,17 @@
 //! The case's figures.
 
 use super::Record;
-use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
-
-pub(super) fn all(records: &[Record]) -> Vec<Figure> {
-    vec![profiles(records), over_time(records)]
-}
+use crate::figure::{Axis, Figure, Mark, Panel, Series};
 
 fn label(slope: f64) -> String {
     format!("{} %", (1e4 * slope).round() / 100.0)
 }
 
-fn profiles(records: &[Record]) -> Figure {
+pub(super) fn profiles(records: &[Record]) -> Figure {
     let mut profile = Panel::new("", Axis::logarithmic("z′/z₀ [-]"), Axis::linear("u/u_* [-]"));
     let mut residual = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("(u − u_log)/u_* [-]"));
-    residual
-        .bands
-        .push(Band { label: "limit of the rms".to_owned(), points: vec![(0.1, -0.25, 0.25), (0.9, -0.25, 0.25)] });
-    residual.series.push(Series::new("", Mark::Reference, 0, vec![(0.0, 0.0), (1.0, 0.0)]));
+    residual.band("limit of the rms", [(0.1, -0.25, 0.25), (0.9, -0.25, 0.25)]);
+    residual.reference("", [(0.0, 0.0), (1.0, 0.0)]);
     for (slot, (run, record)) in records.iter().enumerate() {
         let law = run.reference();
         let scale = law.friction_velocity();
@@ -25,31 +19,27 @@ fn profiles(records: &[Record]) -> Figure {
         if slot == 0 {
             // one line for all slopes
             let curve = (0..=60).map(|k| law.depth * f64::from(k) / 60.0);
-            let exact = curve.map(|z| (distance(z), law.velocity(z) / scale)).collect();
-            profile.series.push(Series::new("logarithmic law", Mark::Reference, 0, exact));
+            let exact = curve.map(|z| (distance(z), law.velocity(z) / scale));
+            profile.reference("logarithmic law", exact);
         }
         let (points, velocities) = (record.data.profile.points(), record.data.profile.velocities());
         let error: Vec<f64> = velocities.iter().map(|velocity| velocity.standard_error / scale).collect();
-        let values = points.iter().map(|point| (distance(point.height), point.velocity / scale)).collect();
-        let deviations = points
-            .iter()
-            .map(|point| (point.height / law.depth, (point.velocity - law.velocity(point.height)) / scale))
-            .collect();
-        profile
-            .series
-            .push(Series { error: error.clone(), ..Series::new(&label(run.slope), Mark::Points, slot, values) });
-        residual.series.push(Series { error, ..Series::new("", Mark::LinePoints, slot, deviations) });
+        let values = points.iter().map(|point| (distance(point.height), point.velocity / scale));
+        profile.points(&label(run.slope), slot, values).error.clone_from(&error);
+        let deviation = |z: f64, velocity: f64| (z / law.depth, (velocity - law.velocity(z)) / scale);
+        let deviations = points.iter().map(|point| deviation(point.height, point.velocity));
+        residual.line_points("", slot, deviations).error = error;
     }
     Figure::new(
         "velocity-profile",
         "Mean velocity in units of the friction velocity over the distance from the wall law's origin in units of \
-                  the roughness length, against the logarithmic law, and the difference, both with the statistical error \
-                  from blocks of time. Bins are one spacing high.",
+         the roughness length, against the logarithmic law, and the difference, both with the statistical error from \
+         blocks of time. Bins are one spacing high.",
         vec![profile, residual],
     )
 }
 
-fn over_time(records: &[Record]) -> Figure {
+pub(super) fn over_time(records: &[Record]) -> Figure {
     let mut velocity = Panel::new("", Axis::linear("t [s]"), Axis::linear("U/U_log [-]"));
     let mut shear = Panel::new("", Axis::linear("t [s]"), Axis::linear("bed shear/(ρ g h i) [-]"));
     let mut longest: f64 = 0.0;
@@ -60,25 +50,20 @@ fn over_time(records: &[Record]) -> Figure {
         let series = &data.series;
         longest = longest.max(record.simulated_time);
         let mean = law.mean_velocity();
-        velocity.series.push(Series::new(
-            &label(run.slope),
-            Mark::Line,
-            slot,
-            series.curve(&series.mean_velocity, mean),
-        ));
-        shear.series.push(Series::new("", Mark::Line, slot, series.curve(&series.bed_shear, law.bed_shear_stress())));
+        velocity.line(&label(run.slope), slot, series.curve(&series.mean_velocity, mean));
+        shear.line("", slot, series.curve(&series.bed_shear, law.bed_shear_stress()));
         let marks = data.marks.iter().map(|mark| (mark.time, mark.mean_velocity / mean)).collect();
         intervals.push(Series::new("", Mark::Points, slot, marks));
     }
     velocity.series.extend(intervals.into_iter().filter(|series| !series.points.is_empty()));
     for panel in [&mut velocity, &mut shear] {
-        panel.series.push(Series::new("", Mark::Reference, 0, vec![(0.0, 1.0), (longest, 1.0)]));
+        panel.reference("", [(0.0, 1.0), (longest, 1.0)]);
     }
     Figure::new(
         "stationarity",
         "Depth mean of the velocity over that of the logarithmic law, and the friction of the bed over ρ g h i. \
-                  Points are the ends of the intervals U/(2 g i) of the criterion; the last of them is where the flow \
-                  counts as stationary and the averaging window begins.",
+         Points are the ends of the intervals U/(2 g i) of the criterion; the last of them is where the flow counts \
+         as stationary and the averaging window begins.",
         vec![velocity, shear],
     )
 }

@@ -1,11 +1,10 @@
 //! How the runs are judged.
 
 use super::Record;
-use super::parameters::{ClearWaterRun, Period};
+use super::parameters::Period;
 use crate::case::Run;
-use crate::cases::channel::{self, ChannelObservation, ProfilePoint};
+use crate::cases::channel::{self, ProfilePoint};
 use crate::metric::{Confidence, Limit, Metric, quantities};
-use crate::observation::Recorded;
 use crate::reference::RoughChannel;
 use crate::statistics::linear_fit;
 
@@ -24,67 +23,41 @@ quantities! {
 /// Heights over the depth between which the profile is compared `[-]`.
 const COMPARED: (f64, f64) = (0.1, 0.9);
 
-pub(super) fn all(records: &[Record]) -> Vec<Metric> {
-    let mut metrics = Vec::new();
-    for (run, record) in records {
-        of_run(&mut metrics, run, record);
-    }
-    metrics
-}
-
-fn of_run(metrics: &mut Vec<Metric>, run: &ClearWaterRun, record: &Recorded<ChannelObservation>) {
-    let variant = run.variant();
-    let data = &record.data;
-    let law = run.reference();
-    metrics.push(channel::particles_lost(&variant, record));
-    metrics.push(channel::momentum_residual(&variant, record));
+pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
+    let (variant, data, law) = (run.variant(), &record.data, run.reference());
+    let mut metrics = vec![channel::particles_lost(&variant, record), channel::momentum_residual(&variant, record)];
     let stationary = matches!(run.flow.period, Period::Stationary { .. });
     if let Period::Stationary { at_most, .. } = run.flow.period {
-        let since = data.stationary_since.unwrap_or(f64::NAN);
+        let source = "depth mean changes by less than the tolerance over U/(2 g i), times in a row";
+        let limit = Limit::AtMost(at_most * law.adjustment_time());
+        let since = STATIONARY_AFTER.of(&variant, data.stationary_since.unwrap_or(f64::NAN));
         metrics.push(
-            STATIONARY_AFTER
-                .of(&variant, since)
-                .against(
-                    None,
-                    "depth mean changes by less than the tolerance over U/(2 g i), times in a row",
-                    Confidence::Exact,
-                )
-                .gated(
-                    Limit::AtMost(at_most * law.adjustment_time()),
-                    "averages are those of a stationary flow, or the criterion is not met",
-                )
+            since
+                .against(None, source, Confidence::Exact)
+                .gated(limit, "averages are those of a stationary flow, or the criterion is not met")
                 .with_snapshot_tolerance(0.0, law.adjustment_time()),
         );
     }
     // only a stationary flow is judged by the logarithmic law
-    let gated =
-        |metric: Metric, limit: Limit, reason: &str| if stationary { metric.gated(limit, reason) } else { metric };
-    let rms = data.profile.estimate(|points| rms(&law, points));
-    let rms = channel::observed(VELOCITY_RMS, &variant, rms, 1.0).against(
-        Some(0.0),
-        "logarithmic law, over 0.1 h … 0.9 h",
-        Confidence::Exact,
-    );
-    metrics.push(gated(rms, Limit::AtMost(0.25), "a quarter of u_*, 2 % of the depth mean"));
-    let slope = data.profile.estimate(|points| slope(&law, points));
-    let slope = channel::observed(SEMI_LOG_SLOPE, &variant, slope, 1.0).against(
-        Some(1.0),
-        "u_*/κ, fitted to u over ln z′ in 0.1 h … 0.9 h",
-        Confidence::Exact,
-    );
-    metrics.push(gated(slope, Limit::Within(0.97, 1.03), "3 % of the slope of the logarithmic law"));
-    let shear = channel::bed_shear(&variant, data, law.bed_shear_stress());
-    metrics.push(gated(shear, Limit::Within(0.97, 1.03), "3 %: the bed carries the weight along the slope"));
+    let judged = |limit: Limit| stationary.then_some(limit);
+    let observed = |quantity, estimate, factor| channel::observed(quantity, &variant, estimate, factor);
     let mean = data.average(&data.series.mean_velocity);
-    metrics.push(channel::observed(MEAN_VELOCITY, &variant, mean, 1.0 / law.mean_velocity()).against(
-        Some(1.0),
-        "depth mean of the logarithmic law",
-        Confidence::Exact,
-    ));
     let change = data.trend(&data.series.mean_velocity) * law.adjustment_time() / law.mean_velocity();
-    metrics.push(channel::velocity_drift(&variant, change, "depth mean"));
-    metrics.push(channel::height_change(&variant, data, "mean height h/2: water keeps its volume"));
-    metrics.push(channel::pressure_l2(&variant, data));
+    metrics.extend([
+        observed(VELOCITY_RMS, data.profile.estimate(|points| rms(&law, points)), 1.0)
+            .exactly(0.0, "logarithmic law, over 0.1 h … 0.9 h")
+            .gated_by(judged(Limit::AtMost(0.25)), "a quarter of u_*, 2 % of the depth mean"),
+        observed(SEMI_LOG_SLOPE, data.profile.estimate(|points| slope(&law, points)), 1.0)
+            .exactly(1.0, "u_*/κ, fitted to u over ln z′ in 0.1 h … 0.9 h")
+            .gated_by(judged(Limit::Within(0.97, 1.03)), "3 % of the slope of the logarithmic law"),
+        channel::bed_shear(&variant, data, law.bed_shear_stress())
+            .gated_by(judged(Limit::Within(0.97, 1.03)), "3 %: the bed carries the weight along the slope"),
+        observed(MEAN_VELOCITY, mean, 1.0 / law.mean_velocity()).exactly(1.0, "depth mean of the logarithmic law"),
+        channel::velocity_drift(&variant, change, "depth mean"),
+        channel::height_change(&variant, data, "mean height h/2: water keeps its volume"),
+        channel::pressure_l2(&variant, data),
+    ]);
+    metrics
 }
 
 /// The points that are compared.

@@ -16,7 +16,6 @@ use crate::output::Table;
 #[derive(Debug)]
 pub struct ClearWater;
 
-/// A run with what it left behind.
 type Record = RecordOf<ClearWaterParameters>;
 
 impl Case for ClearWater {
@@ -32,11 +31,11 @@ impl Case for ClearWater {
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &ClearWaterParameters, records: &[Record]) -> Vec<Metric> {
-        metrics::all(records)
+        records.iter().flat_map(metrics::of_run).collect()
     }
 
     fn figures(_: &ClearWaterParameters, records: &[Record]) -> Vec<Figure> {
-        figures::all(records)
+        vec![figures::profiles(records), figures::over_time(records)]
     }
 
     fn tables(_: &ClearWaterParameters, records: &[Record]) -> Vec<Table> {

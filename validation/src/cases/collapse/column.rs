@@ -1,31 +1,24 @@
 //! One column: its scene and its run.
 
-use super::block::Block;
-use super::camera::Camera;
-use super::deposit::{Collapse, Surveyor, front, radius};
+use super::block::{Block, STIFFNESS};
+use super::deposit::{Collapse, Surveyor, radius};
 use super::material::Material;
+use super::release::Release;
+use super::watch::{AT_REST, Watch};
+use crate::case::recording::{self, Ending};
 use crate::case::{ParameterError, Progress, Run};
-use crate::cases::recording::Ending;
 use crate::metric::Variant;
-use crate::observation::{Frame, Recorded};
+use crate::observation::Recorded;
 use bagnold_solver::domain::{AxisBoundary, Domain};
-use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::Wall;
-use bagnold_solver::weakly_compressible::boundary::wall::fill;
-use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use serde::Serialize;
 use std::ops::ControlFlow;
 
-/// Agitation (kinetic over released potential energy) below which the deposit rests and the run ends `[-]`.
-const AT_REST: f64 = 5e-7;
 /// Time over √(h_0/g) before which no column has fallen `[-]`.
 const EARLIEST_REST: f64 = 2.0;
-/// Bulk modulus over ρ0 g h_0 `[-]`.
-const STIFFNESS: f64 = 50.0;
 /// Points of the time series over √(h_0/g).
 const POINTS: f64 = 40.0;
 /// Pictures over the collapse, at these times over √(h_0/g) `[-]`; the deposit follows.
@@ -89,13 +82,10 @@ pub struct ColumnRun {
     pub bulk_density: f64,
     /// Rate α_r `[1/s]` of the regularised viscosity (35) that stands for the case's law; none for that law itself.
     pub regularisation_rate: Option<f64>,
-    pub(in crate::cases) gravity: f64,
-    pub(in crate::cases) jitter: f64,
-    pub(in crate::cases) seed: u64,
-    pub(in crate::cases) duration: f64,
     /// Times of further pictures `[s]`, as a paper shows them.
     pub(in crate::cases) shown_times: Vec<f64>,
-    pub(in crate::cases) numerics: Numerics,
+    /// How it is released and simulated.
+    pub release: Release,
 }
 
 impl Run for ColumnRun {
@@ -107,16 +97,17 @@ impl Run for ColumnRun {
             .and("resolution", self.resolution);
         match self.purpose {
             Purpose::Law => column,
-            Purpose::Convergence => column.and("seed", self.seed),
-            Purpose::Hourglass => column.and("hourglass", self.numerics.hourglass),
+            Purpose::Convergence => column.and("seed", self.release.seed),
+            Purpose::Hourglass => column.and("hourglass", self.release.numerics.hourglass),
             Purpose::Regularised => column.and("regularisation_rate", self.regularisation_rate.unwrap_or(0.0)),
         }
     }
 
     fn particle_steps(&self) -> f64 {
-        let step = self.numerics.acoustic_courant * self.numerics.smoothing_ratio * self.spacing() / self.sound_speed();
+        let step = self.release.numerics.acoustic_courant * self.release.numerics.smoothing_ratio * self.spacing()
+            / self.sound_speed();
         // most columns rest well before their time is up
-        let expected = 5.0_f64.min(self.duration) * self.time_scale() / step;
+        let expected = 5.0_f64.min(self.release.duration) * self.time_scale() / step;
         expected * self.particles()
     }
 
@@ -144,7 +135,7 @@ impl ColumnRun {
     /// √(h_0/g) `[s]`.
     #[must_use]
     pub fn time_scale(&self) -> f64 {
-        (self.initial_height() * self.half_width / self.gravity).sqrt()
+        (self.initial_height() * self.half_width / self.release.gravity).sqrt()
     }
 
     /// Whether there are enough rows over the height for a gate.
@@ -159,10 +150,11 @@ impl ColumnRun {
         if self.regularisation_rate.is_none() {
             return 0.0;
         }
-        let pressure = self.bulk_density * self.gravity * self.initial_height() * self.half_width;
+        let pressure = self.bulk_density * self.release.gravity * self.initial_height() * self.half_width;
         let viscosity = self.law.largest_viscosity(pressure);
-        let smoothing_length = self.numerics.smoothing_ratio * self.spacing();
-        time * viscosity / (self.numerics.viscous_courant * smoothing_length * smoothing_length * self.bulk_density)
+        let smoothing_length = self.release.numerics.smoothing_ratio * self.spacing();
+        time * viscosity
+            / (self.release.numerics.viscous_courant * smoothing_length * smoothing_length * self.bulk_density)
     }
 
     /// Whether its law is the one that the published grains are given: with another one their experiments are shown, and
@@ -201,7 +193,7 @@ impl ColumnRun {
 
     /// K = 50 ρ0 g h_0 `[Pa]`.
     fn bulk_modulus(&self) -> f64 {
-        STIFFNESS * self.bulk_density * self.gravity * self.initial_height() * self.half_width
+        STIFFNESS * self.bulk_density * self.release.gravity * self.initial_height() * self.half_width
     }
 
     fn sound_speed(&self) -> f64 {
@@ -219,14 +211,7 @@ impl ColumnRun {
     }
 
     fn scene<const D: usize>(&self) -> Scene<D> {
-        let spacing = self.spacing();
-        let height = self.rows() as f64 * spacing;
-        let equation_of_state = EquationOfState {
-            reference_density: self.bulk_density,
-            bulk_modulus: self.bulk_modulus(),
-            tension: Tension::Cut,
-        };
-        let n = self.resolution;
+        let (spacing, n) = (self.spacing(), self.resolution);
         let site = |cell: usize| {
             // along the first axis, then along the third, then upwards
             let along = |axis: usize| match axis {
@@ -239,41 +224,27 @@ impl ColumnRun {
         let inside = |site: &Vector<D>| {
             D == 2 || site[0] * site[0] + site[D - 1] * site[D - 1] <= self.half_width * self.half_width
         };
-        let block = Block {
-            spacing,
-            height,
-            gravity_across: self.gravity,
-            equation_of_state,
-            jitter: self.jitter,
-            seed: self.seed,
-        };
-        let flow = block.fill((0..self.rows() * n.pow(D as u32 - 1)).map(site).filter(inside));
         let symmetry = AxisBoundary::Mirror { lower: Some(0.0), upper: None };
         let mut domain = Domain { axes: [symmetry; D] };
         domain.axes[1] = AxisBoundary::Open;
-        let bed = Wall::still(1, 0.0, 1.0);
-        let layers = (2.0 * self.numerics.smoothing_ratio).ceil() as usize + 1;
-        let mut far = Vector::<D>::repeat(self.bed_end());
-        far[1] = height;
-        let extent = (Vector::<D>::zeros(), far);
-        let mut gravity = Vector::<D>::zeros();
-        gravity[1] = -self.gravity;
-        let mut wall_particles = fill(&[bed], &domain, extent, spacing, layers);
-        if self.geometry == Geometry::Round {
-            let reach = self.bed_end();
-            wall_particles.retain(|particle| radius(&particle.position) < reach);
-        }
-        Scene {
-            flow,
-            wall_particles,
-            walls: vec![bed],
-            domain,
-            gravity,
+        let Release { gravity, jitter, seed, numerics, .. } = self.release;
+        let block = Block {
             spacing,
-            equation_of_state,
+            height: self.rows() as f64 * spacing,
+            gravity: Vector::<D>::from_fn(|axis, _| if axis == 1 { -gravity } else { 0.0 }),
+            density: self.bulk_density,
+            bulk_modulus: self.bulk_modulus(),
             rheology: self.law,
-            numerics: self.numerics,
+            jitter,
+            seed,
+            numerics,
+        };
+        let sites = (0..self.rows() * n.pow(D as u32 - 1)).map(site).filter(inside);
+        let mut scene = block.scene(sites, domain, self.bed_end());
+        if self.geometry == Geometry::Round {
+            scene.wall_particles.retain(|particle| radius(&particle.position) < self.bed_end());
         }
+        scene
     }
 
     fn run<const D: usize>(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, ParameterError>
@@ -281,57 +252,30 @@ impl ColumnRun {
         Simulation<D>: Compiled<D>,
     {
         let started = std::time::Instant::now();
+        let (scale, duration) = (self.time_scale(), self.release.duration * self.time_scale());
         if self.regularisation_rate.is_some() {
             tracing::info!(
                 "{}: implicit viscous step; an explicit one would need about {:.1e} steps",
                 self.variant(),
-                self.explicit_viscous_steps(self.duration * self.time_scale())
+                self.explicit_viscous_steps(duration)
             );
         }
         let mut simulation = Simulation::new(self.scene::<D>())?;
-        let particles = simulation.particles().flow_count();
-        let (scale, duration) = (self.time_scale(), self.duration * self.time_scale());
-        let mut surveyor = Surveyor {
+        let surveyor = Surveyor {
             half_width: self.half_width,
             spacing: self.spacing(),
-            gravity: [0.0, -self.gravity],
+            gravity: [0.0, -self.release.gravity],
             bed_end: self.bed_end(),
             collapse: Collapse::default(),
         };
-        let r = self.half_width;
-        let mut camera = Camera::new(FRAME_INTERVAL * scale, self.spacing());
-        let mut frames = Vec::new();
-        let times = self.picture_times();
-        let mut pictured = 0;
-        let mut last_good = simulation.snapshot();
-        let reason = simulation.run(duration, scale / POINTS, |simulation| {
-            let snapshot = simulation.snapshot();
-            let thickness = surveyor.observe(&snapshot);
-            camera.watch(&snapshot, thickness.iter().map(|(x, h)| (x * r, h * r)), front(&thickness) * r);
-            let due = times.iter().filter(|&&time| snapshot.time >= time).count();
-            if due > pictured {
-                pictured = due;
-                frames.push(Frame::of_flow(&snapshot));
-            }
-            progress.advance(snapshot.time, duration, simulation.steps() as f64 * particles as f64);
-            let rests = snapshot.time > EARLIEST_REST * scale && surveyor.agitation() < AT_REST;
-            last_good = snapshot;
+        let mut watch = Watch::new(surveyor, FRAME_INTERVAL * scale, self.picture_times(), EARLIEST_REST * scale);
+        let ending = recording::watch(&mut simulation, (duration, scale / POINTS), progress, |snapshot| {
+            let (_, rests) = watch.observe(snapshot);
             if rests { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let ending = Ending {
-            reason,
-            last_good,
-            criterion: format!("the deposit rests: kinetic energy below {AT_REST:.0e} of the energy released"),
-            may_diverge: false,
-            frames,
-            started,
-        };
-        Ok(ending.record(&simulation, |end| {
-            let mut collapse = surveyor.finish(end);
-            let deposit = &collapse.deposit;
-            camera.take(end, deposit.iter().map(|(x, h)| (x * r, h * r)), front(deposit) * r);
-            collapse.motion = camera.motion;
-            collapse
-        }))
+        let criterion = format!("the deposit rests: kinetic energy below {AT_REST:.0e} of the energy released");
+        let frames = std::mem::take(&mut watch.frames);
+        let ending = Ending { criterion, frames, started, ..ending };
+        Ok(ending.record(&simulation, |end| watch.finish_with_deposit(end)))
     }
 }

@@ -1,15 +1,15 @@
 //! How far a column's result depends on the resolution, on the seed and on the hourglass coefficient.
 
 use super::Record;
-use super::column::{ColumnRun, Purpose};
+use super::column::Purpose;
 use super::deposit::Collapse;
 use super::material::Material;
 use super::quantities::{
     ENSEMBLE_MEAN, ENSEMBLE_SPREAD, ENSEMBLE_STANDARD_ERROR, GRID_CONVERGENCE_INDEX, HOURGLASS_SPREAD, OBSERVED_ORDER,
 };
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Confidence, Limit, Metric, Variant};
-use crate::statistics::{Mean, grid_convergence};
+use crate::statistics::{Mean, grid_convergence, mean};
 
 /// Name, measure and largest index `[-]` of what must converge.
 type Measured = (&'static str, fn(&Collapse) -> f64, f64);
@@ -20,204 +20,178 @@ const ENSEMBLE: usize = 5;
 const MEASURED: [Measured; 2] =
     [("centroid", |collapse| collapse.centroid, 0.03), ("run_out", Collapse::run_out, 0.08)];
 
+/// A column that is studied, and all records.
+#[derive(Clone, Copy)]
+struct Study<'a> {
+    material: Material,
+    aspect_ratio: f64,
+    records: &'a [Record],
+}
+
+impl<'a> Study<'a> {
+    /// The columns that have runs of a purpose, in their order.
+    fn all(records: &'a [Record], purpose: Purpose) -> Vec<Self> {
+        let mut found: Vec<Self> = Vec::new();
+        for (run, _) in records.iter().filter(|(run, _)| run.purpose == purpose) {
+            let (material, aspect_ratio) = (run.material, run.aspect_ratio);
+            if !found.iter().any(|other| (other.material, other.aspect_ratio) == (material, aspect_ratio)) {
+                found.push(Self { material, aspect_ratio, records });
+            }
+        }
+        found
+    }
+
+    fn label(&self) -> String {
+        format!("{}, a = {}", self.material, self.aspect_ratio)
+    }
+
+    /// A variant with the column's keys at its end.
+    fn name(&self, variant: Variant) -> Variant {
+        variant.and("material", self.material.to_string()).and("aspect_ratio", self.aspect_ratio)
+    }
+
+    /// Its runs of some purposes by return mapping, resolution by resolution.
+    fn by_resolution(&self, purposes: &[Purpose]) -> Vec<(usize, Vec<&'a Record>)> {
+        let is_own = |(run, _): &&Record| {
+            let is_column = run.material == self.material && run.aspect_ratio == self.aspect_ratio;
+            is_column && run.regularisation_rate.is_none() && purposes.contains(&run.purpose)
+        };
+        let own: Vec<&Record> = self.records.iter().filter(is_own).collect();
+        let mut resolutions: Vec<usize> = own.iter().map(|(run, _)| run.resolution).collect();
+        resolutions.sort_unstable();
+        resolutions.dedup();
+        let of = |rows| own.iter().copied().filter(|(run, _)| run.resolution == rows).collect();
+        resolutions.into_iter().map(|rows| (rows, of(rows))).collect()
+    }
+
+    /// Means over the seeds, resolution by resolution. A run that stands for itself is one of its ensemble.
+    fn means(&self, measure: fn(&Collapse) -> f64) -> Vec<Mean> {
+        let runs = self.by_resolution(&[Purpose::Law, Purpose::Convergence]).into_iter();
+        let values = |runs: Vec<&Record>| runs.iter().map(|(_, record)| measure(&record.data)).collect::<Vec<_>>();
+        runs.filter_map(|(resolution, runs)| Mean::of(resolution, &values(runs))).collect()
+    }
+
+    /// Resolutions at which the hourglass coefficient was varied, with (coefficient, run-out) in ascending order.
+    fn hourglasses(&self) -> Vec<(usize, Vec<(f64, f64)>)> {
+        let point = |(run, record): &Record| (run.release.numerics.hourglass, record.data.run_out());
+        let sorted = |(resolution, runs): (usize, Vec<&Record>)| {
+            let mut points: Vec<(f64, f64)> = runs.into_iter().map(point).collect();
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            (resolution, points)
+        };
+        self.by_resolution(&[Purpose::Hourglass]).into_iter().map(sorted).collect()
+    }
+}
+
 pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
-    for (material, aspect_ratio) in studied(records, Purpose::Convergence) {
+    for study in Study::all(records, Purpose::Convergence) {
         for (quantity, measure, largest) in MEASURED {
-            let means = means(records, material, aspect_ratio, measure);
-            let variant = Variant::of("quantity", quantity)
-                .and("material", material.to_string())
-                .and("aspect_ratio", aspect_ratio);
-            for mean in &means {
-                let at = variant.clone().and("resolution", mean.resolution);
-                let values = [(ENSEMBLE_MEAN, mean.value), (ENSEMBLE_STANDARD_ERROR, mean.standard_error)];
-                metrics.extend(
-                    values.map(|(quantity, value)| quantity.of(&at, value).with_snapshot_tolerance(1e-3, 1e-3)),
-                );
-            }
-            let Some(found) = means.last_chunk::<3>().and_then(grid_convergence) else { continue };
-            metrics.push(OBSERVED_ORDER.of(&variant, found.order).with_snapshot_tolerance(0.05, 0.05));
-            metrics.push(
-                GRID_CONVERGENCE_INDEX
-                    .of(&variant, 100.0 * found.index)
-                    .with_snapshot_tolerance(0.05, 0.2)
-                    .against(Some(0.0), "1.25 |f_3 − f_2|/(r^p − 1)/f_3 of the three finest means", Confidence::Exact)
-                    .gated(
-                        Limit::AtMost(100.0 * (largest + found.scatter)),
-                        "specification 2: 3 % for the centroid, 8 % for the run-out, plus the standard error of the \
-                         finest mean",
-                    ),
-            );
+            metrics.extend(of_ensembles(study.name(Variant::of("quantity", quantity)), &study.means(measure), largest));
         }
     }
-    let spreads = [
-        ("run_out", relative_spread(records, Collapse::run_out)),
-        ("final_height", relative_spread(records, Collapse::final_height)),
-    ];
-    for (quantity, spread) in spreads {
+    let spreads = [("run_out", Collapse::run_out as fn(&_) -> _), ("final_height", Collapse::final_height)];
+    for (quantity, measure) in spreads {
+        let spread = relative_spread(records, measure);
         if spread > 0.0 {
-            metrics.push(
-                ENSEMBLE_SPREAD
-                    .of(&Variant::of("quantity", quantity), 100.0 * spread)
-                    .against(
-                        None,
-                        "largest relative standard deviation over the seeds of the initial displacements; the gates of \
-                         run-out and height are narrowed by twice of it",
-                        Confidence::Exact,
-                    )
-                    .with_snapshot_tolerance(0.02, 0.02),
-            );
+            let source = "largest relative standard deviation over the seeds of the initial displacements; the gates of \
+                          run-out and height are narrowed by twice of it";
+            let metric = ENSEMBLE_SPREAD.of(&Variant::of("quantity", quantity), 100.0 * spread);
+            metrics.push(metric.against(None, source, Confidence::Exact).with_snapshot_tolerance(0.02, 0.02));
         }
     }
-    for (material, aspect_ratio) in studied(records, Purpose::Hourglass) {
-        for resolution in resolutions(records, material, aspect_ratio) {
-            let values: Vec<f64> =
-                hourglass(records, material, aspect_ratio, resolution).iter().map(|point| point.1).collect();
+    for study in Study::all(records, Purpose::Hourglass) {
+        for (resolution, points) in study.hourglasses() {
+            let values: Vec<f64> = points.into_iter().map(|point| point.1).collect();
             let (least, most) = values.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &v| (a.min(v), b.max(v)));
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            let variant = Variant::of("material", material.to_string())
-                .and("aspect_ratio", aspect_ratio)
-                .and("resolution", resolution);
-            metrics.push(
-                HOURGLASS_SPREAD
-                    .of(&variant, 100.0 * (most - least) / mean)
-                    .against(
-                        None,
-                        "run-out, largest less smallest over the mean: its modelling uncertainty",
-                        Confidence::Exact,
-                    )
-                    .with_snapshot_tolerance(0.02, 0.2),
-            );
+            let variant = study.name(Variant::default()).and("resolution", resolution);
+            let metric = HOURGLASS_SPREAD.of(&variant, 100.0 * (most - least) / mean(&values));
+            let source = "run-out, largest less smallest over the mean: its modelling uncertainty";
+            metrics.push(metric.against(None, source, Confidence::Exact).with_snapshot_tolerance(0.02, 0.2));
         }
+    }
+    metrics
+}
+
+/// The means of a quantity over the seeds, and how they converge.
+fn of_ensembles(variant: Variant, means: &[Mean], largest_index: f64) -> Vec<Metric> {
+    let mut metrics = Vec::new();
+    for mean in means {
+        let at = variant.clone().and("resolution", mean.resolution);
+        let values = [(ENSEMBLE_MEAN, mean.value), (ENSEMBLE_STANDARD_ERROR, mean.standard_error)];
+        metrics.extend(values.map(|(quantity, value)| quantity.of(&at, value).with_snapshot_tolerance(1e-3, 1e-3)));
+    }
+    if let Some(found) = means.last_chunk::<3>().and_then(grid_convergence) {
+        metrics.extend([
+            OBSERVED_ORDER.of(&variant, found.order).with_snapshot_tolerance(0.05, 0.05),
+            GRID_CONVERGENCE_INDEX
+                .of(&variant, 100.0 * found.index)
+                .with_snapshot_tolerance(0.05, 0.2)
+                .exactly(0.0, "1.25 |f_3 − f_2|/(r^p − 1)/f_3 of the three finest means")
+                .gated(
+                    Limit::AtMost(100.0 * (largest_index + found.scatter)),
+                    "specification 2: 3 % for the centroid, 8 % for the run-out, plus the standard error of the finest \
+                     mean",
+                ),
+        ]);
     }
     metrics
 }
 
 /// Largest relative standard deviation of a measure over an ensemble of [`ENSEMBLE`] seeds or more `[-]`; 0 without one.
 pub(super) fn relative_spread(records: &[Record], measure: fn(&Collapse) -> f64) -> f64 {
-    let mut largest = 0.0_f64;
-    for (material, aspect_ratio) in studied(records, Purpose::Convergence) {
-        for mean in means(records, material, aspect_ratio, measure) {
-            if mean.runs >= ENSEMBLE {
-                largest = largest.max(mean.standard_error * (mean.runs as f64).sqrt() / mean.value.abs());
-            }
-        }
-    }
-    largest
+    let studies = Study::all(records, Purpose::Convergence);
+    let ensembles = studies.iter().flat_map(|study| study.means(measure)).filter(|mean| mean.runs >= ENSEMBLE);
+    let spread = |mean: Mean| mean.standard_error * (mean.runs as f64).sqrt() / mean.value.abs();
+    ensembles.map(spread).fold(0.0, f64::max)
 }
 
 /// Figures of the studies that were made.
 pub(super) fn figures(records: &[Record]) -> Vec<Figure> {
-    let mut resolution = studied(records, Purpose::Convergence);
+    let mut resolution = Study::all(records, Purpose::Convergence);
     // an ensemble at one resolution says nothing of convergence
-    resolution.retain(|(material, aspect_ratio)| {
-        means(records, *material, *aspect_ratio, |collapse| collapse.centroid).len() > 1
-    });
-    let coefficient = studied(records, Purpose::Hourglass);
+    resolution.retain(|study| study.means(|collapse| collapse.centroid).len() > 1);
+    let coefficient = Study::all(records, Purpose::Hourglass);
     let mut figures = Vec::new();
     if !resolution.is_empty() {
-        let panels = MEASURED.map(|(name, measure, _)| {
-            let y = format!("{} over the finest − 1 [%]", name.replace('_', "-"));
-            let mut panel = Panel::new("", Axis::linear("particles over r0 [-]"), Axis::linear(&y));
-            for (slot, (material, aspect_ratio)) in resolution.iter().enumerate() {
-                let means = means(records, *material, *aspect_ratio, measure);
-                let finest = means.last().map_or(1.0, |mean| mean.value);
-                let percent = |value: f64| 100.0 * value / finest;
-                let label = format!("{material}, a = {aspect_ratio}");
-                let points = means.iter().map(|mean| (mean.resolution as f64, percent(mean.value) - 100.0)).collect();
-                let mut series = Series::new(&label, Mark::LinePoints, slot, points);
-                let error = |mean: &Mean| if mean.standard_error.is_nan() { 0.0 } else { percent(mean.standard_error) };
-                series.error = means.iter().map(error).collect();
-                panel.series.push(series);
-            }
-            panel
-        });
-        figures.push(Figure {
-            name: "grid-convergence".to_owned(),
-            caption:
-                "Centroid and run-out of the deposit over the resolution, relative to the finest: means over several seeds \
-                      of the initial displacements, with the standard error of the mean."
-                    .to_owned(),
-            panels: panels.to_vec(),
-            columns: 2,
-        });
+        figures.push(grid_convergence_figure(&resolution));
     }
     if !coefficient.is_empty() {
         let mut panel =
             Panel::new("", Axis::linear("hourglass coefficient [-]"), Axis::linear("run-out (r∞ − r0)/r0 [-]"));
-        let mut slot = 0;
-        for (material, aspect_ratio) in coefficient {
-            for resolution in resolutions(records, material, aspect_ratio) {
-                let points = hourglass(records, material, aspect_ratio, resolution);
-                let label = format!("{material}, a = {aspect_ratio}, {resolution} over r0");
-                panel.series.push(Series::new(&label, Mark::LinePoints, slot, points));
-                slot += 1;
+        for study in coefficient {
+            for (resolution, points) in study.hourglasses() {
+                panel.line_points(&format!("{}, {resolution} over r0", study.label()), panel.series.len(), points);
             }
         }
-        figures.push(Figure {
-            name: "hourglass".to_owned(),
-            caption:
-                "Run-out over the coefficient of the hourglass control: what the choice of a numerical parameter does \
-                      to the result, at two resolutions."
-                    .to_owned(),
-            panels: vec![panel],
-            columns: 1,
-        });
+        figures.push(Figure::new(
+            "hourglass",
+            "Run-out over the coefficient of the hourglass control: what the choice of a numerical parameter does to \
+             the result, at two resolutions.",
+            vec![panel],
+        ));
     }
     figures
 }
 
-/// Materials and aspect ratios that have runs of a purpose, in their order.
-fn studied(records: &[Record], purpose: Purpose) -> Vec<(Material, f64)> {
-    let mut found: Vec<(Material, f64)> = Vec::new();
-    for (run, _) in records.iter().filter(|(run, _)| run.purpose == purpose) {
-        let key = (run.material, run.aspect_ratio);
-        if !found.contains(&key) {
-            found.push(key);
+fn grid_convergence_figure(studies: &[Study<'_>]) -> Figure {
+    let panels = MEASURED.map(|(name, measure, _)| {
+        let y = format!("{} over the finest − 1 [%]", name.replace('_', "-"));
+        let mut panel = Panel::new("", Axis::linear("particles over r0 [-]"), Axis::linear(&y));
+        for (slot, study) in studies.iter().enumerate() {
+            let means = study.means(measure);
+            let finest = means.last().map_or(1.0, |mean| mean.value);
+            let percent = |value: f64| 100.0 * value / finest;
+            let points = means.iter().map(|mean| (mean.resolution as f64, percent(mean.value) - 100.0));
+            let error = |mean: &Mean| if mean.standard_error.is_nan() { 0.0 } else { percent(mean.standard_error) };
+            panel.line_points(&study.label(), slot, points).error = means.iter().map(error).collect();
         }
-    }
-    found
-}
-
-fn is_of(run: &ColumnRun, material: Material, aspect_ratio: f64) -> bool {
-    run.material == material && run.aspect_ratio == aspect_ratio && run.regularisation_rate.is_none()
-}
-
-/// Means over the seeds, resolution by resolution. A run that stands for itself is one of its ensemble.
-fn means(records: &[Record], material: Material, aspect_ratio: f64, measure: fn(&Collapse) -> f64) -> Vec<Mean> {
-    let runs = || {
-        records.iter().filter(|(run, _)| {
-            is_of(run, material, aspect_ratio) && matches!(run.purpose, Purpose::Law | Purpose::Convergence)
-        })
-    };
-    let mut resolutions: Vec<usize> = runs().map(|(run, _)| run.resolution).collect();
-    resolutions.sort_unstable();
-    resolutions.dedup();
-    let mean = |&resolution: &usize| {
-        let of_resolution = runs().filter(|(run, _)| run.resolution == resolution);
-        Mean::of(resolution, &of_resolution.map(|(_, record)| measure(&record.data)).collect::<Vec<_>>())
-    };
-    resolutions.iter().filter_map(mean).collect()
-}
-
-/// Resolutions at which the hourglass coefficient was varied.
-fn resolutions(records: &[Record], material: Material, aspect_ratio: f64) -> Vec<usize> {
-    let varied = records.iter().map(|(run, _)| run);
-    let varied = varied.filter(|run| run.purpose == Purpose::Hourglass && is_of(run, material, aspect_ratio));
-    let mut found: Vec<usize> = varied.map(|run| run.resolution).collect();
-    found.sort_unstable();
-    found.dedup();
-    found
-}
-
-/// (coefficient, run-out) of a resolution, in ascending order.
-fn hourglass(records: &[Record], material: Material, aspect_ratio: f64, resolution: usize) -> Vec<(f64, f64)> {
-    let mut points: Vec<(f64, f64)> = records
-        .iter()
-        .filter(|(run, _)| run.purpose == Purpose::Hourglass && run.resolution == resolution)
-        .filter(|(run, _)| is_of(run, material, aspect_ratio))
-        .map(|(run, record)| (run.numerics.hourglass, record.data.run_out()))
-        .collect();
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    points
+        panel
+    });
+    Figure::new(
+        "grid-convergence",
+        "Centroid and run-out of the deposit over the resolution, relative to the finest: means over several seeds of \
+         the initial displacements, with the standard error of the mean.",
+        panels.to_vec(),
+    )
 }

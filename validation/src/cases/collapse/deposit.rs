@@ -97,12 +97,6 @@ impl Surveyor {
         if snapshot.time > 0.0 { residual.norm() / given.norm() } else { 0.0 }
     }
 
-    /// Kinetic energy over the potential energy released so far `[-]`.
-    #[must_use]
-    pub(super) fn agitation(&self) -> f64 {
-        self.collapse.agitation()
-    }
-
     /// Measures the deposit and ends the survey.
     #[must_use]
     pub(super) fn finish<const D: usize>(mut self, end: &Snapshot<D>) -> Collapse {
@@ -196,6 +190,12 @@ impl Collapse {
     #[must_use]
     pub fn run_out(&self) -> f64 {
         front(&self.deposit) - 1.0
+    }
+
+    /// The deposit's bins up to the last that holds grains.
+    pub(super) fn drawn(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let end = self.deposit.iter().rposition(|bin| bin.1 > 0.0).map_or(0, |last| last + 1);
+        self.deposit[..end].iter().copied()
     }
 
     /// Thickness of the deposit at the symmetry plane, by volume, over r_0 `[-]`.

@@ -5,11 +5,11 @@ use super::column::{ColumnRun, Geometry, PICTURES, Purpose};
 use super::deposit::Collapse;
 use super::flow_metrics::{self, energies, stations};
 use super::material::Material;
-use super::pictures::{View, animation, halves, nearest, pressures, speeds};
-use super::wedge::{self, Deposit};
-use super::{convergence, energy, scaling, stress_updates, velocity_profile};
+use super::{convergence, scaling, stress_updates, velocity_profile, wedge};
 use crate::case::Run;
-use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel, Series};
+use crate::figure::{Animation, Axis, Field, Figure, Panel};
+use crate::observation::energy;
+use crate::observation::pictures::{View, animation, halves};
 use crate::observation::{Frame, Recorded};
 use crate::reference::{CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
@@ -59,18 +59,12 @@ fn is_shown(run: &ColumnRun) -> bool {
 /// Run-out and height over the aspect ratio, with every published law of the geometry.
 fn scaling_figure(records: &[&Record]) -> Figure {
     let round = records.iter().any(|(run, _)| run.geometry == Geometry::Round);
+    let (own, other) =
+        if round { (&*ROUND_COLLAPSE, &*PLANAR_COLLAPSE) } else { (&*PLANAR_COLLAPSE, &*ROUND_COLLAPSE) };
     // the laws of the geometry, and Lube's of the other one: the paper compared planar runs with the round law
-    let (planar_laws, round_laws) = (&*PLANAR_COLLAPSE, &*ROUND_COLLAPSE);
-    let run_out_laws: Vec<&CollapseLaw> = if round {
-        round_laws.run_out.iter().chain(&planar_laws.run_out[..1]).collect()
-    } else {
-        planar_laws.run_out.iter().chain(&round_laws.run_out[..1]).collect()
-    };
-    let height_laws: Vec<&CollapseLaw> = if round {
-        round_laws.height.iter().chain(&planar_laws.height[..1]).collect()
-    } else {
-        planar_laws.height.iter().collect()
-    };
+    let run_out_laws: Vec<&CollapseLaw> = own.run_out.iter().chain(&other.run_out[..1]).collect();
+    let lube_of_planar = if round { &other.height[..1] } else { &[] };
+    let height_laws: Vec<&CollapseLaw> = own.height.iter().chain(lube_of_planar).collect();
     let panel = |label: &str, laws: &[&CollapseLaw], measure: fn(&Collapse) -> f64, legend: bool| {
         let mut panel = Panel::new("", Axis::logarithmic("h0/r0 [-]"), Axis::logarithmic(label));
         for law in laws {
@@ -80,7 +74,7 @@ fn scaling_figure(records: &[&Record]) -> Figure {
             let slot = known.unwrap_or(run_out_laws.len());
             for (part, curve) in law.curves().into_iter().enumerate() {
                 let entry = if legend && part == 0 { law.source.as_str() } else { "" };
-                panel.series.push(Series::new(entry, Mark::Line, slot + 3, curve));
+                panel.line(entry, slot + 3, curve);
             }
         }
         for (slot, material) in materials(records).into_iter().enumerate() {
@@ -91,29 +85,27 @@ fn scaling_figure(records: &[&Record]) -> Figure {
                 .collect();
             if !points.is_empty() {
                 let entry = if legend { material.title() } else { String::new() };
-                panel.series.push(Series::new(&entry, Mark::Points, slot, points));
+                panel.points(&entry, slot, points);
             }
             if let Some(found) = scaling::fit(records, material, measure) {
                 let ends = [found.range.0, found.range.1];
                 let curve = ends.map(|a| (a, found.law.coefficient * libm::pow(a, found.law.value)));
                 let exponent = format!("fit: {:.2} ± {:.2}", found.law.value, found.half_width);
-                panel.series.push(Series::new(&exponent, Mark::Reference, slot, curve.to_vec()));
+                panel.reference(&exponent, curve.to_vec());
             }
         }
         panel
     };
-    Figure {
-        name: "scaling".to_owned(),
-        caption: "Run-out and final height of the columns over their aspect ratio, with the published laws of their \
-                  geometry and Lube's run-out of the other one. Fits are power laws through the tall columns, with the 95 % \
-                  interval of the exponent. Coefficients depend on the grains, exponents much less."
-            .to_owned(),
-        panels: vec![
+    Figure::new(
+        "scaling",
+        "Run-out and final height of the columns over their aspect ratio, with the published laws of their geometry \
+         and Lube's run-out of the other one. Fits are power laws through the tall columns, with the 95 % interval \
+         of the exponent. Coefficients depend on the grains, exponents much less.",
+        vec![
             panel("run-out (r∞ − r0)/r0 [-]", &run_out_laws, Collapse::run_out, true),
             panel("final height h∞/r0 [-]", &height_laws, Collapse::final_height, false),
         ],
-        columns: 2,
-    }
+    )
 }
 
 fn label(run: &ColumnRun) -> String {
@@ -128,18 +120,14 @@ fn label(run: &ColumnRun) -> String {
 fn deposits(records: &[&Record]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("x/r0 [-]"), Axis::linear("thickness/r0 [-]"));
     for (slot, (run, record)) in records.iter().enumerate() {
-        let end = record.data.deposit.iter().rposition(|bin| bin.1 > 0.0).map_or(0, |last| last + 1);
-        panel.series.push(Series::new(&label(run), Mark::Line, slot, record.data.deposit[..end].to_vec()));
+        panel.line(&label(run), slot, record.data.drawn());
     }
-    Figure {
-        name: of_material("deposits", records),
-        caption:
-            "Thickness of the deposits, volume per bin of 0.1 r0. Run-out is read where the thickness first falls \
-                  below 0.02 r0."
-                .to_owned(),
-        panels: vec![panel],
-        columns: 1,
-    }
+    Figure::new(
+        &of_material("deposits", records),
+        "Thickness of the deposits, volume per bin of 0.1 r0. Run-out is read where the thickness first falls below \
+         0.02 r0.",
+        vec![panel],
+    )
 }
 
 fn histories(records: &[&Record]) -> Figure {
@@ -149,20 +137,18 @@ fn histories(records: &[&Record]) -> Figure {
     for (slot, (run, record)) in records.iter().enumerate() {
         let (data, a, scale) = (&record.data, run.initial_height(), run.time_scale());
         let time = || data.time.iter().map(|t| t / scale);
-        let way = time().zip(data.front.iter().map(|front| (front - 1.0) / a)).collect();
+        let way = time().zip(data.front.iter().map(|front| (front - 1.0) / a));
         let initial = data.potential_energy.first().copied().unwrap_or(f64::NAN);
-        let share = time().zip(data.kinetic_energy.iter().map(|kinetic| kinetic / initial)).collect();
-        front.series.push(Series::new(&label(run), Mark::Line, slot, way));
-        energy.series.push(Series::new("", Mark::Line, slot, share));
+        let share = time().zip(data.kinetic_energy.iter().map(|kinetic| kinetic / initial));
+        front.line(&label(run), slot, way);
+        energy.line("", slot, share);
     }
-    Figure {
-        name: of_material("histories", records),
-        caption: "The front's way over the aspect ratio and the kinetic energy over the initial potential energy, in \
-                  times of free fall √(h0/g). Deposits come to rest."
-            .to_owned(),
-        panels: vec![front, energy],
-        columns: 2,
-    }
+    Figure::new(
+        &of_material("histories", records),
+        "The front's way over the aspect ratio and the kinetic energy over the initial potential energy, in times of \
+         free fall √(h0/g). Deposits come to rest.",
+        vec![front, energy],
+    )
 }
 
 /// The values of a run's variant as a file name: `sand-0.9-20`.
@@ -197,7 +183,7 @@ pub(in crate::cases) fn animations(records: &[Record]) -> Vec<Animation> {
 
 /// The paper's pictures: speed and pressure at absolute times.
 fn shown(run: &ColumnRun, frames: &[Frame]) -> Option<Figure> {
-    let shown: Vec<&Frame> = run.shown_times.iter().filter_map(|&time| nearest(frames, time)).collect();
+    let shown: Vec<&Frame> = run.shown_times.iter().filter_map(|&time| Frame::nearest(frames, time)).collect();
     let caption = format!(
         "{}: speed on the left and pressure on the right of the symmetry plane, at the times of the collapse paper's \
          figures 7–9; the left half is the mirror image of the simulated right one.",
@@ -230,67 +216,51 @@ fn velocity_profiles(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<Fig
 }
 
 fn wedges(records: &[&Record]) -> Figure {
-    let deposits: Vec<Deposit<'_>> = records
-        .iter()
-        .filter_map(|(run, record)| {
-            Some(Deposit {
-                title: label(run),
-                end: record.frames.last()?,
-                wedge: flow_metrics::wedge(run, &record.frames)?,
-                half_width: run.half_width,
-                height: run.initial_height() * run.half_width,
-                spacing: run.spacing(),
-            })
-        })
-        .collect();
-    wedge::figure(
+    let panels = records.iter().filter_map(|(run, record)| {
+        let wedge = flow_metrics::wedge(run, &record.frames)?;
+        Some(wedge::panel(&label(run), run, record.frames.last()?, &wedge))
+    });
+    Figure::new(
         &of_material("wedges", records),
-        "Deposits in the colours of the displacement d since the start; particles that moved by less than a spacing are grey. Dashed \
-         is the initial column, solid the line through the surface of the undisturbed part.",
-        &deposits,
+        "Deposits in the colours of the displacement d since the start; particles that moved by less than a spacing are \
+         grey. Dashed is the initial column, solid the line through the surface of the undisturbed part.",
+        panels.collect(),
     )
+    .in_columns(2)
 }
 
 /// Speed and pressure at the pictures' times; of a round column the slice beside a symmetry plane.
 fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
     let r = run.half_width;
     let times = PICTURES.iter().map(|time| time * run.time_scale());
-    let mut frames: Vec<&Frame> = times.filter_map(|time| nearest(frames, time)).chain(frames.last()).collect();
+    let mut frames: Vec<&Frame> = times.filter_map(|time| Frame::nearest(frames, time)).chain(frames.last()).collect();
     // a run that ended early has no more than its deposit to show
     frames.dedup_by(|a, b| a.time == b.time);
-    let slice = |frame: &Frame| -> Vec<usize> {
-        (0..frame.position.len()).filter(|&index| frame.position[index][2] < run.spacing()).collect()
-    };
     let far = frames.iter().flat_map(|frame| &frame.position).map(|x| x[0] / r).fold(1.0, f64::max);
     let high = frames.iter().flat_map(|frame| &frame.position).map(|x| x[1] / r).fold(0.0, f64::max);
     let largest = |values: fn(&Frame) -> Vec<f64>| {
         frames.iter().flat_map(|frame| values(frame)).fold(0.0, f64::max).max(f64::MIN_POSITIVE)
     };
-    let (fastest, deepest) = (largest(speeds), largest(pressures));
+    let (fastest, deepest) = (largest(Frame::speeds), largest(Frame::pressures));
     let mut panels = Vec::new();
     for frame in frames {
         let title = format!("t = {:.2} √(h0/g)", frame.time / run.time_scale());
-        for (values, label, limit) in [(speeds(frame), "|v| [m/s]", fastest), (pressures(frame), "p [kPa]", deepest)] {
-            let x = Axis { limits: Some((0.0, far)), ..Axis::linear("x/r0 [-]") };
-            let y = Axis { limits: Some((0.0, high)), ..Axis::linear("y/r0 [-]") };
-            let mut panel = Panel::new(&title, x, y);
-            panel.field = Some(Field {
-                points: slice(frame)
-                    .into_iter()
-                    .map(|index| (frame.position[index][0] / r, frame.position[index][1] / r))
-                    .collect(),
-                values: slice(frame).into_iter().map(|index| values[index]).collect(),
-                label: label.to_owned(),
-                diameter: run.spacing() / r,
-                limits: Some((0.0, limit)),
-            });
+        for (values, label, limit) in [(frame.speeds(), "|v| [m/s]", fastest), (frame.pressures(), "p [kPa]", deepest)]
+        {
+            let x = Axis::linear("x/r0 [-]").between(0.0, far);
+            let mut panel = Panel::new(&title, x, Axis::linear("y/r0 [-]").between(0.0, high));
+            let seen: Vec<usize> =
+                (0..frame.position.len()).filter(|&index| frame.position[index][2] < run.spacing()).collect();
+            let points = seen.iter().map(|&index| (frame.position[index][0] / r, frame.position[index][1] / r));
+            let values = seen.iter().map(|&index| values[index]);
+            panel.field = Some(Field::new(label, run.spacing() / r, (0.0, limit), points, values));
             panels.push(panel);
         }
     }
-    Figure {
-        name: format!("pictures-{}", stem(run)),
-        caption: format!("{}: speed (left) and pressure (right) through the collapse and in the deposit.", label(run)),
+    Figure::new(
+        &format!("pictures-{}", stem(run)),
+        &format!("{}: speed (left) and pressure (right) through the collapse and in the deposit.", label(run)),
         panels,
-        columns: 2,
-    }
+    )
+    .in_columns(2)
 }

@@ -2,8 +2,6 @@
 
 use super::column::{ColumnRun, Geometry};
 use super::deposit::{BIN_WIDTH, Collapse};
-use super::energy::Energies;
-use super::pictures::nearest;
 use super::quantities::{
     ENERGY_GAIN, FAILURE_SURFACE_ANGLE, FLOWING_LAYER_R_SQUARED, FLOWING_LAYER_SHEAR_RATE,
     TAIL_DECAY_LENGTH_OVER_DIAMETER, TAIL_DECAY_LENGTH_OVER_SPACING, TAIL_DECAY_LENGTH_STANDARD_ERROR,
@@ -13,6 +11,7 @@ use super::velocity_profile::{Station, decay_length};
 use super::wedge::Wedge;
 use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Quantity};
+use crate::observation::energy::Energies;
 use crate::observation::{Frame, Recorded};
 
 /// Time of the velocity profiles over √(h_0/g) `[-]`: in mid-collapse.
@@ -27,7 +26,7 @@ pub(super) fn energies(collapse: &Collapse) -> Energies<'_> {
 pub(super) fn stations(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Station> {
     // a ring is no bin along x
     let time = PROFILE_TIME * run.time_scale();
-    let Some(frame) = nearest(&record.frames, time).filter(|_| run.geometry == Geometry::Planar) else {
+    let Some(frame) = Frame::nearest(&record.frames, time).filter(|_| run.geometry == Geometry::Planar) else {
         return Vec::new();
     };
     let data = &record.data;
@@ -51,7 +50,7 @@ pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric
     let mut metrics = vec![
         ENERGY_GAIN
             .of(&variant, 100.0 * energies(&record.data).largest_gain())
-            .against(Some(0.0), "kinetic and potential energy never exceed those of the start", Confidence::Exact)
+            .exactly(0.0, "kinetic and potential energy never exceed those of the start")
             .gated(
                 Limit::AtMost(100.0 * run.elastic_share()),
                 "of the initial potential energy: no more than the elastic energy of the hydrostatic start is there to be given back",

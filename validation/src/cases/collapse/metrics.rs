@@ -10,7 +10,7 @@ use super::quantities::{
     PARTICLES_LOST, RUN_OUT, STOPPING_TIME,
 };
 use crate::case::Run;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
+use crate::metric::{Limit, Metric, Quantity, Variant};
 use crate::reference::{COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
@@ -26,10 +26,10 @@ pub(in crate::cases) fn all(records: &[Record]) -> Vec<Metric> {
     };
     for (run, record) in records {
         if run.purpose == Purpose::Law {
-            of_column(&mut metrics, run, &record.data, spread);
+            metrics.extend(of_column(run, &record.data, spread));
             metrics.extend(super::flow_metrics::of_run(run, record));
         } else {
-            metrics.extend(conservation(&run.variant(), &record.data, &run.numerics));
+            metrics.extend(conservation(&run.variant(), &record.data, &run.release.numerics));
         }
     }
     metrics.extend(super::convergence::metrics(records));
@@ -53,11 +53,11 @@ pub(in crate::cases) fn conservation(variant: &Variant, collapse: &Collapse, num
     let mut metrics = vec![
         PARTICLES_LOST
             .of(variant, collapse.lost as f64)
-            .against(Some(0.0), "no particle passes the bed, the symmetry plane or the bed's end", Confidence::Exact)
+            .exactly(0.0, "no particle passes the bed, the symmetry plane or the bed's end")
             .gated(Limit::AtMost(0.0), "grains do not vanish"),
         MASS_CHANGE
             .of(variant, collapse.mass_change)
-            .against(Some(0.0), "the mass of a particle never changes", Confidence::Exact)
+            .exactly(0.0, "the mass of a particle never changes")
             .gated(Limit::Within(0.0, 0.0), "exact by construction"),
     ];
     // an implicit step keeps no account of what the walls gave
@@ -65,11 +65,7 @@ pub(in crate::cases) fn conservation(variant: &Variant, collapse: &Collapse, num
         metrics.push(
             MOMENTUM_RESIDUAL
                 .of(variant, collapse.momentum_residual)
-                .against(
-                    Some(0.0),
-                    "momentum against gravity and what bed, planes, gate and contacts gave, over M g t",
-                    Confidence::Exact,
-                )
+                .exactly(0.0, "momentum against gravity and what bed, planes, gate and contacts gave, over M g t")
                 .gated(Limit::AtMost(1e-6), "specification 2: forces between grains cancel in pairs")
                 .with_snapshot_tolerance(0.0, 1e-10),
         );
@@ -79,15 +75,12 @@ pub(in crate::cases) fn conservation(variant: &Variant, collapse: &Collapse, num
 
 /// The grains are at rest at the end: gated where the law has a yield, for a liquid never rests.
 pub(in crate::cases) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rheology) -> Metric {
-    let share = KINETIC_ENERGY_SHARE
+    let limit = law.is_plastic().then_some(Limit::AtMost(1e-6));
+    KINETIC_ENERGY_SHARE
         .of(variant, collapse.agitation())
-        .against(Some(0.0), "a static deposit", Confidence::Exact)
-        .with_snapshot_tolerance(0.0, 1e-6);
-    if law.is_plastic() {
-        share.gated(Limit::AtMost(1e-6), "specification 2: at most 1e-6 of the potential energy that was released")
-    } else {
-        share
-    }
+        .exactly(0.0, "a static deposit")
+        .with_snapshot_tolerance(0.0, 1e-6)
+        .gated_by(limit, "specification 2: at most 1e-6 of the potential energy that was released")
 }
 
 /// Relative standard deviation of results over the seeds of an ensemble `[-]`: what a single run leaves open.
@@ -103,74 +96,63 @@ fn band(expected: f64, tolerance: f64, spread: f64) -> Limit {
     Limit::Within((1.0 - left) * expected, (1.0 + left) * expected)
 }
 
-fn of_column(metrics: &mut Vec<Metric>, run: &ColumnRun, collapse: &Collapse, spread: Spread) {
-    let variant = run.variant();
-    let a = run.initial_height();
+fn of_column(run: &ColumnRun, collapse: &Collapse, spread: Spread) -> Vec<Metric> {
+    let (variant, a) = (run.variant(), run.initial_height());
     let observed = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
-    let of_sand = run.material == Material::SAND && run.has_published_law();
-    metrics.extend(conservation(&variant, collapse, &run.numerics));
+    let by_law = |quantity: Quantity, value: f64, law: &CollapseLaw| {
+        observed(quantity, value).against(law.value(a), &law.source, law.confidence)
+    };
     let (run_out_law, height_law) = laws_of(run);
-    let run_out = observed(RUN_OUT, collapse.run_out()).against(
-        run_out_law.value(a),
-        &run_out_law.source,
-        run_out_law.confidence,
-    );
-    metrics.push(match run_out_law.value(a) {
-        Some(expected) if run.geometry == Geometry::Round && run.is_resolved() && run.has_published_law() => run_out
-            .gated(
-                band(expected, 0.2, spread.run_out),
-                "specification 2: within 20 % of Lube's law for round columns at 20 rows and more",
-            ),
-        _ => run_out,
-    });
-    let height = observed(FINAL_HEIGHT, collapse.final_height()).against(
-        height_law.value(a),
-        &height_law.source,
-        height_law.confidence,
-    );
-    metrics.push(match height_law.value(a) {
-        Some(expected) if of_sand && a > 1.15 => height.gated(
-            band(expected, 0.15, spread.height),
-            "specification 2: a^0.4 within 15 % above a = 1.15, less twice the spread over the seeds",
-        ),
-        Some(expected) if run.geometry == Geometry::Planar && of_sand && a <= 0.7 => height.gated(
-            band(expected, 0.03, spread.height),
-            "specification 2: undisturbed within 3 % up to a = 0.7, less twice the spread over the seeds",
-        ),
-        _ => height,
-    });
-    metrics.push(observed(STOPPING_TIME, collapse.stopping_time() / run.time_scale()).against(
-        Some(COLLAPSE_DURATION.0),
-        &format!("about {} √(h_0/g), {}; 99 % of the front's way here", COLLAPSE_DURATION.0, COLLAPSE_DURATION.1),
-        COLLAPSE_DURATION.2,
-    ));
-    metrics.push(at_rest(&variant, collapse, &run.law));
+    let is_round = run.geometry == Geometry::Round;
+    let run_out_limit = run_out_law
+        .value(a)
+        .filter(|_| is_round && run.is_resolved() && run.has_published_law())
+        .map(|expected| band(expected, 0.2, spread.run_out));
+    let of_sand = run.material == Material::SAND && run.has_published_law();
+    let (tolerance, height_reason) = match a {
+        _ if !of_sand => (None, ""),
+        _ if a > 1.15 => {
+            (Some(0.15), "specification 2: a^0.4 within 15 % above a = 1.15, less twice the spread over the seeds")
+        }
+        _ if !is_round && a <= 0.7 => {
+            (Some(0.03), "specification 2: undisturbed within 3 % up to a = 0.7, less twice the spread over the seeds")
+        }
+        _ => (None, ""),
+    };
+    let height_limit = height_law.value(a).zip(tolerance);
+    let (duration, source, confidence) = &*COLLAPSE_DURATION;
     let slope = observed(DEPOSIT_SLOPE_ANGLE, collapse.slope_angle());
-    metrics.push(match run.law.contact_friction() {
-        friction if friction > 0.0 => slope.against(
-            Some(libm::atan(friction).to_degrees()),
-            "arctan μ_s, the steepest slope that can rest; line over 20–80 % of the front",
-            Confidence::Exact,
+    let friction = run.law.contact_friction();
+    let steepest = "arctan μ_s, the steepest slope that can rest; line over 20–80 % of the front";
+    let mut metrics = conservation(&variant, collapse, &run.release.numerics);
+    metrics.extend([
+        by_law(RUN_OUT, collapse.run_out(), run_out_law).gated_by(
+            run_out_limit,
+            "specification 2: within 20 % of Lube's law for round columns at 20 rows and more",
         ),
-        _ => slope,
-    });
-    let excess = 100.0 * (collapse.top / collapse.final_height() - 1.0);
-    let top = HEIGHT_BY_TOP
-        .of(&variant, excess)
-        .against(Some(0.0), "highest particle beside the symmetry plane against the volume there", Confidence::Exact)
-        .with_snapshot_tolerance(0.01, 0.2);
-    metrics.push(if a <= 5.0 {
-        top.gated(
-            Limit::Within(-10.0, 10.0),
-            "specification 2: within 10 % up to a = 5, or particles stand above the heap",
-        )
-    } else {
-        top
-    });
-    let of_quantity = |quantity: &str| Variant::of("quantity", quantity).followed_by(&variant);
+        by_law(FINAL_HEIGHT, collapse.final_height(), height_law)
+            .gated_by(height_limit.map(|(expected, within)| band(expected, within, spread.height)), height_reason),
+        observed(STOPPING_TIME, collapse.stopping_time() / run.time_scale()).against(
+            Some(*duration),
+            &format!("about {duration} √(h_0/g), {source}; 99 % of the front's way here"),
+            *confidence,
+        ),
+        at_rest(&variant, collapse, &run.law),
+        if friction > 0.0 { slope.exactly(libm::atan(friction).to_degrees(), steepest) } else { slope },
+        HEIGHT_BY_TOP
+            .of(&variant, 100.0 * (collapse.top / collapse.final_height() - 1.0))
+            .exactly(0.0, "highest particle beside the symmetry plane against the volume there")
+            .with_snapshot_tolerance(0.01, 0.2)
+            .gated_by(
+                (a <= 5.0).then_some(Limit::Within(-10.0, 10.0)),
+                "specification 2: within 10 % up to a = 5, or particles stand above the heap",
+            ),
+    ]);
     let (x96, x99) = collapse.quantiles;
-    let quantities = [("centroid", collapse.centroid), ("mass_quantiles", 2.0 * x99 - x96 - 1.0)];
-    for (quantity, value) in quantities {
-        metrics.push(RUN_OUT.of(&of_quantity(quantity), value).with_snapshot_tolerance(1e-3, 1e-3));
-    }
+    let others = [("centroid", collapse.centroid), ("mass_quantiles", 2.0 * x99 - x96 - 1.0)];
+    metrics.extend(others.map(|(quantity, value)| {
+        let variant = Variant::of("quantity", quantity).followed_by(&variant);
+        RUN_OUT.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3)
+    }));
+    metrics
 }

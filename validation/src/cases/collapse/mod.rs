@@ -6,24 +6,25 @@ mod camera;
 mod column;
 mod convergence;
 mod deposit;
-mod energy;
 pub(super) mod figures;
 mod flow_metrics;
 mod incline;
 mod material;
 pub(super) mod metrics;
-pub(super) mod pictures;
 pub(super) mod quantities;
+mod release;
 mod scaling;
 mod slope;
 mod stress_updates;
 mod velocity_profile;
+mod watch;
 mod wedge;
 
 pub use column::{ColumnRun, Geometry, Purpose};
 pub use deposit::{BIN_WIDTH, Collapse, FRONT_THICKNESS, front};
 pub use incline::{InclineCollapseParameters, Reservoir};
 pub use material::{Alteration, Grains, Material};
+pub use release::Release;
 pub use slope::{SlopeCollapse, SlopeRun};
 
 use crate::case::{ParameterError, Run};
@@ -40,23 +41,19 @@ pub(super) type Record = (ColumnRun, Recorded<Collapse>);
 pub(super) fn tables((run, record): &Record) -> Vec<Table> {
     let collapse = &record.data;
     let stem = run.variant().file_name();
-    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
     let energy = |kind: &str| format!("{kind} energy [{}]", run.geometry.energy_unit());
-    let series = |k: usize| {
-        let energies = [collapse.kinetic_energy[k], collapse.potential_energy[k]];
-        [collapse.time[k], collapse.front[k], collapse.height[k]].into_iter().chain(energies).collect()
-    };
+    let (kinetic, potential) = (energy("kinetic"), energy("potential"));
+    let columns: [(&str, &[f64]); 5] = [
+        ("t [s]", &collapse.time),
+        ("front/r0 [-]", &collapse.front),
+        ("height/r0 [-]", &collapse.height),
+        (&kinetic, &collapse.kinetic_energy),
+        (&potential, &collapse.potential_energy),
+    ];
+    let deposit = collapse.deposit.iter().map(|&(x, thickness)| vec![x, thickness]);
     vec![
-        Table {
-            name: format!("deposit-{stem}"),
-            columns: names(&["x/r0 [-]", "thickness/r0 [-]"]),
-            rows: collapse.deposit.iter().map(|&(x, thickness)| vec![x, thickness]).collect(),
-        },
-        Table {
-            name: format!("series-{stem}"),
-            columns: names(&["t [s]", "front/r0 [-]", "height/r0 [-]", &energy("kinetic"), &energy("potential")]),
-            rows: (0..collapse.time.len()).map(series).collect(),
-        },
+        Table::of_rows(format!("deposit-{stem}"), &["x/r0 [-]", "thickness/r0 [-]"], deposit),
+        Table::of_columns(format!("series-{stem}"), &columns),
     ]
 }
 

@@ -95,21 +95,15 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
             let observed =
                 |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-2, 5e-3);
             let gate = gate.filter(|_| columns.iter().all(|(run, _)| run.has_published_law()));
-            let exponent = observed(SCALING_EXPONENT, scaling.law.value).against(
-                None,
-                "published exponents of tall planar columns: 2/3 to 0.7, height 0.33 to 0.4",
-                Confidence::High,
-            );
-            metrics.push(match gate {
-                Some(limit) => exponent.gated(limit, "specification 2: exponents depend little on the material"),
-                None => exponent,
-            });
-            metrics.push(observed(SCALING_CONFIDENCE, scaling.half_width).against(
-                None,
-                "half width of the exponent's 95 % interval, from the scatter about the fit",
-                Confidence::Exact,
-            ));
-            metrics.push(observed(SCALING_COEFFICIENT, scaling.law.coefficient));
+            let published = "published exponents of tall planar columns: 2/3 to 0.7, height 0.33 to 0.4";
+            let interval = "half width of the exponent's 95 % interval, from the scatter about the fit";
+            metrics.extend([
+                observed(SCALING_EXPONENT, scaling.law.value)
+                    .against(None, published, Confidence::High)
+                    .gated_by(gate, "specification 2: exponents depend little on the material"),
+                observed(SCALING_CONFIDENCE, scaling.half_width).against(None, interval, Confidence::Exact),
+                observed(SCALING_COEFFICIENT, scaling.law.coefficient),
+            ]);
             if quantity == "run_out"
                 && let Some(shallow) = shallow_coefficient(&records, material)
             {

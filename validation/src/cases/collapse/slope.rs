@@ -1,28 +1,23 @@
 //! A reservoir of grains behind a gate on an incline: its scene and its run.
 
-use super::block::Block;
-use super::camera::Camera;
-use super::deposit::{Collapse, Surveyor, front};
+use super::block::{Block, STIFFNESS};
+use super::deposit::{Collapse, Surveyor};
 use super::incline::Reservoir;
+use super::watch::{AT_REST, Watch};
+use crate::case::recording::{self, Ending};
 use crate::case::{ParameterError, Progress, Run};
-use crate::cases::recording::Ending;
 use crate::metric::{Value, Variant};
-use crate::observation::{Frame, Recorded};
+use crate::observation::Recorded;
 use crate::reference::SLOPE_EXPERIMENT;
 use bagnold_solver::domain::{AxisBoundary, Domain};
-use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::Wall;
 use bagnold_solver::weakly_compressible::boundary::gate::Gate;
-use bagnold_solver::weakly_compressible::boundary::wall::fill;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// Kinetic over released potential energy below which the deposit rests and the run ends `[-]`.
-const AT_REST: f64 = 5e-7;
 /// Time before which no reservoir has emptied `[s]`.
 const EARLIEST_REST: f64 = 0.4;
 /// Interval of the time series `[s]`.
@@ -82,50 +77,30 @@ impl Run for SlopeRun {
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, ParameterError> {
         let started = std::time::Instant::now();
         let mut simulation = Simulation::new(self.scene())?;
-        let particles = simulation.particles().flow_count();
-        let mut surveyor = Surveyor {
-            half_width: self.reservoir.reservoir_length,
+        let Reservoir { reservoir_length, channel_length, duration, .. } = self.reservoir;
+        let surveyor = Surveyor {
+            half_width: reservoir_length,
             spacing: self.spacing(),
             gravity: self.gravity(),
-            bed_end: self.reservoir.channel_length,
+            bed_end: channel_length,
             collapse: Collapse::default(),
         };
-        let r = self.reservoir.reservoir_length;
-        let mut camera = Camera::new(FRAME_INTERVAL, self.spacing());
+        let mut watch = Watch::new(surveyor, FRAME_INTERVAL, PICTURES.to_vec(), EARLIEST_REST);
         let mut thickness = Vec::new();
-        let mut frames = Vec::new();
-        let mut last_good = simulation.snapshot();
-        let end_of_channel = self.reservoir.channel_length - 0.5 * self.reservoir.reservoir_length;
-        let reason = simulation.run(self.reservoir.duration, INTERVAL, |simulation| {
-            let snapshot = simulation.snapshot();
-            let profile = surveyor.observe(&snapshot);
-            camera.watch(&snapshot, profile.iter().map(|(x, h)| (x * r, h * r)), front(&profile) * r);
+        let end_of_channel = channel_length - 0.5 * reservoir_length;
+        let ending = recording::watch(&mut simulation, (duration, INTERVAL), progress, |snapshot| {
+            let (profile, rests) = watch.observe(snapshot);
             thickness.push(profile.iter().map(|bin| bin.1).collect());
-            if PICTURES.get(frames.len()).is_some_and(|&time| snapshot.time >= time) {
-                frames.push(Frame::of_flow(&snapshot));
-            }
-            progress.advance(snapshot.time, self.reservoir.duration, simulation.steps() as f64 * particles as f64);
-            let rests = snapshot.time > EARLIEST_REST && surveyor.agitation() < AT_REST;
             let arrived = snapshot.position.iter().any(|x| x[0] > end_of_channel);
-            last_good = snapshot;
             if rests || arrived { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let ending = Ending {
-            reason,
-            last_good,
-            criterion: format!(
-                "the deposit rests (kinetic energy below {AT_REST:.0e} of the energy released), or a grain nears the end \
-                 of the channel"
-            ),
-            may_diverge: false,
-            frames,
-            started,
-        };
-        Ok(ending.record(&simulation, |end| {
-            let mut collapse = surveyor.finish(end);
-            collapse.motion = camera.motion;
-            SlopeCollapse { collapse, thickness }
-        }))
+        let criterion = format!(
+            "the deposit rests (kinetic energy below {AT_REST:.0e} of the energy released), or a grain nears the end of \
+             the channel"
+        );
+        let frames = std::mem::take(&mut watch.frames);
+        let ending = Ending { criterion, frames, started, ..ending };
+        Ok(ending.record(&simulation, |end| SlopeCollapse { collapse: watch.finish(end), thickness }))
     }
 }
 
@@ -179,7 +154,7 @@ impl SlopeRun {
     }
 
     fn bulk_modulus(&self) -> f64 {
-        50.0 * self.bulk_density * self.reservoir.gravity * self.reservoir.initial_height
+        STIFFNESS * self.bulk_density * self.reservoir.gravity * self.reservoir.initial_height
     }
 
     fn sound_speed(&self) -> f64 {
@@ -195,29 +170,25 @@ impl SlopeRun {
     fn scene(&self) -> Scene<2> {
         let spacing = self.spacing();
         let height = self.rows() as f64 * spacing;
-        let (modulus, density) = (self.bulk_modulus(), self.bulk_density);
-        let equation_of_state =
-            EquationOfState { reference_density: density, bulk_modulus: modulus, tension: Tension::Cut };
-        let gravity = self.gravity();
+        let Reservoir { resolution, jitter, seed, numerics, channel_length, .. } = self.reservoir;
         let site = |cell: usize| {
-            let (column, row) = (cell % self.reservoir.resolution, cell / self.reservoir.resolution);
+            let (column, row) = (cell % resolution, cell / resolution);
             Vector::<2>::new((column as f64 + 0.5) * spacing, (row as f64 + 0.5) * spacing)
         };
         let block = Block {
             spacing,
             height,
-            gravity_across: -gravity[1],
-            equation_of_state,
-            jitter: self.reservoir.jitter,
-            seed: self.reservoir.seed,
+            gravity: Vector::<2>::from(self.gravity()),
+            density: self.bulk_density,
+            bulk_modulus: self.bulk_modulus(),
+            rheology: self.rheology(),
+            jitter,
+            seed,
+            numerics,
         };
-        let flow = block.fill((0..self.rows() * self.reservoir.resolution).map(site));
         // the back of the reservoir is smooth
         let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
-        let mut walls = vec![Wall::still(1, 0.0, 1.0)];
-        let layers = (2.0 * self.reservoir.numerics.smoothing_ratio).ceil() as usize + 1;
-        let extent = (Vector::<2>::zeros(), Vector::<2>::new(self.reservoir.channel_length, height));
-        let mut wall_particles = fill(&walls, &domain, extent, spacing, layers);
+        let mut scene = block.scene((0..self.rows() * resolution).map(site), domain, channel_length);
         if self.gate_speed > 0.0 {
             let gate = Gate {
                 position: self.reservoir.reservoir_length,
@@ -227,21 +198,11 @@ impl SlopeRun {
                 lift: height + 2.0 * GATE_ROWS as f64 * spacing,
                 rows: GATE_ROWS,
             };
-            let (faces, particles) = gate.build(spacing, walls.len());
-            walls.extend(faces);
-            wall_particles.extend(particles);
+            let (faces, particles) = gate.build(spacing, scene.walls.len());
+            scene.walls.extend(faces);
+            scene.wall_particles.extend(particles);
         }
-        Scene {
-            flow,
-            wall_particles,
-            walls,
-            domain,
-            gravity: Vector::<2>::from(gravity),
-            spacing,
-            equation_of_state,
-            rheology: self.rheology(),
-            numerics: self.reservoir.numerics,
-        }
+        scene
     }
 }
 

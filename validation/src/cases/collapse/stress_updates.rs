@@ -5,8 +5,8 @@ use super::column::{ColumnRun, Purpose};
 use super::deposit::Collapse;
 use super::quantities::{EXPLICIT_STEPS, REGULARISED_DIFFERENCE, RUN_OUT};
 use crate::case::Run;
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::metric::{Confidence, Metric, Variant};
+use crate::figure::{Axis, Figure, Mark, Panel};
+use crate::metric::{Metric, Variant};
 
 /// The regularised runs.
 fn regularised(records: &[Record]) -> impl Iterator<Item = &Record> {
@@ -22,48 +22,39 @@ fn partner<'a>(records: &'a [Record], run: &ColumnRun) -> Option<&'a Record> {
     })
 }
 
-/// Pairs of a regularised run and its partner.
-fn pairs(records: &[Record]) -> Vec<(&Record, &Record)> {
-    regularised(records).filter_map(|record| Some((record, partner(records, &record.0)?))).collect()
+pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
+    regularised(records).flat_map(|record| of_regularised(record, partner(records, &record.0))).collect()
 }
 
-pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
-    let mut metrics = Vec::new();
-    for (run, record) in regularised(records) {
-        let variant = run.variant();
+fn of_regularised((run, record): &Record, partner: Option<&Record>) -> Vec<Metric> {
+    let variant = run.variant();
+    let mut metrics = vec![
         // what (29) would ask for with the viscosity of (35) at rest under the whole column
-        metrics.push(
-            EXPLICIT_STEPS
-                .of(&variant, run.explicit_viscous_steps(record.simulated_time))
-                .against(
-                    Some(record.steps as f64),
-                    "the steps that the implicit run took; an explicit one was not made",
-                    Confidence::Exact,
-                )
-                .with_snapshot_tolerance(0.02, 1.0),
-        );
-        metrics.push(RUN_OUT.of(&variant, record.data.run_out()).with_snapshot_tolerance(1e-3, 1e-3));
-        let Some((_, mapped)) = partner(records, run) else { continue };
+        EXPLICIT_STEPS
+            .of(&variant, run.explicit_viscous_steps(record.simulated_time))
+            .exactly(record.steps as f64, "the steps that the implicit run took; an explicit one was not made")
+            .with_snapshot_tolerance(0.02, 1.0),
+        RUN_OUT.of(&variant, record.data.run_out()).with_snapshot_tolerance(1e-3, 1e-3),
+    ];
+    if let Some((_, mapped)) = partner {
         let difference = |of: fn(&Collapse) -> f64| 100.0 * (of(&record.data) / of(&mapped.data) - 1.0);
-        for (quantity, value) in [
+        let values = [
             ("run_out", difference(Collapse::run_out)),
             ("centroid", difference(|collapse| collapse.centroid)),
             ("final_height", difference(Collapse::final_height)),
-        ] {
+        ];
+        metrics.extend(values.map(|(quantity, value)| {
             let variant = Variant::of("quantity", quantity).followed_by(&variant);
-            metrics.push(
-                REGULARISED_DIFFERENCE
-                    .of(&variant, value)
-                    .against(Some(0.0), "the same column by return mapping", Confidence::Exact)
-                    .with_snapshot_tolerance(0.02, 0.1),
-            );
-        }
+            let metric = REGULARISED_DIFFERENCE.of(&variant, value);
+            metric.exactly(0.0, "the same column by return mapping").with_snapshot_tolerance(0.02, 0.1)
+        }));
     }
     metrics
 }
 
 pub(super) fn figure(records: &[Record]) -> Option<Figure> {
-    let pairs = pairs(records);
+    let pairs: Vec<(&Record, &Record)> =
+        regularised(records).filter_map(|record| Some((record, partner(records, &record.0)?))).collect();
     if pairs.is_empty() {
         return None;
     }
@@ -75,27 +66,24 @@ pub(super) fn figure(records: &[Record]) -> Option<Figure> {
         {
             let label = format!("{}, a = {}: {kind}", run.material, run.aspect_ratio);
             let data = &record.data;
-            let end = data.deposit.iter().rposition(|bin| bin.1 > 0.0).map_or(0, |last| last + 1);
-            deposit.series.push(Series::new(&label, mark, slot, data.deposit[..end].to_vec()));
-            let way = data.time.iter().zip(&data.front).map(|(t, x)| (t / run.time_scale(), x - 1.0)).collect();
-            front.series.push(Series::new("", mark, slot, way));
+            deposit.draw(&label, mark, slot, data.drawn());
+            let way = data.time.iter().zip(&data.front).map(|(t, x)| (t / run.time_scale(), x - 1.0));
+            front.draw("", mark, slot, way);
         }
     }
-    Some(Figure {
-        name: "stress-updates".to_owned(),
-        caption: "The two stress updates: return mapping with a true yield, and the paper's regularised viscosity (35) with \
-                  an implicit step. The regularised deposit creeps for ever, so its front is that of the time at which the \
-                  run ended."
-            .to_owned(),
-        panels: vec![deposit, front],
-        columns: 2,
-    })
+    Some(Figure::new(
+        "stress-updates",
+        "The two stress updates: return mapping with a true yield, and the paper's regularised viscosity (35) with \
+         an implicit step. The regularised deposit creeps for ever, so its front is that of the time at which the \
+         run ended.",
+        vec![deposit, front],
+    ))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cases::collapse::{Geometry, Material};
+    use crate::cases::collapse::{Geometry, Material, Release};
     use crate::observation::{Outcome, Recorded};
     use crate::reference::TABLE_2_SAND;
     use bagnold_solver::material::rheology::Rheology;
@@ -115,12 +103,8 @@ mod tests {
                 .map_or(Rheology::MuI(grains), |rate| Rheology::RegularisedMuI(grains.regularised(rate))),
             bulk_density: 1500.0,
             regularisation_rate,
-            gravity: 9.81,
-            jitter: 0.0,
-            seed: 1,
-            duration: 10.0,
             shown_times: Vec::new(),
-            numerics: Numerics::default(),
+            release: Release::with(Numerics::default()),
         }
     }
 

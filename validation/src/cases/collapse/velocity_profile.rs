@@ -1,6 +1,6 @@
 //! Velocity over depth in a spreading heap: a flowing layer, about linear, and below it a tail that decays.
 
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 use crate::observation::Frame;
 use crate::statistics::{Regression, common_slope, linear_regression};
 
@@ -41,9 +41,8 @@ pub(in crate::cases) struct DecayLength {
 impl Station {
     /// Averages the particles within half a `width` of `x`, in bins one `layer` high `[m]`.
     pub(in crate::cases) fn of(frame: &Frame, x: f64, width: f64, layer: f64) -> Self {
-        let velocity = frame.vectors.iter().find(|(name, _, _)| name == "velocity").map(|(_, _, values)| values);
         let mut bins: Vec<(f64, usize)> = Vec::new();
-        for (position, velocity) in frame.position.iter().zip(velocity.into_iter().flatten()) {
+        for (position, velocity) in frame.position.iter().zip(frame.vector("velocity")) {
             if (position[0] - x).abs() > 0.5 * width {
                 continue;
             }
@@ -103,13 +102,13 @@ pub(in crate::cases) fn figure(
     let axes = |points: &[(f64, f64)]| points.iter().map(|&(y, u)| (u, y / unit_length)).collect::<Vec<_>>();
     for (slot, station) in stations.iter().enumerate() {
         let label = format!("x = {:.2} {unit}", station.x / unit_length);
-        linear.series.push(Series::new(&label, Mark::Points, slot, axes(&station.profile)));
-        decaying.series.push(Series::new("", Mark::Points, slot, axes(&station.profile)));
+        linear.points(&label, slot, axes(&station.profile));
+        decaying.points("", slot, axes(&station.profile));
         if let (Some(fit), Some(top), Some(bottom)) = (station.shear, station.flowing.first(), station.flowing.last()) {
             let end = |y: f64| (y, fit.intercept + fit.slope * y);
             // down to where the line says that nothing moves
             let foot = (-fit.intercept / fit.slope).min(bottom.0);
-            linear.series.push(Series::new("fits", Mark::Reference, 0, axes(&[end(foot.max(0.0)), end(top.0)])));
+            linear.reference("fits", axes(&[end(foot.max(0.0)), end(top.0)]));
         }
         if let (Some(decay), true) = (decay, station.tail.len() >= FEWEST) {
             let count = station.tail.len() as f64;
@@ -117,7 +116,7 @@ pub(in crate::cases) fn figure(
             let amplitude = offsets.sum::<f64>() / count;
             let ends = [station.tail[0].0, station.tail[station.tail.len() - 1].0];
             let line = ends.map(|y| (y, libm::exp(amplitude + y / decay.value)));
-            decaying.series.push(Series::new("", Mark::Reference, 0, axes(&line)));
+            decaying.reference("", axes(&line));
         }
     }
     // creep that turns round every other spacing says nothing on a logarithmic axis
@@ -125,7 +124,7 @@ pub(in crate::cases) fn figure(
     if fastest > 0.0 {
         decaying.x.limits = Some((1e-3 * fastest, 1.3 * fastest));
     }
-    Figure { name: name.to_owned(), caption: caption.to_owned(), panels: vec![linear, decaying], columns: 2 }
+    Figure::new(name, caption, vec![linear, decaying])
 }
 
 #[cfg(test)]

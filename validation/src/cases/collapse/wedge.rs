@@ -1,6 +1,7 @@
 //! What never moved: the part of a heap that the collapse leaves in its place, and the surface that bounds it.
 
-use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
+use super::column::ColumnRun;
+use crate::figure::{Axis, Field, Panel};
 use crate::observation::Frame;
 use crate::statistics::linear_regression;
 
@@ -59,63 +60,30 @@ impl Wedge {
     }
 }
 
-/// A deposit for the figure.
-pub(in crate::cases) struct Deposit<'a> {
-    /// Title of its panel.
-    pub(in crate::cases) title: String,
-    /// The final state.
-    pub(in crate::cases) end: &'a Frame,
-    /// Its undisturbed part.
-    pub(in crate::cases) wedge: Wedge,
-    /// Unit of length, the initial half width `[m]`.
-    pub(in crate::cases) half_width: f64,
-    /// Initial height `[m]`.
-    pub(in crate::cases) height: f64,
-    /// Particle spacing `[m]`.
-    pub(in crate::cases) spacing: f64,
-}
-
-/// Deposits in the colours of the displacement, undisturbed particles in grey, dashed the initial column and the line
+/// A deposit in the colours of the displacement, undisturbed particles in grey, dashed the initial column and the line
 /// through the failure surface.
-pub(in crate::cases) fn figure(name: &str, caption: &str, deposits: &[Deposit<'_>]) -> Figure {
-    Figure {
-        name: name.to_owned(),
-        caption: caption.to_owned(),
-        panels: deposits.iter().map(panel).collect(),
-        columns: 2,
-    }
-}
-
-fn panel(deposit: &Deposit<'_>) -> Panel {
-    let unit = deposit.half_width;
-    let mut panel = Panel::new(&deposit.title, Axis::linear("x/r0 [-]"), Axis::linear("y/r0 [-]"));
-    let seen: Vec<usize> =
-        (0..deposit.end.position.len()).filter(|&index| deposit.end.position[index][2] < deposit.spacing).collect();
-    let place = |&index: &usize| (deposit.end.position[index][0] / unit, deposit.end.position[index][1] / unit);
+pub(super) fn panel(title: &str, run: &ColumnRun, end: &Frame, wedge: &Wedge) -> Panel {
+    let (unit, spacing, height) = (run.half_width, run.spacing(), run.initial_height() * run.half_width);
+    let mut panel = Panel::new(title, Axis::linear("x/r0 [-]"), Axis::linear("y/r0 [-]"));
+    let seen: Vec<usize> = (0..end.position.len()).filter(|&index| end.position[index][2] < spacing).collect();
+    let place = |&index: &usize| (end.position[index][0] / unit, end.position[index][1] / unit);
     let far = seen.iter().map(place).fold(1.0, |far: f64, place| far.max(place.0));
     let high = seen.iter().map(place).fold(0.0, |high: f64, place| high.max(place.1));
-    panel.x.limits = Some((0.0, far + deposit.spacing / unit));
+    panel.x.limits = Some((0.0, far + spacing / unit));
     // tall columns are cut: what is of interest is the deposit
     panel.y.limits = Some((0.0, 1.15 * high));
     let way = |&index: &usize| {
-        let way = deposit.wedge.displacement[index];
+        let way = wedge.displacement[index];
         // grey
-        if way < deposit.spacing { f64::NAN } else { way / unit }
+        if way < spacing { f64::NAN } else { way / unit }
     };
-    panel.field = Some(Field {
-        points: seen.iter().map(place).collect(),
-        values: seen.iter().map(way).collect(),
-        label: "d/r0 [-]".to_owned(),
-        diameter: deposit.spacing / unit,
-        limits: Some((0.0, deposit.wedge.displacement.iter().copied().fold(0.0, f64::max) / unit)),
-    });
-    let height = deposit.height / unit;
-    let column = vec![(0.0, height), (1.0, height), (1.0, 0.0)];
-    panel.series.push(Series::new("", Mark::Reference, 0, column));
-    if let (Some((start, lean)), Some(_)) = (deposit.wedge.line, deposit.wedge.angle()) {
-        let top = (-start / lean).min(deposit.height);
-        let ends = vec![(start / unit, 0.0), ((start + lean * top) / unit, top / unit)];
-        panel.series.push(Series::new("", Mark::Line, 1, ends));
+    let farthest = wedge.displacement.iter().copied().fold(0.0, f64::max) / unit;
+    let (points, values) = (seen.iter().map(place), seen.iter().map(way));
+    panel.field = Some(Field::new("d/r0 [-]", spacing / unit, (0.0, farthest), points, values));
+    panel.reference("", [(0.0, height / unit), (1.0, height / unit), (1.0, 0.0)]);
+    if let (Some((start, lean)), Some(_)) = (wedge.line, wedge.angle()) {
+        let top = (-start / lean).min(height);
+        panel.line("", 1, [(start / unit, 0.0), ((start + lean * top) / unit, top / unit)]);
     }
     panel
 }

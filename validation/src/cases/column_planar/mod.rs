@@ -1,6 +1,7 @@
 //! Planar granular columns that collapse and spread on a rough horizontal bed.
 
 mod parameters;
+mod runs;
 
 pub use parameters::{ColumnPlanarParameters, Columns, Regularised, Sensitivity, Variants};
 
@@ -26,7 +27,7 @@ impl Case for ColumnPlanar {
         not give. The coefficients of the published laws depend on the material, their exponents much less. With another \
         law than μ(I) the published laws are shown and do not gate.";
     type Parameters = ColumnPlanarParameters;
-    const QUANTITIES: &'static [Quantity] = collapse::quantities::OF_COLUMNS;
+    const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
 
     fn metrics(_: &ColumnPlanarParameters, records: &[Record]) -> Vec<Metric> {
         collapse::metrics::all(records)

@@ -1,12 +1,13 @@
 //! The case's parameters and their tiers.
 
+use super::runs;
 use crate::case::{ParameterError, Parameters, Tier};
-use crate::cases::collapse::{self, Alteration, ColumnRun, Geometry, Grains, Material, Purpose};
+use crate::cases::collapse::{self, ColumnRun, Grains, Purpose, Release};
 use crate::cases::{Bulk, rules};
 use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};
-use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::parameter::{between, each, positive, within};
-use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+use bagnold_solver::weakly_compressible::numerics::Numerics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +31,7 @@ pub struct Columns {
 }
 
 /// Columns of grains that differ from others in one number.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Variants {
     /// What that number is instead; empty for none.
     pub values: Vec<f64>,
@@ -40,7 +41,7 @@ pub struct Variants {
 }
 
 /// How far results depend on what should not matter, for the grains of Lagrée et al.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Sensitivity {
     /// Aspect ratios `[-]`; empty for none.
     #[schemars(transform = each(between(0.1, 100.0, "the published laws reach from 0.3 to 20")))]
@@ -72,23 +73,15 @@ pub struct Regularised {
 /// Parameters of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ColumnPlanarParameters {
-    /// Gravity `[m/s²]`.
-    #[schemars(transform = rules::gravity())]
-    pub gravity: f64,
     /// Particles over the half width, aspect ratios up to 5.
     #[schemars(transform = rules::rows())]
     pub resolution: usize,
     /// Particles over the half width, taller columns.
     #[schemars(transform = rules::rows())]
     pub tall_resolution: usize,
-    /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.05 breaks the lattice without overlaps"))]
-    pub jitter: f64,
-    /// Seed of the displacements.
-    pub seed: u64,
-    /// Longest simulated time over √(h_0/g) `[-]`; a deposit at rest ends a run before.
-    #[schemars(transform = between(0.1, 1000.0, "a column has come to rest after about 5"))]
-    pub duration: f64,
+    /// How columns are released and simulated.
+    #[serde(flatten)]
+    pub release: Release,
     /// The paper's sand; I_0 is 2.65 as printed, 0.279 follows from (41) for the glass beads.
     pub sand: Columns,
     /// The paper's glass beads, for figures 7–9.
@@ -105,37 +98,24 @@ pub struct ColumnPlanarParameters {
     pub sensitivity: Sensitivity,
     /// The paper's stress update.
     pub regularised: Regularised,
-    /// Numerics.
-    pub numerics: Numerics,
 }
 
 /// Aspect ratio above which a column is narrower and coarser: the paper's own division of half widths.
 const TALL: f64 = 3.0;
 /// Aspect ratio above which `tall_resolution` holds.
 const COARSE: f64 = 5.0;
-/// Seeds at the finest resolution of a study.
-const FINEST_SEEDS: usize = 3;
-/// Longest time of a regularised column over √(h_0/g) `[-]`: it never rests.
-const REGULARISED_DURATION: f64 = 5.0;
 /// The paper's figures 7–9: aspect ratio and times `[s]`.
-const SHOWN: [(f64, &[f64]); 3] = [(0.9, &[0.07, 0.3]), (2.75, &[0.04, 0.12, 0.34, 0.53]), (4.8, &[0.04, 0.2, 0.4])];
-
-/// Times at which the paper shows a column of this aspect ratio `[s]`.
-fn shown_times(aspect_ratio: f64) -> Vec<f64> {
-    SHOWN.iter().find(|shown| shown.0 == aspect_ratio).map_or(Vec::new(), |shown| shown.1.to_vec())
-}
+pub(super) const SHOWN: [(f64, &[f64]); 3] =
+    [(0.9, &[0.07, 0.3]), (2.75, &[0.04, 0.12, 0.34, 0.53]), (4.8, &[0.04, 0.2, 0.4])];
 
 impl Parameters for ColumnPlanarParameters {
     type Run = ColumnRun;
 
     fn of_tier(tier: Tier) -> Self {
         let quick = Self {
-            gravity: 9.81,
             resolution: 20,
             tall_resolution: 20,
-            jitter: 0.05,
-            seed: 1,
-            duration: 10.0,
+            release: Release::with(Numerics::default()),
             // Table 2; figures 7–10
             sand: Columns {
                 aspect_ratios: vec![0.7, 0.9, 1.5, 3.0],
@@ -150,18 +130,16 @@ impl Parameters for ColumnPlanarParameters {
                 ..Columns::of(&GLASS_BEADS)
             },
             lagree: Columns { aspect_ratios: vec![1.0], ..Columns::of(&LAGREE_GRAINS) },
-            sand_inertias: Variants { values: Vec::new(), aspect_ratios: Vec::new() },
-            lagree_diameters: Variants { values: Vec::new(), aspect_ratios: Vec::new() },
+            sand_inertias: Variants::default(),
+            lagree_diameters: Variants::default(),
             // the spread over five seeds, which the gates of run-out and height take into account
             sensitivity: Sensitivity {
                 aspect_ratios: vec![1.0],
                 resolutions: vec![20],
                 seeds: vec![1, 2, 3, 4, 5],
-                hourglass: Vec::new(),
-                hourglass_resolutions: Vec::new(),
+                ..Sensitivity::default()
             },
             regularised: Regularised { aspect_ratios: vec![0.9], rate: 0.01 },
-            numerics: Numerics::default(),
         };
         let paper = Self {
             sand_inertias: Variants {
@@ -200,9 +178,11 @@ impl Parameters for ColumnPlanarParameters {
             rules::material(&format!("{name}.law"), &columns.law)?;
             columns.bulk.check(&columns.law).map_err(|error| error.within(name))?;
         }
-        let altered = [("sand", &self.sand, "sand_inertias"), ("lagree", &self.lagree, "lagree_diameters")];
-        for ((name, columns, list), variants) in altered.into_iter().zip([&self.sand_inertias, &self.lagree_diameters])
-        {
+        let altered = [
+            ("sand", &self.sand, "sand_inertias", &self.sand_inertias),
+            ("lagree", &self.lagree, "lagree_diameters", &self.lagree_diameters),
+        ];
+        for (name, columns, list, variants) in altered {
             if !variants.values.is_empty() && !variants.aspect_ratios.is_empty() {
                 let remedy = format!("`{list}` alters a number of μ(I): choose it, or empty `{list}.values`");
                 rules::only_mu_i(&format!("{name}.law"), &columns.law, &remedy)?;
@@ -211,10 +191,10 @@ impl Parameters for ColumnPlanarParameters {
         if !self.regularised.aspect_ratios.is_empty() {
             let remedy = "(35) regularises μ(I): choose it, or empty `regularised.aspect_ratios`";
             rules::only_mu_i("sand.law", &self.sand.law, remedy)?;
-            rules::implicit_runs("numerics", &self.numerics, "regularised.aspect_ratios")?;
+            rules::implicit_runs("numerics", &self.release.numerics, "regularised.aspect_ratios")?;
         }
         for (_, columns) in self.materials() {
-            rules::viscous_step("numerics", &self.numerics, &columns.law)?;
+            rules::viscous_step("numerics", &self.release.numerics, &columns.law)?;
         }
         collapse::check_size(&self.runs(), |run| match run.purpose {
             Purpose::Convergence => "sensitivity.resolutions".to_owned(),
@@ -224,95 +204,7 @@ impl Parameters for ColumnPlanarParameters {
     }
 
     fn runs(&self) -> Vec<ColumnRun> {
-        let column = |material: Material, columns: &Columns, aspect_ratio: f64| ColumnRun {
-            purpose: Purpose::Law,
-            geometry: Geometry::Planar,
-            material,
-            aspect_ratio,
-            resolution: self.resolution_of(aspect_ratio),
-            half_width: columns.half_width_of(aspect_ratio),
-            law: columns.law,
-            bulk_density: columns.bulk.density(&columns.law),
-            regularisation_rate: None,
-            gravity: self.gravity,
-            jitter: self.jitter,
-            seed: self.seed,
-            duration: self.duration,
-            shown_times: if matches!(material, Material::SAND | Material::GLASS) {
-                shown_times(aspect_ratio)
-            } else {
-                Vec::new()
-            },
-            numerics: self.numerics,
-        };
-        let mut runs = Vec::new();
-        for (grains, columns) in self.materials() {
-            let material = Material::published(grains);
-            runs.extend(columns.aspect_ratios.iter().map(|&aspect_ratio| column(material, columns, aspect_ratio)));
-        }
-        let (sand, lagree) = (&self.sand, &self.lagree);
-        let mut altered = |columns: &Columns, law: MuI, material: Material, aspect_ratios: &[f64]| {
-            let columns = Columns { law: Rheology::MuI(law), ..columns.clone() };
-            runs.extend(aspect_ratios.iter().map(|&ratio| column(material, &columns, ratio)));
-        };
-        if let Rheology::MuI(law) = sand.law {
-            for &reference_inertia in &self.sand_inertias.values {
-                let material = Material::altered(Grains::Sand, Alteration::ReferenceInertia(reference_inertia));
-                altered(sand, MuI { reference_inertia, ..law }, material, &self.sand_inertias.aspect_ratios);
-            }
-        }
-        if let Rheology::MuI(law) = lagree.law {
-            for &grain_diameter in &self.lagree_diameters.values {
-                let material = Material::altered(Grains::Lagree, Alteration::GrainDiameter(grain_diameter));
-                altered(lagree, MuI { grain_diameter, ..law }, material, &self.lagree_diameters.aspect_ratios);
-            }
-        }
-        let study = &self.sensitivity;
-        let finest = study.resolutions.iter().copied().max().unwrap_or(0);
-        for &ratio in &study.aspect_ratios {
-            for &resolution in &study.resolutions {
-                let seeds = study.seeds.iter().take(if resolution == finest && study.resolutions.len() > 1 {
-                    FINEST_SEEDS
-                } else {
-                    usize::MAX
-                });
-                for &seed in seeds {
-                    let own = column(Material::LAGREE, lagree, ratio);
-                    // the column that is there for the laws is one of its ensemble
-                    let known =
-                        resolution == own.resolution && seed == own.seed && lagree.aspect_ratios.contains(&ratio);
-                    if !known {
-                        runs.push(ColumnRun { purpose: Purpose::Convergence, resolution, seed, ..own });
-                    }
-                }
-            }
-        }
-        for &ratio in study.aspect_ratios.iter().take(1) {
-            for &resolution in &study.hourglass_resolutions {
-                runs.extend(study.hourglass.iter().map(|&hourglass| {
-                    let numerics = Numerics { hourglass, ..self.numerics };
-                    ColumnRun {
-                        purpose: Purpose::Hourglass,
-                        resolution,
-                        numerics,
-                        ..column(Material::LAGREE, lagree, ratio)
-                    }
-                }));
-            }
-        }
-        if let Rheology::MuI(law) = sand.law {
-            let rate = self.regularised.rate;
-            runs.extend(self.regularised.aspect_ratios.iter().map(|&ratio| ColumnRun {
-                purpose: Purpose::Regularised,
-                law: Rheology::RegularisedMuI(law.regularised(rate)),
-                regularisation_rate: Some(rate),
-                duration: REGULARISED_DURATION.min(self.duration),
-                numerics: Numerics { viscous_step: ViscousStep::Implicit, ..self.numerics },
-                shown_times: Vec::new(),
-                ..column(Material::SAND, sand, ratio)
-            }));
-        }
-        runs
+        runs::all(self)
     }
 }
 

@@ -24,7 +24,7 @@ impl Case for ColumnRound {
         planar runs with it. The height law of the same source is unverified and does not gate. With another \
         law than μ(I) the published laws are shown and do not gate.";
     type Parameters = ColumnRoundParameters;
-    const QUANTITIES: &'static [Quantity] = collapse::quantities::OF_COLUMNS;
+    const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
 
     fn metrics(_: &ColumnRoundParameters, records: &[Record]) -> Vec<Metric> {
         collapse::metrics::all(records)

@@ -2,10 +2,10 @@
 
 use super::Record;
 use super::comparison::NumericsSet;
-use super::metrics::{convergence_errors, shear_rates};
-use super::parameters::FilmRun;
+use super::metrics::convergence_errors;
+use super::runs::FilmRun;
 use crate::cases::Arrangement;
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 use crate::observation::Outcome;
 use bagnold_solver::material::rheology::Rheology;
 
@@ -27,17 +27,14 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     if errors.len() >= 2 {
         let mut panel =
             Panel::new("", Axis::logarithmic("rows over the film [-]"), Axis::logarithmic("relative L2 of u [%]"));
-        let (rows, error) = errors[0];
-        let guide = errors.iter().map(|(n, _)| (*n, error * (rows / n) * (rows / n))).collect();
-        panel.series.push(Series::new("second order", Mark::Reference, 0, guide));
-        panel.series.push(Series::new("Newtonian, lattice", Mark::LinePoints, 0, errors));
-        figures.push(Figure {
-            name: "convergence".to_owned(),
-            caption: "Relative L2 error of the Newtonian velocity profile against the exact weakly compressible film, with the number of rows over the film."
-                .to_owned(),
-            panels: vec![panel],
-            columns: 1,
-        });
+        panel.order(2, "second order", &errors);
+        panel.line_points("Newtonian, lattice", 0, errors);
+        figures.push(Figure::new(
+            "convergence",
+            "Relative L2 error of the Newtonian velocity profile against the exact weakly compressible film, with \
+             the number of rows over the film.",
+            vec![panel],
+        ));
     }
     if let Some((first, _)) = compared {
         let rows = first.layer.resolution;
@@ -65,28 +62,20 @@ fn profiles(records: &[&Record]) -> Figure {
         let exact: Vec<(f64, f64)> =
             (0..=200).map(|k| f64::from(k) / 200.0).map(|y| (film.velocity(y * h), y)).collect();
         let name = if slot == 0 { "exact" } else { "" };
-        let rates =
-            exact.windows(2).map(|p| ((p[1].0 - p[0].0) / ((p[1].1 - p[0].1) * h), 0.5 * (p[0].1 + p[1].1))).collect();
-        velocity.series.push(Series::new(name, Mark::Reference, slot, exact));
-        rate.series.push(Series::new(name, Mark::Reference, slot, rates));
+        let rates = exact.windows(2).map(|p| ((p[1].0 - p[0].0) / ((p[1].1 - p[0].1) * h), 0.5 * (p[0].1 + p[1].1)));
+        rate.reference(name, rates);
+        velocity.reference(name, exact);
         let data = &record.data.profile;
-        let points = (0..data.height.len())
-            .filter(|&bin| data.samples[bin] > 0.0)
-            .map(|bin| (data.velocity[bin], data.height[bin] / h))
-            .collect();
-        velocity.series.push(Series::new(label(run), Mark::Points, slot, points));
-        let points = shear_rates(record).into_iter().map(|(y, rate)| (rate, y / h)).collect();
-        rate.series.push(Series::new(label(run), Mark::Points, slot, points));
+        velocity.points(label(run), slot, data.drawn(&data.velocity, h));
+        let rates = data.shear_rates().into_iter().map(|(bin, rate)| (rate, data.height[bin] / h));
+        rate.points(label(run), slot, rates);
     }
-    Figure {
-        name: "velocity-profile".to_owned(),
-        caption:
-            "Velocity and shear rate over the depth from displaced particles, against the exact solutions. The plug of \
-                  the yield-stress fluids begins where the shear rate falls to zero."
-                .to_owned(),
-        panels: vec![velocity, rate],
-        columns: 2,
-    }
+    Figure::new(
+        "velocity-profile",
+        "Velocity and shear rate over the depth from displaced particles, against the exact solutions. The plug of \
+         the yield-stress fluids begins where the shear rate falls to zero.",
+        vec![velocity, rate],
+    )
 }
 
 /// The Newtonian film with every set of numerics: the profile, and its error in parts of the surface velocity.
@@ -96,28 +85,24 @@ fn operators(films: &[&Record]) -> Figure {
     for (slot, (run, record)) in films.iter().enumerate() {
         let (film, h) = (run.film(), run.layer.layer_height);
         if slot == 0 {
-            let exact = (0..=200).map(|k| f64::from(k) / 200.0).map(|y| (film.velocity(y * h), y)).collect();
-            velocity.series.push(Series::new("exact", Mark::Reference, 0, exact));
-            error.series.push(Series::new("", Mark::Reference, 0, vec![(0.0, 0.0), (0.0, 1.0)]));
+            let exact = (0..=200).map(|k| f64::from(k) / 200.0).map(|y| (film.velocity(y * h), y));
+            velocity.reference("exact", exact);
+            error.reference("", [(0.0, 0.0), (0.0, 1.0)]);
         }
         let data = &record.data.profile;
         let surface = film.velocity(h);
-        let bins = (0..data.height.len()).filter(|&bin| data.samples[bin] > 0.0);
-        let points: Vec<(f64, f64)> = bins.map(|bin| (data.velocity[bin], data.height[bin] / h)).collect();
-        let errors = points.iter().map(|&(u, y)| (100.0 * (u - film.velocity(y * h)) / surface, y)).collect();
+        let errors = data.drawn(&data.velocity, h).map(|(u, y)| (100.0 * (u - film.velocity(y * h)) / surface, y));
         let diverged = matches!(record.outcome, Outcome::Diverged { .. });
         let name = format!("{}{}", run.numerics_set.label(), if diverged { " (diverged)" } else { "" });
-        velocity.series.push(Series::new(&name, Mark::Points, slot, points));
-        error.series.push(Series::new("", Mark::LinePoints, slot, errors));
+        velocity.points(&name, slot, data.drawn(&data.velocity, h));
+        error.line_points("", slot, errors);
     }
-    Figure {
-        name: "operators".to_owned(),
-        caption: "The Newtonian film from displaced particles with the default operator and walls and with those of the \
-                  collapse paper: one divergence operator for pressure and viscous stress against the pressure term (10) \
-                  with the pairwise viscosity (11), its correction (13), and the paper's no-slip walls. Observed, not \
-                  judged: only the default is gated."
-            .to_owned(),
-        panels: vec![velocity, error],
-        columns: 2,
-    }
+    Figure::new(
+        "operators",
+        "The Newtonian film from displaced particles with the default operator and walls and with those of the \
+         collapse paper: one divergence operator for pressure and viscous stress against the pressure term (10) with \
+         the pairwise viscosity (11), its correction (13), and the paper's no-slip walls. Observed, not judged: only \
+         the default is gated.",
+        vec![velocity, error],
+    )
 }

@@ -2,15 +2,15 @@
 
 mod comparison;
 mod figures;
-mod fluid;
 mod metrics;
 mod parameters;
+mod runs;
 
-pub use fluid::{Film as SteadyFilm, FluidKind};
-pub use parameters::{FilmParameters, FilmRun};
+pub use parameters::{FilmParameters, FluidKind};
+pub use runs::FilmRun;
 
 use super::layer;
-use crate::case::{Case, RecordOf, Run};
+use crate::case::{Case, RecordOf};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
@@ -19,7 +19,6 @@ use crate::output::Table;
 #[derive(Debug)]
 pub struct Film;
 
-/// A run with what it left behind.
 type Record = RecordOf<FilmParameters>;
 
 impl Case for Film {
@@ -44,6 +43,6 @@ impl Case for Film {
     }
 
     fn tables(_: &FilmParameters, records: &[Record]) -> Vec<Table> {
-        records.iter().flat_map(|(run, record)| layer::tables(&run.variant(), &record.data)).collect()
+        layer::tables_of_runs(records)
     }
 }

@@ -1,19 +1,31 @@
 //! Parameters, tiers and runs.
 
 use super::comparison::NumericsSet;
-use super::fluid::{Film, FluidKind};
-use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
+use super::runs::{FilmRun, incline};
+use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::Arrangement;
-use crate::cases::layer::{Layer, LayerObservation, PeriodicLayer, Preparation, bulk_modulus};
+use crate::cases::layer::PeriodicLayer;
 use crate::cases::rules;
-use crate::metric::Variant;
-use crate::observation::Recorded;
-use crate::reference::Incline;
+use crate::reference::{Incline, SteadyFilm};
 use bagnold_solver::material::rheology::{Bingham, CoulombBingham, HerschelBulkley, Newtonian, Rheology};
 use bagnold_solver::parameter::{between, each, positive};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// Which fluid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FluidKind {
+    /// Newtonian.
+    Newtonian,
+    /// Bingham.
+    Bingham,
+    /// Herschel–Bulkley.
+    HerschelBulkley,
+    /// That of any law, under `material`.
+    Material,
+}
 
 /// Parameters of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -56,16 +68,10 @@ impl Parameters for FilmParameters {
 
     fn of_tier(tier: Tier) -> Self {
         let quick = Self {
+            // a viscous fluid needs no artificial viscosity, which is first order: α h c/8 is 0.4 % of ν at 20 rows
             layer: PeriodicLayer {
-                layer_height: 0.01,
-                gravity: 9.81,
-                resolution: 20,
-                columns: 8,
-                jitter: 0.1,
-                seed: 1,
-                preparation: Preparation::Settled,
-                // a viscous fluid needs no artificial viscosity, which is first order: α h c/8 is 0.4 % of ν at 20 rows
                 numerics: Numerics { artificial_viscosity: 0.0, ..Numerics::default() },
+                ..PeriodicLayer::settled(0.01, 20, 8)
             },
             slope_angle: 10.0,
             density: 1000.0,
@@ -192,109 +198,12 @@ impl FilmParameters {
         if others.into_iter().any(|&kind| self.law(kind).name() == self.material.name()) {
             return refused("another law than those of the other `fluids`", "or leave that one out of `fluids`");
         }
-        let flux = Film::of(self.material, self.incline()).flux();
+        let flux = SteadyFilm::of(self.material, self.incline()).flux();
         if !(flux > 0.0 && flux.is_finite()) {
             let rule = format!("a law that flows steadily at {}°", self.slope_angle);
             return refused(&rule, "choose another `slope_angle`, or other parameters of the law");
         }
         Ok(())
-    }
-}
-
-fn incline(layer: &PeriodicLayer, slope_angle: f64, density: f64) -> Incline {
-    let PeriodicLayer { layer_height, gravity, .. } = *layer;
-    Incline { layer_height, slope_angle: slope_angle.to_radians(), gravity, density }
-}
-
-/// One simulation.
-#[derive(Debug, Clone, Serialize)]
-pub struct FilmRun {
-    /// Law of the fluid.
-    pub law: Rheology,
-    /// Arrangement of the particles.
-    pub particles: Arrangement,
-    /// Which numerics.
-    pub numerics_set: NumericsSet,
-    /// The layer, with the rows, displacements and numerics of this run.
-    pub layer: PeriodicLayer,
-    slope_angle: f64,
-    density: f64,
-    relaxation_times: f64,
-}
-
-impl Run for FilmRun {
-    type Observation = LayerObservation;
-
-    fn variant(&self) -> Variant {
-        let variant = Variant::of("fluid", self.law.name().replace('-', "_")).and("particles", self.particles.name());
-        let variant = match self.numerics_set {
-            NumericsSet::Default => variant,
-            other => variant.and("numerics", other.name()),
-        };
-        variant.and("resolution", self.layer.resolution)
-    }
-
-    fn particle_steps(&self) -> f64 {
-        self.layer(&|_| 0.0).expected_steps() * self.layer.particles()
-    }
-
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
-        let film = self.film();
-        let velocity = |y: f64| if self.is_newtonian() { 0.0 } else { film.velocity(y) };
-        // a law that carries its stress along starts with that of the film, others make it from the velocity
-        let (plastic, incline) = (self.law.is_plastic(), self.incline());
-        let shear_stress = |y: f64| if plastic { incline.shear_stress(y) } else { 0.0 };
-        Ok(Layer { shear_stress: &shear_stress, ..self.layer(&velocity) }.run(progress)?)
-    }
-}
-
-impl FilmRun {
-    /// The film's geometry.
-    #[must_use]
-    pub fn incline(&self) -> Incline {
-        incline(&self.layer, self.slope_angle, self.density)
-    }
-
-    /// Its steady flow.
-    #[must_use]
-    pub fn film(&self) -> Film {
-        Film::of(self.law, self.incline())
-    }
-
-    /// Whether it is the Newtonian film, which is studied for its convergence and its numerics.
-    #[must_use]
-    pub fn is_newtonian(&self) -> bool {
-        matches!(self.law, Rheology::Newtonian(_))
-    }
-
-    /// Exact velocity `[m/s]` of the Newtonian film as a weakly compressible fluid, whose density grows with the
-    /// pressure p = K (exp(ρ0 g cosθ (h − y)/K) − 1): η du/dy = p tanθ. It exceeds the incompressible one by 0.7 % of
-    /// the surface velocity at K = 50 ρ0 g h. None for the other fluids.
-    #[must_use]
-    pub fn weakly_compressible_velocity(&self, height: f64) -> Option<f64> {
-        let Rheology::Newtonian(law) = self.law else { return None };
-        let layer = self.layer(&|_| 0.0);
-        let (bulk_modulus, h) = (layer.bulk_modulus, self.layer.layer_height);
-        let rate = self.density * self.layer.gravity * libm::cos(layer.slope_angle) / bulk_modulus;
-        // (exp(ah) − exp(a(h − y)))/a − y without cancellation for a stiff fluid
-        let integral = libm::exp(rate * (h - height)) * libm::expm1(rate * height) / rate - height;
-        Some(libm::tan(layer.slope_angle) * bulk_modulus / law.viscosity * integral)
-    }
-
-    fn layer<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Layer<'a> {
-        let film = self.film();
-        let PeriodicLayer { layer_height, gravity, .. } = self.layer;
-        let duration = self.relaxation_times * self.density * layer_height * layer_height / film.relaxing_viscosity();
-        Layer {
-            bulk_modulus: bulk_modulus(self.density, gravity, layer_height, film.flux() / layer_height),
-            velocity,
-            duration,
-            window: 0.15 * duration,
-            interval: duration / 500.0,
-            // (13) is known to go unstable on displaced particles; that is shown, and no error of the run
-            may_diverge: self.numerics_set != NumericsSet::Default,
-            ..self.layer.of(self.law, self.density, self.slope_angle)
-        }
     }
 }
 

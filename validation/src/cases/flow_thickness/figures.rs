@@ -2,7 +2,7 @@
 
 use super::metrics::{froude_number, incline, relative_thickness};
 use super::{Fate, FlowThicknessParameters, Record, StartStop, StartStopRun, collapses, flows, searches};
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 use crate::reference::RoughIncline;
 
 pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Figure> {
@@ -18,34 +18,32 @@ pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> V
 /// Thickness at the stations over time, one panel a slope.
 fn histories(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[Record]) -> Figure {
     let panels = collapses(records).enumerate().map(|(place, (run, data))| {
-        let y = Axis { limits: Some((0.0, 6.0)), ..Axis::linear("thickness [cm]") };
+        let y = Axis::linear("thickness [cm]").between(0.0, 6.0);
         let mut panel = Panel::new(&format!("{}°", run.slope_angle), Axis::linear("t [s]"), y);
         let time = &data.collapse.time;
         for (slot, &station) in parameters.stations.iter().enumerate() {
             let thickness = data.thickness_at(station / run.reservoir.reservoir_length);
-            let points =
-                time.iter().zip(thickness).map(|(t, h)| (*t, 100.0 * h * run.reservoir.reservoir_length)).collect();
+            let points = time.iter().zip(thickness).map(|(t, h)| (*t, 100.0 * h * run.reservoir.reservoir_length));
             let entry = if place == 0 { format!("x = {station} m") } else { String::new() };
-            panel.series.push(Series::new(&entry, Mark::Line, slot, points));
+            panel.line(&entry, slot, points);
         }
         if let (Some(law), Some(&end)) =
             (incline.flow_thickness(run.reservoir.initial_height, run.slope_angle.to_radians()), time.last())
         {
             let entry = if place == 0 { "h_s of (44)" } else { "" };
             let points = vec![(0.0, 100.0 * law), (end, 100.0 * law)];
-            panel.series.push(Series::new(entry, Mark::Reference, 0, points));
+            panel.reference(entry, points);
         }
         panel
     });
-    Figure {
-        name: "thickness-in-time".to_owned(),
-        caption: "Thickness of the flow of a collapse at three places of the slope (volume in a bin of 2 cm over its \
-                  width), with the paper's h_s (44). The flow passes as a wave: no plateau is reached before the grains \
-                  have gone by, so that (44) is an order of magnitude and not a law of this flow."
-            .to_owned(),
-        panels: panels.collect(),
-        columns: 2,
-    }
+    Figure::new(
+        "thickness-in-time",
+        "Thickness of the flow of a collapse at three places of the slope (volume in a bin of 2 cm over its width), \
+         with the paper's h_s (44). The flow passes as a wave: no plateau is reached before the grains have gone by, \
+         so that (44) is an order of magnitude and not a law of this flow.",
+        panels.collect(),
+    )
+    .in_columns(2)
 }
 
 /// Which layers stop: the local law and the experiments.
@@ -55,8 +53,8 @@ fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Reco
     let experiment =
         (0..=60).map(thickness).map(|h| (incline.stopping_angle(h).to_degrees(), 1e3 * h)).collect::<Vec<_>>();
     let local = libm::atan(incline.static_friction).to_degrees();
-    panel.series.push(Series::new("experiments: h_stop(θ)", Mark::Line, 2, experiment));
-    panel.series.push(Series::new("local law: tanθ = μ_s", Mark::Reference, 0, vec![(local, 1.0), (local, 40.0)]));
+    panel.line("experiments: h_stop(θ)", 2, experiment);
+    panel.reference("local law: tanθ = μ_s", [(local, 1.0), (local, 40.0)]);
     let ends = [("stopped", Fate::Stops), ("kept flowing", Fate::Flows), ("undecided", Fate::Undecided)];
     for (slot, (label, fate)) in ends.into_iter().enumerate() {
         let of_search = |(run, found): (&StartStopRun, &StartStop)| -> Vec<(f64, f64)> {
@@ -66,19 +64,16 @@ fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Reco
         let points: Vec<(f64, f64)> = searches(records).flat_map(of_search).collect();
         // most searches leave nothing open, and then the legend need not speak of it
         if fate != Fate::Undecided || !points.is_empty() {
-            panel.series.push(Series::new(label, Mark::Points, slot, points));
+            panel.points(label, slot, points);
         }
     }
-    Figure {
-        name: "start-stop".to_owned(),
-        caption:
-            "Layers that stopped and layers that kept flowing, over slope and thickness. The local μ(I) law stops them \
-                  all at one slope; in experiments thin layers stop on steeper slopes. Left of the curve of h_stop the \
-                  experiments have no flow, right of the dashed line the law has no deposit."
-                .to_owned(),
-        panels: vec![panel],
-        columns: 1,
-    }
+    Figure::new(
+        "start-stop",
+        "Layers that stopped and layers that kept flowing, over slope and thickness. The local μ(I) law stops them \
+         all at one slope; in experiments thin layers stop on steeper slopes. Left of the curve of h_stop the \
+         experiments have no flow, right of the dashed line the law has no deposit.",
+        vec![panel],
+    )
 }
 
 /// The flow rule (42).
@@ -89,15 +84,12 @@ fn flow_rule(incline: &RoughIncline, parameters: &FlowThicknessParameters, recor
         .collect();
     let far = points.iter().fold(1.0_f64, |most, point| most.max(point.0));
     let line = vec![(0.0, 0.0), (1.05 * far, 1.05 * far * parameters.flow_coefficient)];
-    panel.series.push(Series::new("β of Table 1", Mark::Reference, 0, line));
-    panel.series.push(Series::new("steady flows", Mark::Points, 0, points));
-    Figure {
-        name: "flow-rule".to_owned(),
-        caption:
-            "Depth mean of the velocity of steady flows over √(gh) against the thickness over h_stop(θ), with (42). \
-                  That the points lie on the line follows from (41): it verifies the solver."
-                .to_owned(),
-        panels: vec![panel],
-        columns: 1,
-    }
+    panel.reference("β of Table 1", line);
+    panel.points("steady flows", 0, points);
+    Figure::new(
+        "flow-rule",
+        "Depth mean of the velocity of steady flows over √(gh) against the thickness over h_stop(θ), with (42). That \
+         the points lie on the line follows from (41): it verifies the solver.",
+        vec![panel],
+    )
 }

@@ -1,71 +1,35 @@
 //! How the case is judged.
 
-use super::{FlowThicknessParameters, FlowThicknessRun, Record, SteadyRun, collapses, flows, searches};
+use super::{
+    FlowThicknessParameters, FlowThicknessRun, Record, StartStop, StartStopRun, SteadyRun, collapses, flows, searches,
+};
 use crate::case::Run;
 use crate::cases::collapse::metrics::conservation;
 use crate::cases::collapse::quantities::{MASS_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST};
 use crate::cases::layer::LayerObservation;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::reference::{GLASS_BEADS_FLOW_RULE, RoughIncline};
+use crate::statistics::mean;
 use bagnold_solver::material::rheology::Rheology;
 
-const STOPPING_ANGLE: Quantity = Quantity::verified("stopping_angle", "°", "slope at which a layer stops");
-const EXPERIMENTAL_EXCESS: Quantity =
-    Quantity::validated("experimental_excess", "°", "slope at which layers stop in experiments, less the one found");
-const LARGEST_THICKNESS: Quantity =
-    Quantity::validated("largest_thickness", "cm", "largest thickness of the flow at a station");
-const FLOW_COEFFICIENT: Quantity = Quantity::verified("flow_coefficient", "-", "β of (42) from the steady flows");
-const FLOW_COEFFICIENT_PUBLISHED: Quantity =
-    Quantity::validated("flow_coefficient_published", "-", "the same β, against the published one");
-
-pub(super) const QUANTITIES: &[Quantity] = &[
-    PARTICLES_LOST,
-    MASS_CHANGE,
-    MOMENTUM_RESIDUAL,
-    LARGEST_THICKNESS,
-    STOPPING_ANGLE,
-    EXPERIMENTAL_EXCESS,
-    FLOW_COEFFICIENT,
-    FLOW_COEFFICIENT_PUBLISHED,
-];
+quantities! {
+    [PARTICLES_LOST, MASS_CHANGE, MOMENTUM_RESIDUAL]
+    LARGEST_THICKNESS: validated("largest_thickness", "cm", "largest thickness of the flow at a station"),
+    STOPPING_ANGLE: verified("stopping_angle", "°", "slope at which a layer stops"),
+    EXPERIMENTAL_EXCESS:
+        validated("experimental_excess", "°", "slope at which layers stop in experiments, less the one found"),
+    FLOW_COEFFICIENT: verified("flow_coefficient", "-", "β of (42) from the steady flows"),
+    FLOW_COEFFICIENT_PUBLISHED: validated("flow_coefficient_published", "-", "the same β, against the published one"),
+}
 
 /// Part of a steady flow's time series that its mean velocity is taken over, the last `[-]`.
 const WINDOW: f64 = 0.3;
 
 pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Metric> {
-    let mut metrics = Vec::new();
-    let Some(incline) = incline(parameters) else { return metrics };
-    thicknesses(&mut metrics, &incline, parameters, records);
-    for (run, found) in searches(records) {
-        let variant = FlowThicknessRun::StartStop(run.clone()).variant();
-        let lost = found.trials.iter().map(|trial| trial.lost).sum::<usize>();
-        metrics.push(
-            PARTICLES_LOST
-                .of(&variant, lost as f64)
-                .against(Some(0.0), "no particle passes the bed", Confidence::Exact)
-                .gated(Limit::AtMost(0.0), "grains do not vanish"),
-        );
-        let local = libm::atan(run.layer.material.static_friction).to_degrees();
-        let measured = found.bracket().map_or(f64::NAN, |(stops, flows)| 0.5 * (stops + flows));
-        let angle = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(0.0, 1e-6);
-        metrics.push(
-            angle(STOPPING_ANGLE, measured)
-                .against(Some(local), "arctan μ_s: the local μ(I) law, whatever the thickness", Confidence::Exact)
-                .gated(
-                    Limit::Within(local - run.tolerance, local + run.tolerance),
-                    "the width of the bracket: its middle lies within half of it of the true angle, the rest is the \
-                     solver's",
-                ),
-        );
-        let experiment = incline.stopping_angle(run.layer.layer.layer_height).to_degrees();
-        metrics.push(angle(EXPERIMENTAL_EXCESS, experiment - measured).against(
-            None,
-            "slope at which h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s) equals the thickness, less the angle found: what a \
-             local law does not know",
-            GLASS_BEADS_FLOW_RULE.confidence,
-        ));
-    }
-    flow_rule(&mut metrics, &incline, parameters, records);
+    let Some(incline) = incline(parameters) else { return Vec::new() };
+    let mut metrics = thicknesses(&incline, parameters, records);
+    metrics.extend(searches(records).flat_map(|(run, found)| stopping(&incline, run, found)));
+    metrics.extend(flow_rule(&incline, parameters, records));
     metrics
 }
 
@@ -80,43 +44,60 @@ pub(super) fn incline(parameters: &FlowThicknessParameters) -> Option<RoughIncli
 }
 
 /// Part (i): the thickness of the flow at the stations.
-fn thicknesses(
-    metrics: &mut Vec<Metric>,
-    incline: &RoughIncline,
-    parameters: &FlowThicknessParameters,
-    records: &[Record],
-) {
+fn thicknesses(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Metric> {
+    let mut metrics = Vec::new();
     for (run, data) in collapses(records) {
         metrics.extend(conservation(&run.variant(), &data.collapse, &run.reservoir.numerics));
         let law = incline.flow_thickness(run.reservoir.initial_height, run.slope_angle.to_radians());
+        let source = "h_s of (44) as reconstructed: the paper's estimate of the flow's thickness";
         for &station in &parameters.stations {
-            let variant = Variant::of("station", station).followed_by(&run.variant());
             let history = data.thickness_at(station / run.reservoir.reservoir_length);
             let largest = history.iter().fold(0.0_f64, |most, &h| most.max(h)) * run.reservoir.reservoir_length;
-            if largest == 0.0 {
-                // the front did not come so far
-                continue;
+            // 0 where the front did not come so far
+            if largest != 0.0 {
+                let variant = Variant::of("station", station).followed_by(&run.variant());
+                let metric = LARGEST_THICKNESS.of(&variant, 100.0 * largest).with_snapshot_tolerance(1e-3, 1e-3);
+                metrics.push(metric.against(law.map(|law| 100.0 * law), source, Confidence::Medium));
             }
-            metrics.push(
-                LARGEST_THICKNESS
-                    .of(&variant, 100.0 * largest)
-                    .against(
-                        law.map(|law| 100.0 * law),
-                        "h_s of (44) as reconstructed: the paper's estimate of the flow's thickness",
-                        Confidence::Medium,
-                    )
-                    .with_snapshot_tolerance(1e-3, 1e-3),
-            );
         }
     }
+    metrics
+}
+
+/// Part (ii): the slope at which a layer stops.
+fn stopping(incline: &RoughIncline, run: &StartStopRun, found: &StartStop) -> [Metric; 3] {
+    let variant = FlowThicknessRun::StartStop(run.clone()).variant();
+    let lost = found.trials.iter().map(|trial| trial.lost).sum::<usize>();
+    let local = libm::atan(run.layer.material.static_friction).to_degrees();
+    let measured = found.bracket().map_or(f64::NAN, |(stops, flows)| 0.5 * (stops + flows));
+    let experiment = incline.stopping_angle(run.layer.layer.layer_height).to_degrees();
+    [
+        PARTICLES_LOST
+            .of(&variant, lost as f64)
+            .exactly(0.0, "no particle passes the bed")
+            .gated(Limit::AtMost(0.0), "grains do not vanish"),
+        STOPPING_ANGLE
+            .of(&variant, measured)
+            .with_snapshot_tolerance(0.0, 1e-6)
+            .exactly(local, "arctan μ_s: the local μ(I) law, whatever the thickness")
+            .gated(
+                Limit::Within(local - run.tolerance, local + run.tolerance),
+                "the width of the bracket: its middle lies within half of it of the true angle, the rest is the solver's",
+            ),
+        EXPERIMENTAL_EXCESS.of(&variant, experiment - measured).with_snapshot_tolerance(0.0, 1e-6).against(
+            None,
+            "slope at which h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s) equals the thickness, less the angle found: what a \
+             local law does not know",
+            GLASS_BEADS_FLOW_RULE.confidence,
+        ),
+    ]
 }
 
 /// Depth mean of the velocity over √(gh) of a steady flow, over its last part `[-]`.
 pub(super) fn froude_number(run: &SteadyRun, data: &LayerObservation) -> f64 {
     let means = &data.series.mean_velocity;
     let window = &means[means.len() - ((WINDOW * means.len() as f64) as usize).clamp(1, means.len())..];
-    let mean = window.iter().sum::<f64>() / window.len() as f64;
-    mean / (run.layer.layer.gravity * run.layer.layer.layer_height).sqrt()
+    mean(window) / (run.layer.layer.gravity * run.layer.layer.layer_height).sqrt()
 }
 
 /// h/h_stop(θ) of a steady flow `[-]`.
@@ -125,12 +106,7 @@ pub(super) fn relative_thickness(incline: &RoughIncline, run: &SteadyRun) -> Opt
 }
 
 /// Part (iii): β of (42) from the steady flows.
-fn flow_rule(
-    metrics: &mut Vec<Metric>,
-    incline: &RoughIncline,
-    parameters: &FlowThicknessParameters,
-    records: &[Record],
-) {
+fn flow_rule(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Metric> {
     let (mut xx, mut xy, mut count) = (0.0, 0.0, 0);
     let mut expected = 0.0;
     for (run, data) in flows(records) {
@@ -144,27 +120,18 @@ fn flow_rule(
             * (run.layer.solid_fraction * libm::cos(run.slope_angle.to_radians())).sqrt();
     }
     if count == 0 {
-        return;
+        return Vec::new();
     }
     let (measured, expected) = (xy / xx, expected / f64::from(count));
-    metrics.push(
-        FLOW_COEFFICIENT
-            .of(&Variant::default(), measured)
-            .against(
-                Some(expected),
-                "(41) solved for β at the slopes of the flows: an identity of the law",
-                Confidence::Exact,
-            )
+    let of = |quantity: Quantity| quantity.of(&Variant::default(), measured).with_snapshot_tolerance(2e-3, 0.0);
+    let (published, confidence) = (parameters.flow_coefficient, GLASS_BEADS_FLOW_RULE.confidence);
+    vec![
+        of(FLOW_COEFFICIENT)
+            .exactly(expected, "(41) solved for β at the slopes of the flows: an identity of the law")
             .gated(
                 Limit::Within(0.97 * expected, 1.03 * expected),
                 "3 %: an error of 0.1 % of the friction coefficient is one of 0.8 % (25°) to 2 % (22°) of the velocity",
-            )
-            .with_snapshot_tolerance(2e-3, 0.0),
-    );
-    metrics.push(
-        FLOW_COEFFICIENT_PUBLISHED
-            .of(&Variant::default(), measured)
-            .against(Some(parameters.flow_coefficient), "Table 1, β of glass beads", GLASS_BEADS_FLOW_RULE.confidence)
-            .with_snapshot_tolerance(2e-3, 0.0),
-    );
+            ),
+        of(FLOW_COEFFICIENT_PUBLISHED).against(Some(published), "Table 1, β of glass beads", confidence),
+    ]
 }

@@ -129,11 +129,8 @@ fn trials((run, record): &Record) -> Option<Table> {
         Fate::Undecided => f64::NAN,
     };
     let row = |trial: &Trial| vec![trial.slope_angle, stops(trial), trial.time, trial.mean_velocity];
-    Some(Table {
-        name: format!("trials-{}", run.variant().file_name()),
-        columns: columns.map(str::to_owned).to_vec(),
-        rows: found.trials.iter().map(row).collect(),
-    })
+    let name = format!("trials-{}", run.variant().file_name());
+    Some(Table::of_rows(name, &columns, found.trials.iter().map(row)))
 }
 
 /// The collapses among the records.

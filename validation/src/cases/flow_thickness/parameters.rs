@@ -126,25 +126,20 @@ impl Parameters for FlowThicknessParameters {
     fn runs(&self) -> Vec<FlowThicknessRun> {
         let collapse = &self.collapse;
         let Rheology::MuI(grains) = collapse.material else { return Vec::new() };
-        let collapses = collapse
-            .slope_angles
-            .iter()
-            .map(|&angle| FlowThicknessRun::Collapse(collapse.run(angle, collapse.gate_speed)));
-        let searches = self.stopping_thicknesses.iter().map(|&thickness| {
-            FlowThicknessRun::StartStop(StartStopRun {
-                layer: self.layer(grains, thickness, self.stopping_duration),
-                bracket: self.stopping_bracket,
-                tolerance: self.stopping_tolerance,
-                start_angle: self.start_angle,
-            })
-        });
-        let flows = self.steady_flows.iter().map(|&(thickness, slope_angle)| {
-            FlowThicknessRun::Steady(SteadyRun {
-                layer: self.layer(grains, thickness, self.steady_duration),
-                slope_angle,
-            })
-        });
-        collapses.chain(searches).chain(flows).collect()
+        let collapses = collapse.slope_angles.iter().map(|&angle| collapse.run(angle, collapse.gate_speed));
+        let search = |&thickness: &f64| StartStopRun {
+            layer: self.layer(grains, thickness, self.stopping_duration),
+            bracket: self.stopping_bracket,
+            tolerance: self.stopping_tolerance,
+            start_angle: self.start_angle,
+        };
+        let flow = |&(thickness, slope_angle): &(f64, f64)| SteadyRun {
+            layer: self.layer(grains, thickness, self.steady_duration),
+            slope_angle,
+        };
+        let searches = self.stopping_thicknesses.iter().map(search).map(FlowThicknessRun::StartStop);
+        let flows = self.steady_flows.iter().map(flow).map(FlowThicknessRun::Steady);
+        collapses.map(FlowThicknessRun::Collapse).chain(searches).chain(flows).collect()
     }
 }
 

@@ -1,8 +1,8 @@
 //! The slope at which a layer of given thickness stops flowing, bisected.
 
+use crate::case::recording::Ending;
 use crate::case::{ParameterError, Progress};
 use crate::cases::layer::{Layer, PeriodicLayer, bulk_modulus};
-use crate::cases::recording::Ending;
 use crate::observation::Recorded;
 use crate::reference::BagnoldProfile;
 use bagnold_solver::material::rheology::{MuI, Rheology};

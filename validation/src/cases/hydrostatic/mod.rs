@@ -7,7 +7,7 @@ mod parameters;
 pub use parameters::{HydrostaticParameters, HydrostaticRun};
 
 use super::layer;
-use crate::case::{Case, RecordOf, Run};
+use crate::case::{Case, RecordOf};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
@@ -16,7 +16,6 @@ use crate::output::Table;
 #[derive(Debug)]
 pub struct Hydrostatic;
 
-/// A run with what it left behind.
 type Record = RecordOf<HydrostaticParameters>;
 
 impl Case for Hydrostatic {
@@ -40,6 +39,6 @@ impl Case for Hydrostatic {
     }
 
     fn tables(_: &HydrostaticParameters, records: &[Record]) -> Vec<Table> {
-        records.iter().flat_map(|(run, record)| layer::tables(&run.variant(), &record.data)).collect()
+        layer::tables_of_runs(records)
     }
 }

@@ -1,7 +1,7 @@
 //! Parameters, tiers and runs.
 
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
-use crate::cases::layer::{Layer, LayerObservation, PeriodicLayer, Preparation};
+use crate::cases::layer::{Layer, LayerObservation, PeriodicLayer};
 use crate::cases::{Bulk, rules};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -37,20 +37,10 @@ impl Parameters for HydrostaticParameters {
     type Run = HydrostaticRun;
 
     fn of_tier(tier: Tier) -> Self {
-        let (resolution, columns, duration) = match tier {
-            Tier::Quick => (20, 12, 2.25),
-            Tier::Paper => (40, 20, 4.0),
-            Tier::Fine => (80, 40, 10.0),
-        };
-        let layer = PeriodicLayer {
-            layer_height: 0.1,
-            gravity: 9.81,
-            resolution,
-            columns,
-            jitter: 0.1,
-            seed: 1,
-            preparation: Preparation::Settled,
-            numerics: Numerics::default(),
+        let (layer, duration) = match tier {
+            Tier::Quick => (PeriodicLayer::settled(0.1, 20, 12), 2.25),
+            Tier::Paper => (PeriodicLayer::settled(0.1, 40, 20), 4.0),
+            Tier::Fine => (PeriodicLayer::settled(0.1, 80, 40), 10.0),
         };
         Self {
             layer,
@@ -164,10 +154,8 @@ mod tests {
         );
         parameters.bulk.bulk_density = 1500.0;
         assert!(parameters.check().is_ok());
-        assert_eq!(
-            parameters.runs()[1].variant().get("material").and_then(crate::metric::Value::word),
-            Some("bingham")
-        );
+        let name = parameters.runs()[1].variant().get("material").map(ToString::to_string);
+        assert_eq!(name.as_deref(), Some("bingham"));
         parameters.grains = Rheology::MuI(GLASS_BEADS.law);
         let message = parameters.check().expect_err("two densities").to_string();
         assert!(message.starts_with("`bulk_density` is 1500, but must be 0 with the law \"mu-i\"; "), "{message}");

@@ -1,10 +1,10 @@
 //! The case's figures.
 
 use super::Record;
-use crate::cases::collapse::pictures::{View, animation, speeds};
 use crate::cases::collapse::{BIN_WIDTH, SlopeRun};
-use crate::figure::{Animation, Axis, Band, Field, Figure, Mark, Panel, Series};
+use crate::figure::{Animation, Axis, Field, Figure, Panel};
 use crate::observation::Frame;
+use crate::observation::pictures::{View, animation};
 use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
 
 /// Times at which thickness profiles are drawn `[s]`.
@@ -58,26 +58,23 @@ fn fronts(records: &[Record]) -> Figure {
     for (slot, (run, record)) in records.iter().enumerate() {
         let data = &record.data.collapse;
         let way = |front: &f64| (front - 1.0) * run.reservoir.reservoir_length;
-        let points = data.time.iter().copied().zip(data.front.iter().map(way)).collect();
-        front.series.push(Series::new(&label(run), Mark::Line, slot, points));
-        let points = data.time.iter().copied().zip(data.kinetic_energy.iter().copied()).collect();
-        energy.series.push(Series::new("", Mark::Line, slot, points));
+        let points = data.time.iter().copied().zip(data.front.iter().map(way));
+        front.line(&label(run), slot, points);
+        let points = data.time.iter().copied().zip(data.kinetic_energy.iter().copied());
+        energy.line("", slot, points);
     }
-    Figure {
-        name: "fronts".to_owned(),
-        caption:
-            "The front's way from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come \
-                  to rest; above it they run until the channel ends."
-                .to_owned(),
-        panels: vec![front, energy],
-        columns: 2,
-    }
+    Figure::new(
+        "fronts",
+        "The front's way from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come to \
+         rest; above it they run until the channel ends.",
+        vec![front, energy],
+    )
 }
 
 fn thickness(records: &[Record]) -> Figure {
     let high = records.first().map_or(0.14, |(run, _)| run.reservoir.initial_height);
     let panels = records.iter().enumerate().map(|(place, (run, record))| {
-        let y = Axis { limits: Some((0.0, 100.0 * high)), ..Axis::linear("thickness [cm]") };
+        let y = Axis::linear("thickness [cm]").between(0.0, 100.0 * high);
         let mut panel = Panel::new(&label(run), Axis::linear("x [m]"), y);
         for (slot, time) in PROFILES.iter().enumerate() {
             let Some(index) = record.data.collapse.time.iter().position(|t| *t >= time - 1e-9) else { continue };
@@ -85,18 +82,18 @@ fn thickness(records: &[Record]) -> Figure {
             let profile = &record.data.thickness[index];
             let end = profile.iter().rposition(|&thickness| thickness > 0.0).map_or(0, |last| last + 1);
             let place_of = |bin: usize| (bin as f64 + 0.5) * BIN_WIDTH * r;
-            let points = profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r)).collect();
+            let points = profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r));
             let entry = if place == 0 { format!("{time} s") } else { String::new() };
-            panel.series.push(Series::new(&entry, Mark::Line, slot, points));
+            panel.line(&entry, slot, points);
         }
         panel
     });
-    Figure {
-        name: "thickness".to_owned(),
-        caption: "Thickness along the slope in time: volume per bin of 2 cm. The gate stands at 0.2 m.".to_owned(),
-        panels: panels.collect(),
-        columns: 2,
-    }
+    Figure::new(
+        "thickness",
+        "Thickness along the slope in time: volume per bin of 2 cm. The gate stands at 0.2 m.",
+        panels.collect(),
+    )
+    .in_columns(2)
 }
 
 /// Final run-out over the slope, with the band of the experiments' fit.
@@ -111,72 +108,58 @@ fn run_outs(records: &[Record]) -> Figure {
     };
     let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
     let (short, long) = (curve(friction, lower), curve(friction, upper));
-    panel.bands.push(Band {
-        label: "k = 0.4 to 0.5, tanδ = μ_s of the run".to_owned(),
-        points: short.iter().zip(&long).map(|(a, b)| (a.0, a.1, b.1)).collect(),
-    });
+    panel.band("k = 0.4 to 0.5, tanδ = μ_s of the run", short.iter().zip(&long).map(|(a, b)| (a.0, a.1, b.1)));
     let entry = format!("k = {lower} and {upper}, δ = {}° of the experiment", SLOPE_EXPERIMENT.repose_angle);
     let experiment = libm::tan(SLOPE_EXPERIMENT.repose_angle.to_radians());
     for (k, entry) in [(lower, entry.as_str()), (upper, "")] {
-        panel.series.push(Series::new(entry, Mark::Reference, 0, curve(experiment, k)));
+        panel.reference(entry, curve(experiment, k));
     }
     let points: Vec<(f64, f64)> = records
         .iter()
         .filter(|(run, record)| run.regularisation_rate.is_none() && record.data.came_to_rest())
         .map(|(run, record)| (run.slope_angle, record.data.collapse.run_out() * run.reservoir.reservoir_length))
         .collect();
-    panel.series.push(Series::new("at rest", Mark::Points, 0, points));
-    Figure {
-        name: "run-out".to_owned(),
-        caption:
-            "Final run-out from the gate of the grains that came to rest, over the slope, with the fit to experiments \
-                  h_0 2k/(tanδ − tanθ)."
-                .to_owned(),
-        panels: vec![panel],
-        columns: 1,
-    }
+    panel.points("at rest", 0, points);
+    Figure::new(
+        "run-out",
+        "Final run-out from the gate of the grains that came to rest, over the slope, with the fit to experiments \
+         h_0 2k/(tanδ − tanθ).",
+        vec![panel],
+    )
 }
 
 /// Speed and viscosity in time: the paper's figures 4 to 6.
 fn fields((run, record): &Record) -> Figure {
-    let scalar = |frame: &Frame, wanted: &str| -> Vec<f64> {
-        frame.scalars.iter().find(|(name, _, _)| name == wanted).map_or(Vec::new(), |(_, _, values)| values.clone())
-    };
     let moving: Vec<&Frame> = record.frames.iter().filter(|frame| frame.time > 0.3).collect();
-    let fastest = moving.iter().flat_map(|frame| speeds(frame)).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let fastest = moving.iter().flat_map(|frame| frame.speeds()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let high = run.reservoir.initial_height;
     let far = moving.iter().flat_map(|frame| &frame.position).map(|x| x[0]).fold(0.0, f64::max);
     let mut panels = Vec::new();
     for frame in moving {
         let title = format!("t = {:.2} s", frame.time);
-        let viscosity = scalar(frame, "viscosity");
+        let viscosity = frame.scalar("viscosity").to_vec();
         let decades = viscosity.iter().map(|v| libm::log10(v.max(1e-3))).collect();
         let columns = [
-            (speeds(frame), "|v| [m/s]", (0.0, fastest)),
+            (frame.speeds(), "|v| [m/s]", (0.0, fastest)),
             (viscosity, "η [Pa·s]", PAPER_SCALE),
             (decades, "log10 η [Pa·s]", (-1.0, 4.0)),
         ];
         for (values, label, limits) in columns {
-            let x = Axis { limits: Some((0.0, far)), ..Axis::linear("x [m]") };
-            let y = Axis { limits: Some((0.0, run.reservoir.initial_height)), ..Axis::linear("y [m]") };
+            let (x, y) = (Axis::linear("x [m]").between(0.0, far), Axis::linear("y [m]").between(0.0, high));
             let mut panel = Panel::new(&title, x, y);
-            panel.field = Some(Field {
-                points: frame.position.iter().map(|x| (x[0], x[1])).collect(),
-                values,
-                label: label.to_owned(),
-                diameter: run.spacing(),
-                limits: Some(limits),
-            });
+            let points = frame.position.iter().map(|x| (x[0], x[1]));
+            panel.field = Some(Field::new(label, run.spacing(), limits, points, values));
             panels.push(panel);
         }
     }
-    Figure {
-        name: format!("fields-{}", stem(run)),
-        caption: format!(
+    Figure::new(
+        &format!("fields-{}", stem(run)),
+        &format!(
             "{}: speed, and apparent viscosity on the paper's scale of 0 to 1.5 Pa·s and on a logarithmic one. The \
              viscosity of grains that hardly move has no upper bound.",
             label(run)
         ),
         panels,
-        columns: 1,
-    }
+    )
+    .in_columns(1)
 }

@@ -51,11 +51,11 @@ impl Case for InclineCollapse {
 /// Time series of one run.
 fn table((run, record): &Record) -> Table {
     let data = &record.data.collapse;
-    let columns = ["t [s]", "front/r0 [-]", "kinetic energy [J/m]", "potential energy [J/m]"];
-    let row = |k: usize| vec![data.time[k], data.front[k], data.kinetic_energy[k], data.potential_energy[k]];
-    Table {
-        name: format!("series-{}", run.variant().file_name()),
-        columns: columns.map(str::to_owned).to_vec(),
-        rows: (0..data.time.len()).map(row).collect(),
-    }
+    let columns: [(&str, &[f64]); 4] = [
+        ("t [s]", &data.time),
+        ("front/r0 [-]", &data.front),
+        ("kinetic energy [J/m]", &data.kinetic_energy),
+        ("potential energy [J/m]", &data.potential_energy),
+    ];
+    Table::of_columns(format!("series-{}", run.variant().file_name()), &columns)
 }

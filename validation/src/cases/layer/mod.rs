@@ -8,9 +8,9 @@ pub use periodic::PeriodicLayer;
 pub use preparation::Preparation;
 pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 
-use crate::case::Progress;
-use crate::cases::recording::Ending;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
+use crate::case::recording::{self, Ending};
+use crate::case::{Progress, Run};
+use crate::metric::{Limit, Metric, Variant, quantities};
 use crate::observation::{Frame, Recorded};
 use crate::output::Table;
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -20,7 +20,7 @@ use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::boundary::Wall;
 use bagnold_solver::weakly_compressible::boundary::wall::fill;
-use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+use bagnold_solver::weakly_compressible::numerics::ViscousStep;
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use rand::{RngExt, SeedableRng};
@@ -29,30 +29,16 @@ use std::ops::ControlFlow;
 /// A layer and how it is run. Lengths in `[m]`, angles in `[rad]`, SI units throughout.
 #[derive(Clone)]
 pub struct Layer<'a> {
-    /// Layer height H `[m]`.
-    pub height: f64,
-    /// Rows of particles over the height.
-    pub rows: usize,
-    /// Columns of particles along the period.
-    pub columns: usize,
+    /// Its size, its particles and their numerics.
+    pub layer: PeriodicLayer,
     /// Slope angle θ `[rad]`.
     pub slope_angle: f64,
-    /// Gravity `[m/s²]`.
-    pub gravity: f64,
     /// Reference density ρ0 `[kg/m³]`.
     pub reference_density: f64,
     /// Bulk modulus K `[Pa]`.
     pub bulk_modulus: f64,
     /// Constitutive law.
     pub rheology: Rheology,
-    /// Numerics.
-    pub numerics: Numerics,
-    /// Largest random displacement of a particle, in spacings, along each axis `[-]`.
-    pub jitter: f64,
-    /// Seed of the displacements.
-    pub seed: u64,
-    /// Whether displaced particles settle before the start.
-    pub preparation: Preparation,
     /// Initial velocity along the slope `[m/s]` at a height `[m]`.
     pub velocity: &'a (dyn Fn(f64) -> f64 + Sync),
     /// Initial shear stress `[Pa]` at a height `[m]`.
@@ -90,29 +76,27 @@ impl Layer<'_> {
     /// Particle spacing Δ `[m]`.
     #[must_use]
     pub fn spacing(&self) -> f64 {
-        self.height / self.rows as f64
+        self.layer.layer_height / self.layer.resolution as f64
     }
 
     /// Exact pressure `[Pa]` of the compressible layer at rest, K (exp(ρ0 g cosθ (H − y)/K) − 1).
     #[must_use]
     pub fn hydrostatic_pressure(&self, y: f64) -> f64 {
-        hydrostatic_pressure(
-            self.bulk_modulus,
-            self.reference_density,
-            self.gravity * libm::cos(self.slope_angle),
-            self.height - y,
-        )
+        let across = self.layer.gravity * libm::cos(self.slope_angle);
+        hydrostatic_pressure(self.bulk_modulus, self.reference_density, across, self.layer.layer_height - y)
     }
 
     /// Expected number of steps for the whole run, from the acoustic bound.
     #[must_use]
     pub fn expected_steps(&self) -> f64 {
         let sound_speed = (self.bulk_modulus / self.reference_density).sqrt();
-        let smoothing_length = self.numerics.smoothing_ratio * self.spacing();
-        let acoustic = self.numerics.acoustic_courant * smoothing_length / sound_speed;
-        let viscosity = self.rheology.largest_viscosity(self.reference_density * self.gravity * self.height);
-        let viscous = if viscosity > 0.0 && self.numerics.viscous_step == ViscousStep::Explicit {
-            self.numerics.viscous_courant * smoothing_length * smoothing_length * self.reference_density / viscosity
+        let smoothing_length = self.layer.numerics.smoothing_ratio * self.spacing();
+        let acoustic = self.layer.numerics.acoustic_courant * smoothing_length / sound_speed;
+        let viscosity =
+            self.rheology.largest_viscosity(self.reference_density * self.layer.gravity * self.layer.layer_height);
+        let viscous = if viscosity > 0.0 && self.layer.numerics.viscous_step == ViscousStep::Explicit {
+            self.layer.numerics.viscous_courant * smoothing_length * smoothing_length * self.reference_density
+                / viscosity
         } else {
             f64::INFINITY
         };
@@ -124,7 +108,7 @@ impl Layer<'_> {
     /// # Errors
     /// A scene that breaks a rule of the solver.
     pub fn prepared_scene(&self) -> Result<Scene<2>, SceneError> {
-        Ok(self.started(match self.preparation {
+        Ok(self.started(match self.layer.preparation {
             Preparation::Settled => preparation::settled(self.scene())?,
             Preparation::None => self.scene(),
         }))
@@ -145,22 +129,23 @@ impl Layer<'_> {
     #[must_use]
     pub fn scene(&self) -> Scene<2> {
         let spacing = self.spacing();
-        let length = self.columns as f64 * spacing;
+        let length = self.layer.columns as f64 * spacing;
         let domain = Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: length }, AxisBoundary::Open] };
         let bed = Wall::still(1, 0.0, 1.0);
-        let wall_rows = (2.0 * self.numerics.smoothing_ratio).ceil() as usize + 1;
-        let extent = (Vector::<2>::zeros(), Vector::<2>::new(length, self.height));
+        let wall_rows = (2.0 * self.layer.numerics.smoothing_ratio).ceil() as usize + 1;
+        let extent = (Vector::<2>::zeros(), Vector::<2>::new(length, self.layer.layer_height));
         let equation_of_state = EquationOfState {
             reference_density: self.reference_density,
             bulk_modulus: self.bulk_modulus,
             tension: Tension::Cut,
         };
-        let mut random = rand_pcg::Pcg64::seed_from_u64(self.seed);
+        let mut random = rand_pcg::Pcg64::seed_from_u64(self.layer.seed);
         let mut flow = Flow::default();
-        for row in 0..self.rows {
-            for column in 0..self.columns {
+        for row in 0..self.layer.resolution {
+            for column in 0..self.layer.columns {
                 let site = Vector::<2>::new((column as f64 + 0.5) * spacing, (row as f64 + 0.5) * spacing);
-                let shift = Vector::<2>::from_fn(|_, _| self.jitter * spacing * (2.0 * random.random::<f64>() - 1.0));
+                let shift =
+                    Vector::<2>::from_fn(|_, _| self.layer.jitter * spacing * (2.0 * random.random::<f64>() - 1.0));
                 let position = site + shift;
                 // the density belongs to the site and the mass to the density, so that the layer neither
                 // sinks nor swells when it is released
@@ -177,11 +162,11 @@ impl Layer<'_> {
             wall_particles: fill(&[bed], &domain, extent, spacing, wall_rows),
             walls: vec![bed],
             domain,
-            gravity: Vector::<2>::new(libm::sin(self.slope_angle), -libm::cos(self.slope_angle)) * self.gravity,
+            gravity: Vector::<2>::new(libm::sin(self.slope_angle), -libm::cos(self.slope_angle)) * self.layer.gravity,
             spacing,
             equation_of_state,
             rheology: self.rheology,
-            numerics: self.numerics,
+            numerics: self.layer.numerics,
         }
     }
 
@@ -192,51 +177,36 @@ impl Layer<'_> {
     pub fn run(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, SceneError> {
         let started = std::time::Instant::now();
         let mut simulation = Simulation::new(self.prepared_scene()?)?;
-        if simulation.estimated_steps(self.duration) * simulation.time_step_bounds().acoustic > self.duration {
-            let (steps, acoustic) =
-                (simulation.estimated_steps(self.duration), self.duration / simulation.time_step_bounds().acoustic);
-            if steps > WORTH_A_WARNING * acoustic {
-                tracing::warn!(
-                    "slope angle {:.1}°, {} rows: the explicit viscous step needs about {steps:.1e} steps for {} s, {:.0} \
-                     times as many as the speed of sound would; that is {:.1} h on one core. A larger regularisation \
-                     rate shortens it, but lets the material creep: it is still compared with the unregularised law",
-                    self.slope_angle.to_degrees(),
-                    self.rows,
-                    self.duration,
-                    steps / acoustic,
-                    steps * (self.rows * self.columns) as f64 * SECONDS_PER_PARTICLE_STEP / 3600.0
-                );
-            } else {
-                tracing::info!("explicit viscous step: about {steps:.1e} steps for {} s", self.duration);
-            }
+        let steps = simulation.estimated_steps(self.duration);
+        let acoustic = self.duration / simulation.time_step_bounds().acoustic;
+        if steps > WORTH_A_WARNING * acoustic {
+            tracing::warn!(
+                "slope angle {:.1}°, {} rows: the explicit viscous step needs about {steps:.1e} steps for {} s, {:.0} times \
+                 as many as the speed of sound would; that is {:.1} h on one core. A larger regularisation rate shortens \
+                 it, but lets the material creep: it is still compared with the unregularised law",
+                self.slope_angle.to_degrees(),
+                self.layer.resolution,
+                self.duration,
+                steps / acoustic,
+                steps * self.layer.particles() * SECONDS_PER_PARTICLE_STEP / 3600.0
+            );
+        } else if steps > acoustic {
+            tracing::info!("explicit viscous step: about {steps:.1e} steps for {} s", self.duration);
         }
-        let particles = self.rows * self.columns;
         let mut probe = LayerProbe::new(self);
         let mut frames = Vec::new();
-        let mut last_good = simulation.snapshot();
         let frame_interval = self.duration / (self.frames.max(2) - 1) as f64;
-        let reason = simulation.run(self.duration, self.interval, |simulation| {
-            let snapshot = simulation.snapshot();
-            probe.observe(&snapshot);
+        let ending = recording::watch(&mut simulation, (self.duration, self.interval), progress, |snapshot| {
+            probe.observe(snapshot);
             if snapshot.time >= frame_interval * frames.len() as f64 && frames.len() + 1 < self.frames.max(2) {
-                frames.push(Frame::of_flow(&snapshot));
+                frames.push(Frame::of_flow(snapshot));
             }
-            progress.advance(snapshot.time, self.duration, simulation.steps() as f64 * particles as f64);
             let stop = probe.mean_velocity() > self.stop_above;
-            last_good = snapshot;
             if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let ending = Ending {
-            reason,
-            last_good,
-            criterion: format!(
-                "the depth mean of the velocity passed {:.3} m/s, half the sound speed",
-                self.stop_above
-            ),
-            may_diverge: self.may_diverge,
-            frames,
-            started,
-        };
+        let limit = self.stop_above;
+        let criterion = format!("the depth mean of the velocity passed {limit:.3} m/s, half the sound speed");
+        let ending = Ending { criterion, may_diverge: self.may_diverge, frames, started, ..ending };
         Ok(ending.record(&simulation, |_| probe.finish()))
     }
 }
@@ -247,49 +217,46 @@ pub fn hydrostatic_pressure(bulk_modulus: f64, reference_density: f64, gravity_a
     bulk_modulus * libm::expm1(reference_density * gravity_across * depth.max(0.0) / bulk_modulus)
 }
 
-/// Tables of one run: depth profile and time series.
+/// Tables of all runs of a case.
 #[must_use]
-pub fn tables(variant: &Variant, data: &LayerObservation) -> Vec<Table> {
+pub fn tables_of_runs<R: Run>(records: &[(R, Recorded<LayerObservation>)]) -> Vec<Table> {
+    records.iter().flat_map(|(run, record)| tables(&run.variant(), &record.data)).collect()
+}
+
+/// Tables of one run: depth profile and time series.
+fn tables(variant: &Variant, data: &LayerObservation) -> Vec<Table> {
     let stem = variant.file_name();
-    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-    let profile = &data.profile;
-    let series = &data.series;
+    let (profile, series) = (&data.profile, &data.series);
+    let row = |bin: usize| {
+        let DepthProfile { height, velocity, pressure, normal_stress, shear_stress, samples } = profile;
+        [height, velocity, pressure, normal_stress, shear_stress, samples].map(|column| column[bin]).to_vec()
+    };
+    let headings = ["y [m]", "u [m/s]", "p [Pa]", "p - s_yy [Pa]", "s_xy [Pa]", "samples [-]"];
+    let columns: [(&str, &[f64]); 4] = [
+        ("t [s]", &series.time),
+        ("mean u [m/s]", &series.mean_velocity),
+        ("rms speed [m/s]", &series.rms_speed),
+        ("relative height [-]", &series.relative_height),
+    ];
     let mut tables = vec![
-        Table {
-            name: format!("profile-{stem}"),
-            columns: names(&["y [m]", "u [m/s]", "p [Pa]", "p - s_yy [Pa]", "s_xy [Pa]", "samples [-]"]),
-            rows: (0..profile.height.len())
-                .filter(|&bin| profile.samples[bin] > 0.0)
-                .map(|bin| {
-                    let columns = [&profile.height, &profile.velocity, &profile.pressure, &profile.normal_stress];
-                    let mut row: Vec<f64> = columns.iter().map(|column| column[bin]).collect();
-                    row.extend([profile.shear_stress[bin], profile.samples[bin]]);
-                    row
-                })
-                .collect(),
-        },
-        Table {
-            name: format!("series-{stem}"),
-            columns: names(&["t [s]", "mean u [m/s]", "rms speed [m/s]", "relative height [-]"]),
-            rows: (0..series.time.len())
-                .map(|k| vec![series.time[k], series.mean_velocity[k], series.rms_speed[k], series.relative_height[k]])
-                .collect(),
-        },
+        Table::of_rows(format!("profile-{stem}"), &headings, profile.filled().map(row)),
+        Table::of_columns(format!("series-{stem}"), &columns),
     ];
     // a run that diverged before its averaging window has no profile
     tables.retain(|table| !table.rows.is_empty());
     tables
 }
 
-/// Particles that ended below the bed or far above the layer.
-pub(in crate::cases) const PARTICLES_LOST: Quantity =
-    Quantity::verified("particles_lost", "-", "particles that ended below the bed or far above the layer");
+quantities! {
+    shared pub(in crate::cases)
+    PARTICLES_LOST: verified("particles_lost", "-", "particles that ended below the bed or far above the layer"),
+}
 
 /// The number of particles that ended below the bed or far above the layer, gated at 0.
 #[must_use]
 pub fn particles_lost(variant: &Variant, record: &Recorded<LayerObservation>) -> Metric {
     PARTICLES_LOST
         .of(variant, record.data.particles_lost as f64)
-        .against(Some(0.0), "no particle passes a wall", Confidence::Exact)
+        .exactly(0.0, "no particle passes a wall")
         .gated(Limit::AtMost(0.0), "a particle below the bed is lost mass")
 }

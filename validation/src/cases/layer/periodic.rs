@@ -36,6 +36,20 @@ pub struct PeriodicLayer {
 }
 
 impl PeriodicLayer {
+    /// A settled layer of displaced particles, as high `[m]` and of as many rows and columns as are given.
+    pub(in crate::cases) fn settled(layer_height: f64, resolution: usize, columns: usize) -> Self {
+        Self {
+            layer_height,
+            gravity: 9.81,
+            resolution,
+            columns,
+            jitter: 0.1,
+            seed: 1,
+            preparation: Preparation::Settled,
+            numerics: Numerics::default(),
+        }
+    }
+
     /// The period must hold the reach of the kernel.
     pub(in crate::cases) fn check(&self) -> Result<(), ParameterError> {
         rules::columns("columns", self.columns, &self.numerics)
@@ -51,18 +65,11 @@ impl PeriodicLayer {
     #[must_use]
     pub fn of(&self, rheology: Rheology, reference_density: f64, slope_angle: f64) -> Layer<'static> {
         Layer {
-            height: self.layer_height,
-            rows: self.resolution,
-            columns: self.columns,
+            layer: *self,
             slope_angle: slope_angle.to_radians(),
-            gravity: self.gravity,
             reference_density,
             bulk_modulus: bulk_modulus(reference_density, self.gravity, self.layer_height, 0.0),
             rheology,
-            numerics: self.numerics,
-            jitter: self.jitter,
-            seed: self.seed,
-            preparation: self.preparation,
             velocity: &|_| 0.0,
             shear_stress: &|_| 0.0,
             duration: 0.0,

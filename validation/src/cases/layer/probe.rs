@@ -1,6 +1,7 @@
 //! What a layer leaves behind: time series of depth means, depth profiles averaged over a window, pressure noise.
 
-use super::{BINS, Layer};
+use super::{BINS, Layer, PeriodicLayer};
+use crate::statistics::relative_l2;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +20,13 @@ pub struct TimeSeries {
     pub pressure_noise: Vec<f64>,
 }
 
+impl TimeSeries {
+    /// Points of a curve over time, (t `[s]`, value).
+    pub fn curve<'a>(&'a self, array: &'a [f64]) -> impl Iterator<Item = (f64, f64)> + 'a {
+        self.time.iter().copied().zip(array.iter().copied())
+    }
+}
+
 /// Depth profile in bins of equal height, averaged over particles and time; every array has the shape `[bins]`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct DepthProfile {
@@ -34,6 +42,32 @@ pub struct DepthProfile {
     pub shear_stress: Vec<f64>,
     /// Samples (particles × times) in the bin.
     pub samples: Vec<f64>,
+}
+
+impl DepthProfile {
+    /// The bins that hold samples, from below.
+    pub fn filled(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.height.len()).filter(|&bin| self.samples[bin] > 0.0)
+    }
+
+    /// (value, height over `depth`) of the filled bins, as profiles are drawn.
+    pub fn drawn<'a>(&'a self, array: &'a [f64], depth: f64) -> impl Iterator<Item = (f64, f64)> + 'a {
+        self.filled().map(move |bin| (array[bin], self.height[bin] / depth))
+    }
+
+    /// (bin, du/dy `[1/s]`) by central differences between the filled bins on either side.
+    pub fn shear_rates(&self) -> Vec<(usize, f64)> {
+        let bins: Vec<usize> = self.filled().collect();
+        let rate = |lower: usize, upper: usize| {
+            (self.velocity[upper] - self.velocity[lower]) / (self.height[upper] - self.height[lower])
+        };
+        bins.windows(3).map(|bins| (bins[1], rate(bins[0], bins[2]))).collect()
+    }
+
+    /// Relative L2 of the filled bins' velocities against exact ones at their heights `[-]`.
+    pub fn velocity_l2(&self, exact: impl Fn(f64) -> f64) -> f64 {
+        relative_l2(self.filled().map(|bin| (self.velocity[bin], exact(self.height[bin]))))
+    }
 }
 
 /// All that a layer's run leaves behind.
@@ -67,12 +101,13 @@ pub struct LayerProbe {
 
 impl LayerProbe {
     pub(super) fn new(layer: &Layer<'_>) -> Self {
-        let across = layer.gravity * libm::cos(layer.slope_angle);
+        let PeriodicLayer { layer_height, gravity, columns, numerics, .. } = layer.layer;
+        let across = gravity * libm::cos(layer.slope_angle);
         Self {
-            height: layer.height,
-            length: layer.columns as f64 * layer.spacing(),
-            reach: 2.0 * layer.numerics.smoothing_ratio * layer.spacing(),
-            weight: layer.reference_density * across * layer.height,
+            height: layer_height,
+            length: columns as f64 * layer.spacing(),
+            reach: 2.0 * numerics.smoothing_ratio * layer.spacing(),
+            weight: layer.reference_density * across * layer_height,
             hydrostatic: (layer.bulk_modulus, layer.reference_density, across),
             window_start: layer.duration - layer.window,
             noise: layer.slope_angle == 0.0,

@@ -1,6 +1,6 @@
 //! The drag laws as curves: one grain alone, and how its neighbours hinder it.
 
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 use crate::reference::{GrainForm, SettlingGrains, richardson_zaki_exponent};
 use bagnold_solver::material::drag::DragLaw;
 
@@ -48,20 +48,20 @@ pub(super) fn drag_coefficients() -> Figure {
     let mut coefficient = Panel::new("", Axis::logarithmic("R [-]"), Axis::logarithmic("C_d [-]"));
     let mut ratio = Panel::new("", Axis::logarithmic("R [-]"), Axis::linear("ratio to Schiller–Naumann [-]"));
     let reynolds: Vec<f64> = (-80..=188).map(|k| libm::pow(10.0, f64::from(k) / 40.0)).collect();
-    let stokes = reynolds.iter().filter(|&&r| r <= 10.0).map(|&r| (r, 24.0 / r)).collect();
-    coefficient.series.push(Series::new("Stokes, 24/R", Mark::Reference, 0, stokes));
+    let stokes = reynolds.iter().filter(|&&r| r <= 10.0).map(|&r| (r, 24.0 / r));
+    coefficient.reference("Stokes, 24/R", stokes);
     for (law, label) in ALONE {
         let in_range = reynolds.iter().copied().filter(|r| law.reynolds_range().contains(r));
         let points: Vec<(f64, f64)> = in_range.filter_map(|r| Some((r, law.drag_coefficient(r)?))).collect();
         let relative = |&(r, c): &(f64, f64)| Some((r, c / DragLaw::SchillerNaumann.drag_coefficient(r)?));
-        ratio.series.push(Series::new("", Mark::Line, slot(law), points.iter().filter_map(relative).collect()));
-        coefficient.series.push(Series::new(label, Mark::Line, slot(law), points));
+        ratio.line("", slot(law), points.iter().filter_map(relative));
+        coefficient.line(label, slot(law), points);
     }
     Figure::new(
         "drag-coefficients",
         "Drag coefficient of one grain alone over its Reynolds number R = |u_r| d/ν, and relative to Schiller and \
-                  Naumann's. The steps are the joints of Morsi and Alexander's table, which ends at R = 50 000. Ergun's law \
-                  describes beds and has no grain alone.",
+         Naumann's. The steps are the joints of Morsi and Alexander's table, which ends at R = 50 000. Ergun's law \
+         describes beds and has no grain alone.",
         vec![coefficient, ratio],
     )
 }
@@ -76,16 +76,15 @@ pub(super) fn hindrance() -> Figure {
     panels.push(velocity_panel(&fractions));
     // one legend serves the panels that share their laws
     panels[1].series.iter_mut().for_each(|series| series.label.clear());
-    Figure {
-        name: "hindrance".to_owned(),
-        caption: "Exchange coefficient K(φ)/φ of a suspension over that of Schiller and Naumann's grain alone, at two slips \
-                  R = |u_r| d/ν, and the velocity at which sand of 1 mm sinks in water over that of one grain after the \
-                  same law (Ergun: after Wen and Yu). Gidaspow's law is Wen and Yu's up to φ = 0.2 and Ergun's above; the \
-                  two do not meet. Dashed: Richardson and Zaki (1954), unverified: observed, not judged."
-            .to_owned(),
+    Figure::new(
+        "hindrance",
+        "Exchange coefficient K(φ)/φ of a suspension over that of Schiller and Naumann's grain alone, at two slips R \
+         = |u_r| d/ν, and the velocity at which sand of 1 mm sinks in water over that of one grain after the same \
+         law (Ergun: after Wen and Yu). Gidaspow's law is Wen and Yu's up to φ = 0.2 and Ergun's above; the two do \
+         not meet. Dashed: Richardson and Zaki (1954), unverified: observed, not judged.",
         panels,
-        columns: 3,
-    }
+    )
+    .in_columns(3)
 }
 
 fn exchange_panel(fractions: &[f64], reynolds: f64, title: &str) -> Panel {
@@ -98,8 +97,8 @@ fn exchange_panel(fractions: &[f64], reynolds: f64, title: &str) -> Panel {
     // a dilute law has the same exchange of a grain at every fraction
     let alone = exchange_of_a_grain(DragLaw::SchillerNaumann, 1.0);
     for law in SUSPENSION {
-        let points = fractions.iter().map(|&phi| (phi, exchange_of_a_grain(law, phi) / alone)).collect();
-        panel.series.push(Series::new(label(law), Mark::Line, slot(law), points));
+        let points = fractions.iter().map(|&phi| (phi, exchange_of_a_grain(law, phi) / alone));
+        panel.line(label(law), slot(law), points);
     }
     panel
 }
@@ -110,13 +109,13 @@ fn velocity_panel(fractions: &[f64]) -> Panel {
     let alone = |law: DragLaw| SAND.terminal_velocity(law, GrainForm::Sphere);
     if let Some(terminal) = alone(DragLaw::WenYu) {
         let exponent = richardson_zaki_exponent(SAND.reynolds(terminal));
-        let points = fractions.iter().map(|&phi| (phi, libm::pow(1.0 - phi, exponent))).collect();
-        panel.series.push(Series::new("Richardson–Zaki (unverified)", Mark::Reference, 0, points));
+        let points = fractions.iter().map(|&phi| (phi, libm::pow(1.0 - phi, exponent)));
+        panel.reference("Richardson–Zaki (unverified)", points);
     }
     for law in SUSPENSION {
         let terminal = alone(law).or(alone(DragLaw::WenYu));
         let relative = |&phi: &f64| Some((phi, SAND.hindered_velocity(law, phi)? / terminal?));
-        panel.series.push(Series::new("", Mark::Line, slot(law), fractions.iter().filter_map(relative).collect()));
+        panel.line("", slot(law), fractions.iter().filter_map(relative));
     }
     panel
 }

@@ -1,10 +1,8 @@
 //! What a grain alone and a suspension have in common: grains as large as the particles of a fluid in a periodic box.
 
-use super::probe::{Drag, Probe, SettlingObservation};
-use crate::case::{ParameterError, Progress};
+use crate::case::ParameterError;
 use crate::cases::channel::Lattice;
 use crate::cases::rules;
-use crate::observation::Recorded;
 use crate::reference::SettlingGrains;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
@@ -80,19 +78,6 @@ fn at_rest(position: Vec<Vector<2>>) -> ParticleSet<2> {
 }
 
 impl Experiment {
-    pub(super) fn steps(&self) -> f64 {
-        self.duration / self.numerics.time_step
-    }
-
-    pub(super) fn run(
-        &self,
-        scene: IncompressibleScene<2>,
-        drag: Drag,
-        progress: &dyn Progress,
-    ) -> Result<Recorded<SettlingObservation>, ParameterError> {
-        Ok(Probe::run(scene, drag, self.duration, progress)?)
-    }
-
     /// Grains at rest, each filling a part of its particle, under a vertical acceleration `[m/s²]`; without a pressure of
     /// their own.
     pub(super) fn sediment(&self, position: Vec<Vector<2>>, filling: f64, gravity: f64) -> Sediment<2> {

@@ -5,7 +5,7 @@ use super::probe::{SettlingObservation, SettlingSeries};
 use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;
 use super::{Record, drag_curves};
-use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 use crate::reference::{GrainForm, richardson_zaki_exponent};
 use bagnold_solver::material::drag::DragLaw;
 
@@ -19,13 +19,7 @@ const CONTINUUM: &str = "continuum";
 const DENSEST: f64 = 0.6;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
-    let suspensions: Vec<(&SuspensionRun, &SettlingObservation)> = records
-        .iter()
-        .filter_map(|(run, record)| match run {
-            SettlingRun::Grain(_) => None,
-            SettlingRun::Suspension(run) => Some((run, &record.data)),
-        })
-        .collect();
+    let suspensions: Vec<_> = suspensions(records).collect();
     let mut figures = vec![approach(records)];
     let alone = alone(records);
     if !alone.is_empty() {
@@ -38,54 +32,55 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     figures
 }
 
+/// The suspensions among the records.
+fn suspensions(records: &[Record]) -> impl Iterator<Item = (&SuspensionRun, &SettlingObservation)> {
+    records.iter().filter_map(|(run, record)| match run {
+        SettlingRun::Grain(_) => None,
+        SettlingRun::Suspension(run) => Some((run, &record.data)),
+    })
+}
+
 fn approach(records: &[Record]) -> Figure {
-    let mut fractions: Vec<f64> = records
-        .iter()
-        .filter_map(|(run, _)| match run {
-            SettlingRun::Grain(_) => None,
-            SettlingRun::Suspension(run) => Some(run.solid_fraction),
-        })
-        .collect();
+    let title = |run: &SettlingRun| match run {
+        SettlingRun::Grain(run) => format!("one grain, {}", run.formulation.name()),
+        SettlingRun::Suspension(run) => format!("suspension, φ = {}", run.solid_fraction),
+    };
+    let mut fractions: Vec<f64> = suspensions(records).map(|(run, _)| run.solid_fraction).collect();
     fractions.sort_by(f64::total_cmp);
     fractions.dedup();
-    let formulations = FORMULATIONS.map(|formulation| {
-        let of = move |run: &SettlingRun| matches!(run, SettlingRun::Grain(run) if run.formulation == formulation);
-        (format!("one grain, {}", formulation.name()), Box::new(of) as Box<dyn Fn(&SettlingRun) -> bool>)
-    });
-    let columns = fractions.into_iter().map(|fraction| {
-        let of = move |run: &SettlingRun| matches!(run, SettlingRun::Suspension(run) if run.solid_fraction == fraction);
-        (format!("suspension, φ = {fraction}"), Box::new(of) as Box<dyn Fn(&SettlingRun) -> bool>)
-    });
+    let titles = FORMULATIONS.map(|formulation| format!("one grain, {}", formulation.name())).into_iter();
+    let titles = titles.chain(fractions.into_iter().map(|fraction| format!("suspension, φ = {fraction}")));
     let mut named: Vec<DragLaw> = Vec::new();
     let mut panels = Vec::new();
-    for (title, of) in formulations.into_iter().chain(columns) {
-        let mut panel = Panel::new(&title, Axis::linear("t [s]"), Axis::linear("slip over the root [-]"));
-        panel.y.limits = Some((0.0, 1.2));
-        for (run, record) in records.iter().filter(|(run, _)| of(run)) {
+    for name in titles {
+        let y = Axis::linear("slip over the root [-]").between(0.0, 1.2);
+        let mut panel = Panel::new(&name, Axis::linear("t [s]"), y);
+        for (run, record) in records.iter().filter(|(run, _)| title(run) == name) {
             let (series, root) = (&record.data.series, run.root());
-            let points = series.time.iter().zip(&series.slip).map(|(t, slip)| (*t, slip / root)).collect();
+            let points = series.time.iter().zip(&series.slip).map(|(t, slip)| (*t, slip / root));
             // a law has its name where it is drawn first
-            let label = if named.contains(&run.law()) { "" } else { drag_curves::label(run.law()) };
-            named.push(run.law());
-            panel.series.push(Series::new(label, Mark::Line, drag_curves::slot(run.law()), points));
+            let label =
+                if named.contains(&run.experiment().law) { "" } else { drag_curves::label(run.experiment().law) };
+            named.push(run.experiment().law);
+            panel.line(label, drag_curves::slot(run.experiment().law), points);
         }
         let end = panel.series.iter().flat_map(|series| series.points.last()).fold(0.0, |end: f64, p| end.max(p.0));
         if end > 0.0 {
             let label = if panels.is_empty() { "root" } else { "" };
-            panel.series.push(Series::new(label, Mark::Reference, 0, vec![(0.0, 1.0), (end, 1.0)]));
+            panel.reference(label, [(0.0, 1.0), (end, 1.0)]);
             panels.push(panel);
         }
     }
-    Figure {
-        name: "approach".to_owned(),
-        caption: "Grains released at rest get to the slip at which their drag carries their weight: one grain in a periodic \
-                  box of fluid, and a uniform suspension in a column without a flux of the mixture. The fluid that a grain \
-                  alone has set in motion meets it again across the periods, so that its slip keeps fluctuating about the \
-                  root; means are taken over the last 0.6 of a run."
-            .to_owned(),
-        columns: if panels.len() > 4 { 3 } else { panels.len().clamp(1, 2) },
+    let columns = if panels.len() > 4 { 3 } else { panels.len().clamp(1, 2) };
+    Figure::new(
+        "approach",
+        "Grains released at rest get to the slip at which their drag carries their weight: one grain in a periodic \
+         box of fluid, and a uniform suspension in a column without a flux of the mixture. The fluid that a grain \
+         alone has set in motion meets it again across the periods, so that its slip keeps fluctuating about the \
+         root; means are taken over the last 0.6 of a run.",
         panels,
-    }
+    )
+    .in_columns(columns)
 }
 
 /// Grains alone, and suspensions so dilute that they stand for one: formulation, root `[m/s]`, what was seen.
@@ -103,22 +98,23 @@ fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
     let roots = || records.iter().map(|&(_, root, _)| root);
     let (low, high) = (roots().fold(f64::INFINITY, f64::min), roots().fold(0.0, f64::max));
     let (low, high) = (low - 0.05 * high, 1.05 * high);
-    panel.bands.push(Band { label: "gate, 1 %".to_owned(), points: vec![(low, -1.0, 1.0), (high, -1.0, 1.0)] });
+    panel.band("gate, 1 %", [(low, -1.0, 1.0), (high, -1.0, 1.0)]);
     for (slot, name) in FORMULATIONS.map(Formulation::name).into_iter().chain([CONTINUUM]).enumerate() {
         let measured = |&(_, root, data): &(&str, f64, &SettlingObservation)| {
             let (mean, noise) = data.series.mean(&data.series.slip);
             ((root, 100.0 * (mean / root - 1.0)), 100.0 * noise / root)
         };
-        let (points, error): (Vec<_>, Vec<_>) = records.iter().filter(|record| record.0 == name).map(measured).unzip();
+        let (points, error): (Vec<(f64, f64)>, Vec<f64>) =
+            records.iter().filter(|record| record.0 == name).map(measured).unzip();
         if !points.is_empty() {
-            panel.series.push(Series { error, ..Series::new(name, Mark::Points, slot, points) });
+            panel.points(name, slot, points).error = error;
         }
     }
     Figure::new(
         "terminal-velocity",
-        "Mean slip of a grain alone against the root of its balance, for every law, with the standard error of \
-                  the mean: one planar grain (c = ½) as printed and stabilised, spheres (c = ¾) of a very dilute suspension \
-                  by volume fractions. Wen and Yu's and Gidaspow's grain alone is that of Schiller and Naumann.",
+        "Mean slip of a grain alone against the root of its balance, for every law, with the standard error of the \
+         mean: one planar grain (c = ½) as printed and stabilised, spheres (c = ¾) of a very dilute suspension by \
+         volume fractions. Wen and Yu's and Gidaspow's grain alone is that of Schiller and Naumann.",
         vec![panel],
     )
 }
@@ -139,27 +135,27 @@ fn hindered(records: &[(&SuspensionRun, &SettlingObservation)]) -> Figure {
         let root = |phi| Some((phi, grains.hindered_slip(law, phi)?));
         let curve: Vec<(f64, f64)> =
             fractions().filter(|&phi| super::suspension::covers(law, phi)).filter_map(root).collect();
-        let sunk = curve.iter().map(|&(phi, slip)| (phi, (1.0 - phi) * slip)).collect();
-        slip.series.push(Series::new("", Mark::Line, slot, curve));
-        sinking.series.push(Series::new("", Mark::Line, slot, sunk));
+        let sunk = curve.iter().map(|&(phi, slip)| (phi, (1.0 - phi) * slip));
+        sinking.line("", slot, sunk);
+        slip.line("", slot, curve);
         let measured = |of: fn(&SettlingSeries) -> &[f64]| -> Vec<(f64, f64)> {
             let of_law = records.iter().filter(|(run, _)| run.experiment.law == law);
             of_law.map(|(run, data)| (run.solid_fraction, data.series.mean(of(&data.series)).0)).collect()
         };
         // one legend serves both panels
-        slip.series.push(Series::new(drag_curves::label(law), Mark::Points, slot, measured(|series| &series.slip)));
-        sinking.series.push(Series::new("", Mark::Points, slot, measured(|series| &series.sinking)));
+        slip.points(drag_curves::label(law), slot, measured(|series| &series.slip));
+        sinking.points("", slot, measured(|series| &series.sinking));
     }
     let alone = grains.terminal_velocity(DragLaw::WenYu, GrainForm::Sphere).unwrap_or(f64::NAN);
     let exponent = richardson_zaki_exponent(grains.reynolds(alone));
-    let published = |exponent: f64| fractions().map(|phi| (phi, alone * libm::pow(1.0 - phi, exponent))).collect();
-    slip.series.push(Series::new("Richardson–Zaki (unverified)", Mark::Reference, 0, published(exponent - 1.0)));
-    sinking.series.push(Series::new("", Mark::Reference, 0, published(exponent)));
+    let published = |exponent: f64| fractions().map(move |phi| (phi, alone * libm::pow(1.0 - phi, exponent)));
+    slip.reference("Richardson–Zaki (unverified)", published(exponent - 1.0));
+    sinking.reference("", published(exponent));
     Figure::new(
         "hindered-settling",
         "Slip of a uniform suspension and the velocity at which it sinks in a vessel: particles (points) and roots \
-                  of the balance (lines) for every law. Gidaspow's law is Wen and Yu's up to φ = 0.2 and Ergun's above. \
-                  Dashed: Richardson and Zaki (1954) with the grain alone of Wen and Yu, unverified: observed, not judged.",
+         of the balance (lines) for every law. Gidaspow's law is Wen and Yu's up to φ = 0.2 and Ergun's above. \
+         Dashed: Richardson and Zaki (1954) with the grain alone of Wen and Yu, unverified: observed, not judged.",
         vec![slip, sinking],
     )
 }

@@ -2,10 +2,7 @@
 
 use super::experiment::Experiment;
 use super::parameters::SettlingParameters;
-use super::probe::{Drag, SettlingObservation};
-use crate::case::{ParameterError, Progress, Run};
-use crate::metric::Variant;
-use crate::observation::Recorded;
+use super::probe::Drag;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::incompressible::{
     DragForm, DragSlip, IncompressibleScene, ProjectionNumerics, Sediment, SedimentPressure, SolidFraction,
@@ -77,26 +74,6 @@ fn relaxation_time(grains: &SettlingGrains, law: DragLaw) -> f64 {
     0.5 * velocity * grains.grain_density / grains.submerged_weight()
 }
 
-impl Run for GrainRun {
-    type Observation = SettlingObservation;
-
-    fn variant(&self) -> Variant {
-        Variant::of("formulation", self.formulation.name()).and("law", self.experiment.law.name())
-    }
-
-    fn particle_steps(&self) -> f64 {
-        self.experiment.steps() * (self.experiment.vessel.lattice().len() + 1) as f64
-    }
-
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, ParameterError> {
-        let slip = match self.experiment.numerics.drag_slip {
-            DragSlip::Pair => Drag::OfPairs,
-            DragSlip::Mean => Drag::OfMean,
-        };
-        self.experiment.run(self.scene(), slip, progress)
-    }
-}
-
 impl GrainRun {
     /// Root of its balance of weight and drag `[m/s]`.
     #[must_use]
@@ -105,7 +82,14 @@ impl GrainRun {
         grains.terminal_velocity(*law, GrainForm::Planar).unwrap_or(f64::NAN)
     }
 
-    fn scene(&self) -> IncompressibleScene<2> {
+    pub(super) fn drag(&self) -> Drag {
+        match self.experiment.numerics.drag_slip {
+            DragSlip::Pair => Drag::OfPairs,
+            DragSlip::Mean => Drag::OfMean,
+        }
+    }
+
+    pub(super) fn scene(&self) -> IncompressibleScene<2> {
         let Experiment { grains, vessel, .. } = &self.experiment;
         let submerged = grains.gravity * (1.0 - grains.fluid_density / grains.grain_density);
         // the fluid is pushed up by as much as the grain weighs, so that both together stay where they are

@@ -6,7 +6,7 @@ use super::probe::{SettlingObservation, SettlingSeries};
 use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;
 use crate::case::Run;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
+use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
 use crate::reference::{richardson_zaki_confidence, richardson_zaki_exponent};
 
 quantities! {
@@ -32,8 +32,8 @@ const VESSEL: &str = "u_s = −(1 − φ) |u_r| without a flux of the mixture";
 
 pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     let judged = |(run, record): &Record| match run {
-        SettlingRun::Grain(run) => alone(run, &record.data),
-        SettlingRun::Suspension(run) => together(run, &record.data),
+        SettlingRun::Grain(own) => alone(own, &run.variant(), &record.data),
+        SettlingRun::Suspension(own) => together(own, &run.variant(), &record.data),
     };
     records.iter().flat_map(judged).collect()
 }
@@ -47,68 +47,61 @@ fn error(
     (root, source): (f64, &str),
 ) -> Metric {
     let (mean, noise) = series.mean(array);
-    quantity
-        .of(variant, 100.0 * (mean / root - 1.0))
-        .against(Some(0.0), source, Confidence::Exact)
-        // displaced particles move chaotically: a mean over the window moves by its own error after any change
-        .with_snapshot_tolerance(0.0, 300.0 * noise / root + 1e-3)
+    // displaced particles move chaotically: a mean over the window moves by its own error after any change
+    let tolerance = 300.0 * noise / root + 1e-3;
+    quantity.of(variant, 100.0 * (mean / root - 1.0)).exactly(0.0, source).with_snapshot_tolerance(0.0, tolerance)
 }
 
-fn alone(run: &GrainRun, data: &SettlingObservation) -> Vec<Metric> {
-    let (variant, series, root) = (run.variant(), &data.series, run.terminal_velocity());
-    let error = |quantity, array: &[f64]| error(quantity, &variant, series, array, (root, ALONE));
+fn alone(run: &GrainRun, variant: &Variant, data: &SettlingObservation) -> Vec<Metric> {
+    let (series, root) = (&data.series, run.terminal_velocity());
+    let error = |quantity, array: &[f64]| error(quantity, variant, series, array, (root, ALONE));
     let reason = "acceptance line 4 of the bed-load model: 1 %, mean over the last 0.6 of the run";
     vec![
         error(TERMINAL_VELOCITY_ERROR, &series.slip).gated(Limit::Within(-1.0, 1.0), reason),
         error(SLIP_OF_MEANS_ERROR, &series.slip_of_means),
         error(ROOT_MEAN_SQUARE_SLIP_ERROR, &series.root_mean_square_slip),
-        momentum(&variant, data.momentum_error),
+        momentum(variant, data.momentum_error),
     ]
 }
 
-fn together(run: &SuspensionRun, data: &SettlingObservation) -> Vec<Metric> {
-    let (variant, series) = (run.variant(), &data.series);
+fn together(run: &SuspensionRun, variant: &Variant, data: &SettlingObservation) -> Vec<Metric> {
+    let series = &data.series;
     let (slip, alone, fluid) = (run.slip(), run.terminal_velocity(), 1.0 - run.solid_fraction);
+    let error = |quantity, array: &[f64], root| error(quantity, variant, series, array, root);
+    let within = Limit::Within(-2.0, 2.0);
     let reason = "acceptance line 4 of the bed-load model: 2 %, mean over the last 0.6 of the run";
-    let mut metrics = Vec::new();
+    let mut metrics = vec![
+        error(SLIP_ERROR, &series.slip, (slip, HINDERED)).gated(within, reason),
+        error(SINKING_ERROR, &series.sinking, (fluid * slip, VESSEL)).gated(within, reason),
+    ];
     if run.dilute {
         let reason = "acceptance line 4: 1 %, of which φ = 0.002 itself hinders by 0.1 to 0.6 %";
-        metrics.push(
-            error(TERMINAL_VELOCITY_ERROR, &variant, series, &series.slip, (alone, SPHERE))
-                .gated(Limit::Within(-1.0, 1.0), reason),
-        );
-    }
-    metrics.push(
-        error(SLIP_ERROR, &variant, series, &series.slip, (slip, HINDERED)).gated(Limit::Within(-2.0, 2.0), reason),
-    );
-    metrics.push(
-        error(SINKING_ERROR, &variant, series, &series.sinking, (fluid * slip, VESSEL))
-            .gated(Limit::Within(-2.0, 2.0), reason),
-    );
-    if !run.dilute {
+        let terminal = error(TERMINAL_VELOCITY_ERROR, &series.slip, (alone, SPHERE));
+        metrics.insert(0, terminal.gated(Limit::Within(-1.0, 1.0), reason));
+    } else {
         let exponent = richardson_zaki_exponent(run.experiment.grains.reynolds(alone));
         let published = alone * libm::pow(fluid, exponent);
         metrics.push(
             SINKING_OVER_RICHARDSON_ZAKI
-                .of(&variant, series.mean(&series.sinking).0 / published)
+                .of(variant, series.mean(&series.sinking).0 / published)
                 .against(Some(1.0), "Richardson & Zaki 1954, u/u_t = (1 − φ)ⁿ", richardson_zaki_confidence())
                 .with_snapshot_tolerance(0.01, 0.0),
         );
     }
-    metrics.push(
+    metrics.extend([
         UNEVENNESS
-            .of(&variant, 100.0 * series.mean(&series.unevenness).0 / slip)
-            .against(Some(0.0), "grains of a uniform suspension sink alike", Confidence::Exact)
+            .of(variant, 100.0 * series.mean(&series.unevenness).0 / slip)
+            .exactly(0.0, "grains of a uniform suspension sink alike")
             .with_snapshot_tolerance(0.5, 0.01),
-    );
-    metrics.push(momentum(&variant, data.momentum_error));
+        momentum(variant, data.momentum_error),
+    ]);
     metrics
 }
 
 fn momentum(variant: &Variant, error: f64) -> Metric {
     MOMENTUM_ERROR
         .of(variant, error)
-        .against(Some(0.0), "change of momentum = impulse of gravity and floor, in every step", Confidence::Exact)
+        .exactly(0.0, "change of momentum = impulse of gravity and floor, in every step")
         .gated(
             Limit::AtMost(1e-10),
             "acceptance line 4: 1e-10 of the grains' weight; pairs exchange equal and opposite impulses",

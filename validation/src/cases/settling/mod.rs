@@ -26,7 +26,6 @@ use crate::output::Table;
 #[derive(Debug)]
 pub struct Settling;
 
-/// A run with what it left behind.
 type Record = RecordOf<SettlingParameters>;
 
 impl Case for Settling {

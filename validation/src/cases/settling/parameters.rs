@@ -1,9 +1,9 @@
 //! Parameters and tiers.
 
 use super::experiment::{Experiment, Vessel};
-use super::grain::Formulation;
-use super::runs::{self, SettlingRun};
-use super::suspension::{LEAST_BED, covers};
+use super::grain::{self, Formulation};
+use super::runs::SettlingRun;
+use super::suspension::{self, LEAST_BED, covers};
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::rules;
 use crate::reference::{GrainForm, SettlingGrains};
@@ -144,7 +144,8 @@ impl Parameters for SettlingParameters {
     }
 
     fn runs(&self) -> Vec<SettlingRun> {
-        runs::all(self)
+        let grains = grain::runs(self).into_iter().map(SettlingRun::Grain);
+        grains.chain(suspension::runs(self).into_iter().map(SettlingRun::Suspension)).collect()
     }
 }
 
@@ -213,12 +214,8 @@ impl SettlingParameters {
             let alone = suspension.dilute_fraction > 0.0 && law != DragLaw::Ergun;
             if !(judged || alone) {
                 let rule = format!("a law for one of the solid fractions; \"ergun\" begins at {LEAST_BED}");
-                return Err(ParameterError::field(
-                    &field,
-                    law.name(),
-                    &rule,
-                    "leave it out, or add a denser suspension",
-                ));
+                let remedy = "leave it out, or add a denser suspension";
+                return Err(ParameterError::field(&field, law.name(), &rule, remedy));
             }
             let in_range =
                 |&fraction: &f64| self.grains(suspension.vessel.diameter).hindered_slip(law, fraction).is_some();

@@ -1,7 +1,7 @@
 //! What a settling run leaves behind: slip over time, and how far momentum closes in every step.
 
 use crate::case::Progress;
-use crate::cases::recording::Ending;
+use crate::case::recording::Ending;
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::output::Table;
@@ -40,21 +40,15 @@ pub struct SettlingSeries {
 
 impl SettlingSeries {
     pub(super) fn table(&self, variant: &Variant) -> Table {
-        let columns = [
-            "t [s]",
-            "slip [m/s]",
-            "slip of means [m/s]",
-            "rms slip [m/s]",
-            "sinking velocity [m/s]",
-            "unevenness [m/s]",
+        let columns: [(&str, &[f64]); 6] = [
+            ("t [s]", &self.time),
+            ("slip [m/s]", &self.slip),
+            ("slip of means [m/s]", &self.slip_of_means),
+            ("rms slip [m/s]", &self.root_mean_square_slip),
+            ("sinking velocity [m/s]", &self.sinking),
+            ("unevenness [m/s]", &self.unevenness),
         ];
-        let arrays =
-            [&self.time, &self.slip, &self.slip_of_means, &self.root_mean_square_slip, &self.sinking, &self.unevenness];
-        Table {
-            name: format!("series-{}", variant.file_name()),
-            columns: columns.map(str::to_owned).to_vec(),
-            rows: (0..self.time.len()).map(|k| arrays.iter().map(|array| array[k]).collect()).collect(),
-        }
+        Table::of_columns(format!("series-{}", variant.file_name()), &columns)
     }
 
     /// Mean of an array over the window at the run's end, and its standard error.

@@ -1,13 +1,12 @@
 //! The runs of the case: single grains and suspensions.
 
-use super::grain::{self, GrainRun};
-use super::parameters::SettlingParameters;
-use super::probe::SettlingObservation;
-use super::suspension::{self, SuspensionRun};
+use super::experiment::Experiment;
+use super::grain::GrainRun;
+use super::probe::{Drag, Probe, SettlingObservation};
+use super::suspension::SuspensionRun;
 use crate::case::{ParameterError, Progress, Run};
 use crate::metric::Variant;
 use crate::observation::Recorded;
-use bagnold_solver::material::drag::DragLaw;
 use serde::Serialize;
 
 /// One simulation.
@@ -20,43 +19,43 @@ pub enum SettlingRun {
     Suspension(SuspensionRun),
 }
 
-pub(super) fn all(parameters: &SettlingParameters) -> Vec<SettlingRun> {
-    let grains = grain::runs(parameters).into_iter().map(SettlingRun::Grain);
-    grains.chain(suspension::runs(parameters).into_iter().map(SettlingRun::Suspension)).collect()
-}
-
 impl Run for SettlingRun {
     type Observation = SettlingObservation;
 
     fn variant(&self) -> Variant {
+        let of = |formulation: &str| Variant::of("formulation", formulation).and("law", self.experiment().law.name());
         match self {
-            Self::Grain(run) => run.variant(),
-            Self::Suspension(run) => run.variant(),
+            Self::Grain(run) => of(run.formulation.name()),
+            Self::Suspension(run) => of("continuum").and("solid_fraction", run.solid_fraction),
         }
     }
 
     fn particle_steps(&self) -> f64 {
-        match self {
-            Self::Grain(run) => run.particle_steps(),
-            Self::Suspension(run) => run.particle_steps(),
-        }
+        let Experiment { vessel, duration, numerics, .. } = self.experiment();
+        let cells = vessel.lattice().len();
+        let particles = match self {
+            Self::Grain(_) => cells + 1,
+            Self::Suspension(_) => 2 * cells,
+        };
+        duration / numerics.time_step * particles as f64
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, ParameterError> {
-        match self {
-            Self::Grain(run) => run.simulate(progress),
-            Self::Suspension(run) => run.simulate(progress),
-        }
+        let (scene, drag) = match self {
+            Self::Grain(run) => (run.scene(), run.drag()),
+            Self::Suspension(run) => (run.scene(), Drag::OfMean),
+        };
+        Ok(Probe::run(scene, drag, self.experiment().duration, progress)?)
     }
 }
 
 impl SettlingRun {
-    /// Drag law.
+    /// The grains in their vessel.
     #[must_use]
-    pub fn law(&self) -> DragLaw {
+    pub fn experiment(&self) -> &Experiment {
         match self {
-            Self::Grain(run) => run.experiment.law,
-            Self::Suspension(run) => run.experiment.law,
+            Self::Grain(run) => &run.experiment,
+            Self::Suspension(run) => &run.experiment,
         }
     }
 

@@ -2,10 +2,6 @@
 
 use super::experiment::Experiment;
 use super::parameters::SettlingParameters;
-use super::probe::{Drag, SettlingObservation};
-use crate::case::{ParameterError, Progress, Run};
-use crate::metric::Variant;
-use crate::observation::Recorded;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::incompressible::{
     Continuity, DragSlip, IncompressibleScene, MeanFlux, ProjectionNumerics, SolidFraction, Strata, Stratification,
@@ -66,24 +62,6 @@ fn relaxation_time(grains: &SettlingGrains, law: DragLaw, solid_fraction: f64) -
     slip * grains.grain_density / grains.submerged_weight()
 }
 
-impl Run for SuspensionRun {
-    type Observation = SettlingObservation;
-
-    fn variant(&self) -> Variant {
-        Variant::of("formulation", "continuum")
-            .and("law", self.experiment.law.name())
-            .and("solid_fraction", self.solid_fraction)
-    }
-
-    fn particle_steps(&self) -> f64 {
-        self.experiment.steps() * (2 * self.experiment.vessel.lattice().len()) as f64
-    }
-
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, ParameterError> {
-        self.experiment.run(self.scene(), Drag::OfMean, progress)
-    }
-}
-
 impl SuspensionRun {
     /// Root of its balance of weight and drag `[m/s]`.
     #[must_use]
@@ -98,7 +76,7 @@ impl SuspensionRun {
         alone(self.experiment.law).or(alone(DragLaw::WenYu)).unwrap_or(f64::NAN)
     }
 
-    fn scene(&self) -> IncompressibleScene<2> {
+    pub(super) fn scene(&self) -> IncompressibleScene<2> {
         let Experiment { grains, vessel, seed, .. } = &self.experiment;
         let column = vessel.lattice();
         // the phases' lattices lie beside each other, and so do their displacements

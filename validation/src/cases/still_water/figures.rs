@@ -2,14 +2,8 @@
 
 use super::Record;
 use super::parameters::StillWaterRun;
-use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Field, Figure, Panel};
 use crate::observation::{Frame, Outcome};
-
-pub(super) fn all(records: &[Record]) -> Vec<Figure> {
-    let mut figures = vec![pressure(records), rest(records)];
-    figures.extend(states(records));
-    figures
-}
 
 fn label(run: &StillWaterRun) -> String {
     let stabilisation = if run.unstabilised { ", not stabilised" } else { "" };
@@ -20,32 +14,29 @@ fn label(run: &StillWaterRun) -> String {
 fn pressures(run: &StillWaterRun, frame: &Frame) -> Vec<(f64, f64)> {
     let depth = run.water.depth;
     let scale = run.water.density * run.water.gravity * depth;
-    let Some((_, _, pressures)) = frame.scalars.iter().find(|(name, _, _)| name == "pressure") else {
-        return Vec::new();
-    };
-    frame.position.iter().zip(pressures).map(|(x, p)| (x[1] / depth, p / scale)).collect()
+    frame.position.iter().zip(frame.scalar("pressure")).map(|(x, p)| (x[1] / depth, p / scale)).collect()
 }
 
-fn pressure(records: &[Record]) -> Figure {
+pub(super) fn pressure(records: &[Record]) -> Figure {
     let mut profile = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("p/(ρ g h) [-]"));
     let mut error = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("p/(ρ g h) − (1 − z/h) [%]"));
     for (slot, (run, record)) in records.iter().filter(|(run, _)| !run.unstabilised).enumerate() {
         let points = record.frames.last().map(|frame| pressures(run, frame)).unwrap_or_default();
-        let errors = points.iter().map(|&(z, p)| (z, 100.0 * (p - (1.0 - z)))).collect();
-        profile.series.push(Series::new(&label(run), Mark::Points, slot, points));
-        error.series.push(Series::new("", Mark::Points, slot, errors));
+        let errors = points.iter().map(|&(z, p)| (z, 100.0 * (p - (1.0 - z))));
+        error.points("", slot, errors);
+        profile.points(&label(run), slot, points);
     }
-    profile.series.push(Series::new("hydrostatic", Mark::Reference, 0, vec![(0.0, 1.0), (1.0, 0.0)]));
-    error.series.push(Series::new("", Mark::Reference, 0, vec![(0.0, 0.0), (1.0, 0.0)]));
+    profile.reference("hydrostatic", [(0.0, 1.0), (1.0, 0.0)]);
+    error.reference("", [(0.0, 0.0), (1.0, 0.0)]);
     Figure::new(
         "pressure",
         "Pressure of every particle at the end against the hydrostatic one, and the difference in per cent of the \
-                  pressure on the floor.",
+         pressure on the floor.",
         vec![profile, error],
     )
 }
 
-fn rest(records: &[Record]) -> Figure {
+pub(super) fn rest(records: &[Record]) -> Figure {
     let mut height = Panel::new("", Axis::linear("t [s]"), Axis::linear("mean height/(h/2) [-]"));
     let mut speed = Panel::new("", Axis::logarithmic("t [s]"), Axis::logarithmic("rms vertical velocity [m/s]"));
     let longest = records.iter().map(|(run, _)| run.duration).fold(0.0, f64::max);
@@ -54,26 +45,26 @@ fn rest(records: &[Record]) -> Figure {
         let name = label(run);
         // its height has no bound and would hide that of the others
         if !run.unstabilised {
-            height.series.push(Series::new(&name, Mark::Line, slot, series.curve(&series.relative_height, 1.0)));
+            height.line(&name, slot, series.curve(&series.relative_height, 1.0));
         }
-        speed.series.push(Series::new(&name, Mark::Line, slot, series.curve(&series.rms_vertical_velocity, 1.0)));
+        speed.line(&name, slot, series.curve(&series.rms_vertical_velocity, 1.0));
     }
     for bound in [0.999, 1.001] {
         let name = if bound < 1.0 { "limits" } else { "" };
-        height.series.push(Series::new(name, Mark::Reference, 0, vec![(0.0, bound), (longest, bound)]));
+        height.reference(name, [(0.0, bound), (longest, bound)]);
     }
-    speed.series.push(Series::new("limit at the end", Mark::Reference, 0, vec![(1e-3, 5e-4), (longest, 5e-4)]));
+    speed.reference("limit at the end", [(1e-3, 5e-4), (longest, 5e-4)]);
     Figure::new(
         "rest",
-        "Mean height and root mean square vertical velocity over time. The displaced column first shakes itself \
-                  into place and then comes to rest. Without the stabilisation a strongly displaced one blows up within \
-                  milliseconds.",
+        "Mean height and root mean square vertical velocity over time. The displaced column first shakes itself into \
+         place and then comes to rest. Without the stabilisation a strongly displaced one blows up within \
+         milliseconds.",
         vec![height, speed],
     )
 }
 
 /// The last state of a run with and without stabilisation.
-fn states(records: &[Record]) -> Option<Figure> {
+pub(super) fn states(records: &[Record]) -> Option<Figure> {
     let (unstabilised, failed) = records.iter().find(|(run, _)| run.unstabilised)?;
     let (stabilised, held) = records.iter().find(|(run, _)| !run.unstabilised && run.jitter == unstabilised.jitter)?;
     let millimetres = |length: f64| 1e3 * length;
@@ -81,20 +72,16 @@ fn states(records: &[Record]) -> Option<Figure> {
         let title = format!("{}, {:.2} s{ending}", label(run), frame.time);
         let mut panel = Panel::new(&title, Axis::linear("x [mm]"), Axis::linear("z [mm]"));
         panel.y.limits = Some((0.0, millimetres(2.5 * run.water.depth)));
-        panel.field = Some(Field {
-            points: frame.position.iter().map(|x| (millimetres(x[0]), millimetres(x[1]))).collect(),
-            values: pressures(run, frame).into_iter().map(|(_, p)| p).collect(),
-            label: "p/(ρ g h) [-]".to_owned(),
-            diameter: millimetres(run.water.spacing()),
-            limits: Some((0.0, 1.0)),
-        });
+        let points = frame.position.iter().map(|x| (millimetres(x[0]), millimetres(x[1])));
+        let values = pressures(run, frame).into_iter().map(|(_, p)| p);
+        panel.field = Some(Field::new("p/(ρ g h) [-]", millimetres(run.water.spacing()), (0.0, 1.0), points, values));
         panel
     };
     let ending = if matches!(failed.outcome, Outcome::Diverged { .. }) { ", diverged" } else { "" };
     Some(Figure::new(
         "states",
         "Particles in the colour of their pressure at the end of the run and, without the stabilisation of the \
-                  pressure Poisson equation, at the end of its shorter run.",
+         pressure Poisson equation, at the end of its shorter run.",
         vec![panel(stabilised, held.frames.last()?, ""), panel(unstabilised, failed.frames.last()?, ending)],
     ))
 }

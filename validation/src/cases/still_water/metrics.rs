@@ -1,11 +1,9 @@
 //! How the runs are judged.
 
 use super::Record;
-use super::parameters::StillWaterRun;
 use crate::case::Run;
-use crate::cases::channel::{self, ChannelObservation};
+use crate::cases::channel;
 use crate::metric::{Confidence, Limit, Metric, quantities};
-use crate::observation::Recorded;
 
 quantities! {
     [channel::PARTICLES_LOST, channel::HEIGHT_CHANGE, channel::PRESSURE_L2]
@@ -21,41 +19,33 @@ const AT_REST_AFTER: f64 = 15.0;
 const SPRAY: f64 = 1.2;
 
 pub(super) fn all(records: &[Record]) -> Vec<Metric> {
-    let mut metrics = Vec::new();
-    for (run, record) in records.iter().filter(|(run, _)| !run.unstabilised) {
-        stabilised(&mut metrics, run, record);
-    }
-    metrics.extend(records.iter().filter(|(run, _)| run.unstabilised).map(blow_up));
-    metrics
+    let (failed, held): (Vec<&Record>, Vec<&Record>) = records.iter().partition(|(run, _)| run.unstabilised);
+    held.into_iter().flat_map(stabilised).chain(failed.into_iter().map(blow_up)).collect()
 }
 
-fn stabilised(metrics: &mut Vec<Metric>, run: &StillWaterRun, record: &Recorded<ChannelObservation>) {
-    let variant = run.variant();
-    let data = &record.data;
-    metrics.push(channel::particles_lost(&variant, record));
+fn stabilised((run, record): &Record) -> [Metric; 4] {
+    let (variant, data) = (run.variant(), &record.data);
     // what is 0 has no relative drift
     let floored = |metric: Metric, floor: f64| {
         let noise = metric.snapshot_floor;
         metric.with_snapshot_tolerance(0.0, noise.max(floor))
     };
     let height = channel::height_change(&variant, data, "mean height h/2: water keeps its volume");
-    metrics.push(
+    let rms = data.average(&data.series.rms_vertical_velocity);
+    let velocity = floored(channel::observed(RMS_VERTICAL_VELOCITY, &variant, rms, 1.0), 1e-5).exactly(0.0, "rest");
+    [
+        channel::particles_lost(&variant, record),
         floored(height, 1e-3)
             .gated(Limit::Within(-0.1, 0.1), "0.1 % of the mean height, averaged over the last window"),
-    );
-    let rms = data.average(&data.series.rms_vertical_velocity);
-    let velocity = channel::observed(RMS_VERTICAL_VELOCITY, &variant, rms, 1.0);
-    let velocity = floored(velocity, 1e-5).against(Some(0.0), "rest", Confidence::Exact);
-    metrics.push(if run.duration >= AT_REST_AFTER {
-        velocity.gated(Limit::AtMost(5e-4), "a thousandth of √(g h), averaged over the last window")
-    } else {
-        // the displaced start still dies away
-        Metric { snapshot_tolerance: 0.3, ..velocity }
-    });
-    metrics.push(
+        if run.duration >= AT_REST_AFTER {
+            velocity.gated(Limit::AtMost(5e-4), "a thousandth of √(g h), averaged over the last window")
+        } else {
+            // the displaced start still dies away
+            Metric { snapshot_tolerance: 0.3, ..velocity }
+        },
         floored(channel::pressure_l2(&variant, data), 0.01)
             .gated(Limit::AtMost(1.0), "1 % of the hydrostatic profile, averaged over the last window"),
-    );
+    ]
 }
 
 /// When a column without stabilisation has blown up `[s]`: a particle above 1.2 h, or a divergence; else the whole time.

@@ -16,7 +16,6 @@ use crate::output::Table;
 #[derive(Debug)]
 pub struct StillWater;
 
-/// A run with what it left behind.
 type Record = RecordOf<StillWaterParameters>;
 
 impl Case for StillWater {
@@ -36,7 +35,7 @@ impl Case for StillWater {
     }
 
     fn figures(_: &StillWaterParameters, records: &[Record]) -> Vec<Figure> {
-        figures::all(records)
+        [figures::pressure(records), figures::rest(records)].into_iter().chain(figures::states(records)).collect()
     }
 
     fn tables(_: &StillWaterParameters, records: &[Record]) -> Vec<Table> {

@@ -3,7 +3,7 @@
 use super::Record;
 use super::metrics::{Depth, convergence_errors, depth_of};
 use super::parameters::WaterFilmRun;
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let mut figures = vec![profiles(records), over_time(records)];
@@ -12,11 +12,9 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         let mut panel =
             Panel::new("", Axis::logarithmic("rows over the depth [-]"), Axis::logarithmic("relative L2 of u [%]"));
         let own = convergence_errors(records, Depth::Own);
-        let (rows, error) = own[0];
-        let guide = errors.iter().map(|(n, _)| (*n, error * rows / n)).collect();
-        panel.series.push(Series::new("against the film of the nominal depth", Mark::LinePoints, 0, errors));
-        panel.series.push(Series::new("against the film of the particles' own depth", Mark::LinePoints, 1, own));
-        panel.series.push(Series::new("first order", Mark::Reference, 0, guide));
+        panel.line_points("against the film of the nominal depth", 0, errors);
+        panel.line_points("against the film of the particles' own depth", 1, own.iter().copied());
+        panel.order(1, "first order", &own);
         figures.push(Figure::new("convergence", CONVERGENCE, vec![panel]));
     }
     figures
@@ -38,28 +36,23 @@ fn profiles(records: &[Record]) -> Figure {
         let film = run.exact(run.water.depth);
         let (depth, scale) = (run.water.depth, run.film.surface_velocity);
         if slot == 0 {
-            let exact =
-                (0..=100).map(|k| f64::from(k) / 100.0).map(|z| (z, film.velocity(z * depth) / scale)).collect();
-            velocity.series.push(Series::new("exact", Mark::Reference, 0, exact));
-            error.series.push(Series::new("", Mark::Reference, 0, vec![(0.0, 0.0), (1.0, 0.0)]));
+            let exact = (0..=100).map(|k| f64::from(k) / 100.0).map(|z| (z, film.velocity(z * depth) / scale));
+            velocity.reference("exact", exact);
+            error.reference("", [(0.0, 0.0), (1.0, 0.0)]);
         }
         let profile = &record.data.profile;
         let (points, errors) = (profile.points(), profile.velocities());
-        let values = points.iter().map(|point| (point.height / depth, point.velocity / scale)).collect();
-        velocity.series.push(Series::new(&label(run), Mark::Points, slot, values));
-        let deviations = points
-            .iter()
-            .map(|point| (point.height / depth, 100.0 * (point.velocity - film.velocity(point.height)) / scale))
-            .collect();
-        error.series.push(Series {
-            error: errors.iter().map(|velocity| 100.0 * velocity.standard_error / scale).collect(),
-            ..Series::new("", Mark::LinePoints, slot, deviations)
-        });
+        let values = points.iter().map(|point| (point.height / depth, point.velocity / scale));
+        velocity.points(&label(run), slot, values);
+        let deviation = |z: f64, velocity: f64| (z / depth, 100.0 * (velocity - film.velocity(z)) / scale);
+        let deviations = points.iter().map(|point| deviation(point.height, point.velocity));
+        error.line_points("", slot, deviations).error =
+            errors.iter().map(|velocity| 100.0 * velocity.standard_error / scale).collect();
     }
     Figure::new(
         "velocity-profile",
         "Velocity over the depth, averaged over the last relaxation times, against the exact film, and the \
-                  difference in per cent of the surface velocity with its statistical error from blocks.",
+         difference in per cent of the surface velocity with its statistical error from blocks.",
         vec![velocity, error],
     )
 }
@@ -76,14 +69,14 @@ fn over_time(records: &[Record]) -> Figure {
         };
         longest = longest.max(at(record.simulated_time));
         let exact = run.exact(run.water.depth).flux() / run.water.depth;
-        mean.series.push(Series::new(&label(run), Mark::Line, slot, line(&series.mean_velocity, exact)));
-        height.series.push(Series::new("", Mark::Line, slot, line(&series.relative_height, 1.0)));
+        mean.line(&label(run), slot, line(&series.mean_velocity, exact));
+        height.line("", slot, line(&series.relative_height, 1.0));
         let own = depth_of(run, &record.data, Depth::Own) / run.water.depth;
         let (from, to) = record.data.window;
         let window = vec![(at(from), own), (at(to), own)];
-        height.series.push(Series::new("mean over the window", Mark::Reference, 0, window));
+        height.reference("mean over the window", window);
     }
-    mean.series.push(Series::new("exact", Mark::Reference, 0, vec![(0.0, 1.0), (longest, 1.0)]));
+    mean.reference("exact", [(0.0, 1.0), (longest, 1.0)]);
     Figure::new(
         "steadiness",
         "Depth mean of the velocity and mean height over time, from the exact profile at the nominal depth.",

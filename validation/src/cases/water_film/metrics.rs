@@ -5,8 +5,7 @@ use super::parameters::WaterFilmRun;
 use crate::case::Run;
 use crate::cases::Arrangement;
 use crate::cases::channel::{self, ChannelObservation, ProfilePoint, Water};
-use crate::metric::{Confidence, Limit, Metric, Value, Variant, quantities};
-use crate::observation::Recorded;
+use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::statistics::{Estimate, log_log_slope};
 
 quantities! {
@@ -29,24 +28,19 @@ pub(super) enum Depth {
 }
 
 pub(super) fn all(records: &[Record]) -> Vec<Metric> {
-    let mut metrics = Vec::new();
-    for (run, record) in records {
-        of_run(&mut metrics, run, record);
-    }
-    for (quantity, depth, reason) in [
+    let orders = [
         (OBSERVED_ORDER, Depth::Nominal, "first order is expected of walls and surface"),
         (OBSERVED_ORDER_OWN_DEPTH, Depth::Own, "the same, where the depth is not part of the error"),
-    ] {
+    ];
+    let order = |(quantity, depth, reason): (Quantity, Depth, &str)| {
         let errors = convergence_errors(records, depth);
-        if errors.len() >= 3 {
-            let rows = Value::list(errors.iter().map(|(rows, _)| *rows));
-            let variant = Variant::of("particles", "lattice").and("resolution", rows);
-            let order = quantity.of(&variant, -log_log_slope(&errors).unwrap_or(f64::NAN));
-            let metric = order.against(None, source(depth), Confidence::Exact).with_snapshot_tolerance(0.1, 0.05);
-            metrics.push(metric.gated(Limit::AtLeast(0.7), reason));
-        }
-    }
-    metrics
+        let rows = Value::list(errors.iter().map(|(rows, _)| *rows));
+        let variant = Variant::of("particles", "lattice").and("resolution", rows);
+        let order = quantity.of(&variant, -log_log_slope(&errors).unwrap_or(f64::NAN));
+        let metric = order.against(None, source(depth), Confidence::Exact).with_snapshot_tolerance(0.1, 0.05);
+        (errors.len() >= 3).then(|| metric.gated(Limit::AtLeast(0.7), reason))
+    };
+    records.iter().flat_map(of_run).chain(orders.into_iter().filter_map(order)).collect()
 }
 
 fn source(depth: Depth) -> &'static str {
@@ -56,24 +50,22 @@ fn source(depth: Depth) -> &'static str {
     }
 }
 
-fn of_run(metrics: &mut Vec<Metric>, run: &WaterFilmRun, record: &Recorded<ChannelObservation>) {
-    let variant = run.variant();
-    let data = &record.data;
-    metrics.push(channel::particles_lost(&variant, record));
-    metrics.push(channel::momentum_residual(&variant, record));
-    for (quantity, depth) in [(VELOCITY_L2, Depth::Nominal), (VELOCITY_L2_OWN_DEPTH, Depth::Own)] {
-        let error = channel::observed(quantity, &variant, velocity_l2(run, data, depth), 100.0);
-        let mut metric = error.against(Some(0.0), source(depth), Confidence::Exact);
-        if depth == Depth::Nominal && run.water.resolution >= 20 {
-            metric =
-                metric.gated(Limit::AtMost(0.8), "0.8 % at 20 rows, from the lattice and from displaced particles");
-        }
-        metrics.push(metric);
-    }
-    let source = "mean height h/2; the velocity goes with the square of the depth";
-    metrics.push(channel::height_change(&variant, data, source));
+fn of_run((run, record): &Record) -> [Metric; 6] {
+    let (variant, data) = (run.variant(), &record.data);
+    let error = |quantity, depth| {
+        channel::observed(quantity, &variant, velocity_l2(run, data, depth), 100.0).exactly(0.0, source(depth))
+    };
+    let limit = (run.water.resolution >= 20).then_some(Limit::AtMost(0.8));
     let Water { density, gravity, depth, .. } = run.water;
-    metrics.push(channel::bed_shear(&variant, data, density * gravity * depth * run.film.slope));
+    [
+        channel::particles_lost(&variant, record),
+        channel::momentum_residual(&variant, record),
+        error(VELOCITY_L2, Depth::Nominal)
+            .gated_by(limit, "0.8 % at 20 rows, from the lattice and from displaced particles"),
+        error(VELOCITY_L2_OWN_DEPTH, Depth::Own),
+        channel::height_change(&variant, data, "mean height h/2; the velocity goes with the square of the depth"),
+        channel::bed_shear(&variant, data, density * gravity * depth * run.film.slope),
+    ]
 }
 
 /// Depth h `[m]` that a run is compared at.

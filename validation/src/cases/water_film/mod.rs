@@ -16,7 +16,6 @@ use crate::output::Table;
 #[derive(Debug)]
 pub struct WaterFilm;
 
-/// A run with what it left behind.
 type Record = RecordOf<WaterFilmParameters>;
 
 impl Case for WaterFilm {

@@ -1,7 +1,7 @@
-//! How a heap is shown: moving pictures, and pictures with speed on one side and pressure on the other.
+//! How the particles of a heap are shown: moving pictures, and pictures with speed on one side and pressure on the other.
 
+use super::{Frame, Motion, MotionFrame};
 use crate::figure::{Animation, AnimationFrame, Axis, Field, Figure, Mark, Panel, Series};
-use crate::observation::{Frame, Motion, MotionFrame};
 
 /// Share of all speeds that the colours span: single grains of spray would leave no colour to the heap.
 const SPANNED: f64 = 0.998;
@@ -10,17 +10,17 @@ const SECONDS_PER_FRAME: f64 = 0.08;
 
 /// What lengths and times are measured in, and what is drawn of a heap.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::cases) struct View {
+pub struct View {
     /// Unit of length `[m]`.
-    pub(in crate::cases) unit_length: f64,
+    pub unit_length: f64,
     /// Its symbol, such as `r0`; `m` where it is a metre.
-    pub(in crate::cases) unit: &'static str,
+    pub unit: &'static str,
     /// √(h_0/g) `[s]`.
-    pub(in crate::cases) time_scale: f64,
+    pub time_scale: f64,
     /// Particle spacing `[m]`.
-    pub(in crate::cases) spacing: f64,
+    pub spacing: f64,
     /// Whether x = 0 is a plane of symmetry, behind which the other half is drawn.
-    pub(in crate::cases) mirrored: bool,
+    pub mirrored: bool,
 }
 
 impl View {
@@ -51,7 +51,8 @@ impl View {
 }
 
 /// The moving picture of a run: particles in the colours of their speed, dashed the thickness by volume and the front.
-pub(in crate::cases) fn animation(name: &str, caption: &str, motion: &Motion, view: &View) -> Animation {
+#[must_use]
+pub fn animation(name: &str, caption: &str, motion: &Motion, view: &View) -> Animation {
     let unit = view.unit_length;
     let scaled = |[x, y]: [f32; 2]| [(f64::from(x) / unit) as f32, (f64::from(y) / unit) as f32];
     let all = motion.frames.iter().flat_map(|frame| &frame.position).map(|&place| scaled(place));
@@ -102,14 +103,15 @@ fn moving(motion: &Motion) -> impl Iterator<Item = &MotionFrame> {
 }
 
 /// Speed on the left and pressure on the right of the plane of symmetry, one panel a frame, on the same scales.
-pub(in crate::cases) fn halves(name: &str, caption: &str, frames: &[&Frame], view: &View) -> Figure {
+#[must_use]
+pub fn halves(name: &str, caption: &str, frames: &[&Frame], view: &View) -> Figure {
     let unit = view.unit_length;
     let places = |frame: &Frame, side: f64| -> Vec<(f64, f64)> {
         frame.position.iter().map(|x| (side * x[0] / unit, x[1] / unit)).collect()
     };
     let (x, y) = view.axes(frames.iter().flat_map(|frame| places(frame, 1.0)));
-    let fastest = upper_end(frames.iter().flat_map(|frame| speeds(frame)).collect());
-    let deepest = upper_end(frames.iter().flat_map(|frame| pressures(frame)).collect());
+    let fastest = upper_end(frames.iter().flat_map(|frame| frame.speeds()).collect());
+    let deepest = upper_end(frames.iter().flat_map(|frame| frame.pressures()).collect());
     let mut panels: Vec<Panel> = Vec::new();
     for frame in frames {
         let mut panel = Panel::new(&view.clock(frame.time, 2), x.clone(), y.clone());
@@ -121,28 +123,11 @@ pub(in crate::cases) fn halves(name: &str, caption: &str, frames: &[&Frame], vie
             diameter: view.spacing / unit,
             limits: Some((0.0, limit)),
         };
-        panel.field = Some(field(places(frame, -1.0), speeds(frame), "|v| [m/s]", fastest));
-        panel.opposite = Some(field(places(frame, 1.0), pressures(frame), "p [kPa]", deepest));
+        panel.field = Some(field(places(frame, -1.0), frame.speeds(), "|v| [m/s]", fastest));
+        panel.opposite = Some(field(places(frame, 1.0), frame.pressures(), "p [kPa]", deepest));
         panels.push(panel);
     }
-    Figure { name: name.to_owned(), caption: caption.to_owned(), panels, columns: 1 }
-}
-
-/// Speeds `[m/s]`.
-pub(in crate::cases) fn speeds(frame: &Frame) -> Vec<f64> {
-    let velocity = frame.vectors.iter().find(|(name, _, _)| name == "velocity");
-    velocity.map_or(Vec::new(), |(_, _, v)| v.iter().map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt()).collect())
-}
-
-/// Pressures `[kPa]`.
-pub(in crate::cases) fn pressures(frame: &Frame) -> Vec<f64> {
-    let pressure = frame.scalars.iter().find(|(name, _, _)| name == "pressure");
-    pressure.map_or(Vec::new(), |(_, _, p)| p.iter().map(|p| p * 1e-3).collect())
-}
-
-/// The frame whose time is nearest.
-pub(in crate::cases) fn nearest(frames: &[Frame], time: f64) -> Option<&Frame> {
-    frames.iter().min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()))
+    Figure::new(name, caption, panels).in_columns(1)
 }
 
 /// The end of a colour scale: the value that all but a few lie below.
@@ -199,7 +184,7 @@ mod tests {
             vectors: vec![("velocity".to_owned(), "m/s".to_owned(), vec![[u, 0.0, 0.0]])],
         };
         let frames = [frame(0.0, 0.5), frame(0.1, 1.5)];
-        assert_eq!(nearest(&frames, 0.08), Some(&frames[1]));
+        assert_eq!(Frame::nearest(&frames, 0.08), Some(&frames[1]));
         let figure = halves("h", "", &[&frames[0], &frames[1]], &VIEW);
         assert_eq!(figure.panels.len(), 2);
         for panel in &figure.panels {

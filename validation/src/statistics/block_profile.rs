@@ -1,6 +1,6 @@
 //! Profiles over the height, in bins of one spacing and blocks of time.
 
-use crate::statistics::{BLOCKS, Estimate, block_jackknife};
+use super::{BLOCKS, Estimate, block_jackknife};
 use bagnold_solver::vector::Vector;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;

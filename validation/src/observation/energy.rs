@@ -1,19 +1,19 @@
-//! Where the potential energy of a collapse goes.
+//! Where the potential energy of a flow goes.
 
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 
 /// End of the time axis over √(h_0/g) `[-]`: the deposits rest by then.
 const LONGEST: f64 = 6.0;
 
 /// Kinetic and potential energy over time, in any one unit.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::cases) struct Energies<'a> {
+pub struct Energies<'a> {
     /// Times `[s]`.
-    pub(in crate::cases) time: &'a [f64],
+    pub time: &'a [f64],
     /// Kinetic energy.
-    pub(in crate::cases) kinetic: &'a [f64],
+    pub kinetic: &'a [f64],
     /// Potential energy above the bed.
-    pub(in crate::cases) potential: &'a [f64],
+    pub potential: &'a [f64],
 }
 
 impl Energies<'_> {
@@ -25,7 +25,8 @@ impl Energies<'_> {
 
     /// Largest excess of kinetic plus potential energy over that of the start, over the initial potential energy `[-]`;
     /// never negative, since the start counts.
-    pub(in crate::cases) fn largest_gain(&self) -> f64 {
+    #[must_use]
+    pub fn largest_gain(&self) -> f64 {
         let total = self.kinetic.iter().zip(self.potential).map(|(kinetic, potential)| kinetic + potential);
         let largest = total.fold(f64::NEG_INFINITY, f64::max);
         match (self.kinetic.first(), self.potential.first()) {
@@ -36,22 +37,23 @@ impl Energies<'_> {
 }
 
 /// One panel a run: energy released, kinetic, and the rest, over the energy released at the end.
-pub(in crate::cases) fn figure(name: &str, caption: &str, runs: &[(String, f64, Energies<'_>)]) -> Figure {
+#[must_use]
+pub fn figure(name: &str, caption: &str, runs: &[(String, f64, Energies<'_>)]) -> Figure {
     let panels = runs.iter().filter_map(|(title, time_scale, energies)| {
         let (whole, start) = (energies.released()?, energies.potential.first()?);
-        let axis = Axis { limits: Some((-0.05, 1.1)), ..Axis::linear("energy/released [-]") };
-        let time = Axis { limits: Some((0.0, LONGEST)), ..Axis::linear("t/√(h0/g) [-]") };
-        let mut panel = Panel::new(title, time, axis);
-        let curve = |pick: &dyn Fn(usize) -> f64| {
-            (0..energies.time.len()).map(|k| (energies.time[k] / time_scale, pick(k) / whole)).collect()
+        let time = Axis::linear("t/√(h0/g) [-]").between(0.0, LONGEST);
+        let mut panel = Panel::new(title, time, Axis::linear("energy/released [-]").between(-0.05, 1.1));
+        let mut curve = |label: &str, slot: usize, value: &dyn Fn(usize) -> f64| {
+            let points = energies.time.iter().enumerate().map(|(k, time)| (time / time_scale, value(k) / whole));
+            panel.line(label, slot, points);
         };
         let released = |k: usize| start - energies.potential[k];
-        panel.series.push(Series::new("released", Mark::Line, 0, curve(&released)));
-        panel.series.push(Series::new("kinetic", Mark::Line, 1, curve(&|k| energies.kinetic[k])));
-        panel.series.push(Series::new("dissipated", Mark::Line, 2, curve(&|k| released(k) - energies.kinetic[k])));
+        curve("released", 0, &released);
+        curve("kinetic", 1, &|k| energies.kinetic[k]);
+        curve("dissipated", 2, &|k| released(k) - energies.kinetic[k]);
         Some(panel)
     });
-    Figure { name: name.to_owned(), caption: caption.to_owned(), panels: panels.collect(), columns: 3 }
+    Figure::new(name, caption, panels.collect()).in_columns(3)
 }
 
 #[cfg(test)]

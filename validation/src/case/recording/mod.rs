@@ -46,16 +46,29 @@ pub fn record<const D: usize, O>(
 where
     Simulation<D>: Compiled<D>,
 {
+    watch(simulation, (end, 0.01 * end), progress, |_| ControlFlow::Continue(())).record(simulation, measure)
+}
+
+/// Runs a weakly compressible simulation up to a time and shows its states to `observe` at intervals, until that breaks.
+/// How it ended is told as of a run that has left no frames, that does not say why it was stopped, and whose divergence
+/// would be an error.
+pub fn watch<const D: usize>(
+    simulation: &mut Simulation<D>,
+    (end, interval): (f64, f64),
+    progress: &dyn Progress,
+    mut observe: impl FnMut(&Snapshot<D>) -> ControlFlow<()>,
+) -> Ending<D>
+where
+    Simulation<D>: Compiled<D>,
+{
     let started = Instant::now();
     let mut last_good = simulation.snapshot();
-    let reason = simulation.run(end, 0.01 * end, |simulation| {
+    let reason = simulation.run(end, interval, |simulation| {
         last_good = simulation.snapshot();
-        let particle_steps = simulation.steps() as f64 * last_good.mass.len() as f64;
-        progress.advance(simulation.time(), end, particle_steps);
-        ControlFlow::Continue(())
+        progress.advance(last_good.time, end, simulation.steps() as f64 * last_good.mass.len() as f64);
+        observe(&last_good)
     });
-    let criterion = String::new();
-    Ending { reason, last_good, criterion, may_diverge: false, frames: Vec::new(), started }.record(simulation, measure)
+    Ending { reason, last_good, criterion: String::new(), may_diverge: false, frames: Vec::new(), started }
 }
 
 /// How a run ended, and what it left on its way.

@@ -37,7 +37,8 @@ impl<const D: usize> Recordable for IncompressibleSimulation<D> {
 
 impl Frame {
     /// A picture of both phases, the fluid's particles first; `phase` is 0 for the fluid and 1 for the sediment.
-    pub(in crate::cases) fn of_phases<const D: usize>(snapshot: &IncompressibleSnapshot<D>) -> Self {
+    #[must_use]
+    pub fn of_phases<const D: usize>(snapshot: &IncompressibleSnapshot<D>) -> Self {
         let phases = [&snapshot.fluid, &snapshot.sediment];
         let flat = |v: &Vector<D>| [v[0], v[1], if D == 3 { v[2] } else { 0.0 }];
         let joined = |array: fn(&PhaseSnapshot<D>) -> &Vec<Vector<D>>| {

@@ -1,27 +1,11 @@
-//! The film of a fluid, as the exact solutions have it: in closed form, or integrated over the depth for any other law.
+//! The steady film of any law on an incline: in closed form where there is one, or integrated over the depth.
 
-use crate::reference::{BinghamFilm, HerschelBulkleyFilm, Incline, LawFilm, NewtonianFilm};
+use super::{BinghamFilm, HerschelBulkleyFilm, Incline, LawFilm, NewtonianFilm};
 use bagnold_solver::material::rheology::Rheology;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-/// Which fluid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum FluidKind {
-    /// Newtonian.
-    Newtonian,
-    /// Bingham.
-    Bingham,
-    /// Herschel–Bulkley.
-    HerschelBulkley,
-    /// That of any law, under `material`.
-    Material,
-}
 
 /// The steady film of a law on an incline.
 #[derive(Debug, Clone, Copy)]
-pub enum Film {
+pub enum SteadyFilm {
     /// Of a Newtonian liquid.
     Newtonian(NewtonianFilm),
     /// Of a Bingham fluid.
@@ -32,7 +16,7 @@ pub enum Film {
     Integrated(LawFilm),
 }
 
-impl Film {
+impl SteadyFilm {
     /// The film of a law.
     #[must_use]
     pub fn of(law: Rheology, incline: Incline) -> Self {

@@ -1,0 +1,117 @@
+//! How far a run is from the exact profile, and from the independent one-dimensional solution in time.
+
+use super::Record;
+use super::parameters::Start;
+use super::runs::{BagnoldRun, Purpose};
+use crate::cases::Arrangement;
+use crate::cases::layer::{DepthProfile, LayerObservation};
+use crate::reference::{BagnoldProfile, LayerTransient, TransientHistory};
+use crate::statistics::linear_fit;
+
+/// A steady run's errors.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SteadyErrors {
+    /// Relative L2 of the bins' velocities `[%]`.
+    pub(super) velocity_l2: f64,
+    /// Relative error of the topmost bin's velocity `[%]`.
+    pub(super) surface_velocity_error: f64,
+    /// Mean of |μ(I)/tanθ − 1| over 0.1 h … 0.9 h `[%]`.
+    pub(super) implied_stress_error: f64,
+    /// Intercept of a line through u over y < 0.2 h less that of the exact profile, over u(h) `[%]`.
+    pub(super) wall_slip: f64,
+}
+
+impl SteadyErrors {
+    /// Errors of a measured depth profile; none where there is no steady flow.
+    pub(super) fn of(profile: &DepthProfile, exact: &BagnoldProfile) -> Option<Self> {
+        let surface = exact.surface_velocity()?;
+        let velocity = |y: f64| exact.velocity(y).unwrap_or(f64::NAN);
+        let top = profile.filled().last()?;
+        let low: Vec<usize> = profile.filled().filter(|&bin| profile.height[bin] < 0.2 * exact.layer_height).collect();
+        let intercept = |velocity: &dyn Fn(usize) -> f64| {
+            let line: Vec<(f64, f64)> = low.iter().map(|&bin| (profile.height[bin], velocity(bin))).collect();
+            linear_fit(&line).map(|fit| fit.intercept)
+        };
+        let slip = intercept(&|bin| profile.velocity[bin])? - intercept(&|bin| velocity(profile.height[bin]))?;
+        let stress: Vec<f64> = implied_stress(profile, exact).into_iter().map(|(_, error)| error.abs()).collect();
+        Some(Self {
+            velocity_l2: 100.0 * profile.velocity_l2(velocity),
+            surface_velocity_error: 100.0 * (profile.velocity[top] / velocity(profile.height[top]) - 1.0),
+            implied_stress_error: 100.0 * stress.iter().sum::<f64>() / stress.len() as f64,
+            wall_slip: 100.0 * slip / surface,
+        })
+    }
+}
+
+/// (y, I) between 0.1 h and 0.9 h, from central differences of the bins' velocities and their pressures.
+pub(super) fn inertial_numbers(profile: &DepthProfile, exact: &BagnoldProfile) -> Vec<(f64, f64)> {
+    let number = |(bin, rate): (usize, f64)| {
+        let speed = (profile.pressure[bin] / exact.grain_density).sqrt();
+        (profile.height[bin], rate * exact.grain_diameter / speed)
+    };
+    let inside = |(y, _): &(f64, f64)| (0.1..=0.9).contains(&(y / exact.layer_height));
+    profile.shear_rates().into_iter().map(number).filter(inside).collect()
+}
+
+/// (y, μ(I)/tanθ − 1) there, with μ(I) of (31).
+pub(super) fn implied_stress(profile: &DepthProfile, exact: &BagnoldProfile) -> Vec<(f64, f64)> {
+    let friction = |inertial_number: f64| {
+        exact.static_friction
+            + (exact.limiting_friction - exact.static_friction) / (1.0 + exact.reference_inertia / inertial_number)
+    };
+    let tangent = libm::tan(exact.slope_angle);
+    let numbers = inertial_numbers(profile, exact).into_iter();
+    numbers.map(|(y, inertial_number)| (y, friction(inertial_number) / tangent - 1.0)).collect()
+}
+
+/// (rows, velocity L2 `[%]`) of the runs of one kind at one angle, coarse to fine.
+pub(super) fn convergence_errors(
+    records: &[Record],
+    angle: f64,
+    particles: Arrangement,
+    start: Start,
+) -> Vec<(f64, f64)> {
+    let mut errors: Vec<(f64, f64)> = records
+        .iter()
+        .filter(|(run, _)| matches!(run.purpose, Purpose::Steady | Purpose::Convergence))
+        .filter(|(run, _)| run.slope_angle == angle && run.particles == particles && run.start == start)
+        .filter_map(|(run, record)| {
+            Some((run.layer.resolution as f64, SteadyErrors::of(&record.data.profile, &run.profile())?.velocity_l2))
+        })
+        .collect();
+    errors.sort_by(|a, b| a.0.total_cmp(&b.0));
+    errors
+}
+
+/// The 1-D solution from rest and the steady depth mean.
+pub(super) fn history_from_rest(run: &BagnoldRun) -> Option<(TransientHistory, f64)> {
+    let profile = run.profile();
+    let steady = profile.depth_mean()?;
+    let scale = libm::pow(profile.layer_height / 0.01, 1.5);
+    let mut layer = LayerTransient::from_rest(profile, 100, 1e-3 * scale).ok()?;
+    Some((layer.run(6.0 * scale, &[]).ok()?, steady))
+}
+
+/// The 1-D solution of a layer that comes to rest or runs away, until a time `[s]`.
+pub(super) fn transient_of(run: &BagnoldRun, end: f64) -> Option<TransientHistory> {
+    let start = run.start_profile();
+    let layer = match run.purpose {
+        Purpose::Arrest => LayerTransient::from_profile(run.profile(), 100, 1e-3, |y| start.velocity(y).unwrap_or(0.0)),
+        _ => LayerTransient::from_rest(run.profile(), 100, 2e-3),
+    };
+    layer.and_then(|mut layer| layer.run(end, &[])).ok()
+}
+
+/// The particles' depth means as a history.
+pub(super) fn particle_history(data: &LayerObservation) -> TransientHistory {
+    let series = &data.series;
+    TransientHistory { times: series.time.clone(), depth_means: series.mean_velocity.clone(), profiles: Vec::new() }
+}
+
+/// Depth mean at a time `[s]`, interpolated.
+pub(super) fn mean_at(history: &TransientHistory, time: f64) -> f64 {
+    let next = history.times.partition_point(|t| *t < time).clamp(1, history.times.len().max(2) - 1);
+    let (Some(t0), Some(t1)) = (history.times.get(next - 1), history.times.get(next)) else { return f64::NAN };
+    let (u0, u1) = (history.depth_means[next - 1], history.depth_means[next]);
+    u0 + (u1 - u0) * (time - t0) / (t1 - t0)
+}

@@ -1,0 +1,61 @@
+//! Watches a heap while it spreads: survey, moving picture, pictures at their times, and whether it has come to rest.
+
+use super::camera::Camera;
+use super::deposit::{Collapse, Surveyor, front};
+use crate::observation::Frame;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+
+/// Kinetic over released potential energy below which the deposit rests and the run ends `[-]`.
+pub(super) const AT_REST: f64 = 5e-7;
+
+/// What is seen of a run.
+pub(super) struct Watch {
+    /// Measures every snapshot.
+    surveyor: Surveyor,
+    /// Takes the moving picture.
+    camera: Camera,
+    /// Times of the pictures `[s]`, rising.
+    times: Vec<f64>,
+    /// Time before which no heap has come to rest `[s]`.
+    earliest_rest: f64,
+    /// The pictures.
+    pub(super) frames: Vec<Frame>,
+    /// How many of the times have passed.
+    passed: usize,
+}
+
+impl Watch {
+    /// Has seen nothing; takes a frame of the moving picture every `frame_interval` `[s]`.
+    pub(super) fn new(surveyor: Surveyor, frame_interval: f64, times: Vec<f64>, earliest_rest: f64) -> Self {
+        let camera = Camera::new(frame_interval, surveyor.spacing);
+        Self { surveyor, camera, times, earliest_rest, frames: Vec::new(), passed: 0 }
+    }
+
+    /// Sees a snapshot; gives the thickness over r_0, bin by bin, and whether the heap rests.
+    pub(super) fn observe<const D: usize>(&mut self, snapshot: &Snapshot<D>) -> (Vec<(f64, f64)>, bool) {
+        let thickness = self.surveyor.observe(snapshot);
+        let r = self.surveyor.half_width;
+        self.camera.watch(snapshot, thickness.iter().map(|(x, h)| (x * r, h * r)), front(&thickness) * r);
+        let passed = self.times.iter().filter(|&&time| snapshot.time >= time).count();
+        if passed > self.passed {
+            self.passed = passed;
+            self.frames.push(Frame::of_flow(snapshot));
+        }
+        let rests = snapshot.time > self.earliest_rest && self.surveyor.collapse.agitation() < AT_REST;
+        (thickness, rests)
+    }
+
+    /// What was measured and taken.
+    pub(super) fn finish<const D: usize>(self, end: &Snapshot<D>) -> Collapse {
+        Collapse { motion: self.camera.motion, ..self.surveyor.finish(end) }
+    }
+
+    /// The same with a last frame of the deposit.
+    pub(super) fn finish_with_deposit<const D: usize>(mut self, end: &Snapshot<D>) -> Collapse {
+        let r = self.surveyor.half_width;
+        let collapse = self.surveyor.finish(end);
+        let surface = collapse.deposit.iter().map(|(x, h)| (x * r, h * r));
+        self.camera.take(end, surface, front(&collapse.deposit) * r);
+        Collapse { motion: self.camera.motion, ..collapse }
+    }
+}

@@ -1,0 +1,128 @@
+//! The columns that the case asks for, in report order.
+
+use super::parameters::{ColumnPlanarParameters, Columns, SHOWN};
+use crate::cases::collapse::{Alteration, ColumnRun, Geometry, Grains, Material, Purpose, Release};
+use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+
+/// Seeds at the finest resolution of a study.
+const FINEST_SEEDS: usize = 3;
+/// Longest time of a regularised column over √(h_0/g) `[-]`: it never rests.
+const REGULARISED_DURATION: f64 = 5.0;
+
+pub(super) fn all(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
+    let published = parameters.materials().into_iter().flat_map(|(grains, columns)| {
+        let material = Material::published(grains);
+        columns.aspect_ratios.iter().map(move |&ratio| parameters.column(material, columns, ratio))
+    });
+    published
+        .chain(parameters.altered())
+        .chain(parameters.ensembles())
+        .chain(parameters.hourglasses())
+        .chain(parameters.regularised())
+        .collect()
+}
+
+impl ColumnPlanarParameters {
+    /// A column that is there for the laws.
+    fn column(&self, material: Material, columns: &Columns, aspect_ratio: f64) -> ColumnRun {
+        let shown = SHOWN.iter().find(|shown| shown.0 == aspect_ratio).map_or(&[][..], |shown| shown.1);
+        let is_shown = matches!(material, Material::SAND | Material::GLASS);
+        ColumnRun {
+            purpose: Purpose::Law,
+            geometry: Geometry::Planar,
+            material,
+            aspect_ratio,
+            resolution: self.resolution_of(aspect_ratio),
+            half_width: columns.half_width_of(aspect_ratio),
+            law: columns.law,
+            bulk_density: columns.bulk.density(&columns.law),
+            regularisation_rate: None,
+            shown_times: if is_shown { shown.to_vec() } else { Vec::new() },
+            release: self.release,
+        }
+    }
+
+    /// Columns of grains that differ from others in one number.
+    fn altered(&self) -> Vec<ColumnRun> {
+        let of = |columns: &Columns, law: MuI, material: Material, aspect_ratios: &[f64]| {
+            let columns = Columns { law: Rheology::MuI(law), ..columns.clone() };
+            aspect_ratios.iter().map(|&ratio| self.column(material, &columns, ratio)).collect::<Vec<_>>()
+        };
+        let mut runs = Vec::new();
+        if let Rheology::MuI(law) = self.sand.law {
+            for &reference_inertia in &self.sand_inertias.values {
+                let material = Material::altered(Grains::Sand, Alteration::ReferenceInertia(reference_inertia));
+                let ratios = &self.sand_inertias.aspect_ratios;
+                runs.extend(of(&self.sand, MuI { reference_inertia, ..law }, material, ratios));
+            }
+        }
+        if let Rheology::MuI(law) = self.lagree.law {
+            for &grain_diameter in &self.lagree_diameters.values {
+                let material = Material::altered(Grains::Lagree, Alteration::GrainDiameter(grain_diameter));
+                let ratios = &self.lagree_diameters.aspect_ratios;
+                runs.extend(of(&self.lagree, MuI { grain_diameter, ..law }, material, ratios));
+            }
+        }
+        runs
+    }
+
+    /// Ensembles of seeds at several resolutions.
+    fn ensembles(&self) -> Vec<ColumnRun> {
+        let (study, lagree) = (&self.sensitivity, &self.lagree);
+        let finest = study.resolutions.iter().copied().max().unwrap_or(0);
+        let mut runs = Vec::new();
+        for &ratio in &study.aspect_ratios {
+            for &resolution in &study.resolutions {
+                let is_finest = resolution == finest && study.resolutions.len() > 1;
+                let own = self.column(Material::LAGREE, lagree, ratio);
+                for &seed in study.seeds.iter().take(if is_finest { FINEST_SEEDS } else { usize::MAX }) {
+                    // the column that is there for the laws is one of its ensemble
+                    let is_own = resolution == own.resolution && seed == self.release.seed;
+                    if !(is_own && lagree.aspect_ratios.contains(&ratio)) {
+                        let release = Release { seed, ..self.release };
+                        runs.push(ColumnRun { purpose: Purpose::Convergence, resolution, release, ..own.clone() });
+                    }
+                }
+            }
+        }
+        runs
+    }
+
+    /// Hourglass coefficients at the first aspect ratio.
+    fn hourglasses(&self) -> Vec<ColumnRun> {
+        let study = &self.sensitivity;
+        let run = |ratio: f64, resolution: usize, hourglass: f64| {
+            let release = Release { numerics: Numerics { hourglass, ..self.release.numerics }, ..self.release };
+            let own = self.column(Material::LAGREE, &self.lagree, ratio);
+            ColumnRun { purpose: Purpose::Hourglass, resolution, release, ..own }
+        };
+        let mut runs = Vec::new();
+        for &ratio in study.aspect_ratios.iter().take(1) {
+            for &resolution in &study.hourglass_resolutions {
+                runs.extend(study.hourglass.iter().map(|&hourglass| run(ratio, resolution, hourglass)));
+            }
+        }
+        runs
+    }
+
+    /// Columns of sand with the paper's stress update.
+    fn regularised(&self) -> Vec<ColumnRun> {
+        let Rheology::MuI(law) = self.sand.law else { return Vec::new() };
+        let rate = self.regularised.rate;
+        let release = Release {
+            duration: REGULARISED_DURATION.min(self.release.duration),
+            numerics: Numerics { viscous_step: ViscousStep::Implicit, ..self.release.numerics },
+            ..self.release
+        };
+        let run = |&ratio: &f64| ColumnRun {
+            purpose: Purpose::Regularised,
+            law: Rheology::RegularisedMuI(law.regularised(rate)),
+            regularisation_rate: Some(rate),
+            shown_times: Vec::new(),
+            release,
+            ..self.column(Material::SAND, &self.sand, ratio)
+        };
+        self.regularised.aspect_ratios.iter().map(run).collect()
+    }
+}

@@ -1,0 +1,29 @@
+//! Means, and how far values are from what they should be.
+
+/// Mean of values; not a number of none.
+#[must_use]
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// √(Σ (value − exact)²/Σ exact²) of pairs (value, exact) `[-]`.
+#[must_use]
+pub fn relative_l2(pairs: impl IntoIterator<Item = (f64, f64)>) -> f64 {
+    let (error, scale) = pairs.into_iter().fold((0.0, 0.0), |(error, scale), (value, exact)| {
+        (error + (value - exact) * (value - exact), scale + exact * exact)
+    });
+    (error / scale).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_relative_to_what_is_exact() {
+        assert_eq!(mean(&[1.0, 2.0, 6.0]), 3.0);
+        assert!(mean(&[]).is_nan());
+        // errors 3 and 4 of 6 and 8
+        assert_eq!(relative_l2([(9.0, 6.0), (4.0, 8.0)]), 0.5);
+    }
+}
