@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Bulk {
     /// Solid fraction φ `[-]`: the bulk density is φ times the grain density.
-    #[schemars(transform = between(0.01, 0.74, "grains fill 0.5 to 0.64 of the space"))]
+    #[schemars(transform = between(0.01, 1.0, "grains fill 0.5 to 0.64 of the space; 1 where a law gives the density of the bulk"))]
     pub solid_fraction: f64,
     /// Bulk density `[kg/m³]` of a law without a grain density; 0 with one that has it.
     #[schemars(transform = not_negative("give it in kg/m³, such as 1500, or 0 with a law of grains"))]

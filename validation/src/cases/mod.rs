@@ -10,6 +10,7 @@ pub mod clear_water;
 pub mod collapse;
 pub mod column_planar;
 pub mod column_round;
+mod energy_ledger;
 pub mod film;
 pub mod flow_thickness;
 pub mod hydrostatic;
@@ -19,6 +20,7 @@ mod rules;
 pub mod settling;
 pub mod still_water;
 mod transport_panel;
+pub mod water_column;
 pub mod water_film;
 
 pub use arrangement::Arrangement;
@@ -50,6 +52,7 @@ registry!($
     column_round::ColumnRound,
     incline_collapse::InclineCollapse,
     flow_thickness::FlowThickness,
+    water_column::WaterColumn,
     still_water::StillWater,
     water_film::WaterFilm,
     clear_water::ClearWater,

@@ -1,9 +1,11 @@
 //! What a run leaves behind: plain data that knows nothing of the simulation it came from.
 
 pub mod energy;
+mod energy_book;
 mod motion;
 pub mod pictures;
 
+pub use energy_book::EnergyBook;
 pub use motion::{Motion, MotionFrame};
 
 use serde::{Deserialize, Serialize};

@@ -18,6 +18,7 @@ mod grains;
 mod law_film;
 mod layer_statement;
 mod layer_transient;
+mod liquid_column;
 mod measured;
 mod measured_table;
 mod rough_channel;
@@ -35,6 +36,7 @@ pub use grains::{FlowRule, GLASS_BEADS, GLASS_BEADS_FLOW_RULE, LAGREE_GRAINS, Pu
 pub use law_film::LawFilm;
 pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
 pub use layer_transient::{LayerProfile, LayerTransient, TransientHistory};
+pub use liquid_column::{MeasuredFront, WATER_FRONT};
 pub use measured::{Column, MeasuredData, Metadata, Origin};
 pub use rough_channel::{RoughChannel, roughness_ratio};
 pub use settling::{GrainForm, SettlingGrains, richardson_zaki_confidence, richardson_zaki_exponent};

@@ -6,13 +6,14 @@ use super::parameters::{BagnoldParameters, Start};
 use super::runs::Purpose;
 use crate::case::Run;
 use crate::cases::Arrangement;
+use crate::cases::energy_ledger;
 use crate::cases::layer;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::reference::{BagnoldProfile, TransientHistory};
 use crate::statistics::log_log_slope;
 
 quantities! {
-    [layer::PARTICLES_LOST]
+    [layer::PARTICLES_LOST, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     VELOCITY_L2: verified("velocity_l2", "%", "relative L2 of the velocity profile against Bagnold's"),
     SURFACE_VELOCITY_ERROR: verified("surface_velocity_error", "%", "relative error of the topmost bin's velocity"),
     IMPLIED_STRESS_ERROR: verified("implied_stress_error", "%", "mean of |μ(I)/tanθ − 1| over 0.1 h … 0.9 h"),
@@ -46,7 +47,9 @@ const ARREST_FRACTION: f64 = 0.01;
 pub(super) fn all(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for record in records {
-        metrics.push(layer::particles_lost(&record.0.variant(), &record.1));
+        let variant = record.0.variant();
+        metrics.push(layer::particles_lost(&variant, &record.1));
+        metrics.extend(energy_ledger::metrics(&variant, &record.1.data.energy, energy_ledger::Scale::Gravity));
         metrics.extend(match record.0.purpose {
             Purpose::Steady | Purpose::Convergence => steady(record),
             Purpose::Arrest => arrest(record),

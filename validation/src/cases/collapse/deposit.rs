@@ -1,6 +1,6 @@
 //! What is measured of a spreading heap: thickness, front, heights, centroid and energies.
 
-use crate::observation::Motion;
+use crate::observation::{EnergyBook, Motion};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
@@ -11,6 +11,8 @@ pub const BIN_WIDTH: f64 = 0.1;
 const SUB_POINTS: [usize; 2] = [8, 4];
 /// Thickness at the front over the initial half width `[-]`.
 pub const FRONT_THICKNESS: f64 = 0.02;
+/// A thickness that one row of particles has from 20 over the half width on `[-]`: what lies beyond it is a row or less.
+const ROW_THICKNESS: f64 = 0.05;
 
 /// Time series and final deposit; lengths over the half width r_0, times in `[s]`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -41,6 +43,8 @@ pub struct Collapse {
     pub initial_mass: f64,
     /// Mass at the end over that at the start, less 1 `[-]`.
     pub mass_change: f64,
+    /// The energy ledger.
+    pub energy: EnergyBook,
     /// Positions and speeds for the moving picture.
     pub motion: Motion,
 }
@@ -79,6 +83,9 @@ impl Surveyor {
         collapse.time.push(snapshot.time);
         collapse.front.push(front(&thickness));
         collapse.height.push(thickness.first().map_or(0.0, |bin| bin.1));
+        if let Some(account) = &snapshot.energy {
+            collapse.energy.enter(account);
+        }
         collapse.kinetic_energy.push(kinetic);
         collapse.potential_energy.push(potential);
         thickness
@@ -176,10 +183,15 @@ pub(super) fn radius<const D: usize>(position: &Vector<D>) -> f64 {
 /// between the centres of the bins; all over r_0.
 #[must_use]
 pub fn front(thickness: &[(f64, f64)]) -> f64 {
+    front_of(thickness, FRONT_THICKNESS)
+}
+
+/// The same for any thickness over r_0.
+fn front_of(thickness: &[(f64, f64)], least: f64) -> f64 {
     for pair in thickness.windows(2) {
         let [(x0, h0), (x1, h1)] = [pair[0], pair[1]];
-        if h0 >= FRONT_THICKNESS && h1 < FRONT_THICKNESS {
-            return x0 + (x1 - x0) * (h0 - FRONT_THICKNESS) / (h0 - h1);
+        if h0 >= least && h1 < least {
+            return x0 + (x1 - x0) * (h0 - least) / (h0 - h1);
         }
     }
     thickness.last().map_or(0.0, |bin| bin.0)
@@ -190,6 +202,12 @@ impl Collapse {
     #[must_use]
     pub fn run_out(&self) -> f64 {
         front(&self.deposit) - 1.0
+    }
+
+    /// The same with the front at [`ROW_THICKNESS`] `[-]`.
+    #[must_use]
+    pub fn run_out_of_rows(&self) -> f64 {
+        front_of(&self.deposit, ROW_THICKNESS) - 1.0
     }
 
     /// The deposit's bins up to the last that holds grains.

@@ -10,6 +10,7 @@ use super::quantities::{
     PARTICLES_LOST, RUN_OUT, STOPPING_TIME,
 };
 use crate::case::Run;
+use crate::cases::energy_ledger;
 use crate::metric::{Limit, Metric, Quantity, Variant};
 use crate::reference::{COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 use bagnold_solver::material::rheology::Rheology;
@@ -60,6 +61,7 @@ pub(in crate::cases) fn conservation(variant: &Variant, collapse: &Collapse, num
             .exactly(0.0, "the mass of a particle never changes")
             .gated(Limit::Within(0.0, 0.0), "exact by construction"),
     ];
+    metrics.extend(energy_ledger::metrics(variant, &collapse.energy, energy_ledger::Scale::Gravity));
     // an implicit step keeps no account of what the walls gave
     if numerics.viscous_step == ViscousStep::Explicit {
         metrics.push(
@@ -149,7 +151,11 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, spread: Spread) -> Vec<Metric
             ),
     ]);
     let (x96, x99) = collapse.quantiles;
-    let others = [("centroid", collapse.centroid), ("mass_quantiles", 2.0 * x99 - x96 - 1.0)];
+    let others = [
+        ("centroid", collapse.centroid),
+        ("mass_quantiles", 2.0 * x99 - x96 - 1.0),
+        ("front_at_0.05_r0", collapse.run_out_of_rows()),
+    ];
     metrics.extend(others.map(|(quantity, value)| {
         let variant = Variant::of("quantity", quantity).followed_by(&variant);
         RUN_OUT.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3)

@@ -1,9 +1,10 @@
 //! What the collapses are judged by; those on slopes share some of it.
 
+use crate::cases::energy_ledger;
 use crate::metric::quantities;
 
 quantities! {
-    pub(in crate::cases) []
+    pub(in crate::cases) [energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     PARTICLES_LOST:
         verified("particles_lost", "-", "particles that passed the bed, the symmetry plane or the bed's end"),
     MASS_CHANGE: verified("mass_change", "-", "relative change of the mass"),

@@ -4,6 +4,7 @@ use super::Record;
 use super::comparison::NumericsSet;
 use crate::case::Run;
 use crate::cases::Arrangement;
+use crate::cases::energy_ledger;
 use crate::cases::layer;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Outcome;
@@ -11,7 +12,7 @@ use crate::reference::SteadyFilm;
 use crate::statistics::{linear_fit, log_log_slope};
 
 quantities! {
-    [layer::PARTICLES_LOST]
+    [layer::PARTICLES_LOST, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     VELOCITY_L2: verified("velocity_l2", "%", "relative L2 of the velocity profile"),
     FLUX_ERROR: verified("flux_error", "%", "error of the depth-integrated velocity"),
     VELOCITY_L2_COMPRESSIBLE:
@@ -50,8 +51,9 @@ fn of_run(record: &Record) -> Vec<Metric> {
         let source = "exact weakly compressible film, η du/dy = p tanθ";
         VELOCITY_L2_COMPRESSIBLE.of(&variant, value).exactly(0.0, source).with_snapshot_tolerance(1e-3, 1e-4)
     });
-    let lost = layer::particles_lost(&variant, recorded);
-    [lost].into_iter().chain(profile(record)).chain(compressible).chain(plug_edge(record)).collect()
+    let mut common = vec![layer::particles_lost(&variant, recorded)];
+    common.extend(energy_ledger::metrics(&variant, &recorded.data.energy, energy_ledger::Scale::Gravity));
+    common.into_iter().chain(profile(record)).chain(compressible).chain(plug_edge(record)).collect()
 }
 
 /// Errors of the velocities and of the flux `[%]`.

@@ -82,7 +82,7 @@ impl Parameters for FlowThicknessParameters {
             Tier::Quick => quick,
             Tier::Paper | Tier::Fine => Self {
                 rows: 20,
-                stopping_thicknesses: vec![0.003, 0.005, 0.010, 0.020],
+                stopping_thicknesses: vec![0.003, 0.005, 0.010, 0.020, 0.040],
                 stopping_tolerance: 0.25,
                 steady_flows: vec![
                     (0.010, 22.0),

@@ -3,12 +3,13 @@
 use super::Record;
 use super::parameters::HydrostaticRun;
 use crate::case::Run;
+use crate::cases::energy_ledger;
 use crate::cases::layer::{self, TimeSeries};
 use crate::metric::{Confidence, Limit, Metric, quantities};
 use crate::statistics::{mean, relative_l2};
 
 quantities! {
-    [layer::PARTICLES_LOST]
+    [layer::PARTICLES_LOST, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     PRESSURE_NOISE:
         verified("pressure_noise", "-", "rms of the pressure less its local linear fit within 2h, over ρgH"),
     NOISE_WITHOUT_COUPLING: verified("noise_without_coupling", "-", "pressure noise without (27) over that with it"),
@@ -66,6 +67,8 @@ fn at_rest((run, record): &Record) -> Vec<Metric> {
             .gated(Limit::AtMost(1.0), "specification 1: 1 % of the hydrostatic profile")
             .with_snapshot_tolerance(0.02, 1e-3),
     ];
+    let scale = energy_ledger::Scale::AtRest(run.energy_scale());
+    metrics.extend(energy_ledger::metrics(&variant, &record.data.energy, scale));
     if let Some((passive, active)) = run.states_of_rest() {
         let (least, most) = record.data.pressure_ratio;
         let ratios = [(PRESSURE_RATIO_LEAST, least, passive), (PRESSURE_RATIO_MOST, most, active)];

@@ -128,6 +128,14 @@ impl HydrostaticRun {
         self.law.is_plastic().then_some((1.0 / (1.0 + friction), 1.0 / (1.0 - friction)))
     }
 
+    /// ρ0 g H² times the length of the layer `[J/m]`.
+    #[must_use]
+    pub fn energy_scale(&self) -> f64 {
+        let layer = self.layer();
+        let PeriodicLayer { layer_height, gravity, columns, .. } = layer.layer;
+        layer.reference_density * gravity * layer_height.powi(2) * columns as f64 * layer.spacing()
+    }
+
     /// Exact pressure `[Pa]` at a height `[m]`.
     #[must_use]
     pub fn pressure(&self, y: f64) -> f64 {

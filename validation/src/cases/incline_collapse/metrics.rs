@@ -6,11 +6,12 @@ use crate::cases::collapse::metrics::{at_rest, conservation};
 use crate::cases::collapse::quantities::{
     DEPOSIT_SLOPE_ANGLE, KINETIC_ENERGY_SHARE, MASS_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST,
 };
+use crate::cases::energy_ledger;
 use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
 use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
 
 quantities! {
-    [PARTICLES_LOST, MASS_CHANGE, MOMENTUM_RESIDUAL, KINETIC_ENERGY_SHARE, DEPOSIT_SLOPE_ANGLE]
+    [PARTICLES_LOST, MASS_CHANGE, MOMENTUM_RESIDUAL, KINETIC_ENERGY_SHARE, DEPOSIT_SLOPE_ANGLE, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     FRONT_DISPLACEMENT: validated("front_displacement", "m", "the front's way from the gate to the end of the deposit"),
     FRONT: validated("front", "-", "place of the front at a time, over r_0"),
 }

@@ -1,6 +1,7 @@
 //! What a layer leaves behind: time series of depth means, depth profiles averaged over a window, pressure noise.
 
 use super::{BINS, Layer, PeriodicLayer};
+use crate::observation::EnergyBook;
 use crate::statistics::relative_l2;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
@@ -79,6 +80,8 @@ pub struct LayerObservation {
     pub profile: DepthProfile,
     /// Extremes of p/(ρ0 g cosθ (H − y)) below 0.8 H in the last window `[-]`.
     pub pressure_ratio: (f64, f64),
+    /// The energy ledger.
+    pub energy: EnergyBook,
     /// Particles that ended outside the layer's neighbourhood: below the bed, or above twice the height.
     pub particles_lost: usize,
 }
@@ -97,6 +100,7 @@ pub struct LayerProbe {
     sums: Vec<[f64; 6]>,
     ratio: (f64, f64),
     lost: usize,
+    energy: EnergyBook,
 }
 
 impl LayerProbe {
@@ -115,6 +119,7 @@ impl LayerProbe {
             sums: vec![[0.0; 6]; BINS],
             ratio: (f64::INFINITY, f64::NEG_INFINITY),
             lost: 0,
+            energy: EnergyBook::default(),
         }
     }
 
@@ -130,6 +135,9 @@ impl LayerProbe {
             momentum += m * v[0];
             height += m * x[1];
             square += m * v.norm_squared();
+        }
+        if let Some(account) = &snapshot.energy {
+            self.energy.enter(account);
         }
         self.series.time.push(snapshot.time);
         self.series.mean_velocity.push(momentum / mass);
@@ -200,6 +208,7 @@ impl LayerProbe {
                 samples: self.sums.iter().map(|sums| sums[5]).collect(),
             },
             pressure_ratio: self.ratio,
+            energy: self.energy,
             particles_lost: self.lost,
             series: self.series,
         }

@@ -1,0 +1,27 @@
+//! The case's figures.
+
+use super::Record;
+use crate::case::Run;
+use crate::figure::{Axis, Figure, Panel};
+use crate::reference::WATER_FRONT;
+
+pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+    let mut front = Panel::new("", Axis::linear("t/√(a/(2g)) [-]"), Axis::linear("front x/a [-]"));
+    let mut energy =
+        Panel::new("", Axis::linear("t/√(a/(2g)) [-]"), Axis::linear("change of the energy/work of gravity [%]"));
+    front.reference("Martin & Moyce 1952", WATER_FRONT.points.iter().copied());
+    for (slot, (run, record)) in records.iter().enumerate() {
+        let data = &record.data;
+        let points = || data.time.iter().copied();
+        front.line(&run.variant().to_string(), slot, points().zip(data.front.iter().copied()));
+        let start = data.energy.total.first().copied().unwrap_or(f64::NAN);
+        let share = |total: &f64| 100.0 * (total - start) / data.energy.gravity;
+        energy.line("", slot, points().zip(data.energy.total.iter().map(share)));
+    }
+    vec![Figure::new(
+        "front-and-energy",
+        "The front, where a fiftieth of the column's width stands on the bed, against the measured one, which starts \
+         later; and the change of kinetic, elastic and potential energy together, which may only fall.",
+        vec![front, energy],
+    )]
+}

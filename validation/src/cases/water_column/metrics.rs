@@ -1,0 +1,75 @@
+//! How the runs are judged.
+
+use super::Record;
+use crate::case::Run;
+use crate::cases::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, Scale, WALL_WORK};
+use crate::metric::{Limit, Metric, quantities};
+use crate::reference::WATER_FRONT;
+
+quantities! {
+    [ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK, CORRECTION_WORK]
+    FRONT_ERROR: validated("front_error", "%", "root mean square of the front's relative error at the measured times"),
+    FRONT_DELAY: validated("front_delay", "√(a/2g)", "delay of the measured front that fits best"),
+    DELAYED_FRONT_ERROR: validated("delayed_front_error", "%", "error of the front at the measured times less that delay"),
+}
+
+pub(super) fn all(records: &[Record]) -> Vec<Metric> {
+    records.iter().flat_map(of_run).collect()
+}
+
+fn of_run((run, record): &Record) -> Vec<Metric> {
+    let (variant, data) = (run.variant(), &record.data);
+    let mut metrics = energy_ledger::metrics(&variant, &data.energy, Scale::Gravity);
+    let measured = &*WATER_FRONT;
+    let observed = |quantity: crate::metric::Quantity, value: f64| {
+        quantity.of(&variant, value).against(Some(0.0), &measured.source, measured.confidence)
+    };
+    let (delay, error) = best_delay(&data.time, &data.front);
+    metrics.extend([
+        observed(FRONT_ERROR, 100.0 * error_at(&data.time, &data.front, 0.0))
+            .gated(Limit::AtMost(8.0), "8 % of the measured place, with the time as it was measured")
+            .with_snapshot_tolerance(0.05, 0.2),
+        observed(FRONT_DELAY, delay).with_snapshot_tolerance(0.05, 0.02),
+        observed(DELAYED_FRONT_ERROR, 100.0 * error)
+            .gated(Limit::AtMost(4.0), "whatever the release took, the front then runs as fast as the measured one")
+            .with_snapshot_tolerance(0.2, 0.3),
+    ]);
+    metrics
+}
+
+/// Root mean square of x/x_measured − 1 at the measured times less a delay `[-]`.
+fn error_at(time: &[f64], front: &[f64], delay: f64) -> f64 {
+    let points = &WATER_FRONT.points;
+    let square = |&(t, x): &(f64, f64)| (interpolated(time, front, t - delay) / x - 1.0).powi(2);
+    (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt()
+}
+
+/// Delay with the least error, to a hundredth, and that error.
+fn best_delay(time: &[f64], front: &[f64]) -> (f64, f64) {
+    let tried = (-50..=50).map(|k| f64::from(k) / 100.0).map(|delay| (delay, error_at(time, front, delay)));
+    tried.fold((0.0, f64::INFINITY), |best, other| if other.1 < best.1 { other } else { best })
+}
+
+/// The front at a time, linear between the samples; that of the start before it.
+fn interpolated(time: &[f64], front: &[f64], at: f64) -> f64 {
+    let after = time.partition_point(|&t| t < at);
+    match after {
+        0 => front.first().copied().unwrap_or(f64::NAN),
+        k if k == time.len() => f64::NAN,
+        k => front[k - 1] + (front[k] - front[k - 1]) * (at - time[k - 1]) / (time[k] - time[k - 1]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_front_that_starts_early_has_the_delay_and_no_error_with_it() {
+        let (time, front): (Vec<f64>, Vec<f64>) = WATER_FRONT.points.iter().map(|(t, x)| (t - 0.2, *x)).unzip();
+        let (delay, error) = best_delay(&time, &front);
+        assert!((delay - 0.2).abs() < 1e-12 && error < 1e-12, "{delay}, {error}");
+        let (on_time, front): (Vec<f64>, Vec<f64>) = WATER_FRONT.points.iter().copied().unzip();
+        assert!(error_at(&on_time, &front, 0.0) < 1e-15);
+    }
+}

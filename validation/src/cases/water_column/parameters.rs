@@ -1,0 +1,245 @@
+//! Parameters, tiers and runs.
+
+use crate::case::recording;
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
+use crate::cases::rules;
+use crate::metric::Variant;
+use crate::observation::{EnergyBook, Recorded};
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
+use bagnold_solver::parameter::{between, each, filled, not_negative, positive, unique};
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::wall::fill;
+use bagnold_solver::weakly_compressible::boundary::{Surface, Wall};
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use rand::{RngExt, SeedableRng};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+
+/// Thickness at the front over the column's width `[-]`.
+const FRONT_THICKNESS: f64 = 0.02;
+/// End of the bed over the column's width `[-]`.
+const BED_END: f64 = 6.0;
+/// Observations a run.
+const SAMPLES: f64 = 400.0;
+
+/// The surface of a bed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BedSurface {
+    /// Without friction.
+    Smooth,
+    /// The water sticks to it, in a layer that may be thinner than a spacing.
+    Rough,
+}
+
+/// Parameters of the case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WaterColumnParameters {
+    /// Width a of the column from its symmetry plane `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.05715"))]
+    pub width: f64,
+    /// Height over width `[-]`; 2 was measured.
+    #[schemars(transform = between(0.5, 4.0, "2 was measured"))]
+    pub aspect_ratio: f64,
+    /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
+    pub gravity: f64,
+    /// Density of the water `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
+    pub density: f64,
+    /// Viscosity of the water `[Pa·s]`.
+    #[schemars(transform = not_negative("give it in Pa·s, such as 0.001"))]
+    pub viscosity: f64,
+    /// Bulk modulus over ρ0 g and the height `[-]`.
+    #[schemars(transform = between(50.0, 1e4, "200 make sound seven times as fast as the fall"))]
+    pub stiffness: f64,
+    /// Numbers of particles over the width.
+    #[schemars(transform = each(rules::rows()))]
+    #[schemars(transform = unique("name every resolution once"))]
+    pub resolutions: Vec<usize>,
+    /// Surfaces of the bed.
+    #[schemars(transform = filled("one or both of \"smooth\" and \"rough\"", "name every surface once"))]
+    #[schemars(transform = unique("name every surface once"))]
+    pub surfaces: Vec<BedSurface>,
+    /// Whether the coarsest columns are repeated with a pressure that may become negative.
+    pub with_tension: bool,
+    /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.3, "0.05 breaks the lattice without overlaps"))]
+    pub jitter: f64,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// Simulated time over √(a/(2g)) `[-]`.
+    #[schemars(transform = between(2.6, 4.0, "the measured front ends at 2.51"))]
+    pub duration: f64,
+    /// Numerics.
+    pub numerics: Numerics,
+}
+
+impl Parameters for WaterColumnParameters {
+    type Run = WaterColumnRun;
+
+    fn of_tier(tier: Tier) -> Self {
+        let momentum_operator = MomentumOperator::UncorrectedDivergence;
+        let quick = Self {
+            width: 0.05715,
+            aspect_ratio: 2.0,
+            gravity: 9.81,
+            density: 1000.0,
+            viscosity: 1e-3,
+            stiffness: 200.0,
+            resolutions: vec![20],
+            surfaces: vec![BedSurface::Smooth, BedSurface::Rough],
+            with_tension: true,
+            jitter: 0.05,
+            seed: 1,
+            duration: 2.8,
+            numerics: Numerics { momentum_operator, ..Numerics::default() },
+        };
+        match tier {
+            Tier::Quick => quick,
+            Tier::Paper => Self { resolutions: vec![20, 40], ..quick },
+            Tier::Fine => Self { resolutions: vec![20, 40, 80], ..quick },
+        }
+    }
+
+    fn check(&self) -> Result<(), ParameterError> {
+        let law = Rheology::Newtonian(Newtonian { viscosity: self.viscosity });
+        rules::viscous_step("numerics", &self.numerics, &law)?;
+        if self.surfaces.contains(&BedSurface::Smooth) { rules::gate("numerics", &self.numerics) } else { Ok(()) }
+    }
+
+    fn runs(&self) -> Vec<WaterColumnRun> {
+        let new = |resolution, surface, tension| WaterColumnRun { column: self.clone(), resolution, surface, tension };
+        let coarsest = self.resolutions.iter().copied().min();
+        let mut runs = Vec::new();
+        for &resolution in &self.resolutions {
+            runs.extend(self.surfaces.iter().map(|&surface| new(resolution, surface, Tension::Cut)));
+        }
+        if let Some(resolution) = coarsest.filter(|_| self.with_tension) {
+            runs.extend(self.surfaces.iter().map(|&surface| new(resolution, surface, Tension::Kept)));
+        }
+        runs
+    }
+}
+
+/// One column.
+#[derive(Debug, Clone, Serialize)]
+pub struct WaterColumnRun {
+    /// Water, numerics and size.
+    pub column: WaterColumnParameters,
+    /// Particles over the width.
+    pub resolution: usize,
+    /// Surface of the bed.
+    pub surface: BedSurface,
+    /// What becomes of a negative pressure.
+    pub tension: Tension,
+}
+
+/// What a run leaves behind; every array has the shape `[samples]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct ColumnObservation {
+    /// Times over √(a/(2g)) `[-]`.
+    pub time: Vec<f64>,
+    /// Places of the front over a `[-]`.
+    pub front: Vec<f64>,
+    /// The energy ledger.
+    pub energy: EnergyBook,
+}
+
+impl Run for WaterColumnRun {
+    type Observation = ColumnObservation;
+
+    fn variant(&self) -> Variant {
+        let surface = if self.surface == BedSurface::Smooth { "smooth" } else { "rough" };
+        let tension = if self.tension == Tension::Kept { "kept" } else { "cut" };
+        Variant::of("bed", surface).and("tension", tension).and("resolution", self.resolution)
+    }
+
+    fn particle_steps(&self) -> f64 {
+        let particles = self.column.aspect_ratio * (self.resolution as f64).powi(2);
+        let crossing = self.column.stiffness.sqrt() * self.resolution as f64;
+        particles * crossing * self.column.duration
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ColumnObservation>, ParameterError> {
+        let mut simulation = Simulation::new(self.scene())?;
+        let mut observation = ColumnObservation::default();
+        let end = self.column.duration * self.time_scale();
+        let ending = recording::watch(&mut simulation, (end, end / SAMPLES), progress, |snapshot| {
+            observation.time.push(snapshot.time / self.time_scale());
+            observation.front.push(self.front(snapshot) / self.column.width);
+            if let Some(account) = &snapshot.energy {
+                observation.energy.enter(account);
+            }
+            ControlFlow::Continue(())
+        });
+        Ok(ending.record(&simulation, |_| observation))
+    }
+}
+
+impl WaterColumnRun {
+    /// √(a/(2g)) `[s]`.
+    fn time_scale(&self) -> f64 {
+        (self.column.width / (2.0 * self.column.gravity)).sqrt()
+    }
+
+    fn spacing(&self) -> f64 {
+        self.column.width / self.resolution as f64
+    }
+
+    fn scene(&self) -> Scene<2> {
+        let WaterColumnParameters { gravity, density, stiffness, jitter, numerics, .. } = self.column;
+        let (spacing, height) = (self.spacing(), self.column.aspect_ratio * self.column.width);
+        let bulk_modulus = stiffness * density * gravity * height;
+        let equation_of_state = EquationOfState { reference_density: density, bulk_modulus, tension: self.tension };
+        let mut random = rand_pcg::Pcg64::seed_from_u64(self.column.seed);
+        let mut shift = || jitter * spacing * (2.0 * random.random::<f64>() - 1.0);
+        let rows = (self.column.aspect_ratio * self.resolution as f64).round() as usize;
+        let site = |k: usize| Vector::<2>::new((k % self.resolution) as f64 + 0.5, (k / self.resolution) as f64 + 0.5);
+        let sites: Vec<Vector<2>> = (0..rows * self.resolution).map(|k| site(k) * spacing).collect();
+        let mut flow = Flow::at_rest(sites, density, spacing);
+        for (position, rho) in flow.position.iter_mut().zip(&mut flow.density) {
+            *rho = equation_of_state.density(density * gravity * (height - position[1]));
+            *position += Vector::<2>::new(shift(), shift());
+        }
+        let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
+        let mut bed = Wall::still(1, 0.0, 1.0);
+        bed.roughness = if self.surface == BedSurface::Smooth { Surface::Smooth } else { Surface::Rough };
+        let layers = (2.0 * numerics.smoothing_ratio).ceil() as usize + 1;
+        let far = Vector::<2>::new(BED_END * self.column.width, height);
+        Scene {
+            flow,
+            wall_particles: fill(&[bed], &domain, (Vector::zeros(), far), spacing, layers),
+            walls: vec![bed],
+            domain,
+            gravity: Vector::<2>::new(0.0, -gravity),
+            spacing,
+            equation_of_state,
+            rheology: Rheology::Newtonian(Newtonian { viscosity: self.column.viscosity }),
+            numerics,
+        }
+    }
+
+    /// The first place from the symmetry plane outwards where less than [`FRONT_THICKNESS`] of the width stands `[m]`: a
+    /// particle's volume is spread over a spacing to either side, in eighths.
+    fn front(&self, snapshot: &Snapshot<2>) -> f64 {
+        let (spacing, bin) = (self.spacing(), 0.25 * self.spacing());
+        let mut area = vec![0.0; (BED_END * self.column.width / bin) as usize];
+        for ((position, mass), density) in snapshot.position.iter().zip(&snapshot.mass).zip(&snapshot.density) {
+            for part in 0..8 {
+                let place = position[0] + (f64::from(part) - 3.5) / 4.0 * spacing;
+                if let Some(area) = area.get_mut((place.abs() / bin) as usize) {
+                    *area += mass / density / 8.0;
+                }
+            }
+        }
+        let least = FRONT_THICKNESS * self.column.width * bin;
+        area.iter().position(|area| *area < least).unwrap_or(area.len()) as f64 * bin
+    }
+}
