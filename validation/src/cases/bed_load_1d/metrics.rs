@@ -6,7 +6,7 @@ use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Outcome;
 use crate::reference::bed_load_layer::LayerState;
-use crate::reference::{TransportFormula, roughness_ratio};
+use crate::reference::{HONEST_BAND, TransportFormula, roughness_ratio};
 
 quantities! {
     []
@@ -31,6 +31,8 @@ quantities! {
     MOTION_DEPTH_GROWTH:
         validated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next"),
     DECAY_LENGTH_GROWTH: validated("decay_length_growth", "-", "the same of the decay length"),
+    ONSET_RATIO: validated("onset_ratio", "-", "Shields number at which grains move over that of Shields' curve"),
+    ONSET: validated("onset", "-", "that Shields number"),
     TRANSPORT_SENSITIVITY:
         verified("transport_sensitivity", "-", "q* with a replaced closure over that of the literature's"),
 }
@@ -88,6 +90,9 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
         }
         profiles(&mut metrics, run, state);
     }
+    similar(&mut metrics, records);
+    metrics.extend(super::onset::metrics(records, ONSET_RATIO, ONSET, START_DIFFERENCE));
+    metrics.extend(super::others::metrics(records, TRANSPORT_RATIO, TRANSPORT, START_DIFFERENCE));
     with_slope(&mut metrics, &literature(records).collect::<Vec<_>>());
     for (run, state) in of(records, |purpose| matches!(purpose, Purpose::Sensitivity(_))) {
         if let Some((_, own)) = literature(records).find(|(other, _)| other.stream.slope == run.stream.slope) {
@@ -129,6 +134,34 @@ fn transport(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) 
     metrics.push(MEAN_FLUID_VELOCITY.of(&variant, state.mean_fluid_velocity()).with_snapshot_tolerance(1e-3, 0.0));
 }
 
+/// The layer of a sweep: judged where the layer is one of bed load, and both of its states if there are two.
+fn similar(metrics: &mut Vec<Metric>, records: &[Record]) {
+    let formula = TransportFormula::WongParker;
+    for (run, record) in records.iter().filter(|(run, _)| run.purpose == Purpose::Similar) {
+        let expected = formula.transport(run.stream.shields_number());
+        let mut state = |variant: &Variant, state: &LayerState| {
+            metrics.push(TRANSPORT.of(variant, state.transport()).against(
+                Some(expected),
+                formula.name(),
+                formula.confidence(),
+            ));
+            if expected > 0.0 {
+                let ratio = TRANSPORT_RATIO.of(variant, state.transport() / expected);
+                let ratio = ratio.against(Some(1.0), formula.name(), formula.confidence());
+                let (least, most) = HONEST_BAND;
+                let reason = "the scatter of the formula's own data";
+                let judged = run.stream.outside_bed_load().is_none();
+                metrics.push(if judged { ratio.gated(Limit::Within(least, most), reason) } else { ratio });
+            }
+        };
+        state(&run.variant(), &record.data.state);
+        if let Some(second) = &record.data.second {
+            state(&run.variant().and("start", "fast"), second);
+        }
+        metrics.push(START_DIFFERENCE.of(&run.variant(), record.data.start_difference));
+    }
+}
+
 /// Both balances of momentum.
 fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
     let errors = [
@@ -152,8 +185,7 @@ fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
 
 /// Two starts, one state.
 fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast: &LayerState) {
-    let transport = (fast.transport() / rest.transport() - 1.0).abs();
-    let difference = transport.max(rest.difference(fast, f64::NEG_INFINITY));
+    let difference = rest.start_difference(fast);
     // the two starts of the runs behind it, as one word
     let variant = Variant::of("slope", run.stream.slope).and("start", "rest_fast");
     metrics.push(

@@ -97,8 +97,16 @@ impl BedLoadLayer {
     /// Parameters out of range, a bed that slides on its base, or no steady state from one of the starts.
     pub fn steady_states(&self) -> Result<SteadyStates, ReferenceError> {
         let slow = self.steady(Start::Rest)?;
-        let fast = self.steady(Start::Moving(FAST * self.stream.shear_velocity()))?;
+        let fast = self.steady(self.fast_start())?;
         Ok(SteadyStates::of(slow, fast))
+    }
+}
+
+impl BedLoadLayer {
+    /// A start that is faster than any steady state.
+    #[must_use]
+    pub fn fast_start(&self) -> Start {
+        Start::Moving(FAST * self.stream.shear_velocity())
     }
 }
 
