@@ -80,13 +80,16 @@ pub struct Onset {
 }
 
 impl Onset {
-    pub(super) fn of_tier(relative_depth: f64, relative_bed_depth: f64, cells_per_diameter: f64) -> Self {
-        Self {
-            diameters: vec![5e-4, 1e-3, 2e-3, 3e-3, 5e-3, 6e-3],
-            regularisation_rate: 5e-4,
-            lengths: GrainUnits { relative_depth, relative_bed_depth, cells_per_diameter },
-        }
+    pub(super) fn of(diameters: &[f64], lengths: GrainUnits) -> Self {
+        Self { diameters: diameters.to_vec(), regularisation_rate: 5e-4, lengths }
     }
+}
+
+impl GrainUnits {
+    /// Few cells and a shallow bed: enough where little moves.
+    pub(super) const SHALLOW: Self = Self { relative_depth: 12.0, relative_bed_depth: 4.0, cells_per_diameter: 10.0 };
+    /// Accurate.
+    pub(super) const DEEP: Self = Self { relative_depth: 20.0, relative_bed_depth: 6.0, cells_per_diameter: 20.0 };
 }
 
 impl Similar {

@@ -5,7 +5,7 @@ use super::runs::{BedLoad1dRun, Purpose};
 use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Outcome;
-use crate::reference::bed_load_layer::LayerState;
+use crate::reference::bed_load_layer::{LayerState, SAME_STATE};
 use crate::reference::{HONEST_BAND, TransportFormula, roughness_ratio};
 
 quantities! {
@@ -91,6 +91,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
         profiles(&mut metrics, run, state);
     }
     similar(&mut metrics, records);
+    second_states(&mut metrics, records);
     metrics.extend(super::onset::metrics(records, ONSET_RATIO, ONSET, START_DIFFERENCE));
     metrics.extend(super::others::metrics(records, TRANSPORT_RATIO, TRANSPORT, START_DIFFERENCE));
     with_slope(&mut metrics, &literature(records).collect::<Vec<_>>());
@@ -134,6 +135,22 @@ fn transport(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) 
     metrics.push(MEAN_FLUID_VELOCITY.of(&variant, state.mean_fluid_velocity()).with_snapshot_tolerance(1e-3, 0.0));
 }
 
+/// The other state of a layer that has two.
+fn second_variant(run: &BedLoad1dRun) -> Variant {
+    run.variant().and("start", "fast")
+}
+
+/// Both states of layers with other closures and of those of others, where there are two.
+fn second_states(metrics: &mut Vec<Metric>, records: &[Record]) {
+    for (run, record) in records.iter().filter(|(run, _)| run.purpose != Purpose::Similar) {
+        let Some(second) = &record.data.second else { continue };
+        metrics.push(TRANSPORT.of(&second_variant(run), second.transport()));
+        if matches!(run.purpose, Purpose::Sensitivity(_)) {
+            metrics.push(START_DIFFERENCE.of(&run.variant(), record.data.start_difference));
+        }
+    }
+}
+
 /// The layer of a sweep: judged where the layer is one of bed load, and both of its states if there are two.
 fn similar(metrics: &mut Vec<Metric>, records: &[Record]) {
     let formula = TransportFormula::WongParker;
@@ -156,7 +173,7 @@ fn similar(metrics: &mut Vec<Metric>, records: &[Record]) {
         };
         state(&run.variant(), &record.data.state);
         if let Some(second) = &record.data.second {
-            state(&run.variant().and("start", "fast"), second);
+            state(&second_variant(run), second);
         }
         metrics.push(START_DIFFERENCE.of(&run.variant(), record.data.start_difference));
     }
@@ -186,13 +203,16 @@ fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
 /// Two starts, one state.
 fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast: &LayerState) {
     let difference = rest.start_difference(fast);
+    if difference > SAME_STATE {
+        metrics.push(TRANSPORT.of(&run.variant().and("second", "fast"), fast.transport()));
+    }
     // the two starts of the runs behind it, as one word
     let variant = Variant::of("slope", run.stream.slope).and("start", "rest_fast");
     metrics.push(
         START_DIFFERENCE
             .of(&variant, difference)
             .against(Some(0.0), "the layer from rest: q*, u_f and φ u_s", Confidence::Exact)
-            .gated(Limit::AtMost(1e-3), "a steady state does not remember its start")
+            .gated(Limit::AtMost(SAME_STATE), "a steady state does not remember its start")
             .with_snapshot_tolerance(1.0, 1e-5),
     );
 }

@@ -14,7 +14,7 @@ use crate::reference::bed_load_layer::{SAME_STATE, Stream};
 use crate::reference::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence};
 
 /// Shields numbers at which a layer is computed, over that of the curve `[-]`.
-pub(super) const SCANNED: [f64; 8] = [0.4, 0.55, 0.7, 0.85, 1.05, 1.35, 1.75, 2.3];
+pub(super) const SCANNED: [f64; 6] = [0.55, 0.75, 1.0, 1.3, 1.7, 2.3];
 
 /// A transport that counts as motion.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,6 @@
 //! Parameters and tiers.
 
-use super::grain_units::{self, Onset, Similar};
+use super::grain_units::{self, GrainUnits, Onset, Similar};
 use super::runs::{self, BedLoad1dRun, Purpose};
 use super::sensitivities::Sensitivities;
 use crate::case::{ParameterError, Parameters, Tier};
@@ -95,14 +95,14 @@ impl Parameters for BedLoad1dParameters {
             closures: Closures::default(),
             sensitivities: Sensitivities::none(),
             similar: Similar::NONE,
-            onset: Onset::of_tier(12.0, 4.0, 10.0),
+            onset: Onset::of(&[5e-4, 1e-3, 2e-3, 6e-3], GrainUnits::SHALLOW),
             measured: vec![MeasuredBedLoad::GrainSimulation, MeasuredBedLoad::SheetFlow],
         };
         let paper = Self {
             dilating_cell_heights: vec![5e-4, 2.5e-4, 1.25e-4, 6.25e-5],
             frozen_cell_heights: vec![5e-4, 2.5e-4, 1.25e-4, 6.25e-5],
             sensitivities: Sensitivities::literature(),
-            onset: Onset::of_tier(20.0, 6.0, 20.0),
+            onset: Onset::of(&[5e-4, 1e-3, 2e-3, 3e-3, 5e-3, 6e-3], GrainUnits::DEEP),
             ..quick.clone()
         };
         match tier {

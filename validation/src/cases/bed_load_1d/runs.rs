@@ -146,11 +146,17 @@ impl Run for BedLoad1dRun {
         let approach = layer.approach(start).map_err(refused)?;
         let fast = if both { Some(layer.approach(layer.fast_start()).map_err(refused)?) } else { None };
         let mut done = Done::of(&approach, fast.as_ref());
-        let scan = if self.purpose == Purpose::Onset { self.scan(&mut done)? } else { Vec::new() };
+        let scan = if self.purpose == Purpose::Onset { self.scan(&approach, &mut done)? } else { Vec::new() };
         let simulated_time = approach.steps as f64 * approach.time_step;
         let cells = approach.state.height.len();
         progress.advance(simulated_time, simulated_time, (cells * done.steps) as f64);
         let outcome = match done.unsteady {
+            None if done.difference > SAME_STATE => Outcome::Stopped {
+                criterion: format!(
+                    "two steady states, from rest and from a fast start, differ by {:.1e}",
+                    done.difference
+                ),
+            },
             None => Outcome::Stopped { criterion: format!("a step changes u/u_* and φ by less than {STEADY:e}") },
             Some(reason) => Outcome::Diverged {
                 message: format!("no steady state after {} steps: {reason}", done.steps),
@@ -199,20 +205,24 @@ impl Done {
 impl BedLoad1dRun {
     /// Whether the run itself seeks its state from two starts; those of a slope and of an order are runs of their own.
     fn has_both_starts(&self) -> bool {
-        matches!(self.purpose, Purpose::Sensitivity(_) | Purpose::Similar | Purpose::Measured(_))
+        matches!(self.purpose, Purpose::Sensitivity(_) | Purpose::Similar | Purpose::Onset | Purpose::Measured(_))
     }
 
-    /// Shields numbers and transports about the onset, from both starts.
-    fn scan(&self, done: &mut Done) -> Result<Vec<(f64, f64)>, ParameterError> {
+    /// Shields numbers and transports about the onset, from both starts; that of the run itself is known.
+    fn scan(&self, own: &Approach, done: &mut Done) -> Result<Vec<(f64, f64)>, ParameterError> {
         let mut scan = Vec::new();
         for stream in onset::scanned(&self.stream) {
+            if stream == self.stream {
+                scan.push((stream.shields_number(), own.state.transport()));
+                continue;
+            }
             let layer = BedLoadLayer { stream, ..self.layer().map_err(refused)? };
             let slow = layer.approach(Start::Rest).map_err(refused)?;
             let fast = layer.approach(layer.fast_start()).map_err(refused)?;
-            let own = Done::of(&slow, Some(&fast));
-            done.steps += own.steps;
-            done.difference = done.difference.max(own.difference);
-            done.unsteady = done.unsteady.take().or(own.unsteady);
+            let both = Done::of(&slow, Some(&fast));
+            done.steps += both.steps;
+            done.difference = done.difference.max(both.difference);
+            done.unsteady = done.unsteady.take().or(both.unsteady);
             scan.push((stream.shields_number(), slow.state.transport()));
         }
         Ok(scan)
