@@ -119,8 +119,8 @@ fn transport(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) 
             TRANSPORT_RATIO
                 .of(&variant, state.transport() / expected)
                 .against(Some(1.0), formula.name(), formula.confidence())
-                .gated(
-                    Limit::Within(0.8, 1.25),
+                .gated_by(
+                    is_bed_load(run).then_some(Limit::Within(0.8, 1.25)),
                     "nothing is fitted; the formula's own data scatter by more, within a factor of 2",
                 )
                 .with_snapshot_tolerance(1e-3, 0.0),
@@ -133,6 +133,11 @@ fn transport(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) 
             .with_snapshot_tolerance(1e-3, 0.0),
     );
     metrics.push(MEAN_FLUID_VELOCITY.of(&variant, state.mean_fluid_velocity()).with_snapshot_tolerance(1e-3, 0.0));
+}
+
+/// Whether the layer is one of bed load: elsewhere no formula of bed load judges it.
+fn is_bed_load(run: &BedLoad1dRun) -> bool {
+    run.stream.outside_bed_load().is_none()
 }
 
 /// The other state of a layer that has two.
@@ -163,12 +168,13 @@ fn similar(metrics: &mut Vec<Metric>, records: &[Record]) {
                 formula.confidence(),
             ));
             if expected > 0.0 {
-                let ratio = TRANSPORT_RATIO.of(variant, state.transport() / expected);
-                let ratio = ratio.against(Some(1.0), formula.name(), formula.confidence());
-                let (least, most) = HONEST_BAND;
-                let reason = "the scatter of the formula's own data";
-                let judged = run.stream.outside_bed_load().is_none();
-                metrics.push(if judged { ratio.gated(Limit::Within(least, most), reason) } else { ratio });
+                let limit = Limit::Within(HONEST_BAND.0, HONEST_BAND.1);
+                metrics.push(
+                    TRANSPORT_RATIO
+                        .of(variant, state.transport() / expected)
+                        .against(Some(1.0), formula.name(), formula.confidence())
+                        .gated_by(is_bed_load(run).then_some(limit), "the scatter of the formula's own data"),
+                );
             }
         };
         state(&run.variant(), &record.data.state);

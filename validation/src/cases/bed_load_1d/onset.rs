@@ -77,13 +77,17 @@ pub(super) fn metrics(records: &[Record], ratio: Quantity, onset: Quantity, star
         for (criterion, name) in CRITERIA {
             let variant = run.variant().and("criterion", name);
             let found = criterion.onset(scan);
-            let of_curve =
-                ratio.of(&variant, found / expected(run)).against(Some(1.0), ONSET_SOURCE, onset_confidence());
-            let (least, most) = (1.0 / ONSET_SCATTER, ONSET_SCATTER);
-            let reason = "experiments scatter about the curve by this factor";
-            let of_curve =
-                if criterion == JUDGED { of_curve.gated(Limit::Within(least, most), reason) } else { of_curve };
-            metrics.push(of_curve.with_snapshot_tolerance(0.01, 0.0));
+            let within = Limit::Within(1.0 / ONSET_SCATTER, ONSET_SCATTER);
+            metrics.push(
+                ratio
+                    .of(&variant, found / expected(run))
+                    .against(Some(1.0), ONSET_SOURCE, onset_confidence())
+                    .gated_by(
+                        (criterion == JUDGED).then_some(within),
+                        "experiments scatter about the curve by this factor",
+                    )
+                    .with_snapshot_tolerance(0.01, 0.0),
+            );
             metrics.push(
                 onset
                     .of(&variant, found)

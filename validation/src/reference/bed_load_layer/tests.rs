@@ -139,6 +139,16 @@ fn all_starts_lead_to_one_state() {
 }
 
 #[test]
+fn two_states_are_both_given() {
+    let [slow, fast] = [0.02, 0.03].map(|slope| layer(slope, Grains::Dilating).steady(Start::Rest).expect("steady"));
+    let states = SteadyStates::of(slow.clone(), fast.clone());
+    assert_eq!((states.slow(), states.second()), (&slow, Some(&fast)));
+    assert!(states.difference() > 0.5);
+    let error = states.single().expect_err("two states").to_string();
+    assert!(error.contains("two states") && error.contains("from a fast start"), "{error}");
+}
+
+#[test]
 fn its_own_fraction_frozen_gives_the_same_layer() {
     let layer = layer(0.05, Grains::Dilating);
     let dilated = layer.steady(Start::Rest).expect("steady");
