@@ -188,6 +188,22 @@ fn a_layer_of_water_and_grains_that_cannot_be() {
             "`slopes[0]` is 0.5, but must be between 0 and 0.2; on steeper slopes the bed itself would slide",
         ),
         (
+            "slopes=[0.03, 0.15]",
+            "`slopes[1]` is 0.15, but must be such that the slope, 0.15000, is below 0.10804, where the bed slides on its base; deepen the bed to more than 0.1643 m, or choose a gentler slope",
+        ),
+        (
+            "similar.shields_number=9.0",
+            "`similar.shields_number` is 9, but must be such that the slope, 0.72000, is below 0.06348, where the bed slides on its base; no bed of these grains lies on such a slope: choose a gentler one",
+        ),
+        (
+            "onset.relative_depth=12.33",
+            "`onset.relative_depth` is 12.33, but must be a whole multiple of a cell; choose whole numbers",
+        ),
+        (
+            "closures.grain_roughness.joining_room=0.0",
+            "`closures.grain_roughness.joining_room` is 0, but must be positive and finite; a few hundredths: a layer of grains that moves has more",
+        ),
+        (
             "closures.largest_fraction=1.0",
             "`closures.largest_fraction` is 1, but must be between 0.1 and 0.74; grains at rest fill 0.5 to 0.64 of the space",
         ),

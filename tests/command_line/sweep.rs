@@ -2,6 +2,8 @@
 
 use crate::killed::{Finished, assert_same_files, kill_and_resume, written};
 use crate::program::Place;
+use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::sweep::SweepPlan;
 use std::path::{Path, PathBuf};
 
 const PLAN: &str = r#"
@@ -27,6 +29,17 @@ fn records(folder: &Path) -> Finished {
     let files: Vec<PathBuf> = runs.iter().map(|run| run.join("record.postcard")).collect();
     let name = |run: &Path| run.file_name().unwrap_or_default().to_string_lossy().into_owned();
     written(runs.iter().map(|run| name(run)).zip(files.iter().map(PathBuf::as_path)))
+}
+
+/// The shipped plan: layers over Shields number and grain size, none of which its case refuses.
+#[test]
+fn the_shipped_plan_has_four_hundred_layers() {
+    let plan = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/sweeps/bed-load-1d-map.toml");
+    let manifest = SweepPlan::read(&plan).and_then(|plan| plan.manifest(REGISTRY)).expect("a plan");
+    assert_eq!(manifest.entries.len(), 400);
+    for entry in &manifest.entries {
+        assert_eq!(entry.refusal, None, "{}", entry.folder);
+    }
 }
 
 #[test]

@@ -10,6 +10,8 @@
 
 mod bagnold_profile;
 pub mod bed_load_layer;
+mod bed_load_onset;
+mod bed_load_profiles;
 mod bed_load_transport;
 mod collapse_laws;
 mod error;
@@ -28,6 +30,8 @@ mod slope_laws;
 mod steady_film;
 
 pub use bagnold_profile::BagnoldProfile;
+pub use bed_load_onset::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence};
+pub use bed_load_profiles::MeasuredBedLoad;
 pub use bed_load_transport::{HONEST_BAND, TransportFormula};
 pub use collapse_laws::{COLLAPSE_DURATION, CollapseLaw, CollapseLaws, DRAWN, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 pub use error::ReferenceError;

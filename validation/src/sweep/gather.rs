@@ -3,6 +3,7 @@
 use super::error::SweepError;
 use super::folder::{SweepFolder, Tally};
 use super::manifest::{Entry, Manifest};
+use super::map::{self, Surface};
 use crate::evaluation::{MetricValue, Record};
 use crate::figure::{self, Axis, Figure, Mark, Panel, Series};
 use crate::metric::{Variant, Verdict};
@@ -102,7 +103,7 @@ fn first(entry: &Entry) -> Vec<String> {
     head.into_iter().chain(entry.point.iter().map(plain)).collect()
 }
 
-/// One figure a case: its metrics, one a row of panels, over the parameters that are numbers.
+/// A case's metrics, one a row of panels, over the parameters that are numbers; and as a map where those are two.
 fn figures(manifest: &Manifest, records: &[(&Entry, Record)]) -> Vec<Figure> {
     let mut cases: Vec<&str> = Vec::new();
     for (entry, _) in records {
@@ -110,10 +111,10 @@ fn figures(manifest: &Manifest, records: &[(&Entry, Record)]) -> Vec<Figure> {
             cases.push(&entry.label);
         }
     }
-    cases.into_iter().filter_map(|case| pairs(manifest, case, records)).collect()
+    cases.into_iter().flat_map(|case| pairs(manifest, case, records)).collect()
 }
 
-fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Option<Figure> {
+fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Vec<Figure> {
     let own: Vec<&(&Entry, Record)> =
         records.iter().filter(|(entry, record)| entry.label == case && record.failure.is_none()).collect();
     let numbers = |parameter: usize| -> Option<Vec<f64>> {
@@ -124,20 +125,28 @@ fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Optio
         (0..manifest.parameters.len()).filter_map(|k| numbers(k).map(|values| (k, values))).collect();
     let metrics = drawn_metrics(manifest, &own);
     if varied.is_empty() || metrics.is_empty() {
-        return None;
+        return Vec::new();
     }
     let rows: Vec<String> =
         metrics.iter().map(|(name, variant)| format!("{name} {variant}").trim_end().to_owned()).collect();
-    let mut panels = Vec::new();
+    let (mut panels, mut surfaces) = (Vec::new(), Vec::new());
     for (name, variant) in &metrics {
+        let value_of = |record: &Record| {
+            let found = record.metrics.iter().find(|metric| metric.name == *name && metric.variant == *variant);
+            found.filter(|metric| metric.value.is_finite()).map(|metric| (metric.value, metric.unit.clone()))
+        };
+        if let [(_, x), (_, y)] = &varied[..] {
+            let values = own.iter().zip(x.iter().zip(y));
+            let points = values.filter_map(|((_, record), (&x, &y))| Some((x, y, value_of(record)?.0))).collect();
+            surfaces.push(Surface { metric: format!("{name} {variant}"), points });
+        }
         for (parameter, values) in &varied {
             let mut unit = String::new();
             let mut points = Vec::new();
             for ((_, record), &x) in own.iter().zip(values) {
-                let found = record.metrics.iter().find(|metric| metric.name == *name && metric.variant == *variant);
-                if let Some(metric) = found.filter(|metric| metric.value.is_finite()) {
-                    unit.clone_from(&metric.unit);
-                    points.push((x, metric.value));
+                if let Some((value, own_unit)) = value_of(record) {
+                    unit = own_unit;
+                    points.push((x, value));
                 }
             }
             let label = &manifest.parameters[*parameter];
@@ -146,12 +155,17 @@ fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Optio
             panels.push(panel);
         }
     }
-    Some(Figure {
+    let pairs = Figure {
         name: format!("pairs-{}", case.replace([' ', '/'], "-")),
         caption: format!("Metrics of every run over the parameters that were varied, row by row: {}.", rows.join("; ")),
         columns: varied.len().min(3),
         panels,
-    })
+    };
+    let map = match &varied[..] {
+        [(x, _), (y, _)] => map::figure(case, [&manifest.parameters[*x], &manifest.parameters[*y]], &surfaces),
+        _ => None,
+    };
+    std::iter::once(pairs).chain(map).collect()
 }
 
 /// The metrics that the plan names, else the first that the parameters change, gated ones first; each with its variant.

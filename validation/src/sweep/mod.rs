@@ -15,6 +15,7 @@ mod folder;
 mod gather;
 mod local;
 mod manifest;
+mod map;
 mod plan;
 pub mod slurm;
 

@@ -16,6 +16,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     }
     let mut figures = vec![profiles(&layers), transport(&layers)];
     figures.extend(convergence(records, &layers));
+    figures.extend(super::onset::figure(records));
+    figures.extend(super::others::figure(records));
     figures.extend(super::sensitivities::figure(records, &layers));
     figures
 }

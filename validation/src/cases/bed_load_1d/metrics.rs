@@ -5,8 +5,8 @@ use super::runs::{BedLoad1dRun, Purpose};
 use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Outcome;
-use crate::reference::bed_load_layer::LayerState;
-use crate::reference::{TransportFormula, roughness_ratio};
+use crate::reference::bed_load_layer::{LayerState, SAME_STATE};
+use crate::reference::{HONEST_BAND, TransportFormula, roughness_ratio};
 
 quantities! {
     []
@@ -31,6 +31,8 @@ quantities! {
     MOTION_DEPTH_GROWTH:
         validated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next"),
     DECAY_LENGTH_GROWTH: validated("decay_length_growth", "-", "the same of the decay length"),
+    ONSET_RATIO: validated("onset_ratio", "-", "Shields number at which grains move over that of Shields' curve"),
+    ONSET: validated("onset", "-", "that Shields number"),
     TRANSPORT_SENSITIVITY:
         verified("transport_sensitivity", "-", "q* with a replaced closure over that of the literature's"),
 }
@@ -88,6 +90,10 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
         }
         profiles(&mut metrics, run, state);
     }
+    similar(&mut metrics, records);
+    second_states(&mut metrics, records);
+    metrics.extend(super::onset::metrics(records, ONSET_RATIO, ONSET, START_DIFFERENCE));
+    metrics.extend(super::others::metrics(records, TRANSPORT_RATIO, TRANSPORT, START_DIFFERENCE));
     with_slope(&mut metrics, &literature(records).collect::<Vec<_>>());
     for (run, state) in of(records, |purpose| matches!(purpose, Purpose::Sensitivity(_))) {
         if let Some((_, own)) = literature(records).find(|(other, _)| other.stream.slope == run.stream.slope) {
@@ -113,8 +119,8 @@ fn transport(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) 
             TRANSPORT_RATIO
                 .of(&variant, state.transport() / expected)
                 .against(Some(1.0), formula.name(), formula.confidence())
-                .gated(
-                    Limit::Within(0.8, 1.25),
+                .gated_by(
+                    is_bed_load(run).then_some(Limit::Within(0.8, 1.25)),
                     "nothing is fitted; the formula's own data scatter by more, within a factor of 2",
                 )
                 .with_snapshot_tolerance(1e-3, 0.0),
@@ -127,6 +133,56 @@ fn transport(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) 
             .with_snapshot_tolerance(1e-3, 0.0),
     );
     metrics.push(MEAN_FLUID_VELOCITY.of(&variant, state.mean_fluid_velocity()).with_snapshot_tolerance(1e-3, 0.0));
+}
+
+/// Whether the layer is one of bed load: elsewhere no formula of bed load judges it.
+fn is_bed_load(run: &BedLoad1dRun) -> bool {
+    run.stream.outside_bed_load().is_none()
+}
+
+/// The other state of a layer that has two.
+fn second_variant(run: &BedLoad1dRun) -> Variant {
+    run.variant().and("start", "fast")
+}
+
+/// Both states of layers with other closures and of those of others, where there are two.
+fn second_states(metrics: &mut Vec<Metric>, records: &[Record]) {
+    for (run, record) in records.iter().filter(|(run, _)| run.purpose != Purpose::Similar) {
+        let Some(second) = &record.data.second else { continue };
+        metrics.push(TRANSPORT.of(&second_variant(run), second.transport()));
+        if matches!(run.purpose, Purpose::Sensitivity(_)) {
+            metrics.push(START_DIFFERENCE.of(&run.variant(), record.data.start_difference));
+        }
+    }
+}
+
+/// The layer of a sweep: judged where the layer is one of bed load, and both of its states if there are two.
+fn similar(metrics: &mut Vec<Metric>, records: &[Record]) {
+    let formula = TransportFormula::WongParker;
+    for (run, record) in records.iter().filter(|(run, _)| run.purpose == Purpose::Similar) {
+        let expected = formula.transport(run.stream.shields_number());
+        let mut state = |variant: &Variant, state: &LayerState| {
+            metrics.push(TRANSPORT.of(variant, state.transport()).against(
+                Some(expected),
+                formula.name(),
+                formula.confidence(),
+            ));
+            if expected > 0.0 {
+                let limit = Limit::Within(HONEST_BAND.0, HONEST_BAND.1);
+                metrics.push(
+                    TRANSPORT_RATIO
+                        .of(variant, state.transport() / expected)
+                        .against(Some(1.0), formula.name(), formula.confidence())
+                        .gated_by(is_bed_load(run).then_some(limit), "the scatter of the formula's own data"),
+                );
+            }
+        };
+        state(&run.variant(), &record.data.state);
+        if let Some(second) = &record.data.second {
+            state(&second_variant(run), second);
+        }
+        metrics.push(START_DIFFERENCE.of(&run.variant(), record.data.start_difference));
+    }
 }
 
 /// Both balances of momentum.
@@ -152,15 +208,17 @@ fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
 
 /// Two starts, one state.
 fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast: &LayerState) {
-    let transport = (fast.transport() / rest.transport() - 1.0).abs();
-    let difference = transport.max(rest.difference(fast, f64::NEG_INFINITY));
+    let difference = rest.start_difference(fast);
+    if difference > SAME_STATE {
+        metrics.push(TRANSPORT.of(&run.variant().and("second", "fast"), fast.transport()));
+    }
     // the two starts of the runs behind it, as one word
     let variant = Variant::of("slope", run.stream.slope).and("start", "rest_fast");
     metrics.push(
         START_DIFFERENCE
             .of(&variant, difference)
             .against(Some(0.0), "the layer from rest: q*, u_f and φ u_s", Confidence::Exact)
-            .gated(Limit::AtMost(1e-3), "a steady state does not remember its start")
+            .gated(Limit::AtMost(SAME_STATE), "a steady state does not remember its start")
             .with_snapshot_tolerance(1.0, 1e-5),
     );
 }

@@ -1,11 +1,13 @@
 //! Parameters and tiers.
 
-use super::runs::{self, BedLoad1dRun};
+use super::grain_units::{self, GrainUnits, Onset, Similar};
+use super::runs::{self, BedLoad1dRun, Purpose};
 use super::sensitivities::Sensitivities;
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::rules;
+use crate::reference::MeasuredBedLoad;
 use crate::reference::bed_load_layer::{Closures, Stream};
-use bagnold_solver::parameter::{between, each, positive};
+use bagnold_solver::parameter::{between, each, positive, up_to};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -52,8 +54,8 @@ pub struct BedLoad1dParameters {
     /// Height of a cell `[m]`.
     #[schemars(transform = positive("give it in metres, such as 2.5e-4"))]
     pub cell_height: f64,
-    /// Speed of the water and the upper grains in a second start `[m/s]`; 0 for none.
-    #[schemars(transform = between(0.0, 100.0, "give it in m/s, or 0 for no second start"))]
+    /// Speed of the water and the upper grains in the second start `[m/s]`.
+    #[schemars(transform = up_to(100.0, "give it in m/s, such as 2; a state is called steady only if both starts lead there"))]
     pub fast_start: f64,
     /// Heights of cells for the order with dilation `[m]`, three or more, each half the one before; empty for none.
     #[schemars(transform = each(positive("give it in metres, such as 2.5e-4")))]
@@ -69,6 +71,12 @@ pub struct BedLoad1dParameters {
     pub closures: Closures,
     /// Other closures, one at a time.
     pub sensitivities: Sensitivities,
+    /// A layer by its Shields number and its grains, for sweeps.
+    pub similar: Similar,
+    /// Layers about the onset of motion.
+    pub onset: Onset,
+    /// Layers of others to compare with.
+    pub measured: Vec<MeasuredBedLoad>,
 }
 
 impl Parameters for BedLoad1dParameters {
@@ -86,11 +94,15 @@ impl Parameters for BedLoad1dParameters {
             grains: Grain { bed_depth: 0.04, held_depth: 0.0, density: 2600.0, diameter: 5e-3 },
             closures: Closures::default(),
             sensitivities: Sensitivities::none(),
+            similar: Similar::NONE,
+            onset: Onset::of(&[5e-4, 1e-3, 2e-3, 6e-3], GrainUnits::SHALLOW),
+            measured: vec![MeasuredBedLoad::GrainSimulation, MeasuredBedLoad::SheetFlow],
         };
         let paper = Self {
             dilating_cell_heights: vec![5e-4, 2.5e-4, 1.25e-4, 6.25e-5],
             frozen_cell_heights: vec![5e-4, 2.5e-4, 1.25e-4, 6.25e-5],
             sensitivities: Sensitivities::literature(),
+            onset: Onset::of(&[5e-4, 1e-3, 2e-3, 3e-3, 5e-3, 6e-3], GrainUnits::DEEP),
             ..quick.clone()
         };
         match tier {
@@ -122,6 +134,11 @@ impl Parameters for BedLoad1dParameters {
                 }
             }
         }
+        for run in runs::all(self).iter().filter(|run| run.purpose == Purpose::Literature) {
+            let place = self.slopes.iter().position(|slope| *slope == run.stream.slope).unwrap_or(0);
+            runs::check_sliding(&format!("slopes[{place}]"), run.stream.slope, run)?;
+        }
+        grain_units::check(self)?;
         self.sensitivities.check(self)
     }
 

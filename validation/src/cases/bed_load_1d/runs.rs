@@ -2,13 +2,14 @@
 
 use super::parameters::BedLoad1dParameters;
 use super::sensitivities::Replaced;
+use super::{grain_units, onset, others};
 use crate::case::{ParameterError, Progress, Run};
 use crate::metric::Variant;
 use crate::observation::{Outcome, Recorded, state_hash};
-use crate::reference::ReferenceError;
 use crate::reference::bed_load_layer::{
-    BedLoadLayer, Closures, Grains, LayerState, STEADY, SolidFraction, Start, Stream,
+    Approach, BedLoadLayer, Closures, Grains, LayerState, SAME_STATE, STEADY, SolidFraction, Start, Stream,
 };
+use crate::reference::{MeasuredBedLoad, ReferenceError};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
@@ -32,6 +33,12 @@ pub enum Purpose {
     FrozenOrder,
     /// A replaced closure.
     Sensitivity(Replaced),
+    /// A layer whose lengths are counted in grains.
+    Similar,
+    /// Layers about the onset of motion.
+    Onset,
+    /// A layer that others have simulated or measured.
+    Measured(MeasuredBedLoad),
 }
 
 impl Purpose {
@@ -63,6 +70,12 @@ pub struct LayerObservation {
     pub velocity_change: f64,
     /// Largest change of φ in the last step `[-]`.
     pub fraction_change: f64,
+    /// Difference between the states from rest and from a fast start, where the run has both `[-]`; else 0.
+    pub start_difference: f64,
+    /// The state from the fast start, if the run has both and they are two.
+    pub second: Option<LayerState>,
+    /// Shields numbers and transports of an onset `[-]`.
+    pub scan: Vec<(f64, f64)>,
 }
 
 pub(super) fn all(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
@@ -86,6 +99,8 @@ pub(super) fn all(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
             new(Purpose::Sensitivity(replaced), closures, cell_height)
         }));
     }
+    runs.extend(grain_units::runs(parameters));
+    runs.extend(others::runs(&parameters.measured, parameters.closures));
     runs
 }
 
@@ -101,11 +116,23 @@ impl Run for BedLoad1dRun {
                 slope.and("grains", self.purpose.grains()).and("cell_height", self.cell_height)
             }
             Purpose::Sensitivity(replaced) => slope.and(replaced.closure(), replaced.value_text()),
+            // a sweep's points differ in its parameters only
+            Purpose::Similar => Variant::of("layer", "similar"),
+            Purpose::Onset => Variant::of("diameter", self.stream.grain_diameter),
+            Purpose::Measured(of) => {
+                let schmidt = self.closures.turbulent_schmidt;
+                Variant::of("layer", of.name()).and("turbulent_schmidt", schmidt)
+            }
         }
     }
 
     fn particle_steps(&self) -> f64 {
-        USUAL_STEPS * (self.stream.flow_depth + self.stream.bed_depth) / self.cell_height
+        let layers = match self.purpose {
+            Purpose::Onset => 2.0 * onset::SCANNED.len() as f64,
+            _ if self.has_both_starts() => 2.0,
+            _ => 1.0,
+        };
+        layers * USUAL_STEPS * (self.stream.flow_depth + self.stream.bed_depth) / self.cell_height
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
@@ -114,36 +141,93 @@ impl Run for BedLoad1dRun {
             Purpose::FastStart(speed) => Start::Moving(speed),
             _ => Start::Rest,
         };
-        let approach = self.layer().and_then(|layer| layer.approach(start)).map_err(refused)?;
-        let cells = approach.state.height.len();
+        let both = self.has_both_starts();
+        let layer = self.layer().map_err(refused)?;
+        let approach = layer.approach(start).map_err(refused)?;
+        let fast = if both { Some(layer.approach(layer.fast_start()).map_err(refused)?) } else { None };
+        let mut done = Done::of(&approach, fast.as_ref());
+        let scan = if self.purpose == Purpose::Onset { self.scan(&approach, &mut done)? } else { Vec::new() };
         let simulated_time = approach.steps as f64 * approach.time_step;
-        progress.advance(simulated_time, simulated_time, (cells * approach.steps) as f64);
-        let outcome = match approach.unsteady {
+        let cells = approach.state.height.len();
+        progress.advance(simulated_time, simulated_time, (cells * done.steps) as f64);
+        let outcome = match done.unsteady {
+            None if done.difference > SAME_STATE => Outcome::Stopped {
+                criterion: format!(
+                    "two steady states, from rest and from a fast start, differ by {:.1e}",
+                    done.difference
+                ),
+            },
             None => Outcome::Stopped { criterion: format!("a step changes u/u_* and φ by less than {STEADY:e}") },
             Some(reason) => Outcome::Diverged {
-                message: format!("no steady state after {} steps: {reason}", approach.steps),
+                message: format!("no steady state after {} steps: {reason}", done.steps),
                 expected: false,
             },
         };
+        let second = fast.filter(|_| done.difference > SAME_STATE).map(|fast| fast.state);
         Ok(Recorded {
             outcome,
             state_hash: state_hash(&approach.state.to_bytes()),
             particles: cells,
-            steps: approach.steps as u64,
+            steps: done.steps as u64,
             simulated_time,
             wall_seconds: started.elapsed().as_secs_f64(),
             threads: 1,
             frames: Vec::new(),
             data: LayerObservation {
-                state: approach.state,
                 velocity_change: approach.velocity_change,
                 fraction_change: approach.fraction_change,
+                start_difference: done.difference,
+                second,
+                scan,
+                state: approach.state,
             },
         })
     }
 }
 
+/// What several layers of one run have come to.
+struct Done {
+    steps: usize,
+    difference: f64,
+    unsteady: Option<String>,
+}
+
+impl Done {
+    fn of(slow: &Approach, fast: Option<&Approach>) -> Self {
+        Self {
+            steps: slow.steps + fast.map_or(0, |fast| fast.steps),
+            difference: fast.map_or(0.0, |fast| slow.state.start_difference(&fast.state)),
+            unsteady: slow.unsteady.clone().or_else(|| fast.and_then(|fast| fast.unsteady.clone())),
+        }
+    }
+}
+
 impl BedLoad1dRun {
+    /// Whether the run itself seeks its state from two starts; those of a slope and of an order are runs of their own.
+    fn has_both_starts(&self) -> bool {
+        matches!(self.purpose, Purpose::Sensitivity(_) | Purpose::Similar | Purpose::Onset | Purpose::Measured(_))
+    }
+
+    /// Shields numbers and transports about the onset, from both starts; that of the run itself is known.
+    fn scan(&self, own: &Approach, done: &mut Done) -> Result<Vec<(f64, f64)>, ParameterError> {
+        let mut scan = Vec::new();
+        for stream in onset::scanned(&self.stream) {
+            if stream == self.stream {
+                scan.push((stream.shields_number(), own.state.transport()));
+                continue;
+            }
+            let layer = BedLoadLayer { stream, ..self.layer().map_err(refused)? };
+            let slow = layer.approach(Start::Rest).map_err(refused)?;
+            let fast = layer.approach(layer.fast_start()).map_err(refused)?;
+            let both = Done::of(&slow, Some(&fast));
+            done.steps += both.steps;
+            done.difference = done.difference.max(both.difference);
+            done.unsteady = done.unsteady.take().or(both.unsteady);
+            scan.push((stream.shields_number(), slow.state.transport()));
+        }
+        Ok(scan)
+    }
+
     /// The layer.
     fn layer(&self) -> Result<BedLoadLayer, ReferenceError> {
         let grains = match self.purpose {
@@ -161,6 +245,18 @@ fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFraction, R
         let x = (0.5 * (z / half + 1.0)).clamp(0.0, 1.0);
         largest_fraction * (1.0 - x * x * x * (10.0 - x * (15.0 - 6.0 * x)))
     })
+}
+
+/// Refuses a layer whose bed slides on its base.
+pub(super) fn check_sliding(field: &str, value: f64, run: &BedLoad1dRun) -> Result<(), ParameterError> {
+    match run.layer().and_then(|layer| layer.check()) {
+        Err(ReferenceError::BedSlides { slope, limit, remedy }) => {
+            let rule =
+                format!("such that the slope, {slope:.5}, is below {limit:.5}, where the bed slides on its base");
+            Err(ParameterError::field(field, value, &rule, &remedy))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What the solver refuses although each parameter is in its range.

@@ -1,0 +1,135 @@
+//! Layers whose lengths are counted in grains, so that only their Shields number and their grains differ: one that sweeps
+//! vary, and those whose onset of motion is sought.
+
+use super::parameters::BedLoad1dParameters;
+use super::runs::{BedLoad1dRun, Purpose};
+use crate::case::ParameterError;
+use crate::reference::bed_load_layer::{Closures, Stream};
+use crate::reference::critical_shields_number;
+use bagnold_solver::parameter::{between, each, positive, up_to};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Depths and cells in grain diameters.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GrainUnits {
+    /// Depth of the water in grain diameters.
+    #[schemars(transform = between(2.0, 1000.0, "20 to be many grains deep"))]
+    pub relative_depth: f64,
+    /// Depth of the bed in grain diameters.
+    #[schemars(transform = between(1.0, 1000.0, "6, or more where the grains move deeper"))]
+    pub relative_bed_depth: f64,
+    /// Cells over a grain diameter; both depths are whole multiples of one.
+    #[schemars(transform = between(2.0, 1000.0, "12 is quick, 20 is accurate"))]
+    pub cells_per_diameter: f64,
+}
+
+impl GrainUnits {
+    /// A stream of a Shields number over grains of a diameter `[m]`, with the materials of the case.
+    fn stream(&self, parameters: &BedLoad1dParameters, shields_number: f64, diameter: f64) -> Stream {
+        let excess = parameters.grains.density / parameters.water.density - 1.0;
+        Stream {
+            flow_depth: self.relative_depth * diameter,
+            bed_depth: self.relative_bed_depth * diameter,
+            held_depth: 0.0,
+            grain_diameter: diameter,
+            ..parameters.stream(shields_number * excess / self.relative_depth)
+        }
+    }
+
+    fn check(&self, group: &str) -> Result<(), ParameterError> {
+        let depths = [("relative_depth", self.relative_depth), ("relative_bed_depth", self.relative_bed_depth)];
+        for (name, depth) in depths {
+            let cells = depth * self.cells_per_diameter;
+            if (cells - cells.round()).abs() > 1e-6 {
+                let (rule, remedy) = ("a whole multiple of a cell", "choose whole numbers");
+                return Err(ParameterError::field(&format!("{group}.{name}"), depth, rule, remedy));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// One layer by its Shields number and its grains.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Similar {
+    /// Shields number τ* `[-]`; 0 for no such layer.
+    #[schemars(transform = between(0.0, 10.0, "0.03 to 0.7 for bed load, or 0 for no such layer"))]
+    pub shields_number: f64,
+    /// Diameter of the grains `[m]`.
+    #[schemars(transform = positive("give it in metres; 0.002 for 2 mm"))]
+    pub diameter: f64,
+    /// Its lengths.
+    #[serde(flatten)]
+    pub lengths: GrainUnits,
+}
+
+/// The onset of motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Onset {
+    /// Diameters of the grains `[m]`; empty for none.
+    #[schemars(transform = each(positive("give it in metres; 0.002 for 2 mm")))]
+    pub diameters: Vec<f64>,
+    /// Rate γ_r `[1/s]` below which friction falls to zero: less than elsewhere, for the creep of a bed that rests is as
+    /// much as the least transport that is sought.
+    #[schemars(transform = up_to(1.0, "such as 5e-4"))]
+    pub regularisation_rate: f64,
+    /// Lengths.
+    #[serde(flatten)]
+    pub lengths: GrainUnits,
+}
+
+impl Onset {
+    pub(super) fn of(diameters: &[f64], lengths: GrainUnits) -> Self {
+        Self { diameters: diameters.to_vec(), regularisation_rate: 5e-4, lengths }
+    }
+}
+
+impl GrainUnits {
+    /// Few cells and a shallow bed: enough where little moves.
+    pub(super) const SHALLOW: Self = Self { relative_depth: 12.0, relative_bed_depth: 4.0, cells_per_diameter: 10.0 };
+    /// Accurate.
+    pub(super) const DEEP: Self = Self { relative_depth: 20.0, relative_bed_depth: 6.0, cells_per_diameter: 20.0 };
+}
+
+impl Similar {
+    pub(super) const NONE: Self = Self {
+        shields_number: 0.0,
+        diameter: 2e-3,
+        lengths: GrainUnits { relative_depth: 20.0, relative_bed_depth: 6.0, cells_per_diameter: 12.0 },
+    };
+}
+
+/// The runs of both.
+pub(super) fn runs(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
+    let BedLoad1dParameters { similar, onset, closures, .. } = parameters;
+    let of = |lengths: &GrainUnits, purpose, shields_number, diameter, closures| BedLoad1dRun {
+        purpose,
+        stream: lengths.stream(parameters, shields_number, diameter),
+        closures,
+        cell_height: diameter / lengths.cells_per_diameter,
+    };
+    let mut runs = Vec::new();
+    if similar.shields_number > 0.0 {
+        runs.push(of(&similar.lengths, Purpose::Similar, similar.shields_number, similar.diameter, *closures));
+    }
+    let closures = Closures { regularisation_rate: onset.regularisation_rate, ..*closures };
+    for &diameter in &onset.diameters {
+        let shields_number =
+            critical_shields_number(onset.lengths.stream(parameters, 1.0, diameter).dimensionless_diameter());
+        runs.push(of(&onset.lengths, Purpose::Onset, shields_number, diameter, closures));
+    }
+    runs
+}
+
+/// Checks both.
+pub(super) fn check(parameters: &BedLoad1dParameters) -> Result<(), ParameterError> {
+    parameters.similar.lengths.check("similar")?;
+    parameters.onset.lengths.check("onset")?;
+    for run in runs(parameters) {
+        if run.purpose == Purpose::Similar {
+            super::runs::check_sliding("similar.shields_number", parameters.similar.shields_number, &run)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,148 @@
+//! Bed load over the height as others have found it: a grain simulation (Maurin et al.) and a measured sheet flow
+//! (Revil-Baudard et al. 2015), tables of `reference-data/bed-load`.
+
+use super::bed_load_layer::Stream;
+use super::shipped::read_shipped;
+use super::{MeasuredData, ReferenceError};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Whose layer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MeasuredBedLoad {
+    /// Grains of 6 mm and density 2.5 on a slope of 0.05, simulated one by one.
+    GrainSimulation,
+    /// Plastic grains of 3 mm, whose measured transport is three to four times a layer's: eddies carry a part of them.
+    SheetFlow,
+}
+
+/// A column of profile points, heights above the layer's z = 0 `[m]` first.
+type Points = Vec<(f64, f64)>;
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BedLoadProfiles {
+    /// φ `[-]`.
+    pub solid_fraction: Points,
+    /// Velocity of the grains, of the sheet flow that of both phases `[m/s]`.
+    pub grain_velocity: Points,
+    /// Velocity of the water `[m/s]`; none of the sheet flow's own.
+    pub fluid_velocity: Points,
+    /// q* = ∫ φ u_s dz/√((s − 1) g d³) of these points `[-]`.
+    pub transport: f64,
+    /// Where it comes from.
+    pub source: String,
+}
+
+impl MeasuredBedLoad {
+    /// Its name in parameters and results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::GrainSimulation => "grain-simulation",
+            Self::SheetFlow => "sheet-flow",
+        }
+    }
+
+    /// Height of the layer's z = 0 in the table `[m]`: there the table's grains, packed at φ_max, would end.
+    fn level(self) -> f64 {
+        match self {
+            Self::GrainSimulation => 0.0748,
+            Self::SheetFlow => 0.0108,
+        }
+    }
+
+    /// Its stream, over a bed of ten grains.
+    #[must_use]
+    pub fn stream(self) -> Stream {
+        let water = |slope, flow_depth, grain_density, grain_diameter| Stream {
+            slope,
+            flow_depth,
+            bed_depth: 10.0 * grain_diameter,
+            held_depth: 0.0,
+            gravity: 9.81,
+            fluid_density: 1000.0,
+            kinematic_viscosity: 1e-6,
+            grain_density,
+            grain_diameter,
+        };
+        match self {
+            Self::GrainSimulation => water(0.05, 0.108, 2500.0, 6e-3),
+            // u_* = √(g h i) = 0.05 m/s under 0.162 m of water above the bed
+            Self::SheetFlow => water(0.0025 / (9.81 * 0.162), 0.162, 1192.0, 3e-3),
+        }
+    }
+
+    /// Its profiles.
+    #[must_use]
+    pub fn profiles(self) -> BedLoadProfiles {
+        let level = self.level();
+        let points = |table: &MeasuredData, name: &str| -> Result<Points, ReferenceError> {
+            let heights = table.numbers("height")?.iter().map(|height| height - level);
+            Ok(heights.zip(table.numbers(name)?.iter().copied()).collect())
+        };
+        let unit = self.stream().transport_unit();
+        match self {
+            Self::GrainSimulation => read_shipped("bed-load/grain-simulation.csv", |table| {
+                let (fraction, grains) = (points(table, "solid fraction")?, points(table, "grain velocity")?);
+                Ok(BedLoadProfiles {
+                    transport: flux(&fraction, &grains) / unit,
+                    solid_fraction: fraction,
+                    grain_velocity: grains,
+                    fluid_velocity: points(table, "fluid velocity")?,
+                    source: table.metadata.source.clone(),
+                })
+            }),
+            Self::SheetFlow => {
+                let fraction =
+                    read_shipped("bed-load/sheet-flow-fraction.csv", |table| points(table, "solid fraction"));
+                read_shipped("bed-load/sheet-flow-velocity.csv", |table| {
+                    let grains = points(table, "velocity")?;
+                    Ok(BedLoadProfiles {
+                        transport: flux(&fraction, &grains) / unit,
+                        solid_fraction: fraction.clone(),
+                        grain_velocity: grains,
+                        fluid_velocity: Points::new(),
+                        source: table.metadata.source.clone(),
+                    })
+                })
+            }
+        }
+    }
+}
+
+/// ∫ φ u dz `[m²/s]` over the heights that both have, by trapezia of φ's heights cut into tenths.
+fn flux(fraction: &Points, velocity: &Points) -> f64 {
+    let line = |points: &Points, height: f64| -> f64 {
+        let above = points.partition_point(|point| point.0 <= height).clamp(1, points.len() - 1);
+        let ((a, low), (b, high)) = (points[above - 1], points[above]);
+        low + ((height - a) / (b - a)).clamp(0.0, 1.0) * (high - low)
+    };
+    let carried = |height: f64| line(fraction, height) * line(velocity, height);
+    let piece = |(from, to): (f64, f64)| -> f64 {
+        let width = (to - from) / 10.0;
+        (0..10).map(|k| carried(from + (f64::from(k) + 0.5) * width) * width).sum()
+    };
+    fraction.windows(2).map(|pair| piece((pair[0].0, pair[1].0))).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn transports_are_those_of_the_notes_beside_the_tables() {
+        // the notes integrate all rows, the tables hold some
+        let transport = |of: MeasuredBedLoad| of.profiles().transport;
+        assert!((transport(MeasuredBedLoad::GrainSimulation) / 2.34 - 1.0).abs() < 0.06);
+        assert!((transport(MeasuredBedLoad::SheetFlow) / 5.1 - 1.0).abs() < 0.06);
+    }
+
+    #[test]
+    fn streams_have_the_shields_numbers_of_their_sources() {
+        let shields = |of: MeasuredBedLoad| of.stream().shields_number();
+        assert!((shields(MeasuredBedLoad::GrainSimulation) - 0.60).abs() < 1e-9);
+        assert!((shields(MeasuredBedLoad::SheetFlow) / 0.44 - 1.0).abs() < 0.01);
+    }
+}
