@@ -1,7 +1,7 @@
 //! What a case file may ask for.
 
 use super::continuum::LAYER_CELL;
-use super::parameters::{BedLoadParameters, Grains};
+use super::parameters::{BedLoadParameters, Grains, Stage};
 use crate::case::ParameterError;
 use crate::cases::rules;
 use crate::reference::bed_load_layer::{Closures, MixingLength};
@@ -101,6 +101,11 @@ impl BedLoadParameters {
                 let field = format!("{path}.spacings[{place}]");
                 let remedy = "0.001 for 1 mm; the period must hold 7";
                 rules::between(&field, spacing, 1e-4, continuum.length / 7.2, remedy)?;
+            }
+            if runs.stage == Stage::Dilating && !runs.pair_laws.is_empty() {
+                let given = format!("{:?}", runs.pair_laws);
+                let (rule, remedy) = ("empty where grains dilate", "they have columns instead of pairs");
+                return Err(ParameterError::field(&format!("{path}.pair_laws"), given, rule, remedy));
             }
             check_time(&path, runs.duration, runs.averaging_time)?;
         }

@@ -25,8 +25,8 @@ pub struct ContinuumRun {
     pub continuum: Continuum,
     /// Stage.
     pub stage: Stage,
-    /// Pair law.
-    pub pair_law: PairLaw,
+    /// Pair law; none of grains that dilate.
+    pub pair_law: Option<PairLaw>,
     /// Velocities at the start over those of the 1-D layer `[-]`.
     pub start: f64,
     /// Spacing `[m]`.
@@ -49,7 +49,8 @@ impl ContinuumRun {
 
     pub(super) fn numerics(&self) -> ProjectionNumerics {
         let of_case = self.continuum.numerics;
-        ProjectionNumerics { pair_law: self.pair_law, time_step: of_case.time_step * self.spacing / 1e-3, ..of_case }
+        let pair_law = self.pair_law.unwrap_or(of_case.pair_law);
+        ProjectionNumerics { pair_law, time_step: of_case.time_step * self.spacing / 1e-3, ..of_case }
     }
 
     /// The 1-D layer that the run is verified against.
@@ -147,7 +148,7 @@ impl ContinuumRun {
             filling,
             wall,
             spacing: self.spacing,
-            smoothing_ratio: if dilates { self.continuum.smoothing_ratio } else { numerics.smoothing_ratio },
+            smoothing_ratio: numerics.smoothing_ratio,
             density: grain_density,
             grain_diameter,
             law: Rheology::RootMuI(RootMuI {
@@ -160,14 +161,12 @@ impl ContinuumRun {
             }),
             load: solver::SedimentLoad::Stratified,
             pressure: if dilates {
-                let dilatancy = Dilatancy {
-                    dilation: closures.dilation,
-                    packing,
-                    grain_diameter,
-                    grain_density,
-                    bounds: self.continuum.pressure_bounds,
-                };
-                solver::SedimentPressure::Dilatant { dilatancy, fixed_filling: packing }
+                let dilatancy = Dilatancy { dilation: closures.dilation, packing, grain_diameter, grain_density };
+                solver::SedimentPressure::Dilatant {
+                    dilatancy,
+                    fixed_filling: packing,
+                    columns: self.continuum.columns,
+                }
             } else {
                 solver::SedimentPressure::AlongBed
             },
@@ -175,6 +174,54 @@ impl ContinuumRun {
             drag_form: solver::DragForm::Exchange,
             drag_smoothing_length: numerics.smoothing_ratio * self.spacing,
             gravity: Vector::<2>::new(gravity * run.slope, -buoyancy * gravity),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parameters::{BedLoadParameters, StageRuns};
+    use super::super::runs::{Formulation, runs};
+    use super::*;
+    use crate::case::{Parameters, Tier};
+    use bagnold_solver::incompressible::DrivenGrains;
+
+    /// q* of the grains over the layer's where the water is the layer's own, a mean over the last half second.
+    fn transport_ratio(slope: f64, spacing: f64, start: f64) -> f64 {
+        let mut parameters = BedLoadParameters::of_tier(Tier::Quick);
+        parameters.continuum.runs = vec![StageRuns {
+            stage: Stage::Dilating,
+            slopes: vec![slope],
+            pair_laws: Vec::new(),
+            starts: vec![start],
+            spacings: vec![spacing],
+            duration: 2.0,
+            averaging_time: 0.5,
+        }];
+        let run = runs(&parameters).pop().expect("one run");
+        let Formulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
+        let layer = own.layer(run.stream()).expect("a steady layer");
+        let water = |z: f64| layer.at(z).fluid_velocity;
+        let channel = own.channel(&run, &layer, &water);
+        let (length, time_step) = (channel.fluid.length(), channel.numerics.time_step);
+        let mut grains = DrivenGrains::new(channel.scene()).expect("a valid scene");
+        let (mut sum, mut count) = (0.0, 0.0);
+        for step in 0..(run.duration / time_step) as usize {
+            assert!(grains.step(time_step), "step {step}");
+            if step as f64 * time_step > run.duration - run.averaging_time {
+                let momentum = grains.masses().iter().zip(grains.grains().1).fold(0.0, |sum, (m, u)| sum + m * u[0]);
+                sum += momentum / run.materials.grain_density / length;
+                count += 1.0;
+            }
+        }
+        sum / count / run.stream().transport_unit() / layer.transport()
+    }
+
+    #[test]
+    fn grains_alone_carry_what_the_layer_carries_in_the_layers_water() {
+        for (slope, spacing, start) in [(0.02, 7e-4, 1.0), (0.03, 1e-3, 1.0), (0.03, 7e-4, 0.3), (0.05, 1e-3, 1.0)] {
+            let ratio = transport_ratio(slope, spacing, start);
+            assert!((ratio - 1.0).abs() < 0.02, "slope {slope}, {spacing} m, start {start}: {ratio}");
         }
     }
 }

@@ -158,6 +158,17 @@ fn continuum(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedL
     let Some(layer) = &data.layer else { return };
     metrics.push(channel::particles_lost(&variant, &record.clone().map(|data| data.channel)));
     common(metrics, run, record);
+    metrics.push(
+        channel::MOMENTUM_RESIDUAL
+            .of(&variant, data.channel.momentum.residual())
+            .against(
+                Some(0.0),
+                "change of momentum = gravity − what held grains and floor take; particles that cross a gradient of φ \
+                 change the share of their mass that counts",
+                Confidence::Exact,
+            )
+            .with_snapshot_tolerance(0.1, 1e-3),
+    );
     let source = "the 1-D layer of the same closures";
     let judged = run.averaging_time >= JUDGED_FROM && own.is_judged();
     let gated = |metric: Metric, holds: bool, limit, reason: &str| {

@@ -3,8 +3,7 @@
 use crate::cases::channel::TurbulenceClosure;
 use crate::cases::rules;
 use crate::reference::bed_load_layer::Closures;
-use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
-use bagnold_solver::material::dilatancy::PressureBounds;
+use bagnold_solver::incompressible::{ColumnNumerics, PairLaw, ProjectionNumerics};
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::parameter::{between, each, positive};
@@ -81,13 +80,12 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// The pair law whose runs are judged; runs of others show what a law does. Grains in rows have no rate but that of
-    /// the flow. Grains that dilate jostle: with the pair's own rate a raft of them slides on a thin layer, the faster the
-    /// finer the spacing, while the averaged rate comes nearer to the layer.
-    pub(super) const fn judged_pair_law(self) -> PairLaw {
+    /// The pair law whose runs are judged; runs of others show what a law does. Grains that dilate know columns and no
+    /// pairs.
+    pub(super) const fn judged_pair_law(self) -> Option<PairLaw> {
         match self {
-            Self::Porous | Self::Frozen => PairLaw::PairRateMeanLoad,
-            Self::Dilating => PairLaw::AveragedPairRate,
+            Self::Porous | Self::Frozen => Some(PairLaw::PairRateMeanLoad),
+            Self::Dilating => None,
         }
     }
 
@@ -108,7 +106,7 @@ pub struct StageRuns {
     /// Slopes `[-]`.
     #[schemars(transform = each(rules::driving_slope()))]
     pub slopes: Vec<f64>,
-    /// Pair laws.
+    /// Pair laws; none of grains that dilate.
     pub pair_laws: Vec<PairLaw>,
     /// Velocities at the start over those of the 1-D layer `[-]`.
     #[schemars(transform = each(between(0.0, 3.0, "1 starts as the 1-D layer flows")))]
@@ -120,6 +118,16 @@ pub struct StageRuns {
     pub duration: f64,
     /// Averaging window before its end `[s]`.
     pub averaging_time: f64,
+}
+
+impl StageRuns {
+    /// One for each run, none where grains know no pairs.
+    pub(super) fn pair_laws(&self) -> Vec<Option<PairLaw>> {
+        match self.stage {
+            Stage::Porous | Stage::Frozen => self.pair_laws.iter().copied().map(Some).collect(),
+            Stage::Dilating => vec![None],
+        }
+    }
 }
 
 /// Volume fractions, literature closures, nothing fitted.
@@ -138,14 +146,11 @@ pub struct Continuum {
     pub closures: Closures,
     /// Solid fraction of the layer below which a row carries no sediment particle `[-]`.
     pub least_fraction: f64,
-    /// Bounds of the pressure of dilating sediment.
-    pub pressure_bounds: PressureBounds,
-    /// Smoothing length of dilating sediment over its spacing `[-]`.
-    #[schemars(transform = between(1.0, 3.0, "1.5 for dilating sediment"))]
-    pub smoothing_ratio: f64,
     /// Largest random displacement of dilating sediment in spacings `[-]`.
     #[schemars(transform = between(0.0, 0.5, "0.3 breaks the rows"))]
     pub sediment_jitter: f64,
+    /// The columns of dilating sediment.
+    pub columns: ColumnNumerics,
     /// Numerics at a spacing of 1 mm; the time step goes with the spacing.
     pub numerics: ProjectionNumerics,
 }

@@ -1,0 +1,253 @@
+//! Columns against what they must conserve and against exact layers.
+
+use super::super::ProjectionNumerics;
+use super::super::scene::{Bed, DragForm, Fluid, ParticleSet, SedimentLoad, Turbulence};
+use super::super::simulation::IncompressibleSimulation;
+use super::super::stratification::Strata;
+use super::*;
+use crate::domain::Domain;
+use crate::material::drag::DragLaw;
+use crate::material::rheology::{Rheology, RootMuI};
+use crate::material::suspension_viscosity::SuspensionViscosity;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+const SPACING: f64 = 1e-3;
+const PACKING: f64 = 0.6;
+const DENSITY: f64 = 2600.0;
+const DIAMETER: f64 = 5e-3;
+
+const LAW: Rheology = Rheology::RootMuI(RootMuI {
+    static_friction: 0.35,
+    limiting_friction: 0.97,
+    reference_inertia: 0.69,
+    grain_diameter: DIAMETER,
+    grain_density: DENSITY,
+    regularisation_rate: 5e-3,
+});
+
+/// A bed of 8 mm, the lower 4 mm held, under 12 mm of water of a velocity.
+fn scene(length: f64, velocity: impl Fn(f64) -> f64, seed: u64) -> IncompressibleScene<2> {
+    let columns = (length / SPACING).round() as i32;
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let mut rows = |from: i32, to: i32, jitter: f64| -> Vec<Vector<2>> {
+        let site = |i: i32, k: i32| Vector::<2>::new(f64::from(i) + 0.5, f64::from(k) + 0.5);
+        let mut displaced =
+            |x: Vector<2>| (x + Vector::<2>::from_fn(|_, _| jitter * (2.0 * random.random::<f64>() - 1.0))) * SPACING;
+        (from..to).flat_map(|k| (0..columns).map(move |i| site(i, k))).map(&mut displaced).collect()
+    };
+    let water = rows(-8, 12, 1e-3);
+    let grains = rows(-4, 0, 0.3);
+    let at_rest = vec![Vector::zeros(); grains.len()];
+    IncompressibleScene {
+        fluid: Fluid {
+            particles: ParticleSet {
+                velocity: water.iter().map(|x| Vector::<2>::new(velocity(x[1]), 0.0)).collect(),
+                position: water,
+            },
+            wall: rows(-12, -8, 0.0),
+            spacing: SPACING,
+            density: 1000.0,
+            kinematic_viscosity: 1e-6,
+            turbulence: Turbulence::Stratified,
+            bed: Bed::NoSlip(-8e-3),
+            gravity: Vector::<2>::new(0.3, -9.81),
+        },
+        sediment: Some(Sediment {
+            filling: vec![PACKING; grains.len()],
+            particles: ParticleSet { position: grains, velocity: at_rest },
+            wall: rows(-11, -4, 0.0),
+            spacing: SPACING,
+            smoothing_ratio: 1.2,
+            density: DENSITY,
+            grain_diameter: DIAMETER,
+            law: LAW,
+            load: SedimentLoad::Stratified,
+            pressure: SedimentPressure::Dilatant {
+                dilatancy: Dilatancy {
+                    dilation: 0.31,
+                    packing: PACKING,
+                    grain_diameter: DIAMETER,
+                    grain_density: DENSITY,
+                },
+                fixed_filling: PACKING,
+                columns: ColumnNumerics::default(),
+            },
+            drag: DragLaw::DiFelice,
+            drag_form: DragForm::Exchange,
+            drag_smoothing_length: 1.2 * SPACING,
+            gravity: Vector::<2>::new(0.3, -6.0),
+        }),
+        solid_fraction: SolidFraction::Averaged(Stratification::of(Strata {
+            base: -8e-3,
+            interval: 2.5e-4,
+            solid_fraction: vec![0.0; 80],
+            packing: PACKING,
+            buoyant_weight: 15_696.0,
+            bed_level: 0.0,
+            depth: 12e-3,
+            suspension_viscosity: SuspensionViscosity::default(),
+        })),
+        domain: Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: length }, AxisBoundary::Open] },
+        numerics: ProjectionNumerics { time_step: 1.5e-4, fluctuation_rate: 500.0, ..ProjectionNumerics::default() },
+    }
+}
+
+fn shear_flow(height: f64) -> f64 {
+    (60.0 * (height + 2e-3)).max(0.0)
+}
+
+fn columns_of(mut scene: IncompressibleScene<2>) -> (Columns<2>, IncompressibleScene<2>, Phase<2>) {
+    let water = &scene.fluid;
+    let fluid = Phase::new(&water.particles, &water.wall, water.spacing, water.density, 1.2);
+    let columns = Columns::of(&mut scene).expect("dilating grains");
+    (columns, scene, fluid)
+}
+
+/// Momentum along the bed `[kg/s]`.
+fn momentum(columns: &Columns<2>) -> f64 {
+    let Grains { velocity, mass, .. } = &columns.grains;
+    velocity.iter().zip(mass).fold(0.0, |sum, (velocity, mass)| sum + velocity[0] * mass)
+}
+
+#[test]
+fn nodes_have_the_mass_and_the_momentum_of_the_particles() {
+    for length in [0.01, 0.03] {
+        let (mut columns, mut scene, fluid) = columns_of(scene(length, shear_flow, 3));
+        let mut random = Pcg64Mcg::seed_from_u64(4);
+        for velocity in &mut columns.grains.velocity {
+            velocity[0] = random.random::<f64>();
+        }
+        columns.gather(&mut scene, &fluid).expect("within the law");
+        let Columns { grid, nodes, grains, .. } = &columns;
+        assert_eq!(grid.row.count, (length / 0.01).round() as usize);
+        let mass: f64 = nodes.mass.iter().sum::<f64>() * grid.row.width;
+        // to the top of what is held, where the hat of a node is half in it
+        let held = (grid.held as f64 - 0.5) * grid.cell * length * PACKING * DENSITY;
+        let free: f64 = grains.mass.iter().sum();
+        assert!((mass / (held + free) - 1.0).abs() < 1e-13, "{mass} of {} kg/m", held + free);
+        // what is near held nodes has its momentum there; the rest is on the free nodes
+        let of_nodes: f64 = (0..grid.len())
+            .filter(|node| node % grid.nodes >= grid.held)
+            .map(|node| nodes.mass[node] * nodes.velocity[node] * grid.row.width)
+            .sum();
+        let of_particles: f64 = (0..grains.len())
+            .flat_map(|a| grid.weights(grains.position[a][0], grains.position[a][1]).map(|entry| (a, entry)))
+            .filter(|(_, (node, _))| node % grid.nodes >= grid.held)
+            .map(|(a, (_, weight))| weight * grains.mass[a] * grains.velocity[a][0])
+            .sum();
+        assert!((of_nodes / of_particles - 1.0).abs() < 1e-13, "{of_nodes} of {of_particles} kg/s");
+    }
+}
+
+#[test]
+fn drag_is_equal_and_opposite_and_the_balance_of_the_grains_closes() {
+    let (mut columns, mut scene, fluid) = columns_of(scene(0.02, shear_flow, 5));
+    let material = scene.sediment.clone().expect("a sediment");
+    let time_step = 1.5e-4;
+    for _ in 0..200 {
+        let before = momentum(&columns);
+        columns.gather(&mut scene, &fluid).expect("within the law");
+        columns.advance(&material, &fluid.velocity, time_step).expect("solved");
+        let width = columns.grid.row.width;
+        let on_grains: f64 = columns.drag.impulse.iter().sum::<f64>() * width;
+        let ColumnDrag { hold, push, .. } = &columns.drag;
+        let on_water = fluid
+            .velocity
+            .iter()
+            .zip(hold.iter().zip(push))
+            .fold(0.0, |sum, (u, (hold, push))| sum + (push - hold * u[0]) * time_step);
+        assert!((on_grains + on_water).abs() < 1e-13 * on_grains.abs());
+        let driven: f64 = columns.grains.mass.iter().sum::<f64>() * material.gravity[0] * time_step;
+        let expected = before + driven + on_grains + columns.held_impulse;
+        assert!((momentum(&columns) - expected).abs() < 1e-13 * on_grains.abs(), "{} {expected}", momentum(&columns));
+    }
+    assert!(momentum(&columns) > 0.0);
+}
+
+/// In steady motion the stress at every face is what drives the nodes above it, and the law says the rate there.
+#[test]
+fn friction_tends_to_the_profile_of_the_law() {
+    let (count, cell, time_step) = (40, 5e-4, 1e-3);
+    let mass = vec![PACKING * DENSITY * cell; count];
+    let load = |face: usize| (count - face) as f64 * PACKING * cell * 15_696.0;
+    let load_below: Vec<f64> = (0..count).map(load).collect();
+    // 0.36 to 0.6 of the load, from the base up
+    let stress = |face: usize| load(face) * (0.36 + 0.24 * face as f64 / count as f64);
+    let force: Vec<f64> =
+        (0..count).map(|node| stress(node) - if node + 1 < count { stress(node + 1) } else { 0.0 }).collect();
+    let mut velocity = vec![0.0; count];
+    let mut solve = FrictionSolve::default();
+    let numerics = ColumnNumerics { friction_tolerance: 1e-12, ..ColumnNumerics::default() };
+    for _ in 0..20_000 {
+        let momentum: Vec<f64> = (0..count).map(|node| mass[node] * velocity[node] + force[node] * time_step).collect();
+        let (law, momentum) = (&LAW, momentum.as_slice());
+        let chain = Chain { law, cell, time_step, mass: &mass, momentum, load_below: &load_below };
+        let held = solve.solve(chain, &mut velocity, &numerics).expect("solved");
+        assert!(held <= stress(0) * (1.0 + 1e-9));
+    }
+    let mut expected = 0.0;
+    for node in 0..count {
+        let (mut low, mut high) = (0.0, 1e3);
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if LAW.viscosity(middle, load(node)) * middle < stress(node) { low = middle } else { high = middle }
+        }
+        expected += low * cell;
+        assert!((velocity[node] / expected - 1.0).abs() < 1e-6, "node {node}: {} or {expected}", velocity[node]);
+    }
+}
+
+#[test]
+fn a_node_without_mass_passes_the_stress_on() {
+    let (cell, time_step) = (5e-4, 1e-4);
+    let solve = |mass: &[f64], momentum: &[f64], load_below: &[f64]| {
+        let mut velocity = vec![0.0; mass.len()];
+        let chain = Chain { law: &LAW, cell, time_step, mass, momentum, load_below };
+        FrictionSolve::default().solve(chain, &mut velocity, &ColumnNumerics::default()).expect("solved");
+        velocity
+    };
+    let velocity = solve(&[0.8, 0.0, 0.8], &[1e-3, 0.0, 4e-3], &[9.4, 4.7, 4.7]);
+    assert!(velocity.iter().all(|u| u.is_finite()) && velocity.is_sorted(), "{velocity:?}");
+    assert!((velocity[1] - 0.5 * (velocity[0] + velocity[2])).abs() < 1e-6, "{velocity:?}");
+}
+
+/// Grains at rest under still water lie as they were laid: no eddy finds room among them.
+#[test]
+fn a_resting_bed_leaves_no_room() {
+    let (mut columns, mut scene, fluid) = columns_of(scene(0.01, |_| 0.0, 7));
+    let mut material = scene.sediment.clone().expect("a sediment");
+    material.gravity[0] = 0.0;
+    for _ in 0..4000 {
+        columns.gather(&mut scene, &fluid).expect("within the law");
+        columns.advance(&material, &fluid.velocity, 1.5e-4).expect("solved");
+    }
+    let layer = scene.solid_fraction.stratification().expect("strata");
+    // ∫ (1 − φ/φ_max) dz up to where all grains are below, less the height above the bed's top
+    let strata = layer.strata();
+    let cells = strata.solid_fraction.len();
+    let top = strata.base + cells as f64 * strata.interval;
+    let room: f64 = strata.solid_fraction[columns.grid.held..]
+        .iter()
+        .map(|fraction| (1.0 - fraction / PACKING) * strata.interval)
+        .sum();
+    let above = top - 0.0;
+    assert!((room - above).abs() < 1e-5, "{} mm of room in the bed", 1e3 * (room - above));
+    let length = layer.at(&Vector::<2>::new(0.0, -1.5e-3)).mixing_length;
+    assert!(length < 0.41 * 1e-5, "{length} m of eddies in a bed at rest");
+    let fastest = columns.grains.velocity.iter().fold(0.0_f64, |most, v| most.max(v.norm()));
+    assert!(fastest < 1e-4, "{fastest} m/s");
+}
+
+#[test]
+fn the_balance_of_both_phases_closes() {
+    let mut simulation = IncompressibleSimulation::new(scene(0.02, shear_flow, 5)).expect("a valid scene");
+    for _ in 0..50 {
+        let drag: f64 = simulation.drag().iter().map(|force| force[0]).sum();
+        assert!(drag.is_finite());
+        simulation.step().expect("a step");
+    }
+    let (positions, velocities) = simulation.sediment();
+    assert!(positions.iter().all(|x| x[1] > -4.5e-3 && x[1] < 6e-3));
+    assert!(velocities.iter().all(|u| u[0] > -1e-3 && u[0] < 1.0));
+}
