@@ -18,6 +18,9 @@ use serde::Serialize;
 /// Height of a cell of the 1-D layer `[m]`.
 pub(super) const LAYER_CELL: f64 = 2.5e-4;
 
+/// Rows of held grains below the water's floor, as many as a kernel reaches.
+const WALL_ROWS: usize = 3;
+
 /// What is special to one run.
 #[derive(Debug, Clone, Serialize)]
 pub struct ContinuumRun {
@@ -51,6 +54,14 @@ impl ContinuumRun {
         let of_case = self.continuum.numerics;
         let pair_law = self.pair_law.unwrap_or(of_case.pair_law);
         ProjectionNumerics { pair_law, time_step: of_case.time_step * self.spacing / 1e-3, ..of_case }
+    }
+
+    /// Spacing of the sediment's particles `[m]`.
+    fn sediment_spacing(&self) -> f64 {
+        match self.stage {
+            Stage::Porous | Stage::Frozen => self.spacing,
+            Stage::Dilating => self.spacing / f64::from(self.continuum.sediment_refinement),
+        }
     }
 
     /// The 1-D layer that the run is verified against.
@@ -116,14 +127,17 @@ impl ContinuumRun {
     fn placed(&self, fluid: Lattice, seed: u64, layer: &LayerState) -> Placed {
         let Continuum { closures, least_fraction, held_depth, bed_depth, .. } = &self.continuum;
         let held = held_depth - bed_depth;
-        let lattice = Lattice { bottom: fluid.bottom - 3.0 * fluid.spacing, rows: fluid.rows + 3, ..fluid };
+        let spacing = self.sediment_spacing();
+        let part = (fluid.spacing / spacing).round() as usize;
+        let (rows, columns) = (part * fluid.rows + WALL_ROWS, part * fluid.columns);
+        let lattice = Lattice { spacing, rows, columns, bottom: fluid.bottom - WALL_ROWS as f64 * spacing };
         let jitter = if self.stage == Stage::Dilating { self.continuum.sediment_jitter } else { 0.0 };
         let mut placed = Placed::default();
         for (site, place) in lattice.sites().zip(lattice.displaced(jitter, seed.wrapping_add(1))) {
             let point = layer.at(site[1]);
             let fraction = match self.stage {
-                Stage::Dilating if site[1] < 0.0 => closures.largest_fraction,
-                Stage::Dilating => 0.0,
+                // the top row has what lies below the bed's level, so that no grain is lost or won
+                Stage::Dilating => closures.largest_fraction * (0.5 - site[1] / spacing).clamp(0.0, 1.0),
                 Stage::Porous | Stage::Frozen => point.solid_fraction,
             };
             if site[1] < held || (self.stage == Stage::Porous && fraction > *least_fraction) {
@@ -147,7 +161,7 @@ impl ContinuumRun {
             particles: free,
             filling,
             wall,
-            spacing: self.spacing,
+            spacing: self.sediment_spacing(),
             smoothing_ratio: numerics.smoothing_ratio,
             density: grain_density,
             grain_diameter,

@@ -146,7 +146,11 @@ pub struct Continuum {
     pub closures: Closures,
     /// Solid fraction of the layer below which a row carries no sediment particle `[-]`.
     pub least_fraction: f64,
-    /// Largest random displacement of dilating sediment in spacings `[-]`.
+    /// Particles of dilating sediment along a spacing of the water: they cost little, and a layer of a grain's thickness
+    /// wants many.
+    #[schemars(transform = between(1.0, 8.0, "2 for an error below 1 % in given water"))]
+    pub sediment_refinement: u32,
+    /// Largest random displacement of dilating sediment in its spacings `[-]`.
     #[schemars(transform = between(0.0, 0.5, "0.3 breaks the rows"))]
     pub sediment_jitter: f64,
     /// The columns of dilating sediment.

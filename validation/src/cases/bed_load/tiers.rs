@@ -115,6 +115,7 @@ fn quick() -> BedLoadParameters {
             length: 0.01,
             closures: Closures::default(),
             least_fraction: 2e-3,
+            sediment_refinement: 2,
             sediment_jitter: 0.3,
             columns: ColumnNumerics::default(),
             numerics: ProjectionNumerics {
