@@ -4,11 +4,12 @@
 //! φ(z) is given, one for the whole of a flat bed, or that of the columns of grains that dilate, between whose middles it
 //! changes along straight lines.
 //! - overburden p′ = ∫_z φ (ρ_s − ρ_f) g cosθ dz `[Pa]`
-//! - room ∫ (1 − φ/φ_max) dz from the base, never below 0, for the mixing length l = κ √(1 − z/h) × room `[m]`
+//! - room R = ∫ (1 − φ/φ_max) dz from the base, never below 0, and the roughness r of grains that rest, for the mixing
+//!   length l = κ √(1 − z/h) (R + r) `[m]`
 
 use super::scene::height_axis;
 use crate::material::suspension_viscosity::SuspensionViscosity;
-use crate::material::turbulence::StratifiedMixingLength;
+use crate::material::turbulence::{GrainRoughness, StratifiedMixingLength};
 use crate::vector::Vector;
 
 /// φ over equal intervals of height, and what its integrals need.
@@ -28,8 +29,12 @@ pub struct Strata {
     pub bed_level: f64,
     /// Depth of the flow above the bed `[m]`.
     pub depth: f64,
-    /// What the grains add to the fluid's viscosity.
+    /// Viscosity of the suspension: what it exceeds the fluid's by resists the strain of the grains.
     pub suspension_viscosity: SuspensionViscosity,
+    /// Roughness of grains that rest.
+    pub grain_roughness: GrainRoughness,
+    /// Grain diameter `[m]`.
+    pub grain_diameter: f64,
 }
 
 /// Columns of equal width next to each other along the bed, around a period.
@@ -74,8 +79,8 @@ pub(super) struct Stratum {
     pub(super) overburden: f64,
     /// l `[m]`.
     pub(super) mixing_length: f64,
-    /// Viscosity of the fluid over that of clear fluid `[-]`.
-    pub(super) relative_viscosity: f64,
+    /// Viscosity that the grains' strain adds over that of clear fluid `[-]`.
+    pub(super) added_viscosity: f64,
 }
 
 impl Stratification {
@@ -129,12 +134,15 @@ impl Stratification {
                 load += own;
             }
             // φ of particles scatters about φ_max in a bed: what one interval has too much the next has too little
-            let mut room = 0.0_f64;
+            let (mut room, mut loosened) = (0.0_f64, 0.0);
             for (place, (fraction, length)) in fraction.iter().zip(mixing_length).enumerate() {
                 let height = strata.base + (place as f64 + 0.5) * strata.interval - strata.bed_level;
                 let own = law.room(*fraction, strata.interval);
-                *length = law.length(height, room + 0.5 * own);
+                let own_loosened = strata.grain_roughness.loosened(fraction / strata.packing, strata.interval);
+                let roughness = strata.grain_roughness.room(loosened + 0.5 * own_loosened, strata.grain_diameter);
+                *length = law.length(height, room + 0.5 * own + roughness);
                 room = (room + own).max(0.0);
+                loosened += own_loosened;
             }
         }
     }
@@ -172,7 +180,7 @@ impl Stratification {
         let solid_fraction = line(&self.strata.solid_fraction).min(self.strata.packing);
         Stratum {
             solid_fraction,
-            relative_viscosity: self.strata.suspension_viscosity.relative(solid_fraction),
+            added_viscosity: self.strata.suspension_viscosity.relative(solid_fraction) - 1.0,
             overburden: line(&self.overburden),
             mixing_length: line(&self.mixing_length),
         }
@@ -196,6 +204,8 @@ mod tests {
             bed_level: 0.0,
             depth: 0.046,
             suspension_viscosity: SuspensionViscosity::default(),
+            grain_roughness: GrainRoughness { origin_depth: 0.0, ..GrainRoughness::default() },
+            grain_diameter: 5e-3,
         });
         let layer = |z: f64| layer.at(&Vector::<2>::new(0.3, z));
         assert!((layer(-0.010).overburden - 0.6 * 15_696.0 * 0.010).abs() < 1e-9);
@@ -204,5 +214,26 @@ mod tests {
         // above the bed the room is the height
         let expected = 0.41 * 0.023 * 0.5_f64.sqrt();
         assert!((layer(0.023).mixing_length / expected - 1.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_bed_at_rest_is_a_rough_wall() {
+        let fraction: Vec<f64> = (0..248).map(|k| if k < 64 { 0.6 } else { 0.0 }).collect();
+        let layer = Stratification::of(Strata {
+            base: -0.016,
+            interval: 2.5e-4,
+            solid_fraction: fraction,
+            packing: 0.6,
+            buoyant_weight: 1600.0 * 9.81,
+            bed_level: 0.0,
+            depth: 0.046,
+            suspension_viscosity: SuspensionViscosity::default(),
+            grain_roughness: GrainRoughness::default(),
+            grain_diameter: 5e-3,
+        });
+        // l = κ √(1 − z/h) (z + 0.2 d)
+        let length = layer.at(&Vector::<2>::new(0.0, 4.125e-3)).mixing_length;
+        let expected = 0.41 * (1.0 - 4.125 / 46.0_f64).sqrt() * 5.125e-3;
+        assert!((length / expected - 1.0).abs() < 1e-4, "{length} m");
     }
 }

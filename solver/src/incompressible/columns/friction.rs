@@ -1,5 +1,6 @@
 //! Friction of the grains of a column, implicit: m (u − uⁿ) = Δt (forces + τ above − τ below) with τ = η(γ, p′) γ of any
-//! law at the faces between nodes, γ = ∂_z u and the overburden p′ as its pressure.
+//! law at the faces between nodes, γ = ∂_z u and the overburden p′ as its pressure, and what the water between the grains
+//! adds, (1 − φ) ρ_f ν (η_r − 1) γ.
 //!
 //! Newton's method with the tangent of the stress and a share of the way from it to the secant: tangents alone overshoot
 //! where the friction yields, secants alone crawl. The share grows until secants are all there is, so that the iteration
@@ -22,6 +23,8 @@ pub(crate) struct Chain<'a> {
     pub(crate) momentum: &'a [f64],
     /// p′ of the face below each of them `[Pa]`.
     pub(crate) load_below: &'a [f64],
+    /// Viscosity that the water between the grains adds there `[Pa·s]`.
+    pub(crate) added_below: &'a [f64],
 }
 
 /// Storage of the solve, and the stress on the held node in the last one.
@@ -43,13 +46,14 @@ struct Stress {
     secant: f64,
 }
 
-/// τ of a law with its derivative from a difference of rates `[1/s]`.
-fn stress(law: &Rheology, rate: f64, pressure: f64, difference: f64) -> Stress {
+/// τ of a law and of an added viscosity `[Pa·s]`, with its derivative from a difference of rates `[1/s]`.
+fn stress(law: &Rheology, rate: f64, pressure: f64, added: f64, difference: f64) -> Stress {
     let speed = rate.abs();
-    let secant = law.viscosity(speed, pressure);
+    let friction = law.viscosity(speed, pressure);
     let beside = speed + difference;
-    let tangent = (law.viscosity(beside, pressure) * beside - secant * speed) / difference;
-    Stress { value: secant * rate, tangent: tangent.max(0.0), secant }
+    let tangent = ((law.viscosity(beside, pressure) * beside - friction * speed) / difference).max(0.0);
+    let secant = friction + added;
+    Stress { value: secant * rate, tangent: tangent + added, secant }
 }
 
 impl FrictionSolve {
@@ -89,7 +93,7 @@ impl FrictionSolve {
     /// The rows (M + Δt dτ/du) δ = m (uⁿ − u) + Δt (forces + friction); returns the stress on what is held `[Pa]`, and its
     /// Δt dτ/du `[kg/m²]`.
     fn assemble(&mut self, chain: Chain<'_>, velocity: &[f64], share: f64, tolerance: f64) -> (f64, f64) {
-        let Chain { law, cell, time_step, mass, momentum, load_below } = chain;
+        let Chain { law, cell, time_step, mass, momentum, load_below, added_below } = chain;
         let Self { lower, diagonal, right } = self;
         diagonal.clear();
         diagonal.extend_from_slice(mass);
@@ -102,7 +106,7 @@ impl FrictionSolve {
             let below = if node == 0 { 0.0 } else { velocity[node - 1] };
             let rate = (velocity[node] - below) / cell;
             let difference = tolerance / cell + f64::EPSILON.sqrt() * rate.abs();
-            let stress = stress(law, rate, load_below[node], difference);
+            let stress = stress(law, rate, load_below[node], added_below[node], difference);
             let stiffness = (stress.tangent + share * (stress.secant - stress.tangent).max(0.0)) * time_step / cell;
             diagonal[node] += stiffness;
             right[node] -= stress.value * time_step;

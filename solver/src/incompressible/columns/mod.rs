@@ -54,8 +54,6 @@ pub(super) struct Columns<const D: usize> {
     friction: FrictionSolve,
     /// Momenta of a column's free nodes `[kg/(m s)]`.
     momentum: Vec<f64>,
-    /// p′ below a column's free nodes `[Pa]`.
-    load_below: Vec<f64>,
     /// Velocities of the nodes after the step `[m/s]`.
     velocity: Vec<f64>,
     /// Velocities across the bed at the faces above the nodes `[m/s]`.
@@ -91,7 +89,6 @@ impl<const D: usize> Columns<D> {
             numerics,
             friction: FrictionSolve::default(),
             momentum: Vec::with_capacity(grid.nodes),
-            load_below: Vec::with_capacity(grid.nodes),
             velocity: vec![0.0; grid.len()],
             lift: vec![0.0; grid.len()],
             held_impulse: 0.0,
@@ -111,7 +108,13 @@ impl<const D: usize> Columns<D> {
     /// A slip that the drag law does not cover.
     pub(super) fn gather(&mut self, scene: &mut IncompressibleScene<D>, fluid: &Phase<D>) -> Result<(), Failure> {
         if let SolidFraction::Averaged(layer) = &mut scene.solid_fraction {
-            let laws = NodeLaws { dilatancy: &self.dilatancy, buoyant_weight: layer.strata().buoyant_weight };
+            let strata = layer.strata();
+            let laws = NodeLaws {
+                dilatancy: &self.dilatancy,
+                buoyant_weight: strata.buoyant_weight,
+                suspension_viscosity: &strata.suspension_viscosity,
+                fluid_viscosity: scene.fluid.density * scene.fluid.kinematic_viscosity,
+            };
             self.nodes.gather(&self.grid, &self.grains, laws);
             layer.renew(|fraction| fraction.copy_from_slice(&self.nodes.fraction));
         }
@@ -159,10 +162,15 @@ impl<const D: usize> Columns<D> {
             let driven = self.velocity[node] + material.gravity[0] * time_step;
             nodes.mass[node] * driven + self.drag.impulse[node]
         }));
-        self.load_below.clear();
-        self.load_below.extend_from_slice(&nodes.load[lowest - 1..free.end - 1]);
-        let (momentum, load_below) = (self.momentum.as_slice(), self.load_below.as_slice());
-        let chain = Chain { law: &material.law, cell: grid.cell, time_step, mass, momentum, load_below };
+        let chain = Chain {
+            law: &material.law,
+            cell: grid.cell,
+            time_step,
+            mass,
+            momentum: &self.momentum,
+            load_below: &nodes.load[lowest - 1..free.end - 1],
+            added_below: &nodes.added[lowest - 1..free.end - 1],
+        };
         let held = self.friction.solve(chain, &mut self.velocity[free.clone()], numerics).map_err(|change| {
             let limit = numerics.friction_tolerance;
             Failure { row: 0, quantity: Quantity::GrainFriction, value: change, limit }

@@ -4,6 +4,7 @@ use super::super::scene::height_axis;
 use super::grains::Grains;
 use super::grid::{ColumnGrid, ramp};
 use crate::material::dilatancy::Dilatancy;
+use crate::material::suspension_viscosity::SuspensionViscosity;
 use crate::vector::Vector;
 
 /// Fields of all nodes; arrays have the shape `[columns × nodes]`.
@@ -21,6 +22,8 @@ pub(crate) struct Nodes {
     pub(crate) target: Vec<f64>,
     /// p′ at the face above every node `[Pa]`.
     pub(crate) load: Vec<f64>,
+    /// Viscosity that the water between the grains adds to their friction at the face above every node `[Pa·s]`.
+    pub(crate) added: Vec<f64>,
     /// φ_max `[-]`.
     packing: f64,
 }
@@ -31,6 +34,9 @@ pub(crate) struct NodeLaws<'a> {
     pub(crate) dilatancy: &'a Dilatancy,
     /// (ρ_s − ρ_f) g cosθ `[Pa/m]`.
     pub(crate) buoyant_weight: f64,
+    pub(crate) suspension_viscosity: &'a SuspensionViscosity,
+    /// ρ_f ν `[Pa·s]`.
+    pub(crate) fluid_viscosity: f64,
 }
 
 impl Nodes {
@@ -43,7 +49,8 @@ impl Nodes {
         let count = grid.len();
         let density = dilatancy.grain_density;
         let mut new = Self { fixed_mass: vec![0.0; count], packing: dilatancy.packing, ..Self::default() };
-        for array in [&mut new.mass, &mut new.velocity, &mut new.fraction, &mut new.target, &mut new.load] {
+        let fields = [&mut new.mass, &mut new.velocity, &mut new.fraction, &mut new.target];
+        for array in fields.into_iter().chain([&mut new.load, &mut new.added]) {
             array.resize(count, 0.0);
         }
         // a row's mass per height, spread over its height
@@ -111,6 +118,11 @@ impl Nodes {
                 } else {
                     self.velocity[node - 1]
                 };
+            }
+            for node in first..grid.of_column(column).end - 1 {
+                let fraction = 0.5 * (self.bounded_fraction(node) + self.bounded_fraction(node + 1));
+                let added = laws.suspension_viscosity.relative(fraction) - 1.0;
+                self.added[node] = (1.0 - fraction) * laws.fluid_viscosity * added;
             }
             self.find_targets(grid, column, laws);
         }

@@ -1,4 +1,4 @@
-//! Viscosities of both phases: eddies and suspended grains in the water, yield and friction of the grains.
+//! Viscosities of both phases: eddies in the water, yield and friction of the grains.
 
 use super::super::neighbours::LEAST_TASK;
 use super::super::phase::{Phase, Phases};
@@ -52,10 +52,8 @@ impl Viscosities {
                     Turbulence::Smagorinsky(law) => law.eddy_viscosity(scene.fluid.spacing, rate),
                     Turbulence::Stratified => stratum.map_or(0.0, |s| eddy_viscosity(s.mixing_length, rate)),
                 };
-                let suspension = stratum.map_or(1.0, |stratum| stratum.relative_viscosity);
-                let molecular = scene.fluid.kinematic_viscosity * suspension;
                 *voidage = 1.0 - stratum.map_or(0.0, |stratum| stratum.solid_fraction);
-                *viscosity = *voidage * scene.fluid.density * (molecular + eddy);
+                *viscosity = *voidage * scene.fluid.density * (scene.fluid.kinematic_viscosity + eddy);
                 *rate_of = rate;
             });
         if let (Some(sediment), Some(material)) = (&phases.sediment, &scene.sediment) {

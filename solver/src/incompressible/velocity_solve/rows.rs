@@ -156,9 +156,8 @@ impl<const D: usize> VelocityRows<'_, D> {
         let Self { scene, phases, viscosities, .. } = *self;
         let rate = 0.5 * (viscosities.fluid_rate[a] + viscosities.fluid_rate[pair.source as usize]);
         let stratum = layer.at(&(phases.fluid.position[a] - pair.separation * 0.5));
-        let molecular = scene.fluid.kinematic_viscosity * stratum.relative_viscosity;
         let eddy = eddy_viscosity(stratum.mixing_length, rate);
-        (1.0 - stratum.solid_fraction) * scene.fluid.density * (molecular + eddy)
+        (1.0 - stratum.solid_fraction) * scene.fluid.density * (scene.fluid.kinematic_viscosity + eddy)
     }
 
     fn sediment_row(&self, a: usize, sediment: &Phase<D>, material: &Sediment<D>, row: &mut Row<'_, '_>) {
@@ -169,7 +168,8 @@ impl<const D: usize> VelocityRows<'_, D> {
             let volumes = (sediment.volume[a], sediment.volume[b]);
             let moments = sediment.moment[a] + sediment.moment[b];
             let difference = sediment.velocity[a] - sediment.velocity[b];
-            let both = self.pair_viscosity(material, (end(a), end(b)), difference, pair);
+            let both =
+                self.pair_viscosity(material, (end(a), end(b)), difference, pair) + self.added(a, sediment, pair);
             row.couple(
                 fluid.len() + b,
                 viscous_pair::coefficient(self.time_step, volumes, moments, pair.gradient, both),
@@ -180,7 +180,7 @@ impl<const D: usize> VelocityRows<'_, D> {
             let volumes = (sediment.volume[a], sediment.lattice_volume);
             let load = material.load.at(&sediment.wall[pair.source as usize], layer);
             let ends = (end(a), End { load, viscosity: viscosities.sediment[a] });
-            let both = self.pair_viscosity(material, ends, sediment.velocity[a], pair);
+            let both = self.pair_viscosity(material, ends, sediment.velocity[a], pair) + self.added(a, sediment, pair);
             let moments = 2.0 * sediment.moment[a];
             row.hold(viscous_pair::coefficient(self.time_step, volumes, moments, pair.gradient, both));
         }
@@ -190,6 +190,16 @@ impl<const D: usize> VelocityRows<'_, D> {
             let factor = self.exchange.factor(a, material, slip, self.scene);
             row.couple(b, drag_pair::coefficient(self.time_step, fluid.mass[b], pair.value, factor));
         }
+    }
+
+    /// Twice the viscosity `[Pa·s]` that the water between the grains of a pair adds to their friction, in the middle.
+    #[inline]
+    fn added(&self, a: usize, sediment: &Phase<D>, pair: &Pair<D>) -> f64 {
+        let fluid = &self.scene.fluid;
+        self.scene.solid_fraction.stratification().map_or(0.0, |layer| {
+            let stratum = layer.at(&(sediment.position[a] - pair.separation * 0.5));
+            2.0 * (1.0 - stratum.solid_fraction) * fluid.density * fluid.kinematic_viscosity * stratum.added_viscosity
+        })
     }
 
     /// η_a + η_b `[Pa·s]` of a sediment particle with another or with a wall, at a difference of velocities `[m/s]`.

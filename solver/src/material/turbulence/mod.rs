@@ -1,10 +1,12 @@
 //! Closures for what the particles do not resolve.
 
+mod grain_roughness;
 mod mixing_length;
 mod rough_wall;
 mod smagorinsky;
 mod stratified;
 
+pub use grain_roughness::GrainRoughness;
 pub use mixing_length::{MixingLength, MixingLengthShape};
 pub use rough_wall::RoughWall;
 pub use smagorinsky::Smagorinsky;
