@@ -122,6 +122,31 @@ pub enum ReferenceError {
         /// Largest residual `[m/s]`.
         residual: f64,
     },
+    /// Two starts lead to two steady states.
+    #[error(
+        "compute the steady layer: it has two states, q* = {slow:.3e} from rest and {fast:.3e} from a fast start, which \
+         differ by {difference:.1e}; move away from the onset of motion"
+    )]
+    TwoStates {
+        /// Transport from rest `[-]`.
+        slow: f64,
+        /// Transport from the fast start `[-]`.
+        fast: f64,
+        /// Relative difference of the states `[-]`.
+        difference: f64,
+    },
+    /// The bed slides on its base.
+    #[error(
+        "compute the steady layer: slope is {slope}, but must be below {limit:.5}, where the bed slides on its base; {remedy}"
+    )]
+    BedSlides {
+        /// Slope tanθ `[-]`.
+        slope: f64,
+        /// Slope from which on it slides `[-]`.
+        limit: f64,
+        /// What to do.
+        remedy: String,
+    },
     /// Time steps did not lead to a steady state.
     #[error("compute the steady layer: {reason} after {steps} time steps; use other cells or milder closures")]
     NotSteady {

@@ -7,7 +7,7 @@ use super::runs::BedLoadRun;
 use crate::case::ParameterError;
 use crate::cases::channel::{Channel, Lattice};
 use crate::reference::ReferenceError;
-use crate::reference::bed_load_layer::{BedLoadLayer, Grains, LayerState, SolidFraction, Start, Stream};
+use crate::reference::bed_load_layer::{BedLoadLayer, Grains, LayerState, SolidFraction, SteadyStates, Stream};
 use bagnold_solver::incompressible as solver;
 use bagnold_solver::incompressible::{Bed, PairLaw, ParticleSet, ProjectionNumerics, Sediment, Turbulence};
 use bagnold_solver::material::dilatancy::Dilatancy;
@@ -70,15 +70,16 @@ impl ContinuumRun {
         let closures = self.continuum.closures;
         let layer = |grains| BedLoadLayer { stream, closures, grains, cell_height: LAYER_CELL };
         let refused = |error: ReferenceError| {
-            let rule = "such that the 1-D layer has a steady state";
+            let rule = "such that the 1-D layer has one steady state";
             ParameterError::field("continuum.closures", error.to_string(), rule, "see bed-load-1d")
         };
-        let dilating = layer(Grains::Dilating).steady(Start::Moving(2.0)).map_err(refused)?;
+        let one_state = |layer: BedLoadLayer| layer.steady_states().and_then(SteadyStates::single).map_err(refused);
+        let dilating = one_state(layer(Grains::Dilating))?;
         match self.stage {
             Stage::Frozen | Stage::Dilating => Ok(dilating),
             Stage::Porous => {
                 let resting = Grains::Resting(SolidFraction::of_cells(&dilating));
-                layer(resting).steady(Start::Moving(2.0)).map_err(refused)
+                one_state(layer(resting))
             }
         }
     }

@@ -8,6 +8,7 @@
 use crate::reference::shipped::read_shipped;
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
+use bagnold_solver::material::turbulence::{GrainRoughness, eddy_viscosity};
 use bagnold_solver::parameter::{ParameterProblem, between, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -19,8 +20,8 @@ use std::sync::LazyLock;
 pub enum MixingLength {
     /// No turbulence.
     None,
-    /// l = κ √(1 − z/h) ∫ (1 − φ/φ_max) dz from the base up to z: an eddy grows where grains leave it room. Without
-    /// grains the root makes the log law exact.
+    /// l = κ √(1 − z/h) (∫ (1 − φ/φ_max) dz + r) from the base up to z: an eddy grows where grains leave it room, and
+    /// starts from the roughness r where they rest. Over resting grains the root makes the log law exact.
     Integral,
     /// l = κ √(1 − z/h) z above z = 0 and 0 below, whatever the grains do.
     Root,
@@ -69,7 +70,13 @@ pub struct Closures {
     /// The constant κ of von Kármán `[-]`.
     #[schemars(transform = positive("give κ, 0.41"))]
     pub karman: f64,
-    /// Viscosity of the water between grains.
+    /// Turbulent Schmidt number Sc of the grains `[-]`, eddy viscosity over the diffusivity of φ; 0 for grains that eddies
+    /// do not carry.
+    #[schemars(transform = between(0.0, 10.0, "0.4 to 1 for suspensions, 0 for no dispersion"))]
+    pub turbulent_schmidt: f64,
+    /// Roughness of resting grains; only the integral mixing length knows it.
+    pub grain_roughness: GrainRoughness,
+    /// Viscosity of a suspension: what it exceeds the water's by resists the strain of the grains.
     pub suspension_viscosity: SuspensionViscosity,
 }
 
@@ -86,6 +93,11 @@ static LITERATURE: LazyLock<Closures> = LazyLock::new(|| {
             drag: DragLaw::DiFelice,
             mixing_length: MixingLength::Integral,
             karman: value("Kármán constant")?,
+            turbulent_schmidt: 0.0,
+            grain_roughness: GrainRoughness {
+                origin_depth: value("origin below resting grains")?,
+                joining_room: value("room that replaces the roughness")?,
+            },
             suspension_viscosity: SuspensionViscosity {
                 intrinsic: value("suspension viscosity coefficient")?,
                 largest_fraction: value("suspension viscosity pole")?,
@@ -115,6 +127,17 @@ pub(super) struct Stress {
     pub(super) secant: f64,
 }
 
+/// Water between grains.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Between {
+    /// Density ρ_f `[kg/m³]`.
+    pub(super) density: f64,
+    /// Kinematic viscosity ν of the water alone `[m²/s]`.
+    pub(super) viscosity: f64,
+    /// Solid fraction φ `[-]`.
+    pub(super) solid_fraction: f64,
+}
+
 impl Closures {
     /// The first rule between the closures that they break, once each is in its own range.
     #[must_use]
@@ -128,8 +151,20 @@ impl Closures {
         pole.or_else(friction)
     }
 
-    /// Stress of the grains, μ(I) p′ γ/√(γ² + γ_r²), at a shear rate `[1/s]` and a pressure p′ `[Pa]`.
-    pub(super) fn grain_stress(&self, rate: f64, pressure: f64, inertia_unit: f64) -> Stress {
+    /// Stress of the grains, μ(I) p′ γ/√(γ² + γ_r²), at a shear rate `[1/s]` and a pressure p′ `[Pa]`, and what the
+    /// water between them adds to it.
+    pub(super) fn grain_stress(&self, rate: f64, pressure: f64, inertia_unit: f64, water: &Between) -> Stress {
+        let friction = self.friction(rate, pressure, inertia_unit);
+        let excess = self.suspension_viscosity.relative(water.solid_fraction) - 1.0;
+        let viscosity = (1.0 - water.solid_fraction) * water.density * water.viscosity * excess;
+        Stress {
+            value: friction.value + viscosity * rate,
+            tangent: friction.tangent + viscosity,
+            secant: friction.secant + viscosity,
+        }
+    }
+
+    fn friction(&self, rate: f64, pressure: f64, inertia_unit: f64) -> Stress {
         if pressure <= 0.0 {
             return Stress::default();
         }
@@ -146,16 +181,24 @@ impl Closures {
         Stress { value: secant * rate, tangent, secant }
     }
 
-    /// Stress of the water, (1 − φ) ρ_f [ν_φ + l² |γ|] γ with the viscosity ν_φ between grains.
-    pub(super) fn fluid_stress(&self, rate: f64, density: f64, viscosity: f64, fraction: f64, length: f64) -> Stress {
-        let suspension = viscosity * self.suspension_viscosity.relative(fraction);
-        let inertia = (1.0 - fraction) * density;
+    /// Stress of the water, (1 − φ) ρ_f [ν + l² |γ|] γ.
+    pub(super) fn fluid_stress(&self, rate: f64, length: f64, water: &Between) -> Stress {
+        let inertia = (1.0 - water.solid_fraction) * water.density;
         let eddy = length * length * rate.abs();
-        let secant = inertia * (suspension + eddy);
-        Stress { value: secant * rate, tangent: inertia * (suspension + 2.0 * eddy), secant }
+        let secant = inertia * (water.viscosity + eddy);
+        Stress { value: secant * rate, tangent: inertia * (water.viscosity + 2.0 * eddy), secant }
     }
 
-    /// Mixing length `[m]` at a height, given the room ∫ (1 − φ/φ_max) dz below it `[m]`.
+    /// Pressure D φ `[Pa]` with which eddies carry grains, per φ, at an exchange coefficient over φ `[kg/(m³ s)]`, a rate
+    /// of the water `[1/s]` and a solid fraction: D = (K/φ) l² |γ|/(Sc (1 − φ)).
+    pub(super) fn dispersion(&self, exchange: f64, length: f64, rate: f64, solid_fraction: f64) -> f64 {
+        if self.turbulent_schmidt <= 0.0 {
+            return 0.0;
+        }
+        exchange * eddy_viscosity(length, rate.abs()) / (self.turbulent_schmidt * (1.0 - solid_fraction))
+    }
+
+    /// Mixing length `[m]` at a height, given the room ∫ (1 − φ/φ_max) dz below it and its roughness `[m]`.
     pub(super) fn mixing_length(&self, height: f64, flow_depth: f64, room: f64) -> f64 {
         let root = (1.0 - height / flow_depth).max(0.0).sqrt();
         self.karman
@@ -174,16 +217,21 @@ mod tests {
     use bagnold_solver::material::rheology::{Rheology, RootMuI};
     use bagnold_solver::material::turbulence::{StratifiedMixingLength, VON_KARMAN};
 
+    /// Water that adds nothing to friction.
+    const CLEAR: Between = Between { density: 1000.0, viscosity: 0.0, solid_fraction: 0.5 };
+    const PORES: Between = Between { viscosity: 1e-6, ..CLEAR };
+
     #[test]
     fn tangents_are_derivatives() {
         let closures = Closures::default();
+        let water = Between { solid_fraction: 0.2, ..PORES };
         let (pressure, inertia_unit) = (20.0, 5e-3 * 2600f64.sqrt());
         let step = 1e-6;
         for rate in [-30.0, -1e-3, 4e-3, 0.7, 55.0] {
-            let at = |rate| closures.grain_stress(rate, pressure, inertia_unit);
+            let at = |rate| closures.grain_stress(rate, pressure, inertia_unit, &water);
             let difference = (at(rate + step * rate).value - at(rate - step * rate).value) / (2.0 * step * rate);
             assert!((at(rate).tangent / difference - 1.0).abs() < 1e-6, "grains at {rate}");
-            let at = |rate| closures.fluid_stress(rate, 1000.0, 1e-6, 0.2, 2e-3);
+            let at = |rate| closures.fluid_stress(rate, 2e-3, &water);
             let difference = (at(rate + step * rate).value - at(rate - step * rate).value) / (2.0 * step * rate);
             assert!((at(rate).tangent / difference - 1.0).abs() < 1e-6, "water at {rate}");
         }
@@ -193,6 +241,7 @@ mod tests {
     fn the_files_constants_are_the_solvers_defaults() {
         let closures = Closures::default();
         assert_eq!(closures.karman, VON_KARMAN);
+        assert_eq!(closures.grain_roughness, GrainRoughness::default());
         assert_eq!(closures.suspension_viscosity, SuspensionViscosity::default());
     }
 
@@ -208,7 +257,7 @@ mod tests {
             regularisation_rate: closures.regularisation_rate,
         });
         for (rate, pressure) in [(1e-4, 3.0), (5e-3, 50.0), (2.0, 1.0), (80.0, 120.0), (3.0, 0.0)] {
-            let stress = closures.grain_stress(rate, pressure, 5e-3 * 2600f64.sqrt()).value;
+            let stress = closures.grain_stress(rate, pressure, 5e-3 * 2600f64.sqrt(), &CLEAR).value;
             let expected = law.viscosity(rate, pressure) * rate;
             assert!((stress - expected).abs() <= 1e-14 * expected, "{rate} 1/s, {pressure} Pa: {stress} or {expected}");
         }
@@ -224,11 +273,26 @@ mod tests {
         }
     }
 
+    /// Where water and grains are sheared alike, both stresses together have the viscosity of the suspension.
+    #[test]
+    fn a_suspension_has_its_viscosity() {
+        let closures = Closures::default();
+        let (rate, no_eddies, no_weight) = (3.0, 0.0, 0.0);
+        for solid_fraction in [0.0, 0.1, 0.45, 0.6] {
+            let water = Between { solid_fraction, ..PORES };
+            let both = closures.fluid_stress(rate, no_eddies, &water).value
+                + closures.grain_stress(rate, no_weight, 0.25, &water).value;
+            let relative = SuspensionViscosity::default().relative(solid_fraction);
+            let expected = (1.0 - solid_fraction) * 1000.0 * 1e-6 * relative * rate;
+            assert!((both / expected - 1.0).abs() < 1e-14, "{solid_fraction}: {both} for {expected}");
+        }
+    }
+
     #[test]
     fn friction_has_its_limits_and_its_reference() {
         let closures = Closures::default();
         // p′ = 26 Pa and d √ρ_s = 0.255 √(kg/m): I = γ 0.255/5.1 = 0.69 at γ = 13.8 1/s
-        let friction = |rate: f64| closures.grain_stress(rate, 26.01, 0.255).value / 26.01;
+        let friction = |rate: f64| closures.grain_stress(rate, 26.01, 0.255, &CLEAR).value / 26.01;
         assert!((friction(13.8) - 0.66).abs() < 1e-6, "{}", friction(13.8));
         assert!((friction(1e9) - 0.97).abs() < 1e-6);
         assert!((friction(0.1) - 0.3545).abs() < 1e-3);

@@ -9,10 +9,13 @@
 //! rate at once. Fractions that follow it slowly swing for ever in the topmost grains as soon as the cells are small.
 
 use super::block_tridiagonal::{Row, solve};
-use super::closures::Stress;
-use super::dilation::Dilation;
+use super::closures::{Between, Stress};
+use super::dilation::{Dilation, Loosening};
 use super::profile::LayerState;
 use super::{BedLoadLayer, Grains, Start};
+
+/// Solid fraction below which suspended grains go with those below them `[-]`.
+const SPARSE: f64 = 1e-6;
 
 /// Both phases in their cells.
 #[derive(Debug, Clone)]
@@ -118,13 +121,14 @@ impl<'a> Column<'a> {
         };
         let unit = closures.dilation * stream.inertia_unit();
         let cells = self.fraction.len();
-        let looseness = (0..cells).map(|k| {
+        let dispersion = self.dispersion();
+        let loosening = (0..cells).map(|k| {
             let lower = self.rate(&self.grains, k, self.held);
             let upper = if k + 1 < cells { self.rate(&self.grains, k + 1, self.held) } else { lower };
-            unit * (0.5 * (lower + upper)).abs()
+            Loosening { shear: unit * (0.5 * (lower + upper)).abs(), dispersion: dispersion[k] }
         });
         let mut fraction = vec![0.0; cells];
-        let left_over = dilation.march(looseness, &mut fraction);
+        let left_over = dilation.march(loosening, &mut fraction);
         let mut largest = 0.0_f64;
         for (old, new) in self.fraction.iter_mut().zip(fraction) {
             largest = largest.max((new - *old).abs());
@@ -133,39 +137,96 @@ impl<'a> Column<'a> {
         (largest, left_over)
     }
 
-    fn faces(&self) -> Faces {
+    /// l `[m]` at the faces.
+    fn lengths(&self) -> Vec<f64> {
         let BedLoadLayer { stream, closures, cell_height: width, .. } = self.layer;
+        let (mut room, mut loosened) = (0.0, 0.0);
+        (0..=self.fraction.len())
+            .map(|face| {
+                let rough_room = room + closures.grain_roughness.room(loosened, stream.grain_diameter);
+                if let Some(own) = self.fraction.get(face) {
+                    let share = own / closures.largest_fraction;
+                    room += (1.0 - share) * width;
+                    loosened += closures.grain_roughness.loosened(share, *width);
+                }
+                closures.mixing_length(self.layer.face(face), stream.flow_depth, rough_room)
+            })
+            .collect()
+    }
+
+    /// Pressure of the eddies per φ `[Pa]` in the cells; all 0 if they carry no grains.
+    fn dispersion(&self) -> Vec<f64> {
+        let closures = &self.layer.closures;
+        let cells = self.fraction.len();
+        if closures.turbulent_schmidt <= 0.0 {
+            return vec![0.0; cells];
+        }
+        let length = self.lengths();
+        (0..cells)
+            .map(|k| {
+                let rate = 0.5 * (self.rate(&self.fluid, k, 0) + self.rate(&self.fluid, k + 1, 0));
+                // K is proportional to φ where φ is small
+                let fraction = self.fraction[k].max(SPARSE);
+                let exchange = self.exchange_at(fraction, (self.fluid[k] - self.grains[k]).abs()) / fraction;
+                closures.dispersion(exchange, 0.5 * (length[k] + length[k + 1]), rate, fraction)
+            })
+            .collect()
+    }
+
+    /// p′ `[Pa]` at the faces: the weight above less what eddies carry.
+    fn pressure(&self) -> Vec<f64> {
+        let weight = self.layer.stream.submerged_weight() * self.layer.cell_height;
         let cells = self.fraction.len();
         let mut pressure = vec![0.0; cells + 1];
         for k in (0..cells).rev() {
-            pressure[k] = pressure[k + 1] + self.fraction[k] * stream.submerged_weight() * width;
+            pressure[k] = pressure[k + 1] + self.fraction[k] * weight;
         }
-        let mut faces = Faces { pressure, ..Faces::default() };
-        let mut room = 0.0;
+        let dispersion = self.dispersion();
+        for k in 1..cells {
+            let carried = 0.5 * (dispersion[k] * self.fraction[k] + dispersion[k - 1] * self.fraction[k - 1]);
+            pressure[k] = (pressure[k] - carried).max(0.0);
+        }
+        pressure
+    }
+
+    fn faces(&self) -> Faces {
+        let BedLoadLayer { stream, closures, .. } = self.layer;
+        let cells = self.fraction.len();
+        let mut faces = Faces { pressure: self.pressure(), length: self.lengths(), ..Faces::default() };
         for face in 0..=cells {
-            let length = closures.mixing_length(self.layer.face(face), stream.flow_depth, room);
             let fraction = match face {
                 0 => self.fraction[0],
                 _ if face == cells => self.fraction[cells - 1],
                 _ => 0.5 * (self.fraction[face] + self.fraction[face - 1]),
             };
-            room +=
-                self.fraction.get(face).map_or(0.0, |fraction| (1.0 - fraction / closures.largest_fraction) * width);
+            let water = Between {
+                density: stream.fluid_density,
+                viscosity: stream.kinematic_viscosity,
+                solid_fraction: fraction,
+            };
             let rate = self.rate(&self.fluid, face, 0);
-            faces.length.push(length);
-            let (density, viscosity) = (stream.fluid_density, stream.kinematic_viscosity);
-            faces.fluid.push(closures.fluid_stress(rate, density, viscosity, fraction, length));
-            let rate = self.rate(&self.grains, face, self.held);
-            faces.grains.push(closures.grain_stress(rate, faces.pressure[face], stream.inertia_unit()));
+            faces.fluid.push(closures.fluid_stress(rate, faces.length[face], &water));
+            let (rate, pressure) = (self.rate(&self.grains, face, self.held), faces.pressure[face]);
+            faces.grains.push(closures.grain_stress(rate, pressure, stream.inertia_unit(), &water));
         }
         faces
     }
 
     /// K `[kg/(m³ s)]` of a cell at a slip `[m/s]`.
     fn exchange(&self, cell: usize, slip: f64) -> f64 {
+        self.exchange_at(self.fraction[cell], slip)
+    }
+
+    fn exchange_at(&self, fraction: f64, slip: f64) -> f64 {
         let BedLoadLayer { stream, closures, .. } = self.layer;
         let (density, viscosity) = (stream.fluid_density, stream.kinematic_viscosity);
-        closures.drag.exchange_coefficient(self.fraction[cell], slip, stream.grain_diameter, density, viscosity)
+        closures.drag.exchange_coefficient(fraction, slip, stream.grain_diameter, density, viscosity)
+    }
+
+    /// Whether a cell has too few grains for a balance of their own: none, or the last of a suspension.
+    fn is_empty(&self, cell: usize) -> bool {
+        let suspended = self.layer.closures.turbulent_schmidt > 0.0;
+        self.fraction[cell] <= if suspended { SPARSE } else { 0.0 }
     }
 
     /// Drag `[N/m³]` on the grains of a cell, and its derivative by the slip.
@@ -213,7 +274,7 @@ impl<'a> Column<'a> {
                         grain_mass * stream.driving() + divergence(&faces.grains) + drag,
                     ],
                 };
-                if k < self.held || self.fraction[k] == 0.0 {
+                if k < self.held || self.is_empty(k) {
                     // no balance of forces: at rest, or as fast as the grains below
                     let follows = k > self.held;
                     row.diagonal[0][1] = 0.0;

@@ -2,21 +2,26 @@
 //!
 //! z is normal to the bed, 0 at its top before anything moves; φ is the solid fraction, θ the slope's angle.
 //!
-//! - water: 0 = (1 − φ) ρ_f g sinθ + ∂_z τ_f − f, τ_f = (1 − φ) ρ_f [ν (1 + 2.5 φ/(1 − φ/0.62)) + l² |∂_z u_f|] ∂_z u_f,
-//!   in its denominator φ at most 0.59;
-//! - grains: 0 = φ ρ_s g sinθ + ∂_z τ_s + f, τ_s = μ(I) p′ γ/√(γ² + γ_r²), γ = ∂_z u_s, I = |γ| d √(ρ_s/p′);
+//! - water: 0 = (1 − φ) ρ_f g sinθ + ∂_z τ_f − f, τ_f = (1 − φ) ρ_f [ν + l² |∂_z u_f|] ∂_z u_f;
+//! - grains: 0 = φ ρ_s g sinθ + ∂_z τ_s + f, τ_s = μ(I) p′ γ/√(γ² + γ_r²) + (1 − φ) ρ_f ν (η_s − 1) γ, γ = ∂_z u_s, I = |γ| d √(ρ_s/p′),
+//!   η_s = 1 + 2.5 φ/(1 − φ/0.62) with φ at most 0.59 in its denominator: what grains add to the viscosity resists their
+//!   own strain; water between grains that rest keeps its own viscosity;
 //! - drag on the grains f = K (u_f − u_s); p′ = ∫_z φ (ρ_s − ρ_f) g cosθ dz;
 //! - μ = μ_s + (μ_2 − μ_s) I/(I + I_0) and φ = φ_max/(1 + B I): the grains dilate where they are sheared;
-//! - l = κ √(1 − z/h) ∫ (1 − φ/φ_max) dz: eddies grow where grains leave them room.
+//! - l = κ √(1 − z/h) [∫ (1 − φ/φ_max) dz + r]: eddies grow where grains leave them room, and start from the roughness r of
+//!   grains that rest (the solver's `GrainRoughness`), which fades where grains have loosened.
 //!
 //! Both velocities vanish at the base, both stresses at z = h. Three ways to treat the grains ([`Grains`]) isolate what a
 //! two-phase program does: the flow over and through grains that rest (drag and turbulence), grains that move with a
 //! given fraction (friction and both momenta), and all of it. Finite volumes of second order, no particles; of
-//! the solver's laws it shares drag, viscosity of suspensions and κ, and is compared with the others ([`Closures`]). Agreement verifies discretisations; that the model is right needs experiments.
+//! the solver's laws it shares drag, viscosity of suspensions, roughness of grains and κ, and is compared with the others ([`Closures`]). Agreement verifies discretisations; that the model is right needs experiments.
+//!
+//! A steady state is sought from two starts ([`BedLoadLayer::steady_states`]); a bed that would slide on its base is refused,
+//! and [`Stream::outside_bed_load`] says where the layer is not one of bed load (`domain.rs`).
 //!
 //! ```text
 //! let layer = BedLoadLayer { stream, closures: Closures::default(), grains: Grains::Dilating, cell_height: 2.5e-4 };
-//! let state = layer.steady(Start::Rest)?;
+//! let state = layer.steady_states()?.single()?;    // from rest and from a fast start
 //! let there = state.at(-1e-3);    // φ, both velocities, p′, both stresses, l and K at z = −1 mm
 //! let frozen = BedLoadLayer { grains: Grains::Frozen(SolidFraction::of_cells(&state)), ..layer };
 //! ```
@@ -25,17 +30,21 @@ mod block_tridiagonal;
 mod closures;
 mod column;
 mod dilation;
+mod domain;
 mod measures;
 mod profile;
 mod solid_fraction;
+mod states;
 mod stream;
 #[cfg(test)]
 mod tests;
 
 pub use closures::{Closures, MixingLength};
+pub use domain::{DIMENSIONLESS_DIAMETERS, OutsideBedLoad, RELATIVE_DEPTHS, SHIELDS_NUMBERS};
 pub use measures::DragPeak;
 pub use profile::{LayerPoint, LayerState};
 pub use solid_fraction::SolidFraction;
+pub use states::{SAME_STATE, SteadyStates, TwoStates};
 pub use stream::Stream;
 
 use super::ReferenceError;
@@ -196,15 +205,21 @@ impl BedLoadLayer {
             ("regularisation_rate", closures.regularisation_rate),
             ("largest_fraction", closures.largest_fraction),
             ("karman", closures.karman),
+            ("joining_room", closures.grain_roughness.joining_room),
         ];
         for (field, value) in positive {
             if !(value > 0.0 && value.is_finite()) {
                 return refuse(field, value, "finite and greater than 0");
             }
         }
-        for (field, value) in
-            [("dilation", closures.dilation), ("bed_depth", stream.bed_depth), ("held_depth", stream.held_depth)]
-        {
+        let not_negative = [
+            ("dilation", closures.dilation),
+            ("origin_depth", closures.grain_roughness.origin_depth),
+            ("turbulent_schmidt", closures.turbulent_schmidt),
+            ("bed_depth", stream.bed_depth),
+            ("held_depth", stream.held_depth),
+        ];
+        for (field, value) in not_negative {
             if !(value >= 0.0 && value.is_finite()) {
                 return refuse(field, value, "finite and not negative");
             }
@@ -236,6 +251,6 @@ impl BedLoadLayer {
         if stream.held_depth > stream.bed_depth {
             return refuse("held_depth", stream.held_depth, "at most the depth of the bed");
         }
-        Ok(())
+        if self.grains == Grains::Dilating { stream.check_sliding(closures) } else { Ok(()) }
     }
 }

@@ -1,6 +1,7 @@
 //! Limits that have exact solutions, balances, independence of the start, and transport from another program.
 
 use super::*;
+use bagnold_solver::material::turbulence::GrainRoughness;
 
 pub(super) fn stream(slope: f64) -> Stream {
     Stream {
@@ -18,6 +19,11 @@ pub(super) fn stream(slope: f64) -> Stream {
 
 fn layer(slope: f64, grains: Grains) -> BedLoadLayer {
     BedLoadLayer { stream: stream(slope), closures: Closures::default(), grains, cell_height: 5e-4 }
+}
+
+/// No roughness.
+fn smooth() -> GrainRoughness {
+    GrainRoughness { origin_depth: 0.0, ..GrainRoughness::default() }
 }
 
 fn nothing() -> SolidFraction {
@@ -55,7 +61,7 @@ fn clear_water_has_the_log_law() {
 fn the_integral_mixing_length_is_the_root_one_without_grains() {
     let stream = Stream { bed_depth: 0.0, ..stream(0.02) };
     let speed = |mixing_length| {
-        let closures = Closures { mixing_length, ..Closures::default() };
+        let closures = Closures { mixing_length, grain_roughness: smooth(), ..Closures::default() };
         let layer = BedLoadLayer { stream, closures, ..layer(0.02, Grains::Resting(nothing())) };
         layer.steady(Start::Rest).expect("steady").mean_fluid_velocity()
     };
@@ -93,9 +99,11 @@ fn water_seeps_through_a_resting_bed_as_the_drag_law_says() {
 
 #[test]
 fn transport_is_that_of_a_program_written_before() {
-    // the same equations in another language with another time stepping
-    for (slope, transport, velocity) in [(0.02, 0.0758, 1.12), (0.03, 0.1771, 1.25), (0.05, 0.5305, 1.46)] {
-        let layer = BedLoadLayer { cell_height: 2.5e-4, ..layer(slope, Grains::Dilating) };
+    // the same equations in another language with another time stepping, but without roughness, and with the viscosity of
+    // the suspension in the water's stress, which at 3 and 5 % makes less than 1 % (at 2 %, left out, 3 %)
+    let closures = Closures { grain_roughness: smooth(), ..Closures::default() };
+    for (slope, transport, velocity) in [(0.03, 0.1771, 1.25), (0.05, 0.5305, 1.46)] {
+        let layer = BedLoadLayer { cell_height: 2.5e-4, closures, ..layer(slope, Grains::Dilating) };
         let state = layer.steady(Start::Rest).expect("steady");
         assert!((state.transport() / transport - 1.0).abs() < 0.015, "{slope}: {}", state.transport());
         assert!(
@@ -205,7 +213,52 @@ fn what_does_not_settle_says_so() {
     let layer = BedLoadLayer { closures, ..layer(0.03, Grains::Dilating) };
     let error = layer.steady(Start::Rest).expect_err("swings for ever").to_string();
     assert!(error.contains("after 4000 time steps"), "{error}");
-    // a slope of 1 lifts more grains than there is room for
-    let error = BedLoadLayer { stream: stream(1.0), closures: Closures::default(), ..layer }.steady(Start::Rest);
-    assert!(error.is_err());
+}
+
+#[test]
+fn a_bed_that_slides_on_its_base_is_refused() {
+    // by hand: i [46 + 40 (1 + 1.6 · 0.6)] = 0.35 · 1.6 · 0.6 · 40 at i = 13.44/124.4 = 0.10804
+    assert!(layer(0.10, Grains::Dilating).check().is_ok());
+    let error = layer(0.12, Grains::Dilating).check().expect_err("slides").to_string();
+    assert!(error.contains("slope is 0.12, but must be below 0.10804") && error.contains("0.0538 m"), "{error}");
+    // 0.35 · 0.96/1.96 = 0.17143 however deep the bed is
+    let error = layer(0.18, Grains::Dilating).check().expect_err("slides").to_string();
+    assert!(error.contains("no bed of these grains"), "{error}");
+    // what is refused would move to its base: τ_s at the base of the free grains exceeds μ_s p′
+    let near = BedLoadLayer { stream: Stream { slope: 0.106, ..stream(0.1) }, ..layer(0.1, Grains::Dilating) };
+    let state = near.steady(Start::Rest).expect("steady");
+    let ratio = state.grain_stress[0] / state.grain_pressure[0];
+    assert!(ratio < 0.35 && ratio > 0.33, "{ratio}");
+}
+
+#[test]
+fn a_resting_bed_is_a_rough_wall() {
+    // shear far below the onset over 20 d of water: k_s from the log law at mid-depth, between d and 2.5 d (Nikuradse; gravel)
+    let closures = Closures::default();
+    let bed = Grains::Resting(SolidFraction::flat_bed(0.6).expect("valid"));
+    let water = Stream { slope: 0.0033, flow_depth: 0.1, bed_depth: 0.02, ..stream(0.02) };
+    let state = BedLoadLayer { stream: water, closures, grains: bed, cell_height: 1.25e-4 };
+    let state = state.steady(Start::Rest).expect("steady");
+    let shear_velocity = (water.driving() * water.flow_depth).sqrt();
+    let height = 0.03;
+    let velocity = state.at(height).fluid_velocity / shear_velocity;
+    let sand_roughness = 30.0 * height * (-0.41 * velocity).exp();
+    assert!((1.0..2.5).contains(&(sand_roughness / 5e-3)), "{} d", sand_roughness / 5e-3);
+}
+
+#[test]
+fn the_onset_does_not_depend_on_the_start() {
+    // without roughness these two starts differ by more than a factor of 10
+    let slope = |shields: f64| shields * 1.65 / 20.0;
+    let grains =
+        Stream { grain_density: 2650.0, grain_diameter: 2e-3, flow_depth: 0.04, bed_depth: 0.012, ..stream(0.02) };
+    let layer = BedLoadLayer {
+        stream: Stream { slope: slope(0.061), ..grains },
+        closures: Closures::default(),
+        grains: Grains::Dilating,
+        cell_height: 1e-4,
+    };
+    let states = layer.steady_states().expect("steady");
+    assert!(states.second().is_none(), "{}", states.difference());
+    assert!(states.difference() < SAME_STATE);
 }
