@@ -12,7 +12,6 @@ use bagnold_solver::incompressible as solver;
 use bagnold_solver::incompressible::{Bed, PairLaw, ParticleSet, ProjectionNumerics, Sediment, Turbulence};
 use bagnold_solver::material::dilatancy::Dilatancy;
 use bagnold_solver::material::rheology::{Rheology, RootMuI};
-use bagnold_solver::material::turbulence::GrainRoughness;
 use bagnold_solver::vector::Vector;
 use serde::Serialize;
 
@@ -122,7 +121,7 @@ impl ContinuumRun {
             bed_level: 0.0,
             depth: materials.depth,
             suspension_viscosity: closures.suspension_viscosity,
-            grain_roughness: GrainRoughness::default(),
+            grain_roughness: closures.grain_roughness,
             grain_diameter: materials.grain_diameter,
         })
     }

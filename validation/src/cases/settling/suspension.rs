@@ -93,7 +93,7 @@ impl SuspensionRun {
             depth: column.height(),
             suspension_viscosity: SuspensionViscosity::default(),
             grain_roughness: GrainRoughness::default(),
-            grain_diameter: grains.diameter,
+            grain_diameter: grains.grain_diameter,
         });
         let sediment = self.experiment.sediment(places, self.solid_fraction, -grains.gravity);
         self.experiment.scene(-grains.gravity, sediment, SolidFraction::Given(stratification))
