@@ -37,6 +37,12 @@ impl ColumnGrid {
         self.row.count * self.nodes
     }
 
+    /// The same node in the columns before and after that of a node, around the period.
+    pub(crate) fn beside(&self, node: usize) -> (usize, usize) {
+        let all = self.len();
+        ((node + all - self.nodes) % all, (node + self.nodes) % all)
+    }
+
     /// Height of a node of any column `[m]`.
     pub(crate) fn height(&self, node: usize) -> f64 {
         self.base + node as f64 * self.cell

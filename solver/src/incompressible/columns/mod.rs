@@ -6,7 +6,7 @@
 //!
 //! 1. [`nodes`]: particles to nodes; φ, the overburden p′ and φ* = φ_max/(1 + B I); φ to the [`Stratification`].
 //! 2. [`drag`]: what nodes and water exchange, implicit in the water's velocities, the opposite on the nodes.
-//! 3. [`friction`]: the law of the grains at p′, implicit on each column.
+//! 3. [`friction`]: the law of the grains at p′, implicit on each column; −∂p′/∂x between columns.
 //! 4. [`dilation`]: the motion across the bed, from the constraint that φ tends to φ*.
 //! 5. Nodes to particles: each takes the change of velocity that its nodes have had, and relaxes towards their velocity.
 //!    Mass is exact because particles have it, momentum because the weights of both ways are the same.
@@ -160,7 +160,8 @@ impl<const D: usize> Columns<D> {
         self.momentum.clear();
         self.momentum.extend(free.clone().map(|node| {
             let driven = self.velocity[node] + material.gravity[0] * time_step;
-            nodes.mass[node] * driven + self.drag.impulse[node]
+            let pushed = nodes.push_of_columns(grid, node) * time_step;
+            nodes.mass[node] * driven + self.drag.impulse[node] + pushed
         }));
         let chain = Chain {
             law: &material.law,

@@ -24,6 +24,8 @@ pub(crate) struct Nodes {
     pub(crate) load: Vec<f64>,
     /// Viscosity that the water between the grains adds to their friction at the face above every node `[Pa·s]`.
     pub(crate) added: Vec<f64>,
+    /// Load of half a node per φ `[Pa]`.
+    half_load: f64,
     /// φ_max `[-]`.
     packing: f64,
 }
@@ -102,6 +104,7 @@ impl Nodes {
             }
         }
         let density = laws.dilatancy.grain_density;
+        self.half_load = 0.5 * grid.cell * laws.buoyant_weight;
         for column in 0..grid.row.count {
             let first = grid.of_column(column).start;
             let mut load = 0.0;
@@ -128,6 +131,19 @@ impl Nodes {
         }
     }
 
+    /// p′ in the middle of a node `[Pa]`.
+    fn middle_load(&self, node: usize) -> f64 {
+        self.load[node] + self.half_load * self.fraction[node]
+    }
+
+    /// Force per area of a column `[Pa]` on a node along the bed, −Δ ∂p′/∂x: what makes heaps of grains run apart. Two
+    /// columns press on each other by the smaller of their loads, since what stands free is not pressed.
+    pub(crate) fn push_of_columns(&self, grid: &ColumnGrid, node: usize) -> f64 {
+        let (before, after) = grid.beside(node);
+        let between = |other: usize| self.middle_load(node).min(self.middle_load(other));
+        (between(before) - between(after)) * grid.cell / grid.row.width
+    }
+
     /// φ* from the mean of the rates at both faces and the load in the middle of each node.
     fn find_targets(&mut self, grid: &ColumnGrid, column: usize, laws: NodeLaws<'_>) {
         let law = laws.dilatancy;
@@ -141,8 +157,7 @@ impl Nodes {
                 0.0
             };
             let rate = 0.5 * (below + above);
-            let load = self.load[node] + 0.5 * self.fraction[node] * grid.cell * laws.buoyant_weight;
-            self.target[node] = law.sheared_fraction(rate.abs(), load);
+            self.target[node] = law.sheared_fraction(rate.abs(), self.middle_load(node));
             below = above;
         }
     }

@@ -76,11 +76,15 @@ impl BedLoadParameters {
         let remedy = "hold less than the whole bed";
         rules::between("continuum.held_depth", continuum.held_depth, 0.0, 0.9 * continuum.bed_depth, remedy)?;
         rules::refuse("continuum.closures", continuum.closures.problem())?;
-        let Closures { mixing_length, karman, .. } = continuum.closures;
+        let Closures { mixing_length, karman, turbulent_schmidt, .. } = continuum.closures;
         if mixing_length != MixingLength::Integral {
             let remedy = "the particles know no other; bed-load-1d compares all";
             let given = format!("{mixing_length:?}").to_lowercase();
             return Err(ParameterError::field("continuum.closures.mixing_length", given, "integral", remedy));
+        }
+        if turbulent_schmidt != 0.0 {
+            let (rule, remedy) = ("0", "no eddy carries the particles' grains; bed-load-1d compares both");
+            return Err(ParameterError::field("continuum.closures.turbulent_schmidt", turbulent_schmidt, rule, remedy));
         }
         if karman != VON_KARMAN {
             let remedy = "the particles know no other; bed-load-1d takes any";

@@ -56,11 +56,11 @@ impl ContinuumRun {
         ProjectionNumerics { pair_law, time_step: of_case.time_step * self.spacing / 1e-3, ..of_case }
     }
 
-    /// Spacing of the sediment's particles `[m]`.
-    fn sediment_spacing(&self) -> f64 {
+    /// Particles of the sediment along a spacing of the water.
+    fn refinement(&self) -> usize {
         match self.stage {
-            Stage::Porous | Stage::Frozen => self.spacing,
-            Stage::Dilating => self.spacing / f64::from(self.continuum.sediment_refinement),
+            Stage::Porous | Stage::Frozen => 1,
+            Stage::Dilating => self.continuum.sediment_refinement as usize,
         }
     }
 
@@ -89,18 +89,18 @@ impl ContinuumRun {
         layer: &LayerState,
         velocity: &'a (dyn Fn(f64) -> f64 + Sync),
     ) -> Channel<'a> {
-        let (continuum, spacing) = (&self.continuum, self.spacing);
-        let fluid = Lattice {
-            spacing,
-            rows: ((run.materials.depth + continuum.bed_depth) / spacing).round() as usize,
-            columns: (continuum.length / spacing).round() as usize,
-            bottom: -continuum.bed_depth,
-        };
+        let continuum = &self.continuum;
+        // the spacing that divides the height, so that the surface lies where it should
+        let height = run.materials.depth + continuum.bed_depth;
+        let rows = (height / self.spacing).round();
+        let spacing = height / rows;
+        let columns = (continuum.length / spacing).round() as usize;
+        let fluid = Lattice { spacing, rows: rows as usize, columns, bottom: -continuum.bed_depth };
         let stratification = self.stratification(&run.materials, layer);
         Channel {
             turbulence: Turbulence::Stratified,
             bed: Bed::NoSlip(fluid.bottom),
-            sediment: Some(self.sediment(run, self.placed(fluid, run.seed, layer))),
+            sediment: Some(self.sediment(run, fluid, layer)),
             solid_fraction: match self.stage {
                 Stage::Porous | Stage::Frozen => solver::SolidFraction::Given(stratification),
                 Stage::Dilating => solver::SolidFraction::Averaged(stratification),
@@ -130,8 +130,8 @@ impl ContinuumRun {
     fn placed(&self, fluid: Lattice, seed: u64, layer: &LayerState) -> Placed {
         let Continuum { closures, least_fraction, held_depth, bed_depth, .. } = &self.continuum;
         let held = held_depth - bed_depth;
-        let spacing = self.sediment_spacing();
-        let part = (fluid.spacing / spacing).round() as usize;
+        let part = self.refinement();
+        let spacing = fluid.spacing / part as f64;
         let (rows, columns) = (part * fluid.rows + WALL_ROWS, part * fluid.columns);
         let lattice = Lattice { spacing, rows, columns, bottom: fluid.bottom - WALL_ROWS as f64 * spacing };
         let jitter = if self.stage == Stage::Dilating { self.continuum.sediment_jitter } else { 0.0 };
@@ -154,7 +154,8 @@ impl ContinuumRun {
         placed
     }
 
-    fn sediment(&self, run: &BedLoadRun, Placed { free, filling, wall }: Placed) -> Sediment<2> {
+    fn sediment(&self, run: &BedLoadRun, fluid: Lattice, layer: &LayerState) -> Sediment<2> {
+        let Placed { free, filling, wall } = self.placed(fluid, run.seed, layer);
         let Materials { gravity, fluid_density, grain_density, grain_diameter, .. } = run.materials;
         let (closures, numerics) = (&self.continuum.closures, self.numerics());
         let packing = closures.largest_fraction;
@@ -164,7 +165,7 @@ impl ContinuumRun {
             particles: free,
             filling,
             wall,
-            spacing: self.sediment_spacing(),
+            spacing: fluid.spacing / self.refinement() as f64,
             smoothing_ratio: numerics.smoothing_ratio,
             density: grain_density,
             grain_diameter,
@@ -189,7 +190,7 @@ impl ContinuumRun {
             },
             drag: closures.drag,
             drag_form: solver::DragForm::Exchange,
-            drag_smoothing_length: numerics.smoothing_ratio * self.spacing,
+            drag_smoothing_length: numerics.smoothing_ratio * fluid.spacing,
             gravity: Vector::<2>::new(gravity * run.slope, -buoyancy * gravity),
         }
     }

@@ -109,7 +109,10 @@ fn quick() -> BedLoadParameters {
         paper,
         stabilised,
         continuum: Continuum {
-            runs: vec![stage(Stage::Porous, &[0.03], &ROWS, &[1.0], 0.5)],
+            runs: vec![
+                stage(Stage::Porous, &[0.03], &ROWS, &[1.0], 0.5),
+                stage(Stage::Dilating, &[0.03], &COLUMNS, &[1.0], 0.3),
+            ],
             bed_depth: 0.016,
             held_depth: 0.004,
             length: 0.01,
@@ -148,7 +151,7 @@ fn paper(quick: BedLoadParameters) -> BedLoadParameters {
                 stage(Stage::Frozen, &[0.02], &ROWS, &[1.0], 16.0),
                 stage(Stage::Frozen, &[0.03], &[PairLaw::PairRate, PairLaw::HarmonicMean], &[1.0], 4.0),
                 stage(Stage::Dilating, &SLOPES, &COLUMNS, &[1.0], 4.0),
-                stage(Stage::Dilating, &[0.03], &COLUMNS, &[0.3], 12.0),
+                stage(Stage::Dilating, &[0.03], &COLUMNS, &[0.3, 1.4], 12.0),
             ],
             ..quick.continuum
         },
