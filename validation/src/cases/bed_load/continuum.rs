@@ -235,9 +235,21 @@ mod tests {
         sum / count / run.stream().transport_unit() / layer.transport()
     }
 
+    /// A layer that moves has two rows at least, and no run is coarser than its file asks for.
+    #[test]
+    fn a_thin_layer_has_finer_particles() {
+        let materials = BedLoadParameters::of_tier(Tier::Quick).materials;
+        let shallow = Materials { depth: 0.03, ..materials };
+        let of = |stage: Stage, slope, materials| stage.spacing(1e-3, 1.3, slope, materials);
+        assert_eq!(of(Stage::Frozen, 0.02, &materials), 7e-4);
+        assert_eq!(of(Stage::Frozen, 0.03, &materials), 1e-3);
+        assert_eq!(of(Stage::Frozen, 0.02, &shallow), 4e-4);
+        assert_eq!(of(Stage::Dilating, 0.02, &shallow), 1e-3);
+    }
+
     #[test]
     fn grains_alone_carry_what_the_layer_carries_in_the_layers_water() {
-        for (slope, spacing, start) in [(0.02, 7e-4, 1.0), (0.03, 1e-3, 1.0), (0.03, 7e-4, 0.3), (0.05, 1e-3, 1.0)] {
+        for (slope, spacing, start) in [(0.02, 7e-4, 1.0), (0.03, 1e-3, 1.0), (0.03, 1e-3, 1.4), (0.05, 1e-3, 1.0)] {
             let ratio = transport_ratio(slope, spacing, start);
             assert!((ratio - 1.0).abs() < 0.02, "slope {slope}, {spacing} m, start {start}: {ratio}");
         }

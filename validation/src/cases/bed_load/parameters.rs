@@ -67,6 +67,9 @@ pub struct Grains {
     pub numerics: ProjectionNumerics,
 }
 
+/// Tenths of a millimetre in a metre.
+const TENTHS: f64 = 1e4;
+
 /// How much of the 1-D layer the grains of a `continuum` run are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -86,6 +89,17 @@ impl Stage {
         match self {
             Self::Porous | Self::Frozen => Some(PairLaw::PairRateMeanLoad),
             Self::Dilating => None,
+        }
+    }
+
+    /// Spacing of a run `[m]` whose file asks for one, by the largest over τ* d, in whole tenths of a millimetre.
+    pub(super) fn spacing(self, asked: f64, largest: f64, slope: f64, materials: &Materials) -> f64 {
+        let weight = materials.grain_density / materials.fluid_density - 1.0;
+        // τ* d
+        let scale = materials.depth * slope / weight;
+        match self {
+            Self::Porous | Self::Dilating => asked,
+            Self::Frozen => asked.min((largest * scale * TENTHS).floor().max(1.0) / TENTHS),
         }
     }
 
@@ -111,7 +125,7 @@ pub struct StageRuns {
     /// Velocities at the start over those of the 1-D layer `[-]`.
     #[schemars(transform = each(between(0.0, 3.0, "1 starts as the 1-D layer flows")))]
     pub starts: Vec<f64>,
-    /// Spacings of the particles of both phases `[m]`.
+    /// Spacings of the particles of both phases `[m]`; `frozen` takes a smaller one where `largest_spacing` says so.
     pub spacings: Vec<f64>,
     /// Simulated time `[s]`.
     #[schemars(transform = between(0.1, 1e4, "a few seconds, more to be stationary"))]
@@ -144,6 +158,10 @@ pub struct Continuum {
     pub length: f64,
     /// Closures of particles and of the layer.
     pub closures: Closures,
+    /// Largest spacing of grains that move at a given fraction, over τ* d `[-]`: their velocity falls by e over some
+    /// 0.9 τ* d, and a layer thinner than that needs finer particles than a file asks for.
+    #[schemars(transform = between(0.1, 100.0, "1.3 puts two rows into the layer that moves"))]
+    pub largest_spacing: f64,
     /// Solid fraction of the layer below which a row carries no sediment particle `[-]`.
     pub least_fraction: f64,
     /// Particles of dilating sediment along a spacing of the water: they cost little, and a layer of a grain's thickness

@@ -87,6 +87,7 @@ pub(super) fn runs(parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
             for pair_law in list.pair_laws() {
                 for &start in &list.starts {
                     for &spacing in &list.spacings {
+                        let spacing = list.stage.spacing(spacing, continuum.largest_spacing, slope, materials);
                         let formulation = Formulation::Continuum(ContinuumRun {
                             continuum: Continuum { runs: Vec::new(), ..continuum.clone() },
                             stage: list.stage,

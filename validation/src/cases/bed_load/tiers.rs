@@ -117,6 +117,7 @@ fn quick() -> BedLoadParameters {
             held_depth: 0.004,
             length: 0.01,
             closures: Closures::default(),
+            largest_spacing: 1.3,
             least_fraction: 2e-3,
             sediment_refinement: 2,
             sediment_jitter: 0.3,
@@ -146,9 +147,9 @@ fn paper(quick: BedLoadParameters) -> BedLoadParameters {
         continuum: Continuum {
             runs: vec![
                 stage(Stage::Porous, &SLOPES, &ROWS, &[1.0], 4.0),
-                stage(Stage::Frozen, &[0.03, 0.05], &ROWS, &[1.0], 4.0),
-                // grains that move in less than a spacing slow down for long
-                stage(Stage::Frozen, &[0.02], &ROWS, &[1.0], 16.0),
+                stage(Stage::Frozen, &[0.03, 0.04, 0.05], &ROWS, &[1.0], 4.0),
+                // what moves in a thin layer slows down for long
+                stage(Stage::Frozen, &[0.02], &ROWS, &[1.0], 8.0),
                 stage(Stage::Frozen, &[0.03], &[PairLaw::PairRate, PairLaw::HarmonicMean], &[1.0], 4.0),
                 stage(Stage::Dilating, &SLOPES, &COLUMNS, &[1.0], 4.0),
                 stage(Stage::Dilating, &[0.03], &COLUMNS, &[0.3, 1.4], 12.0),
