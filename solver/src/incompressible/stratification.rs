@@ -7,7 +7,6 @@
 //! - room R = ∫ (1 − φ/φ_max) dz from the base, never below 0, and the roughness r of grains that rest, for the mixing
 //!   length l = κ √(1 − z/h) (R + r) `[m]`
 
-use super::scene::height_axis;
 use crate::material::suspension_viscosity::SuspensionViscosity;
 use crate::material::turbulence::{GrainRoughness, StratifiedMixingLength};
 use crate::vector::Vector;
@@ -151,7 +150,8 @@ impl Stratification {
     #[inline]
     fn reader<const D: usize>(&self, position: &Vector<D>) -> impl Fn(&[f64]) -> f64 {
         let intervals = self.intervals();
-        let height = position[height_axis(D)];
+        // the last axis is normal to the bed
+        let height = position[D - 1];
         let place = ((height - self.strata.base) / self.strata.interval - 0.5).clamp(0.0, (intervals - 1) as f64);
         let lower = (place as usize).min(intervals.saturating_sub(2));
         let (part, upper) = (place - lower as f64, (lower + 1).min(intervals - 1));

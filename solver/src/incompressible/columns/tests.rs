@@ -168,55 +168,6 @@ fn drag_is_equal_and_opposite_and_the_balance_of_the_grains_closes() {
     assert!(momentum(&columns) > 0.0);
 }
 
-/// In steady motion the stress at every face is what drives the nodes above it, and the law says the rate there.
-#[test]
-fn friction_tends_to_the_profile_of_the_law() {
-    let (count, cell, time_step) = (40, 5e-4, 1e-3);
-    let mass = vec![PACKING * DENSITY * cell; count];
-    let load = |face: usize| (count - face) as f64 * PACKING * cell * 15_696.0;
-    let load_below: Vec<f64> = (0..count).map(load).collect();
-    // 0.36 to 0.6 of the load, from the base up
-    let stress = |face: usize| load(face) * (0.36 + 0.24 * face as f64 / count as f64);
-    let force: Vec<f64> =
-        (0..count).map(|node| stress(node) - if node + 1 < count { stress(node + 1) } else { 0.0 }).collect();
-    let mut velocity = vec![0.0; count];
-    let no_water = vec![0.0; count];
-    let mut solve = FrictionSolve::default();
-    let numerics = ColumnNumerics { friction_tolerance: 1e-12, ..ColumnNumerics::default() };
-    for _ in 0..20_000 {
-        let momentum: Vec<f64> = (0..count).map(|node| mass[node] * velocity[node] + force[node] * time_step).collect();
-        let (law, momentum) = (&LAW, momentum.as_slice());
-        let (mass, load_below, added_below) = (mass.as_slice(), load_below.as_slice(), no_water.as_slice());
-        let chain = Chain { law, cell, time_step, mass, momentum, load_below, added_below };
-        let held = solve.solve(chain, &mut velocity, &numerics).expect("solved");
-        assert!(held <= stress(0) * (1.0 + 1e-9));
-    }
-    let mut expected = 0.0;
-    for node in 0..count {
-        let (mut low, mut high) = (0.0, 1e3);
-        for _ in 0..100 {
-            let middle = 0.5 * (low + high);
-            if LAW.viscosity(middle, load(node)) * middle < stress(node) { low = middle } else { high = middle }
-        }
-        expected += low * cell;
-        assert!((velocity[node] / expected - 1.0).abs() < 1e-6, "node {node}: {} or {expected}", velocity[node]);
-    }
-}
-
-#[test]
-fn a_node_without_mass_passes_the_stress_on() {
-    let (cell, time_step) = (5e-4, 1e-4);
-    let solve = |mass: &[f64], momentum: &[f64], load_below: &[f64]| {
-        let mut velocity = vec![0.0; mass.len()];
-        let chain = Chain { law: &LAW, cell, time_step, mass, momentum, load_below, added_below: &[0.0; 3] };
-        FrictionSolve::default().solve(chain, &mut velocity, &ColumnNumerics::default()).expect("solved");
-        velocity
-    };
-    let velocity = solve(&[0.8, 0.0, 0.8], &[1e-3, 0.0, 4e-3], &[9.4, 4.7, 4.7]);
-    assert!(velocity.iter().all(|u| u.is_finite()) && velocity.is_sorted(), "{velocity:?}");
-    assert!((velocity[1] - 0.5 * (velocity[0] + velocity[2])).abs() < 1e-6, "{velocity:?}");
-}
-
 /// Grains at rest under still water lie as they were laid: no eddy finds room among them.
 #[test]
 fn a_resting_bed_leaves_no_room() {
