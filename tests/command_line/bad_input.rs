@@ -470,6 +470,21 @@ fn a_moving_bed_that_cannot_be() {
             "`continuum.closures.karman` is 0.4, but must be 0.41; the particles know no other; bed-load-1d takes any",
         ),
         (
+            "continuum.closures.turbulent_schmidt=0.7",
+            "`continuum.closures.turbulent_schmidt` is 0.7, but must be 0; no eddy carries the particles' grains; bed-load-1d \
+             compares both",
+        ),
+        (
+            "continuum.columns.node_ratio=0.0",
+            "`continuum.columns.node_ratio` is 0, but must be between 0.1 and 1; see the default numerics with `bagnold show`",
+        ),
+        (
+            "continuum.runs=[{ stage = \"dilating\", slopes = [0.03], pair_laws = [\"pair-rate\"], starts = [1.0], spacings = \
+             [0.001], duration = 1.0, averaging_time = 0.5 }]",
+            "`continuum.runs[0].pair_laws` is [PairRate], but must be empty where grains dilate; they have columns instead of \
+             pairs",
+        ),
+        (
             "continuum.closures.limiting_friction=0.3",
             "`continuum.closures.limiting_friction` is 0.3, but must be greater than the static friction; friction grows \
              from μ_s at rest to μ_2 in fast shear",

@@ -7,6 +7,7 @@ use bagnold_solver::incompressible::{
 };
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
+use bagnold_solver::material::turbulence::GrainRoughness;
 use bagnold_solver::vector::Vector;
 use rayon::ThreadPoolBuilder;
 
@@ -187,6 +188,8 @@ fn states_and_parameters_that_are_none() {
             bed_level: 0.0,
             depth: 0.03,
             suspension_viscosity: SuspensionViscosity::default(),
+            grain_roughness: GrainRoughness::default(),
+            grain_diameter: 0.02,
         });
         scene.solid_fraction = SolidFraction::Given(layer);
     };

@@ -12,6 +12,8 @@ pub(super) enum Quantity {
     PressureResidual,
     /// Way of a particle in one step, in spacings, or not a number.
     Displacement,
+    /// Change of the velocity of a column's node that the last iteration of its friction still made.
+    GrainFriction,
     /// Reynolds number of a grain outside the range of its drag law.
     Reynolds,
 }
@@ -23,6 +25,7 @@ impl Quantity {
             Self::VelocityResidual => "implicit velocity",
             Self::PressureResidual => "pressure Poisson equation",
             Self::Displacement => "way in one step",
+            Self::GrainFriction => "friction of the grains",
             Self::Reynolds => "Reynolds number",
         }
     }
@@ -32,6 +35,7 @@ impl Quantity {
         match self {
             Self::VelocityResidual | Self::PressureResidual => "(residual over its right-hand side)",
             Self::Displacement => "spacings",
+            Self::GrainFriction => "m/s (last change of a velocity)",
             Self::Reynolds => "of a grain",
         }
     }
@@ -39,7 +43,7 @@ impl Quantity {
     /// The rule that it broke, as it follows the value in a message; `limit` is the largest value allowed.
     pub(super) fn rule(self, limit: f64) -> String {
         match self {
-            Self::VelocityResidual | Self::PressureResidual => {
+            Self::VelocityResidual | Self::PressureResidual | Self::GrainFriction => {
                 format!(" after at most {MOST_ITERATIONS} iterations, above the tolerance of {limit:.1e}")
             }
             Self::Displacement => {

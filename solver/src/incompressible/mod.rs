@@ -13,6 +13,7 @@
 //! along the line between the two: equal and opposite, so that momentum closes to rounding.
 
 mod boundary;
+mod columns;
 mod divergence;
 mod neighbours;
 mod numerics;
@@ -31,7 +32,10 @@ mod velocity_solve;
 #[cfg(test)]
 mod tests;
 
-pub use numerics::{Continuity, DragSlip, MeanFlux, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment};
+pub use columns::DrivenGrains;
+pub use numerics::{
+    ColumnNumerics, Continuity, DragSlip, MeanFlux, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment,
+};
 pub use scene::{
     Bed, DragForm, Fluid, IncompressibleScene, ParticleSet, Sediment, SedimentLoad, SedimentPressure, SolidFraction,
     Turbulence,

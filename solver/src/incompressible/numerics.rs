@@ -36,8 +36,6 @@ pub enum PairLaw {
     PairRate,
     /// From the pair's own shear rate and the mean load of the two: that of the plane between them.
     PairRateMeanLoad,
-    /// From |ū_ab|/r of the averaged velocity gradient and the mean load: grains that dilate jostle.
-    AveragedPairRate,
     /// Arithmetic mean of the particles' viscosities, as (18) has it.
     ArithmeticMean,
     /// Harmonic mean of the particles' viscosities.
@@ -132,18 +130,13 @@ pub struct ProjectionNumerics {
     /// Largest velocity of a mirrored wall particle over its partner's `[-]`.
     #[schemars(transform = between(1.0, 1e3, DEFAULTS))]
     pub largest_mirror: f64,
-    /// Time over which velocity gradients of the sediment are averaged `[s]`: some ten passages of a grain in the fastest
-    /// shear.
-    #[schemars(transform = between(1e-9, 1e3, DEFAULTS))]
-    pub rate_averaging_time: f64,
-    /// Spacings over which a particle is spread to either side in the mean solid fraction `[-]`: rows of grains that
-    /// dilate lie two apart, and their drag is that of the mean fraction, not of a row's.
-    #[schemars(transform = between(0.1, 100.0, DEFAULTS))]
-    pub fraction_spread: f64,
-    /// Least solid fraction of a sediment particle that is alone `[-]`, and mean fraction below which its drag is that of
-    /// a grain alone.
-    #[schemars(transform = between(1e-9, 0.1, DEFAULTS))]
-    pub least_fraction: f64,
+    /// Rate 1/T_q at which the fluid's velocity across the bed relaxes to its mean between grains `[1/s]`; 0 switches it
+    /// off.
+    #[schemars(transform = between(0.0, 1e6, DEFAULTS))]
+    pub fluctuation_rate: f64,
+    /// Solid fraction φ_q from which on it does so at the full rate `[-]`.
+    #[schemars(transform = between(1e-6, 1.0, DEFAULTS))]
+    pub fluctuation_fraction: f64,
     /// Σ V W of the fluid around a sediment particle below which its drag is not shared out in full `[-]`: where a
     /// particle leaves the water, the force must fall with the water that there is.
     #[schemars(transform = between(1e-3, 1.0, DEFAULTS))]
@@ -157,6 +150,55 @@ pub struct ProjectionNumerics {
     /// Relative residual of the implicit velocities `[-]`.
     #[schemars(transform = between(1e-14, 0.1, DEFAULTS))]
     pub velocity_tolerance: f64,
+}
+
+/// Numerical parameters of the columns of grains that dilate.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ColumnNumerics {
+    /// Distance of two nodes over the spacing of the sediment `[-]`.
+    #[schemars(transform = between(0.1, 1.0, DEFAULTS))]
+    pub node_ratio: f64,
+    /// Least width of a column in grain diameters `[-]`: a fraction is one of several grains.
+    #[schemars(transform = between(0.5, 1e3, DEFAULTS))]
+    pub width_ratio: f64,
+    /// Height over which a node reaches the fluid's particles to either side, in their spacings `[-]`.
+    #[schemars(transform = between(0.6, 4.0, DEFAULTS))]
+    pub drag_reach: f64,
+    /// Time T in which φ tends to that of the dilatancy `[s]`.
+    #[schemars(transform = between(1e-4, 10.0, DEFAULTS))]
+    pub dilation_time: f64,
+    /// Time in which the velocity of a particle tends to that of its nodes `[s]`.
+    #[schemars(transform = between(1e-9, 1e9, DEFAULTS))]
+    pub relaxation_time: f64,
+    /// Share of the way from the tangent to the secant in the first iteration of the friction `[-]`.
+    #[schemars(transform = between(1e-3, 1.0, DEFAULTS))]
+    pub secant_share: f64,
+    /// Change of a velocity at which the friction is solved `[m/s]`.
+    #[schemars(transform = between(1e-14, 1e-4, DEFAULTS))]
+    pub friction_tolerance: f64,
+}
+
+impl Default for ColumnNumerics {
+    fn default() -> Self {
+        Self {
+            node_ratio: 0.5,
+            width_ratio: 2.0,
+            drag_reach: 1.0,
+            dilation_time: 0.02,
+            relaxation_time: 0.05,
+            secant_share: 0.1,
+            friction_tolerance: 1e-8,
+        }
+    }
+}
+
+impl ColumnNumerics {
+    /// The first field outside its range, if any.
+    #[must_use]
+    pub fn parameter_problem(&self) -> Option<ParameterProblem> {
+        range_problem(self)
+    }
 }
 
 impl Default for ProjectionNumerics {
@@ -181,9 +223,8 @@ impl Default for ProjectionNumerics {
             largest_correction: 30.0,
             least_wall_height: 0.1,
             largest_mirror: 6.0,
-            rate_averaging_time: 0.02,
-            fraction_spread: 2.0,
-            least_fraction: 1e-3,
+            fluctuation_rate: 0.0,
+            fluctuation_fraction: 0.1,
             least_fluid: 0.3,
             search_skin: 0.3,
             pressure_tolerance: 1e-2,

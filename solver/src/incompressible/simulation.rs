@@ -103,7 +103,8 @@ impl<const D: usize> IncompressibleSimulation<D> {
     /// Free particles of both phases.
     #[must_use]
     pub fn free_particles(&self) -> usize {
-        self.state.phases.all().map(Phase::len).sum()
+        self.state.phases.all().map(Phase::len).sum::<usize>()
+            + self.state.columns.as_ref().map_or(0, |c| c.grains.len())
     }
 
     /// The scene.
@@ -127,7 +128,12 @@ impl<const D: usize> IncompressibleSimulation<D> {
     /// Positions `[m]` and velocities `[m/s]` of the free sediment, shape `[particles]`; empty without sediment.
     #[must_use]
     pub fn sediment(&self) -> (&[Vector<D>], &[Vector<D>]) {
-        self.state.phases.sediment.as_ref().map_or((&[], &[]), |sediment| (&sediment.position, &sediment.velocity))
+        let State { columns, phases, .. } = &self.state;
+        match (columns, &phases.sediment) {
+            (Some(columns), _) => (&columns.grains.position, &columns.grains.velocity),
+            (None, Some(sediment)) => (&sediment.position, &sediment.velocity),
+            (None, None) => (&[], &[]),
+        }
     }
 
     /// Part of the space that the fluid had at every fluid particle in the last step `[-]`.
@@ -136,10 +142,20 @@ impl<const D: usize> IncompressibleSimulation<D> {
         &self.state.viscosities.voidage
     }
 
+    /// Masses of the fluid `[kg]`, per metre of width in 2-D.
+    #[must_use]
+    pub fn fluid_masses(&self) -> &[f64] {
+        &self.state.phases.fluid.mass
+    }
+
     /// Masses of the free sediment `[kg]`, per metre of width in 2-D.
     #[must_use]
     pub fn sediment_masses(&self) -> &[f64] {
-        self.state.phases.sediment.as_ref().map_or(&[], |sediment| &sediment.mass)
+        match (&self.state.columns, &self.state.phases.sediment) {
+            (Some(columns), _) => &columns.grains.mass,
+            (None, Some(sediment)) => &sediment.mass,
+            (None, None) => &[],
+        }
     }
 
     /// Force of walls and fixed grains on the fluid and the sediment in the last step `[N]`, per metre of width in 2-D:
@@ -151,12 +167,23 @@ impl<const D: usize> IncompressibleSimulation<D> {
         for ((velocity, sum), inertia) in system.velocity.iter().zip(&system.of_constant).zip(&system.inertia) {
             impulse -= velocity * (sum - inertia);
         }
-        impulse / self.state.last_step
+        let time_step = self.state.last_step;
+        if let Some(columns) = &self.state.columns {
+            // what moves with grains is an exchange; what holds is the held grains
+            for (velocity, hold) in system.velocity.iter().zip(&columns.drag.hold) {
+                impulse[0] += velocity[0] * hold * time_step;
+            }
+            impulse[0] += columns.holding_force(time_step) * time_step;
+        }
+        impulse / time_step
     }
 
     /// Force of the fluid on every free sediment particle in the last step `[N]`, per metre of width in 2-D.
     #[must_use]
     pub fn drag(&self) -> Vec<Vector<D>> {
+        if let Some(columns) = &self.state.columns {
+            return columns.drag_forces(self.state.last_step).collect();
+        }
         let system = &self.state.system;
         let free_fluid = self.state.phases.fluid.len();
         let rows = free_fluid..system.couplings.len();
@@ -176,7 +203,11 @@ impl<const D: usize> IncompressibleSimulation<D> {
         IncompressibleSnapshot {
             time: self.state.time,
             fluid: PhaseSnapshot::of(&self.state.phases.fluid),
-            sediment: self.state.phases.sediment.as_ref().map(PhaseSnapshot::of).unwrap_or_default(),
+            sediment: match (&self.state.columns, &self.state.phases.sediment) {
+                (Some(columns), _) => PhaseSnapshot::of_grains(&columns.grains),
+                (None, Some(sediment)) => PhaseSnapshot::of(sediment),
+                (None, None) => PhaseSnapshot::default(),
+            },
             drag: self.drag(),
         }
     }

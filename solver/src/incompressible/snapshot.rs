@@ -1,5 +1,6 @@
 //! A copy of both phases in the order of the scene.
 
+use super::columns::Grains;
 use super::phase::Phase;
 use crate::vector::Vector;
 
@@ -39,6 +40,17 @@ impl<const D: usize> PhaseSnapshot<D> {
             pressure: phase.pressure.clone(),
             concentration: phase.concentration.clone(),
             mass: phase.mass.clone(),
+        }
+    }
+
+    /// Grains of columns, which have neither a pressure nor a concentration of their own.
+    pub(super) fn of_grains(grains: &Grains<D>) -> Self {
+        Self {
+            position: grains.position.clone(),
+            velocity: grains.velocity.clone(),
+            pressure: vec![0.0; grains.len()],
+            concentration: vec![1.0; grains.len()],
+            mass: grains.mass.clone(),
         }
     }
 }

@@ -1,9 +1,8 @@
 //! All that a run carries from step to step.
 
+use super::columns::Columns;
 use super::divergence::Failure;
-use super::passes::averaged_gradient::AveragedGradient;
 use super::passes::drag_exchange::DragExchange;
-use super::passes::granular_pressure::GranularPressure;
 use super::passes::search::Search;
 use super::passes::viscosities::Viscosities;
 use super::phase::{Phase, Phases};
@@ -22,9 +21,8 @@ pub(super) struct State<const D: usize> {
     pub(super) exchange: DragExchange<D>,
     pub(super) search: Search<D>,
     pub(super) viscosities: Viscosities,
-    pub(super) granular: GranularPressure,
-    /// Averaged velocity gradients of the sediment.
-    pub(super) rates: AveragedGradient<D>,
+    /// Grains that dilate, if there are any; they are no phase of pairs.
+    pub(super) columns: Option<Columns<D>>,
     pub(super) system: VelocitySystem<D>,
     pub(super) projection: Projection<D>,
     pub(super) shifts: Vec<Vector<D>>,
@@ -40,11 +38,12 @@ impl<const D: usize> State<D> {
     ///
     /// # Errors
     /// A scene that breaks a rule.
-    pub(super) fn of(scene: IncompressibleScene<D>) -> Result<Self, SceneError> {
+    pub(super) fn of(mut scene: IncompressibleScene<D>) -> Result<Self, SceneError> {
         scene.check()?;
+        let columns = Columns::of(&mut scene);
         let (water, numerics) = (&scene.fluid, &scene.numerics);
         let fluid = Phase::new(&water.particles, &water.wall, water.spacing, water.density, numerics.smoothing_ratio);
-        let sediment = scene.sediment.as_ref().map(|material| {
+        let sediment = scene.sediment.as_ref().filter(|_| columns.is_none()).map(|material| {
             let (spacing, density) = (material.spacing, material.density);
             Phase::new(&material.particles, &material.wall, spacing, density, material.smoothing_ratio)
                 .filled(&material.filling)
@@ -55,8 +54,7 @@ impl<const D: usize> State<D> {
             exchange: DragExchange::new(drag_length),
             search: Search::new(&scene.domain, numerics.search_skin),
             viscosities: Viscosities::new(&phases),
-            granular: GranularPressure::default(),
-            rates: AveragedGradient::default(),
+            columns,
             system: VelocitySystem::new(),
             projection: Projection::new(),
             shifts: Vec::new(),
@@ -68,6 +66,12 @@ impl<const D: usize> State<D> {
         };
         state.search.search(&state.scene.domain, &mut state.phases, &mut state.exchange);
         Ok(state)
+    }
+
+    /// Largest speed of any particle `[m/s]`.
+    pub(super) fn largest_speed(&self) -> f64 {
+        let of_columns = self.columns.as_ref().map_or(0.0, |columns| columns.grains.largest_speed());
+        self.phases.largest_speed().max(of_columns)
     }
 
     /// A failure with its place and time.

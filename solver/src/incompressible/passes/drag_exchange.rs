@@ -7,7 +7,7 @@ use super::super::divergence::{Failure, Quantity};
 use super::super::neighbours::{Grid, LEAST_TASK, Pairs, Periods, Sources};
 use super::super::numerics::DragSlip;
 use super::super::phase::Phase;
-use super::super::scene::{DragForm, IncompressibleScene, Sediment, SolidFraction, height_axis};
+use super::super::scene::{DragForm, IncompressibleScene, Sediment};
 use super::super::terms::drag_pair;
 use crate::domain::Domain;
 use crate::kernel::{Kernel, KernelShape};
@@ -123,9 +123,8 @@ impl<const D: usize> DragExchange<D> {
                 *factor = match material.drag_form {
                     DragForm::Grain(_) => grain_factor(material, *slip, scene.fluid.kinematic_viscosity),
                     DragForm::Exchange => {
-                        let height = positions[a][height_axis(D)];
                         let around = (weight * fluid.lattice_volume).max(scene.numerics.least_fluid);
-                        exchange_factor(scene, material, sediment, a, height, *slip, around)
+                        exchange_factor(scene, material, sediment, a, &positions[a], *slip, around)
                     }
                 };
             },
@@ -152,27 +151,21 @@ impl<const D: usize> DragExchange<D> {
     }
 }
 
-/// The factor of a sediment particle by the exchange coefficient at its height `[m]` and slip `[m/s]`, with Σ V W `[-]` of
+/// The factor of a sediment particle by the exchange coefficient at its place `[m]` and slip `[m/s]`, with Σ V W `[-]` of
 /// the fluid around it.
 fn exchange_factor<const D: usize>(
     scene: &IncompressibleScene<D>,
     material: &Sediment<D>,
     sediment: &Phase<D>,
     a: usize,
-    height: f64,
+    position: &Vector<D>,
     slip: f64,
     fluid_around: f64,
 ) -> f64 {
-    let fraction = scene.solid_fraction.stratification().map_or(0.0, |layer| layer.at(height).solid_fraction);
+    let fraction = scene.solid_fraction.stratification().map_or(0.0, |layer| layer.solid_fraction_at(position));
     let (density, viscosity) = (scene.fluid.density, scene.fluid.kinematic_viscosity);
     let exchange = material.drag.exchange_coefficient(fraction, slip, material.grain_diameter, density, viscosity);
-    let volume = match (sediment.mass.get(a), &scene.solid_fraction) {
-        // K is that of the mean fraction, so the volume must be that too: all grains have the same
-        (Some(mass), SolidFraction::Averaged(_)) => {
-            mass / (sediment.density * fraction.max(scene.numerics.least_fraction))
-        }
-        _ => sediment.volume.get(a).copied().unwrap_or(sediment.lattice_volume),
-    };
+    let volume = sediment.volume.get(a).copied().unwrap_or(sediment.lattice_volume);
     drag_pair::exchange_factor(volume, exchange, density, fluid_around)
 }
 

@@ -1,8 +1,6 @@
 //! The loops over particles and pairs of a step, with what they store.
 
-pub(super) mod averaged_gradient;
 pub(super) mod drag_exchange;
-pub(super) mod granular_pressure;
 pub(super) mod search;
 pub(super) mod shifting;
 pub(super) mod velocity_gradients;

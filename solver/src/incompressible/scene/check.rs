@@ -1,6 +1,6 @@
 //! Which scenes can be simulated.
 
-use super::{IncompressibleScene, ParticleSet, Sediment, SedimentLoad, SedimentPressure};
+use super::{IncompressibleScene, ParticleSet, Sediment, SedimentLoad, SedimentPressure, SolidFraction};
 use crate::domain::AxisBoundary;
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
@@ -24,6 +24,7 @@ impl<const D: usize> IncompressibleScene<D> {
                 .max(4.0 * sediment.drag_smoothing_length);
         }
         self.check_mixture()?;
+        self.check_columns()?;
         if let Some(layer) = self.solid_fraction.stratification() {
             let strata = layer.strata();
             for &value in &strata.solid_fraction {
@@ -41,6 +42,23 @@ impl<const D: usize> IncompressibleScene<D> {
             }
         }
         self.check_periods(least_period)
+    }
+
+    /// What columns of grains ask of the scene, and that there are columns where φ is to be theirs.
+    fn check_columns(&self) -> Result<(), SceneError> {
+        let dilates = |sediment: &Sediment<D>| matches!(sediment.pressure, SedimentPressure::Dilatant { .. });
+        let dilating = self.sediment.as_ref().filter(|sediment| dilates(sediment));
+        let averaged = matches!(self.solid_fraction, SolidFraction::Averaged(_));
+        let (field, value, rule) = match dilating {
+            Some(sediment) if sediment.wall.is_empty() => ("sediment wall", "empty", "grains that hold the columns"),
+            Some(_) if !averaged => ("solid_fraction", "given", "that of the columns where grains dilate"),
+            Some(_) if !matches!(self.domain.axes[0], AxisBoundary::Periodic { .. }) => {
+                ("domain", "open along the bed", "periodic along the bed where grains dilate")
+            }
+            None if averaged => ("solid_fraction", "averaged", "given where no grains dilate"),
+            _ => return Ok(()),
+        };
+        refuse(Some(ParameterProblem::new(field, value, rule, "change one of both")))
     }
 
     /// No particle may see another one twice.
@@ -70,8 +88,8 @@ impl<const D: usize> Sediment<D> {
             let (rule, remedy) = ("0 or positive, and finite", "give it in SI units");
             refuse(Some(ParameterProblem::new("buoyant_weight", buoyant_weight, rule, remedy)))?;
         }
-        if let SedimentPressure::Dilatant { dilatancy, .. } = self.pressure {
-            refuse(dilatancy.bounds.parameter_problem())?;
+        if let SedimentPressure::Dilatant { columns, .. } = self.pressure {
+            refuse(columns.parameter_problem())?;
         }
         let (expected, found) = (self.particles.position.len(), self.filling.len());
         if found != expected {

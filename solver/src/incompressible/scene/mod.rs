@@ -8,7 +8,7 @@ pub use sediment::{DragForm, Sediment, SedimentLoad, SedimentPressure};
 
 use super::numerics::ProjectionNumerics;
 use super::stratification::Stratification;
-use crate::domain::{AxisBoundary, Domain};
+use crate::domain::Domain;
 use crate::material::turbulence::{MixingLength, RoughWall, Smagorinsky};
 use crate::vector::Vector;
 
@@ -92,7 +92,8 @@ pub enum SolidFraction {
     Overlapping,
     /// A given φ(z).
     Given(Stratification),
-    /// φ(z) is the mean along the bed of the sediment particles, renewed at every step.
+    /// φ is that of the columns of grains that dilate, renewed at every step; the strata that are given here say how high
+    /// the columns reach and all but φ.
     Averaged(Stratification),
 }
 
@@ -120,15 +121,4 @@ pub struct IncompressibleScene<const D: usize> {
     pub domain: Domain<D>,
     /// Numerics.
     pub numerics: ProjectionNumerics,
-}
-
-impl<const D: usize> IncompressibleScene<D> {
-    /// Product of the periods along the bed: its area `[m]` in 2-D, `[m²]` in 3-D.
-    pub(super) fn bed_area(&self) -> f64 {
-        let along = self.domain.axes.iter().take(D - 1);
-        along.fold(1.0, |area, boundary| match boundary {
-            AxisBoundary::Periodic { lower, upper } => area * (upper - lower),
-            AxisBoundary::Open | AxisBoundary::Mirror { .. } => area,
-        })
-    }
 }

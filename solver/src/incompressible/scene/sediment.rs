@@ -1,7 +1,8 @@
 //! The sediment of an incompressible scene.
 
+use super::super::numerics::ColumnNumerics;
 use super::super::stratification::Stratification;
-use super::ParticleSet;
+use super::{ParticleSet, height_axis};
 use crate::material::dilatancy::Dilatancy;
 use crate::material::drag::DragLaw;
 use crate::material::rheology::Rheology;
@@ -22,12 +23,16 @@ pub enum SedimentLoad {
 }
 
 impl SedimentLoad {
-    /// Load `[Pa]` at a height `[m]`.
+    /// Load `[Pa]` at a place `[m]`.
     #[inline]
-    pub(in crate::incompressible) fn at(&self, height: f64, stratification: Option<&Stratification>) -> f64 {
+    pub(in crate::incompressible) fn at<const D: usize>(
+        &self,
+        position: &Vector<D>,
+        stratification: Option<&Stratification>,
+    ) -> f64 {
         match *self {
-            Self::Packed { level, buoyant_weight } => buoyant_weight * (level - height).max(0.0),
-            Self::Stratified => stratification.map_or(0.0, |layer| layer.at(height).overburden),
+            Self::Packed { level, buoyant_weight } => buoyant_weight * (level - position[height_axis(D)]).max(0.0),
+            Self::Stratified => stratification.map_or(0.0, |layer| layer.at(position).overburden),
         }
     }
 }
@@ -41,12 +46,14 @@ pub enum SedimentPressure {
     None,
     /// Nothing: the particles move along the bed only, and keep the solid fraction that is given.
     AlongBed,
-    /// The pressure of sheared grains, which makes them dilate.
+    /// Dilatancy, as a constraint on columns: the grains carry their load at the fraction of their inertial number.
     Dilatant {
-        /// The law of the pressure.
+        /// The law of the fraction.
         dilatancy: Dilatancy,
         /// Volume of grains in a fixed particle over its lattice volume `[-]`.
         fixed_filling: f64,
+        /// The columns that carry the mechanics.
+        columns: ColumnNumerics,
     },
 }
 

@@ -1,5 +1,4 @@
 //! The formulas of one pair each, without loops and storage.
 
 pub(super) mod drag_pair;
-pub(super) mod granular_pressure;
 pub(super) mod viscous_pair;

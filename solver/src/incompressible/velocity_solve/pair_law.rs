@@ -13,20 +13,18 @@ pub(super) struct End {
     pub(super) viscosity: f64,
 }
 
-/// η_a + η_b of two sediment particles `[Pa·s]`, from the pair's own |u_ab|/r or the averaged one `[1/s]`.
+/// η_a + η_b of two sediment particles `[Pa·s]`, from the pair's own |u_ab|/r `[1/s]`.
 #[inline]
 pub(super) fn viscosities<const D: usize>(
     law: &Rheology,
     pair_law: PairLaw,
     ends: (End, End),
     own_rate: impl FnOnce() -> f64,
-    averaged_rate: impl FnOnce() -> f64,
 ) -> f64 {
     let (a, b) = ends;
     match pair_law {
         PairLaw::PairRate => 2.0 * law.viscosity(mean_rate(D) * own_rate(), a.load.min(b.load)),
         PairLaw::PairRateMeanLoad => 2.0 * law.viscosity(mean_rate(D) * own_rate(), 0.5 * (a.load + b.load)),
-        PairLaw::AveragedPairRate => 2.0 * law.viscosity(mean_rate(D) * averaged_rate(), 0.5 * (a.load + b.load)),
         PairLaw::ArithmeticMean => a.viscosity + b.viscosity,
         PairLaw::HarmonicMean => 4.0 * a.viscosity * b.viscosity / (a.viscosity + b.viscosity),
     }

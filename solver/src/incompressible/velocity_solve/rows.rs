@@ -1,18 +1,20 @@
 //! The rows of M + Δt K: viscous pairs of each phase, the bed's friction, the drag.
 
 use super::super::boundary;
+use super::super::columns::drag::ColumnDrag;
 use super::super::neighbours::Pair;
-use super::super::passes::averaged_gradient::AveragedGradient;
 use super::super::passes::drag_exchange::DragExchange;
 use super::super::passes::viscosities::Viscosities;
 use super::super::phase::{Phase, Phases};
-use super::super::scene::{IncompressibleScene, Sediment, height_axis};
+use super::super::scene::{IncompressibleScene, Sediment, Turbulence};
+use super::super::stratification::Stratification;
 use super::super::terms::drag_pair;
 use super::super::terms::viscous_pair;
 use super::VelocitySystem;
 use super::pair_law::{self, End};
 use crate::lanes::LANES;
 use crate::linear::{Row as Links, Single, single};
+use crate::material::turbulence::eddy_viscosity;
 use crate::vector::Vector;
 use rayon::prelude::*;
 
@@ -46,8 +48,8 @@ pub(crate) struct VelocityRows<'a, const D: usize> {
     pub(crate) phases: &'a Phases<D>,
     pub(crate) exchange: &'a DragExchange<D>,
     pub(crate) viscosities: &'a Viscosities,
-    /// Averaged rates of the sediment.
-    pub(crate) rates: &'a AveragedGradient<D>,
+    /// What the fluid exchanges with columns of grains, if there are any.
+    pub(crate) columns: Option<&'a ColumnDrag>,
     /// Δt `[s]`.
     pub(crate) time_step: f64,
 }
@@ -57,6 +59,8 @@ struct Begin<const D: usize> {
     inertia: f64,
     velocity: Vector<D>,
     gravity: Vector<D>,
+    /// What moves with grains push along the bed `[N]`.
+    push: f64,
 }
 
 impl<const D: usize> VelocityRows<'_, D> {
@@ -88,6 +92,7 @@ impl<const D: usize> VelocityRows<'_, D> {
                 sum[lane] = inertia[lane] + held;
                 diagonal[lane] = sum[lane] + coupled;
                 momentum[lane] = (velocity[lane] + begin.gravity * self.time_step) * inertia[lane];
+                momentum[lane][0] += begin.push * self.time_step;
             }
         });
     }
@@ -98,26 +103,36 @@ impl<const D: usize> VelocityRows<'_, D> {
             (Some(sediment), Some(material)) if index >= fluid.len() => {
                 let a = index - fluid.len();
                 self.sediment_row(a, sediment, material, row);
-                Begin { inertia: sediment.mass[a], velocity: sediment.velocity[a], gravity: material.gravity }
+                let (inertia, velocity) = (sediment.mass[a], sediment.velocity[a]);
+                Begin { inertia, velocity, gravity: material.gravity, push: 0.0 }
             }
             _ => {
                 self.fluid_row(index, row);
                 let inertia = fluid.mass[index] * self.viscosities.voidage[index];
-                Begin { inertia, velocity: fluid.velocity[index], gravity: self.scene.fluid.gravity }
+                let push = self.columns.map_or(0.0, |drag| drag.push[index]);
+                Begin { inertia, velocity: fluid.velocity[index], gravity: self.scene.fluid.gravity, push }
             }
         }
     }
 
     fn fluid_row(&self, a: usize, row: &mut Row<'_, '_>) {
         let (fluid, viscosity) = (&self.phases.fluid, &self.viscosities.fluid);
+        let stratified = self.scene.fluid.turbulence == Turbulence::Stratified;
+        let layer = self.scene.solid_fraction.stratification().filter(|_| stratified);
         for pair in fluid.free_pairs.of(a) {
             let b = pair.source as usize;
             let volumes = (fluid.volume[a], fluid.volume[b]);
             let moments = fluid.moment[a] + fluid.moment[b];
-            let both = viscosity[a] + viscosity[b];
+            let both = match layer {
+                Some(layer) => 2.0 * self.middle_viscosity(layer, a, pair),
+                None => viscosity[a] + viscosity[b],
+            };
             row.couple(b, viscous_pair::coefficient(self.time_step, volumes, moments, pair.gradient, both));
         }
         let Self { scene, time_step, .. } = *self;
+        if let Some(drag) = self.columns {
+            row.hold(time_step * drag.hold[a]);
+        }
         row.hold(boundary::friction(scene.fluid.bed, fluid, a, viscosity[a], &scene.numerics, time_step));
         let (Some(sediment), Some(material)) = (&self.phases.sediment, &scene.sediment) else { return };
         for pair in self.exchange.of_fluid.of(a) {
@@ -134,6 +149,17 @@ impl<const D: usize> VelocityRows<'_, D> {
         }
     }
 
+    /// η `[Pa·s]` of a fluid pair in the middle between its particles, at the mean of their rates: the mixing length grows by
+    /// more than itself within a spacing, and its square as a mean of both ends would be far too large.
+    #[inline]
+    fn middle_viscosity(&self, layer: &Stratification, a: usize, pair: &Pair<D>) -> f64 {
+        let Self { scene, phases, viscosities, .. } = *self;
+        let rate = 0.5 * (viscosities.fluid_rate[a] + viscosities.fluid_rate[pair.source as usize]);
+        let stratum = layer.at(&(phases.fluid.position[a] - pair.separation * 0.5));
+        let eddy = eddy_viscosity(stratum.mixing_length, rate);
+        (1.0 - stratum.solid_fraction) * scene.fluid.density * (scene.fluid.kinematic_viscosity + eddy)
+    }
+
     fn sediment_row(&self, a: usize, sediment: &Phase<D>, material: &Sediment<D>, row: &mut Row<'_, '_>) {
         let (fluid, viscosities) = (&self.phases.fluid, self.viscosities);
         let end = |b: usize| End { load: viscosities.load[b], viscosity: viscosities.sediment[b] };
@@ -142,7 +168,8 @@ impl<const D: usize> VelocityRows<'_, D> {
             let volumes = (sediment.volume[a], sediment.volume[b]);
             let moments = sediment.moment[a] + sediment.moment[b];
             let difference = sediment.velocity[a] - sediment.velocity[b];
-            let both = self.pair_viscosity(material, (end(a), end(b)), (a, Some(b)), difference, pair);
+            let both =
+                self.pair_viscosity(material, (end(a), end(b)), difference, pair) + self.added(a, sediment, pair);
             row.couple(
                 fluid.len() + b,
                 viscous_pair::coefficient(self.time_step, volumes, moments, pair.gradient, both),
@@ -151,9 +178,9 @@ impl<const D: usize> VelocityRows<'_, D> {
         let layer = self.scene.solid_fraction.stratification();
         for pair in sediment.wall_pairs.of(a) {
             let volumes = (sediment.volume[a], sediment.lattice_volume);
-            let load = material.load.at(sediment.wall[pair.source as usize][height_axis(D)], layer);
+            let load = material.load.at(&sediment.wall[pair.source as usize], layer);
             let ends = (end(a), End { load, viscosity: viscosities.sediment[a] });
-            let both = self.pair_viscosity(material, ends, (a, None), sediment.velocity[a], pair);
+            let both = self.pair_viscosity(material, ends, sediment.velocity[a], pair) + self.added(a, sediment, pair);
             let moments = 2.0 * sediment.moment[a];
             row.hold(viscous_pair::coefficient(self.time_step, volumes, moments, pair.gradient, both));
         }
@@ -165,18 +192,20 @@ impl<const D: usize> VelocityRows<'_, D> {
         }
     }
 
+    /// Twice the viscosity `[Pa·s]` that the water between the grains of a pair adds to their friction, in the middle.
+    #[inline]
+    fn added(&self, a: usize, sediment: &Phase<D>, pair: &Pair<D>) -> f64 {
+        let fluid = &self.scene.fluid;
+        self.scene.solid_fraction.stratification().map_or(0.0, |layer| {
+            let stratum = layer.at(&(sediment.position[a] - pair.separation * 0.5));
+            2.0 * (1.0 - stratum.solid_fraction) * fluid.density * fluid.kinematic_viscosity * stratum.added_viscosity
+        })
+    }
+
     /// η_a + η_b `[Pa·s]` of a sediment particle with another or with a wall, at a difference of velocities `[m/s]`.
     #[inline]
-    fn pair_viscosity(
-        &self,
-        material: &Sediment<D>,
-        ends: (End, End),
-        (a, b): (usize, Option<usize>),
-        difference: Vector<D>,
-        pair: &Pair<D>,
-    ) -> f64 {
+    fn pair_viscosity(&self, material: &Sediment<D>, ends: (End, End), difference: Vector<D>, pair: &Pair<D>) -> f64 {
         let own_rate = || (difference.norm_squared() / pair.separation.norm_squared()).sqrt();
-        let averaged_rate = || self.rates.pair_rate(a, b, pair);
-        pair_law::viscosities::<D>(&material.law, self.scene.numerics.pair_law, ends, own_rate, averaged_rate)
+        pair_law::viscosities::<D>(&material.law, self.scene.numerics.pair_law, ends, own_rate)
     }
 }

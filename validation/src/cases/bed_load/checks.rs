@@ -1,7 +1,7 @@
 //! What a case file may ask for.
 
 use super::continuum::LAYER_CELL;
-use super::parameters::{BedLoadParameters, Grains};
+use super::parameters::{BedLoadParameters, Grains, Stage};
 use crate::case::ParameterError;
 use crate::cases::rules;
 use crate::reference::bed_load_layer::{Closures, MixingLength};
@@ -76,11 +76,15 @@ impl BedLoadParameters {
         let remedy = "hold less than the whole bed";
         rules::between("continuum.held_depth", continuum.held_depth, 0.0, 0.9 * continuum.bed_depth, remedy)?;
         rules::refuse("continuum.closures", continuum.closures.problem())?;
-        let Closures { mixing_length, karman, .. } = continuum.closures;
+        let Closures { mixing_length, karman, turbulent_schmidt, .. } = continuum.closures;
         if mixing_length != MixingLength::Integral {
             let remedy = "the particles know no other; bed-load-1d compares all";
             let given = format!("{mixing_length:?}").to_lowercase();
             return Err(ParameterError::field("continuum.closures.mixing_length", given, "integral", remedy));
+        }
+        if turbulent_schmidt != 0.0 {
+            let (rule, remedy) = ("0", "no eddy carries the particles' grains; bed-load-1d compares both");
+            return Err(ParameterError::field("continuum.closures.turbulent_schmidt", turbulent_schmidt, rule, remedy));
         }
         if karman != VON_KARMAN {
             let remedy = "the particles know no other; bed-load-1d takes any";
@@ -101,6 +105,11 @@ impl BedLoadParameters {
                 let field = format!("{path}.spacings[{place}]");
                 let remedy = "0.001 for 1 mm; the period must hold 7";
                 rules::between(&field, spacing, 1e-4, continuum.length / 7.2, remedy)?;
+            }
+            if runs.stage == Stage::Dilating && !runs.pair_laws.is_empty() {
+                let given = format!("{:?}", runs.pair_laws);
+                let (rule, remedy) = ("empty where grains dilate", "they have columns instead of pairs");
+                return Err(ParameterError::field(&format!("{path}.pair_laws"), given, rule, remedy));
             }
             check_time(&path, runs.duration, runs.averaging_time)?;
         }

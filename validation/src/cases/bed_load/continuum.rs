@@ -18,6 +18,9 @@ use serde::Serialize;
 /// Height of a cell of the 1-D layer `[m]`.
 pub(super) const LAYER_CELL: f64 = 2.5e-4;
 
+/// Rows of held grains below the water's floor, as many as a kernel reaches.
+const WALL_ROWS: usize = 3;
+
 /// What is special to one run.
 #[derive(Debug, Clone, Serialize)]
 pub struct ContinuumRun {
@@ -25,8 +28,8 @@ pub struct ContinuumRun {
     pub continuum: Continuum,
     /// Stage.
     pub stage: Stage,
-    /// Pair law.
-    pub pair_law: PairLaw,
+    /// Pair law; none of grains that dilate.
+    pub pair_law: Option<PairLaw>,
     /// Velocities at the start over those of the 1-D layer `[-]`.
     pub start: f64,
     /// Spacing `[m]`.
@@ -49,7 +52,16 @@ impl ContinuumRun {
 
     pub(super) fn numerics(&self) -> ProjectionNumerics {
         let of_case = self.continuum.numerics;
-        ProjectionNumerics { pair_law: self.pair_law, time_step: of_case.time_step * self.spacing / 1e-3, ..of_case }
+        let pair_law = self.pair_law.unwrap_or(of_case.pair_law);
+        ProjectionNumerics { pair_law, time_step: of_case.time_step * self.spacing / 1e-3, ..of_case }
+    }
+
+    /// Particles of the sediment along a spacing of the water.
+    fn refinement(&self) -> usize {
+        match self.stage {
+            Stage::Porous | Stage::Frozen => 1,
+            Stage::Dilating => self.continuum.sediment_refinement as usize,
+        }
     }
 
     /// The 1-D layer that the run is verified against.
@@ -77,18 +89,18 @@ impl ContinuumRun {
         layer: &LayerState,
         velocity: &'a (dyn Fn(f64) -> f64 + Sync),
     ) -> Channel<'a> {
-        let (continuum, spacing) = (&self.continuum, self.spacing);
-        let fluid = Lattice {
-            spacing,
-            rows: ((run.materials.depth + continuum.bed_depth) / spacing).round() as usize,
-            columns: (continuum.length / spacing).round() as usize,
-            bottom: -continuum.bed_depth,
-        };
+        let continuum = &self.continuum;
+        // the spacing that divides the height, so that the surface lies where it should
+        let height = run.materials.depth + continuum.bed_depth;
+        let rows = (height / self.spacing).round();
+        let spacing = height / rows;
+        let columns = (continuum.length / spacing).round() as usize;
+        let fluid = Lattice { spacing, rows: rows as usize, columns, bottom: -continuum.bed_depth };
         let stratification = self.stratification(&run.materials, layer);
         Channel {
             turbulence: Turbulence::Stratified,
             bed: Bed::NoSlip(fluid.bottom),
-            sediment: Some(self.sediment(run, self.placed(fluid, run.seed, layer))),
+            sediment: Some(self.sediment(run, fluid, layer)),
             solid_fraction: match self.stage {
                 Stage::Porous | Stage::Frozen => solver::SolidFraction::Given(stratification),
                 Stage::Dilating => solver::SolidFraction::Averaged(stratification),
@@ -109,6 +121,8 @@ impl ContinuumRun {
             bed_level: 0.0,
             depth: materials.depth,
             suspension_viscosity: closures.suspension_viscosity,
+            grain_roughness: closures.grain_roughness,
+            grain_diameter: materials.grain_diameter,
         })
     }
 
@@ -116,14 +130,17 @@ impl ContinuumRun {
     fn placed(&self, fluid: Lattice, seed: u64, layer: &LayerState) -> Placed {
         let Continuum { closures, least_fraction, held_depth, bed_depth, .. } = &self.continuum;
         let held = held_depth - bed_depth;
-        let lattice = Lattice { bottom: fluid.bottom - 3.0 * fluid.spacing, rows: fluid.rows + 3, ..fluid };
+        let part = self.refinement();
+        let spacing = fluid.spacing / part as f64;
+        let (rows, columns) = (part * fluid.rows + WALL_ROWS, part * fluid.columns);
+        let lattice = Lattice { spacing, rows, columns, bottom: fluid.bottom - WALL_ROWS as f64 * spacing };
         let jitter = if self.stage == Stage::Dilating { self.continuum.sediment_jitter } else { 0.0 };
         let mut placed = Placed::default();
         for (site, place) in lattice.sites().zip(lattice.displaced(jitter, seed.wrapping_add(1))) {
             let point = layer.at(site[1]);
             let fraction = match self.stage {
-                Stage::Dilating if site[1] < 0.0 => closures.largest_fraction,
-                Stage::Dilating => 0.0,
+                // the top row has what lies below the bed's level, so that no grain is lost or won
+                Stage::Dilating => closures.largest_fraction * (0.5 - site[1] / spacing).clamp(0.0, 1.0),
                 Stage::Porous | Stage::Frozen => point.solid_fraction,
             };
             if site[1] < held || (self.stage == Stage::Porous && fraction > *least_fraction) {
@@ -137,7 +154,8 @@ impl ContinuumRun {
         placed
     }
 
-    fn sediment(&self, run: &BedLoadRun, Placed { free, filling, wall }: Placed) -> Sediment<2> {
+    fn sediment(&self, run: &BedLoadRun, fluid: Lattice, layer: &LayerState) -> Sediment<2> {
+        let Placed { free, filling, wall } = self.placed(fluid, run.seed, layer);
         let Materials { gravity, fluid_density, grain_density, grain_diameter, .. } = run.materials;
         let (closures, numerics) = (&self.continuum.closures, self.numerics());
         let packing = closures.largest_fraction;
@@ -147,8 +165,8 @@ impl ContinuumRun {
             particles: free,
             filling,
             wall,
-            spacing: self.spacing,
-            smoothing_ratio: if dilates { self.continuum.smoothing_ratio } else { numerics.smoothing_ratio },
+            spacing: fluid.spacing / self.refinement() as f64,
+            smoothing_ratio: numerics.smoothing_ratio,
             density: grain_density,
             grain_diameter,
             law: Rheology::RootMuI(RootMuI {
@@ -161,21 +179,79 @@ impl ContinuumRun {
             }),
             load: solver::SedimentLoad::Stratified,
             pressure: if dilates {
-                let dilatancy = Dilatancy {
-                    dilation: closures.dilation,
-                    packing,
-                    grain_diameter,
-                    grain_density,
-                    bounds: self.continuum.pressure_bounds,
-                };
-                solver::SedimentPressure::Dilatant { dilatancy, fixed_filling: packing }
+                let dilatancy = Dilatancy { dilation: closures.dilation, packing, grain_diameter, grain_density };
+                solver::SedimentPressure::Dilatant {
+                    dilatancy,
+                    fixed_filling: packing,
+                    columns: self.continuum.columns,
+                }
             } else {
                 solver::SedimentPressure::AlongBed
             },
             drag: closures.drag,
             drag_form: solver::DragForm::Exchange,
-            drag_smoothing_length: numerics.smoothing_ratio * self.spacing,
+            drag_smoothing_length: numerics.smoothing_ratio * fluid.spacing,
             gravity: Vector::<2>::new(gravity * run.slope, -buoyancy * gravity),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parameters::{BedLoadParameters, StageRuns};
+    use super::super::runs::{Formulation, runs};
+    use super::*;
+    use crate::case::{Parameters, Tier};
+    use bagnold_solver::incompressible::DrivenGrains;
+
+    /// q* of the grains over the layer's where the water is the layer's own, a mean over the last half second.
+    fn transport_ratio(slope: f64, spacing: f64, start: f64) -> f64 {
+        let mut parameters = BedLoadParameters::of_tier(Tier::Quick);
+        parameters.continuum.runs = vec![StageRuns {
+            stage: Stage::Dilating,
+            slopes: vec![slope],
+            pair_laws: Vec::new(),
+            starts: vec![start],
+            spacings: vec![spacing],
+            duration: 2.0,
+            averaging_time: 0.5,
+        }];
+        let run = runs(&parameters).pop().expect("one run");
+        let Formulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
+        let layer = own.layer(run.stream()).expect("a steady layer");
+        let water = |z: f64| layer.at(z).fluid_velocity;
+        let channel = own.channel(&run, &layer, &water);
+        let (length, time_step) = (channel.fluid.length(), channel.numerics.time_step);
+        let mut grains = DrivenGrains::new(channel.scene()).expect("a valid scene");
+        let (mut sum, mut count) = (0.0, 0.0);
+        for step in 0..(run.duration / time_step) as usize {
+            assert!(grains.step(time_step), "step {step}");
+            if step as f64 * time_step > run.duration - run.averaging_time {
+                let momentum = grains.masses().iter().zip(grains.grains().1).fold(0.0, |sum, (m, u)| sum + m * u[0]);
+                sum += momentum / run.materials.grain_density / length;
+                count += 1.0;
+            }
+        }
+        sum / count / run.stream().transport_unit() / layer.transport()
+    }
+
+    /// A layer that moves has two rows at least, and no run is coarser than its file asks for.
+    #[test]
+    fn a_thin_layer_has_finer_particles() {
+        let materials = BedLoadParameters::of_tier(Tier::Quick).materials;
+        let shallow = Materials { depth: 0.03, ..materials };
+        let of = |stage: Stage, slope, materials| stage.spacing(1e-3, 1.3, slope, materials);
+        assert_eq!(of(Stage::Frozen, 0.02, &materials), 7e-4);
+        assert_eq!(of(Stage::Frozen, 0.03, &materials), 1e-3);
+        assert_eq!(of(Stage::Frozen, 0.02, &shallow), 4e-4);
+        assert_eq!(of(Stage::Dilating, 0.02, &shallow), 1e-3);
+    }
+
+    #[test]
+    fn grains_alone_carry_what_the_layer_carries_in_the_layers_water() {
+        for (slope, spacing, start) in [(0.02, 7e-4, 1.0), (0.03, 1e-3, 1.0), (0.03, 1e-3, 1.4), (0.05, 1e-3, 1.0)] {
+            let ratio = transport_ratio(slope, spacing, start);
+            assert!((ratio - 1.0).abs() < 0.02, "slope {slope}, {spacing} m, start {start}: {ratio}");
         }
     }
 }

@@ -51,7 +51,9 @@ fn label(run: &BedLoadRun) -> String {
             let ContinuumRun { stage, pair_law, start, spacing, .. } = own;
             let mut label = format!("{}, {}", stage.name(), percent(run));
             if !own.is_judged() {
-                label += &format!(", {}", pair_law_name(*pair_law));
+                if let Some(law) = pair_law {
+                    label += &format!(", {}", pair_law_name(*law));
+                }
             }
             if *start != 1.0 {
                 label += ", slow start";

@@ -3,8 +3,7 @@
 use crate::cases::channel::TurbulenceClosure;
 use crate::cases::rules;
 use crate::reference::bed_load_layer::Closures;
-use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
-use bagnold_solver::material::dilatancy::PressureBounds;
+use bagnold_solver::incompressible::{ColumnNumerics, PairLaw, ProjectionNumerics};
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::parameter::{between, each, positive};
@@ -68,6 +67,9 @@ pub struct Grains {
     pub numerics: ProjectionNumerics,
 }
 
+/// Tenths of a millimetre in a metre.
+const TENTHS: f64 = 1e4;
+
 /// How much of the 1-D layer the grains of a `continuum` run are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -81,13 +83,23 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// The pair law whose runs are judged; runs of others show what a law does. Grains in rows have no rate but that of
-    /// the flow. Grains that dilate jostle: with the pair's own rate a raft of them slides on a thin layer, the faster the
-    /// finer the spacing, while the averaged rate comes nearer to the layer.
-    pub(super) const fn judged_pair_law(self) -> PairLaw {
+    /// The pair law whose runs are judged; runs of others show what a law does. Grains that dilate know columns and no
+    /// pairs.
+    pub(super) const fn judged_pair_law(self) -> Option<PairLaw> {
         match self {
-            Self::Porous | Self::Frozen => PairLaw::PairRateMeanLoad,
-            Self::Dilating => PairLaw::AveragedPairRate,
+            Self::Porous | Self::Frozen => Some(PairLaw::PairRateMeanLoad),
+            Self::Dilating => None,
+        }
+    }
+
+    /// Spacing of a run `[m]` whose file asks for one, by the largest over τ* d, in whole tenths of a millimetre.
+    pub(super) fn spacing(self, asked: f64, largest: f64, slope: f64, materials: &Materials) -> f64 {
+        let weight = materials.grain_density / materials.fluid_density - 1.0;
+        // τ* d
+        let scale = materials.depth * slope / weight;
+        match self {
+            Self::Porous | Self::Dilating => asked,
+            Self::Frozen => asked.min((largest * scale * TENTHS).floor().max(1.0) / TENTHS),
         }
     }
 
@@ -108,18 +120,28 @@ pub struct StageRuns {
     /// Slopes `[-]`.
     #[schemars(transform = each(rules::driving_slope()))]
     pub slopes: Vec<f64>,
-    /// Pair laws.
+    /// Pair laws; none of grains that dilate.
     pub pair_laws: Vec<PairLaw>,
     /// Velocities at the start over those of the 1-D layer `[-]`.
     #[schemars(transform = each(between(0.0, 3.0, "1 starts as the 1-D layer flows")))]
     pub starts: Vec<f64>,
-    /// Spacings of the particles of both phases `[m]`.
+    /// Spacings of the particles of both phases `[m]`; `frozen` takes a smaller one where `largest_spacing` says so.
     pub spacings: Vec<f64>,
     /// Simulated time `[s]`.
     #[schemars(transform = between(0.1, 1e4, "a few seconds, more to be stationary"))]
     pub duration: f64,
     /// Averaging window before its end `[s]`.
     pub averaging_time: f64,
+}
+
+impl StageRuns {
+    /// One for each run, none where grains know no pairs.
+    pub(super) fn pair_laws(&self) -> Vec<Option<PairLaw>> {
+        match self.stage {
+            Stage::Porous | Stage::Frozen => self.pair_laws.iter().copied().map(Some).collect(),
+            Stage::Dilating => vec![None],
+        }
+    }
 }
 
 /// Volume fractions, literature closures, nothing fitted.
@@ -136,16 +158,21 @@ pub struct Continuum {
     pub length: f64,
     /// Closures of particles and of the layer.
     pub closures: Closures,
+    /// Largest spacing of grains that move at a given fraction, over τ* d `[-]`: their velocity falls by e over some
+    /// 0.9 τ* d, and a layer thinner than that needs finer particles than a file asks for.
+    #[schemars(transform = between(0.1, 100.0, "1.3 puts two rows into the layer that moves"))]
+    pub largest_spacing: f64,
     /// Solid fraction of the layer below which a row carries no sediment particle `[-]`.
     pub least_fraction: f64,
-    /// Bounds of the pressure of dilating sediment.
-    pub pressure_bounds: PressureBounds,
-    /// Smoothing length of dilating sediment over its spacing `[-]`.
-    #[schemars(transform = between(1.0, 3.0, "1.5 for dilating sediment"))]
-    pub smoothing_ratio: f64,
-    /// Largest random displacement of dilating sediment in spacings `[-]`.
+    /// Particles of dilating sediment along a spacing of the water: they cost little, and a layer of a grain's thickness
+    /// wants many.
+    #[schemars(transform = between(1.0, 8.0, "2 for an error below 1 % in given water"))]
+    pub sediment_refinement: u32,
+    /// Largest random displacement of dilating sediment in its spacings `[-]`.
     #[schemars(transform = between(0.0, 0.5, "0.3 breaks the rows"))]
     pub sediment_jitter: f64,
+    /// The columns of dilating sediment.
+    pub columns: ColumnNumerics,
     /// Numerics at a spacing of 1 mm; the time step goes with the spacing.
     pub numerics: ProjectionNumerics,
 }

@@ -84,9 +84,10 @@ pub(super) fn runs(parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
     }
     for list in &continuum.runs {
         for &slope in &list.slopes {
-            for &pair_law in &list.pair_laws {
+            for pair_law in list.pair_laws() {
                 for &start in &list.starts {
                     for &spacing in &list.spacings {
+                        let spacing = list.stage.spacing(spacing, continuum.largest_spacing, slope, materials);
                         let formulation = Formulation::Continuum(ContinuumRun {
                             continuum: Continuum { runs: Vec::new(), ..continuum.clone() },
                             stage: list.stage,
@@ -118,7 +119,6 @@ pub(super) fn pair_law_name(law: PairLaw) -> &'static str {
     match law {
         PairLaw::PairRate => "pair-rate",
         PairLaw::PairRateMeanLoad => "pair-rate-mean-load",
-        PairLaw::AveragedPairRate => "averaged-pair-rate",
         PairLaw::ArithmeticMean => "arithmetic-mean",
         PairLaw::HarmonicMean => "harmonic-mean",
     }
@@ -136,7 +136,12 @@ impl Run for BedLoadRun {
                 of("fit").and("yield_stress", law.yield_stress).and("viscosity", law.plastic_viscosity)
             }
             Formulation::Continuum(ContinuumRun { stage, pair_law, start, spacing, .. }) => {
-                of(stage.name()).and("pair_law", pair_law_name(*pair_law)).and("start", *start).and("spacing", *spacing)
+                let named = of(stage.name());
+                let named = match pair_law {
+                    Some(law) => named.and("pair_law", pair_law_name(*law)),
+                    None => named,
+                };
+                named.and("start", *start).and("spacing", *spacing)
             }
         }
     }

@@ -5,8 +5,7 @@ use super::runs::{self, BedLoadRun};
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::channel::TurbulenceClosure;
 use crate::reference::bed_load_layer::Closures;
-use bagnold_solver::incompressible::{PairLaw, ProjectionNumerics};
-use bagnold_solver::material::dilatancy::PressureBounds;
+use bagnold_solver::incompressible::{ColumnNumerics, PairLaw, ProjectionNumerics};
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
 use bagnold_solver::material::turbulence::MixingLengthShape;
@@ -23,9 +22,9 @@ pub(super) const FITTED: CoulombBingham = CoulombBingham {
 /// The slopes of the paper `[-]`.
 const SLOPES: [f64; 3] = [0.02, 0.03, 0.05];
 
-/// The pair laws by which grains in rows are judged, and grains that jostle.
-const ROWS: [PairLaw; 1] = [Stage::Frozen.judged_pair_law()];
-const JOSTLING: [PairLaw; 1] = [Stage::Dilating.judged_pair_law()];
+/// The pair law by which grains in rows are judged, and none for grains in columns.
+const ROWS: [PairLaw; 1] = [PairLaw::PairRateMeanLoad];
+const COLUMNS: [PairLaw; 0] = [];
 
 impl Parameters for BedLoadParameters {
     type Run = BedLoadRun;
@@ -110,16 +109,24 @@ fn quick() -> BedLoadParameters {
         paper,
         stabilised,
         continuum: Continuum {
-            runs: vec![stage(Stage::Porous, &[0.03], &ROWS, &[1.0], 0.5)],
+            runs: vec![
+                stage(Stage::Porous, &[0.03], &ROWS, &[1.0], 0.5),
+                stage(Stage::Dilating, &[0.03], &COLUMNS, &[1.0], 0.3),
+            ],
             bed_depth: 0.016,
             held_depth: 0.004,
             length: 0.01,
             closures: Closures::default(),
+            largest_spacing: 1.3,
             least_fraction: 2e-3,
-            pressure_bounds: PressureBounds::default(),
-            smoothing_ratio: 1.5,
+            sediment_refinement: 2,
             sediment_jitter: 0.3,
-            numerics: ProjectionNumerics { time_step: 1.5e-4, ..ProjectionNumerics::default() },
+            columns: ColumnNumerics::default(),
+            numerics: ProjectionNumerics {
+                time_step: 1.5e-4,
+                fluctuation_rate: 500.0,
+                ..ProjectionNumerics::default()
+            },
         },
         fit: Fit {
             yield_stresses: Vec::new(),
@@ -140,13 +147,12 @@ fn paper(quick: BedLoadParameters) -> BedLoadParameters {
         continuum: Continuum {
             runs: vec![
                 stage(Stage::Porous, &SLOPES, &ROWS, &[1.0], 4.0),
-                stage(Stage::Frozen, &[0.03, 0.05], &ROWS, &[1.0], 4.0),
-                // grains that move in less than a spacing slow down for long
-                stage(Stage::Frozen, &[0.02], &ROWS, &[1.0], 16.0),
+                stage(Stage::Frozen, &[0.03, 0.04, 0.05], &ROWS, &[1.0], 4.0),
+                // what moves in a thin layer slows down for long
+                stage(Stage::Frozen, &[0.02], &ROWS, &[1.0], 8.0),
                 stage(Stage::Frozen, &[0.03], &[PairLaw::PairRate, PairLaw::HarmonicMean], &[1.0], 4.0),
-                stage(Stage::Dilating, &SLOPES, &JOSTLING, &[1.0], 4.0),
-                stage(Stage::Dilating, &[0.03], &JOSTLING, &[0.3], 12.0),
-                stage(Stage::Dilating, &SLOPES, &[PairLaw::PairRateMeanLoad], &[1.0], 4.0),
+                stage(Stage::Dilating, &SLOPES, &COLUMNS, &[1.0], 4.0),
+                stage(Stage::Dilating, &[0.03], &COLUMNS, &[0.3, 1.4], 12.0),
             ],
             ..quick.continuum
         },
@@ -161,7 +167,7 @@ fn fine(quick: BedLoadParameters) -> BedLoadParameters {
         continuum: Continuum {
             runs: vec![StageRuns {
                 spacings: vec![7e-4, 5e-4],
-                ..stage(Stage::Dilating, &SLOPES, &JOSTLING, &[1.0, 0.3], 4.0)
+                ..stage(Stage::Dilating, &SLOPES, &COLUMNS, &[1.0, 0.3], 4.0)
             }],
             ..quick.continuum
         },

@@ -237,27 +237,24 @@ impl ChannelProbe {
     }
 }
 
-/// Momentum of all phases along the floor, per metre of width `[kg/s]`.
+/// Momentum of all phases along the floor, per metre of width `[kg/s]`: every particle with its own mass, of which a
+/// fluid's counts as far as grains leave it room.
 fn momentum(simulation: &IncompressibleSimulation<2>) -> f64 {
-    let scene = simulation.scene();
-    let of = |density: f64, spacing: f64, velocity: &[Vector<2>]| {
-        density * spacing * spacing * velocity.iter().map(|v| v[0]).sum::<f64>()
-    };
-    let fluid = of(scene.fluid.density, scene.fluid.spacing, simulation.fluid().1);
-    let sediment = scene.sediment.as_ref();
-    fluid + sediment.map_or(0.0, |material| of(material.density, material.spacing, simulation.sediment().1))
+    let of_fluid = fluid_masses(simulation).zip(simulation.fluid().1);
+    let of_sediment = simulation.sediment_masses().iter().copied().zip(simulation.sediment().1);
+    of_fluid.chain(of_sediment).fold(0.0, |sum, (mass, velocity)| sum + mass * velocity[0])
 }
 
 /// Body force on all phases along the floor, per metre of width `[N/m]`.
 fn body_force(simulation: &IncompressibleSimulation<2>) -> f64 {
     let scene = simulation.scene();
-    let of = |density: f64, spacing: f64, particles: usize, gravity: &Vector<2>| {
-        density * spacing * spacing * particles as f64 * gravity[0]
-    };
-    let fluid = of(scene.fluid.density, scene.fluid.spacing, simulation.fluid().0.len(), &scene.fluid.gravity);
-    let sediment = scene.sediment.as_ref();
-    fluid
-        + sediment.map_or(0.0, |material| {
-            of(material.density, material.spacing, simulation.sediment().0.len(), &material.gravity)
-        })
+    let fluid = fluid_masses(simulation).fold(0.0, |sum, mass| sum + mass);
+    let sediment = simulation.sediment_masses().iter().fold(0.0, |sum, mass| sum + mass);
+    let of_sediment = scene.sediment.as_ref().map_or(0.0, |material| sediment * material.gravity[0]);
+    fluid * scene.fluid.gravity[0] + of_sediment
+}
+
+/// Masses of the fluid's particles as their momentum equation has them `[kg]`.
+fn fluid_masses(simulation: &IncompressibleSimulation<2>) -> impl Iterator<Item = f64> + '_ {
+    simulation.fluid_masses().iter().zip(simulation.voidage()).map(|(mass, voidage)| mass * voidage)
 }

@@ -8,6 +8,7 @@ use bagnold_solver::incompressible::{
 };
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
+use bagnold_solver::material::turbulence::GrainRoughness;
 use bagnold_solver::vector::Vector;
 use serde::Serialize;
 
@@ -91,6 +92,8 @@ impl SuspensionRun {
             bed_level: 0.0,
             depth: column.height(),
             suspension_viscosity: SuspensionViscosity::default(),
+            grain_roughness: GrainRoughness::default(),
+            grain_diameter: grains.grain_diameter,
         });
         let sediment = self.experiment.sediment(places, self.solid_fraction, -grains.gravity);
         self.experiment.scene(-grains.gravity, sediment, SolidFraction::Given(stratification))

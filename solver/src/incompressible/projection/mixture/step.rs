@@ -14,7 +14,7 @@ use crate::incompressible::passes::drag_exchange::DragExchange;
 use crate::incompressible::phase::{LatticeSums, Phase, Phases};
 use crate::incompressible::projection::pressure_poisson::PressurePoisson;
 use crate::incompressible::projection::{motion, residual};
-use crate::incompressible::scene::{IncompressibleScene, height_axis};
+use crate::incompressible::scene::IncompressibleScene;
 use crate::incompressible::velocity_solve::VelocitySystem;
 use crate::vector::Vector;
 
@@ -94,8 +94,7 @@ impl<const D: usize> Mixture<D> {
     /// Volume of the grains in every sediment particle; fixed ones have the given solid fraction.
     fn find_grain_volumes(&mut self, scene: &IncompressibleScene<D>, sediment: &Phase<D>) {
         let layer = scene.solid_fraction.stratification();
-        let normal = height_axis(D);
-        let fixed = |place: &Vector<D>| layer.map_or(0.0, |layer| layer.at(place[normal]).solid_fraction);
+        let fixed = |place: &Vector<D>| layer.map_or(0.0, |layer| layer.solid_fraction_at(place));
         self.grain_volume.clear();
         self.grain_volume.extend(sediment.mass.iter().map(|mass| mass / sediment.density));
         self.grain_volume.extend(sediment.wall.iter().map(|place| fixed(place) * sediment.lattice_volume));

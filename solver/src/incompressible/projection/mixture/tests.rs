@@ -9,6 +9,7 @@ use crate::incompressible::{
 use crate::material::drag::DragLaw;
 use crate::material::rheology::{Newtonian, Rheology};
 use crate::material::suspension_viscosity::SuspensionViscosity;
+use crate::material::turbulence::GrainRoughness;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -76,6 +77,8 @@ fn suspension(
             bed_level: 0.0,
             depth: height,
             suspension_viscosity: SuspensionViscosity::default(),
+            grain_roughness: GrainRoughness::default(),
+            grain_diameter: SPACING,
         })),
         domain: Domain { axes: [length, height].map(|upper| AxisBoundary::Periodic { lower: 0.0, upper }) },
         numerics: ProjectionNumerics {

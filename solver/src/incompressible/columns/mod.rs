@@ -1,0 +1,250 @@
+//! Grains that dilate, by columns.
+//!
+//! Particles carry mass and momentum ([`grains`]); vertical columns at least some grains wide, with nodes closer than the
+//! particles ([`grid`]), carry the mechanics. Pair sums cannot: dilation parts the rows of grains and leaves their spacing
+//! along the bed, so that at a small φ a row is a rigid raft that no neighbour reaches, at any resolution. A step:
+//!
+//! 1. [`nodes`]: particles to nodes; φ, the overburden p′ and φ* = φ_max/(1 + B I); φ to the [`Stratification`].
+//! 2. [`drag`]: what nodes and water exchange, implicit in the water's velocities, the opposite on the nodes.
+//! 3. [`friction`]: the law of the grains at p′, implicit on each column; −∂p′/∂x between columns.
+//! 4. [`dilation`]: the motion across the bed, from the constraint that φ tends to φ*.
+//! 5. Nodes to particles: each takes the change of velocity that its nodes have had, and relaxes towards their velocity.
+//!    Mass is exact because particles have it, momentum because the weights of both ways are the same.
+//!
+//! A column's mean is over its width, so a bed may be as uneven as its columns resolve.
+
+mod dilation;
+pub(super) mod drag;
+mod driven;
+mod fluctuation;
+mod friction;
+mod grains;
+mod grid;
+mod nodes;
+#[cfg(test)]
+mod tests;
+
+pub use driven::DrivenGrains;
+pub(super) use fluctuation::relax_fluctuation;
+pub(super) use grains::Grains;
+
+use super::divergence::{Failure, Quantity};
+use super::numerics::ColumnNumerics;
+use super::phase::Phase;
+use super::scene::{IncompressibleScene, Sediment, SedimentPressure, SolidFraction, height_axis};
+use super::stratification::{ColumnRow, Stratification};
+use crate::domain::AxisBoundary;
+use crate::material::dilatancy::Dilatancy;
+use crate::vector::Vector;
+use dilation::Swelling;
+use drag::ColumnDrag;
+use friction::{Chain, FrictionSolve};
+use grid::ColumnGrid;
+use nodes::{NodeLaws, Nodes};
+
+/// The grains of a scene that dilate, and their columns.
+#[derive(Debug)]
+pub(super) struct Columns<const D: usize> {
+    pub(super) grains: Grains<D>,
+    pub(super) drag: ColumnDrag,
+    grid: ColumnGrid,
+    nodes: Nodes,
+    dilatancy: Dilatancy,
+    numerics: ColumnNumerics,
+    friction: FrictionSolve,
+    /// Momenta of a column's free nodes `[kg/(m s)]`.
+    momentum: Vec<f64>,
+    /// Velocities of the nodes after the step `[m/s]`.
+    velocity: Vec<f64>,
+    /// Velocities across the bed at the faces above the nodes `[m/s]`.
+    lift: Vec<f64>,
+    /// Impulse of held grains on fluid and free grains in the last step `[kg m/s]`, per metre of width in 2-D.
+    held_impulse: f64,
+}
+
+impl<const D: usize> Columns<D> {
+    /// The columns of a scene whose grains dilate, and its strata on their nodes in place of those that are given.
+    pub(super) fn of(scene: &mut IncompressibleScene<D>) -> Option<Self> {
+        let material = scene.sediment.as_ref()?;
+        let SedimentPressure::Dilatant { dilatancy, fixed_filling, columns: numerics } = material.pressure else {
+            return None;
+        };
+        let strata = scene.solid_fraction.stratification()?.strata();
+        let normal = height_axis(D);
+        let half = 0.5 * material.spacing;
+        let held = material.wall.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), place| {
+            (low.min(place[normal] - half), high.max(place[normal] + half))
+        });
+        let row = column_row(scene, material, &numerics)?;
+        let top = strata.base + strata.interval * strata.solid_fraction.len() as f64;
+        let grid = ColumnGrid::over(row, numerics.node_ratio * material.spacing, held, top);
+        let wall = (material.wall.as_slice(), material.spacing, fixed_filling);
+        let nodes = Nodes::with_fixed(&grid, &dilatancy, wall);
+        let grains = Grains::of(material);
+        let mut new = Self {
+            grains,
+            drag: ColumnDrag::default(),
+            nodes,
+            dilatancy,
+            numerics,
+            friction: FrictionSolve::default(),
+            momentum: Vec::with_capacity(grid.nodes),
+            velocity: vec![0.0; grid.len()],
+            lift: vec![0.0; grid.len()],
+            held_impulse: 0.0,
+            grid,
+        };
+        new.friction.reserve(grid.nodes);
+        let fluid = &scene.fluid;
+        new.drag.reserve(&grid, fluid.particles.position.len(), numerics.drag_reach * fluid.spacing);
+        let on_nodes = Stratification::on_columns(strata, row, grid.base - 0.5 * grid.cell, grid.cell, grid.nodes);
+        scene.solid_fraction = SolidFraction::Averaged(on_nodes);
+        Some(new)
+    }
+
+    /// Particles to nodes, φ to the stratification, and the drag that follows.
+    ///
+    /// # Errors
+    /// A slip that the drag law does not cover.
+    pub(super) fn gather(&mut self, scene: &mut IncompressibleScene<D>, fluid: &Phase<D>) -> Result<(), Failure> {
+        if let SolidFraction::Averaged(layer) = &mut scene.solid_fraction {
+            let strata = layer.strata();
+            let laws = NodeLaws {
+                dilatancy: &self.dilatancy,
+                buoyant_weight: strata.buoyant_weight,
+                suspension_viscosity: &strata.suspension_viscosity,
+                fluid_viscosity: scene.fluid.density * scene.fluid.kinematic_viscosity,
+            };
+            self.nodes.gather(&self.grid, &self.grains, laws);
+            layer.renew(|fraction| fraction.copy_from_slice(&self.nodes.fraction));
+        }
+        let Some(material) = &scene.sediment else { return Ok(()) };
+        let reach = self.numerics.drag_reach * scene.fluid.spacing;
+        self.drag.find(&self.grid, &self.nodes, fluid, scene, material, reach)
+    }
+
+    /// Moves the grains by a step, given the velocities that the drag has left the fluid with `[m/s]`.
+    ///
+    /// # Errors
+    /// Friction that is not solved, a grain that would move by more than its spacing.
+    pub(super) fn advance(
+        &mut self,
+        material: &Sediment<D>,
+        predicted: &[Vector<D>],
+        time_step: f64,
+    ) -> Result<(), Failure> {
+        self.drag.react(&self.grid, &self.nodes, predicted, time_step);
+        self.held_impulse = 0.0;
+        self.velocity.copy_from_slice(&self.nodes.velocity);
+        for column in 0..self.grid.row.count {
+            self.rub(column, material, time_step)?;
+            let range = self.grid.of_column(column);
+            let (fraction, target) = (&self.nodes.fraction[range.clone()], &self.nodes.target[range.clone()]);
+            let time = self.numerics.dilation_time;
+            Swelling { fraction, target, time }.lifts(&self.grid, &mut self.lift[range]);
+        }
+        self.scatter(material, time_step)
+    }
+
+    /// Gravity, drag and friction along the bed in a column.
+    fn rub(&mut self, column: usize, material: &Sediment<D>, time_step: f64) -> Result<(), Failure> {
+        let Self { grid, nodes, numerics, .. } = self;
+        let range = grid.of_column(column);
+        let lowest = range.start + grid.held;
+        let width = grid.row.width;
+        // the fluid pushes what is held as well
+        self.held_impulse -= width * self.drag.impulse[range.start..lowest].iter().sum::<f64>();
+        let Some(top) = nodes.top(grid, column).filter(|top| *top >= grid.held) else { return Ok(()) };
+        let free = lowest..range.start + top + 1;
+        let mass = &nodes.mass[free.clone()];
+        self.momentum.clear();
+        self.momentum.extend(free.clone().map(|node| {
+            let driven = self.velocity[node] + material.gravity[0] * time_step;
+            let pushed = nodes.push_of_columns(grid, node) * time_step;
+            nodes.mass[node] * driven + self.drag.impulse[node] + pushed
+        }));
+        let chain = Chain {
+            law: &material.law,
+            cell: grid.cell,
+            time_step,
+            mass,
+            momentum: &self.momentum,
+            load_below: &nodes.load[lowest - 1..free.end - 1],
+            added_below: &nodes.added[lowest - 1..free.end - 1],
+        };
+        let held = self.friction.solve(chain, &mut self.velocity[free.clone()], numerics).map_err(|change| {
+            let limit = numerics.friction_tolerance;
+            Failure { row: 0, quantity: Quantity::GrainFriction, value: change, limit }
+        })?;
+        self.held_impulse -= held * time_step * width;
+        // what is above the grains moves as they do
+        let highest = self.velocity[free.end - 1];
+        self.velocity[free.end..range.end].fill(highest);
+        Ok(())
+    }
+
+    /// Nodes to particles, and their motion.
+    fn scatter(&mut self, material: &Sediment<D>, time_step: f64) -> Result<(), Failure> {
+        let Self { grid, nodes, numerics, velocity, lift, grains, held_impulse, .. } = self;
+        let normal = height_axis(D);
+        let share = (time_step / numerics.relaxation_time).min(1.0);
+        for particle in 0..grains.len() {
+            let (along, height) = (grains.position[particle][0], grains.position[particle][normal]);
+            let (mut new, mut change, mut of_held) = (0.0, 0.0, 0.0);
+            for (node, weight) in grid.weights(along, height) {
+                new += weight * velocity[node];
+                change += weight * (velocity[node] - nodes.velocity[node]);
+                of_held += if node % grid.nodes < grid.held { weight } else { 0.0 };
+            }
+            let before = grains.velocity[particle][0];
+            let own = before + change;
+            // held nodes take the weight along the bed and the momentum of what is near them
+            let taken = material.gravity[0] * time_step + share * before;
+            *held_impulse -= grains.mass[particle] * of_held * taken;
+            let up = grid.at_faces(lift, along, height);
+            grains.velocity[particle][0] = own + share * (new - own);
+            grains.velocity[particle][normal] = up;
+            let mut way = Vector::<D>::zeros();
+            way[0] = new * time_step;
+            way[normal] = up * time_step;
+            grains.displace(particle, way)?;
+        }
+        Ok(())
+    }
+
+    /// Mean velocity of the fluid across the bed around a place `[m/s]`.
+    pub(super) fn mean_fluid_lift(&self, position: &Vector<D>) -> f64 {
+        self.grid.at(&self.drag.fluid_lift, position[0], position[height_axis(D)])
+    }
+
+    /// Force of held grains on the fluid and on free grains along the bed in the last step, of a length `[s]`, `[N]`.
+    pub(super) fn holding_force(&self, time_step: f64) -> f64 {
+        self.held_impulse / time_step
+    }
+
+    /// Force of the fluid on every free particle in the last step, of a length `[s]`, `[N]`.
+    pub(super) fn drag_forces(&self, time_step: f64) -> impl Iterator<Item = Vector<D>> + '_ {
+        let Self { grid, nodes, drag, grains, .. } = self;
+        grains.position.iter().zip(&grains.mass).map(move |(place, mass)| {
+            let mut force = Vector::zeros();
+            for (node, weight) in grid.weights(place[0], place[height_axis(D)]) {
+                if nodes.mass[node] > 0.0 {
+                    force[0] += weight * mass / nodes.mass[node] * drag.impulse[node] / time_step;
+                }
+            }
+            force
+        })
+    }
+}
+
+/// Columns of at least the width that is asked for.
+fn column_row<const D: usize>(
+    scene: &IncompressibleScene<D>,
+    material: &Sediment<D>,
+    numerics: &ColumnNumerics,
+) -> Option<ColumnRow> {
+    let AxisBoundary::Periodic { lower, upper } = scene.domain.axes[0] else { return None };
+    let length = upper - lower;
+    let count = (length / (numerics.width_ratio * material.grain_diameter)).max(1.0) as usize;
+    Some(ColumnRow { count, width: length / count as f64, left: lower })
+}
