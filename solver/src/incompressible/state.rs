@@ -77,7 +77,9 @@ impl<const D: usize> State<D> {
     /// A failure with its place and time.
     pub(super) fn divergence(&self, failure: Failure) -> Divergence<D> {
         let Failure { row, quantity, value, limit } = failure;
-        let position = self.phases.position(row);
+        let grain = row.checked_sub(self.phases.fluid.len());
+        let of_grain = |columns: &Columns<D>| columns.grains.position.get(grain?).copied();
+        let position = self.columns.as_ref().and_then(of_grain).unwrap_or_else(|| self.phases.position(row));
         Divergence {
             time: self.time,
             step: self.steps,

@@ -66,7 +66,10 @@ fn predict_velocities<const D: usize>(state: &mut State<D>, time_step: f64) -> R
 fn advance_columns<const D: usize>(state: &mut State<D>, time_step: f64) -> Result<(), Failure> {
     let State { scene, phases, columns, system, .. } = state;
     if let (Some(columns), Some(material)) = (columns.as_mut(), &scene.sediment) {
-        columns.advance(material, &system.velocity, time_step)?;
+        // rows of a failure are the grains
+        let first = phases.fluid.len();
+        let of_grain = |failure: Failure| Failure { row: first + failure.row, ..failure };
+        columns.advance(material, &system.velocity, time_step).map_err(of_grain)?;
     }
     let mean = |position: &_| columns.as_ref().map_or(0.0, |columns| columns.mean_fluid_lift(position));
     relax_fluctuation(scene, &phases.fluid, &mut system.velocity, mean, time_step);
