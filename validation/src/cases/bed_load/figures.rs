@@ -50,10 +50,8 @@ fn label(run: &BedLoadRun) -> String {
         Formulation::Continuum(own) => {
             let ContinuumRun { stage, pair_law, start, spacing, .. } = own;
             let mut label = format!("{}, {}", stage.name(), percent(run));
-            if !own.is_judged() {
-                if let Some(law) = pair_law {
-                    label += &format!(", {}", pair_law_name(*law));
-                }
+            if let (false, Some(law)) = (own.is_judged(), pair_law) {
+                label += &format!(", {}", pair_law_name(*law));
             }
             if *start != 1.0 {
                 label += ", slow start";

@@ -73,7 +73,7 @@ fn share(below: f64, looseness: f64, carried: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bagnold_solver::material::dilatancy::{Dilatancy, PressureBounds};
+    use bagnold_solver::material::dilatancy::Dilatancy;
 
     const BED: Dilation =
         Dilation { cell_height: 2.5e-4, weight: 376.0, submerged_weight: 15_696.0, largest_fraction: 0.6 };
@@ -126,8 +126,7 @@ mod tests {
     #[test]
     fn a_cell_has_the_fraction_of_the_law_in_the_solver() {
         let (dilation, diameter, density) = (0.31, 5e-3, 2600.0_f64);
-        let bounds = PressureBounds::default();
-        let law = Dilatancy { dilation, packing: 0.6, grain_diameter: diameter, grain_density: density, bounds };
+        let law = Dilatancy { dilation, packing: 0.6, grain_diameter: diameter, grain_density: density };
         for (below, rate) in [(376.0, 0.4), (40.0, 30.0), (5.0, 3.0)] {
             let share = share(below, dilation * rate * diameter * density.sqrt(), 1.177);
             let pressure = below - 1.177 * share;
