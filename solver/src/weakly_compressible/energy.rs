@@ -6,7 +6,8 @@
 //! - forces at the mean velocity of the step, v̄ = ½(vⁿ + vⁿ⁺¹), at which the change of K is exactly Σ m v̄·a Δt;
 //! - deformation with the stress before the step and the velocity gradient after it, as the step takes them.
 //!
-//! Walls: Σ m v̄·a_w Δt of their tractions, plus the part of the stress' work on the velocity gradient that they cause.
+//! Walls: Σ m vⁿ⁺¹·a_w Δt of their tractions, plus the part of the stress' work on the velocity gradient that they cause,
+//! both at the new velocity, so that what a step's length does to them is in the residual, where it meets its opposite.
 //! In the continuum the two are equal and opposite at a wall at rest, so that W_w is the work of walls that move: what a
 //! wall at rest has in W_w, its extrapolation has fed into the flow, or slip along it has taken. The divergence of the
 //! forces, with the correction E, is the transpose of a gradient with E; continuity takes none and the strain rate L, and
@@ -153,7 +154,7 @@ impl<const D: usize> VelocityStep<'_, D> {
         let end = self.after + self.contact;
         let impulse = 0.5 * self.mass * self.time_step * (self.before + self.after);
         sum.gravity += self.mass * self.time_step * self.gravity.dot(&end);
-        sum.walls += impulse.dot(self.by_walls);
+        sum.walls += self.mass * self.time_step * end.dot(self.by_walls);
         sum.artificial -= impulse.dot(self.by_damping);
         sum.wall_control -= impulse.dot(self.by_wall_control);
         sum.contact -= 0.5 * self.mass * self.contact.dot(&(self.after + end));
