@@ -2,6 +2,7 @@
 
 mod density_coupling;
 mod determinism;
+mod energy_ledger;
 mod free_fall;
 mod incompressible;
 mod momentum_balance;

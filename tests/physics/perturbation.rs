@@ -1,5 +1,8 @@
 //! The deterministic path of a collapse is not a matter of chance: a displacement of 1e-10 spacings changes nothing
-//! that is measured.
+//! that is measured of it.
+//!
+//! The front at 0.02 r_0 is left out: at 20 particles over r_0 that is 0.4 of a spacing, so that single grains before the
+//! last row decide where it is (by 1 %, with any of the solver's hourglass controls). The front at 0.05 r_0, a row, repeats.
 
 use bagnold_validation::case::{Parameters, Run, Silent, Tier};
 use bagnold_validation::cases::collapse::Collapse;
@@ -11,7 +14,6 @@ const TOLERANCE: f64 = 1e-3;
 /// is a hundredth of its time. The drift snapshots repeat to the bit and need no such allowance.
 const STOPPING_TIME_TOLERANCE: f64 = 1e-2;
 
-/// Tells nobody.
 /// The column a = 1 of Lagrée's grains from a lattice with displacements of this many spacings.
 fn collapse(jitter: f64) -> Collapse {
     let mut parameters = ColumnPlanarParameters::of_tier(Tier::Quick);
@@ -31,7 +33,7 @@ fn a_displacement_of_a_ten_billionth_spacing_changes_no_metric() {
     assert_ne!(lattice.centroid, displaced.centroid, "the displacement must be there");
     type Measure = (&'static str, fn(&Collapse) -> f64, f64);
     let measures: [Measure; 5] = [
-        ("run-out", Collapse::run_out, TOLERANCE),
+        ("run-out of rows", Collapse::run_out_of_rows, TOLERANCE),
         ("final height", Collapse::final_height, TOLERANCE),
         ("centroid", |collapse| collapse.centroid, TOLERANCE),
         ("mass quantile", |collapse| collapse.quantiles.1, TOLERANCE),

@@ -5,6 +5,7 @@
 pub(crate) mod continuity;
 pub(crate) mod geometry;
 pub(crate) mod momentum;
+mod new_state;
 mod pair_data;
 pub(crate) mod pairwise;
 pub(crate) mod records;

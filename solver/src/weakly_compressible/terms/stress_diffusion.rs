@@ -10,7 +10,7 @@
 //! vanishes for a uniform stress ratio, such as Bagnold's flow, at walls and in a heap at rest; antisymmetric but for V.
 //! Not in the paper.
 
-use crate::lanes::{Lanes, Real};
+use crate::lanes::Real;
 
 /// w `[-]`: what of a particle yields, from its elasticity and its pressure `[Pa]`.
 #[inline(always)]
@@ -20,13 +20,13 @@ pub fn yielding<R: Real>(elasticity: R, pressure: R) -> R {
 
 /// 4 w_a w_b/(p_a + p_b) `[1/Pa]`, the factor of s_a p_b − s_b p_a; 0 without pressure.
 #[inline(always)]
-pub fn pair_factor<V: Lanes>(yielding_a: V, yielding_b: V, pressure_sum: V) -> V {
+pub fn pair_factor<V: Real>(yielding_a: V, yielding_b: V, pressure_sum: V) -> V {
     V::splat(4.0) * yielding_a * yielding_b / pressure_sum.max(V::splat(f64::MIN_POSITIVE))
 }
 
 /// Adds f (s_a p_b − s_b p_a) to the upper triangle of a sum, without the last entry of the diagonal.
 #[inline(always)]
-pub fn accumulate_bracket<V: Lanes, const D: usize>(
+pub fn accumulate_bracket<V: Real, const D: usize>(
     sum: &mut [[V; D]; D],
     factor: V,
     stress_a: (&[[V; D]; D], V),
@@ -42,7 +42,7 @@ pub fn accumulate_bracket<V: Lanes, const D: usize>(
 
 /// Fills what [`accumulate_bracket`] leaves out: the lower triangle, and the last entry of a tensor without trace.
 #[inline(always)]
-pub fn complete<V: Lanes, const D: usize>(deviator: &mut [[V; D]; D]) {
+pub fn complete<V: Real, const D: usize>(deviator: &mut [[V; D]; D]) {
     let mut rest = V::splat(0.0);
     for i in 0..D - 1 {
         rest = rest - deviator[i][i];
@@ -51,4 +51,46 @@ pub fn complete<V: Lanes, const D: usize>(deviator: &mut [[V; D]; D]) {
         }
     }
     deviator[D - 1][D - 1] = rest;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What particle a takes from b.
+    fn bracket(a: (&[[f64; 3]; 3], f64), b: (&[[f64; 3]; 3], f64)) -> [[f64; 3]; 3] {
+        let mut sum = [[0.0; 3]; 3];
+        accumulate_bracket(&mut sum, pair_factor(1.0, 1.0, a.1 + b.1), a, b);
+        complete(&mut sum);
+        sum
+    }
+
+    const STRESS: [[f64; 3]; 3] = [[0.5, -1.75, 1.0], [-1.75, 2.0, 0.25], [1.0, 0.25, -2.5]];
+    const OTHER: [[f64; 3]; 3] = [[-1.0, 0.5, 0.0], [0.5, 0.75, -2.0], [0.0, -2.0, 0.25]];
+
+    #[test]
+    fn a_uniform_stress_ratio_does_not_diffuse() {
+        let doubled = STRESS.map(|row| row.map(|component| 2.0 * component));
+        assert_eq!(bracket((&STRESS, 8.0), (&doubled, 16.0)), [[0.0; 3]; 3]);
+    }
+
+    #[test]
+    fn what_one_particle_gives_the_other_takes_and_the_trace_stays_zero() {
+        let (given, taken) = (bracket((&STRESS, 8.0), (&OTHER, 2.0)), bracket((&OTHER, 2.0), (&STRESS, 8.0)));
+        for i in 0..3 {
+            for j in 0..3 {
+                assert_eq!(given[i][j], -taken[i][j]);
+                assert_eq!(given[i][j], given[j][i]);
+            }
+        }
+        assert!(given[0][1] != 0.0 && given[0][0] + given[1][1] + given[2][2] == 0.0);
+    }
+
+    #[test]
+    fn only_what_yields_under_pressure_takes_part() {
+        assert_eq!((yielding(0.0, 5.0), yielding(1.0, 5.0), yielding(0.0, 0.0)), (1.0, 0.0, 0.0));
+        assert_eq!(pair_factor(0.0, 0.0, 0.0), 0.0);
+        let rate = 1.0 / 8.0 * 4.0;
+        assert_eq!(pair_factor(1.0, 1.0, 8.0), rate);
+    }
 }

@@ -21,6 +21,8 @@ pub struct Collapse {
     pub time: Vec<f64>,
     /// Front x_f/r_0 `[-]`.
     pub front: Vec<f64>,
+    /// Front at a thickness that a row of particles has, over r_0 `[-]`.
+    pub rows_front: Vec<f64>,
     /// Thickness at the symmetry plane, by volume, over r_0 `[-]`.
     pub height: Vec<f64>,
     /// Kinetic energy `[J/m]` of a planar column, `[J]` of a quarter of a round one.
@@ -82,6 +84,7 @@ impl Surveyor {
         collapse.momentum_residual = collapse.momentum_residual.max(residual);
         collapse.time.push(snapshot.time);
         collapse.front.push(front(&thickness));
+        collapse.rows_front.push(front_of(&thickness, ROW_THICKNESS));
         collapse.height.push(thickness.first().map_or(0.0, |bin| bin.1));
         if let Some(account) = &snapshot.energy {
             collapse.energy.enter(account);
@@ -231,16 +234,17 @@ impl Collapse {
         }
     }
 
-    /// Time at which the front has covered 99 % of its way `[s]`, linear between two observations.
+    /// Time at which the front of a row's thickness has covered 99 % of its way `[s]`, linear between two observations.
     #[must_use]
     pub fn stopping_time(&self) -> f64 {
-        let (Some(&start), Some(&end)) = (self.front.first(), self.front.last()) else { return f64::NAN };
+        let front = &self.rows_front;
+        let (Some(&start), Some(&end)) = (front.first(), front.last()) else { return f64::NAN };
         let mark = start + 0.99 * (end - start);
-        match self.front.iter().position(|&front| front >= mark) {
+        match front.iter().position(|&front| front >= mark) {
             None => f64::NAN,
             Some(0) => self.time[0],
             Some(after) => {
-                let (x0, x1) = (self.front[after - 1], self.front[after]);
+                let (x0, x1) = (front[after - 1], front[after]);
                 let (t0, t1) = (self.time[after - 1], self.time[after]);
                 t0 + (t1 - t0) * (mark - x0) / (x1 - x0)
             }

@@ -1,0 +1,187 @@
+//! The new state of particles whose pair sums are known: density, artificial viscosity, velocity gradient and stress, and
+//! what that adds to the energy ledger. Only here does the weakly compressible model ask the law for a stress.
+
+use crate::lanes::Lanes;
+use crate::lanes::algebra::{
+    accumulate, deviatoric_rate, load, load_tensor, matrix_product, store, store_tensor, zero_tensor,
+};
+use crate::vector::{Tensor, shear_rate};
+use crate::weakly_compressible::divergence::DENSITY_RANGE;
+use crate::weakly_compressible::energy::{CompressionStep, DeformationStep, EnergyLedger, StressWork};
+use crate::weakly_compressible::model::{GradientUse, Model};
+use crate::weakly_compressible::numerics::ViscositySwitch;
+use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::terms::{artificial_viscosity, continuity};
+use std::ops::Range;
+
+/// What the pass over all blocks found on its way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Extremes {
+    /// Largest apparent kinematic viscosity of laws with an explicit viscous bound `[m²/s]`.
+    pub(crate) kinematic_viscosity: f64,
+    /// Flow particle of the lowest storage index whose density left its range or is not a number.
+    pub(crate) bad_density: Option<usize>,
+}
+
+impl Extremes {
+    pub(super) const NONE: Self = Self { kinematic_viscosity: 0.0, bad_density: None };
+
+    pub(super) fn merge(self, other: Self) -> Self {
+        let bad_density = match (self.bad_density, other.bad_density) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        };
+        Self { kinematic_viscosity: self.kinematic_viscosity.max(other.kinematic_viscosity), bad_density }
+    }
+}
+
+/// What a pass over a block writes.
+pub(super) struct Output<'a, const D: usize> {
+    pub(super) density: &'a mut [f64],
+    pub(super) velocity_gradient: &'a mut [Tensor<D>],
+    pub(super) stress: &'a mut [Tensor<D>],
+    pub(super) viscosity: &'a mut [f64],
+    pub(super) artificial_viscosity: &'a mut [f64],
+    pub(super) energy: &'a mut EnergyLedger,
+}
+
+/// The pair sums of eight particles.
+pub(super) struct RateSums<V, const D: usize> {
+    /// Σ V_b v_ab·∇_aW_ab = −∇·v `[1/s]`.
+    pub(super) compression: V,
+    /// What walls have of it.
+    pub(super) wall_compression: V,
+    /// The coupling's pair sum `[Pa/m²]`.
+    pub(super) coupling: V,
+    /// Velocity gradient before its correction `[1/s]`.
+    pub(super) gradient: [[V; D]; D],
+    /// What walls have of it.
+    pub(super) wall_gradient: [[V; D]; D],
+    /// The pair sum of the stress ratio's diffusion `[Pa/m²]`.
+    pub(super) stress_diffusion: [[V; D]; D],
+}
+
+/// A block of particles on its way to the next step.
+pub(super) struct Advance<'a, const D: usize> {
+    pub(super) model: &'a Model<D>,
+    pub(super) particles: &'a Particles<D>,
+    pub(super) gradient: GradientUse,
+    pub(super) time_step: f64,
+    /// First particle of the block.
+    pub(super) block_start: usize,
+}
+
+impl<const D: usize> Advance<'_, D> {
+    /// Advances the eight particles at `places` of the block: density, artificial viscosity, then gradient and stress.
+    #[inline(always)]
+    pub(super) fn particles_at<V: Lanes>(
+        &self,
+        places: Range<usize>,
+        sums: &RateSums<V, D>,
+        out: &mut Output<'_, D>,
+        work: &mut StressWork<V>,
+        extremes: &mut Extremes,
+    ) {
+        let equation_of_state = &self.model.equation_of_state;
+        let previous = load::<V>(&out.density[places.clone()]);
+        let strength = self.model.numerics.density_coupling;
+        let density = continuity::advanced(previous, sums.compression, sums.coupling, strength, self.time_step);
+        let here = self.block_start + places.start..self.block_start + places.end;
+        let time_step = V::splat(self.time_step);
+        CompressionStep {
+            mass: load::<V>(&self.particles.mass[here.clone()]),
+            density: (previous, density),
+            pressure: (load::<V>(&self.particles.pressure[here]), equation_of_state.pressure(density)),
+            by_walls: time_step * previous * sums.wall_compression,
+            by_coupling: time_step * time_step * V::splat(strength) * sums.coupling,
+        }
+        .add_to(work);
+        let inverse_reference = 1.0 / equation_of_state.reference_density;
+        store(density, &mut out.density[places.clone()]);
+        for place in places.clone() {
+            let relative = out.density[place] * inverse_reference;
+            if !(relative > DENSITY_RANGE.0 && relative < DENSITY_RANGE.1) && extremes.bad_density.is_none() {
+                extremes.bad_density = Some(self.block_start + place);
+            }
+        }
+        if self.model.numerics.viscosity_switch == ViscositySwitch::MorrisMonaghan {
+            let decay_rate = equation_of_state.sound_speed() / self.model.kernel.smoothing_length();
+            let alpha = load::<V>(&out.artificial_viscosity[places.clone()]);
+            let switched = artificial_viscosity::switched(alpha, -sums.compression, decay_rate, self.time_step);
+            store(switched, &mut out.artificial_viscosity[places.clone()]);
+        }
+        if self.gradient != GradientUse::None {
+            self.stress_of(places, density, sums, out, work, extremes);
+        }
+    }
+
+    /// Velocity gradient, and the stress or the viscosity that the law gives with it.
+    #[inline(always)]
+    fn stress_of<V: Lanes>(
+        &self,
+        places: Range<usize>,
+        density: V,
+        sums: &RateSums<V, D>,
+        out: &mut Output<'_, D>,
+        work: &mut StressWork<V>,
+        extremes: &mut Extremes,
+    ) {
+        let law = &self.model.rheology;
+        let particles_here = self.block_start + places.start..self.block_start + places.end;
+        let correction = load_tensor::<V, D>(&self.particles.correction[particles_here.clone()]);
+        let gradient = matrix_product(&sums.gradient, &correction);
+        let pressure = self.model.equation_of_state.pressure(density);
+        let gradient_before = load_tensor::<V, D>(&out.velocity_gradient[places.clone()]);
+        store_tensor(&gradient, &mut out.velocity_gradient[places.clone()]);
+        if self.gradient == GradientUse::Stress {
+            let before = load_tensor::<V, D>(&out.stress[places.clone()]);
+            let mut diffused = before;
+            if self.model.stress_diffuses() {
+                let strength = V::splat(self.time_step * self.model.stress_diffusivity());
+                for i in 0..D {
+                    accumulate(&mut diffused[i], strength, &sums.stress_diffusion[i]);
+                }
+            }
+            let modulus = self.model.shear_modulus();
+            let stress = law.updated_stresses(&diffused, &gradient, pressure, modulus, self.time_step);
+            store_tensor(&stress, &mut out.stress[places.clone()]);
+            let pressure_before = load::<V>(&self.particles.pressure[particles_here.clone()]);
+            let mut added = zero_tensor::<V, D>();
+            if let Some(viscosity) = self.model.added_viscosity(&gradient_before, &before, pressure_before, density) {
+                let rate = deviatoric_rate(&gradient_before);
+                for i in 0..D {
+                    accumulate(&mut added[i], V::splat(2.0) * viscosity, &rate[i]);
+                }
+            }
+            let mut flow_gradient = sums.gradient;
+            for i in 0..D {
+                accumulate(&mut flow_gradient[i], V::splat(-1.0), &sums.wall_gradient[i]);
+            }
+            DeformationStep {
+                volume: load::<V>(&self.particles.volume[particles_here.clone()]),
+                time_step: self.time_step,
+                shear_modulus: law.is_plastic().then_some(modulus),
+                added_stress: &added,
+                pressure: pressure_before,
+                divergence: sums.wall_compression - sums.compression,
+                raw_gradient: &flow_gradient,
+                force_correction: &load_tensor::<V, D>(&self.particles.force_correction[particles_here]),
+                rate: &deviatoric_rate(&gradient),
+                rate_by_walls: &deviatoric_rate(&matrix_product(&sums.wall_gradient, &correction)),
+                stress_before: &before,
+                stress: &stress,
+            }
+            .add_to(work);
+        }
+        if self.gradient == GradientUse::Viscosity || !law.is_plastic() {
+            let pressure = pressure.to_array();
+            for (lane, place) in places.enumerate() {
+                let viscosity = law.viscosity(shear_rate(&out.velocity_gradient[place]), pressure[lane]);
+                out.viscosity[place] = viscosity;
+                if !law.is_plastic() {
+                    extremes.kinematic_viscosity = extremes.kinematic_viscosity.max(viscosity / out.density[place]);
+                }
+            }
+        }
+    }
+}
