@@ -207,7 +207,7 @@ impl Collapse {
         front(&self.deposit) - 1.0
     }
 
-    /// The same with the front at [`ROW_THICKNESS`] `[-]`.
+    /// The same with the front at 0.05 r_0, a thickness that one row of particles has from 20 over r_0 on `[-]`.
     #[must_use]
     pub fn run_out_of_rows(&self) -> f64 {
         front_of(&self.deposit, ROW_THICKNESS) - 1.0
