@@ -32,7 +32,8 @@ fn a_disordered_block_loses_what_its_terms_dissipate() {
         let space = open_share(Scene { rheology, ..periodic_scene([8, 7, 9], Disorder::FULL, 11) }, 0.1);
         let (long, short) = (plane(0.4), plane(0.1));
         println!("{rheology:?}: {long:.4} and {short:.4} in the plane, {space:.4} in space");
-        assert!(short.abs() < 0.03 && space.abs() < 0.03, "{short}, {space}");
-        assert!(short.abs() < 0.6 * long.abs() + 2e-3, "{long} should fall with the step, to less than {short}");
+        assert!(short.abs() < 0.02 && space.abs() < 0.02, "{short}, {space}");
+        // of first order: a quarter of the step leaves a quarter open, and something more for the noise of another path
+        assert!(short.abs() < 0.4 * long.abs(), "{long} should fall with the step to a quarter, not {short}");
     }
 }

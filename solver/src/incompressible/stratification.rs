@@ -191,11 +191,10 @@ impl Stratification {
 mod tests {
     use super::*;
 
-    #[test]
-    fn integrals_of_a_packed_bed_under_clear_water() {
-        // 16 mm of φ = 0.6 and 46 mm of water, a quarter of a millimetre each
+    /// 16 mm of φ = 0.6 and 46 mm of water, a quarter of a millimetre each.
+    fn packed_bed(grain_roughness: GrainRoughness) -> Stratification {
         let fraction: Vec<f64> = (0..248).map(|k| if k < 64 { 0.6 } else { 0.0 }).collect();
-        let layer = Stratification::of(Strata {
+        Stratification::of(Strata {
             base: -0.016,
             interval: 2.5e-4,
             solid_fraction: fraction,
@@ -204,9 +203,14 @@ mod tests {
             bed_level: 0.0,
             depth: 0.046,
             suspension_viscosity: SuspensionViscosity::default(),
-            grain_roughness: GrainRoughness { origin_depth: 0.0, ..GrainRoughness::default() },
+            grain_roughness,
             grain_diameter: 5e-3,
-        });
+        })
+    }
+
+    #[test]
+    fn integrals_of_a_packed_bed_under_clear_water() {
+        let layer = packed_bed(GrainRoughness { origin_depth: 0.0, ..GrainRoughness::default() });
         let layer = |z: f64| layer.at(&Vector::<2>::new(0.3, z));
         assert!((layer(-0.010).overburden - 0.6 * 15_696.0 * 0.010).abs() < 1e-9);
         assert_eq!(layer(0.010).overburden, 0.0);
@@ -218,19 +222,7 @@ mod tests {
 
     #[test]
     fn a_bed_at_rest_is_a_rough_wall() {
-        let fraction: Vec<f64> = (0..248).map(|k| if k < 64 { 0.6 } else { 0.0 }).collect();
-        let layer = Stratification::of(Strata {
-            base: -0.016,
-            interval: 2.5e-4,
-            solid_fraction: fraction,
-            packing: 0.6,
-            buoyant_weight: 1600.0 * 9.81,
-            bed_level: 0.0,
-            depth: 0.046,
-            suspension_viscosity: SuspensionViscosity::default(),
-            grain_roughness: GrainRoughness::default(),
-            grain_diameter: 5e-3,
-        });
+        let layer = packed_bed(GrainRoughness::default());
         // l = κ √(1 − z/h) (z + 0.2 d)
         let length = layer.at(&Vector::<2>::new(0.0, 4.125e-3)).mixing_length;
         let expected = 0.41 * (1.0 - 4.125 / 46.0_f64).sqrt() * 5.125e-3;

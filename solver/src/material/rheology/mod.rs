@@ -63,7 +63,8 @@ pub trait ViscousLaw {
     /// Upper bound `[Pa·s]` of the viscosity over all shear rates at a pressure `[Pa]`: what limits an explicit time step.
     fn largest_viscosity(&self, pressure: f64) -> f64;
 
-    /// Friction coefficient `[-]` of a contact with a rough wall: none of a liquid.
+    /// Friction coefficient `[-]` of a contact with a rough wall: none of a liquid. A material without it may slide along
+    /// rough walls as far as its volume is concerned, because its boundary layer may be thinner than a spacing.
     fn contact_friction(&self) -> f64 {
         0.0
     }

@@ -78,10 +78,10 @@ fn steady(record: &Record) -> Vec<Metric> {
     let error = |quantity: Quantity, value: f64| {
         quantity.of(&variant, value).exactly(0.0, EXACT).with_snapshot_tolerance(1e-3, 1e-4)
     };
-    let velocity = "specification 1: 0.7 % at 40 rows, 1.5 % at 20";
-    let surface = "specification 1: 1 % at 40 rows; first order, so 2 % at 20";
-    let stress = "specification 1: 0.1 % at 40 rows; a prototype had 0.14 % at 20";
-    let slip = "specification 1: 0.3 % at 40 rows; first order, so 0.6 % at 20";
+    let velocity = "the project's aim: 0.7 % at 40 rows, 1.5 % at 20";
+    let surface = "the project's aim: 1 % at 40 rows; first order, so 2 % at 20";
+    let stress = "the project's aim: 0.1 % at 40 rows; a prototype had 0.14 % at 20";
+    let slip = "the project's aim: 0.3 % at 40 rows; first order, so 0.6 % at 20";
     let gates = [
         (VELOCITY_L2, errors.velocity_l2, 0.7, 1.5, velocity),
         (SURFACE_VELOCITY_ERROR, errors.surface_velocity_error, 1.0, 2.0, surface),
@@ -136,7 +136,7 @@ fn transient((run, record): &Record) -> Vec<Metric> {
     let error = |(quantity, part): (Quantity, f64)| {
         let error = 100.0 * (mean_at(&particles, part * rise) / mean_at(&history, part * rise) - 1.0);
         let metric = quantity.of(&variant, error).exactly(0.0, TRANSIENT).with_snapshot_tolerance(1e-3, 1e-3);
-        let reason = "specification 1: mean velocity within 4 % of the 1-D transient";
+        let reason = "mean velocity within 4 % of the 1-D transient";
         if run.layer.resolution >= 20 { metric.gated(Limit::Within(-4.0, 4.0), reason) } else { metric }
     };
     let time = particles.rise_time(steady_mean, 0.99);
@@ -155,8 +155,10 @@ fn arrest((run, record): &Record) -> Vec<Metric> {
         .against(expected, TRANSIENT, Confidence::Exact)
         .with_snapshot_tolerance(0.01, 0.0);
     let time = match expected {
-        Some(expected) => time
-            .gated(Limit::Within(0.85 * expected, 1.15 * expected), "specification 1: within 15 % of the 1-D solution"),
+        Some(expected) => time.gated(
+            Limit::Within(0.85 * expected, 1.15 * expected),
+            "the project's aim: within 15 % of the 1-D solution",
+        ),
         None => time,
     };
     let since = record.simulated_time - 0.2;
@@ -164,7 +166,7 @@ fn arrest((run, record): &Record) -> Vec<Metric> {
     let rest = REST_RMS_SPEED
         .of(&variant, rest)
         .exactly(0.0, "a layer below the static friction angle rests")
-        .gated(Limit::AtMost(1e-4), "specification 1: at rest below 1e-4 m/s after the arrest")
+        .gated(Limit::AtMost(1e-4), "at rest below 1e-4 m/s after the arrest")
         .with_snapshot_tolerance(0.2, 1e-6);
     vec![time, rest]
 }
@@ -177,7 +179,7 @@ fn runaway((run, record): &Record) -> Vec<Metric> {
     let acceleration = LEAST_ACCELERATION
         .of(&variant, least_acceleration(&particles) / least_possible)
         .exactly(1.0, "g (sinθ − μ_2 cosθ), the limit of infinite inertial number")
-        .gated(Limit::AtLeast(0.9), "specification 1: never below 0.9 of the limit")
+        .gated(Limit::AtLeast(0.9), "never below 0.9 of the limit")
         .with_snapshot_tolerance(0.01, 0.0);
     let error = transient_of(run, end).map(|history| {
         let error = 100.0 * (mean_at(&particles, end) / mean_at(&history, end) - 1.0);
@@ -209,12 +211,11 @@ fn convergence(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Metric
         let (metric, reason) = match particles {
             Arrangement::Lattice => (
                 OBSERVED_ORDER.of(&variant, -log_log_slope(&errors).unwrap_or(f64::NAN)),
-                "specification 1: first order at least on the lattice",
+                "the project's aim: first order at least on the lattice",
             ),
-            Arrangement::Jittered => (
-                LEAST_ERROR_REDUCTION.of(&variant, reduction),
-                "specification 1: the error decreases with every refinement",
-            ),
+            Arrangement::Jittered => {
+                (LEAST_ERROR_REDUCTION.of(&variant, reduction), "the error decreases with every refinement")
+            }
         };
         let metric = metric.against(None, reference, Confidence::Exact).with_snapshot_tolerance(0.01, 0.0);
         Some(metric.gated(Limit::AtLeast(1.0), reason))

@@ -130,7 +130,7 @@ fn of_ensembles(variant: Variant, means: &[Mean], largest_index: f64) -> Vec<Met
                 .exactly(0.0, "1.25 |f_3 − f_2|/(r^p − 1)/f_3 of the three finest means")
                 .gated(
                     Limit::AtMost(100.0 * (largest_index + found.scatter)),
-                    "specification 2: 3 % for the centroid, 8 % for the run-out, plus the standard error of the finest \
+                    "the project's aim: 3 % for the centroid, 8 % for the run-out, plus the standard error of the finest \
                      mean",
                 ),
         ]);

@@ -68,7 +68,7 @@ pub(in crate::cases) fn conservation(variant: &Variant, collapse: &Collapse, num
             MOMENTUM_RESIDUAL
                 .of(variant, collapse.momentum_residual)
                 .exactly(0.0, "momentum against gravity and what bed, planes, gate and contacts gave, over M g t")
-                .gated(Limit::AtMost(1e-6), "specification 2: forces between grains cancel in pairs")
+                .gated(Limit::AtMost(1e-6), "forces between grains cancel in pairs")
                 .with_snapshot_tolerance(0.0, 1e-10),
         );
     }
@@ -82,7 +82,7 @@ pub(in crate::cases) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rh
         .of(variant, collapse.agitation())
         .exactly(0.0, "a static deposit")
         .with_snapshot_tolerance(0.0, 1e-6)
-        .gated_by(limit, "specification 2: at most 1e-6 of the potential energy that was released")
+        .gated_by(limit, "the project's aim: at most 1e-6 of the potential energy that was released")
 }
 
 /// Relative standard deviation of results over the seeds of an ensemble `[-]`: what a single run leaves open.
@@ -113,11 +113,9 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, spread: Spread) -> Vec<Metric
     let of_sand = run.material == Material::SAND && run.has_published_law();
     let (tolerance, height_reason) = match a {
         _ if !of_sand => (None, ""),
-        _ if a > 1.15 => {
-            (Some(0.15), "specification 2: a^0.4 within 15 % above a = 1.15, less twice the spread over the seeds")
-        }
+        _ if a > 1.15 => (Some(0.15), "a^0.4 within 15 % above a = 1.15, less twice the spread over the seeds"),
         _ if !is_round && a <= 0.7 => {
-            (Some(0.03), "specification 2: undisturbed within 3 % up to a = 0.7, less twice the spread over the seeds")
+            (Some(0.03), "undisturbed within 3 % up to a = 0.7, less twice the spread over the seeds")
         }
         _ => (None, ""),
     };
@@ -130,7 +128,7 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, spread: Spread) -> Vec<Metric
     metrics.extend([
         by_law(RUN_OUT, collapse.run_out(), run_out_law).gated_by(
             run_out_limit,
-            "specification 2: within 20 % of Lube's law for round columns at 20 rows and more",
+            "the project's aim: within 20 % of Lube's law for round columns at 20 rows and more",
         ),
         by_law(FINAL_HEIGHT, collapse.final_height(), height_law)
             .gated_by(height_limit.map(|(expected, within)| band(expected, within, spread.height)), height_reason),
@@ -147,7 +145,7 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, spread: Spread) -> Vec<Metric
             .with_snapshot_tolerance(0.01, 0.2)
             .gated_by(
                 (a <= 5.0).then_some(Limit::Within(-10.0, 10.0)),
-                "specification 2: within 10 % up to a = 5, or particles stand above the heap",
+                "the project's aim: within 10 % up to a = 5, or particles stand above the heap",
             ),
     ]);
     let (x96, x99) = collapse.quantiles;

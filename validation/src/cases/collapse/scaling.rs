@@ -100,7 +100,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
             metrics.extend([
                 observed(SCALING_EXPONENT, scaling.law.value)
                     .against(None, published, Confidence::High)
-                    .gated_by(gate, "specification 2: exponents depend little on the material"),
+                    .gated_by(gate, "exponents depend little on the material"),
                 observed(SCALING_CONFIDENCE, scaling.half_width).against(None, interval, Confidence::Exact),
                 observed(SCALING_COEFFICIENT, scaling.law.coefficient),
             ]);

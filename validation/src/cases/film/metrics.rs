@@ -34,7 +34,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
             OBSERVED_ORDER
                 .of(&variant, -log_log_slope(&errors).unwrap_or(f64::NAN))
                 .against(None, "convergence to the weakly compressible film, exact for the model", Confidence::Exact)
-                .gated(Limit::AtLeast(1.5), "specification 1: order 1.5 on the lattice")
+                .gated(Limit::AtLeast(1.5), "the project's aim: order 1.5 on the lattice")
                 .with_snapshot_tolerance(0.01, 0.0),
         );
     }
@@ -91,11 +91,11 @@ fn profile(record: &Record) -> Vec<Metric> {
     let run = &record.0;
     // first order in the spacing at the bed, so that 20 rows have twice the error of 40
     let limit = match (run.film(), run.layer.resolution) {
-        (SteadyFilm::Newtonian(_), 40..) => Some((1.0, "specification 1: 1 % at 40 rows")),
+        (SteadyFilm::Newtonian(_), 40..) => Some((1.0, "the project's aim: 1 % at 40 rows")),
         (SteadyFilm::Newtonian(_), 20..) => Some((2.0, "1 % at 40 rows, first order at worst")),
         // what a law of one's own may be off by is for its author to say
         (SteadyFilm::Integrated(_), _) => None,
-        (_, 40..) => Some((2.0, "specification 1: 2 % at 40 rows")),
+        (_, 40..) => Some((2.0, "the project's aim: 2 % at 40 rows")),
         (_, 20..) => Some((3.0, "2 % at 40 rows, of which 1 % is the regularisation's creep")),
         _ => None,
     };
@@ -118,7 +118,7 @@ fn plug_edge((run, record): &Record) -> Option<Metric> {
     let points: Vec<(f64, f64)> = sheared.map(|(y, rate)| (y, libm::pow(rate.abs(), film.flow_index()))).collect();
     let edge = linear_fit(&points).map_or(f64::NAN, |fit| -fit.intercept / fit.slope);
     let spacing = run.layer.layer_height / run.layer.resolution as f64;
-    let reason = "specification 1: within one particle, by a line through |du/dy|ⁿ over 0.1 Y … 0.8 Y";
+    let reason = "within one particle, by a line through |du/dy|ⁿ over 0.1 Y … 0.8 Y";
     let error = PLUG_EDGE_ERROR
         .of(&run.variant(), (edge - exact) / spacing)
         .exactly(0.0, "edge of the plug at h − τ_y/(ρ g sinθ)")

@@ -83,6 +83,8 @@ impl Parameters for FlowThicknessParameters {
             Tier::Paper | Tier::Fine => Self {
                 rows: 20,
                 stopping_thicknesses: vec![0.003, 0.005, 0.010, 0.020, 0.040],
+                // 40 mm are at rest at the lower end of the bracket only after more than 10 s
+                stopping_duration: 20.0,
                 stopping_tolerance: 0.25,
                 steady_flows: vec![
                     (0.010, 22.0),

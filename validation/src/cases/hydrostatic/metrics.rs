@@ -42,7 +42,7 @@ fn without_coupling((run, record): &Record, partner: Option<&Record>) -> Vec<Met
         NOISE_WITHOUT_COUPLING
             .of(&variant, noise / mean(&partner.data.series.pressure_noise))
             .against(None, "the same run with the coupling (27)", Confidence::Exact)
-            .gated(Limit::AtLeast(20.0), "specification 1: 20 times the noise shows that the test can fail")
+            .gated(Limit::AtLeast(20.0), "the project's aim: 20 times the noise shows that the test can fail")
             .with_snapshot_tolerance(0.3, 0.0)
     });
     [own].into_iter().chain(factor).collect()
@@ -59,12 +59,12 @@ fn at_rest((run, record): &Record) -> Vec<Metric> {
         PRESSURE_NOISE
             .of(&variant, mean(&series.pressure_noise))
             .exactly(0.0, "smooth pressure")
-            .gated(Limit::AtMost(1e-3), "specification 1: rms of p less its local linear fit within 2h, over ρgH")
+            .gated(Limit::AtMost(1e-3), "rms of p less its local linear fit within 2h, over ρgH")
             .with_snapshot_tolerance(0.1, 1e-6),
         quantity
             .of(&variant, 100.0 * profile_l2(run, &profile.height, pressure))
             .exactly(0.0, EXACT)
-            .gated(Limit::AtMost(1.0), "specification 1: 1 % of the hydrostatic profile")
+            .gated(Limit::AtMost(1.0), "the project's aim: 1 % of the hydrostatic profile")
             .with_snapshot_tolerance(0.02, 1e-3),
     ];
     let scale = energy_ledger::Scale::AtRest(run.energy_scale());
@@ -86,7 +86,7 @@ fn at_rest((run, record): &Record) -> Vec<Metric> {
         HEIGHT_DRIFT
             .of(&variant, 100.0 * (around(2.0) / around(1.0) - 1.0))
             .exactly(0.0, "a layer at rest keeps its height")
-            .gated(Limit::Within(-0.1, 0.1), "specification 1: mean height from 1 s to 2 s")
+            .gated(Limit::Within(-0.1, 0.1), "mean height from 1 s to 2 s")
             .with_snapshot_tolerance(0.1, 1e-4),
         ACOUSTIC_BREATHING
             .of(&variant, 100.0 * range)

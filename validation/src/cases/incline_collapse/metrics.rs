@@ -43,7 +43,7 @@ pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
                 .against(Some(0.5 * (short + long)), &source, SLOPE_EXPERIMENT.confidence)
                 .gated_by(
                     is_judged.then_some(limit),
-                    "specification 2: the band of k = 0.4 to 0.5, 15 % to either side; at 20 rows and more",
+                    "the band of k = 0.4 to 0.5, 15 % to either side; at 20 rows and more",
                 ),
             at_rest(&variant, data, &run.law),
             observed(DEPOSIT_SLOPE_ANGLE, &variant, data.slope_angle()).exactly(

@@ -7,8 +7,7 @@ use crate::reference::WATER_FRONT;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let mut front = Panel::new("", Axis::linear("t/√(a/(2g)) [-]"), Axis::linear("front x/a [-]"));
-    let mut energy =
-        Panel::new("", Axis::linear("t/√(a/(2g)) [-]"), Axis::linear("change of the energy/work of gravity [%]"));
+    let mut energy = Panel::new("", Axis::linear("t/√(a/(2g)) [-]"), Axis::linear("energy change/work of gravity [%]"));
     front.reference("Martin & Moyce 1952", WATER_FRONT.points.iter().copied());
     for (slot, (run, record)) in records.iter().enumerate() {
         let data = &record.data;
