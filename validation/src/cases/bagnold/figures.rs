@@ -10,6 +10,11 @@ use crate::cases::Arrangement;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::TransientHistory;
 
+const PROFILES: &str = "Mean velocity along the slope in 20 bins over the depth, against Bagnold's profile (36), which is exact for \
+    the μ(I) law. Left in metres per second, right the difference in percent of the exact surface velocity.";
+const OTHER_GRAINS: &str = "The same for grains of other materials with the same numerics: mean velocity against Bagnold's profile of each \
+    material, and the difference in percent of the exact surface velocity.";
+
 pub(super) fn all(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Figure> {
     let first_start = parameters.starts.first().copied().unwrap_or(Start::Rest);
     let of = |belongs: &dyn Fn(&BagnoldRun) -> bool| -> Vec<&Record> {
@@ -17,9 +22,14 @@ pub(super) fn all(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Fig
     };
     let steady = of(&|run| run.purpose == Purpose::Steady && run.start == first_start);
     let outside = of(&|run| matches!(run.purpose, Purpose::Arrest | Purpose::Runaway));
+    let other_grains = of(&|run| run.purpose == Purpose::OtherGrains);
     let mut figures = Vec::new();
     if !steady.is_empty() {
-        figures.extend([profiles(&steady), stresses(&steady), transients(&steady)]);
+        let profiles = profiles("velocity-profile", PROFILES, &steady);
+        figures.extend([profiles, stresses(&steady), transients(&steady)]);
+    }
+    if !other_grains.is_empty() {
+        figures.push(profiles("other-grains", OTHER_GRAINS, &other_grains));
     }
     if !outside.is_empty() {
         figures.push(arrest_and_runaway(&outside));
@@ -29,10 +39,13 @@ pub(super) fn all(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Fig
 }
 
 fn label(run: &BagnoldRun) -> String {
-    format!("{}°", run.slope_angle)
+    match &run.material {
+        Some(material) => format!("{material}, {}°", run.slope_angle),
+        None => format!("{}°", run.slope_angle),
+    }
 }
 
-fn profiles(records: &[&Record]) -> Figure {
+fn profiles(name: &str, caption: &str, records: &[&Record]) -> Figure {
     let mut absolute = Panel::new("", Axis::linear("u [m/s]"), Axis::linear("y/h [-]"));
     let mut error = Panel::new("", Axis::linear("(u − exact)/u(h) [%]"), Axis::linear("y/h [-]"));
     error.reference("exact", [(0.0, 0.0), (0.0, 1.0)]);
@@ -49,12 +62,7 @@ fn profiles(records: &[&Record]) -> Figure {
         let differences = data.filled().map(|bin| (difference(bin), data.height[bin] / h));
         error.line_points(&label(run), slot, differences);
     }
-    Figure::new(
-        "velocity-profile",
-        "Mean velocity along the slope in 20 bins over the depth, against Bagnold's profile (36), which is exact for \
-         the μ(I) law. Left in metres per second, right the difference in percent of the exact surface velocity.",
-        vec![absolute, error],
-    )
+    Figure::new(name, caption, vec![absolute, error])
 }
 
 fn stresses(records: &[&Record]) -> Figure {

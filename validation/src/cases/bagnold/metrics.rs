@@ -3,11 +3,11 @@
 use super::Record;
 use super::errors::{SteadyErrors, convergence_errors, history_from_rest, mean_at, particle_history, transient_of};
 use super::parameters::{BagnoldParameters, Start};
-use super::runs::Purpose;
+use super::runs::{BagnoldRun, Purpose};
 use crate::case::Run;
 use crate::cases::Arrangement;
 use crate::cases::energy_ledger;
-use crate::cases::layer;
+use crate::cases::layer::{self, LayerObservation};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::reference::{BagnoldProfile, TransientHistory};
 use crate::statistics::log_log_slope;
@@ -52,6 +52,7 @@ pub(super) fn all(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Met
         metrics.extend(energy_ledger::metrics(&variant, &record.1.data.energy, energy_ledger::Scale::Gravity));
         metrics.extend(match record.0.purpose {
             Purpose::Steady | Purpose::Convergence => steady(record),
+            Purpose::OtherGrains => other_grains(record),
             Purpose::Arrest => arrest(record),
             Purpose::Runaway => runaway(record),
             Purpose::Regularised => regularised(record),
@@ -95,24 +96,45 @@ fn steady(record: &Record) -> Vec<Metric> {
         })
         .collect();
     // at the measured height: what part of the error is the layer's settling
-    let (height, expected) = (data.series.relative_height.last().copied().unwrap_or(1.0), run.exact_relative_height());
-    metrics.push(
-        RELATIVE_HEIGHT
-            .of(&variant, height)
-            .exactly(expected, "twice the mean height of the weakly compressible layer over its thickness")
-            .gated(
-                Limit::Within(expected - 0.005, expected + 0.005),
-                "the flow neither dilates nor sinks: a tenth of a row at 20 rows",
-            )
-            .with_snapshot_tolerance(1e-4, 0.0),
-    );
-    let measured = BagnoldProfile { layer_height: exact.layer_height * height, ..exact };
+    let height = relative_height(run, data);
+    let measured = BagnoldProfile { layer_height: exact.layer_height * height.value, ..exact };
+    metrics.push(height);
     let errors = SteadyErrors::of(&data.profile, &measured);
     metrics.extend(errors.map(|errors| error(VELOCITY_L2_MEASURED_HEIGHT, errors.velocity_l2)));
     if run.start == Start::Rest {
         metrics.extend(transient(record));
     }
     metrics
+}
+
+fn relative_height(run: &BagnoldRun, data: &LayerObservation) -> Metric {
+    let (height, expected) = (data.series.relative_height.last().copied().unwrap_or(1.0), run.exact_relative_height());
+    RELATIVE_HEIGHT
+        .of(&run.variant(), height)
+        .exactly(expected, "twice the mean height of the weakly compressible layer over its thickness")
+        .gated(
+            Limit::Within(expected - 0.005, expected + 0.005),
+            "the flow neither dilates nor sinks: a tenth of a row at 20 rows",
+        )
+        .with_snapshot_tolerance(1e-4, 0.0)
+}
+
+/// One set of numerics is to serve every material: the same errors with somewhat wider limits.
+fn other_grains((run, record): &Record) -> Vec<Metric> {
+    let Some(errors) = SteadyErrors::of(&record.data.profile, &run.profile()) else { return Vec::new() };
+    let gated = |quantity: Quantity, value: f64, limit: f64, reason: &str| {
+        let metric = quantity.of(&run.variant(), value).exactly(0.0, EXACT).with_snapshot_tolerance(1e-3, 1e-4);
+        by_resolution(metric, run.layer.resolution, limit, 2.5 * limit, reason)
+    };
+    let velocity =
+        "the project's aim for any grains: 1 % at 40 rows and more; first order and some noise, so 2.5 % at 20";
+    let stress =
+        "the project's aim for any grains: 0.15 % at 40 rows and more; first order and some noise, so 0.375 % at 20";
+    vec![
+        gated(VELOCITY_L2, errors.velocity_l2, 1.0, velocity),
+        gated(IMPLIED_STRESS_ERROR, errors.implied_stress_error, 0.15, stress),
+        relative_height(run, &record.data),
+    ]
 }
 
 /// The paper's law is not the exact one: what it differs by is observed.

@@ -6,7 +6,7 @@ mod metrics;
 mod parameters;
 mod runs;
 
-pub use parameters::{BagnoldParameters, Start};
+pub use parameters::{BagnoldParameters, OtherGrains, Start};
 pub use runs::{BagnoldRun, Purpose};
 
 use crate::case::{Case, RecordOf};

@@ -20,6 +20,23 @@ pub enum Start {
     Profile,
 }
 
+/// Grains of another material, which flow from their own profile.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OtherGrains {
+    /// What figures and variants call them.
+    pub name: String,
+    /// Slope angle `[°]`, between the friction angles of these grains.
+    #[schemars(transform = rules::slope_angle())]
+    pub slope_angle: f64,
+    /// Rows of particles over the layer. The particles' own Reynolds number γ̇ Δ² ρ/η = (I Δ/D)²/(μ φ) is to stay below
+    /// 0.1: above it the unevenness of the flow between particles is not damped within a strain, and the layer sinks.
+    #[schemars(transform = rules::rows())]
+    pub resolution: usize,
+    /// The grains' law.
+    pub grains: MuI,
+}
+
 /// Parameters of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BagnoldParameters {
@@ -55,6 +72,8 @@ pub struct BagnoldParameters {
     /// Slope angles above the band `[°]`, from rest.
     #[schemars(transform = each(rules::slope_angle()))]
     pub runaway_slope_angles: Vec<f64>,
+    /// Grains of other materials, whose profile is the same law's: what holds for one material is to hold for all.
+    pub other_grains: Vec<OtherGrains>,
     /// Material, which must be of μ(I).
     pub material: Rheology,
     /// Rate α_r `[1/s]` of the regularised viscosity (35), taken as `numerics.viscous_step` says; 0 for the return
@@ -89,6 +108,7 @@ impl Parameters for BagnoldParameters {
             arrest_start_angle: 24.0,
             // at 20 rows the particles' agitation breaks the layer up before its mean reaches half the sound speed
             runaway_slope_angles: vec![],
+            other_grains: Vec::new(),
             // glass beads of Table 1 (Forterre & Pouliquen 2003); I_0 from (41) at 25°, kept at every angle
             material: Rheology::MuI(GLASS_BEADS.law),
             regularisation_rate: 0.0,
@@ -101,6 +121,7 @@ impl Parameters for BagnoldParameters {
             starts: vec![Start::Rest, Start::Profile],
             convergence_resolutions: vec![10, 20, 40],
             runaway_slope_angles: vec![34.0],
+            other_grains: other_grains(),
             regularised_slope_angles: vec![24.0],
             ..quick.clone()
         };
@@ -128,22 +149,15 @@ impl Parameters for BagnoldParameters {
         if !self.regularised_slope_angles.is_empty() {
             rules::implicit_runs("numerics", numerics, "regularised_slope_angles")?;
         }
-        let steady = |field: &str, angle: f64| {
-            let PeriodicLayer { layer_height, gravity, .. } = self.layer;
-            let profile = BagnoldProfile::of(&grains, layer_height, self.solid_fraction, gravity, angle);
-            if profile.inertial_number().is_some() {
-                return Ok(());
-            }
-            let band = [grains.static_friction, grains.limiting_friction].map(|mu| libm::atan(mu).to_degrees());
-            Err(ParameterError::field(
-                field,
-                angle,
-                &format!("between {:.2}° and {:.2}°, the friction angles of the material", band[0], band[1]),
-                "put other angles under `arrest_slope_angles` or `runaway_slope_angles`",
-            ))
-        };
+        let steady = |field: &str, angle: f64| self.steady(&grains, field, angle);
         let lists =
             [("slope_angles", &self.slope_angles), ("regularised_slope_angles", &self.regularised_slope_angles)];
+        for (index, other) in self.other_grains.iter().enumerate() {
+            let name = |field: &str| format!("other_grains[{index}].{field}");
+            rules::row_count(&name("resolution"), other.resolution)?;
+            rules::material(&name("grains"), &Rheology::MuI(other.grains))?;
+            self.steady(&other.grains, &name("slope_angle"), other.slope_angle)?;
+        }
         for (name, angles) in lists {
             for (index, &angle) in angles.iter().enumerate() {
                 steady(&format!("{name}[{index}]"), angle)?;
@@ -164,10 +178,46 @@ impl Parameters for BagnoldParameters {
 }
 
 impl BagnoldParameters {
+    /// That grains flow steadily at a slope angle `[°]`.
+    fn steady(&self, grains: &MuI, field: &str, angle: f64) -> Result<(), ParameterError> {
+        let PeriodicLayer { layer_height, gravity, .. } = self.layer;
+        let profile = BagnoldProfile::of(grains, layer_height, self.solid_fraction, gravity, angle);
+        if profile.inertial_number().is_some() {
+            return Ok(());
+        }
+        let band = [grains.static_friction, grains.limiting_friction].map(|mu| libm::atan(mu).to_degrees());
+        Err(ParameterError::field(
+            field,
+            angle,
+            &format!("between {:.2}° and {:.2}°, the friction angles of the material", band[0], band[1]),
+            "put other angles under `arrest_slope_angles` or `runaway_slope_angles`",
+        ))
+    }
+
     /// How long the runs are over those of a layer of 10 mm: (h/10 mm)^1.5 is how the time to the steady state grows.
     pub(super) fn duration_scale(&self) -> f64 {
         self.duration_factor * libm::pow(self.layer.layer_height / 0.01, 1.5)
     }
+}
+
+/// Three materials that no experiment has: 20, 30 and 100 grains over a layer of 10 mm, friction from 0.3 to 0.95.
+fn other_grains() -> Vec<OtherGrains> {
+    let new =
+        |name: &str, slope_angle, resolution, [static_friction, limiting_friction]: [f64; 2], inertia, diameter| {
+            let grains = MuI {
+                static_friction,
+                limiting_friction,
+                reference_inertia: inertia,
+                grain_diameter: diameter,
+                ..GLASS_BEADS.law
+            };
+            OtherGrains { name: name.to_owned(), slope_angle, resolution, grains }
+        };
+    vec![
+        new("slippery", 20.0, 40, [0.3, 0.5], 0.1, 0.5e-3),
+        new("rough", 28.0, 40, [0.45, 0.75], 0.3, 0.33e-3),
+        new("fine", 34.0, 80, [0.6, 0.95], 0.6, 0.1e-3),
+    ]
 }
 
 /// The material's law: regularised with the rate `[1/s]`, or by return mapping where that is 0.

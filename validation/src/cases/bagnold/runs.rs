@@ -17,6 +17,8 @@ use serde::Serialize;
 pub enum Purpose {
     /// Bagnold's steady profile.
     Steady,
+    /// The same with other grains.
+    OtherGrains,
     /// The same, one of several resolutions.
     Convergence,
     /// Slope below the static friction angle.
@@ -46,6 +48,8 @@ pub struct BagnoldRun {
     duration: f64,
     averaging_time: f64,
     grains: MuI,
+    /// Name of the grains, where they are not the case's own.
+    pub material: Option<String>,
     regularisation_rate: f64,
 }
 
@@ -69,6 +73,7 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
         duration,
         averaging_time: parameters.averaging_time,
         grains,
+        material: None,
         regularisation_rate: parameters.regularisation_rate,
     };
     // the recipe's 3.5, 4, 4.5 and 5 s at 22, 23, 24 and 25°
@@ -82,6 +87,17 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
         let steady = parameters.slope_angles.iter();
         runs.extend(steady.map(|&angle| jittered(Purpose::Steady, angle, start, duration(angle))));
     }
+    runs.extend(parameters.other_grains.iter().map(|other| {
+        let run = new(
+            Purpose::OtherGrains,
+            other.slope_angle,
+            Start::Profile,
+            Arrangement::Jittered,
+            other.resolution,
+            from_profile,
+        );
+        BagnoldRun { grains: other.grains, material: Some(other.name.clone()), ..run }
+    }));
     let numerics = Numerics { viscous_step: ViscousStep::Implicit, ..own_numerics };
     runs.extend(parameters.regularised_slope_angles.iter().map(|&angle| {
         let run = jittered(Purpose::Regularised, angle, Start::Profile, from_profile);
@@ -120,8 +136,9 @@ impl Run for BagnoldRun {
             .and("start", start)
             .and("particles", self.particles.name())
             .and("resolution", self.layer.resolution);
-        match self.purpose {
-            Purpose::Regularised => run.and("regularisation_rate", self.regularisation_rate),
+        match (&self.purpose, &self.material) {
+            (Purpose::Regularised, _) => run.and("regularisation_rate", self.regularisation_rate),
+            (_, Some(material)) => run.and("material", material.clone()),
             _ => run,
         }
     }

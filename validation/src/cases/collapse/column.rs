@@ -98,7 +98,9 @@ impl Run for ColumnRun {
         match self.purpose {
             Purpose::Law => column,
             Purpose::Convergence => column.and("seed", self.release.seed),
-            Purpose::Hourglass => column.and("hourglass", self.release.numerics.hourglass),
+            Purpose::Hourglass => {
+                column.and("hourglass", self.release.numerics.hourglass).and("seed", self.release.seed)
+            }
             Purpose::Regularised => column.and("regularisation_rate", self.regularisation_rate.unwrap_or(0.0)),
         }
     }

@@ -38,7 +38,7 @@ quantities! {
     ENSEMBLE_SPREAD: verified("ensemble_spread", "%", "largest relative standard deviation over the seeds"),
     HOURGLASS_SPREAD: verified(
         "hourglass_spread", "%",
-        "largest less smallest run-out over the hourglass coefficients, over the mean",
+        "largest less smallest of a result over the hourglass coefficients, over the mean",
     ),
     EXPLICIT_STEPS: verified("explicit_steps", "-", "steps that an explicit viscous step would need"),
     REGULARISED_DIFFERENCE:

@@ -40,7 +40,8 @@ pub struct Variants {
     pub aspect_ratios: Vec<f64>,
 }
 
-/// How far results depend on what should not matter, for the grains of Lagrée et al.
+/// How far results depend on what should not matter: resolution and seed for the grains of Lagrée et al., the hourglass
+/// coefficient for the sand as well.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Sensitivity {
     /// Aspect ratios `[-]`; empty for none.
@@ -51,9 +52,11 @@ pub struct Sensitivity {
     pub resolutions: Vec<usize>,
     /// Seeds of each resolution, three at the finest of several; the first is the case's own.
     pub seeds: Vec<u64>,
-    /// Hourglass coefficients at which the first aspect ratio is repeated `[-]`; empty for none.
-    #[schemars(transform = each(between(0.0, 2.0, "the recipe has 0.2")))]
+    /// Hourglass coefficients at which the columns are repeated `[-]`; empty for none.
+    #[schemars(transform = each(between(0.0, 2.0, "0.4 is the default of the numerics")))]
     pub hourglass: Vec<f64>,
+    /// Seeds of each coefficient where fewer than 40 particles lie over the half width; one with more.
+    pub hourglass_seeds: Vec<u64>,
     /// Particles over the half width of these.
     #[schemars(transform = each(rules::rows()))]
     pub hourglass_resolutions: Vec<usize>,
@@ -152,7 +155,8 @@ impl Parameters for ColumnPlanarParameters {
                 aspect_ratios: vec![1.0, 3.0],
                 resolutions: vec![40, 60, 90],
                 seeds: vec![1, 2, 3, 4, 5],
-                hourglass: vec![0.0, 0.05, 0.2, 0.5],
+                hourglass: vec![0.0, 0.2, 0.5],
+                hourglass_seeds: vec![1, 2, 3],
                 hourglass_resolutions: vec![20, 40],
             },
             regularised: Regularised { aspect_ratios: vec![1.0, 3.0], rate: 0.01 },
@@ -168,7 +172,12 @@ impl Parameters for ColumnPlanarParameters {
         match tier {
             Tier::Quick => quick,
             Tier::Paper => paper,
-            Tier::Fine => Self { resolution: 80, tall_resolution: 40, ..paper },
+            Tier::Fine => Self {
+                resolution: 80,
+                tall_resolution: 40,
+                sensitivity: Sensitivity { hourglass_resolutions: vec![20, 40, 80], ..paper.sensitivity.clone() },
+                ..paper
+            },
         }
     }
 
