@@ -6,11 +6,11 @@ use crate::observation::EnergyBook;
 quantities! {
     shared pub(in crate::cases)
     ENERGY_RESIDUAL:
-        verified("energy_residual", "%", "largest change of the energy that its ledger does not explain, over a scale"),
-    ENERGY_RISE: verified("energy_rise", "%", "largest rise of the total energy above its least before, over a scale"),
-    WALL_WORK: verified("wall_work", "%", "work of walls over that scale: of those at rest an error, or slip along them"),
+        accounted("energy_residual", "%", "largest change of the energy that its ledger does not explain, over a scale"),
+    ENERGY_RISE: accounted("energy_rise", "%", "largest rise of the total energy above its least before, over a scale"),
+    WALL_WORK: accounted("wall_work", "%", "work of walls over that scale: of those at rest an error, or slip along them"),
     CORRECTION_WORK:
-        verified("correction_work", "%", "energy fed in by the kernel correction of the forces, over that scale"),
+        accounted("correction_work", "%", "energy fed in by the kernel correction of the forces, over that scale"),
 }
 
 /// What energies are compared with.

@@ -9,16 +9,18 @@ pub use variant::{Value, Variant};
 
 use serde::{Deserialize, Serialize};
 
-/// What a verdict rests on; the three are never mixed.
+/// What a verdict rests on; the four are never mixed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// Against an exact solution of the model's own equations, a conservation law or a convergence order.
+    /// The run's own account: nothing is lost, and mass, momentum and energy add up. It says nothing of the physics.
+    Bookkeeping,
+    /// Against an exact solution of the model's own equations, or a convergence order.
     Verification,
-    /// Against an experiment or a published fit.
+    /// Against an experiment, a published fit or other people's simulations.
     Validation,
-    /// Against the project's own earlier result.
-    Regression,
+    /// Against a sentence, a figure or a number of one of the two papers that the models come from.
+    Statement,
 }
 
 /// The outcome of a gate.

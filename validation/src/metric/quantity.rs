@@ -19,6 +19,18 @@ pub struct Quantity {
 }
 
 impl Quantity {
+    /// A quantity of the run's own account.
+    #[must_use]
+    pub const fn accounted(name: &'static str, unit: &'static str, says: &'static str) -> Self {
+        Self { name, unit, kind: Kind::Bookkeeping, says }
+    }
+
+    /// A quantity that one of the two papers says something about.
+    #[must_use]
+    pub const fn stated(name: &'static str, unit: &'static str, says: &'static str) -> Self {
+        Self { name, unit, kind: Kind::Statement, says }
+    }
+
     /// A quantity that is checked against the model's own equations.
     #[must_use]
     pub const fn verified(name: &'static str, unit: &'static str, says: &'static str) -> Self {

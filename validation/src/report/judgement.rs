@@ -110,12 +110,14 @@ pub struct DriftTally {
 pub struct Judgement<'r> {
     /// Cases, the worst first, else in the report's order.
     pub cases: Vec<JudgedCase<'r>>,
+    /// Gates of the runs' own account.
+    pub bookkeeping: Tally,
     /// Gates against exact solutions.
     pub verification: Tally,
     /// Gates against experiments and published fits.
     pub validation: Tally,
-    /// Gates against the project's own earlier results.
-    pub regression: Tally,
+    /// Gates against what the papers say; a known failure there is a statement that is not reproduced.
+    pub statements: Tally,
     /// Comparisons with the baseline.
     pub drift: DriftTally,
     /// Entries of the list of known failures that contradict the results.
@@ -127,24 +129,29 @@ pub struct Judgement<'r> {
 }
 
 impl Judgement<'_> {
+    /// The tallies of all kinds.
+    #[must_use]
+    pub fn tallies(&self) -> [Tally; 4] {
+        [self.bookkeeping, self.verification, self.validation, self.statements]
+    }
+
     /// Whether anything failed that is not a known failure: a gate, the list itself, or a run. Drift is not counted:
     /// it is the snapshot's verdict, not the gate's.
     #[must_use]
     pub fn has_unexpected_failure(&self) -> bool {
-        let tallies = [self.verification, self.validation, self.regression];
-        tallies.iter().any(|tally| tally.fail > 0) || self.contradictions > 0 || self.diverged > 0
+        self.tallies().iter().any(|tally| tally.fail > 0) || self.contradictions > 0 || self.diverged > 0
     }
 
     /// Gates of any kind that fail, listed or not.
     #[must_use]
     pub fn failing_gates(&self) -> usize {
-        [self.verification, self.validation, self.regression].iter().map(|tally| tally.fail + tally.known).sum()
+        self.tallies().iter().map(|tally| tally.fail + tally.known).sum()
     }
 
     /// Gates of any kind that hold.
     #[must_use]
     pub fn holding_gates(&self) -> usize {
-        [self.verification, self.validation, self.regression].iter().map(|tally| tally.hold).sum()
+        self.tallies().iter().map(|tally| tally.hold).sum()
     }
 
     /// Whether every gate holds, nothing drifted, and there was a gate at all.
@@ -163,9 +170,10 @@ pub fn judge(report: &Report) -> Judgement<'_> {
     let mut cases: Vec<JudgedCase<'_>> = report.cases.iter().map(|case| judge_case(report, case)).collect();
     let mut judgement = Judgement {
         cases: Vec::new(),
+        bookkeeping: Tally::default(),
         verification: Tally::default(),
         validation: Tally::default(),
-        regression: Tally::default(),
+        statements: Tally::default(),
         drift: DriftTally::default(),
         contradictions: 0,
         diverged: 0,
@@ -193,9 +201,10 @@ pub fn judge(report: &Report) -> Judgement<'_> {
 impl Judgement<'_> {
     fn count(&mut self, judged: &Judged<'_>) {
         let tally = match judged.metric.kind {
+            Kind::Bookkeeping => &mut self.bookkeeping,
             Kind::Verification => &mut self.verification,
             Kind::Validation => &mut self.validation,
-            Kind::Regression => &mut self.regression,
+            Kind::Statement => &mut self.statements,
         };
         match (judged.verdict, &judged.standing) {
             (Verdict::Observed, _) => {}

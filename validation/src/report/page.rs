@@ -2,7 +2,7 @@
 
 use super::accepted::tier_name;
 use super::judgement::{JudgedCase, Judgement, Severity, Tally};
-use super::rows::{mark, note, rows, statement, vanished};
+use super::rows::{mark, note, rows, statement, vanished, worst_mark};
 use super::view::{Banner, BannerItem, Case, Count, Mark, Page, Picture, Run};
 use super::{CaseReport, Drawn, Provenance, Report};
 use crate::case::RunSummary;
@@ -76,7 +76,7 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
         }
         for judged in case.metrics.iter().filter(|judged| judged.severity() <= Severity::Drifted) {
             let item = BannerItem {
-                mark: mark(judged.severity()),
+                mark: worst_mark(judged),
                 case: case.case.name.clone(),
                 what: judged.metric.name.clone(),
                 variant: judged.metric.variant.to_string(),
@@ -113,11 +113,14 @@ fn headline(judgement: &Judgement<'_>) -> (Mark, String, String) {
     let failing = judgement.failing_gates();
     let holding = judgement.holding_gates();
     let all = failing + holding;
-    let tallies = [judgement.verification, judgement.validation, judgement.regression];
-    let known: usize = tallies.iter().map(|tally| tally.known).sum();
+    let not_reproduced = judgement.statements.known;
+    let known = judgement.tallies().iter().map(|tally| tally.known).sum::<usize>() - not_reproduced;
     let mut details = Vec::new();
     if known > 0 {
         details.push(format!("{known} of them known"));
+    }
+    if not_reproduced > 0 {
+        details.push(format!("{} of the papers not reproduced", plural(not_reproduced, "statement")));
     }
     if judgement.known_elsewhere > 0 {
         details.push(format!("{} at other tiers or cases", plural(judgement.known_elsewhere, "known failure")));
@@ -157,15 +160,14 @@ fn headline(judgement: &Judgement<'_>) -> (Mark, String, String) {
 }
 
 fn counts(judgement: &Judgement<'_>) -> Vec<Count> {
-    let gates = |tally: Tally| {
+    let gates = |name, meaning, tally: Tally, known: &str| {
         let all = tally.hold + tally.fail + tally.known;
-        let statement = if all == 0 { "no gates".to_owned() } else { format!("{} of {all} gates hold", tally.hold) };
         let mut details = Vec::new();
         if tally.fail > 0 {
             details.push(format!("{} {}", tally.fail, if tally.fail == 1 { "fails" } else { "fail" }));
         }
         if tally.known > 0 {
-            details.push(plural(tally.known, "known failure"));
+            details.push(format!("{} {known}", tally.known));
         }
         let mark = match tally {
             Tally { hold: 0, fail: 0, known: 0 } => Mark::OBSERVED,
@@ -173,44 +175,32 @@ fn counts(judgement: &Judgement<'_>) -> Vec<Count> {
             Tally { fail: 0, .. } => Mark::KNOWN,
             Tally { .. } => Mark::FAIL,
         };
-        (mark, statement, details)
+        let statement = if all == 0 { "no gates".to_owned() } else { format!("{} of {all} gates hold", tally.hold) };
+        Count { mark, name, meaning, statement, detail: details.join(" · ") }
     };
-    let (verification_mark, verification, verification_details) = gates(judgement.verification);
-    let (validation_mark, validation, validation_details) = gates(judgement.validation);
-    let (gate_mark, gate_statement, mut details) = gates(judgement.regression);
-    let drift = judgement.drift;
+    let Judgement { bookkeeping, verification, validation, statements, drift, .. } = judgement;
     let compared = drift.unchanged + drift.drifted;
-    let regression_gates = judgement.regression != Tally::default();
-    if drift.drifted > 0 {
-        details.push(format!("{} drifted", drift.drifted));
-    }
-    if drift.new > 0 {
-        details.push(format!("{} new", drift.new));
-    }
-    if regression_gates {
-        details.push(gate_statement);
-    }
-    let regression_mark = match (gate_mark, drift.drifted, compared) {
-        (Mark { class: "fail" | "known", .. }, _, _) => gate_mark,
-        (_, 0, 0) => gate_mark,
-        (_, 0, _) => Mark::PASS,
-        _ => Mark::DRIFT,
-    };
-    let statement = match compared {
-        0 => "no baseline".to_owned(),
-        _ => format!("{} of {compared} values unchanged", drift.unchanged),
-    };
-    let count = |mark, name, meaning, statement, details: Vec<String>| Count {
-        mark,
-        name,
-        meaning,
-        statement,
-        detail: details.join(" · "),
+    let changes = [(drift.drifted, "drifted"), (drift.new, "new")].into_iter().filter(|(count, _)| *count > 0);
+    let regression = Count {
+        mark: match (drift.drifted, compared) {
+            (0, 0) => Mark::OBSERVED,
+            (0, _) => Mark::PASS,
+            _ => Mark::DRIFT,
+        },
+        name: "Regression",
+        meaning: "against the committed baseline",
+        statement: match compared {
+            0 => "no baseline".to_owned(),
+            _ => format!("{} of {compared} values unchanged", drift.unchanged),
+        },
+        detail: changes.map(|(count, what)| format!("{count} {what}")).collect::<Vec<_>>().join(" · "),
     };
     vec![
-        count(verification_mark, "Verification", "against exact solutions", verification, verification_details),
-        count(validation_mark, "Validation", "against experiments and published fits", validation, validation_details),
-        count(regression_mark, "Regression", "against the committed baseline", statement, details),
+        gates("Validation", "against experiments and published fits", *validation, "known to fail"),
+        gates("Statements", "against what the two papers say", *statements, "not reproduced"),
+        gates("Verification", "against exact solutions", *verification, "known to fail"),
+        gates("Bookkeeping", "nothing lost; mass, momentum and energy add up", *bookkeeping, "known to fail"),
+        regression,
     ]
 }
 

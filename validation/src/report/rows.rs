@@ -63,12 +63,22 @@ fn row(judged: &Judged<'_>) -> Row {
     }
 }
 
+/// The mark of the worst verdict; a statement of a paper that is known not to hold is not reproduced.
+pub(super) fn worst_mark(judged: &Judged<'_>) -> Mark {
+    match judged.severity() {
+        Severity::KnownFailure if judged.metric.kind == Kind::Statement => {
+            Mark { word: "not reproduced", ..Mark::KNOWN }
+        }
+        severity => mark(severity),
+    }
+}
+
 /// The mark of the gate alone: drift has a column of its own.
 fn gate_mark(judged: &Judged<'_>) -> Mark {
     match judged.severity() {
         Severity::Drifted if judged.verdict == Verdict::Observed => Mark::OBSERVED,
         Severity::Drifted => Mark::PASS,
-        severity => mark(severity),
+        _ => worst_mark(judged),
     }
 }
 
@@ -163,9 +173,10 @@ fn whole(share: f64) -> String {
 
 fn kind(kind: Kind) -> &'static str {
     match kind {
+        Kind::Bookkeeping => "bookkeeping",
         Kind::Verification => "verification",
         Kind::Validation => "validation",
-        Kind::Regression => "regression",
+        Kind::Statement => "statement of a paper",
     }
 }
 

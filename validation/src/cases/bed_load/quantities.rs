@@ -19,8 +19,8 @@ quantities! {
     ),
     MOVES_ABOVE: verified("moves_above", "mm", "lowest height at which grains are faster than 1 cm/s"),
     GRAIN_CURVATURE_ABOVE:
-        validated("grain_curvature_above", "u_*/d²", "curvature of the grains' profile above the top of the bed"),
-    GRAIN_CURVATURE_BELOW: validated("grain_curvature_below", "u_*/d²", "the same below it"),
+        stated("grain_curvature_above", "u_*/d²", "curvature of the grains' profile above the top of the bed"),
+    GRAIN_CURVATURE_BELOW: stated("grain_curvature_below", "u_*/d²", "the same below it"),
     DRAG_PEAK_HEIGHT: verified("drag_peak_height", "mm", "where the drag on the grains is greatest"),
     FLUID_VELOCITY_RMS:
         verified("fluid_velocity_rms", "u_*", "root mean square of the water's velocity less the 1-D layer's"),
@@ -38,15 +38,15 @@ quantities! {
         "semi_log_slope", "-",
         "slope of the water's velocity over ln(z + z_0) in a range of heights, over u_*/κ",
     ),
-    LAYER_SLOPE_RATIO: validated("layer_slope_ratio", "-", "that slope next to the bed over that of the outer flow"),
+    LAYER_SLOPE_RATIO: stated("layer_slope_ratio", "-", "that slope next to the bed over that of the outer flow"),
     NEAR_BED_DEFICIT:
-        validated("near_bed_deficit", "u_*", "velocity of the water less clear water's half a grain above the bed"),
-    OUTER_DEFICIT: validated("outer_deficit", "u_*", "the same at half the depth"),
+        stated("near_bed_deficit", "u_*", "velocity of the water less clear water's half a grain above the bed"),
+    OUTER_DEFICIT: stated("outer_deficit", "u_*", "the same at half the depth"),
     SHEARED_UP_TO: verified("sheared_up_to", "mm", "upper border of the layer that the moving grains shear"),
     SHEARED_FROM: verified("sheared_from", "mm", "its lower border"),
-    NUMBER_OF_LAYERS: validated("number_of_layers", "-", "layers of different semi-logarithmic slope"),
+    NUMBER_OF_LAYERS: stated("number_of_layers", "-", "layers of different semi-logarithmic slope"),
     LAYER_SLOPE: verified("layer_slope", "-", "slope of a layer, over u_*/κ"),
     LAYER_BORDER: verified("layer_border", "d", "height between a layer and the next"),
-    TRANSPORT_GROWTH: validated("transport_growth", "-", "q* on the steeper slope over that on the gentler"),
-    SHEARED_THICKNESS_GROWTH: validated("sheared_thickness_growth", "-", "thickness of the sheared layer likewise"),
+    TRANSPORT_GROWTH: stated("transport_growth", "-", "q* on the steeper slope over that on the gentler"),
+    SHEARED_THICKNESS_GROWTH: stated("sheared_thickness_growth", "-", "thickness of the sheared layer likewise"),
 }

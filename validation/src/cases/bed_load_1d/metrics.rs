@@ -29,8 +29,8 @@ quantities! {
         verified("logarithmic_slope", "-", "slope of the water's velocity over ln z in a range of heights, over u_*/κ"),
     VELOCITY_DEFICIT: verified("velocity_deficit", "u_*", "velocity of the water less clear water's at a height"),
     MOTION_DEPTH_GROWTH:
-        validated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next"),
-    DECAY_LENGTH_GROWTH: validated("decay_length_growth", "-", "the same of the decay length"),
+        stated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next"),
+    DECAY_LENGTH_GROWTH: stated("decay_length_growth", "-", "the same of the decay length"),
     ONSET_RATIO: validated("onset_ratio", "-", "Shields number at which grains move over that of Shields' curve"),
     ONSET: validated("onset", "-", "that Shields number"),
     TRANSPORT_SENSITIVITY:

@@ -8,8 +8,8 @@ use crate::statistics::{Estimate, block_average, linear_fit};
 quantities! {
     shared pub(in crate::cases)
     PARTICLES_LOST:
-        verified("particles_lost", "-", "particles that ended below the floor or far above the surface"),
-    MOMENTUM_RESIDUAL: verified(
+        accounted("particles_lost", "-", "particles that ended below the floor or far above the surface"),
+    MOMENTUM_RESIDUAL: accounted(
         "momentum_residual", "-",
         "change of momentum less gravity and friction of the bed, over the impulse of the slope",
     ),

@@ -1,10 +1,11 @@
 //! One column: its scene and its run.
 
 use super::block::{Block, STIFFNESS};
+use super::deposit::AT_REST;
 use super::deposit::{Collapse, Surveyor, radius};
 use super::material::Material;
 use super::release::Release;
-use super::watch::{AT_REST, Watch};
+use super::watch::Watch;
 use crate::case::recording::{self, Ending};
 use crate::case::{ParameterError, Progress, Run};
 use crate::metric::Variant;

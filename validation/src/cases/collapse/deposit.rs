@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 pub const BIN_WIDTH: f64 = 0.1;
 /// Points a horizontal direction over which a particle's volume is spread, in the plane and in space.
 const SUB_POINTS: [usize; 2] = [8, 4];
+/// Kinetic over released potential energy below which a deposit rests `[-]`.
+pub(super) const AT_REST: f64 = 5e-7;
 /// Thickness at the front over the initial half width `[-]`.
 pub const FRONT_THICKNESS: f64 = 0.02;
 /// A thickness that one row of particles has from 20 over the half width on `[-]`: what lies beyond it is a row or less.
@@ -41,10 +43,6 @@ pub struct Collapse {
     pub lost: usize,
     /// Largest momentum that neither gravity nor walls, mirrors, gate and contacts gave, over M g t `[-]`.
     pub momentum_residual: f64,
-    /// Mass at the start `[kg]`, of a metre of a planar column.
-    pub initial_mass: f64,
-    /// Mass at the end over that at the start, less 1 `[-]`.
-    pub mass_change: f64,
     /// The energy ledger.
     pub energy: EnergyBook,
     /// Positions and speeds for the moving picture.
@@ -78,9 +76,6 @@ impl Surveyor {
         }
         let residual = self.momentum_residual(snapshot);
         let collapse = &mut self.collapse;
-        if collapse.time.is_empty() {
-            collapse.initial_mass = snapshot.mass.iter().sum();
-        }
         collapse.momentum_residual = collapse.momentum_residual.max(residual);
         collapse.time.push(snapshot.time);
         collapse.front.push(front(&thickness));
@@ -115,7 +110,6 @@ impl Surveyor {
         let beside = end.position.iter().filter(|x| radius(x) < BIN_WIDTH * r);
         self.collapse.top = (beside.fold(0.0_f64, |top, x| top.max(x[1])) + 0.5 * self.spacing) / r;
         let total: f64 = end.mass.iter().sum();
-        self.collapse.mass_change = total / self.collapse.initial_mass - 1.0;
         self.collapse.centroid =
             end.mass.iter().zip(&end.position).map(|(m, x)| m * radius(x)).sum::<f64>() / (total * r);
         let mut order: Vec<(f64, f64)> = end.position.iter().map(radius).zip(end.mass.iter().copied()).collect();
@@ -232,6 +226,12 @@ impl Collapse {
             (Some(kinetic), Some(first), Some(last)) if first > last => kinetic / (first - last),
             _ => f64::INFINITY,
         }
+    }
+
+    /// Time at which the grains had come to rest `[s]`; infinite where they had not when the run ended.
+    #[must_use]
+    pub fn rest_time(&self) -> f64 {
+        self.time.last().copied().filter(|_| self.agitation() < AT_REST).unwrap_or(f64::INFINITY)
     }
 
     /// Time at which the front of a row's thickness has covered 99 % of its way `[s]`, linear between two observations.

@@ -6,22 +6,20 @@ use crate::metric::quantities;
 quantities! {
     pub(in crate::cases) [energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     PARTICLES_LOST:
-        verified("particles_lost", "-", "particles that passed the bed, the symmetry plane or the bed's end"),
-    MASS_CHANGE: verified("mass_change", "-", "relative change of the mass"),
-    MOMENTUM_RESIDUAL: verified("momentum_residual", "-", "momentum less what gravity and the walls gave, over M g t"),
+        accounted("particles_lost", "-", "particles that passed the bed, the symmetry plane or the bed's end"),
+    MOMENTUM_RESIDUAL: accounted("momentum_residual", "-", "momentum less what gravity and the walls gave, over M g t"),
     RUN_OUT: validated("run_out", "-", "front of the deposit, or another measure of its extent, less r_0, over r_0"),
     FINAL_HEIGHT: validated("final_height", "-", "thickness of the innermost bin over r_0"),
     STOPPING_TIME: validated("stopping_time", "√(h0/g)", "time of 99 % of the front's way"),
-    KINETIC_ENERGY_SHARE:
-        verified("kinetic_energy_share", "-", "kinetic energy at the end over the potential energy that was released"),
-    DEPOSIT_SLOPE_ANGLE: validated("deposit_slope_angle", "°", "slope of a line through 20–80 % of the deposit"),
+    REST_TIME: verified("rest_time", "s", "when the kinetic energy had fallen to 5e-7 of the energy released; infinite for never"),
+    DEPOSIT_SLOPE_ANGLE: verified("deposit_slope_angle", "°", "slope of a line through 20–80 % of the deposit"),
     HEIGHT_BY_TOP:
         verified("height_by_top", "%", "highest particle beside the symmetry plane over the final height, less 1"),
     ENERGY_GAIN:
-        verified("energy_gain", "%", "largest excess of the energy over that of the start, over the potential one"),
+        accounted("energy_gain", "%", "largest excess of the energy over that of the start, over the potential one"),
     FLOWING_LAYER_SHEAR_RATE:
         validated("flowing_layer_shear_rate", "1/s", "slope of a line through the flowing layer's velocity"),
-    FLOWING_LAYER_R_SQUARED: validated("flowing_layer_r_squared", "-", "share of the variance that this line explains"),
+    FLOWING_LAYER_R_SQUARED: stated("flowing_layer_r_squared", "-", "share of the variance that this line explains"),
     TAIL_DECAY_LENGTH_OVER_DIAMETER: validated(
         "tail_decay_length_over_diameter", "-",
         "length over which the velocity below the flowing layer decays, over the grain diameter",

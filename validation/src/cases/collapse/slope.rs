@@ -1,9 +1,10 @@
 //! A reservoir of grains behind a gate on an incline: its scene and its run.
 
 use super::block::{Block, STIFFNESS};
+use super::deposit::AT_REST;
 use super::deposit::{Collapse, Surveyor};
 use super::incline::Reservoir;
-use super::watch::{AT_REST, Watch};
+use super::watch::Watch;
 use crate::case::recording::{self, Ending};
 use crate::case::{ParameterError, Progress, Run};
 use crate::metric::{Value, Variant};
@@ -223,7 +224,7 @@ impl SlopeCollapse {
     /// Whether the grains came to rest before the end of the channel.
     #[must_use]
     pub fn came_to_rest(&self) -> bool {
-        self.collapse.agitation() < 1e-6
+        self.collapse.rest_time().is_finite()
     }
 }
 

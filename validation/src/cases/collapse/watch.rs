@@ -1,12 +1,9 @@
 //! Watches a heap while it spreads: survey, moving picture, pictures at their times, and whether it has come to rest.
 
 use super::camera::Camera;
-use super::deposit::{Collapse, Surveyor, front};
+use super::deposit::{AT_REST, Collapse, Surveyor, front};
 use crate::observation::Frame;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
-
-/// Kinetic over released potential energy below which the deposit rests and the run ends `[-]`.
-pub(super) const AT_REST: f64 = 5e-7;
 
 /// What is seen of a run.
 pub(super) struct Watch {

@@ -5,7 +5,7 @@ use super::{
 };
 use crate::case::Run;
 use crate::cases::collapse::metrics::conservation;
-use crate::cases::collapse::quantities::{MASS_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST};
+use crate::cases::collapse::quantities::{MOMENTUM_RESIDUAL, PARTICLES_LOST};
 use crate::cases::energy_ledger;
 use crate::cases::layer::LayerObservation;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
@@ -14,8 +14,8 @@ use crate::statistics::mean;
 use bagnold_solver::material::rheology::Rheology;
 
 quantities! {
-    [PARTICLES_LOST, MASS_CHANGE, MOMENTUM_RESIDUAL, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
-    LARGEST_THICKNESS: validated("largest_thickness", "cm", "largest thickness of the flow at a station"),
+    [PARTICLES_LOST, MOMENTUM_RESIDUAL, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
+    LARGEST_THICKNESS: stated("largest_thickness", "cm", "largest thickness of the flow at a station"),
     STOPPING_ANGLE: verified("stopping_angle", "°", "slope at which a layer stops"),
     EXPERIMENTAL_EXCESS:
         validated("experimental_excess", "°", "slope at which layers stop in experiments, less the one found"),

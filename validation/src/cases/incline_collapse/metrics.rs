@@ -3,15 +3,13 @@
 use super::Record;
 use crate::case::Run;
 use crate::cases::collapse::metrics::{at_rest, conservation};
-use crate::cases::collapse::quantities::{
-    DEPOSIT_SLOPE_ANGLE, KINETIC_ENERGY_SHARE, MASS_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST,
-};
+use crate::cases::collapse::quantities::{DEPOSIT_SLOPE_ANGLE, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME};
 use crate::cases::energy_ledger;
 use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
 use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
 
 quantities! {
-    [PARTICLES_LOST, MASS_CHANGE, MOMENTUM_RESIDUAL, KINETIC_ENERGY_SHARE, DEPOSIT_SLOPE_ANGLE, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
+    [PARTICLES_LOST, MOMENTUM_RESIDUAL, REST_TIME, DEPOSIT_SLOPE_ANGLE, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     FRONT_DISPLACEMENT: validated("front_displacement", "m", "the front's way from the gate to the end of the deposit"),
     FRONT: validated("front", "-", "place of the front at a time, over r_0"),
 }
@@ -45,7 +43,7 @@ pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
                     is_judged.then_some(limit),
                     "the band of k = 0.4 to 0.5, 15 % to either side; at 20 rows and more",
                 ),
-            at_rest(&variant, data, &run.law),
+            at_rest(&variant, data, &run.law, run.reservoir.duration),
             observed(DEPOSIT_SLOPE_ANGLE, &variant, data.slope_angle()).exactly(
                 libm::atan(friction).to_degrees() - run.slope_angle,
                 "arctan μ_s − θ, the steepest surface that can rest, from the bed; line over 20–80 % of the front",

@@ -249,7 +249,7 @@ fn tables(variant: &Variant, data: &LayerObservation) -> Vec<Table> {
 
 quantities! {
     shared pub(in crate::cases)
-    PARTICLES_LOST: verified("particles_lost", "-", "particles that ended below the bed or far above the layer"),
+    PARTICLES_LOST: accounted("particles_lost", "-", "particles that ended below the bed or far above the layer"),
 }
 
 /// The number of particles that ended below the bed or far above the layer, gated at 0.

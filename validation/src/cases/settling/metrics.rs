@@ -22,7 +22,7 @@ quantities! {
         validated("sinking_over_richardson_zaki", "-", "that velocity over Richardson and Zaki's"),
     UNEVENNESS: verified("unevenness", "%", "scatter of the grains' velocities over the slip"),
     MOMENTUM_ERROR:
-        verified("momentum_error", "-", "what does not close of a step's momentum, over the grains' weight"),
+        accounted("momentum_error", "-", "what does not close of a step's momentum, over the grains' weight"),
 }
 
 const ALONE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ½ for the planar form (30)";
