@@ -66,10 +66,13 @@ const SECONDS_PER_PARTICLE_STEP: f64 = 0.7e-6;
 /// Bins over the depth.
 pub const BINS: usize = 20;
 
-/// Stiffness K = ρ0 max(50 g H, (3 Ū)²) `[Pa]`, Ū the expected steady depth mean if there is one: one rule everywhere.
+/// Stiffness K = ρ0 max(50 g H, (6 Ū)²) `[Pa]`, Ū the expected steady depth mean if there is one: one rule everywhere.
+///
+/// A fast layer is to be six times slower than sound. With a ratio of three the unevenness of the flow between particles
+/// compresses it: fine grains at 34° sank by 5 % and were 3 % too fast, with six by 1 % and 1.2 %.
 #[must_use]
 pub fn bulk_modulus(reference_density: f64, gravity: f64, height: f64, expected_mean: f64) -> f64 {
-    reference_density * (50.0 * gravity * height).max((3.0 * expected_mean).powi(2))
+    reference_density * (50.0 * gravity * height).max((6.0 * expected_mean).powi(2))
 }
 
 impl Layer<'_> {
