@@ -103,6 +103,7 @@ fn profile(record: &Record) -> Vec<Metric> {
     let judged = |(quantity, value): (Quantity, f64)| {
         let metric = quantity.of(&run.variant(), value).exactly(0.0, exact).with_snapshot_tolerance(1e-3, 1e-4);
         match limit {
+            Some((limit, reason)) if quantity == VELOCITY_L2 => metric.gated(Limit::AtMost(limit), reason),
             Some((limit, reason)) => metric.gated(Limit::Within(-limit, limit), reason),
             None => metric,
         }
