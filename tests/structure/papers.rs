@@ -74,6 +74,11 @@ fn every_metric_is_declared_by_its_case_and_of_runs_that_a_tier_has() {
                 wrong.push(format!("{name}: no tier of {} has a run [{}]", shown.case, shown.variant));
             }
         }
+        for run in &row.runs {
+            if !runs.get(run.case.as_str()).is_some_and(|own| own.iter().any(|variant| run.names(variant))) {
+                wrong.push(format!("{name}: no tier of {} has a run [{}]", run.case, run.variant));
+            }
+        }
     }
     assert_none(&wrong);
 }

@@ -43,7 +43,7 @@ pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
 pub use layer_transient::{LayerProfile, LayerTransient, TransientHistory};
 pub use liquid_column::{MeasuredFront, WATER_FRONT};
 pub use measured::{Column, MeasuredData, Metadata, Origin};
-pub use papers::{Element, FigureName, MetricName, PAPERS, Paper, PaperError, Printed, Settled, TestName};
+pub use papers::{Element, FigureName, MetricName, PAPERS, Paper, PaperError, Printed, RunName, Settled, TestName};
 pub use rough_channel::{ORIGIN_DEPTH, RoughChannel, roughness_ratio};
 pub use settling::{GrainForm, SettlingGrains, richardson_zaki_confidence, richardson_zaki_exponent};
 pub use shipped::{shipped_table, shipped_tables};

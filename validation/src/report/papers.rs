@@ -1,8 +1,10 @@
 //! What became of every element of the papers, by the metrics of a report.
 
 use super::CaseReport;
+use crate::case::RunSummary;
 use crate::metric::{Metric, Verdict};
-use crate::reference::{Element, MetricName, PAPERS, Paper, Settled};
+use crate::observation::Outcome;
+use crate::reference::{Element, MetricName, PAPERS, Paper, RunName, Settled};
 
 /// What became of an element; the worst of several metrics is the first here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -74,6 +76,24 @@ pub struct Shown<'r> {
     pub status: Option<Status>,
 }
 
+/// A run that has to end without diverging.
+#[derive(Debug, Clone)]
+pub struct Ended<'r> {
+    /// How the element names it.
+    pub name: &'r RunName,
+    /// The run.
+    pub run: &'r RunSummary,
+    /// Reproduced, or not where it diverged, whether the case declares that or not.
+    pub status: Status,
+}
+
+impl<'r> Ended<'r> {
+    fn of(name: &'r RunName, run: &'r RunSummary) -> Self {
+        let diverged = matches!(run.outcome, Outcome::Diverged { .. });
+        Self { name, run, status: if diverged { Status::NotReproduced } else { Status::Reproduced } }
+    }
+}
+
 /// What became of one element.
 #[derive(Debug, Clone)]
 pub struct Fate<'r> {
@@ -83,6 +103,8 @@ pub struct Fate<'r> {
     pub status: Status,
     /// The metrics of this report that show it.
     pub shown: Vec<Shown<'r>>,
+    /// The runs of this report that it names.
+    pub ended: Vec<Ended<'r>>,
 }
 
 impl<'r> Fate<'r> {
@@ -93,20 +115,29 @@ impl<'r> Fate<'r> {
             named.map(|metric| Shown { name, metric, status: Status::of(name, metric) })
         };
         let shown: Vec<Shown<'r>> = element.metrics.iter().flat_map(of_name).collect();
+        let of_run = |name: &'r RunName| {
+            let runs = cases.iter().filter(|case| case.name == name.case).flat_map(|case| &case.runs);
+            runs.filter(|run| name.names(&run.variant)).map(|run| Ended::of(name, run))
+        };
+        let ended: Vec<Ended<'r>> = element.runs.iter().flat_map(of_run).collect();
         let status = match &element.settled {
             Some((Settled::Replaced, _)) => Status::Replaced,
             Some((Settled::NotStatedClearly, _)) => Status::NotStatedClearly,
             Some((Settled::NotCovered, _)) => Status::NotCovered,
-            None if element.metrics.is_empty() => Status::Reproduced,
-            None => shown.iter().filter_map(|shown| shown.status).min().unwrap_or(Status::NotInThisTier),
+            None if element.metrics.is_empty() && element.runs.is_empty() => Status::Reproduced,
+            None => {
+                let judged =
+                    shown.iter().filter_map(|shown| shown.status).chain(ended.iter().map(|ended| ended.status));
+                judged.min().unwrap_or(Status::NotInThisTier)
+            }
         };
-        Self { element, status, shown }
+        Self { element, status, shown, ended }
     }
 
     /// Whether tests alone hold it: nothing of it is computed in a report.
     #[must_use]
     pub fn rests_on_tests(&self) -> bool {
-        self.status == Status::Reproduced && self.shown.is_empty()
+        self.status == Status::Reproduced && self.shown.is_empty() && self.ended.is_empty()
     }
 }
 

@@ -1,12 +1,14 @@
 //! The page of the papers: every element, what became of it, and where that is shown; and its card on the overview.
 
 use super::accepted::tier_name;
-use super::papers::{self, Account, Fate, Shown, Status};
+use super::papers::{self, Account, Ended, Fate, Shown, Status};
 use super::template::fill;
 use super::view::{Count, Mark, anchor};
 use super::{CaseReport, Report};
 use crate::case::Tier;
 use crate::number::{four_digits, with_unit};
+use crate::observation::Outcome;
+use crate::reference::{MetricName, Printed, RunName};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -44,7 +46,7 @@ struct ElementView {
     reason: String,
     note: String,
     values: Vec<ValueView>,
-    /// Names of metrics that are not in this report.
+    /// Names of metrics and runs that are not in this report.
     missing: Vec<String>,
     tests: Vec<String>,
     figures: Vec<Link>,
@@ -121,9 +123,11 @@ fn paper(account: &Account<'_>, cases: &[CaseReport]) -> PaperView {
 
 fn element(paper: &str, fate: &Fate<'_>, cases: &[CaseReport]) -> ElementView {
     let element = fate.element;
-    let is_missing =
-        |name: &&crate::reference::MetricName| !fate.shown.iter().any(|shown| std::ptr::eq(shown.name, *name));
+    let is_missing = |name: &&MetricName| !fate.shown.iter().any(|shown| std::ptr::eq(shown.name, *name));
     let missing = element.metrics.iter().filter(is_missing);
+    let missing = missing.map(|name| format!("{} {} [{}]", name.case, name.metric, name.variant));
+    let is_gone = |name: &&RunName| !fate.ended.iter().any(|ended| std::ptr::eq(ended.name, *name));
+    let gone = element.runs.iter().filter(is_gone).map(|name| format!("{} [{}]", name.case, name.variant));
     ElementView {
         anchor: format!("{paper}-{}", element.id),
         id: element.id.clone(),
@@ -133,8 +137,8 @@ fn element(paper: &str, fate: &Fate<'_>, cases: &[CaseReport]) -> ElementView {
         mark: mark(fate.status),
         reason: element.settled.as_ref().map(|(_, reason)| reason.clone()).unwrap_or_default(),
         note: element.note.clone(),
-        values: fate.shown.iter().map(value).collect(),
-        missing: missing.map(|name| format!("{} {} [{}]", name.case, name.metric, name.variant)).collect(),
+        values: fate.shown.iter().map(value).chain(fate.ended.iter().map(run)).collect(),
+        missing: missing.chain(gone).collect(),
         tests: element.tests.iter().map(|test| format!("{}::{}", test.file, test.function)).collect(),
         figures: figures(fate, cases),
     }
@@ -154,8 +158,24 @@ fn value(shown: &Shown<'_>) -> ValueView {
     }
 }
 
+/// A run that had to end.
+fn run(ended: &Ended<'_>) -> ValueView {
+    let Ended { name, run, status } = ended;
+    let outcome = match &run.outcome {
+        Outcome::Diverged { message, .. } => message.clone(),
+        _ => format!("ran to its end, {}\u{202f}s", four_digits(run.simulated_time)),
+    };
+    ValueView {
+        mark: mark(*status),
+        link: Link { address: format!("index.html#case-{}", name.case), text: format!("{} run", name.case) },
+        variant: run.variant.to_string(),
+        value: outcome,
+        printed: String::new(),
+    }
+}
+
 /// A printed range in words.
-fn range(printed: crate::reference::Printed, unit: &str) -> String {
+fn range(printed: Printed, unit: &str) -> String {
     let (low, high) = (printed.lowest, printed.highest);
     match (low.is_finite(), high.is_finite()) {
         (true, true) if low == high => with_unit(low, unit),

@@ -115,6 +115,48 @@ fn statuses_are_computed_from_gates_and_printed_numbers() {
 }
 
 #[test]
+fn a_run_that_diverges_reproduces_nothing() {
+    let rows = r#"
+title = "A paper"
+source = "its text"
+
+[[element]]
+id = "claim-1"
+place = "1"
+says = "it runs"
+implemented = "none"
+runs = [{ case = "film", variant = "numerics=paper" }]
+"#;
+    let run = |outcome| RunSummary {
+        variant: "fluid=newtonian,numerics=paper".parse().expect("a variant"),
+        outcome,
+        particles: 1,
+        steps: 1,
+        simulated_time: 1.0,
+        wall_seconds: 1.0,
+        threads: 1,
+        microseconds_per_particle_step: None,
+        state_hash: String::new(),
+        from_store: false,
+    };
+    let diverged = |expected| Outcome::Diverged { message: "diverged at t = 0.2 s".to_owned(), expected };
+    let papers: &[Paper] = vec![Paper::parse("made-up", rows).expect("readable")].leak();
+    for (runs, expected) in [
+        (Vec::new(), Status::NotInThisTier),
+        (vec![run(Outcome::Finished)], Status::Reproduced),
+        (vec![run(diverged(true))], Status::NotReproduced),
+        (vec![run(Outcome::Finished), run(diverged(false))], Status::NotReproduced),
+    ] {
+        let mut report = Report { papers, ..report(Vec::new()) };
+        report.cases[0].runs = runs;
+        let judgement = judge(&report);
+        assert_eq!(judgement.papers[0].elements[0].status, expected);
+        let page = papers_page::render(&report, &judgement.papers).expect("a page");
+        assert_eq!(page.contains("diverged at t = 0.2 s"), expected == Status::NotReproduced);
+    }
+}
+
+#[test]
 fn the_page_has_every_row_and_its_links_land() {
     let report = report(vec![gated(2.0), thickness(6.1)]);
     let folder = tempfile::tempdir().expect("a folder");

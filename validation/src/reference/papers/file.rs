@@ -1,6 +1,6 @@
 //! A file of `reference-data/papers` → a paper; every rule that a row can break.
 
-use super::{Element, FigureName, MetricName, Paper, PaperError, Printed, Settled, TestName};
+use super::{Element, FigureName, MetricName, Paper, PaperError, Printed, RunName, Settled, TestName};
 use crate::metric::Variant;
 use serde::Deserialize;
 
@@ -25,6 +25,8 @@ struct Row {
     #[serde(default)]
     metrics: Vec<MetricRow>,
     #[serde(default)]
+    runs: Vec<RunRow>,
+    #[serde(default)]
     figures: Vec<String>,
     status: Option<String>,
     because: Option<String>,
@@ -47,6 +49,13 @@ struct MetricRow {
     at_most: Option<f64>,
     /// What a number outside is.
     outside: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RunRow {
+    case: String,
+    variant: Variant,
 }
 
 /// What an element can be, by the beginning of its name.
@@ -120,13 +129,14 @@ fn element(row: Row, place: &Place<'_>) -> Result<Element, PaperError> {
     let tests = row.tests.iter().map(|test| test_name(test, place)).collect::<Result<Vec<_>, _>>()?;
     let metrics = row.metrics.into_iter().map(|metric| metric_name(metric, place)).collect::<Result<Vec<_>, _>>()?;
     let figures = row.figures.iter().map(|figure| figure_name(figure, place)).collect::<Result<Vec<_>, _>>()?;
-    if settled.is_none() && tests.is_empty() && metrics.is_empty() {
+    let runs: Vec<RunName> = row.runs.into_iter().map(|run| RunName { case: run.case, variant: run.variant }).collect();
+    if settled.is_none() && tests.is_empty() && metrics.is_empty() && runs.is_empty() {
         let words: Vec<&str> = SETTLED.iter().map(|(word, _)| *word).collect();
-        let rule = format!("one of {}, where no metric and no test says what became of the element", words.join(", "));
+        let rule = format!("one of {}, where no metric, run or test says what became of the element", words.join(", "));
         return Err(place.refuse("status", "", rule));
     }
     let Row { id, place, says, note, .. } = row;
-    Ok(Element { id, place, says, implemented, tests, metrics, figures, settled, note })
+    Ok(Element { id, place, says, implemented, tests, metrics, runs, figures, settled, note })
 }
 
 fn settled(row: &Row, place: &Place<'_>) -> Result<Option<(Settled, String)>, PaperError> {

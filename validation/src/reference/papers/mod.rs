@@ -40,6 +40,8 @@ pub struct Element {
     pub tests: Vec<TestName>,
     /// Metrics that show it.
     pub metrics: Vec<MetricName>,
+    /// Runs that have to end without diverging.
+    pub runs: Vec<RunName>,
     /// Figures that draw it.
     pub figures: Vec<FigureName>,
     /// What became of it, where no metric and no test can say so.
@@ -81,6 +83,15 @@ pub struct MetricName {
     pub printed: Option<Printed>,
 }
 
+/// Runs of a case: those whose variant has all the parts that are given.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunName {
+    /// Case.
+    pub case: String,
+    /// What the variants have in common.
+    pub variant: Variant,
+}
+
 /// A number or range that a paper prints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Printed {
@@ -119,10 +130,21 @@ impl MetricName {
     #[must_use]
     pub fn names(&self, metric: &str, variant: &Variant) -> bool {
         let same_quantity = self.variant.get(QUANTITY) == variant.get(QUANTITY);
-        self.metric == metric
-            && same_quantity
-            && self.variant.parts().all(|(key, value)| variant.get(key) == Some(value))
+        self.metric == metric && same_quantity && has_all(variant, &self.variant)
     }
+}
+
+impl RunName {
+    /// Whether it names the run of a case.
+    #[must_use]
+    pub fn names(&self, run: &Variant) -> bool {
+        has_all(run, &self.variant)
+    }
+}
+
+/// Whether a variant has all the parts of another.
+fn has_all(variant: &Variant, wanted: &Variant) -> bool {
+    wanted.parts().all(|(key, value)| variant.get(key) == Some(value))
 }
 
 /// The papers that the program accounts for.

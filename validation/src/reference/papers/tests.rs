@@ -26,6 +26,7 @@ place = "abstract"
 says = "a claim"
 implemented = "solver/src/vector.rs"
 tests = ["solver/src/vector.rs::a_deviator_has_no_trace"]
+runs = [{ case = "film", variant = "numerics=paper" }]
 figures = ["film/operators"]
 status = "replaced"
 because = "by something else"
@@ -40,6 +41,8 @@ note = "a note"
     assert_eq!(second.settled, Some((Settled::Replaced, "by something else".to_owned())));
     assert_eq!(second.tests[0].function, "a_deviator_has_no_trace");
     assert_eq!(second.figures[0], FigureName { case: "film".to_owned(), figure: "operators".to_owned() });
+    assert!(second.runs[0].names(&"fluid=newtonian,numerics=paper".parse().expect("a variant")));
+    assert!(!second.runs[0].names(&"fluid=newtonian".parse().expect("a variant")));
     assert_eq!(second.implemented.as_deref(), Some("solver/src/vector.rs"));
 }
 
