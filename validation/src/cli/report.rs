@@ -41,6 +41,7 @@ pub(super) fn report(
             baseline.extend(fresh);
         }
     }
+    let cases: Vec<CaseReport> = results.iter().map(case_report).collect();
     let page = Report {
         title: "Bagnold validation report".to_owned(),
         tier: command.tier,
@@ -52,7 +53,8 @@ pub(super) fn report(
             command: repeated(command),
             date: None,
         },
-        cases: results.iter().map(case_report).collect(),
+        papers: report::papers::accounted(&cases),
+        cases,
         baseline,
         known_failures: known.clone(),
     };

@@ -95,6 +95,18 @@ mod tests {
     }
 
     #[test]
+    fn the_papers_viscosity_is_the_second_term_of_34_under_the_whole_height() {
+        // (μ_2 − μ_s) p/(ξ √p), ξ = I_0/(D √ρ_s), at a negligible shear rate; the paper prints 1.4 Pa·s for half of 14 cm
+        let law = GLASS_BEADS.law;
+        let viscosity = |height: f64| {
+            let xi = law.reference_inertia / (law.grain_diameter * law.grain_density.sqrt());
+            (law.limiting_friction - law.static_friction) * (law.grain_density * 9.81 * height).sqrt() / xi
+        };
+        assert!((viscosity(0.07) - 0.969).abs() < 1e-3, "{}", viscosity(0.07));
+        assert!((viscosity(0.14) - 1.370).abs() < 1e-3, "{}", viscosity(0.14));
+    }
+
+    #[test]
     fn every_material_is_read_to_the_last_bit() {
         let read = [*GLASS_BEADS, *TABLE_2_SAND, *LAGREE_GRAINS].map(|grains| grains.law.grain_diameter);
         assert_eq!(read, [0.5e-3, 0.32e-3, 2e-3]);

@@ -25,6 +25,10 @@ static LOG_LAW: LazyLock<LogLaw> = LazyLock::new(|| {
     })
 });
 
+/// Depth of the law's origin below the tops of grains, over their diameter k_s `[-]`: 0.6 mm for 5 mm, wherever clear water
+/// over a bed of grains is what something is compared with.
+pub const ORIGIN_DEPTH: f64 = 0.12;
+
 /// k_s/z_0 `[-]`, the roughness of a wall of sand over the height at which the law begins.
 #[must_use]
 pub fn roughness_ratio() -> f64 {
@@ -118,6 +122,16 @@ mod tests {
             let stress = channel.density * channel.friction_velocity().powi(2);
             assert!((channel.bed_shear_stress() / stress - 1.0).abs() < 1e-14);
         }
+    }
+
+    #[test]
+    fn every_bed_of_grains_has_the_same_origin() {
+        let origin = ORIGIN_DEPTH * CHANNEL.sand_roughness;
+        assert!((origin - CHANNEL.origin_offset).abs() < 1e-12);
+        // the form without an origin would be half of u_* lower at half a grain above the bed
+        let lower = RoughChannel { origin_offset: 0.0, ..CHANNEL };
+        let difference = (CHANNEL.velocity(2.5e-3) - lower.velocity(2.5e-3)) / CHANNEL.friction_velocity();
+        assert!((difference - 0.5247).abs() < 1e-3, "{difference}");
     }
 
     #[test]

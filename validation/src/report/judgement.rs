@@ -2,6 +2,7 @@
 
 use super::accepted::{Drift, Key};
 use super::known_failures::{KnownFailure, Standing};
+use super::papers::Account;
 use super::{CaseReport, Report};
 use crate::metric::{Kind, Metric, Variant, Verdict};
 use crate::observation::Outcome;
@@ -126,6 +127,8 @@ pub struct Judgement<'r> {
     pub known_elsewhere: usize,
     /// Runs that diverged without having declared it.
     pub diverged: usize,
+    /// What became of the elements of each paper.
+    pub papers: Vec<Account<'r>>,
 }
 
 impl Judgement<'_> {
@@ -178,6 +181,7 @@ pub fn judge(report: &Report) -> Judgement<'_> {
         contradictions: 0,
         diverged: 0,
         known_elsewhere: 0,
+        papers: report.papers.iter().map(|paper| Account::of(paper, &report.cases)).collect(),
     };
     let listed_here = |failure: &&KnownFailure| {
         let is_it = |metric: &Metric| metric.name == failure.metric && metric.variant == failure.variant;

@@ -6,8 +6,11 @@ pub mod history;
 pub mod judgement;
 pub mod known_failures;
 mod page;
+pub mod papers;
+mod papers_page;
 mod rows;
 mod snapshot_text;
+mod template;
 mod view;
 
 #[cfg(test)]
@@ -17,12 +20,13 @@ pub use accepted::{Baseline, Drift, Key};
 pub use error::{BaselineError, ReportError};
 pub use judgement::{Judgement, judge};
 pub use known_failures::{KnownFailure, KnownFailures, Standing};
-pub(crate) use page::template_value;
 pub use snapshot_text::description;
+pub(crate) use template::template_value;
 
 use crate::case::Tier;
 use crate::figure::{self, Animation, Figure, FigureError};
 use crate::metric::Metric;
+use crate::reference::Paper;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -41,6 +45,8 @@ pub struct Report {
     pub baseline: Baseline,
     /// The gates that are known to fail; may be empty.
     pub known_failures: KnownFailures,
+    /// The papers whose elements are accounted for; none for no page of them.
+    pub papers: &'static [Paper],
 }
 
 /// How a report came about.
@@ -96,8 +102,8 @@ struct Drawn {
     failure: Option<String>,
 }
 
-/// Writes the report into `folder`: `index.html`, `figures/CASE/NAME.{svg,png,gif}`, `cases/CASE/metrics.json` and
-/// `cases/CASE/case.toml`. Files of the same names are replaced, others are left alone.
+/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `figures/CASE/NAME.{svg,png,gif}`,
+/// `cases/CASE/metrics.json` and `cases/CASE/case.toml`. Files of the same names are replaced, others are left alone.
 ///
 /// A figure that cannot be drawn does not spoil the report: the page says so in its place.
 ///
@@ -119,8 +125,12 @@ pub fn write(report: &Report, folder: &Path) -> Result<(), ReportError> {
         put(place.join("metrics.json"), &case.metrics_json)?;
         put(place.join("case.toml"), &case.parameters_toml)?;
     }
-    let html = page::render(report, &judge(report), &drawn)?;
-    put(folder.join("index.html"), &html)
+    let judgement = judge(report);
+    if !judgement.papers.is_empty() {
+        put(folder.join("papers.html"), &papers_page::render(report, &judgement.papers)?)?;
+        put(folder.join("papers.json"), &papers_page::json(report.tier, &judgement.papers))?;
+    }
+    put(folder.join("index.html"), &page::render(report, &judgement, &drawn)?)
 }
 
 fn draw(case: &CaseReport, folder: &Path) -> Result<Vec<Drawn>, ReportError> {

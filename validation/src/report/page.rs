@@ -2,7 +2,10 @@
 
 use super::accepted::tier_name;
 use super::judgement::{JudgedCase, Judgement, Severity, Tally};
+use super::papers::{self, Status};
+use super::papers_page;
 use super::rows::{mark, note, rows, statement, vanished, worst_mark};
+use super::template::fill;
 use super::view::{Banner, BannerItem, Case, Count, Mark, Page, Picture, Run};
 use super::{CaseReport, Drawn, Provenance, Report};
 use crate::case::RunSummary;
@@ -35,29 +38,7 @@ pub(super) fn render(
         style: include_str!("template/style.css"),
         script: include_str!("template/filter.js"),
     };
-    let mut environment = minijinja::Environment::new();
-    // The ending tells the template engine to escape everything that is inserted.
-    environment.add_template("index.html", include_str!("template/index.html"))?;
-    environment.get_template("index.html")?.render(template_value(&page)?)
-}
-
-/// The page as the template engine's own value, by way of JSON: the engine is built without serde.
-pub(crate) fn template_value(page: &impl serde::Serialize) -> Result<minijinja::Value, minijinja::Error> {
-    use minijinja::{Error, ErrorKind, Value};
-    use serde_json::Value as Json;
-    fn convert(json: Json) -> Value {
-        match json {
-            Json::Null => Value::from(()),
-            Json::Bool(flag) => Value::from(flag),
-            Json::Number(number) => number.as_u64().map_or_else(|| Value::from(number.as_f64()), Value::from),
-            Json::String(text) => Value::from(text),
-            Json::Array(items) => Value::from(items.into_iter().map(convert).collect::<Vec<Value>>()),
-            Json::Object(fields) => Value::from_pairs(fields.into_iter().map(|(key, value)| (key, convert(value)))),
-        }
-    }
-    let json =
-        serde_json::to_value(page).map_err(|error| Error::new(ErrorKind::InvalidOperation, error.to_string()))?;
-    Ok(convert(json))
+    fill("index.html", include_str!("template/index.html"), &page)
 }
 
 fn banner(judgement: &Judgement<'_>) -> Banner {
@@ -119,8 +100,15 @@ fn headline(judgement: &Judgement<'_>) -> (Mark, String, String) {
     if known > 0 {
         details.push(format!("{known} of them known"));
     }
+    let open: usize = [Status::NotReproduced, Status::Contradicted]
+        .map(|status| papers::count(&judgement.papers, status))
+        .iter()
+        .sum();
     if not_reproduced > 0 {
         details.push(format!("{} of the papers not reproduced", plural(not_reproduced, "statement")));
+    }
+    if open > 0 {
+        details.push(format!("{open} of the papers' elements not reproduced or contradicted"));
     }
     if judgement.known_elsewhere > 0 {
         details.push(format!("{} at other tiers or cases", plural(judgement.known_elsewhere, "known failure")));
@@ -176,7 +164,7 @@ fn counts(judgement: &Judgement<'_>) -> Vec<Count> {
             Tally { .. } => Mark::FAIL,
         };
         let statement = if all == 0 { "no gates".to_owned() } else { format!("{} of {all} gates hold", tally.hold) };
-        Count { mark, name, meaning, statement, detail: details.join(" · ") }
+        Count { mark, name, meaning, statement, detail: details.join(" · "), link: None }
     };
     let Judgement { bookkeeping, verification, validation, statements, drift, .. } = judgement;
     let compared = drift.unchanged + drift.drifted;
@@ -194,14 +182,17 @@ fn counts(judgement: &Judgement<'_>) -> Vec<Count> {
             _ => format!("{} of {compared} values unchanged", drift.unchanged),
         },
         detail: changes.map(|(count, what)| format!("{count} {what}")).collect::<Vec<_>>().join(" · "),
+        link: None,
     };
-    vec![
+    let mut counts = vec![
         gates("Validation", "against experiments and published fits", *validation, "known to fail"),
         gates("Statements", "against what the two papers say", *statements, "not reproduced"),
         gates("Verification", "against exact solutions", *verification, "known to fail"),
         gates("Bookkeeping", "nothing lost; mass, momentum and energy add up", *bookkeeping, "known to fail"),
         regression,
-    ]
+    ];
+    counts.extend(papers_page::count(&judgement.papers));
+    counts
 }
 
 fn case(judged: &JudgedCase<'_>, drawn: &[Drawn]) -> Case {
@@ -214,7 +205,7 @@ fn case(judged: &JudgedCase<'_>, drawn: &[Drawn]) -> Case {
         mark: mark(severity),
         open: severity <= Severity::Drifted,
         statement: case_statement(judged),
-        rows: rows(&judged.metrics),
+        rows: rows(&case.name, &judged.metrics),
         vanished: judged.vanished.iter().map(vanished).collect(),
         figures: drawn.iter().map(picture).collect(),
         parameters: case.parameters_toml.clone(),

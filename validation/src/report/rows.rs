@@ -4,7 +4,7 @@ use super::accepted::{Drift, Key};
 use super::judgement::{Judged, Severity};
 use super::known_failures::Standing;
 use super::snapshot_text::word;
-use super::view::{Mark, Row};
+use super::view::{Mark, Row, anchor};
 use crate::metric::{Confidence, Kind, Limit, Metric, Verdict};
 use crate::number::{four_digits, two_digits, with_unit};
 
@@ -20,10 +20,10 @@ pub(super) fn mark(severity: Severity) -> Mark {
 }
 
 /// The rows of a case; reasons and sources that stand in the row above are marked as repeated.
-pub(super) fn rows(metrics: &[Judged<'_>]) -> Vec<Row> {
+pub(super) fn rows(case: &str, metrics: &[Judged<'_>]) -> Vec<Row> {
     let mut rows: Vec<Row> = Vec::with_capacity(metrics.len());
     for judged in metrics {
-        let mut row = row(judged);
+        let mut row = row(case, judged);
         if let Some(above) = rows.last().filter(|above| above.metric == row.metric) {
             row.reason_repeats = above.reason == row.reason;
             row.source_repeats = above.source == row.source && above.confidence == row.confidence;
@@ -33,12 +33,13 @@ pub(super) fn rows(metrics: &[Judged<'_>]) -> Vec<Row> {
     rows
 }
 
-fn row(judged: &Judged<'_>) -> Row {
+fn row(case: &str, judged: &Judged<'_>) -> Row {
     let metric = judged.metric;
     let reference = metric.reference.as_ref();
     let gate = metric.gate.as_ref();
     let (drift, change, relative_change) = drift(judged);
     Row {
+        anchor: anchor(case, &metric.name, &metric.variant),
         mark: gate_mark(judged),
         metric: metric.name.clone(),
         variant: metric.variant.parts().map(|(key, value)| format!("{key}={value}")).collect(),

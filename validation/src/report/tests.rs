@@ -34,6 +34,7 @@ fn report(cases: Vec<CaseReport>) -> Report {
         cases,
         baseline: Baseline::default(),
         known_failures: KnownFailures::default(),
+        papers: &[],
     }
 }
 

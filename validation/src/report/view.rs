@@ -1,5 +1,6 @@
 //! What the template sees: nothing but text, made by `page` and `rows`.
 
+use crate::metric::Variant;
 use serde::Serialize;
 
 /// A verdict in colour, symbol and word, so that none of them is needed alone.
@@ -17,6 +18,12 @@ impl Mark {
     pub(super) const DRIFT: Self = Self { class: "drift", symbol: "≠", word: "drifted" };
     pub(super) const PASS: Self = Self { class: "pass", symbol: "✓", word: "holds" };
     pub(super) const OBSERVED: Self = Self { class: "observed", symbol: "○", word: "observed" };
+}
+
+/// What a link to a metric's row names: letters, digits, points and dashes.
+pub(super) fn anchor(case: &str, metric: &str, variant: &Variant) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() || c == '.' || c == '-' || c == '_' { c } else { '-' };
+    format!("metric-{case}-{metric}-{}", variant.file_name()).chars().map(plain).collect()
 }
 
 #[derive(Debug, Serialize)]
@@ -52,7 +59,7 @@ pub(super) struct BannerItem {
     pub(super) note: String,
 }
 
-/// One of the three separate verdicts.
+/// One of the separate verdicts.
 #[derive(Debug, Serialize)]
 pub(super) struct Count {
     pub(super) mark: Mark,
@@ -60,6 +67,8 @@ pub(super) struct Count {
     pub(super) meaning: &'static str,
     pub(super) statement: String,
     pub(super) detail: String,
+    /// Page that has more of it.
+    pub(super) link: Option<&'static str>,
 }
 
 #[derive(Debug, Serialize)]
@@ -81,6 +90,8 @@ pub(super) struct Case {
 
 #[derive(Debug, Serialize)]
 pub(super) struct Row {
+    /// What a link to the row names.
+    pub(super) anchor: String,
     pub(super) mark: Mark,
     pub(super) metric: String,
     pub(super) variant: Vec<String>,

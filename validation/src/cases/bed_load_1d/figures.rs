@@ -75,7 +75,7 @@ fn profiles(layers: &[Layer<'_>]) -> Figure {
     let (run, state) = layers[0];
     let law =
         state.height.iter().filter(|z| **z > run.stream.grain_diameter / 20.0).map(|&z| (log_law(run, z), 1e3 * z));
-    panels[0].reference("clear water, z_0 = d/30", law);
+    panels[0].reference("clear water, z_0 = d/30, z_off = 0.12 d", law);
     Figure::new(
         "profiles",
         "Steady layers on the slopes. The water's velocity in half-logarithmic axes bends where grains move and has \

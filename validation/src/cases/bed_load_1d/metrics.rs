@@ -6,7 +6,7 @@ use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Outcome;
 use crate::reference::bed_load_layer::{LayerState, SAME_STATE};
-use crate::reference::{HONEST_BAND, TransportFormula, roughness_ratio};
+use crate::reference::{HONEST_BAND, ORIGIN_DEPTH, TransportFormula, roughness_ratio};
 
 quantities! {
     []
@@ -279,15 +279,20 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
         metrics.push(
             VELOCITY_DEFICIT
                 .of(&variant, deficit)
-                .against(Some(0.0), "rough-wall log law of clear water, z_0 = d/30", Confidence::High)
+                .against(
+                    Some(0.0),
+                    "rough-wall log law of clear water, z_0 = d/30, origin 0.12 d deep",
+                    Confidence::High,
+                )
                 .with_snapshot_tolerance(0.01, 0.01),
         );
     }
 }
 
-/// u/u_* of clear water over the resting bed, k_s = d.
+/// u/u_* of clear water over the resting bed, k_s = d, with the origin of the law in `clear-water` and `bed-load`.
 pub(super) fn log_law(run: &BedLoad1dRun, height: f64) -> f64 {
-    libm::log(roughness_ratio() * height / run.stream.grain_diameter) / run.closures.karman
+    let diameter = run.stream.grain_diameter;
+    libm::log(roughness_ratio() * (height / diameter + ORIGIN_DEPTH)) / run.closures.karman
 }
 
 /// What must grow from slope to slope: the smallest ratio of two neighbours.

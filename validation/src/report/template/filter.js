@@ -26,10 +26,13 @@
   };
   form.addEventListener("change", apply);
   form.addEventListener("submit", (event) => event.preventDefault());
-  // A link to a folded case unfolds it; printing unfolds everything.
+  // A link to a folded case, or to a row in it, unfolds it; printing unfolds everything.
   const unfold = () => {
     const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
-    if (target && target.tagName === "DETAILS") target.open = true;
+    const folded = target && target.closest("details");
+    if (!folded) return;
+    folded.open = true;
+    if (folded !== target) target.scrollIntoView({ block: "center" });
   };
   addEventListener("hashchange", unfold);
   addEventListener("beforeprint", () => document.querySelectorAll("details.verdicts").forEach((d) => { d.open = true; }));

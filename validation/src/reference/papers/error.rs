@@ -1,0 +1,30 @@
+//! What can be wrong with the rows of a paper.
+
+/// Rows that cannot be read; the message completes "failed to …".
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum PaperError {
+    /// The text is no TOML, or has a field that is missing, unknown or of another type.
+    #[error("read {file}: {message}")]
+    Text {
+        /// The file.
+        file: String,
+        /// What is wrong, with its line.
+        message: String,
+    },
+    /// A row breaks a rule.
+    #[error("read {file}, row {row} (`{id}`): `{field}` is {value:?}, but must be {rule}")]
+    Row {
+        /// The file.
+        file: String,
+        /// Row, counted from 1.
+        row: usize,
+        /// Name of its element.
+        id: String,
+        /// Field at fault.
+        field: &'static str,
+        /// What stands there.
+        value: String,
+        /// What must stand there; what to do.
+        rule: String,
+    },
+}

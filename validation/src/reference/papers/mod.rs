@@ -1,0 +1,166 @@
+//! The two papers, element by element: every numbered equation, table, figure, number and claim, what became of it here,
+//! and by what that is shown. The rows stand in `reference-data/papers`; whether one is reproduced is not written there but
+//! follows from the metrics that it names.
+
+mod error;
+mod file;
+#[cfg(test)]
+mod tests;
+
+pub use error::PaperError;
+
+use crate::metric::Variant;
+use std::sync::LazyLock;
+
+/// One paper with all its elements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Paper {
+    /// Short name, of its file and in addresses of the page.
+    pub name: String,
+    /// Authors and title.
+    pub title: String,
+    /// Which text was read, and what it has lost.
+    pub source: String,
+    /// Elements in the order of the paper.
+    pub elements: Vec<Element>,
+}
+
+/// One equation, table, figure, number or claim.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Element {
+    /// Name, unique in its paper, such as `eq-13`, `fig-8` or `claim-short-run-out`.
+    pub id: String,
+    /// Where it stands in the paper.
+    pub place: String,
+    /// What it says.
+    pub says: String,
+    /// The file that has it, from the root of the workspace; none where nothing does.
+    pub implemented: Option<String>,
+    /// Tests that hold it.
+    pub tests: Vec<TestName>,
+    /// Metrics that show it.
+    pub metrics: Vec<MetricName>,
+    /// Runs that have to end without diverging.
+    pub runs: Vec<RunName>,
+    /// Figures that draw it.
+    pub figures: Vec<FigureName>,
+    /// What became of it, where no metric and no test can say so.
+    pub settled: Option<(Settled, String)>,
+    /// What a reader has to know besides; may be empty.
+    pub note: String,
+}
+
+/// What became of an element, where it is not computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Settled {
+    /// Something else stands in its place.
+    Replaced,
+    /// The paper, or what is left of it, can be read in more than one way.
+    NotStatedClearly,
+    /// Nothing here speaks of it.
+    NotCovered,
+}
+
+/// A test by its file and function.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TestName {
+    /// File from the root of the workspace.
+    pub file: String,
+    /// Function.
+    pub function: String,
+}
+
+/// Metrics of a case: those of a name whose variant has all the parts that are given.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MetricName {
+    /// Case.
+    pub case: String,
+    /// Name.
+    pub metric: String,
+    /// What the variants have in common.
+    pub variant: Variant,
+    /// What the paper says of the number; none where the metric's own gate decides.
+    pub printed: Option<Printed>,
+}
+
+/// Runs of a case: those whose variant has all the parts that are given.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunName {
+    /// Case.
+    pub case: String,
+    /// What the variants have in common.
+    pub variant: Variant,
+}
+
+/// A number or range that a paper prints.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Printed {
+    /// The number itself, in the metric's unit, where one is printed.
+    pub value: Option<f64>,
+    /// Least value that agrees with it, in the metric's unit.
+    pub lowest: f64,
+    /// Largest value that agrees with it.
+    pub highest: f64,
+    /// Whether a number outside contradicts the paper; else it fails to reproduce what the paper shows.
+    pub contradicts: bool,
+}
+
+impl Printed {
+    /// Whether a number agrees with what is printed; NaN never does.
+    #[must_use]
+    pub fn agrees(&self, value: f64) -> bool {
+        (self.lowest..=self.highest).contains(&value)
+    }
+}
+
+/// Figures of a case whose name begins like this.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FigureName {
+    /// Case.
+    pub case: String,
+    /// Beginning of the name.
+    pub figure: String,
+}
+
+/// The key of a variant that says which quantity of its runs a metric is of.
+const QUANTITY: &str = "quantity";
+
+impl MetricName {
+    /// Whether it names the metric of a case: one of another `quantity` is another number.
+    #[must_use]
+    pub fn names(&self, metric: &str, variant: &Variant) -> bool {
+        let same_quantity = self.variant.get(QUANTITY) == variant.get(QUANTITY);
+        self.metric == metric && same_quantity && has_all(variant, &self.variant)
+    }
+}
+
+impl RunName {
+    /// Whether it names the run of a case.
+    #[must_use]
+    pub fn names(&self, run: &Variant) -> bool {
+        has_all(run, &self.variant)
+    }
+}
+
+/// Whether a variant has all the parts of another.
+fn has_all(variant: &Variant, wanted: &Variant) -> bool {
+    wanted.parts().all(|(key, value)| variant.get(key) == Some(value))
+}
+
+/// The papers that the program accounts for.
+///
+/// # Panics
+/// If a row is malformed. No user can bring that about: the rows are part of the program, and tests read every one of them.
+pub static PAPERS: LazyLock<Vec<Paper>> = LazyLock::new(|| {
+    let read = |name: &str, text: &str| match Paper::parse(name, text) {
+        Ok(paper) => paper,
+        Err(error) => panic!("failed to {error}"),
+    };
+    vec![
+        read(
+            "salehizadeh",
+            include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/reference-data/papers/salehizadeh.toml")),
+        ),
+        read("kazemi", include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/reference-data/papers/kazemi.toml"))),
+    ]
+});

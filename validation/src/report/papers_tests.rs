@@ -1,0 +1,208 @@
+//! Statuses follow from the numbers; every row is on the page, and its links land.
+
+use super::super::{Baseline, KnownFailures, Provenance, Report, judge, papers_page, write};
+use super::*;
+use crate::case::Tier;
+use crate::figure::Figure;
+use crate::metric::{Limit, Variant};
+
+const ROWS: &str = r#"
+title = "A paper"
+source = "its text"
+
+[[element]]
+id = "eq-1"
+place = "1"
+says = "gated"
+implemented = "none"
+metrics = [{ case = "film", metric = "velocity_l2", variant = "fluid=newtonian" }]
+
+[[element]]
+id = "number-1"
+place = "1"
+says = "printed <5>"
+implemented = "none"
+metrics = [{ case = "film", metric = "thickness", printed = 5.0, tolerance = 0.5 }]
+figures = ["film/oper"]
+
+[[element]]
+id = "number-2"
+place = "1"
+says = "a shortcoming of ours"
+implemented = "none"
+metrics = [{ case = "film", metric = "thickness", at_least = 5.0, outside = "not reproduced" }]
+
+[[element]]
+id = "claim-1"
+place = "1"
+says = "both"
+implemented = "solver/src/vector.rs"
+tests = ["solver/src/vector.rs::a_deviator_has_no_trace"]
+metrics = [{ case = "film", metric = "velocity_l2" }, { case = "film", metric = "thickness", at_most = 6.0 }]
+
+[[element]]
+id = "claim-2"
+place = "1"
+says = "tested only"
+implemented = "solver/src/vector.rs"
+tests = ["solver/src/vector.rs::a_deviator_has_no_trace"]
+
+[[element]]
+id = "claim-3"
+place = "1"
+says = "settled"
+implemented = "none"
+metrics = [{ case = "film", metric = "thickness" }]
+status = "replaced"
+because = "by something else"
+"#;
+
+fn gated(value: f64) -> Metric {
+    Metric::observed("velocity_l2", &Variant::of("fluid", "newtonian"), value, "%")
+        .gated(Limit::AtMost(1.0), "a reason")
+}
+
+fn thickness(value: f64) -> Metric {
+    Metric::observed("thickness", &Variant::default(), value, "cm")
+}
+
+fn report(metrics: Vec<Metric>) -> Report {
+    let paper = Paper::parse("made-up", ROWS).expect("readable");
+    let figure = Figure { name: "operators".to_owned(), caption: String::new(), panels: Vec::new(), columns: 1 };
+    let film = CaseReport {
+        name: "film".to_owned(),
+        summary: String::new(),
+        description: String::new(),
+        parameters_toml: String::new(),
+        command: String::new(),
+        metrics,
+        figures: vec![figure],
+        animations: Vec::new(),
+        runs: Vec::new(),
+        metrics_json: "{}\n".to_owned(),
+    };
+    Report {
+        title: "Report".to_owned(),
+        tier: Tier::Quick,
+        generated: Provenance::default(),
+        cases: vec![film],
+        baseline: Baseline::default(),
+        known_failures: KnownFailures::default(),
+        papers: vec![paper].leak(),
+    }
+}
+
+fn statuses(metrics: Vec<Metric>) -> Vec<&'static str> {
+    let report = report(metrics);
+    judge(&report).papers[0].elements.iter().map(|fate| fate.status.word()).collect()
+}
+
+#[test]
+fn statuses_are_computed_from_gates_and_printed_numbers() {
+    let good = ["reproduced", "reproduced", "reproduced", "reproduced", "reproduced", "replaced"];
+    assert_eq!(statuses(vec![gated(0.5), thickness(5.2)]), good);
+    let off = ["not reproduced", "contradicted", "reproduced", "contradicted", "reproduced", "replaced"];
+    assert_eq!(statuses(vec![gated(2.0), thickness(6.1)]), off, "the worst of several counts");
+    let short = ["reproduced", "contradicted", "not reproduced", "reproduced", "reproduced", "replaced"];
+    assert_eq!(statuses(vec![gated(0.5), thickness(4.0)]), short);
+    let lost = ["reproduced", "not reproduced", "not reproduced", "not reproduced", "reproduced", "replaced"];
+    assert_eq!(statuses(vec![gated(0.5), thickness(f64::NAN)]), lost, "no number contradicts nothing");
+    let absent =
+        ["not in this tier", "not in this tier", "not in this tier", "not in this tier", "reproduced", "replaced"];
+    assert_eq!(statuses(Vec::new()), absent);
+    let observed = Metric { gate: None, ..gated(0.5) };
+    assert_eq!(statuses(vec![observed])[0], "not in this tier", "what is only observed judges nothing");
+}
+
+#[test]
+fn a_run_that_diverges_reproduces_nothing() {
+    let rows = r#"
+title = "A paper"
+source = "its text"
+
+[[element]]
+id = "claim-1"
+place = "1"
+says = "it runs"
+implemented = "none"
+runs = [{ case = "film", variant = "numerics=paper" }]
+"#;
+    let run = |outcome| RunSummary {
+        variant: "fluid=newtonian,numerics=paper".parse().expect("a variant"),
+        outcome,
+        particles: 1,
+        steps: 1,
+        simulated_time: 1.0,
+        wall_seconds: 1.0,
+        threads: 1,
+        microseconds_per_particle_step: None,
+        state_hash: String::new(),
+        from_store: false,
+    };
+    let diverged = |expected| Outcome::Diverged { message: "diverged at t = 0.2 s".to_owned(), expected };
+    let papers: &[Paper] = vec![Paper::parse("made-up", rows).expect("readable")].leak();
+    for (runs, expected) in [
+        (Vec::new(), Status::NotInThisTier),
+        (vec![run(Outcome::Finished)], Status::Reproduced),
+        (vec![run(diverged(true))], Status::NotReproduced),
+        (vec![run(Outcome::Finished), run(diverged(false))], Status::NotReproduced),
+    ] {
+        let mut report = Report { papers, ..report(Vec::new()) };
+        report.cases[0].runs = runs;
+        let judgement = judge(&report);
+        assert_eq!(judgement.papers[0].elements[0].status, expected);
+        let page = papers_page::render(&report, &judgement.papers).expect("a page");
+        assert_eq!(page.contains("diverged at t = 0.2 s"), expected == Status::NotReproduced);
+    }
+}
+
+#[test]
+fn the_page_has_every_row_and_its_links_land() {
+    let report = report(vec![gated(2.0), thickness(6.1)]);
+    let folder = tempfile::tempdir().expect("a folder");
+    write(&report, folder.path()).expect("written");
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).expect(name);
+    let (page, overview) = (read("papers.html"), read("index.html"));
+    for element in &report.papers[0].elements {
+        assert!(page.contains(&format!("id=\"made-up-{}\"", element.id)), "{}", element.id);
+    }
+    assert!(page.contains("printed &lt;5&gt;") && !page.contains("<5>"), "escaped");
+    assert!(page.contains("6.1\u{202f}cm") && page.contains("4.5 … 5.5\u{202f}cm"), "our number beside the paper's");
+    let targets: Vec<&str> =
+        page.split("href=\"index.html#").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    assert!(targets.contains(&"figure-film-operators") && targets.len() >= 6, "{targets:?}");
+    for target in targets {
+        assert!(overview.contains(&format!("id=\"{target}\"")), "index.html has no {target}");
+    }
+    assert!(overview.contains("href=\"papers.html\"") && overview.contains("2 of 6 elements reproduced"));
+    assert!(
+        overview.contains("3 of the papers&#x27; elements not reproduced or contradicted"),
+        "beside the known failures"
+    );
+    assert!(!page.contains("http"), "nothing is loaded from elsewhere");
+    let json: serde_json::Value = serde_json::from_str(&read("papers.json")).expect("json");
+    assert_eq!(json["papers"][0]["counts"]["contradicted"], 2);
+    assert_eq!(json["papers"][0]["elements"].as_array().map(Vec::len), Some(6));
+}
+
+#[test]
+fn a_report_without_papers_has_no_page_of_them() {
+    let report = Report { papers: &[], ..report(vec![gated(0.5)]) };
+    let folder = tempfile::tempdir().expect("a folder");
+    write(&report, folder.path()).expect("written");
+    assert!(!folder.path().join("papers.html").exists());
+    assert!(papers_page::count(&judge(&report).papers).is_none());
+}
+
+#[test]
+fn the_papers_are_accounted_for_where_their_cases_run() {
+    let film = report(Vec::new()).cases;
+    assert_eq!(accounted(&film).len(), 2);
+    let own = CaseReport { name: "own".to_owned(), ..film[0].clone() };
+    assert!(accounted(&[own]).is_empty());
+    for paper in PAPERS.iter() {
+        let account = Account::of(paper, &film);
+        let counted: usize = Status::ALL.into_iter().map(|status| account.count(status)).sum();
+        assert_eq!(counted, paper.elements.len(), "{}: a row without a status", paper.name);
+    }
+}
