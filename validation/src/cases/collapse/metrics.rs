@@ -2,7 +2,7 @@
 
 use super::Record;
 use super::column::{ColumnRun, Geometry, Purpose};
-use super::convergence::relative_spread;
+use super::convergence::{numerical_uncertainty, relative_spread};
 use super::deposit::Collapse;
 use super::material::{Grains, Material};
 use super::quantities::{
@@ -11,7 +11,7 @@ use super::quantities::{
 };
 use crate::case::Run;
 use crate::cases::energy_ledger;
-use crate::metric::{Limit, Metric, Quantity, Variant};
+use crate::metric::{Limit, Metric, Origin, Quantity, Variant};
 use crate::reference::{COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
@@ -27,7 +27,13 @@ pub(in crate::cases) fn all(records: &[Record]) -> Vec<Metric> {
     };
     for (run, record) in records {
         if run.purpose == Purpose::Law {
-            metrics.extend(of_column(run, &record.data, spread));
+            let numerical = |measure| numerical_uncertainty(records, run, measure);
+            let known = Known {
+                numerical_run_out: numerical(Collapse::run_out),
+                numerical_height: numerical(Collapse::final_height),
+                spread,
+            };
+            metrics.extend(of_column(run, &record.data, known));
             metrics.extend(super::flow_metrics::of_run(run, record));
         } else {
             metrics.extend(conservation(&run.variant(), &record.data, &run.release.numerics));
@@ -92,13 +98,39 @@ struct Spread {
     height: f64,
 }
 
+/// What is known of the uncertainty of a column's results `[-]`.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    numerical_run_out: Option<f64>,
+    numerical_height: Option<f64>,
+    spread: Spread,
+}
+
+/// A metric with the parts of its uncertainty: that of the spacing and that over the seeds, both relative `[-]`. The laws
+/// that it is compared with give none of their own.
+fn with_uncertainty(metric: Metric, numerical: Option<f64>, spread: f64) -> Metric {
+    let scale = metric.value.abs();
+    metric
+        .known_to(
+            Origin::Numerical,
+            numerical.map(|relative| relative * scale),
+            "half of the grid convergence index of this column's study",
+        )
+        .known_to(
+            Origin::Repeat,
+            Some(spread * scale),
+            "largest relative standard deviation over the seeds of the initial displacements",
+        )
+}
+
 /// The band of a relative `tolerance` around a value, narrowed by twice the ensemble's spread.
 fn band(expected: f64, tolerance: f64, spread: f64) -> Limit {
     let left = (tolerance - 2.0 * spread).max(0.0);
     Limit::Within((1.0 - left) * expected, (1.0 + left) * expected)
 }
 
-fn of_column(run: &ColumnRun, collapse: &Collapse, spread: Spread) -> Vec<Metric> {
+fn of_column(run: &ColumnRun, collapse: &Collapse, known: Known) -> Vec<Metric> {
+    let spread = known.spread;
     let (variant, a) = (run.variant(), run.initial_height());
     let observed = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
     let by_law = |quantity: Quantity, value: f64, law: &CollapseLaw| {
@@ -126,12 +158,20 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, spread: Spread) -> Vec<Metric
     let steepest = "arctan μ_s, the steepest slope that can rest; line over 20–80 % of the front";
     let mut metrics = conservation(&variant, collapse, &run.release.numerics);
     metrics.extend([
-        by_law(RUN_OUT, collapse.run_out(), run_out_law).gated_by(
-            run_out_limit,
-            "the project's aim: within 20 % of Lube's law for round columns at 20 rows and more",
+        with_uncertainty(
+            by_law(RUN_OUT, collapse.run_out(), run_out_law).gated_by(
+                run_out_limit,
+                "the project's aim: within 20 % of Lube's law for round columns at 20 rows and more",
+            ),
+            known.numerical_run_out,
+            spread.run_out,
         ),
-        by_law(FINAL_HEIGHT, collapse.final_height(), height_law)
-            .gated_by(height_limit.map(|(expected, within)| band(expected, within, spread.height)), height_reason),
+        with_uncertainty(
+            by_law(FINAL_HEIGHT, collapse.final_height(), height_law)
+                .gated_by(height_limit.map(|(expected, within)| band(expected, within, spread.height)), height_reason),
+            known.numerical_height,
+            spread.height,
+        ),
         observed(STOPPING_TIME, collapse.stopping_time() / run.time_scale()).against(
             Some(*duration),
             &format!("about {duration} √(h_0/g), {source}; 99 % of the front's way here"),
