@@ -1,10 +1,12 @@
 //! A metric: one number that a case is judged by, with what it is judged against.
 
 mod quantity;
+mod uncertainty;
 pub mod variant;
 
 pub(crate) use quantity::quantities;
 pub use quantity::{Quantity, undeclared};
+pub use uncertainty::{Origin, Part, Uncertainty};
 pub use variant::{Value, Variant};
 
 use serde::{Deserialize, Serialize};
@@ -122,6 +124,9 @@ pub struct Metric {
     pub kind: Kind,
     /// The gate, if there is one; a metric without a gate is observed.
     pub gate: Option<Gate>,
+    /// What value and reference are known to, as far as it is known.
+    #[serde(default)]
+    pub uncertainty: Uncertainty,
     /// Relative tolerance of the drift snapshot: how far the value may move before a change is reported `[-]`.
     pub snapshot_tolerance: f64,
     /// Absolute floor of that tolerance, in the metric's unit: the value's own noise.
@@ -140,6 +145,7 @@ impl Metric {
             reference: None,
             kind: Kind::Verification,
             gate: None,
+            uncertainty: Uncertainty::default(),
             snapshot_tolerance: 1e-6,
             snapshot_floor: 0.0,
         }
@@ -172,6 +178,14 @@ impl Metric {
     #[must_use]
     pub fn exactly(self, value: f64, source: &str) -> Self {
         self.against(Some(value), source, Confidence::Exact)
+    }
+
+    /// Adds a part of what value and reference are known to, as a standard uncertainty in the metric's unit, with the
+    /// sentence that it comes from. What is not known, or is not a positive number, adds nothing.
+    #[must_use]
+    pub fn known_to(mut self, origin: Origin, standard: Option<f64>, source: &str) -> Self {
+        self.uncertainty.add(origin, standard, source);
+        self
     }
 
     /// Sets what the verdict rests on.

@@ -15,6 +15,19 @@ pub struct MeasuredFront {
     pub confidence: Confidence,
 }
 
+/// Largest difference between readings of the figure, in x/a `[-]`; `reference-data/water-column/README.md` has it.
+const READING: f64 = 0.03;
+
+impl MeasuredFront {
+    /// Standard uncertainty of reading the figure, relative to the place, root mean square over the points `[-]`: that of an
+    /// even spread within the difference between readings.
+    #[must_use]
+    pub fn relative_reading(&self) -> f64 {
+        let square = |&(_, place): &(f64, f64)| (READING / place).powi(2) / 3.0;
+        (self.points.iter().map(square).sum::<f64>() / self.points.len() as f64).sqrt()
+    }
+}
+
 /// That of a column twice as high as wide, from `reference-data/water-column`.
 pub static WATER_FRONT: LazyLock<MeasuredFront> = LazyLock::new(|| {
     read_shipped("water-column/front.csv", |table| {

@@ -1,7 +1,7 @@
 //! `metrics.json`: a case's numbers and where they come from, for other programs.
 
 use crate::case::{CaseResult, RunSummary, Tier};
-use crate::metric::{Confidence, Kind, Limit, Metric, Variant, Verdict};
+use crate::metric::{Confidence, Kind, Limit, Metric, Uncertainty, Variant, Verdict};
 use crate::store;
 use serde::{Deserialize, Serialize};
 
@@ -74,6 +74,9 @@ pub struct MetricEntry {
     pub margin: Option<f64>,
     /// The gate's outcome.
     pub verdict: Verdict,
+    /// Parts of what value and reference are known to; absent where nothing is known.
+    #[serde(default, skip_serializing_if = "Uncertainty::is_empty")]
+    pub uncertainty: Uncertainty,
     /// Relative tolerance of the drift snapshot `[-]`.
     pub snapshot_tolerance: f64,
     /// Absolute floor of that tolerance, in the metric's unit.
@@ -117,6 +120,7 @@ impl From<&Metric> for MetricEntry {
             reason: gate.map(|gate| gate.reason.clone()),
             margin: gate.and_then(|gate| finite(gate.limit.margin(metric.value))),
             verdict: metric.verdict(),
+            uncertainty: metric.uncertainty.clone(),
             snapshot_tolerance: metric.snapshot_tolerance,
             snapshot_floor: metric.snapshot_floor,
         }

@@ -1,56 +1,120 @@
-//! Statistical errors of averages over correlated samples, from blocks of a time series (Flyvbjerg and Petersen 1989).
+//! Statistical errors of averages over correlated samples, from blocks of a time series.
 //!
-//! Neighbouring samples of a flow are not independent, but means over blocks longer than the correlation time are. The
-//! error is taken from blocks of several lengths, each twice the one before; with ever longer blocks it rises to the
-//! true one and stays, so that the largest is the answer. It stays too small where the longest block is shorter than
-//! the correlation time. The blocks are left out one by one (jackknife, Quenouille and Tukey), which for a mean is the
-//! scatter of the blocks, and serves any other statistic of the samples, such as a fitted slope.
+//! Neighbouring samples of a flow are not independent. With the integral time τ = ∫₀^∞ ρ dt of their correlation ρ, a mean
+//! over the window T has the variance 2 σ² τ/T: it counts T/(2τ) independent samples. A scatter of blocks sees that only
+//! where a block is many integral times long; with 40 of them in a window of 8 blocks the error comes out right, with 8 it
+//! is 0.75 of the true one and with 2 it is 0.38. So the correlation of neighbouring blocks is measured and what it means
+//! is added. The blocks are taken for an autoregressive series of order one, of which
+//!
+//! - r = Σ (y_k − ȳ)(y_{k+1} − ȳ)/Σ (y_k − ȳ)² is the correlation as measured. It is too small, since ȳ follows the
+//!   series: E(r) = φ − (1 + 3φ)/n (Kendall 1954, Marriott and Pope 1954), hence φ = (n r + 1)/(n − 3);
+//! - g = [(1 + φ)/(1 − φ) − 2 φ (1 − φⁿ)/(n (1 − φ)²)]/n is the variance of the mean over that of a block;
+//! - σ² = Σ (y_k − ȳ)²/n/(1 − g) is the variance of a block, of which the window's own mean has taken the share g;
+//! - T/τ = 2 n (1 − φ)/(1 + φ) integral times lie in the window.
+//!
+//! The standard error is σ √g, but no more than the blocks scatter: a mean is no worse than one of its samples. Its 95 %
+//! half width is Student's factor of T/(2τ) − 1 degrees of freedom times it, at least of one, so that a window of few
+//! integral times is told with a wide band instead of a wrong one. The blocks are left out one by one (jackknife, Quenouille
+//! and Tukey): y_k = n θ − (n − 1) θ_(k) of a mean is the block's mean, and serves any other statistic of the samples, such as
+//! a fitted slope.
 
-use super::Estimate;
+use super::{Estimate, student_quantile_of};
 use std::ops::Range;
 
 /// Blocks that a time series is split into where nothing else asks for another number.
 pub const BLOCKS: usize = 32;
 
-/// Blocks that are still left when they are longest.
-const LEAST_BLOCKS: usize = 8;
+/// What the half width claims `[-]`.
+const CONFIDENCE: f64 = 0.95;
 
-/// Mean of a time series of equal intervals and its standard error; none for fewer samples than blocks.
-#[must_use]
-pub fn block_average(series: &[f64]) -> Option<Estimate> {
-    if series.len() < BLOCKS {
-        return None;
+/// Largest correlation of neighbouring blocks that is told from a drift `[-]`.
+const LARGEST_CORRELATION: f64 = 0.999;
+
+/// A statistic of a window, and how well the window knows it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Average {
+    /// The value.
+    pub value: f64,
+    /// Its standard error, in the value's unit; not a number where leaving out a block leaves no value.
+    pub standard_error: f64,
+    /// Half width of its 95 % interval, in the value's unit.
+    pub half_width: f64,
+    /// Integral times that the window is long `[-]`; infinite for a constant.
+    pub integral_times: f64,
+}
+
+impl Average {
+    /// The value with its standard error.
+    #[must_use]
+    pub fn estimate(self) -> Estimate {
+        Estimate { value: self.value, standard_error: self.standard_error }
+    }
+}
+
+/// Why a time series has no average with an error; the message completes "failed to …".
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "average over {samples} samples: the window must hold at least {BLOCKS}, one a block; sample more often or longer"
+)]
+pub struct TooFewSamples {
+    /// Samples in the window.
+    pub samples: usize,
+}
+
+/// Mean of a time series of equal intervals and what is known of it.
+///
+/// # Errors
+/// For fewer samples than blocks.
+pub fn block_average(series: &[f64]) -> Result<Average, TooFewSamples> {
+    let samples = series.len();
+    if samples < BLOCKS {
+        return Err(TooFewSamples { samples });
     }
     let sums: Vec<(f64, f64)> = (0..BLOCKS)
         .map(|block| {
-            let samples = &series[block * series.len() / BLOCKS..(block + 1) * series.len() / BLOCKS];
+            let samples = &series[block * samples / BLOCKS..(block + 1) * samples / BLOCKS];
             (samples.iter().sum(), samples.len() as f64)
         })
         .collect();
-    Some(block_jackknife(BLOCKS, |left_out| {
+    Ok(block_jackknife(BLOCKS, |left_out| {
         let kept = sums.iter().enumerate().filter(|(block, _)| !left_out.contains(block));
         let (sum, samples) = kept.fold((0.0, 0.0), |(sum, samples), (_, add)| (sum + add.0, samples + add.1));
         sum / samples
     }))
 }
 
-/// A statistic of blocks in the order of time, and its standard error. `statistic` gives the value of all blocks but
+/// A statistic of blocks in the order of time, and what is known of it. `statistic` gives the value of all blocks but
 /// those in a range.
 #[must_use]
-pub fn block_jackknife(blocks: usize, statistic: impl Fn(Range<usize>) -> f64) -> Estimate {
-    let mut standard_error: f64 = 0.0;
-    let mut length = 1;
-    while blocks / length >= LEAST_BLOCKS {
-        let values: Vec<f64> =
-            (0..blocks / length).map(|block| statistic(block * length..(block + 1) * length)).collect();
-        let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let square: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+pub fn block_jackknife(blocks: usize, statistic: impl Fn(Range<usize>) -> f64) -> Average {
+    let value = statistic(0..0);
+    let n = blocks as f64;
+    let of_block = |block| n * value - (n - 1.0) * statistic(block..block + 1);
+    let (standard_error, half_width, integral_times) = error_of_mean(&(0..blocks).map(of_block).collect::<Vec<_>>());
+    Average { value, standard_error, half_width, integral_times }
+}
+
+/// Standard error and 95 % half width of the mean of successive values, and the integral times that they span.
+fn error_of_mean(values: &[f64]) -> (f64, f64, f64) {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let square: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+    if square.is_nan() {
         // a statistic that has no value without one of the blocks has no error that could be told
-        standard_error = if square.is_nan() { square } else { standard_error.max(((n - 1.0) / n * square).sqrt()) };
-        length *= 2;
+        return (f64::NAN, f64::NAN, f64::NAN);
     }
-    Estimate { value: statistic(0..0), standard_error }
+    let product: f64 = values.windows(2).map(|pair| (pair[0] - mean) * (pair[1] - mean)).sum();
+    // the rounding of equal blocks is no correlation
+    let measured = if square > (f64::EPSILON * n * mean).powi(2) * n { product / square } else { 0.0 };
+    let correlation = ((n * measured + 1.0) / (n - 3.0)).clamp(0.0, LARGEST_CORRELATION);
+    let (more, less) = (1.0 + correlation, 1.0 - correlation);
+    let share = (more / less - 2.0 * correlation * (1.0 - libm::pow(correlation, n)) / (n * less * less)) / n;
+    let scatter = square / (n - 1.0);
+    let standard_error = (square / n / (1.0 - share) * share).min(scatter).sqrt();
+    let integral_times = 2.0 * n * less / more;
+    let freedom = (0.5 * integral_times - 1.0).clamp(1.0, n - 1.0);
+    let integral_times = if square > 0.0 { integral_times } else { f64::INFINITY };
+    (standard_error, student_quantile_of(CONFIDENCE, freedom) * standard_error, integral_times)
 }
 
 #[cfg(test)]
@@ -58,77 +122,114 @@ mod tests {
     use super::*;
     use rand::{RngExt, SeedableRng};
 
-    /// x_k = φ x_{k−1} + ε with uniform ε of variance 1 − φ², so that x has variance 1.
-    fn autoregressive(correlation: f64, samples: usize, seed: u64) -> Vec<f64> {
-        let mut random = rand_pcg::Pcg64::seed_from_u64(seed);
-        let scale = (3.0 * (1.0 - correlation * correlation)).sqrt();
-        let mut value = 0.0;
-        let mut next = || {
-            value = correlation * value + scale * (2.0 * random.random::<f64>() - 1.0);
-            value
-        };
-        // the start from 0 is forgotten first
-        for _ in 0..200 {
-            next();
-        }
-        (0..samples).map(|_| next()).collect()
+    /// A normal number.
+    fn normal(random: &mut rand_pcg::Pcg64) -> f64 {
+        let (radius, angle): (f64, f64) = (1.0 - random.random::<f64>(), random.random());
+        (-2.0 * libm::log(radius)).sqrt() * libm::cos(2.0 * std::f64::consts::PI * angle)
     }
 
-    /// Root mean square of the standard errors of 20 series.
-    fn typical_error(correlation: f64, samples: usize) -> f64 {
-        let square = |seed| block_average(&autoregressive(correlation, samples, seed)).unwrap().standard_error.powi(2);
-        ((0..20).map(square).sum::<f64>() / 20.0).sqrt()
+    const SAMPLES: usize = 1024;
+
+    /// An Ornstein–Uhlenbeck process of variance 1 over a window of some integral times.
+    fn process(integral_times: f64, random: &mut rand_pcg::Pcg64) -> Vec<f64> {
+        let correlation = libm::exp(-integral_times / SAMPLES as f64);
+        let kick = (1.0 - correlation * correlation).sqrt();
+        let mut value = normal(random);
+        let mut next = || {
+            value = correlation * value + kick * normal(random);
+            value
+        };
+        (0..SAMPLES).map(|_| next()).collect()
+    }
+
+    /// Standard error of the mean of that process over T = N τ: √(2 (N − 1 + e^(−N)))/N.
+    fn exact_error(integral_times: f64) -> f64 {
+        (2.0 * (integral_times - 1.0 + libm::exp(-integral_times))).sqrt() / integral_times
+    }
+
+    /// Share of 1000 windows whose 95 % interval holds the true mean, and their typical standard error over the exact one.
+    fn coverage(integral_times: f64) -> (f64, f64) {
+        let mut random = rand_pcg::Pcg64::seed_from_u64(17);
+        let (mut held, mut square) = (0.0, 0.0);
+        for _ in 0..1000 {
+            let average = block_average(&process(integral_times, &mut random)).expect("samples enough");
+            held += f64::from(u8::from(average.value.abs() <= average.half_width));
+            square += average.standard_error.powi(2);
+        }
+        (held / 1000.0, (square / 1000.0).sqrt() / exact_error(integral_times))
     }
 
     #[test]
-    fn a_mean_has_the_scatter_of_its_blocks() {
-        // 8 blocks of one sample: mean 3.5, Σ(x − 3.5)² = 42, error √(42/(8 · 7))
-        let values: Vec<f64> = (0..8).map(f64::from).collect();
+    fn intervals_hold_the_mean_however_few_integral_times_a_window_has() {
+        for integral_times in [1.0, 2.0, 4.0, 8.0, 16.0, 40.0, 100.0, 1000.0] {
+            let (share, ratio) = coverage(integral_times);
+            assert!(share >= 0.9, "{integral_times} integral times: {share} of 0.95, error {ratio} of the true one");
+        }
+    }
+
+    #[test]
+    fn the_standard_error_is_that_of_theory_where_the_window_is_long_and_never_far_below_it() {
+        for (integral_times, least, most) in
+            [(1000.0, 0.95, 1.2), (100.0, 0.95, 1.2), (40.0, 0.95, 1.4), (8.0, 1.0, 1.7), (2.0, 0.75, 1.2)]
+        {
+            let (_, ratio) = coverage(integral_times);
+            assert!((least..most).contains(&ratio), "{integral_times} integral times: {ratio}");
+        }
+    }
+
+    #[test]
+    fn integral_times_are_counted() {
+        let mut random = rand_pcg::Pcg64::seed_from_u64(3);
+        let mut counted: Vec<f64> =
+            (0..201).map(|_| block_average(&process(40.0, &mut random)).expect("samples").integral_times).collect();
+        counted.sort_by(f64::total_cmp);
+        assert!((18.0..45.0).contains(&counted[100]), "{}: rather too few than too many", counted[100]);
+    }
+
+    #[test]
+    fn a_mean_of_independent_blocks_has_their_scatter() {
+        // 8 blocks: mean 3.5, Σ(x − 3.5)² = 42, error √(42/(8 · 7)); r < 0 counts as none, so that ν = 7 and t = 2.365
+        let values = [3.0, 4.0, 0.0, 7.0, 2.0, 5.0, 1.0, 6.0];
         let mean = |left_out: Range<usize>| {
             let kept: Vec<f64> = (0..8).filter(|k| !left_out.contains(k)).map(|k| values[k]).collect();
             kept.iter().sum::<f64>() / kept.len() as f64
         };
-        let estimate = block_jackknife(8, mean);
-        assert!((estimate.value - 3.5).abs() < 1e-14);
-        assert!((estimate.standard_error - 0.75f64.sqrt()).abs() < 1e-13);
+        let average = block_jackknife(8, mean);
+        assert!((average.value - 3.5).abs() < 1e-14 && (average.integral_times - 16.0).abs() < 1e-12);
+        assert!((average.standard_error - 0.75f64.sqrt()).abs() < 1e-13);
+        assert!((average.half_width / average.standard_error - 2.3646).abs() < 1e-4);
     }
 
     #[test]
     fn blocks_that_swing_against_each_other_give_the_error_of_the_shortest() {
-        // ±1 in turn: 32 blocks scatter by 1 with an error √(1/31), longer blocks by nothing
+        // ±1 in turn: 32 blocks scatter by 1 with an error √(1/31)
         let series: Vec<f64> = (0..320).map(|k| if (k / 10) % 2 == 0 { 1.0 } else { -1.0 }).collect();
-        let estimate = block_average(&series).unwrap();
-        assert!(estimate.value.abs() < 1e-15);
-        assert!((estimate.standard_error - (1.0f64 / 31.0).sqrt()).abs() < 1e-13);
+        let average = block_average(&series).unwrap();
+        assert!(average.value.abs() < 1e-15);
+        assert!((average.standard_error - (1.0f64 / 31.0).sqrt()).abs() < 1e-13);
     }
 
     #[test]
-    fn the_error_of_independent_samples_is_theirs() {
-        let exact = (1.0f64 / 4096.0).sqrt();
-        let ratio = typical_error(0.0, 4096) / exact;
-        assert!((0.9..1.4).contains(&ratio), "{ratio}: the largest of three lengths is a little too large");
-    }
-
-    #[test]
-    fn correlated_samples_have_the_error_that_theory_gives_them() {
-        // (1 + φ)/(1 − φ) = 19 samples count as one; the naive error is 4.4 times too small
-        let samples = 16_384;
-        let exact = (19.0 / samples as f64).sqrt();
-        let ratio = typical_error(0.9, samples) / exact;
-        assert!((0.9..1.4).contains(&ratio), "{ratio}");
+    fn a_window_that_only_drifts_counts_as_one_sample() {
+        // blocks 0 … 31: variance 88, and one degree of freedom
+        let series: Vec<f64> = (0..32).map(f64::from).collect();
+        let average = block_average(&series).unwrap();
+        assert!((average.standard_error - 88.0f64.sqrt()).abs() < 1e-12, "{average:?}");
+        assert!((average.half_width / average.standard_error - 12.7062).abs() < 1e-4);
+        assert!(average.integral_times < 1.0);
     }
 
     #[test]
     fn a_constant_has_no_error_and_a_short_series_no_answer() {
-        let estimate = block_average(&[2.5; 100]).unwrap();
-        assert!((estimate.value - 2.5).abs() < 1e-15 && estimate.standard_error < 1e-15);
-        assert_eq!(block_average(&[1.0; 31]), None);
+        let average = block_average(&[2.5; 100]).unwrap();
+        assert!((average.value - 2.5).abs() < 1e-15 && average.half_width < 1e-12);
+        assert_eq!(block_average(&[1.0; 31]), Err(TooFewSamples { samples: 31 }));
     }
 
     #[test]
     fn the_slope_of_a_line_has_the_error_of_its_blocks() {
         // y = b x with b of every block known: the slope over all is their mean, and its error their scatter
-        let slopes: Vec<f64> = (0..8).map(|k| 2.0 + 0.1 * f64::from(k)).collect();
+        let slopes: Vec<f64> = [3.0, 4.0, 0.0, 7.0, 2.0, 5.0, 1.0, 6.0].iter().map(|k| 2.0 + 0.1 * k).collect();
         let slope = |left_out: Range<usize>| {
             let points: Vec<(f64, f64)> = (0..8)
                 .filter(|k| !left_out.contains(k))
@@ -137,8 +238,10 @@ mod tests {
                 .collect();
             crate::statistics::linear_fit(&points).map_or(f64::NAN, |fit| fit.slope)
         };
-        let estimate = block_jackknife(8, slope);
-        assert!((estimate.value - 2.35).abs() < 1e-13);
-        assert!((estimate.standard_error - 0.1 * 0.75f64.sqrt()).abs() < 1e-13);
+        let average = block_jackknife(8, slope);
+        assert!((average.value - 2.35).abs() < 1e-13);
+        assert!((average.standard_error - 0.1 * 0.75f64.sqrt()).abs() < 1e-12);
+        let gone = block_jackknife(8, |left_out| if left_out.is_empty() { 1.0 } else { f64::NAN });
+        assert!(gone.value == 1.0 && gone.standard_error.is_nan(), "no value without a block, no error");
     }
 }

@@ -95,9 +95,8 @@ impl BlockProfile {
         let filled = self.sums.iter().filter(|blocks| mean_without(blocks, &(0..0)).is_some());
         filled
             .map(|blocks| {
-                block_jackknife(BLOCKS, |left_out| {
-                    mean_without(blocks, &left_out).map_or(f64::NAN, |point| point.velocity)
-                })
+                let without = |left_out| mean_without(blocks, &left_out).map_or(f64::NAN, |point| point.velocity);
+                block_jackknife(BLOCKS, without).estimate()
             })
             .collect()
     }
@@ -105,7 +104,7 @@ impl BlockProfile {
     /// A statistic of the whole profile with its statistical error.
     #[must_use]
     pub fn estimate(&self, statistic: impl Fn(&[ProfilePoint]) -> f64) -> Estimate {
-        block_jackknife(BLOCKS, |left_out| statistic(&self.points_without(left_out)))
+        block_jackknife(BLOCKS, |left_out| statistic(&self.points_without(left_out))).estimate()
     }
 }
 
@@ -137,7 +136,8 @@ mod tests {
         let along = |u: f64| Vector::<2>::new(u, 0.0);
         for sample in 0..320 {
             let share = (f64::from(sample) + 0.5) / 320.0;
-            let block = f64::from(sample / 10);
+            // 0 … 31 in an order without correlation
+            let block = f64::from((sample / 10 * 11 + 5) % 32);
             profile.observe(
                 share,
                 &[at(1.1), at(1.3), at(1.75), at(0.9), at(2.5)],
@@ -162,9 +162,9 @@ mod tests {
     }
 
     #[test]
-    fn errors_are_those_of_the_longest_blocks() {
-        // blocks of 4: means 1.5, 5.5, …, 29.5, of which the bin's velocity has half; Σ over 8 of (4 (k − 3.5)/2)² = 168
-        let exact = (168.0f64 / 56.0).sqrt();
+    fn errors_are_those_of_the_scatter_of_blocks() {
+        // velocities 0 … 31, of which the bin has half: variance 88/4, over 32 blocks
+        let exact = (22.0f64 / 32.0).sqrt();
         let profile = profile();
         let velocities = profile.velocities();
         assert!((velocities[0].standard_error - exact).abs() < 1e-12, "{:?}", velocities[0]);

@@ -1,19 +1,21 @@
-//! Fits and their uncertainty.
+//! Fits, averages and comparisons, each with its uncertainty.
 
 mod block_average;
 mod block_profile;
 mod fit;
 mod grid_convergence;
 mod mean;
+mod model_bias;
 mod segmented;
 mod student;
 
-pub use block_average::{BLOCKS, block_average, block_jackknife};
+pub use block_average::{Average, BLOCKS, TooFewSamples, block_average, block_jackknife};
 pub use block_profile::{BlockProfile, BlockSums, ProfilePoint};
 pub use fit::{
     Estimate, Exponent, LinearFit, Regression, common_slope, linear_fit, linear_regression, log_log_slope, power_law,
 };
 pub use grid_convergence::{GridConvergence, Mean, grid_convergence};
 pub use mean::{mean, relative_l2};
+pub use model_bias::{Comparison, Deviation, ModelBias, model_bias};
 pub use segmented::{Segmented, curvature, number_of_pieces, segmented_regression};
-pub use student::student_quantile;
+pub use student::{student_quantile, student_quantile_of};

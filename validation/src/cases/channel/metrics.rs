@@ -3,7 +3,7 @@
 use super::ChannelObservation;
 use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
 use crate::observation::Recorded;
-use crate::statistics::{Estimate, block_average, linear_fit};
+use crate::statistics::{Average, Estimate, block_average, linear_fit};
 
 quantities! {
     shared pub(in crate::cases)
@@ -27,7 +27,7 @@ impl ChannelObservation {
     #[must_use]
     pub fn average(&self, array: &[f64]) -> Estimate {
         block_average(&self.series.within(array, self.window))
-            .unwrap_or(Estimate { value: f64::NAN, standard_error: 0.0 })
+            .map_or(Estimate { value: f64::NAN, standard_error: 0.0 }, Average::estimate)
     }
 
     /// Slope of a line through a series over the window, in its unit per second.

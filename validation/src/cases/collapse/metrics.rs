@@ -1,8 +1,9 @@
 //! How the columns are judged.
 
 use super::Record;
+use super::bands::{self, Band, LAGREE, LUBE};
 use super::column::{ColumnRun, Geometry, Purpose};
-use super::convergence::relative_spread;
+use super::convergence::{numerical_uncertainty, relative_spread};
 use super::deposit::Collapse;
 use super::material::{Grains, Material};
 use super::quantities::{
@@ -11,14 +12,10 @@ use super::quantities::{
 };
 use crate::case::Run;
 use crate::cases::energy_ledger;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
+use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Variant};
 use crate::reference::{COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
-
-const LUBE: usize = 0;
-const LAGREE: usize = 1;
-const LAJEUNESSE: usize = 2;
 
 pub(in crate::cases) fn all(records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
@@ -28,7 +25,13 @@ pub(in crate::cases) fn all(records: &[Record]) -> Vec<Metric> {
     };
     for (run, record) in records {
         if run.purpose == Purpose::Law {
-            metrics.extend(of_column(run, &record.data, spread));
+            let numerical = |measure| numerical_uncertainty(records, run, measure);
+            let known = Known {
+                numerical_run_out: numerical(Collapse::run_out),
+                numerical_height: numerical(Collapse::final_height),
+                spread,
+            };
+            metrics.extend(of_column(run, &record.data, known));
             metrics.extend(super::flow_metrics::of_run(run, record));
         } else {
             metrics.extend(conservation(&run.variant(), &record.data, &run.release.numerics));
@@ -90,70 +93,33 @@ struct Spread {
     height: f64,
 }
 
-/// The band of a relative `tolerance` around a value, narrowed by twice the ensemble's spread.
-fn band(expected: f64, tolerance: f64, spread: f64) -> Limit {
-    let left = (tolerance - 2.0 * spread).max(0.0);
-    Limit::Within((1.0 - left) * expected, (1.0 + left) * expected)
+/// What is known of the uncertainty of a column's results `[-]`.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    numerical_run_out: Option<f64>,
+    numerical_height: Option<f64>,
+    spread: Spread,
 }
 
-/// Where a result must lie, and why there.
-type Band = Option<(Limit, &'static str)>;
-
-/// Where the run-out of published grains must lie.
-fn run_out_band(run: &ColumnRun, law: &CollapseLaw, spread: f64) -> Band {
-    let a = run.initial_height();
-    if !run.is_resolved() || !run.has_published_law() {
-        return None;
-    }
-    match (run.geometry, run.material) {
-        (Geometry::Round, _) => Some((
-            band(law.value(a)?, 0.2, spread),
-            "the project's aim: within 20 % of Lube's law for round columns at 20 rows and more, less twice the spread over \
-             the seeds",
-        )),
-        (Geometry::Planar, Material::SAND) => {
-            let experiments = [LUBE, LAJEUNESSE].map(|author| PLANAR_COLLAPSE.run_out[author].value(a));
-            let [Some(one), Some(other)] = experiments else { return None };
-            let (short, long) = (one.min(other), one.max(other));
-            Some((
-                Limit::Within((1.0 + 2.0 * spread) * short, (1.0 - 2.0 * spread) * long),
-                "between Lube's and Lajeunesse's laws for planar columns, less twice the spread over the seeds: two \
-                 experiments with grains and walls of their own, of which neither tells how far its points lie from its law",
-            ))
-        }
-        (Geometry::Planar, Material::LAGREE) => Some((
-            band(law.value(a)?, 0.15, spread),
-            "the same material law solved by another method, 15 %: the law is printed with two digits, and with 20 particles \
-             over r_0 the front's thickness of 0.02 r_0 is less than a row (run-out 10 % longer than with 80)",
-        )),
-        _ => None,
-    }
+/// A metric with the parts of its uncertainty: that of the spacing and that over the seeds, both relative `[-]`. The laws
+/// that it is compared with give none of their own.
+fn with_uncertainty(metric: Metric, numerical: Option<f64>, spread: f64) -> Metric {
+    let scale = metric.value.abs();
+    metric
+        .known_to(
+            Origin::Numerical,
+            numerical.map(|relative| relative * scale),
+            "half of the grid convergence index of this column's study",
+        )
+        .known_to(
+            Origin::Repeat,
+            Some(spread * scale),
+            "largest relative standard deviation over the seeds of the initial displacements",
+        )
 }
 
-/// Where the height of published grains must lie.
-fn height_band(run: &ColumnRun, law: &CollapseLaw, spread: f64) -> Band {
-    let a = run.initial_height();
-    let expected = law.value(a).filter(|_| run.has_published_law())?;
-    let is_round = run.geometry == Geometry::Round;
-    let (tolerance, reason) = match (run.material, a) {
-        (Material::SAND, ..=0.7) if !is_round => {
-            (0.03, "undisturbed within 3 % up to a = 0.7, less twice the spread over the seeds")
-        }
-        (Material::SAND, _) if !is_round || a > 1.15 => (
-            0.15,
-            "15 % less twice the spread over the seeds: by how much the two planar experiments' exponents, 0.4 and 1/3, differ up \
-             to a = 10",
-        ),
-        (Material::LAGREE, _) if run.is_resolved() => (
-            0.1,
-            "the same material law solved by another method, within 10 % less twice the spread over the seeds: two rows of 20",
-        ),
-        _ => return None,
-    };
-    Some((band(expected, tolerance, spread), reason))
-}
-
-fn of_column(run: &ColumnRun, collapse: &Collapse, spread: Spread) -> Vec<Metric> {
+fn of_column(run: &ColumnRun, collapse: &Collapse, known: Known) -> Vec<Metric> {
+    let spread = known.spread;
     let (variant, a) = (run.variant(), run.initial_height());
     let observed = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
     let by_law = |quantity: Quantity, value: f64, law: &CollapseLaw, band: Band| {
@@ -168,8 +134,16 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, spread: Spread) -> Vec<Metric
     let steepest = libm::atan(friction).to_degrees();
     let mut metrics = conservation(&variant, collapse, &run.release.numerics);
     metrics.extend([
-        by_law(RUN_OUT, collapse.run_out(), run_out_law, run_out_band(run, run_out_law, spread.run_out)),
-        by_law(FINAL_HEIGHT, collapse.final_height(), height_law, height_band(run, height_law, spread.height)),
+        with_uncertainty(
+            by_law(RUN_OUT, collapse.run_out(), run_out_law, bands::run_out(run, run_out_law, spread.run_out)),
+            known.numerical_run_out,
+            spread.run_out,
+        ),
+        with_uncertainty(
+            by_law(FINAL_HEIGHT, collapse.final_height(), height_law, bands::height(run, height_law, spread.height)),
+            known.numerical_height,
+            spread.height,
+        ),
         observed(STOPPING_TIME, collapse.stopping_time() / run.time_scale())
             .against(
                 Some(*duration),

@@ -1,6 +1,7 @@
 //! Dry grains that collapse: columns on a horizontal bed, which the planar and the round case share, and a reservoir on a
 //! slope, which incline-collapse and flow-thickness share.
 
+mod bands;
 mod block;
 mod camera;
 mod column;

@@ -1,0 +1,116 @@
+//! What a value and its reference are known to: the parts of a gate's width, each with the sentence that it comes from.
+//!
+//! Parts are standard uncertainties of independent causes, so they add as squares. A part that nobody knows is absent: the
+//! sum is then that of what is known, and says of how much that is.
+
+use serde::{Deserialize, Serialize};
+
+/// Where an uncertainty comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Origin {
+    /// Scatter of the experiment, as its authors give it.
+    Experiment,
+    /// Reading a figure.
+    Digitisation,
+    /// Spacing of the particles, from a study of the resolution.
+    Numerical,
+    /// Repetition with other seeds.
+    Repeat,
+}
+
+impl Origin {
+    /// Its name for a reader.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Experiment => "experiment",
+            Self::Digitisation => "digitisation",
+            Self::Numerical => "spacing",
+            Self::Repeat => "repetition",
+        }
+    }
+
+    /// Whether it belongs to the reference, not to the prediction.
+    #[must_use]
+    pub const fn is_of_reference(self) -> bool {
+        matches!(self, Self::Experiment | Self::Digitisation)
+    }
+}
+
+/// One cause.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Part {
+    /// What it is.
+    pub origin: Origin,
+    /// Standard uncertainty, in the metric's unit.
+    pub standard: f64,
+    /// Where the number comes from, one sentence.
+    pub source: String,
+}
+
+/// All causes that are known.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Uncertainty {
+    parts: Vec<Part>,
+}
+
+impl Uncertainty {
+    /// The parts in the order in which they were added.
+    #[must_use]
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// Whether nothing is known.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// Root of the sum of squares of all parts, in the metric's unit; none where nothing is known.
+    #[must_use]
+    pub fn standard(&self) -> Option<f64> {
+        root_of_squares(self.parts.iter())
+    }
+
+    /// The same of the parts that belong to the reference.
+    #[must_use]
+    pub fn of_reference(&self) -> Option<f64> {
+        root_of_squares(self.parts.iter().filter(|part| part.origin.is_of_reference()))
+    }
+
+    pub(super) fn add(&mut self, origin: Origin, standard: Option<f64>, source: &str) {
+        if let Some(standard) = standard.filter(|standard| standard.is_finite() && *standard > 0.0) {
+            self.parts.push(Part { origin, standard, source: source.to_owned() });
+        }
+    }
+}
+
+fn root_of_squares<'p>(parts: impl Iterator<Item = &'p Part>) -> Option<f64> {
+    let (sum, number) = parts.fold((0.0, 0), |(sum, number), part| (sum + part.standard * part.standard, number + 1));
+    (number > 0).then(|| f64::sqrt(sum))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::metric::{Metric, Variant};
+
+    #[test]
+    fn parts_add_as_squares_and_unknown_ones_not_at_all() {
+        let metric = Metric::observed("run_out", &Variant::default(), 1.2, "-");
+        assert_eq!((metric.uncertainty.standard(), metric.uncertainty.of_reference()), (None, None));
+        let metric = metric
+            .known_to(Origin::Digitisation, Some(0.3), "other readings")
+            .known_to(Origin::Experiment, None, "not given")
+            .known_to(Origin::Numerical, Some(f64::NAN), "no study")
+            .known_to(Origin::Repeat, Some(0.4), "five seeds");
+        assert_eq!(metric.uncertainty.parts().len(), 2);
+        assert!(metric.uncertainty.standard().is_some_and(|standard| (standard - 0.5).abs() < 1e-15));
+        assert_eq!(metric.uncertainty.of_reference(), Some(0.3));
+        let text = serde_json::to_string(&metric.uncertainty).expect("serialises");
+        assert!(text.starts_with(r#"[{"origin":"digitisation","standard":0.3,"source":"other readings"}"#), "{text}");
+    }
+}

@@ -1,0 +1,238 @@
+//! Bias and scatter of a model over all comparisons of one quantity (McGrattan and Toman 2011, Metrologia 48, 173, as in the
+//! validation guide of the Fire Dynamics Simulator).
+//!
+//! A prediction M and a measurement E of the same true value θ are taken for normal about δ θ and θ, with the relative
+//! standard deviations σ_M and σ_E. Then ln(M/E) has, to second order, the mean ln δ − σ_M²/2 + σ_E²/2 and the variance
+//! σ_M² + σ_E². With the mean m and the standard deviation u of the n values ln(M_i/E_i), u² over n − 1,
+//!
+//! - σ_M² = u² − σ_E²,
+//! - δ = exp(m + σ_M²/2 − σ_E²/2),
+//! - ln δ is known to ± t u/√n, with Student's t of n − 1 degrees of freedom.
+//!
+//! The true value then lies about M/δ, within ± 2 σ_M M/δ in 19 cases of 20 where there are many comparisons. Where the
+//! comparisons have experimental uncertainties of their own, σ_E² is their mean square. Where one is not known, none is
+//! invented: there is no σ_M, u holds both scatters, and δ = exp(m), the geometric mean, which is the above for σ_M = σ_E.
+//! Where the experiments claim more than the comparisons scatter, u² < σ_E², what the model adds cannot be told, and there
+//! is no σ_M either.
+
+use super::student_quantile;
+
+/// A prediction beside what was measured, in one unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Comparison {
+    /// M.
+    pub predicted: f64,
+    /// E.
+    pub measured: f64,
+    /// Relative standard uncertainty of E `[-]`; none where it is not known.
+    pub uncertainty: Option<f64>,
+}
+
+/// What is known of the model's own scatter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Deviation {
+    /// Experimental uncertainties are known.
+    Known {
+        /// σ_M `[-]`.
+        model: f64,
+        /// σ_E `[-]`.
+        experiment: f64,
+    },
+    /// They are known and larger than the scatter of the comparisons.
+    WithinExperiment {
+        /// σ_E `[-]`.
+        experiment: f64,
+    },
+    /// At least one comparison has no experimental uncertainty.
+    Unknown,
+}
+
+/// Bias and scatter over the comparisons of one quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModelBias {
+    /// Comparisons.
+    pub comparisons: usize,
+    /// δ: predictions over true values `[-]`.
+    pub bias: f64,
+    /// Its 95 % interval `[-]`.
+    pub interval: (f64, f64),
+    /// u: standard deviation of ln(M/E) `[-]`.
+    pub scatter: f64,
+    /// The model's share of it.
+    pub deviation: Deviation,
+}
+
+/// What the intervals claim `[-]`.
+const CONFIDENCE: f64 = 0.95;
+
+/// Fewest comparisons whose scatter says anything.
+const FEWEST: usize = 3;
+
+impl ModelBias {
+    /// σ_M `[-]`, where it can be told.
+    #[must_use]
+    pub fn model_deviation(&self) -> Option<f64> {
+        match self.deviation {
+            Deviation::Known { model, .. } => Some(model),
+            Deviation::WithinExperiment { .. } | Deviation::Unknown => None,
+        }
+    }
+
+    /// Bounds of the ratio M/E of a further comparison with 95 % confidence `[-]`: Student's factor in place of 2, and the
+    /// uncertainty of the bias with it, so that a few comparisons are told with the width that they deserve.
+    #[must_use]
+    pub fn next_ratio(&self) -> (f64, f64) {
+        let n = self.comparisons as f64;
+        let (lower, upper) = self.interval;
+        // the interval is symmetric about m in logarithms, with or without the σ of the bias
+        let shift = 0.5 * libm::log(lower * upper) - self.shift();
+        let reach = student_quantile(CONFIDENCE, self.comparisons - 1) * self.scatter * (1.0 + 1.0 / n).sqrt();
+        (libm::exp(shift - reach), libm::exp(shift + reach))
+    }
+
+    /// ln δ − m.
+    fn shift(&self) -> f64 {
+        match self.deviation {
+            Deviation::Known { model, experiment } => 0.5 * (model * model - experiment * experiment),
+            Deviation::WithinExperiment { experiment } => -0.5 * experiment * experiment,
+            Deviation::Unknown => 0.0,
+        }
+    }
+}
+
+/// Bias and scatter of some comparisons; none for fewer than three, or where a value is not positive and so has no ratio.
+#[must_use]
+pub fn model_bias(comparisons: &[Comparison]) -> Option<ModelBias> {
+    let has_ratio =
+        |of: &Comparison| of.predicted > 0.0 && of.measured > 0.0 && (of.predicted / of.measured).is_finite();
+    if comparisons.len() < FEWEST || !comparisons.iter().all(has_ratio) {
+        return None;
+    }
+    let n = comparisons.len() as f64;
+    let logarithms: Vec<f64> = comparisons.iter().map(|of| libm::log(of.predicted / of.measured)).collect();
+    let mean = logarithms.iter().sum::<f64>() / n;
+    let variance = logarithms.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (n - 1.0);
+    let experiment: Option<f64> =
+        comparisons.iter().map(|of| of.uncertainty.map(|sigma| sigma * sigma)).sum::<Option<f64>>().map(|sum| sum / n);
+    let deviation = match experiment {
+        None => Deviation::Unknown,
+        Some(square) if square > variance => Deviation::WithinExperiment { experiment: square.sqrt() },
+        Some(square) => Deviation::Known { model: (variance - square).sqrt(), experiment: square.sqrt() },
+    };
+    let reach = student_quantile(CONFIDENCE, comparisons.len() - 1) * (variance / n).sqrt();
+    let mut found = ModelBias {
+        comparisons: comparisons.len(),
+        bias: f64::NAN,
+        interval: (f64::NAN, f64::NAN),
+        scatter: variance.sqrt(),
+        deviation,
+    };
+    let centre = mean + found.shift();
+    found.bias = libm::exp(centre);
+    found.interval = (libm::exp(centre - reach), libm::exp(centre + reach));
+    Some(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+
+    fn compared(ratios: &[f64], uncertainty: Option<f64>) -> Vec<Comparison> {
+        let scales = [1.0, 10.0, 0.2, 3.0];
+        let one = |(ratio, measured): (&f64, &f64)| Comparison {
+            predicted: ratio * measured,
+            measured: *measured,
+            uncertainty,
+        };
+        ratios.iter().zip(scales.iter().cycle()).map(one).collect()
+    }
+
+    #[test]
+    fn the_worked_example() {
+        // ln(M/E) = −0.1, 0, 0.1: m = 0, u² = 0.02/2 = 0.01. With σ_E = 0.06: σ_M² = 0.01 − 0.0036 = 0.0064, σ_M = 0.08,
+        // ln δ = 0.0032 − 0.0018 = 0.0014, to ± 4.30265 · 0.1/√3 = 0.248414
+        let ratios = [-0.1, 0.0, 0.1].map(libm::exp);
+        let known = model_bias(&compared(&ratios, Some(0.06))).expect("three");
+        assert!((known.scatter - 0.1).abs() < 1e-12);
+        assert!(known.model_deviation().is_some_and(|model| (model - 0.08).abs() < 1e-12), "{known:?}");
+        assert!((known.bias - 1.001_400_98).abs() < 1e-8, "{known:?}");
+        assert!((libm::log(known.interval.1) - 0.0014 - 0.248_414).abs() < 1e-5);
+        // 4.30265 · 0.1 · √(4/3)
+        assert!((libm::log(known.next_ratio().1) - 0.496_827).abs() < 1e-5);
+        assert!((known.next_ratio().0 * known.next_ratio().1 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn no_uncertainty_is_invented() {
+        let ratios = [-0.1, 0.0, 0.1].map(|value| libm::exp(value + 0.3));
+        let mut some = compared(&ratios, Some(0.06));
+        some[1].uncertainty = None;
+        for comparisons in [some, compared(&ratios, None)] {
+            let found = model_bias(&comparisons).expect("three");
+            assert_eq!((found.deviation, found.model_deviation()), (Deviation::Unknown, None));
+            assert!((found.bias - libm::exp(0.3)).abs() < 1e-12, "the geometric mean");
+        }
+        let modest = model_bias(&compared(&ratios, Some(0.2))).expect("three");
+        assert_eq!(modest.deviation, Deviation::WithinExperiment { experiment: 0.2 });
+        assert_eq!(modest.model_deviation(), None);
+    }
+
+    #[test]
+    fn what_has_no_ratio_is_refused() {
+        assert_eq!(model_bias(&compared(&[1.0, 1.1], None)), None);
+        assert_eq!(model_bias(&compared(&[1.0, 1.1, 0.0], None)), None);
+        assert_eq!(model_bias(&compared(&[1.0, 1.1, -0.5], None)), None);
+        assert_eq!(model_bias(&compared(&[1.0, 1.1, f64::NAN], None)), None);
+        assert!(model_bias(&compared(&[1.0; 3], None)).is_some_and(|found| found.scatter == 0.0 && found.bias == 1.0));
+    }
+
+    fn normal(random: &mut rand_pcg::Pcg64) -> f64 {
+        let (radius, angle): (f64, f64) = (1.0 - random.random::<f64>(), random.random());
+        (-2.0 * libm::log(radius)).sqrt() * libm::cos(2.0 * std::f64::consts::PI * angle)
+    }
+
+    /// Shares of 2000 sets whose interval holds δ, and whose bounds hold a further comparison; mean σ_M of them.
+    fn coverage(number: usize, bias: f64, model: f64, experiment: f64) -> (f64, f64, f64) {
+        let mut random = rand_pcg::Pcg64::seed_from_u64(5);
+        let (mut of_bias, mut of_next, mut deviation, mut told) = (0.0, 0.0, 0.0, 0.0_f64);
+        for _ in 0..2000 {
+            let mut all: Vec<Comparison> = (0..=number)
+                .map(|_| Comparison {
+                    predicted: bias * (1.0 + model * normal(&mut random)),
+                    measured: 1.0 + experiment * normal(&mut random),
+                    uncertainty: Some(experiment),
+                })
+                .collect();
+            let next = all.pop().expect("one more");
+            let found = model_bias(&all).expect("ratios");
+            of_bias += f64::from(u8::from((found.interval.0..=found.interval.1).contains(&bias)));
+            let (lower, upper) = found.next_ratio();
+            of_next += f64::from(u8::from((lower..=upper).contains(&(next.predicted / next.measured))));
+            if let Some(own) = found.model_deviation() {
+                deviation += own;
+                told += 1.0;
+            }
+        }
+        (of_bias / 2000.0, of_next / 2000.0, deviation / told)
+    }
+
+    #[test]
+    fn intervals_hold_the_true_bias_and_the_next_comparison() {
+        for number in [3, 5, 10, 30] {
+            for (bias, model, experiment) in [(1.0, 0.1, 0.05), (0.8, 0.2, 0.1), (1.3, 0.05, 0.05), (1.1, 0.15, 0.02)] {
+                let (of_bias, of_next, _) = coverage(number, bias, model, experiment);
+                assert!(
+                    of_bias >= 0.9 && of_next >= 0.9,
+                    "{number} of δ = {bias}, σ_M = {model}: {of_bias}, {of_next}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn many_comparisons_find_the_models_deviation() {
+        let (_, _, found) = coverage(100, 1.2, 0.15, 0.05);
+        assert!((found - 0.15).abs() < 0.005, "{found}");
+    }
+}
