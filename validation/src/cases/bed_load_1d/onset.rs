@@ -3,7 +3,8 @@
 //! A layer has no threshold but a transport that falls steeply, so the onset is where it falls below a rate. Three are
 //! given: W* = q*/τ*^{3/2} = 0.002 (Parker, Klingeman & McLean 1982), q* = 10⁻⁴ and q* = 10⁻³. The middle one is judged:
 //! formulas with a threshold reach it within a tenth above their threshold (Wong & Parker: 2 %), 10⁻³ only at up to 1.3
-//! times it, and W* = 0.002, some 10⁻⁵, is within the creep of a resting bed.
+//! times it, and W* = 0.002, some 10⁻⁵, is within the creep of a resting bed. That choice was made with the onsets of all
+//! three known; the two others are observed, and at q* = 10⁻³ grains of a millimetre and less miss the curve's scatter.
 
 use super::Record;
 use super::runs::{BedLoad1dRun, Purpose};
@@ -33,6 +34,11 @@ const CRITERIA: [(Criterion, &str); 3] = [
 
 /// The criterion that is judged.
 const JUDGED: Criterion = Criterion::Transport(1e-4);
+
+const JUDGED_REASON: &str = "the layer has no threshold: motion counts from q* = 10⁻⁴ on, which formulas with a threshold \
+    reach within a tenth above it. Experiments scatter about the curve by this factor. Chosen with the onsets of all three \
+    rates known: W* = 0.002 (a resting bed creeps as fast) and q* = 10⁻³ (such formulas need up to 1.3 times their \
+    threshold) are shown beside it and not judged";
 
 impl Criterion {
     /// Transport over that of the criterion `[-]`.
@@ -82,10 +88,7 @@ pub(super) fn metrics(records: &[Record], ratio: Quantity, onset: Quantity, star
                 ratio
                     .of(&variant, found / expected(run))
                     .against(Some(1.0), ONSET_SOURCE, onset_confidence())
-                    .gated_by(
-                        (criterion == JUDGED).then_some(within),
-                        "experiments scatter about the curve by this factor",
-                    )
+                    .gated_by((criterion == JUDGED).then_some(within), JUDGED_REASON)
                     .with_snapshot_tolerance(0.01, 0.0),
             );
             metrics.push(
