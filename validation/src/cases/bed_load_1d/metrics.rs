@@ -1,6 +1,7 @@
 //! How the layers are judged.
 
 use super::Record;
+use super::others;
 use super::runs::{BedLoad1dRun, Purpose};
 use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
@@ -9,7 +10,7 @@ use crate::reference::bed_load_layer::{LayerState, SAME_STATE};
 use crate::reference::{HONEST_BAND, ORIGIN_DEPTH, TransportFormula, roughness_ratio};
 
 quantities! {
-    []
+    [others::FRACTION_DIFFERENCE, others::GRAIN_VELOCITY_DIFFERENCE, others::FLUID_VELOCITY_DIFFERENCE]
     TRANSPORT_RATIO: validated("transport_ratio", "-", "q* over that of the formula"),
     TRANSPORT: validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)"),
     MEAN_FLUID_VELOCITY: verified("mean_fluid_velocity", "m/s", "depth mean of the water's velocity"),
@@ -93,7 +94,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     similar(&mut metrics, records);
     second_states(&mut metrics, records);
     metrics.extend(super::onset::metrics(records, ONSET_RATIO, ONSET, START_DIFFERENCE));
-    metrics.extend(super::others::metrics(records, TRANSPORT_RATIO, TRANSPORT, START_DIFFERENCE));
+    metrics.extend(others::metrics(records, TRANSPORT_RATIO, TRANSPORT, START_DIFFERENCE));
     with_slope(&mut metrics, &literature(records).collect::<Vec<_>>());
     for (run, state) in of(records, |purpose| matches!(purpose, Purpose::Sensitivity(_))) {
         if let Some((_, own)) = literature(records).find(|(other, _)| other.stream.slope == run.stream.slope) {

@@ -1,14 +1,17 @@
 //! How far a column's result depends on the resolution, on the seed and on the hourglass coefficient.
 
 use super::Record;
+use super::bands::{LAGREE, SAME_LAW, SAME_LAW_REASON, band};
 use super::column::{ColumnRun, Purpose};
 use super::deposit::Collapse;
 use super::material::Material;
 use super::quantities::{
-    ENSEMBLE_MEAN, ENSEMBLE_SPREAD, ENSEMBLE_STANDARD_ERROR, GRID_CONVERGENCE_INDEX, HOURGLASS_SPREAD, OBSERVED_ORDER,
+    ENSEMBLE_MEAN, ENSEMBLE_RUN_OUT, ENSEMBLE_SPREAD, ENSEMBLE_STANDARD_ERROR, GRID_CONVERGENCE_INDEX,
+    HOURGLASS_SPREAD, OBSERVED_ORDER,
 };
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Confidence, Limit, Metric, Variant};
+use crate::reference::PLANAR_COLLAPSE;
 use crate::statistics::{GridConvergence, Mean, grid_convergence, mean};
 
 /// Name, measure and largest index `[-]` of what must converge.
@@ -42,6 +45,11 @@ impl<'a> Study<'a> {
             }
         }
         found
+    }
+
+    /// Whether its grains are the published ones.
+    fn is_published(&self) -> bool {
+        self.records.iter().any(|(run, _)| run.material == self.material && run.has_published_law())
     }
 
     fn label(&self) -> String {
@@ -95,7 +103,11 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for study in Study::all(records, Purpose::Convergence) {
         for (quantity, measure, largest) in MEASURED {
-            metrics.extend(of_ensembles(study.name(Variant::of("quantity", quantity)), &study.means(measure), largest));
+            let means = study.means(measure);
+            let variant = study.name(Variant::of("quantity", quantity));
+            let run_out = means.iter().filter(|mean| quantity == "run_out" && mean.runs >= ENSEMBLE);
+            metrics.extend(run_out.map(|mean| against_law(&study, &variant, mean)));
+            metrics.extend(of_ensembles(variant, &means, largest));
         }
     }
     let spreads = [("run_out", Collapse::run_out as fn(&_) -> _), ("final_height", Collapse::final_height)];
@@ -113,6 +125,18 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
             .extend(MEASURED.iter().flat_map(|(quantity, measure, _)| hourglass_spreads(&study, quantity, *measure)));
     }
     metrics
+}
+
+/// An ensemble's mean run-out against the law of the same material: one run alone scatters too much to be judged by it.
+fn against_law(study: &Study<'_>, variant: &Variant, mean: &Mean) -> Metric {
+    let law = &PLANAR_COLLAPSE.run_out[LAGREE];
+    let expected = law.value(study.aspect_ratio);
+    let metric = ENSEMBLE_RUN_OUT.of(&variant.clone().and("resolution", mean.resolution), mean.value);
+    let limit = expected.map(|expected| band(expected, SAME_LAW, mean.standard_error / mean.value));
+    metric
+        .against(expected, &law.source, law.confidence)
+        .with_snapshot_tolerance(1e-3, 1e-3)
+        .gated_by(limit.filter(|_| study.is_published()), SAME_LAW_REASON)
 }
 
 /// How far the choice of the hourglass coefficient moves a result, resolution by resolution.

@@ -11,7 +11,12 @@ pub const BIN_WIDTH: f64 = 0.1;
 const SUB_POINTS: [usize; 2] = [8, 4];
 /// Kinetic over released potential energy below which a deposit rests `[-]`.
 pub(super) const AT_REST: f64 = 5e-7;
-/// Thickness at the front over the initial half width `[-]`.
+/// Thickness at the front over the initial half width `[-]`: the front that run-outs are judged by.
+///
+/// Over 20, 40 and 80 (a = 1) and 20, 30 and 45 particles (a = 3) its grid convergence index is 0.6 and 0.8 %, that of the
+/// front at [`ROW_THICKNESS`] 2.6 and 4.3 %: a fixed thickness cuts off a toe that itself becomes thinner with the
+/// resolution. The latter scatters less, by 0.8 instead of 1.8 % with 20 particles, and repeats to four digits when
+/// particles are displaced by 1e-10 of a spacing, so that times of stopping and repetitions are told by it.
 pub const FRONT_THICKNESS: f64 = 0.02;
 /// A thickness that one row of particles has from 20 over the half width on `[-]`: what lies beyond it is a row or less.
 const ROW_THICKNESS: f64 = 0.05;

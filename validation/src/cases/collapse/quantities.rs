@@ -29,6 +29,7 @@ quantities! {
     TAIL_DECAY_LENGTH_STANDARD_ERROR: validated("tail_decay_length_standard_error", "spacings", "its standard error"),
     UNDISTURBED_SHARE: validated("undisturbed_share", "%", "part of the grains that stays in its place"),
     FAILURE_SURFACE_ANGLE: validated("failure_surface_angle", "°", "slope of the surface of what stays in its place"),
+    ENSEMBLE_RUN_OUT: validated("ensemble_run_out", "-", "mean run-out over the seeds against the law of the same grains"),
     ENSEMBLE_MEAN: verified("ensemble_mean", "-", "mean over the seeds"),
     ENSEMBLE_STANDARD_ERROR: verified("ensemble_standard_error", "-", "standard error of the mean over the seeds"),
     OBSERVED_ORDER: verified("observed_order", "-", "order of convergence of the three finest means"),

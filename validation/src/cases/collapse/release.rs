@@ -18,7 +18,7 @@ pub struct Release {
     /// Seed of the displacements.
     pub seed: u64,
     /// Longest simulated time over √(h_0/g) `[-]`; a deposit at rest ends a run before.
-    #[schemars(transform = between(0.1, 1000.0, "a column has come to rest after about 5"))]
+    #[schemars(transform = between(0.1, 1000.0, "a column has come to rest after 5 to 12"))]
     pub duration: f64,
     /// Numerics.
     pub numerics: Numerics,
@@ -27,6 +27,6 @@ pub struct Release {
 impl Release {
     /// As in the collapse paper, with these numerics.
     pub(in crate::cases) fn with(numerics: Numerics) -> Self {
-        Self { gravity: 9.81, jitter: 0.05, seed: 1, duration: 10.0, numerics }
+        Self { gravity: 9.81, jitter: 0.05, seed: 1, duration: 15.0, numerics }
     }
 }
