@@ -149,6 +149,16 @@ fn an_unknown_case() {
 }
 
 #[test]
+fn an_earlier_report_that_is_none() {
+    let place = Place::new();
+    let path = std::path::Path::new("missing").join("cases");
+    place.bagnold(&["report", "--cases", "film", "--out", "out", "--against", "missing"]).assert().code(2).stdout("").stderr(
+        format!("error: failed to compare with {}: it holds none of the cases; give --against the folder of an earlier report of the same tier and cases\n", path.display()),
+    );
+    assert!(!place.path("out").exists() && !place.path("store").exists());
+}
+
+#[test]
 fn what_is_no_command_line_at_all() {
     let place = Place::new();
     for arguments in [&["run"][..], &["run", "film", "--tier", "papre"], &["run", "film", "--threads", "0"], &["fly"]] {

@@ -29,10 +29,11 @@ Exit codes: 0 all gates hold, 1 a gate fails, 2 bad input, 3 a run diverged.";
 const REPORT_EXAMPLES: &str = "Examples:
   bagnold report
   bagnold report --tier paper --cases film,bagnold --out paper-report
+  bagnold report --against yesterday --deny drift
 
 The report is one self-contained folder: open its index.html. Failing gates come first.
 
-Exit codes: 0 all gates hold, 1 a gate fails, 2 bad input, 3 a run diverged.";
+Exit codes: 0 all gates hold, 1 a gate fails or, with --deny drift, a value has drifted, 2 bad input, 3 a run diverged.";
 
 const CALIBRATE_EXAMPLES: &str = "Examples:
   bagnold calibrate validation/calibrations/lube-run-out.toml
@@ -164,9 +165,22 @@ pub struct Report {
     /// Accept these values: later reports and the drift test are compared with them.
     #[arg(long)]
     pub accept: bool,
+    /// Compare with an earlier report's folder instead of the accepted values.
+    #[arg(long, value_name = "DIR", conflicts_with = "accept")]
+    pub against: Option<PathBuf>,
+    /// End with exit code 1 for this as well.
+    #[arg(long, value_enum, value_name = "WHAT", conflicts_with = "accept")]
+    pub deny: Option<Denied>,
     /// How to compute.
     #[command(flatten)]
     pub work: Work,
+}
+
+/// What a report may be asked not to let pass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Denied {
+    /// A value that has left the tolerance about what it is compared with, or is no longer measured.
+    Drift,
 }
 
 /// `bagnold calibrate`

@@ -3,7 +3,7 @@
 use crate::calibration::CalibrationError;
 use crate::case::ParameterError;
 use crate::output::{FileError, FolderError};
-use crate::report::{BaselineError, ReportError};
+use crate::report::{BaselineError, EarlierError, ReportError};
 use crate::sweep::SweepError;
 
 /// Input that is refused, or output that cannot be written: each message names file, field, value, rule and remedy.
@@ -27,6 +27,9 @@ pub enum ProgramError {
     /// The committed baseline or list of known failures cannot be used.
     #[error("failed to {0}; correct the file or restore it from version control")]
     Baseline(#[from] BaselineError),
+    /// The report to compare with cannot be used.
+    #[error("failed to {0}")]
+    Earlier(#[from] EarlierError),
     /// A report cannot be written.
     #[error("failed to {0}; check the folder and its permissions")]
     Report(#[from] ReportError),

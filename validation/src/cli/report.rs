@@ -1,12 +1,12 @@
 //! `bagnold report`: many cases on one page.
 
-use super::arguments::Report as Arguments;
+use super::arguments::{Denied, Report as Arguments};
 use super::error::ProgramError;
 use super::run::simulate;
 use super::{Exit, say, summary};
 use crate::case::{CaseResult, Changes, ParameterError, Prepared, Registry, Tier};
 use crate::output::OutputFolder;
-use crate::report::{self, Baseline, CaseReport, KnownFailures, Provenance, Report, Standing, history};
+use crate::report::{self, Baseline, CaseReport, History, KnownFailures, Provenance, Report, Standing, history};
 use crate::result::MetricsDocument;
 use crate::store::provenance;
 use std::io::Write;
@@ -21,13 +21,11 @@ pub(super) fn report(
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
     let cases = prepare(command, registry)?;
+    let names: Vec<String> = cases.iter().map(|case| case.name().to_owned()).collect();
+    let mut baseline = baseline(command, &names)?;
     let claimed = OutputFolder::claim(&command.out)?;
     let known = known_failures()?;
-    let names: Vec<String> = cases.iter().map(|case| case.name().to_owned()).collect();
-    let mut baseline = Baseline::default();
-    for name in &names {
-        baseline.extend(Baseline::read(&accepted_folder(), name, command.tier)?);
-    }
+    let history = History::read(&history_file(), command.tier)?;
     let started = Instant::now();
     let results = simulate(cases, &command.work.open_store(), quiet)?;
     if command.accept {
@@ -56,6 +54,8 @@ pub(super) fn report(
         papers: report::papers::accounted(&cases),
         cases,
         baseline,
+        against: command.against.as_ref().map(|folder| folder.display().to_string()),
+        history,
         known_failures: known.clone(),
     };
     report::write(&page, claimed.staging())?;
@@ -67,7 +67,29 @@ pub(super) fn report(
         say(output, &summary::failures(result, is_known));
     }
     say(output, &format!("written to {}\n", command.out.join("index.html").display()));
-    Ok(Exit::of(&results, |result, metric| is_known(&known, result, metric)))
+    let exit = Exit::of(&results, |result, metric| is_known(&known, result, metric));
+    let drifted = drifted(&page);
+    say(output, &drifted);
+    let denied = command.deny == Some(Denied::Drift) && !drifted.is_empty();
+    Ok(if denied && exit == Exit::Held { Exit::GateFailed } else { exit })
+}
+
+/// What the values are compared with: those of an earlier report, or the accepted ones.
+fn baseline(command: &Arguments, cases: &[String]) -> Result<Baseline, ProgramError> {
+    if let Some(folder) = &command.against {
+        return Ok(Baseline::of_report(folder, cases, command.tier)?);
+    }
+    let mut baseline = Baseline::default();
+    for case in cases {
+        baseline.extend(Baseline::read(&accepted_folder(), case, command.tier)?);
+    }
+    Ok(baseline)
+}
+
+/// A line for each value that has drifted, the farthest first.
+fn drifted(page: &Report) -> String {
+    let moved = report::drift::moved(&report::judge(page), &page.history);
+    moved.iter().filter(|moved| moved.has_drifted).map(|moved| format!("drifted: {moved}\n")).collect()
 }
 
 fn prepare(command: &Arguments, registry: Registry) -> Result<Vec<Box<dyn Prepared>>, ParameterError> {
@@ -87,6 +109,9 @@ fn repeated(command: &Arguments) -> String {
     }
     if !command.cases.is_empty() {
         words += &format!(" --cases {}", command.cases.join(","));
+    }
+    if let Some(folder) = &command.against {
+        words += &format!(" --against {}", folder.display());
     }
     words
 }

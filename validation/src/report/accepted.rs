@@ -55,6 +55,8 @@ pub enum Drift {
         change: f64,
         /// The baseline's value.
         baseline: f64,
+        /// How far the value might have moved, in the metric's unit.
+        tolerance: f64,
     },
     /// Outside it.
     Drifted {
@@ -83,20 +85,38 @@ impl Drift {
     pub fn is_failure(&self) -> bool {
         matches!(self, Self::Drifted { .. } | Self::UnitChanged { .. } | Self::VerdictChanged { .. })
     }
+
+    /// How far the value has moved in tolerances `[-]`; infinite where it cannot be compared, none where it is new.
+    #[must_use]
+    pub fn in_tolerances(&self) -> Option<f64> {
+        match *self {
+            Self::New => None,
+            Self::Unchanged { change: 0.0, .. } => Some(0.0),
+            Self::Unchanged { change, tolerance, .. } | Self::Drifted { change, tolerance, .. } => {
+                let moved = change.abs() / tolerance;
+                Some(if moved.is_nan() { f64::INFINITY } else { moved })
+            }
+            Self::UnitChanged { .. } | Self::VerdictChanged { .. } => Some(f64::INFINITY),
+        }
+    }
 }
 
 impl Baseline {
     /// The baseline that `metrics` of `case` would make.
     #[must_use]
     pub fn of(case: &str, metrics: &[Metric]) -> Self {
-        let entry = |line: usize, metric: &Metric| Entry {
-            value: snapshot_text::rounded(metric.value),
-            unit: metric.unit.clone(),
-            verdict: metric.verdict(),
-            line,
-        };
-        let values = metrics.iter().enumerate().map(|(line, metric)| (Key::of(case, metric), entry(line, metric)));
-        Self { values: values.collect() }
+        let mut baseline = Self::default();
+        for metric in metrics {
+            baseline.add(Key::of(case, metric), metric.value, &metric.unit, metric.verdict());
+        }
+        baseline
+    }
+
+    /// Adds one value, rounded as a file holds it.
+    pub(super) fn add(&mut self, key: Key, value: f64, unit: &str, verdict: Verdict) {
+        let line = self.values.len();
+        let value = snapshot_text::rounded(value);
+        self.values.insert(key, Entry { value, unit: unit.to_owned(), verdict, line });
     }
 
     /// Adds the values of another case.
@@ -203,7 +223,7 @@ impl Baseline {
         if entry.verdict != metric.verdict() {
             return Drift::VerdictChanged { verdict: entry.verdict };
         }
-        Drift::Unchanged { change: if same { 0.0 } else { change }, baseline }
+        Drift::Unchanged { change: if same { 0.0 } else { change }, baseline, tolerance }
     }
 
     /// Everything in which `metrics` of `case` are not as accepted, a sentence each: drifted, new and vanished.

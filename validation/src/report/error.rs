@@ -64,3 +64,26 @@ pub enum BaselineError {
         name: String,
     },
 }
+
+/// Why an earlier report's folder is no baseline; the message completes "failed to …".
+#[derive(Debug, thiserror::Error)]
+pub enum EarlierError {
+    /// A file could not be read.
+    #[error("read {path}: {source}; check its permissions")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// It is not what it should be.
+    #[error(
+        "compare with {path}: {message}; give --against the folder of an earlier report of the same tier and cases"
+    )]
+    Content {
+        /// The file or folder.
+        path: PathBuf,
+        /// What is wrong with it.
+        message: String,
+    },
+}

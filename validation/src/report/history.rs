@@ -1,9 +1,11 @@
 //! `history.csv`: every gated figure whenever the baseline is taken anew, so that a trend over many commits shows.
 
+use super::accepted::Key;
 use super::error::BaselineError;
 use crate::case::Tier;
 use crate::metric::{Metric, Variant, Verdict};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// One figure at one time. The commit that carries the row dates it.
@@ -53,6 +55,56 @@ pub fn append(
     writer.flush().map_err(write_error)
 }
 
+/// The values that a figure had, oldest first, of one tier.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct History {
+    values: BTreeMap<Key, Vec<f64>>,
+}
+
+/// What is read of a row.
+#[derive(Debug, Deserialize)]
+struct ReadRow {
+    tier: Tier,
+    case: String,
+    metric: String,
+    variant: String,
+    value: f64,
+}
+
+impl History {
+    /// Reads the figures of a tier from the history at `path`; a missing file is an empty history. Rows whose variant was
+    /// written by other rules than today's are of figures that are gone.
+    ///
+    /// # Errors
+    /// If the file is there but cannot be read or is malformed.
+    pub fn read(path: &Path, tier: Tier) -> Result<Self, BaselineError> {
+        let file = match std::fs::File::open(path) {
+            Ok(file) => file,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
+            Err(source) => return Err(BaselineError::Read { path: path.to_owned(), source }),
+        };
+        let mut read = Self::default();
+        for row in csv::Reader::from_reader(file).deserialize() {
+            let row: ReadRow = row.map_err(|error: csv::Error| BaselineError::Content {
+                path: path.to_owned(),
+                message: error.to_string(),
+            })?;
+            let Ok(variant) = row.variant.parse() else { continue };
+            if row.tier == tier {
+                let key = Key { case: row.case, metric: row.metric, variant };
+                read.values.entry(key).or_default().push(row.value);
+            }
+        }
+        Ok(read)
+    }
+
+    /// The values of a figure, oldest first.
+    #[must_use]
+    pub fn of(&self, key: &Key) -> &[f64] {
+        self.values.get(key).map_or(&[], Vec::as_slice)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,5 +127,12 @@ mod tests {
                         0.1.0,aaa,quick,bagnold,velocity_l2,slope_angle=24,0.4,%,pass\n\
                         0.1.0,bbb,quick,bagnold,velocity_l2,slope_angle=24,0.4,%,pass\n";
         assert_eq!(text, expected);
+        let read = History::read(&path, Tier::Quick).expect("readable");
+        assert_eq!(read.of(&Key::of("bagnold", &metrics[0])), [0.4, 0.4]);
+        assert_eq!(read.of(&Key::of("bagnold", &metrics[1])), [0.0; 0]);
+        assert_eq!(History::read(&path, Tier::Paper).expect("readable"), History::default());
+        assert_eq!(History::read(&folder.path().join("none.csv"), Tier::Quick).expect("empty"), History::default());
+        std::fs::write(&path, text.replace("0.4", "much")).expect("a writable folder");
+        assert!(History::read(&path, Tier::Quick).is_err_and(|error| error.to_string().contains("history.csv")));
     }
 }

@@ -145,6 +145,13 @@ impl Judgement<'_> {
         self.tallies().iter().any(|tally| tally.fail > 0) || self.contradictions > 0 || self.diverged > 0
     }
 
+    /// Whether a value has left its tolerance, its unit or its side of a gate, or is no longer measured. New values have
+    /// nothing to have drifted from.
+    #[must_use]
+    pub fn has_drift(&self) -> bool {
+        self.drift.drifted > 0
+    }
+
     /// Gates of any kind that fail, listed or not.
     #[must_use]
     pub fn failing_gates(&self) -> usize {

@@ -1,6 +1,8 @@
 //! Verdicts → one self-contained folder with a page, figures and the numbers behind them.
 
 pub mod accepted;
+pub mod drift;
+mod earlier;
 mod error;
 pub mod history;
 pub mod judgement;
@@ -9,15 +11,18 @@ mod page;
 pub mod papers;
 mod papers_page;
 mod rows;
+pub mod scatter;
 mod snapshot_text;
 mod template;
 mod view;
+mod width;
 
 #[cfg(test)]
 mod tests;
 
 pub use accepted::{Baseline, Drift, Key};
-pub use error::{BaselineError, ReportError};
+pub use error::{BaselineError, EarlierError, ReportError};
+pub use history::History;
 pub use judgement::{Judgement, judge};
 pub use known_failures::{KnownFailure, KnownFailures, Standing};
 pub use snapshot_text::description;
@@ -41,8 +46,12 @@ pub struct Report {
     pub generated: Provenance,
     /// The cases in the order of their registry.
     pub cases: Vec<CaseReport>,
-    /// The committed values to compare with; may be empty.
+    /// The values to compare with, accepted ones or those of an earlier report; may be empty.
     pub baseline: Baseline,
+    /// Folder of the earlier report that the baseline is; none where it is the accepted values.
+    pub against: Option<String>,
+    /// What accepted figures were at earlier times; may be empty.
+    pub history: History,
     /// The gates that are known to fail; may be empty.
     pub known_failures: KnownFailures,
     /// The papers whose elements are accounted for; none for no page of them.
@@ -103,7 +112,8 @@ struct Drawn {
 }
 
 /// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `figures/CASE/NAME.{svg,png,gif}`,
-/// `cases/CASE/metrics.json` and `cases/CASE/case.toml`. Files of the same names are replaced, others are left alone.
+/// `cases/CASE/metrics.json` and `cases/CASE/case.toml`, and what the cases say together as `metrics.json` and
+/// `figures/scatter/QUANTITY.{svg,png}`. Files of the same names are replaced, others are left alone.
 ///
 /// A figure that cannot be drawn does not spoil the report: the page says so in its place.
 ///
@@ -130,19 +140,29 @@ pub fn write(report: &Report, folder: &Path) -> Result<(), ReportError> {
         put(folder.join("papers.html"), &papers_page::render(report, &judgement.papers)?)?;
         put(folder.join("papers.json"), &papers_page::json(report.tier, &judgement.papers))?;
     }
-    put(folder.join("index.html"), &page::render(report, &judgement, &drawn)?)
+    let quantities = scatter::quantities(report);
+    let compared = draw_figures(&scatter::figures(&quantities), &folder.join("figures").join(scatter::FOLDER))?;
+    put(folder.join("metrics.json"), &scatter::json(&quantities))?;
+    let comparisons = scatter::rows(&quantities, &compared);
+    put(folder.join("index.html"), &page::render(report, &judgement, &drawn, comparisons)?)
 }
 
 fn draw(case: &CaseReport, folder: &Path) -> Result<Vec<Drawn>, ReportError> {
-    let figures = case.figures.par_iter().map(|figure| {
-        let failure = failure_of(figure::write(figure, folder))?;
-        Ok(Drawn { caption: figure.caption.clone(), name: figure.name.clone(), moves: false, failure })
-    });
+    let mut drawn = draw_figures(&case.figures, folder)?;
     let animations = case.animations.par_iter().map(|animation| {
         let failure = failure_of(figure::write_animation(animation, folder))?;
         Ok(Drawn { caption: animation.caption.clone(), name: animation.name.clone(), moves: true, failure })
     });
-    figures.chain(animations).collect()
+    drawn.extend(animations.collect::<Result<Vec<Drawn>, ReportError>>()?);
+    Ok(drawn)
+}
+
+fn draw_figures(figures: &[Figure], folder: &Path) -> Result<Vec<Drawn>, ReportError> {
+    let draw = |figure: &Figure| {
+        let failure = failure_of(figure::write(figure, folder))?;
+        Ok(Drawn { caption: figure.caption.clone(), name: figure.name.clone(), moves: false, failure })
+    };
+    figures.par_iter().map(draw).collect()
 }
 
 /// Why something was not drawn; a file that cannot be written is an error of the whole report.

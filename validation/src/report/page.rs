@@ -7,7 +7,7 @@ use super::papers_page;
 use super::rows::{mark, note, rows, statement, vanished, worst_mark};
 use super::template::fill;
 use super::view::{Banner, BannerItem, Case, Count, Mark, Page, Picture, Run};
-use super::{CaseReport, Drawn, Provenance, Report};
+use super::{CaseReport, Drawn, Provenance, Report, drift, scatter};
 use crate::case::RunSummary;
 use crate::metric::Verdict;
 use crate::number::{count, four_digits};
@@ -21,6 +21,7 @@ pub(super) fn render(
     report: &Report,
     judgement: &Judgement<'_>,
     drawn: &[Vec<Drawn>],
+    scatter: Vec<scatter::Row>,
 ) -> Result<String, minijinja::Error> {
     let pictures = |case: &CaseReport| {
         let position = report.cases.iter().position(|other| std::ptr::eq(other, case));
@@ -31,6 +32,8 @@ pub(super) fn render(
         tier: tier_name(report.tier),
         banner: banner(judgement),
         counts: counts(judgement),
+        drift: drift::table(report, judgement),
+        scatter,
         cases: judgement.cases.iter().map(|judged| case(judged, pictures(judged.case))).collect(),
         provenance: provenance(&report.generated),
         command: report.generated.command.clone(),
@@ -38,7 +41,12 @@ pub(super) fn render(
         style: include_str!("template/style.css"),
         script: include_str!("template/filter.js"),
     };
-    fill("index.html", include_str!("template/index.html"), &page)
+    let partials = [
+        ("drift.html", include_str!("template/drift.html")),
+        ("scatter.html", include_str!("template/scatter.html")),
+        ("width.html", include_str!("template/width.html")),
+    ];
+    fill("index.html", include_str!("template/index.html"), &partials, &page)
 }
 
 fn banner(judgement: &Judgement<'_>) -> Banner {
@@ -230,7 +238,7 @@ fn case_statement(judged: &JudgedCase<'_>) -> String {
     if words.is_empty() { "no metrics".to_owned() } else { words.join(" · ") }
 }
 
-fn picture(drawn: &Drawn) -> Picture {
+pub(super) fn picture(drawn: &Drawn) -> Picture {
     Picture {
         name: drawn.name.clone(),
         caption: drawn.caption.clone(),

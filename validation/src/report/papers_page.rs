@@ -106,7 +106,7 @@ pub(super) fn render(report: &Report, accounts: &[Account<'_>]) -> Result<String
         papers: accounts.iter().map(|account| paper(account, &report.cases)).collect(),
         style: include_str!("template/style.css"),
     };
-    fill("papers.html", include_str!("template/papers.html"), &page)
+    fill("papers.html", include_str!("template/papers.html"), &[], &page)
 }
 
 fn paper(account: &Account<'_>, cases: &[CaseReport]) -> PaperView {

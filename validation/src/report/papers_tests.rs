@@ -1,6 +1,6 @@
 //! Statuses follow from the numbers; every row is on the page, and its links land.
 
-use super::super::{Baseline, KnownFailures, Provenance, Report, judge, papers_page, write};
+use super::super::{Baseline, History, KnownFailures, Provenance, Report, judge, papers_page, write};
 use super::*;
 use crate::case::Tier;
 use crate::figure::Figure;
@@ -87,6 +87,8 @@ fn report(metrics: Vec<Metric>) -> Report {
         generated: Provenance::default(),
         cases: vec![film],
         baseline: Baseline::default(),
+        against: None,
+        history: History::default(),
         known_failures: KnownFailures::default(),
         papers: vec![paper].leak(),
     }

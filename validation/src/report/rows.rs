@@ -5,6 +5,7 @@ use super::judgement::{Judged, Severity};
 use super::known_failures::Standing;
 use super::snapshot_text::word;
 use super::view::{Mark, Row, anchor};
+use super::width::width;
 use crate::metric::{Confidence, Kind, Limit, Metric, Verdict};
 use crate::number::{four_digits, two_digits, with_unit};
 
@@ -41,6 +42,7 @@ fn row(case: &str, judged: &Judged<'_>) -> Row {
     Row {
         anchor: anchor(case, &metric.name, &metric.variant),
         mark: gate_mark(judged),
+        width: width(metric),
         metric: metric.name.clone(),
         variant: metric.variant.parts().map(|(key, value)| format!("{key}={value}")).collect(),
         value: with_unit(metric.value, &metric.unit),
@@ -159,7 +161,7 @@ fn drift(judged: &Judged<'_>) -> (Mark, String, String) {
     };
     match &judged.drift {
         Drift::New => (Mark { word: "new", ..Mark::OBSERVED }, "new".to_owned(), String::new()),
-        Drift::Unchanged { change, baseline } => {
+        Drift::Unchanged { change, baseline, .. } => {
             (Mark { word: "unchanged", ..Mark::PASS }, signed(*change), relative(*change, *baseline))
         }
         Drift::Drifted { change, baseline, .. } => (Mark::DRIFT, signed(*change), relative(*change, *baseline)),

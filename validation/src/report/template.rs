@@ -1,13 +1,18 @@
 //! Templates: the values of a page → its text.
 
-/// Fills a template whose name ends like the page's: `.html` escapes everything that is inserted.
+/// Fills a template whose name ends like the page's: `.html` escapes everything that is inserted. It may include the
+/// partials by their names.
 pub(super) fn fill(
     name: &'static str,
     template: &'static str,
+    partials: &[(&'static str, &'static str)],
     page: &impl serde::Serialize,
 ) -> Result<String, minijinja::Error> {
     let mut environment = minijinja::Environment::new();
     environment.add_template(name, template)?;
+    for (name, partial) in partials {
+        environment.add_template(name, partial)?;
+    }
     environment.get_template(name)?.render(template_value(page)?)
 }
 

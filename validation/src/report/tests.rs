@@ -33,6 +33,8 @@ fn report(cases: Vec<CaseReport>) -> Report {
         generated: Provenance::default(),
         cases,
         baseline: Baseline::default(),
+        against: None,
+        history: History::default(),
         known_failures: KnownFailures::default(),
         papers: &[],
     }
@@ -52,7 +54,7 @@ fn known(case: &str, metric: &str, best_value: f64) -> KnownFailures {
 }
 
 fn html(report: &Report) -> String {
-    page::render(report, &judge(report), &[]).expect("page")
+    page::render(report, &judge(report), &[], Vec::new()).expect("page")
 }
 
 fn place(text: &str, part: &str) -> usize {
@@ -104,6 +106,7 @@ fn a_failing_gate_is_the_first_thing_on_the_page() {
     assert!(page.contains("1 of 3 gates fail"));
     assert!(page.contains("class=\"banner fail\""));
     assert!(place(&page, "velocity_l2") < place(&page, "wall_slip"), "failures come first");
+    assert!(page.contains("Nothing has moved against the accepted values"), "there are none");
     assert!(place(&page, "id=\"verdicts-bagnold\"") < place(&page, "id=\"verdicts-film\""), "so do failing cases");
     let (film, bagnold) = (place(&page, "id=\"verdicts-film\""), place(&page, "id=\"verdicts-bagnold\""));
     assert!(page[bagnold..film].split('>').next().is_some_and(|tag| tag.ends_with("open")), "unfolded");

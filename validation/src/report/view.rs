@@ -32,6 +32,8 @@ pub(super) struct Page {
     pub(super) tier: &'static str,
     pub(super) banner: Banner,
     pub(super) counts: Vec<Count>,
+    pub(super) drift: super::drift::Table,
+    pub(super) scatter: Vec<super::scatter::Row>,
     pub(super) cases: Vec<Case>,
     pub(super) provenance: Vec<(&'static str, String)>,
     pub(super) command: String,
@@ -93,6 +95,8 @@ pub(super) struct Row {
     /// What a link to the row names.
     pub(super) anchor: String,
     pub(super) mark: Mark,
+    /// What is known of the uncertainty, over the width of the gate.
+    pub(super) width: Option<super::width::Width>,
     pub(super) metric: String,
     pub(super) variant: Vec<String>,
     pub(super) value: String,

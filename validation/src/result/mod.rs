@@ -8,7 +8,7 @@ pub use document::{MetricEntry, MetricsDocument, Provenance};
 
 use crate::case::CaseResult;
 use crate::figure::{self, FigureError};
-use document::pretty;
+pub(crate) use document::pretty;
 use std::io;
 use std::path::Path;
 

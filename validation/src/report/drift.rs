@@ -1,0 +1,203 @@
+//! What has moved since the baseline, by how many tolerances, and how it got there.
+
+use super::Report;
+use super::accepted::{Drift, Key};
+use super::history::History;
+use super::judgement::{Judged, Judgement};
+use super::rows::vanished;
+use super::snapshot_text::word;
+use super::view::{Mark, anchor};
+use crate::number::{two_digits, with_unit};
+use serde::Serialize;
+use std::fmt;
+
+/// Rows of the table; what has drifted is always in it.
+const ROWS: usize = 25;
+
+/// What has moved less is noise of rounding, and not worth a row `[tolerances]`.
+const LEAST: f64 = 0.05;
+
+/// Values of the history that a line shows.
+const POINTS: usize = 24;
+
+/// Size of a line `[px]`.
+const LINE: (f64, f64) = (96.0, 20.0);
+
+/// A value that has moved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moved {
+    /// Which.
+    pub key: Key,
+    /// By how many tolerances `[-]`; infinite for a change of unit or verdict, and for what is gone.
+    pub tolerances: f64,
+    /// Whether that is a drift.
+    pub has_drifted: bool,
+    /// Whether it is still measured.
+    is_measured: bool,
+    /// Value and baseline in words.
+    statement: (String, String),
+    /// Earlier values, oldest first.
+    history: Vec<f64>,
+}
+
+impl fmt::Display for Moved {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Key { case, metric, variant } = &self.key;
+        let (value, baseline) = &self.statement;
+        write!(out, "{case} {metric} [{variant}] {value}")?;
+        if !baseline.is_empty() {
+            write!(out, ", was {}", baseline.trim_start_matches("was "))?;
+        }
+        if self.tolerances.is_finite() {
+            write!(out, ": {} tolerances", two_digits(self.tolerances))?;
+        }
+        Ok(())
+    }
+}
+
+/// Everything that has moved, the farthest first, then in the order of the cases. What has drifted comes before what has
+/// not.
+#[must_use]
+pub fn moved(judgement: &Judgement<'_>, history: &History) -> Vec<Moved> {
+    let mut all = Vec::new();
+    for case in &judgement.cases {
+        let of_metric = |judged: &Judged<'_>| of_metric(&case.case.name, judged, history);
+        all.extend(case.metrics.iter().filter_map(of_metric));
+        all.extend(case.vanished.iter().map(|key| Moved {
+            key: key.clone(),
+            tolerances: f64::INFINITY,
+            has_drifted: true,
+            is_measured: false,
+            statement: ("no longer measured".to_owned(), String::new()),
+            history: history.of(key).to_vec(),
+        }));
+    }
+    all.retain(|moved| moved.has_drifted || moved.tolerances >= LEAST);
+    // Stable: equal ones keep the order of the page.
+    all.sort_by(|a, b| b.has_drifted.cmp(&a.has_drifted).then(b.tolerances.total_cmp(&a.tolerances)));
+    all
+}
+
+fn of_metric(case: &str, judged: &Judged<'_>, history: &History) -> Option<Moved> {
+    let metric = judged.metric;
+    let with_its_unit = |value: f64| with_unit(value, &metric.unit);
+    let baseline = match &judged.drift {
+        Drift::New => return None,
+        Drift::Unchanged { baseline, tolerance, .. } | Drift::Drifted { baseline, tolerance, .. } => {
+            format!("{} ± {}", with_its_unit(*baseline), two_digits(*tolerance))
+        }
+        Drift::UnitChanged { unit } => format!("in {unit}"),
+        Drift::VerdictChanged { verdict } => format!("{}, now {}", word(*verdict), word(judged.verdict)),
+    };
+    let key = Key::of(case, metric);
+    let history = history.of(&key).iter().copied().chain([metric.value]).filter(|value| value.is_finite());
+    Some(Moved {
+        tolerances: judged.drift.in_tolerances()?,
+        has_drifted: judged.drift.is_failure(),
+        is_measured: true,
+        statement: (with_its_unit(metric.value), baseline),
+        history: history.collect(),
+        key,
+    })
+}
+
+/// The table as its template sees it.
+#[derive(Debug, Serialize)]
+pub(super) struct Table {
+    /// What the values are compared with.
+    against: String,
+    rows: Vec<Row>,
+    /// Rows that are left out: all within their tolerances.
+    omitted: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct Row {
+    mark: Mark,
+    case: String,
+    metric: String,
+    variant: String,
+    /// Where its row stands; that of the case for what is gone.
+    anchor: String,
+    tolerances: String,
+    value: String,
+    baseline: String,
+    line: Option<Sparkline>,
+}
+
+/// A line of earlier values and this one.
+#[derive(Debug, Serialize)]
+struct Sparkline {
+    /// Points of a polyline.
+    points: String,
+    /// The last one.
+    last: (String, String),
+    size: (f64, f64),
+    /// What is seen, for those who do not see it.
+    words: String,
+}
+
+/// The table of what has moved.
+pub(super) fn table(report: &Report, judgement: &Judgement<'_>) -> Table {
+    let against = match &report.against {
+        Some(folder) => format!("the report in {folder}"),
+        None => "the accepted values".to_owned(),
+    };
+    table_of(&moved(judgement, &report.history), against)
+}
+
+fn table_of(all: &[Moved], against: String) -> Table {
+    let drifted = all.iter().filter(|moved| moved.has_drifted).count();
+    let shown = all.len().min(ROWS.max(drifted));
+    Table { against, rows: all[..shown].iter().map(row).collect(), omitted: all.len() - shown }
+}
+
+fn row(moved: &Moved) -> Row {
+    let key = &moved.key;
+    let unchanged = Mark { word: "within", ..Mark::PASS };
+    Row {
+        mark: if moved.has_drifted { Mark::DRIFT } else { unchanged },
+        case: key.case.clone(),
+        metric: key.metric.clone(),
+        variant: key.variant.to_string(),
+        anchor: if moved.is_measured {
+            anchor(&key.case, &key.metric, &key.variant)
+        } else {
+            format!("verdicts-{}", key.case)
+        },
+        tolerances: if moved.tolerances.is_finite() { two_digits(moved.tolerances) } else { "–".to_owned() },
+        value: moved.statement.0.clone(),
+        baseline: moved.statement.1.clone(),
+        line: sparkline(&moved.history, &vanished(key)),
+    }
+}
+
+/// The last values as a line from left to right; none for fewer than two.
+fn sparkline(values: &[f64], name: &str) -> Option<Sparkline> {
+    let values = &values[values.len().saturating_sub(POINTS)..];
+    let (first, last) = (values.first()?, values.last().filter(|_| values.len() > 1)?);
+    let (least, most) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
+    let (wide, high) = LINE;
+    let margin = 2.0;
+    let at = |(place, value): (usize, &f64)| {
+        let x = margin + (wide - 2.0 * margin) * place as f64 / (values.len() - 1) as f64;
+        // a constant runs along the middle
+        let share = if most > least { (value - least) / (most - least) } else { 0.5 };
+        (format!("{x:.1}"), format!("{:.1}", high - margin - (high - 2.0 * margin) * share))
+    };
+    let points: Vec<(String, String)> = values.iter().enumerate().map(at).collect();
+    let text: Vec<String> = points.iter().map(|(x, y)| format!("{x},{y}")).collect();
+    let words = format!(
+        "{name}: {} values from {} to {}, between {} and {}",
+        values.len(),
+        two_digits(*first),
+        two_digits(*last),
+        two_digits(least),
+        two_digits(most)
+    );
+    Some(Sparkline { points: text.join(" "), last: points.last()?.clone(), size: LINE, words })
+}
+
+#[cfg(test)]
+#[path = "drift_tests.rs"]
+mod tests;

@@ -1,0 +1,127 @@
+//! A planted drift is found, tops the table and is told from noise.
+
+use super::*;
+use crate::case::Tier;
+use crate::metric::{Limit, Metric, Variant};
+use crate::report::{Baseline, CaseReport, KnownFailures, Provenance, Report, history, judge};
+
+fn metric(name: &str, value: f64) -> Metric {
+    Metric::observed(name, &Variant::of("resolution", 40), value, "%")
+        .gated(Limit::AtMost(100.0), "for the test")
+        .with_snapshot_tolerance(0.01, 0.0)
+}
+
+fn report(metrics: Vec<Metric>, baseline: Baseline) -> Report {
+    let case = CaseReport {
+        name: "film".to_owned(),
+        summary: String::new(),
+        description: String::new(),
+        parameters_toml: String::new(),
+        command: String::new(),
+        metrics,
+        figures: Vec::new(),
+        animations: Vec::new(),
+        runs: Vec::new(),
+        metrics_json: String::new(),
+    };
+    Report {
+        title: "Report".to_owned(),
+        tier: Tier::Quick,
+        generated: Provenance::default(),
+        cases: vec![case],
+        baseline,
+        against: None,
+        history: History::default(),
+        known_failures: KnownFailures::default(),
+        papers: &[],
+    }
+}
+
+/// Accepted values of three metrics, and the same with the middle one moved by some of its tolerances.
+fn planted(tolerances: f64) -> Report {
+    let accepted = [metric("wall_slip", 3.0), metric("velocity_l2", 10.0), metric("gci", 5.0)];
+    // each moves by rounding as well
+    let now = vec![metric("wall_slip", 3.003), metric("velocity_l2", 10.0 + 0.1 * tolerances), metric("gci", 5.0)];
+    report(now, Baseline::of("film", &accepted))
+}
+
+#[test]
+fn a_drift_of_two_tolerances_tops_the_table_and_is_denied() {
+    let report = planted(2.0);
+    let judgement = judge(&report);
+    assert!(judgement.has_drift() && !judgement.has_unexpected_failure());
+    let all = moved(&judgement, &report.history);
+    let names: Vec<&str> = all.iter().map(|moved| moved.key.metric.as_str()).collect();
+    assert_eq!(names, ["velocity_l2", "wall_slip"]);
+    assert!(all[0].has_drifted && (all[0].tolerances - 2.0).abs() < 1e-6, "{:?}", all[0]);
+    let shown = table(&report, &judgement);
+    assert_eq!((shown.rows[0].metric.as_str(), shown.rows[0].mark), ("velocity_l2", Mark::DRIFT));
+    assert_eq!((shown.omitted, shown.against.as_str()), (0, "the accepted values"));
+}
+
+#[test]
+fn a_drift_of_a_fifth_of_a_tolerance_is_shown_and_not_denied() {
+    let report = planted(0.2);
+    let judgement = judge(&report);
+    assert!(!judgement.has_drift());
+    let all = moved(&judgement, &report.history);
+    assert!(all.iter().all(|moved| !moved.has_drifted));
+    assert!((all[0].tolerances - 0.2).abs() < 1e-6, "{:?}", all[0]);
+}
+
+#[test]
+fn what_cannot_be_compared_comes_first() {
+    let accepted = [metric("velocity_l2", 10.0), metric("gone", 1.0), metric("gci", 5.0)];
+    let other_unit = Metric { unit: "m".to_owned(), ..metric("gci", 5.0) };
+    let report =
+        report(vec![metric("velocity_l2", 12.0), other_unit, metric("new", 1.0)], Baseline::of("film", &accepted));
+    let all = moved(&judge(&report), &report.history);
+    let names: Vec<&str> = all.iter().map(|moved| moved.key.metric.as_str()).collect();
+    assert_eq!(names, ["gci", "gone", "velocity_l2"], "what is new has not moved");
+    assert!(all[1].tolerances.is_infinite() && all[1].has_drifted);
+}
+
+#[test]
+fn an_earlier_report_is_a_baseline() {
+    let folder = tempfile::tempdir().expect("folder");
+    let place = folder.path().join("cases").join("film");
+    std::fs::create_dir_all(&place).expect("folder");
+    let cases = ["film".to_owned(), "bagnold".to_owned()];
+    let read = |tier| Baseline::of_report(folder.path(), &cases, tier);
+    assert!(read(Tier::Quick).is_err_and(|error| error.to_string().contains("none of the cases")));
+    let entry = |metric: &Metric| serde_json::to_value(crate::result::MetricEntry::from(metric)).expect("serialises");
+    let document = serde_json::json!({
+        "case": "film", "tier": "quick", "state_hash": "", "runs": [],
+        "provenance": {"version": "", "commit": "", "source_hash": "", "profile": "", "target_features": "",
+            "command": "", "threads": 1, "wall_seconds": 1.0, "microseconds_per_particle_step": null,
+            "runs_from_store": 0},
+        "metrics": [entry(&metric("velocity_l2", 10.0)), entry(&metric("gci", f64::NAN))],
+    });
+    std::fs::write(place.join("metrics.json"), document.to_string()).expect("written");
+    let baseline = read(Tier::Quick).expect("readable");
+    let value = |name| baseline.value(&Key::of("film", &metric(name, 0.0)));
+    assert_eq!(value("velocity_l2"), Some(10.0));
+    assert!(value("gci").is_some_and(f64::is_nan) && value("wall_slip").is_none());
+    assert!(!baseline.drift("film", &metric("velocity_l2", 10.05)).is_failure());
+    assert!(read(Tier::Paper).is_err_and(|error| error.to_string().contains("quick tier")));
+    std::fs::write(place.join("metrics.json"), "{}").expect("written");
+    assert!(read(Tier::Quick).is_err_and(|error| error.to_string().contains("metrics.json")));
+}
+
+#[test]
+fn a_line_shows_the_history_and_this_value() {
+    let folder = tempfile::tempdir().expect("folder");
+    let path = folder.path().join("history.csv");
+    for value in [8.0, 9.0, 9.5] {
+        history::append(&path, ("1", "a"), Tier::Quick, "film", &[metric("velocity_l2", value)]).expect("written");
+    }
+    let history = History::read(&path, Tier::Quick).expect("readable");
+    let report = planted(2.0);
+    let all = moved(&judge(&report), &history);
+    assert_eq!(all[0].history, [8.0, 9.0, 9.5, 10.2]);
+    let line = sparkline(&all[0].history, "velocity_l2").expect("two values and more");
+    assert_eq!(line.points, "2.0,18.0 32.7,10.7 63.3,7.1 94.0,2.0");
+    assert!(line.words.starts_with("velocity_l2: 4 values from 8"), "{}", line.words);
+    assert!(sparkline(&[1.0], "a").is_none() && sparkline(&[], "a").is_none());
+    assert_eq!(sparkline(&[1.0, 1.0], "a").expect("a constant").last.1, "10.0");
+}

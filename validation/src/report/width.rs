@@ -1,0 +1,104 @@
+//! The width of a gate as a stacked bar: what is known of the uncertainty of value and reference, over the gate's half width.
+
+use crate::metric::{Gate, Limit, Metric, Origin};
+use crate::number::{two_digits, with_unit};
+use serde::Serialize;
+
+/// Standard uncertainties that an expanded one has, for 95 %.
+const COVERAGE: f64 = 2.0;
+
+/// Length of a bar that fills the gate `[px]`.
+const LENGTH: f64 = 120.0;
+
+/// The bar as its template sees it.
+#[derive(Debug, Serialize)]
+pub(super) struct Width {
+    /// From the left, none where the gate has no half width.
+    parts: Vec<BarPart>,
+    /// The sum in words, below the bar.
+    statement: String,
+    /// Everything in words, with the source of each part.
+    words: String,
+}
+
+#[derive(Debug, Serialize)]
+struct BarPart {
+    class: &'static str,
+    x: String,
+    width: String,
+}
+
+/// The bar of a metric; none where nothing is known.
+pub(super) fn width(metric: &Metric) -> Option<Width> {
+    let standard = metric.uncertainty.standard()?;
+    let unit = |value: f64| with_unit(value, &metric.unit);
+    let expanded = COVERAGE * standard;
+    let gate = metric.gate.as_ref().and_then(half_width);
+    let share = gate.map_or(1.0, |half_width| expanded / half_width);
+    // Uncertainties add as squares: a part's length is its share of the square of the sum.
+    let length = LENGTH * share.min(1.0);
+    let mut x = 0.0;
+    let mut parts = Vec::new();
+    let mut words = vec![format!("± {} (twice the standard uncertainty)", unit(expanded))];
+    for part in metric.uncertainty.parts() {
+        let wide = length * (part.standard / standard).powi(2);
+        parts.push(BarPart { class: class(part.origin), x: format!("{x:.1}"), width: format!("{wide:.1}") });
+        x += wide;
+        words.push(format!("{} {}: {}", part.origin.name(), unit(part.standard), part.source));
+    }
+    let of_gate = gate.map(|_| format!(", {}\u{202f}% of the gate", two_digits(100.0 * share))).unwrap_or_default();
+    let names: Vec<&str> = metric.uncertainty.parts().iter().map(|part| part.origin.name()).collect();
+    let statement = format!("± {} known{of_gate}: {}", unit(expanded), names.join(", "));
+    Some(Width { parts, statement, words: words.join("; ") })
+}
+
+/// How far a gate lets its value go, in the metric's unit.
+fn half_width(gate: &Gate) -> Option<f64> {
+    let half = match gate.limit {
+        Limit::AtMost(bound) | Limit::AtLeast(bound) => bound.abs(),
+        Limit::Within(lower, upper) => 0.5 * (upper - lower),
+    };
+    (half.is_finite() && half > 0.0).then_some(half)
+}
+
+fn class(origin: Origin) -> &'static str {
+    match origin {
+        Origin::Experiment => "experiment",
+        Origin::Digitisation => "digitisation",
+        Origin::Numerical => "numerical",
+        Origin::Repeat => "repeat",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::metric::Variant;
+
+    #[test]
+    fn parts_fill_the_share_of_the_gate_that_their_sum_takes() {
+        let metric =
+            Metric::observed("run_out", &Variant::default(), 2.0, "m").gated(Limit::Within(1.0, 3.0), "a reason");
+        assert!(width(&metric).is_none(), "nothing is known");
+        let metric = metric.known_to(Origin::Digitisation, Some(0.15), "other readings").known_to(
+            Origin::Repeat,
+            Some(0.2),
+            "five seeds",
+        );
+        // 0.25, twice of it is half of the gate: 60 px, of which 9/25 and 16/25
+        let bar = width(&metric).expect("known");
+        let drawn: Vec<(&str, &str, &str)> =
+            bar.parts.iter().map(|part| (part.class, part.x.as_str(), part.width.as_str())).collect();
+        assert_eq!(drawn, [("digitisation", "0.0", "21.6"), ("repeat", "21.6", "38.4")]);
+        assert!(bar.statement.contains("of the gate: digitisation, repetition"), "{}", bar.statement);
+        assert!(bar.words.contains("repetition 0.2\u{202f}m: five seeds"), "{}", bar.words);
+        let too_wide = metric.known_to(Origin::Experiment, Some(5.0), "theirs");
+        let ends: f64 = width(&too_wide)
+            .expect("known")
+            .parts
+            .iter()
+            .map(|part| part.width.parse::<f64>().expect("a number"))
+            .sum();
+        assert!((ends - LENGTH).abs() < 0.2, "no longer than the gate");
+    }
+}
