@@ -34,7 +34,8 @@ pub enum SurfaceTreatment {
 pub enum PairLaw {
     /// From the pair's own shear rate |u_ab|/r and the smaller load of the two: what lies on a weaker particle slides.
     PairRate,
-    /// From the pair's own shear rate and the mean load of the two: that of the plane between them.
+    /// From the pair's own shear rate, as rows that slide over each other have it, and the mean load of the two: that of the
+    /// plane between them.
     PairRateMeanLoad,
     /// Arithmetic mean of the particles' viscosities, as (18) has it.
     ArithmeticMean,

@@ -2,6 +2,7 @@
 
 mod lattice_sums;
 mod phases;
+mod sliding_rows;
 
 pub(crate) use lattice_sums::LatticeSums;
 pub(crate) use phases::Phases;
@@ -31,6 +32,8 @@ pub(crate) struct Phase<const D: usize> {
     pub(crate) density: f64,
     pub(crate) kernel: Kernel<D>,
     pub(crate) lattice: LatticeSums,
+    /// Shear rate of rows that slide over each other over that of their pairs, |u_ab|/r, as a mean `[-]`.
+    pub(crate) sliding_rate: f64,
     pub(crate) free_pairs: Pairs<D>,
     pub(crate) wall_pairs: Pairs<D>,
     /// Σ V W over that of the lattice `[-]`.
@@ -72,6 +75,7 @@ impl<const D: usize> Phase<D> {
             spacing,
             density,
             lattice: LatticeSums::of(&kernel, spacing),
+            sliding_rate: sliding_rows::rate_of_sliding_rows(&kernel, spacing),
             kernel,
             free_pairs: Pairs::new(),
             wall_pairs: Pairs::new(),

@@ -168,8 +168,8 @@ impl<const D: usize> VelocityRows<'_, D> {
             let volumes = (sediment.volume[a], sediment.volume[b]);
             let moments = sediment.moment[a] + sediment.moment[b];
             let difference = sediment.velocity[a] - sediment.velocity[b];
-            let both =
-                self.pair_viscosity(material, (end(a), end(b)), difference, pair) + self.added(a, sediment, pair);
+            let rate = (sediment.sliding_rate, difference);
+            let both = self.pair_viscosity(material, (end(a), end(b)), rate, pair) + self.added(a, sediment, pair);
             row.couple(
                 fluid.len() + b,
                 viscous_pair::coefficient(self.time_step, volumes, moments, pair.gradient, both),
@@ -180,7 +180,8 @@ impl<const D: usize> VelocityRows<'_, D> {
             let volumes = (sediment.volume[a], sediment.lattice_volume);
             let load = material.load.at(&sediment.wall[pair.source as usize], layer);
             let ends = (end(a), End { load, viscosity: viscosities.sediment[a] });
-            let both = self.pair_viscosity(material, ends, sediment.velocity[a], pair) + self.added(a, sediment, pair);
+            let rate = (sediment.sliding_rate, sediment.velocity[a]);
+            let both = self.pair_viscosity(material, ends, rate, pair) + self.added(a, sediment, pair);
             let moments = 2.0 * sediment.moment[a];
             row.hold(viscous_pair::coefficient(self.time_step, volumes, moments, pair.gradient, both));
         }
@@ -202,10 +203,12 @@ impl<const D: usize> VelocityRows<'_, D> {
         })
     }
 
-    /// η_a + η_b `[Pa·s]` of a sediment particle with another or with a wall, at a difference of velocities `[m/s]`.
+    /// η_a + η_b `[Pa·s]` of a sediment particle with another or with a wall, at the rate of sliding rows over that of pairs
+    /// `[-]` and a difference of velocities `[m/s]`.
     #[inline]
-    fn pair_viscosity(&self, material: &Sediment<D>, ends: (End, End), difference: Vector<D>, pair: &Pair<D>) -> f64 {
+    fn pair_viscosity(&self, material: &Sediment<D>, ends: (End, End), rate: (f64, Vector<D>), pair: &Pair<D>) -> f64 {
+        let (sliding_rate, difference) = rate;
         let own_rate = || (difference.norm_squared() / pair.separation.norm_squared()).sqrt();
-        pair_law::viscosities::<D>(&material.law, self.scene.numerics.pair_law, ends, own_rate)
+        pair_law::viscosities::<D>(&material.law, self.scene.numerics.pair_law, ends, sliding_rate, own_rate)
     }
 }

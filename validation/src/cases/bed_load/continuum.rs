@@ -136,12 +136,15 @@ impl ContinuumRun {
         let lattice = Lattice { spacing, rows, columns, bottom: fluid.bottom - WALL_ROWS as f64 * spacing };
         let jitter = if self.stage == Stage::Dilating { self.continuum.sediment_jitter } else { 0.0 };
         let mut placed = Placed::default();
+        let of_layer = SolidFraction::of_cells(layer);
         for (site, place) in lattice.sites().zip(lattice.displaced(jitter, seed.wrapping_add(1))) {
             let point = layer.at(site[1]);
             let fraction = match self.stage {
                 // the top row has what lies below the bed's level, so that no grain is lost or won
                 Stage::Dilating => closures.largest_fraction * (0.5 - site[1] / spacing).clamp(0.0, 1.0),
-                Stage::Porous | Stage::Frozen => point.solid_fraction,
+                Stage::Porous => point.solid_fraction,
+                // φ is far from straight over a row, and the topmost grains end inside one
+                Stage::Frozen => of_layer.mean(site[1] - 0.5 * spacing, site[1] + 0.5 * spacing),
             };
             if site[1] < held || (self.stage == Stage::Porous && fraction > *least_fraction) {
                 placed.wall.push(site);
