@@ -5,4 +5,5 @@ mod examples;
 mod imports;
 mod literals;
 mod order;
+mod planted;
 mod source;
