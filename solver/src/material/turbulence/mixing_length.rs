@@ -45,7 +45,7 @@ impl MixingLength {
             MixingLengthShape::Parabolic => (1.0 - distance / (depth + self.origin_offset)).max(0.0).sqrt(),
             MixingLengthShape::Linear => 1.0,
         };
-        VON_KARMAN * distance * damping
+        von_karman() * distance * damping
     }
 
     /// Kinematic eddy viscosity ν_t = l² |γ̇| `[m²/s]` at a height `[m]`, a depth `[m]` and a shear rate `[1/s]`.
