@@ -22,6 +22,10 @@ use crate::reference::{HONEST_BAND, TransportFormula};
 
 /// Averaging time from which on a flow is taken to be settled enough to be judged `[s]`.
 pub(super) const JUDGED_FROM: f64 = 1.5;
+/// Shortest averaging time of a flow that is judged because it no longer changes `[s]`.
+const SHORTEST: f64 = 0.5;
+/// Largest change of the stream's velocity over U/(2 g i) of such a flow `[-]`.
+const STEADY: f64 = 0.02;
 
 /// Spacing below which the transport of dilating grains is judged more closely `[m]`.
 const FINE: f64 = 6e-4;
@@ -85,6 +89,11 @@ pub(super) fn common(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recor
     metrics.push(channel::velocity_drift(&variant, drift(run, data), "stream's velocity"));
 }
 
+/// Whether a run is judged: it was watched for long, or it does not change.
+pub(super) fn is_settled(run: &BedLoadRun, data: &BedLoadObservation) -> bool {
+    run.averaging_time >= JUDGED_FROM || (run.averaging_time >= SHORTEST && drift(run, data).abs() <= STEADY)
+}
+
 /// Relative change of the stream's velocity over U/(2 g i) `[-]`.
 fn drift(run: &BedLoadRun, data: &BedLoadObservation) -> f64 {
     let channel = &data.channel;
@@ -113,8 +122,8 @@ fn printed(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoa
     );
 }
 
-/// What is reported of the grains; none of it is gated.
-pub(super) fn grains(metrics: &mut Vec<Metric>, run: &BedLoadRun, data: &BedLoadObservation) {
+/// What is reported of the grains; of settled flows the shape of their profile is judged by the paper's statement.
+pub(super) fn grains(metrics: &mut Vec<Metric>, run: &BedLoadRun, data: &BedLoadObservation, judged: bool) {
     let variant = run.variant();
     let layer = data.layer.as_ref();
     let points = data.sediment.points();
@@ -138,13 +147,15 @@ pub(super) fn grains(metrics: &mut Vec<Metric>, run: &BedLoadRun, data: &BedLoad
             None => metric,
         });
     }
-    for (quantity, above) in [(GRAIN_CURVATURE_ABOVE, true), (GRAIN_CURVATURE_BELOW, false)] {
+    let curvatures =
+        [(GRAIN_CURVATURE_ABOVE, true, Limit::AtMost(0.0)), (GRAIN_CURVATURE_BELOW, false, Limit::AtLeast(0.0))];
+    for (quantity, above, limit) in curvatures {
         let estimate = data.sediment.estimate(|points| profiles::grain_curvature(run, points, above));
-        if estimate.value.is_finite() {
-            let metric = channel::observed(quantity, &variant, estimate, 1.0);
-            let source = "statement of the paper: concave above the top of the bed (−), convex below (+)";
-            metrics.push(metric.against(None, source, Confidence::Medium));
-        }
+        let metric = channel::observed(quantity, &variant, estimate, 1.0);
+        let source = "statement of the paper: concave above the top of the bed (−), convex below (+)";
+        let reason =
+            "the sign is what the paper states; a profile with too few points for a curvature does not show it";
+        metrics.push(metric.against(None, source, Confidence::Medium).gated_by(judged.then_some(limit), reason));
     }
     let drag = data.drag_profile();
     let peak = drag
@@ -173,7 +184,7 @@ fn continuum(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedL
             .with_snapshot_tolerance(0.1, 1e-3),
     );
     let source = "the 1-D layer of the same closures";
-    let judged = run.averaging_time >= JUDGED_FROM && own.is_judged();
+    let judged = is_settled(run, data) && own.is_judged();
     let gated = |metric: Metric, holds: bool, limit, reason: &str| {
         if judged && holds { metric.gated(limit, reason) } else { metric }
     };
@@ -211,5 +222,5 @@ fn continuum(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedL
     };
     let metric = channel::observed(TRANSPORT_RATIO, &variant, ratio, 1.0 / layer.transport()).exactly(1.0, source);
     metrics.push(gated(metric, true, Limit::Within(1.0 - within, 1.0 + within), reason));
-    grains(metrics, run, data);
+    grains(metrics, run, data, judged && stage == Stage::Dilating);
 }

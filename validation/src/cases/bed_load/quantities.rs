@@ -41,6 +41,7 @@ quantities! {
     LAYER_SLOPE_RATIO: stated("layer_slope_ratio", "-", "that slope next to the bed over that of the outer flow"),
     NEAR_BED_DEFICIT:
         stated("near_bed_deficit", "u_*", "velocity of the water less clear water's half a grain above the bed"),
+    RELATIVE_DEFICIT: stated("relative_deficit", "u_*", "the first of these two less the second"),
     OUTER_DEFICIT: stated("outer_deficit", "u_*", "the same at half the depth"),
     SHEARED_UP_TO: verified("sheared_up_to", "mm", "upper border of the layer that the moving grains shear"),
     SHEARED_FROM: verified("sheared_from", "mm", "its lower border"),

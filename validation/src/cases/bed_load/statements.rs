@@ -1,13 +1,13 @@
 //! `stabilised` against what Kazemi et al. state of the flow, and against the transport formula on the slope held out.
 
 use super::Record;
-use super::metrics::{JUDGED_FROM, common, grains};
+use super::metrics::{JUDGED_FROM, common, grains, is_settled};
 use super::observation::BedLoadObservation;
 use super::parameters::Grains;
 use super::profiles::{self, LAYERS};
 use super::quantities::{
-    LAYER_BORDER, LAYER_SLOPE, LAYER_SLOPE_RATIO, NEAR_BED_DEFICIT, NUMBER_OF_LAYERS, OUTER_DEFICIT, SEMI_LOG_SLOPE,
-    SHEARED_FROM, SHEARED_THICKNESS_GROWTH, SHEARED_UP_TO, TRANSPORT_GROWTH, TRANSPORT_RATIO,
+    LAYER_BORDER, LAYER_SLOPE, LAYER_SLOPE_RATIO, NEAR_BED_DEFICIT, NUMBER_OF_LAYERS, OUTER_DEFICIT, RELATIVE_DEFICIT,
+    SEMI_LOG_SLOPE, SHEARED_FROM, SHEARED_THICKNESS_GROWTH, SHEARED_UP_TO, TRANSPORT_GROWTH, TRANSPORT_RATIO,
 };
 use super::runs::{BedLoadRun, Formulation};
 use super::tiers::FITTED;
@@ -70,7 +70,7 @@ pub(super) fn stabilised(
     let outer = record.clone().map(|data| data.channel);
     metrics.extend([channel::particles_lost(&variant, &outer), channel::momentum_residual(&variant, &outer)]);
     common(metrics, run, record);
-    let judged = run.averaging_time >= JUDGED_FROM && GENTLE.is_of(run);
+    let judged = is_settled(run, data) && GENTLE.is_of(run);
     let observed = |quantity, estimate, factor| channel::observed(quantity, &variant, estimate, factor);
     // of the fitted slopes the transport says nothing
     if judged && bed.material == Rheology::CoulombBingham(FITTED) {
@@ -83,10 +83,8 @@ pub(super) fn stabilised(
     }
     let gate = |limit: Limit| judged.then_some(limit);
     let profile = &data.channel.profile;
-    let mut slopes = Vec::new();
     for (lower, upper) in LAYERS {
         let estimate = profile.estimate(|points| profiles::semi_log_slope(run, points, lower, upper));
-        slopes.push(estimate.value);
         let named = variant.clone().and("height", 1e3 * lower..=1e3 * upper);
         let slope = channel::observed(SEMI_LOG_SLOPE, &named, estimate, 1.0);
         metrics.push(slope.exactly(1.0, "u_*/κ, fitted to u over ln(z + z_0)"));
@@ -94,29 +92,44 @@ pub(super) fn stabilised(
     let stated = |metric: Metric, value: Option<f64>, statement: &str| {
         metric.against(value, &format!("statement of the paper: {statement}"), Confidence::Medium)
     };
-    let ratio = LAYER_SLOPE_RATIO.of(&variant, slopes[0] / slopes[3]).with_snapshot_tolerance(0.1, 0.0);
-    let reason = "two layers: the lower semi-logarithmic slope is smaller by a fifth";
+    let pieces = profiles::number_of_layers(run, &profile.points()).max(2);
+    let ratio = profiles::layers(run, &profile.points(), pieces).and_then(|fit| {
+        let (lowest, uppermost) = (fit.slopes.first()?, fit.slopes.last()?);
+        Some(lowest / uppermost)
+    });
+    let ratio = LAYER_SLOPE_RATIO.of(&variant, ratio.unwrap_or(f64::NAN)).with_snapshot_tolerance(0.1, 0.0);
+    let reason = "a lower layer whose semi-logarithmic slope is smaller by a fifth, of the lines through all heights that fit best";
     metrics.push(
         stated(ratio, None, "two layers at 3 %, the lower one less steep").gated_by(gate(Limit::AtMost(0.8)), reason),
     );
-    layers(metrics, run, record);
+    layers(metrics, run, record, judged);
     let near = observed(NEAR_BED_DEFICIT, profile.estimate(|points| profiles::deficit(run, points, 2.5e-3)), 1.0);
     let middle = 0.5 * run.materials.depth;
     let far = observed(OUTER_DEFICIT, profile.estimate(|points| profiles::deficit(run, points, middle)), 1.0);
+    let relative =
+        profile.estimate(|points| profiles::deficit(run, points, 2.5e-3) - profiles::deficit(run, points, middle));
+    let relative = observed(RELATIVE_DEFICIT, relative, 1.0);
     let above = profile.estimate(|points| profiles::sheared_borders(run, points).1);
     let below = profile.estimate(|points| profiles::sheared_borders(run, points).0);
     metrics.extend([
-        stated(near, None, "near the bed slower than clear water")
-            .gated_by(gate(Limit::AtMost(-0.1)), "slower than clear water by a tenth of u_*"),
-        stated(far, Some(0.0), "above as fast as clear water"),
+        stated(near, None, "near the bed slower than clear water"),
+        stated(far, Some(0.0), "above as fast as clear water").gated_by(
+            gate(Limit::Within(-0.25, 0.25)),
+            "a quarter of u_*, as clear water itself is judged: 2 % of the depth mean",
+        ),
+        stated(relative, None, "near the bed slower than clear water, above as fast as it").gated_by(
+            gate(Limit::AtMost(-0.1)),
+            "slower near the bed than above by a tenth of u_*, so that a flow that is slow as a whole does not show it",
+        ),
         observed(SHEARED_UP_TO, above, 1e3),
         observed(SHEARED_FROM, below, 1e3),
     ]);
-    grains(metrics, run, data);
+    grains(metrics, run, data, judged);
 }
 
-/// The layers that a segmented regression finds, with the errors of their slopes and borders; observed.
-fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>) {
+/// The layers that a segmented regression finds, with the errors of their slopes and borders; of a judged flow their number is
+/// to be that of the paper.
+fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>, judged: bool) {
     let variant = run.variant();
     let profile = &record.data.channel.profile;
     let count = profiles::number_of_layers(run, &profile.points());
@@ -131,7 +144,11 @@ fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoad
                 published.map_or(Confidence::Medium, |statement| statement.confidence),
             )
             // a break more or less is no drift of the flow
-            .with_snapshot_tolerance(0.0, 1.0),
+            .with_snapshot_tolerance(0.0, 1.0)
+            .gated_by(
+                published.filter(|_| judged).map(|statement| Limit::Within(statement.layers, statement.layers)),
+                "as many as the paper counts; lines are added as long as the fit's information criterion gains by them",
+            ),
     );
     let scale = run.clear_water().semi_logarithmic_slope() / run.clear_water().friction_velocity();
     for layer in 0..count {
@@ -163,18 +180,32 @@ pub(super) fn growth(metrics: &mut Vec<Metric>, records: &[Record]) {
         let (lower, upper) = profiles::sheared_borders(run, &record.data.channel.profile.points());
         upper - lower
     };
+    let formula = |run: &BedLoadRun| TransportFormula::WongParker.transport(run.stream().shields_number());
+    let expected = formula(high_run) / formula(low_run);
     let values = [
-        (TRANSPORT_GROWTH, transport(high) / transport(low)),
-        (SHEARED_THICKNESS_GROWTH, thickness(high_run, high) / thickness(low_run, low)),
+        (
+            TRANSPORT_GROWTH,
+            transport(high) / transport(low),
+            Some(expected),
+            Limit::Within(HONEST_BAND.0 * expected, HONEST_BAND.1 * expected),
+            "a factor of two about the growth of the formula, by which measured rates scatter",
+        ),
+        (
+            SHEARED_THICKNESS_GROWTH,
+            thickness(high_run, high) / thickness(low_run, low),
+            None,
+            Limit::AtLeast(1.05),
+            "larger by more than the scatter of repeats, 3 %",
+        ),
     ];
     let slopes = Value::list([low_run.slope, high_run.slope]);
     let variant = Variant::of("formulation", "stabilised").and("slope", slopes);
-    for (quantity, value) in values {
+    for (quantity, value, expected, limit, reason) in values {
         metrics.push(
             quantity
                 .of(&variant, value)
-                .against(None, "statement of the paper: larger at 5 % than at 3 %", Confidence::Medium)
-                .gated(Limit::AtLeast(1.05), "larger by more than the scatter of repeats, 3 %")
+                .against(expected, "statement of the paper: larger at 5 % than at 3 %", Confidence::Medium)
+                .gated(limit, reason)
                 .with_snapshot_tolerance(0.05, 0.0),
         );
     }
