@@ -5,6 +5,7 @@ mod calibrate;
 mod exit_codes;
 mod files;
 mod killed;
+mod mutate;
 mod permission;
 mod program;
 mod sweep;

@@ -6,4 +6,5 @@ mod imports;
 mod literals;
 mod order;
 mod papers;
+mod planted;
 mod source;

@@ -21,7 +21,7 @@ const fn peers(rooms: &'static [&'static str]) -> Floor {
 
 /// `solver/src`, from the ground up.
 const SOLVER: &[Floor] = &[
-    floor(&["vector", "lanes", "kernel", "domain", "parameter"]),
+    floor(&["vector", "planted", "lanes", "kernel", "domain", "parameter"]),
     floor(&["material", "linear"]),
     floor(&["run"]),
     peers(&["weakly_compressible", "incompressible"]),
@@ -36,7 +36,7 @@ const VALIDATION: &[Floor] = &[
     floor(&["store", "inference"]),
     floor(&["case"]),
     floor(&["cases", "evaluation", "result", "report"]),
-    floor(&["sweep", "calibration"]),
+    floor(&["sweep", "calibration", "mutation"]),
     floor(&["cli"]),
 ];
 

@@ -9,6 +9,8 @@ pub mod figure;
 pub mod inference;
 pub mod input;
 pub mod metric;
+#[cfg(feature = "planted-errors")]
+pub mod mutation;
 pub mod number;
 pub mod observation;
 pub mod output;

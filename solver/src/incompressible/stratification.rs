@@ -9,6 +9,7 @@
 
 use crate::material::suspension_viscosity::SuspensionViscosity;
 use crate::material::turbulence::{GrainRoughness, StratifiedMixingLength};
+use crate::planted::{Planted, factor};
 use crate::vector::Vector;
 
 /// φ over equal intervals of height, and what its integrals need.
@@ -128,7 +129,7 @@ impl Stratification {
         for (fraction, (overburden, mixing_length)) in columns.zip(integrals) {
             let mut load = 0.0;
             for (fraction, overburden) in fraction.iter().zip(overburden).rev() {
-                let own = fraction * strata.buoyant_weight * strata.interval;
+                let own = fraction * strata.buoyant_weight * factor(Planted::Overburden) * strata.interval;
                 *overburden = load + 0.5 * own;
                 load += own;
             }

@@ -2,6 +2,7 @@
 
 use crate::kernel::Kernel;
 use crate::lanes::InstructionSet;
+use crate::planted;
 use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::{Images, Wall};
@@ -63,7 +64,7 @@ impl<const D: usize> State<D> {
                 equation_of_state: scene.equation_of_state,
                 rheology: scene.rheology,
                 numerics,
-                gravity: scene.gravity,
+                gravity: planted::gravity(scene.gravity),
                 spacing: scene.spacing,
                 contact_friction: scene.rheology.contact_friction(),
                 instruction_set: InstructionSet::best(),

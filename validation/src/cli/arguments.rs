@@ -81,6 +81,17 @@ The folder receives manifest.json, runs/NNNN-CASE/, results.csv (one line a metr
 
 Exit codes: 0 every run has numbers, 1 some are missing, 2 bad input, 3 some failed (see failures.csv).";
 
+const MUTATE_EXAMPLES: &str = "Examples:
+  cargo run --package bagnold-validation --features planted-errors -- mutate
+  bagnold mutate list                                    the errors, and the cases that ought to see them
+  bagnold mutate --errors von-karman,gravity-value       some of them
+  bagnold mutate trial von-karman clear-water            one case with one error, as `bagnold run` shows it
+
+Needs a program built with the feature planted-errors; one built without has no errors in it. Each error is
+caught by a gate that held without it, by a run that stops, only by the snapshot of accepted values, or by nothing.
+
+Exit codes: 0 enough errors are caught, and by gates; 1 too few; 2 bad input, or a program without errors.";
+
 /// Granular and sediment flows by smoothed particle hydrodynamics, judged against exact solutions and experiments.
 #[derive(Debug, Parser)]
 #[command(name = "bagnold", version, after_help = EXAMPLES, propagate_version = true)]
@@ -113,6 +124,8 @@ pub enum Command {
     Calibrate(Calibrate),
     /// Simulate cases at many points of their parameters, here or on a cluster.
     Sweep(Box<Sweep>),
+    /// Plant errors in the solver, one at a time, and say which gates notice.
+    Mutate(Mutate),
 }
 
 /// `bagnold show` and `bagnold schema`
@@ -266,6 +279,47 @@ pub enum SweepAction {
     },
     /// Print the Slurm script that ships with bagnold, to be edited for --template.
     Template,
+}
+
+/// `bagnold mutate`
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, after_help = MUTATE_EXAMPLES)]
+pub struct Mutate {
+    /// What to do instead of trying errors.
+    #[command(subcommand)]
+    pub action: Option<MutateAction>,
+    /// Errors by name, separated by commas [default: all].
+    #[arg(long, value_name = "ERROR,…", value_delimiter = ',')]
+    pub errors: Vec<String>,
+    /// Folder to write.
+    #[arg(long, value_name = "DIR", default_value = "reports/mutation")]
+    pub out: PathBuf,
+    /// Threads to use [default: all cores].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+/// What `bagnold mutate` does beside trying errors.
+#[derive(Debug, Subcommand)]
+pub enum MutateAction {
+    /// List the errors and the cases that ought to see them.
+    List,
+    /// Plant one error and run one case at the quick tier; the store is neither read nor written.
+    Trial {
+        /// Name of the error, or `none`.
+        error: String,
+        /// Name of the case.
+        case: String,
+        /// Change one parameter; may be repeated.
+        #[arg(long = "set", value_name = "path=value")]
+        settings: Vec<String>,
+        /// File to write what the case said to, as `bagnold mutate` reads it, instead of printing it.
+        #[arg(long, value_name = "FILE")]
+        result: Option<PathBuf>,
+        /// Threads to use [default: all cores].
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+        threads: Option<u16>,
+    },
 }
 
 /// What to ask of Slurm.

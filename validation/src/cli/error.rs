@@ -24,6 +24,26 @@ pub enum ProgramError {
     /// A calibration is refused.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
+    /// A program without errors to plant.
+    #[error(
+        "failed to plant errors: this program was built without any; build one that has them with \
+         `cargo run --package bagnold-validation --features planted-errors -- mutate`"
+    )]
+    NothingToPlant,
+    /// An error that cannot be planted.
+    #[error("`{name}` is not among the errors that can be planted; `bagnold mutate list` names them")]
+    UnknownError {
+        /// What was asked for.
+        name: String,
+    },
+    /// A case that does not even run without an error.
+    #[error("failed to run {case} without an error: {reason}; see `bagnold run {case}`")]
+    Trial {
+        /// Name of the case.
+        case: String,
+        /// What it said.
+        reason: String,
+    },
     /// The committed baseline or list of known failures cannot be used.
     #[error("failed to {0}; correct the file or restore it from version control")]
     Baseline(#[from] BaselineError),

@@ -5,6 +5,8 @@ mod calibrate;
 mod error;
 mod exit;
 mod logging;
+#[cfg(feature = "planted-errors")]
+mod mutate;
 mod progress;
 mod report;
 mod run;
@@ -76,6 +78,10 @@ pub fn execute(
             in_pool(&command.work, || calibrate::run(command, registry, arguments.quiet, output))
         }
         Command::Sweep(command) => in_pool(&command.work, || sweep::sweep(command, registry, arguments.quiet, output)),
+        #[cfg(feature = "planted-errors")]
+        Command::Mutate(command) => mutate::mutate(command, registry, arguments.quiet, output),
+        #[cfg(not(feature = "planted-errors"))]
+        Command::Mutate(_) => Err(ProgramError::NothingToPlant),
         Command::Report(command) => {
             in_pool(&command.work, || report::report(command, registry, arguments.quiet, output))
         }
@@ -84,8 +90,16 @@ pub fn execute(
 
 /// Runs a command inside a pool of the threads asked for.
 fn in_pool(work: &Work, command: impl FnOnce() -> Result<Exit, ProgramError> + Send) -> Result<Exit, ProgramError> {
+    in_pool_of(work.threads, command)
+}
+
+/// Runs a command inside a pool of so many threads, or of one a core.
+fn in_pool_of(
+    threads: Option<u16>,
+    command: impl FnOnce() -> Result<Exit, ProgramError> + Send,
+) -> Result<Exit, ProgramError> {
     // For rayon, 0 threads means all cores.
-    let threads = usize::from(work.threads.unwrap_or(0));
+    let threads = usize::from(threads.unwrap_or(0));
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()

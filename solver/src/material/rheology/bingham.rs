@@ -6,6 +6,7 @@
 use super::ViscousLaw;
 use super::regularisation::inverse_shear_rate;
 use crate::parameter::{above, not_negative};
+use crate::planted::{Planted, factor};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +28,8 @@ pub struct Bingham {
 impl ViscousLaw for Bingham {
     #[inline]
     fn viscosity(&self, shear_rate: f64, _pressure: f64) -> f64 {
-        self.plastic_viscosity + self.yield_stress * inverse_shear_rate(shear_rate, self.regularisation_rate)
+        let yield_stress = self.yield_stress * factor(Planted::YieldNorm);
+        self.plastic_viscosity + yield_stress * inverse_shear_rate(shear_rate, self.regularisation_rate)
     }
 
     #[inline]

@@ -19,6 +19,7 @@
 use super::{PlasticLaw, RegularisedMuI, TrialStress, rising_friction};
 use crate::lanes::Real;
 use crate::parameter::{ParameterProblem, above};
+use crate::planted::{Planted, factor, planted};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -28,7 +29,7 @@ const REST_SHEAR_RATE: f64 = 1e-6;
 /// Shear rate γ̇_0 = I_0 √(p/ρ_s)/D `[1/s]` at which the inertial number (32) is the reference I_0 `[-]`.
 #[inline]
 pub(super) fn reference_rate(reference_inertia: f64, grain_diameter: f64, grain_density: f64, pressure: f64) -> f64 {
-    reference_inertia * (pressure / grain_density).sqrt() / grain_diameter
+    reference_inertia * factor(Planted::ViscousReferenceRate) * (pressure / grain_density).sqrt() / grain_diameter
 }
 
 /// Declares a law with the parameters of μ(I), and more after them.
@@ -122,11 +123,16 @@ impl PlasticLaw for MuI {
     fn admissible_shear_stress<R: Real>(&self, trial: &TrialStress<R>) -> R {
         let TrialStress { shear_stress: trial_shear_stress, shear_modulus, time_step, .. } = *trial;
         let pressure = trial.pressure.max(R::splat(0.0));
-        let static_stress = R::splat(self.static_friction) * pressure; // S_0
-        let limiting_stress = R::splat(self.limiting_friction) * pressure; // S_2
+        let mut static_stress = R::splat(self.static_friction) * pressure; // S_0
+        let mut limiting_stress = R::splat(self.limiting_friction) * pressure; // S_2
+        if planted(Planted::FrictionSwapped) {
+            std::mem::swap(&mut static_stress, &mut limiting_stress);
+        }
         // A = G Δt ξ √p, where ξ √p is the shear rate at which I = I_0
-        let rate = (pressure / R::splat(self.grain_density)).sqrt();
-        let relaxation = rate * R::splat(self.reference_inertia / self.grain_diameter * shear_modulus * time_step);
+        let square = pressure / R::splat(self.grain_density * factor(Planted::InertialDensity));
+        let rate = if planted(Planted::InertialRoot) { square } else { square.sqrt() };
+        let reference_inertia = self.reference_inertia * factor(Planted::ReferenceInertia);
+        let relaxation = rate * R::splat(reference_inertia / self.grain_diameter * shear_modulus * time_step);
         let sum = limiting_stress + trial_shear_stress + relaxation; // B
         let product = limiting_stress * trial_shear_stress + static_stress * relaxation; // H
         let gap = trial_shear_stress + relaxation - limiting_stress;

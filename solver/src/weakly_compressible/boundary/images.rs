@@ -4,6 +4,7 @@
 //! components of tensors that couple normal and tangent, change their sign.
 
 use crate::domain::{AxisBoundary, Domain};
+use crate::planted::{Planted, factor, planted};
 use crate::vector::{Tensor, Vector};
 
 /// One image: x = sign ∘ x_source + shift.
@@ -59,10 +60,10 @@ impl<const D: usize> Images<D> {
                     AxisBoundary::Open => {}
                     AxisBoundary::Periodic { lower, upper } => {
                         if coordinate < lower + reach {
-                            add(1.0, upper - lower);
+                            add(1.0, (upper - lower) * factor(Planted::PeriodicShift));
                         }
                         if coordinate > upper - reach {
-                            add(1.0, lower - upper);
+                            add(1.0, (lower - upper) * factor(Planted::PeriodicShift));
                         }
                     }
                     AxisBoundary::Mirror { lower, upper } => {
@@ -94,6 +95,9 @@ impl<const D: usize> Images<D> {
     }
 
     pub(crate) fn copy_vectors(&self, field: &mut [Vector<D>]) {
+        if planted(Planted::MirrorVectorSign) {
+            return self.copy(field, |value, _| *value);
+        }
         self.copy(field, |value, image| image.sign.component_mul(value));
     }
 
@@ -102,6 +106,9 @@ impl<const D: usize> Images<D> {
     }
 
     pub(crate) fn copy_tensors(&self, field: &mut [Tensor<D>]) {
+        if planted(Planted::MirrorTensorSign) {
+            return self.copy(field, |value, _| *value);
+        }
         self.copy(field, |value, image| {
             let mut copy = *value;
             for i in 0..D {

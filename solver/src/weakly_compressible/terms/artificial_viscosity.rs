@@ -1,6 +1,7 @@
 //! Artificial viscosity (15) for approaching pairs and Morris & Monaghan's switch (16) of its coefficient.
 
 use crate::lanes::{Lanes, Real};
+use crate::planted::{Planted, planted};
 
 /// Smallest coefficient of the switch `[-]`.
 pub const SWITCH_LOWEST: f64 = 0.1;
@@ -20,7 +21,9 @@ pub fn mean_strength<V: Lanes>(alpha_a: V, alpha_b: V, speed_length: f64) -> V {
 /// `strength` is α h c `[m²/s]`, `approach` r_ab·v_ab `[m²/s]`, `inverse` 1/(ρ̄ (r² + δ²)) `[m/kg]`.
 #[inline(always)]
 pub fn pair_factor<V: Lanes>(strength: V, approach: V, inverse: V) -> V {
-    strength * approach.min(V::splat(0.0)) * inverse
+    let none = V::splat(0.0);
+    let met = if planted(Planted::ArtificialViscositySign) { approach.max(none) } else { approach.min(none) };
+    strength * met * inverse
 }
 
 /// One explicit step of (16): dα/dt = −(α − α_min)/ς + S, S = max(0, −∇·v), ς = h/(σ c).

@@ -1,0 +1,188 @@
+//! `bagnold mutate`: plants the solver's errors one at a time, each in a program of its own, and says who noticed.
+
+use super::arguments::{Mutate, MutateAction};
+use super::error::ProgramError;
+use super::progress::Count;
+use super::{Exit, say, summary};
+use crate::case::{Registry, share_out};
+use crate::mutation::{Finding, Scope, Sighting, Tally, judge, run_trial, scopes, table, write};
+use crate::output::{FileError, OutputFolder};
+use bagnold_solver::planted::Planted;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// The name of no error: a case as it is.
+const NONE: &str = "none";
+
+/// A case with an error may take so many times as long as without, and some seconds more; then it is stopped.
+const PATIENCE: (f64, f64) = (10.0, 60.0);
+
+/// Lists, tries one error, or tries all.
+pub(super) fn mutate(
+    command: &Mutate,
+    registry: Registry,
+    quiet: bool,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, ProgramError> {
+    match &command.action {
+        Some(MutateAction::List) => {
+            let width = Planted::ALL.iter().map(|error| error.name().len()).max().unwrap_or(0);
+            for &error in Planted::ALL {
+                let cases: Vec<String> = scopes(error).into_iter().map(|scope| scope.case).collect();
+                say(output, &format!("{:width$}  {}; {}\n", error.name(), error.says(), cases.join(", ")));
+            }
+            Ok(Exit::Held)
+        }
+        Some(MutateAction::Trial { error, case, settings, result, threads }) => {
+            let error = if error == NONE { None } else { Some(named(error)?) };
+            let scope = Scope { case: case.clone(), settings: settings.clone() };
+            super::in_pool_of(*threads, || {
+                let (results, sighting) = run_trial(error, &scope, registry)?;
+                match result {
+                    Some(file) => sighting.write(file).map_err(|error| FileError::unwritable(file, &error))?,
+                    None => results.iter().for_each(|result| say(output, &summary::of_case(result, |_| false))),
+                }
+                Ok(Exit::of(&results, |_, _| false))
+            })
+        }
+        None => super::in_pool_of(command.threads, || all(command, quiet, output)),
+    }
+}
+
+fn named(name: &str) -> Result<Planted, ProgramError> {
+    let found = Planted::ALL.iter().copied().find(|error| error.name() == name);
+    found.ok_or_else(|| ProgramError::UnknownError { name: name.to_owned() })
+}
+
+/// Tries the errors asked for, writes the findings and prints them.
+fn all(command: &Mutate, quiet: bool, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+    let errors = if command.errors.is_empty() {
+        Planted::ALL.to_vec()
+    } else {
+        command.errors.iter().map(|name| named(name.trim())).collect::<Result<Vec<_>, _>>()?
+    };
+    if command.out.starts_with("reports") {
+        OutputFolder::adopt(Path::new("reports"))?;
+    }
+    let claimed = OutputFolder::claim(&command.out)?;
+    let started = Instant::now();
+    let findings = findings(&errors, claimed.staging(), quiet)?;
+    write(&findings, claimed.staging()).map_err(|error| FileError::unwritable(&command.out, &error))?;
+    claimed.publish()?;
+    say(output, &table(&findings));
+    say(output, &format!("{:.0} s; written to {}\n", started.elapsed().as_secs_f64(), command.out.display()));
+    Ok(if Tally::of(&findings).holds() { Exit::Held } else { Exit::GateFailed })
+}
+
+/// Every case first without errors, then each error through its cases until one notices for certain; as many at a time
+/// as there are threads.
+fn findings(errors: &[Planted], staging: &Path, quiet: bool) -> Result<Vec<Finding>, ProgramError> {
+    let program = Program::own(staging)?;
+    let cases: BTreeSet<Scope> = errors.iter().flat_map(|&error| scopes(error)).collect();
+    let bar = Count::new("cases and errors", cases.len() + errors.len(), 0, quiet);
+    let right = Mutex::new(BTreeMap::new());
+    share_out(cases.into_iter().collect(), |scope: Scope| -> Result<(), ProgramError> {
+        bar.say(&scope.case);
+        let sighting = program.run(NONE, &scope, Duration::MAX);
+        bar.step();
+        let sighting = sighting.map_err(|reason| ProgramError::Trial { case: scope.case.clone(), reason })?;
+        right.lock().unwrap_or_else(PoisonError::into_inner).insert(scope, sighting);
+        Ok(())
+    })?;
+    let right = right.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let cost = |error: Planted| -> f64 {
+        scopes(error).iter().filter_map(|scope| right.get(scope)).map(|sighting| sighting.wall_seconds).sum()
+    };
+    let mut queue = errors.to_vec();
+    queue.sort_by(|&a, &b| cost(b).total_cmp(&cost(a)));
+    let findings = Mutex::new(BTreeMap::new());
+    share_out(queue, |error: Planted| -> Result<(), ProgramError> {
+        bar.say(error.name());
+        let finding = program.try_error(error, &right);
+        tracing::info!("{}", table(std::slice::from_ref(&finding)).lines().next().unwrap_or_default());
+        findings.lock().unwrap_or_else(PoisonError::into_inner).insert(error, finding);
+        bar.step();
+        Ok(())
+    })?;
+    bar.clear();
+    Ok(findings.into_inner().unwrap_or_else(PoisonError::into_inner).into_values().collect())
+}
+
+/// This program, run again for each trial: an error is planted for good, and may stop the program that has it.
+struct Program {
+    path: PathBuf,
+    /// Where the trials leave what they found.
+    folder: PathBuf,
+}
+
+impl Program {
+    fn own(staging: &Path) -> Result<Self, ProgramError> {
+        let path = std::env::current_exe().map_err(|error| FileError::unreadable(Path::new("bagnold"), &error))?;
+        let folder = staging.join("trials");
+        std::fs::create_dir_all(&folder).map_err(|error| FileError::unwritable(&folder, &error))?;
+        Ok(Self { path, folder })
+    }
+
+    /// Runs an error through its cases, the likeliest first, until a gate or a stop has caught it.
+    fn try_error(&self, error: Planted, right: &BTreeMap<Scope, Sighting>) -> Finding {
+        let scopes = scopes(error);
+        let mut comparisons = Vec::new();
+        for scope in &scopes {
+            let Some(right) = right.get(scope) else { continue };
+            let limit = Duration::from_secs_f64(PATIENCE.0 * right.wall_seconds + PATIENCE.1);
+            comparisons.push((scope, right, self.run(error.name(), scope, limit)));
+            if judge(error, &comparisons).catch.is_certain() {
+                break;
+            }
+        }
+        judge(error, &comparisons)
+    }
+
+    /// Runs a trial on the current pool's number of threads.
+    ///
+    /// # Errors
+    /// Why it has left nothing: it stopped, or was stopped.
+    fn run(&self, error: &str, scope: &Scope, limit: Duration) -> Result<Sighting, String> {
+        let file = self.folder.join(format!("{error}-{}", scope.case));
+        let mut command = Command::new(&self.path);
+        command.args(["--quiet", "mutate", "trial", error, &scope.case]);
+        for setting in &scope.settings {
+            command.args(["--set", setting]);
+        }
+        command.arg("--threads").arg(rayon::current_num_threads().to_string()).arg("--result").arg(&file);
+        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+        let started = Instant::now();
+        let mut child = command.spawn().map_err(|error| error.to_string())?;
+        loop {
+            match child.try_wait() {
+                Ok(Some(_)) => break,
+                Ok(None) if started.elapsed() > limit => {
+                    // It may have ended just now.
+                    let _ = child.kill();
+                    let _ = child.wait();
+                    return Err(format!(
+                        "stopped after {:.0} s, ten times as long as without the error",
+                        limit.as_secs_f64()
+                    ));
+                }
+                Ok(None) => std::thread::sleep(Duration::from_millis(50)),
+                Err(error) => return Err(error.to_string()),
+            }
+        }
+        let said = child.wait_with_output().map(|output| String::from_utf8_lossy(&output.stderr).into_owned());
+        let reason =
+            || said.unwrap_or_default().lines().next().unwrap_or("the program ended without a word").to_owned();
+        Sighting::read(&file).ok_or_else(reason)
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        // What stays behind stands in the staging folder, which goes as well.
+        let _ = std::fs::remove_dir_all(&self.folder);
+    }
+}

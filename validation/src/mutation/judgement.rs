@@ -1,0 +1,216 @@
+//! Who noticed an error: a gate, a divergence, the snapshot, or nobody.
+
+use super::{Scope, Sighting};
+use crate::metric::{Limit, Metric, Verdict};
+use crate::report::Baseline;
+use bagnold_solver::planted::Planted;
+
+/// A gate that held and fails now.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Broken {
+    /// Name of the case.
+    pub case: String,
+    /// The metric as it is with the error.
+    pub metric: Metric,
+}
+
+impl Broken {
+    /// How far beyond its limit the value is, over the limit's size `[-]`; infinite for no number.
+    fn excess(&self) -> f64 {
+        let Some(gate) = &self.metric.gate else { return 0.0 };
+        let size = match gate.limit {
+            Limit::AtMost(bound) | Limit::AtLeast(bound) => bound.abs(),
+            Limit::Within(lower, upper) => upper - lower,
+        };
+        let excess = -gate.limit.margin(self.metric.value) / size;
+        if excess.is_nan() { f64::INFINITY } else { excess }
+    }
+}
+
+/// The strongest witness of an error.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Catch {
+    /// Gates that held without the error, the one furthest beyond its limit first.
+    Gate(Vec<Broken>),
+    /// A run that diverged, or a program that stopped: the case and what it said.
+    Stop(String),
+    /// Values that moved by more than they may, and no gate among them.
+    Snapshot,
+    /// Nobody.
+    Nothing,
+}
+
+impl Catch {
+    /// Whether `bagnold report` fails by it on its own.
+    #[must_use]
+    pub fn is_certain(&self) -> bool {
+        matches!(self, Self::Gate(_) | Self::Stop(_))
+    }
+}
+
+/// What became of one error.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// The error.
+    pub error: Planted,
+    /// The cases that ran, in order.
+    pub cases: Vec<String>,
+    /// Who noticed.
+    pub catch: Catch,
+    /// Values that moved beyond their snapshot tolerance, came or went.
+    pub drifted: usize,
+    /// The first of them, a sentence; empty where there is none.
+    pub first_drift: String,
+    /// Wall time of its runs `[s]`.
+    pub wall_seconds: f64,
+}
+
+/// One case with and without the error. A case that did not end has no sighting but a reason.
+pub type Comparison<'a> = (&'a Scope, &'a Sighting, Result<Sighting, String>);
+
+/// Judges what the cases of an error said, each with what it says without.
+#[must_use]
+pub fn judge(error: Planted, comparisons: &[Comparison<'_>]) -> Finding {
+    let (mut broken, mut stops, mut drifts, mut wall_seconds) = (Vec::new(), Vec::new(), Vec::new(), 0.0);
+    for (scope, right, wrong) in comparisons {
+        let case = &scope.case;
+        match wrong {
+            Err(reason) => stops.push(format!("{case}: {reason}")),
+            Ok(wrong) => {
+                wall_seconds += wrong.wall_seconds;
+                stops.extend(wrong.diverged.iter().map(|message| format!("{case}: {message}")));
+                broken.extend(broken_gates(case, right, wrong));
+                let accepted = Baseline::of(case, &right.metrics);
+                drifts.extend(
+                    accepted.differences(case, &wrong.metrics).into_iter().map(|text| format!("{case}: {text}")),
+                );
+            }
+        }
+    }
+    broken.sort_by(|a: &Broken, b: &Broken| b.excess().total_cmp(&a.excess()));
+    let catch = if !broken.is_empty() {
+        Catch::Gate(broken)
+    } else if let Some(first) = stops.into_iter().next() {
+        Catch::Stop(first)
+    } else if !drifts.is_empty() {
+        Catch::Snapshot
+    } else {
+        Catch::Nothing
+    };
+    Finding {
+        error,
+        cases: comparisons.iter().map(|(scope, ..)| scope.case.clone()).collect(),
+        catch,
+        drifted: drifts.len(),
+        first_drift: drifts.into_iter().next().unwrap_or_default(),
+        wall_seconds,
+    }
+}
+
+/// Gates of a case that hold without the error and fail with it. A value that is gone is the snapshot's business.
+fn broken_gates<'a>(case: &'a str, right: &'a Sighting, wrong: &'a Sighting) -> impl Iterator<Item = Broken> + 'a {
+    let held = |metric: &Metric| {
+        let is_it = |other: &&Metric| other.name == metric.name && other.variant == metric.variant;
+        right.metrics.iter().find(is_it).is_some_and(|other| other.verdict() == Verdict::Pass)
+    };
+    let fails = move |metric: &&Metric| metric.verdict() == Verdict::Fail && held(metric);
+    wrong.metrics.iter().filter(fails).map(|metric| Broken { case: case.to_owned(), metric: metric.clone() })
+}
+
+/// Errors by their strongest witness.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Tally {
+    /// By a gate.
+    pub gate: usize,
+    /// By a run that diverged or a program that stopped.
+    pub stop: usize,
+    /// By the snapshot alone.
+    pub snapshot: usize,
+    /// By nobody.
+    pub nothing: usize,
+}
+
+impl Tally {
+    /// Counts.
+    #[must_use]
+    pub fn of(findings: &[Finding]) -> Self {
+        let mut tally = Self::default();
+        for finding in findings {
+            *match finding.catch {
+                Catch::Gate(_) => &mut tally.gate,
+                Catch::Stop(_) => &mut tally.stop,
+                Catch::Snapshot => &mut tally.snapshot,
+                Catch::Nothing => &mut tally.nothing,
+            } += 1;
+        }
+        tally
+    }
+
+    /// All errors.
+    #[must_use]
+    pub fn all(&self) -> usize {
+        self.gate + self.stop + self.snapshot + self.nothing
+    }
+
+    /// Share of the errors that somebody noticed `[-]`.
+    #[must_use]
+    pub fn caught(&self) -> f64 {
+        (self.all() - self.nothing) as f64 / self.all().max(1) as f64
+    }
+
+    /// Share of the errors that make `bagnold report` fail on its own, by a gate or a divergence `[-]`.
+    #[must_use]
+    pub fn gated(&self) -> f64 {
+        (self.gate + self.stop) as f64 / self.all().max(1) as f64
+    }
+
+    /// Whether both shares are as large as they must be.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.caught() >= super::LEAST_CAUGHT && self.gated() >= super::LEAST_GATED
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::metric::Variant;
+
+    fn sighting(value: f64, gated: bool) -> Sighting {
+        let metric = Metric::observed("error", &Variant::default(), value, "%").with_snapshot_tolerance(0.1, 0.0);
+        let metric = if gated { metric.gated(Limit::AtMost(2.0), "a reason") } else { metric };
+        Sighting { metrics: vec![metric], diverged: Vec::new(), wall_seconds: 1.0 }
+    }
+
+    fn found(right: &Sighting, wrong: Result<Sighting, String>) -> Finding {
+        let scope = Scope { case: "film".to_owned(), settings: Vec::new() };
+        judge(Planted::VonKarman, &[(&scope, right, wrong)])
+    }
+
+    #[test]
+    fn the_strongest_witness_counts() {
+        let right = sighting(1.0, true);
+        assert!(matches!(found(&right, Ok(sighting(3.0, true))).catch, Catch::Gate(broken) if broken.len() == 1));
+        assert_eq!(found(&right, Ok(sighting(1.5, true))).catch, Catch::Snapshot);
+        assert_eq!(found(&right, Ok(sighting(1.05, true))).catch, Catch::Nothing);
+        assert!(matches!(found(&right, Err("stopped".to_owned())).catch, Catch::Stop(_)));
+        let diverged = Sighting { diverged: vec!["at once".to_owned()], ..right.clone() };
+        assert!(matches!(found(&right, Ok(diverged)).catch, Catch::Stop(_)));
+    }
+
+    #[test]
+    fn a_gate_that_fails_anyway_is_no_witness() {
+        assert_eq!(found(&sighting(2.5, true), Ok(sighting(4.0, true))).catch, Catch::Snapshot);
+        assert_eq!(found(&sighting(1.0, false), Ok(sighting(1.0, false))).catch, Catch::Nothing);
+        assert!(matches!(found(&sighting(1.0, true), Ok(sighting(f64::NAN, true))).catch, Catch::Gate(_)));
+    }
+
+    #[test]
+    fn shares_count_divergence_with_the_gates() {
+        let tally = Tally { gate: 15, stop: 2, snapshot: 2, nothing: 1 };
+        assert_eq!((tally.all(), tally.caught(), tally.gated()), (20, 0.95, 0.85));
+        assert!(tally.holds());
+        assert!(!Tally { nothing: 2, snapshot: 1, ..tally }.holds());
+        assert!(!Tally { stop: 1, snapshot: 3, ..tally }.holds());
+    }
+}

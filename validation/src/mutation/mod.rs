@@ -1,0 +1,26 @@
+//! Which errors would be noticed: each of the solver's planted errors, one at a time, through the cases that ought to see it.
+//!
+//! A case with an error is compared with the same case of the same program without one, so that neither accepted values
+//! that are out of date nor gates that fail anyway count. What is asked is who would have noticed:
+//! - a *gate* that held and fails now, or a run that diverges, or a program that stops: `bagnold report` fails on its own;
+//! - only the *snapshot*: values move by more than they may against those accepted before;
+//! - *nothing*.
+//!
+//! A snapshot tells that something changed, not that it is wrong; who accepts it, accepts the error. So the gates are what
+//! counts: [`LEAST_CAUGHT`] and [`LEAST_GATED`] are what a set of gates must reach.
+
+mod declared;
+mod judgement;
+mod page;
+mod trial;
+
+pub use declared::{scopes, settings_of};
+pub use judgement::{Broken, Catch, Comparison, Finding, Tally, judge};
+pub use page::{table, write};
+pub use trial::{Scope, Sighting, run_trial};
+
+/// Share of the errors that something must notice `[-]`.
+pub const LEAST_CAUGHT: f64 = 0.95;
+
+/// Share of the errors that a gate must notice `[-]`.
+pub const LEAST_GATED: f64 = 0.85;

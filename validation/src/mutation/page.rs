@@ -1,0 +1,119 @@
+//! The findings as a table for the terminal, as CSV and as Markdown.
+
+use super::{Catch, Finding, LEAST_CAUGHT, LEAST_GATED, Tally};
+use crate::metric::Limit;
+use crate::number::short_digits;
+use std::fmt::Write as _;
+use std::path::Path;
+
+const COLUMNS: [&str; 6] = ["error", "what is wrong", "cases", "caught by", "witness", "values drifted"];
+
+/// Who noticed, in a word.
+fn word(catch: &Catch) -> &'static str {
+    match catch {
+        Catch::Gate(_) => "gate",
+        Catch::Stop(_) => "stop",
+        Catch::Snapshot => "snapshot only",
+        Catch::Nothing => "NOTHING",
+    }
+}
+
+/// Which gate with its value and limit, or what a run said.
+fn witness(finding: &Finding) -> String {
+    match &finding.catch {
+        Catch::Gate(broken) => {
+            let Some(first) = broken.first() else { return String::new() };
+            let metric = &first.metric;
+            let limit = metric.gate.as_ref().map_or_else(String::new, |gate| rule(gate.limit));
+            let others = if broken.len() > 1 { format!(" and {} more", broken.len() - 1) } else { String::new() };
+            let value = short_digits(metric.value, 4);
+            format!(
+                "{} {} [{}] = {value} {}, must be {limit}{others}",
+                first.case, metric.name, metric.variant, metric.unit
+            )
+        }
+        Catch::Stop(message) => message.clone(),
+        Catch::Snapshot => finding.first_drift.clone(),
+        Catch::Nothing => String::new(),
+    }
+}
+
+fn rule(limit: Limit) -> String {
+    let digits = |value| short_digits(value, 4);
+    match limit {
+        Limit::AtMost(bound) => format!("≤ {}", digits(bound)),
+        Limit::AtLeast(bound) => format!("≥ {}", digits(bound)),
+        Limit::Within(lower, upper) => format!("{} … {}", digits(lower), digits(upper)),
+    }
+}
+
+fn row(finding: &Finding) -> [String; 6] {
+    [
+        finding.error.name().to_owned(),
+        finding.error.says().to_owned(),
+        finding.cases.join(", "),
+        word(&finding.catch).to_owned(),
+        witness(finding),
+        finding.drifted.to_string(),
+    ]
+}
+
+/// The shares in a sentence each, with what they must be.
+fn shares(findings: &[Finding]) -> String {
+    let tally = Tally::of(findings);
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    format!(
+        "{} errors: {} caught by a gate, {} by a run that stopped, {} by the snapshot only, {} by nothing.\n\
+         Caught: {} (at least {}). By a gate or a stop: {} (at least {}).\n",
+        tally.all(),
+        tally.gate,
+        tally.stop,
+        tally.snapshot,
+        tally.nothing,
+        percent(tally.caught()),
+        percent(LEAST_CAUGHT),
+        percent(tally.gated()),
+        percent(LEAST_GATED),
+    )
+}
+
+/// A line for each error, what nobody's gate noticed last, then the shares.
+#[must_use]
+pub fn table(findings: &[Finding]) -> String {
+    let mut text = String::new();
+    let width = findings.iter().map(|finding| finding.error.name().len()).max().unwrap_or(0);
+    for finding in findings {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{:width$}  {:13}  {}", finding.error.name(), word(&finding.catch), witness(finding));
+    }
+    text + "\n" + &shares(findings)
+}
+
+/// The same as Markdown, with what is wrong and which cases ran.
+fn markdown(findings: &[Finding]) -> String {
+    let mut text = format!("# Planted errors\n\n{}\n", shares(findings));
+    let mut line = |cells: &[String]| {
+        let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+        text += &format!("| {} |\n", cells.join(" | "));
+    };
+    line(&COLUMNS.map(str::to_owned));
+    line(&COLUMNS.map(|_| "---".to_owned()));
+    for finding in findings {
+        line(&row(finding));
+    }
+    text
+}
+
+/// Writes `mutation.md` and `mutation.csv` into a folder.
+///
+/// # Errors
+/// The system's.
+pub fn write(findings: &[Finding], folder: &Path) -> std::io::Result<()> {
+    std::fs::write(folder.join("mutation.md"), markdown(findings))?;
+    let mut csv = csv::Writer::from_path(folder.join("mutation.csv"))?;
+    csv.write_record(COLUMNS)?;
+    for finding in findings {
+        csv.write_record(row(finding))?;
+    }
+    csv.flush()
+}

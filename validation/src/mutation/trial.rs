@@ -1,0 +1,79 @@
+//! One case with one error, or with none: what its metrics say.
+
+use crate::case::{CaseResult, Changes, ParameterError, Registry, Silent, Tier, execute};
+use crate::metric::Metric;
+use crate::observation::Outcome;
+use crate::store::{Store, StorePolicy};
+use bagnold_solver::planted::{Planted, plant};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// A case with some of its parameters changed, so that only the runs that matter remain.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Scope {
+    /// Name of the case.
+    pub case: String,
+    /// `path=value`, as `--set` takes them.
+    pub settings: Vec<String>,
+}
+
+/// What a case said.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Sighting {
+    /// Judged and observed numbers.
+    pub metrics: Vec<Metric>,
+    /// Runs that diverged although their case does not expect it, with the message.
+    pub diverged: Vec<String>,
+    /// Sum of the runs' wall times `[s]`.
+    pub wall_seconds: f64,
+}
+
+impl Sighting {
+    fn of(result: &CaseResult) -> Self {
+        let message = |run: &crate::case::RunSummary| match &run.outcome {
+            Outcome::Diverged { message, .. } => format!("{} {message}", run.variant).trim_start().to_owned(),
+            _ => String::new(),
+        };
+        Self {
+            metrics: result.metrics.clone(),
+            diverged: result.unexpected_divergences().map(message).collect(),
+            wall_seconds: result.wall_seconds(),
+        }
+    }
+
+    /// Reads what [`Sighting::write`] wrote; none if there is nothing to be understood.
+    #[must_use]
+    pub fn read(file: &Path) -> Option<Self> {
+        std::fs::read(file).ok().and_then(|bytes| postcard::from_bytes(&bytes).ok())
+    }
+
+    /// Writes it for the program that asked for it.
+    ///
+    /// # Errors
+    /// The system's.
+    pub fn write(&self, file: &Path) -> std::io::Result<()> {
+        let bytes = postcard::to_stdvec(self).map_err(std::io::Error::other)?;
+        std::fs::write(file, bytes)
+    }
+}
+
+/// Plants an error in this program, for good, and runs a case at the quick tier on the current rayon pool. No stored result
+/// is read or written: what is stored belongs to a program without errors.
+///
+/// # Errors
+/// A case or setting that is refused.
+pub fn run_trial(
+    error: Option<Planted>,
+    scope: &Scope,
+    registry: Registry,
+) -> Result<(Vec<CaseResult>, Sighting), ParameterError> {
+    if let Some(error) = error {
+        plant(error);
+    }
+    let changes = Changes { file: None, settings: &scope.settings };
+    let prepared = registry.find(&scope.case)?.prepare(Tier::Quick, &changes)?;
+    let results = execute(vec![prepared], &Store::open(StorePolicy::Bypass), &Silent)?;
+    let sighting = results.first().map(Sighting::of);
+    let nothing = || Sighting { metrics: Vec::new(), diverged: Vec::new(), wall_seconds: 0.0 };
+    Ok((results, sighting.unwrap_or_else(nothing)))
+}
