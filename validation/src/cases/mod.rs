@@ -16,6 +16,7 @@ pub mod flow_thickness;
 pub mod hydrostatic;
 pub mod incline_collapse;
 pub mod layer;
+mod printed_laws;
 mod rules;
 pub mod settling;
 pub mod still_water;

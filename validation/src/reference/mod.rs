@@ -14,6 +14,8 @@ mod bed_load_onset;
 mod bed_load_profiles;
 mod bed_load_transport;
 mod collapse_laws;
+mod drag_tables;
+mod eddy_film;
 mod error;
 mod film;
 mod grains;
@@ -35,6 +37,8 @@ pub use bed_load_onset::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, o
 pub use bed_load_profiles::MeasuredBedLoad;
 pub use bed_load_transport::{HONEST_BAND, TransportFormula};
 pub use collapse_laws::{COLLAPSE_DURATION, CollapseLaw, CollapseLaws, DRAWN, PLANAR_COLLAPSE, ROUND_COLLAPSE};
+pub use drag_tables::{HINDERED_SLIPS, HinderedSlip, STANDARD_DRAG, StandardDrag};
+pub use eddy_film::EddyFilm;
 pub use error::ReferenceError;
 pub use film::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
 pub use grains::{FlowRule, GLASS_BEADS, GLASS_BEADS_FLOW_RULE, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};

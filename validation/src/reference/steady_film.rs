@@ -1,13 +1,15 @@
 //! The steady film of any law on an incline: in closed form where there is one, or integrated over the depth.
 
-use super::{BinghamFilm, HerschelBulkleyFilm, Incline, LawFilm, NewtonianFilm};
-use bagnold_solver::material::rheology::Rheology;
+use super::{BinghamFilm, EddyFilm, HerschelBulkleyFilm, Incline, LawFilm, NewtonianFilm};
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
 
 /// The steady film of a law on an incline.
 #[derive(Debug, Clone, Copy)]
 pub enum SteadyFilm {
     /// Of a Newtonian liquid.
     Newtonian(NewtonianFilm),
+    /// Of a Newtonian liquid with eddies.
+    Eddies(EddyFilm),
     /// Of a Bingham fluid.
     Bingham(BinghamFilm),
     /// Of a Herschel–Bulkley fluid.
@@ -37,11 +39,18 @@ impl SteadyFilm {
         }
     }
 
+    /// The film of a Newtonian liquid with eddies of a positive mixing length `[m]`.
+    #[must_use]
+    pub fn with_eddies(liquid: Newtonian, incline: Incline, mixing_length: f64) -> Self {
+        Self::Eddies(EddyFilm { incline, viscosity: liquid.viscosity, mixing_length })
+    }
+
     /// Exact velocity `[m/s]` at a height `[m]`.
     #[must_use]
     pub fn velocity(&self, height: f64) -> f64 {
         match self {
             Self::Newtonian(film) => film.velocity(height),
+            Self::Eddies(film) => film.velocity(height),
             Self::Bingham(film) => film.velocity(height),
             Self::HerschelBulkley(film) => film.velocity(height),
             Self::Integrated(film) => film.velocity(height),
@@ -53,6 +62,7 @@ impl SteadyFilm {
     pub fn flux(&self) -> f64 {
         match self {
             Self::Newtonian(film) => film.flux(),
+            Self::Eddies(film) => film.flux(),
             Self::Bingham(film) => film.flux(),
             Self::HerschelBulkley(film) => film.flux(),
             Self::Integrated(film) => film.flux(),
@@ -65,7 +75,7 @@ impl SteadyFilm {
         match self {
             Self::Bingham(film) => Some(film.plug_edge()),
             Self::HerschelBulkley(film) => Some(film.plug_edge()),
-            Self::Newtonian(_) | Self::Integrated(_) => None,
+            Self::Newtonian(_) | Self::Eddies(_) | Self::Integrated(_) => None,
         }
     }
 
@@ -80,6 +90,7 @@ impl SteadyFilm {
     pub fn relaxing_viscosity(&self) -> f64 {
         match self {
             Self::Newtonian(film) => film.viscosity,
+            Self::Eddies(film) => film.viscosity,
             Self::Bingham(film) => film.plastic_viscosity,
             Self::HerschelBulkley(film) => {
                 film.consistency * libm::pow(film.plug_velocity() / film.plug_edge(), film.flow_index - 1.0)

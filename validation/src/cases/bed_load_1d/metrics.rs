@@ -4,13 +4,17 @@ use super::Record;
 use super::others;
 use super::runs::{BedLoad1dRun, Purpose};
 use crate::case::Run;
+use crate::cases::printed_laws;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Outcome;
 use crate::reference::bed_load_layer::{LayerState, SAME_STATE};
 use crate::reference::{HONEST_BAND, ORIGIN_DEPTH, TransportFormula, roughness_ratio};
 
 quantities! {
-    [others::FRACTION_DIFFERENCE, others::GRAIN_VELOCITY_DIFFERENCE, others::FLUID_VELOCITY_DIFFERENCE]
+    [
+        others::FRACTION_DIFFERENCE, others::GRAIN_VELOCITY_DIFFERENCE, others::FLUID_VELOCITY_DIFFERENCE,
+        printed_laws::LAW_ERROR,
+    ]
     TRANSPORT_RATIO: validated("transport_ratio", "-", "q* over that of the formula"),
     TRANSPORT: validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)"),
     MEAN_FLUID_VELOCITY: verified("mean_fluid_velocity", "m/s", "depth mean of the water's velocity"),

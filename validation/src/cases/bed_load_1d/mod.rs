@@ -2,6 +2,7 @@
 
 mod figures;
 mod grain_units;
+mod laws;
 mod metrics;
 mod onset;
 mod others;
@@ -42,7 +43,7 @@ impl Case for BedLoad1d {
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &BedLoad1dParameters, records: &[Record]) -> Vec<Metric> {
-        metrics::all(records)
+        metrics::all(records).into_iter().chain(laws::metrics()).collect()
     }
 
     fn figures(_: &BedLoad1dParameters, records: &[Record]) -> Vec<Figure> {

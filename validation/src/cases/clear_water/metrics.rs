@@ -4,6 +4,7 @@ use super::Record;
 use super::parameters::Period;
 use crate::case::Run;
 use crate::cases::channel::{self, ProfilePoint};
+use crate::cases::printed_laws;
 use crate::metric::{Confidence, Limit, Metric, quantities};
 use crate::reference::RoughChannel;
 use crate::statistics::linear_fit;
@@ -11,7 +12,7 @@ use crate::statistics::linear_fit;
 quantities! {
     [
         channel::PARTICLES_LOST, channel::MOMENTUM_RESIDUAL, channel::BED_SHEAR, channel::VELOCITY_DRIFT,
-        channel::HEIGHT_CHANGE, channel::PRESSURE_L2,
+        channel::HEIGHT_CHANGE, channel::PRESSURE_L2, printed_laws::LAW_ERROR,
     ]
     STATIONARY_AFTER: verified("stationary_after", "s", "when the depth mean had become stationary by the criterion"),
     VELOCITY_RMS: verified("velocity_rms", "u_*", "root mean square of the velocity less the logarithmic law"),

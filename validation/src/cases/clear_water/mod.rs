@@ -1,6 +1,7 @@
 //! Turbulent flow of clear water over a fixed rough bed against the logarithmic law.
 
 mod figures;
+mod laws;
 mod metrics;
 mod parameters;
 
@@ -31,7 +32,7 @@ impl Case for ClearWater {
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &ClearWaterParameters, records: &[Record]) -> Vec<Metric> {
-        records.iter().flat_map(metrics::of_run).collect()
+        records.iter().flat_map(metrics::of_run).chain(laws::metrics()).collect()
     }
 
     fn figures(_: &ClearWaterParameters, records: &[Record]) -> Vec<Figure> {

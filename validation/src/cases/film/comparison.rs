@@ -16,7 +16,12 @@ pub enum NumericsSet {
     PairwiseCorrected,
     /// The paper's own set with its kernel, its smoothing length and its artificial viscosity.
     Paper,
+    /// The default with a wider skin of the neighbour lists, of which no result may depend.
+    WideSkin,
 }
+
+/// The wider skin over the kernel's support `[-]`.
+const WIDE_SKIN: f64 = 0.3;
 
 impl NumericsSet {
     /// The sets that stand beside the default.
@@ -41,6 +46,7 @@ impl NumericsSet {
             Self::Pairwise => pairwise(MomentumOperator::Pairwise),
             Self::PairwiseCorrected => pairwise(MomentumOperator::PairwiseCorrected),
             Self::Paper => Numerics { viscous_courant: 0.1, ..Numerics::paper() },
+            Self::WideSkin => Numerics { verlet_skin: WIDE_SKIN, ..of_case },
         }
     }
 
@@ -52,6 +58,7 @@ impl NumericsSet {
             Self::Pairwise => "pairwise",
             Self::PairwiseCorrected => "pairwise_corrected",
             Self::Paper => "paper",
+            Self::WideSkin => "wide_skin",
         }
     }
 
@@ -63,6 +70,7 @@ impl NumericsSet {
             Self::Pairwise => "(10) and (11), Morris–Adami walls",
             Self::PairwiseCorrected => "(10) and (13), Morris–Adami walls",
             Self::Paper => "the paper's set: as above, cubic spline, h/Δ = 1.3, switch (16)",
+            Self::WideSkin => "default with a wider skin of the neighbour lists",
         }
     }
 }

@@ -18,7 +18,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         // a second Newtonian film may have been run for the comparison
         .filter(|(run, _)| !newtonian(run) || Some(run.layer.resolution) == finest)
         .collect();
-    let compared = records.iter().find(|(run, _)| run.numerics_set != NumericsSet::Default);
+    let compared = records.iter().find(|(run, _)| NumericsSet::OTHERS.contains(&run.numerics_set));
     let mut figures = Vec::new();
     if !jittered.is_empty() {
         figures.push(profiles(&jittered));
@@ -47,6 +47,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
 
 fn label(run: &FilmRun) -> &'static str {
     match run.law {
+        Rheology::Newtonian(_) if run.has_eddies() => "Newtonian with eddies",
         Rheology::Newtonian(_) => "Newtonian",
         Rheology::Bingham(_) => "Bingham",
         Rheology::HerschelBulkley(_) => "Herschel–Bulkley",

@@ -6,7 +6,7 @@ mod metrics;
 mod parameters;
 mod runs;
 
-pub use parameters::{FilmParameters, FluidKind};
+pub use parameters::{EddyLiquid, FilmParameters, FluidKind};
 pub use runs::FilmRun;
 
 use super::layer;

@@ -4,11 +4,11 @@ use super::comparison::NumericsSet;
 use super::runs::{FilmRun, incline};
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::Arrangement;
-use crate::cases::layer::PeriodicLayer;
+use crate::cases::layer::{PeriodicLayer, Top};
 use crate::cases::rules;
 use crate::reference::{Incline, SteadyFilm};
 use bagnold_solver::material::rheology::{Bingham, CoulombBingham, HerschelBulkley, Newtonian, Rheology};
-use bagnold_solver::parameter::{between, each, positive};
+use bagnold_solver::parameter::{between, each, positive, up_to};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -23,8 +23,25 @@ pub enum FluidKind {
     Bingham,
     /// Herschel–Bulkley.
     HerschelBulkley,
+    /// A Newtonian liquid with eddies, under `eddies`.
+    Eddies,
     /// That of any law, under `material`.
     Material,
+}
+
+/// A thin liquid whose eddies carry as much as its viscosity.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EddyLiquid {
+    /// Viscosity μ `[Pa·s]`.
+    #[schemars(transform = positive("give it in Pa·s; 0.1 is as much as the eddies add"))]
+    pub viscosity: f64,
+    /// C_s of the eddy viscosity (5) `[-]`.
+    #[schemars(transform = up_to(1.0, "give C_s; 1 makes a film's eddies felt"))]
+    pub smagorinsky_constant: f64,
+    /// Rows of particles over the film: C_s Δ is the mixing length.
+    #[schemars(transform = rules::rows())]
+    pub resolution: usize,
 }
 
 /// Parameters of the case.
@@ -59,6 +76,8 @@ pub struct FilmParameters {
     pub bingham: Bingham,
     /// The Herschel–Bulkley fluid.
     pub herschel_bulkley: HerschelBulkley,
+    /// The liquid with eddies.
+    pub eddies: EddyLiquid,
     /// Any other law, for the fluid "material".
     pub material: Rheology,
 }
@@ -75,7 +94,7 @@ impl Parameters for FilmParameters {
             },
             slope_angle: 10.0,
             density: 1000.0,
-            fluids: vec![FluidKind::Newtonian, FluidKind::Bingham, FluidKind::HerschelBulkley],
+            fluids: vec![FluidKind::Newtonian, FluidKind::Bingham, FluidKind::HerschelBulkley, FluidKind::Eddies],
             convergence_resolutions: vec![10, 20],
             comparison_resolution: 20,
             relaxation_times: 5.0,
@@ -89,6 +108,7 @@ impl Parameters for FilmParameters {
                 flow_index: 0.7,
                 regularisation_rate: 0.3,
             },
+            eddies: EddyLiquid { viscosity: 0.1, smagorinsky_constant: 1.0, resolution: 10 },
             // grains that yield by friction alone
             material: Rheology::CoulombBingham(CoulombBingham {
                 yield_stress: 0.0,
@@ -131,6 +151,12 @@ impl Parameters for FilmParameters {
         if self.fluids.contains(&FluidKind::Material) {
             self.check_material()?;
         }
+        let (own, common) = (self.eddies.smagorinsky_constant, self.layer.numerics.smagorinsky_constant);
+        if self.fluids.contains(&FluidKind::Eddies) && own == common {
+            let remedy = "the liquid with eddies is told apart by it; or leave \"eddies\" out of `fluids`";
+            let rule = "another than `numerics.smagorinsky_constant`";
+            return Err(ParameterError::field("eddies.smagorinsky_constant", own, rule, remedy));
+        }
         rules::viscous_step("numerics", &self.layer.numerics, &Rheology::Newtonian(self.newtonian))
     }
 
@@ -139,25 +165,31 @@ impl Parameters for FilmParameters {
             law: self.law(kind),
             particles,
             numerics_set,
+            top: Top::Free,
             layer: PeriodicLayer {
                 resolution,
                 jitter: particles.displacement(self.layer.jitter),
-                numerics: numerics_set.numerics(self.layer.numerics),
+                numerics: numerics_set.numerics(self.numerics(kind)),
                 ..self.layer
             },
             slope_angle: self.slope_angle,
             density: self.density,
-            relaxation_times: match self.law(kind) {
-                Rheology::Newtonian(_) => self.relaxation_times,
+            relaxation_times: match kind {
+                FluidKind::Newtonian => self.relaxation_times,
                 _ => self.yield_relaxation_times,
             },
         };
         let mut runs = Vec::new();
         for &kind in &self.fluids {
-            runs.push(new(kind, Arrangement::Jittered, self.layer.resolution, NumericsSet::Default));
+            let rows = if kind == FluidKind::Eddies { self.eddies.resolution } else { self.layer.resolution };
+            runs.push(new(kind, Arrangement::Jittered, rows, NumericsSet::Default));
             if kind == FluidKind::Newtonian {
                 let study = self.convergence_resolutions.iter();
                 runs.extend(study.map(|&rows| new(kind, Arrangement::Lattice, rows, NumericsSet::Default)));
+                let coarsest = self.convergence_resolutions.iter().min();
+                let own = |&rows: &usize| new(kind, Arrangement::Lattice, rows, NumericsSet::Default);
+                runs.extend(coarsest.map(|rows| FilmRun { top: Top::Mirror, ..own(rows) }));
+                runs.extend(coarsest.map(|&rows| new(kind, Arrangement::Lattice, rows, NumericsSet::WideSkin)));
             }
         }
         if self.comparison_resolution > 0 && self.fluids.contains(&FluidKind::Newtonian) {
@@ -182,7 +214,17 @@ impl FilmParameters {
             FluidKind::Newtonian => Rheology::Newtonian(self.newtonian),
             FluidKind::Bingham => Rheology::Bingham(self.bingham),
             FluidKind::HerschelBulkley => Rheology::HerschelBulkley(self.herschel_bulkley),
+            FluidKind::Eddies => Rheology::Newtonian(Newtonian { viscosity: self.eddies.viscosity }),
             FluidKind::Material => self.material,
+        }
+    }
+
+    fn numerics(&self, kind: FluidKind) -> Numerics {
+        match kind {
+            FluidKind::Eddies => {
+                Numerics { smagorinsky_constant: self.eddies.smagorinsky_constant, ..self.layer.numerics }
+            }
+            _ => self.layer.numerics,
         }
     }
 

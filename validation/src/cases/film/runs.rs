@@ -3,7 +3,7 @@
 use super::comparison::NumericsSet;
 use crate::case::{ParameterError, Progress, Run};
 use crate::cases::Arrangement;
-use crate::cases::layer::{Layer, LayerObservation, PeriodicLayer, bulk_modulus};
+use crate::cases::layer::{Layer, LayerObservation, PeriodicLayer, Top, bulk_modulus};
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::{Incline, SteadyFilm};
@@ -25,6 +25,8 @@ pub struct FilmRun {
     pub particles: Arrangement,
     /// Which numerics.
     pub numerics_set: NumericsSet,
+    /// What is above it.
+    pub top: Top,
     /// The layer, with the rows, displacements and numerics of this run.
     pub layer: PeriodicLayer,
     pub(super) slope_angle: f64,
@@ -37,6 +39,9 @@ impl Run for FilmRun {
 
     fn variant(&self) -> Variant {
         let variant = Variant::of("fluid", self.law.name().replace('-', "_")).and("particles", self.particles.name());
+        let eddies = self.layer.numerics.smagorinsky_constant;
+        let variant = if self.has_eddies() { variant.and("eddies", eddies) } else { variant };
+        let variant = if self.top == Top::Mirror { variant.and("top", "mirror") } else { variant };
         let variant = match self.numerics_set {
             NumericsSet::Default => variant,
             other => variant.and("numerics", other.name()),
@@ -68,13 +73,26 @@ impl FilmRun {
     /// Its steady flow.
     #[must_use]
     pub fn film(&self) -> SteadyFilm {
-        SteadyFilm::of(self.law, self.incline())
+        let numerics = &self.layer.numerics;
+        let spacing = self.layer.layer_height / self.layer.resolution as f64;
+        match self.law {
+            Rheology::Newtonian(liquid) if self.has_eddies() => {
+                SteadyFilm::with_eddies(liquid, self.incline(), numerics.smagorinsky_constant * spacing)
+            }
+            law => SteadyFilm::of(law, self.incline()),
+        }
     }
 
     /// Whether it is the Newtonian film, which is studied for its convergence and its numerics.
     #[must_use]
     pub fn is_newtonian(&self) -> bool {
-        matches!(self.law, Rheology::Newtonian(_))
+        matches!(self.law, Rheology::Newtonian(_)) && !self.has_eddies()
+    }
+
+    /// Whether eddies add to the viscosity.
+    #[must_use]
+    pub fn has_eddies(&self) -> bool {
+        self.layer.numerics.smagorinsky_constant > 0.0
     }
 
     /// Exact velocity `[m/s]` of the Newtonian film as a weakly compressible fluid, whose density grows with the
@@ -83,6 +101,9 @@ impl FilmRun {
     #[must_use]
     pub fn weakly_compressible_velocity(&self, height: f64) -> Option<f64> {
         let Rheology::Newtonian(law) = self.law else { return None };
+        if self.has_eddies() {
+            return None;
+        }
         let layer = self.layer(&|_| 0.0);
         let (bulk_modulus, h) = (layer.bulk_modulus, self.layer.layer_height);
         let rate = self.density * self.layer.gravity * libm::cos(layer.slope_angle) / bulk_modulus;
@@ -98,11 +119,12 @@ impl FilmRun {
         Layer {
             bulk_modulus: bulk_modulus(self.density, gravity, layer_height, film.flux() / layer_height),
             velocity,
+            top: self.top,
             duration,
             window: 0.15 * duration,
             interval: duration / 500.0,
             // (13) is known to go unstable on displaced particles; that is shown, and no error of the run
-            may_diverge: self.numerics_set != NumericsSet::Default,
+            may_diverge: NumericsSet::OTHERS.contains(&self.numerics_set),
             ..self.layer.of(self.law, self.density, self.slope_angle)
         }
     }

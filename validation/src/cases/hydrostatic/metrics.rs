@@ -19,6 +19,13 @@ quantities! {
     PRESSURE_RATIO_MOST: verified("pressure_ratio_most", "-", "largest pressure over the hydrostatic one"),
     HEIGHT_DRIFT: verified("height_drift", "%", "change of the mean height from 1 s to 2 s"),
     ACOUSTIC_BREATHING: verified("acoustic_breathing", "%", "range of the mean height over the last 0.5 s"),
+    KERNEL_INTEGRAL_ERROR: verified("kernel_integral_error", "%", "integral of the kernel over its support, less 1"),
+    KERNEL_MOMENT_ERROR:
+        verified("kernel_moment_error", "%", "second moment of the kernel's gradient −∫ F r²/D dA, less 1"),
+    ELASTIC_SHEAR_ERROR:
+        verified("elastic_shear_error", "%", "shear stress of grains below their yield over G γ, less 1"),
+    STRESS_ROTATION_ERROR:
+        verified("stress_rotation_error", "%", "stress after an eighth of a turn less the turned stress, over its size"),
     RMS_SPEED: verified("rms_speed", "m/s", "root mean square of the speed at the end"),
 }
 

@@ -1,6 +1,8 @@
 //! A layer at rest: pressure, pressure noise, drift.
 
+mod elasticity;
 mod figures;
+mod kernel;
 mod metrics;
 mod parameters;
 
@@ -30,8 +32,11 @@ impl Case for Hydrostatic {
     type Parameters = HydrostaticParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &HydrostaticParameters, records: &[Record]) -> Vec<Metric> {
-        metrics::all(records)
+    fn metrics(parameters: &HydrostaticParameters, records: &[Record]) -> Vec<Metric> {
+        let mut metrics = metrics::all(records);
+        metrics.extend(kernel::all(&parameters.layer.numerics));
+        metrics.extend(elasticity::all(&parameters.grains));
+        metrics
     }
 
     fn figures(_: &HydrostaticParameters, records: &[Record]) -> Vec<Figure> {

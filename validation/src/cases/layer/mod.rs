@@ -24,7 +24,17 @@ use bagnold_solver::weakly_compressible::numerics::ViscousStep;
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use rand::{RngExt, SeedableRng};
+use serde::Serialize;
 use std::ops::ControlFlow;
+
+/// What bounds a layer above.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum Top {
+    /// A free surface.
+    Free,
+    /// A mirror plane: the middle of a channel between two beds, which no shear crosses.
+    Mirror,
+}
 
 /// A layer and how it is run. Lengths in `[m]`, angles in `[rad]`, SI units throughout.
 #[derive(Clone)]
@@ -37,6 +47,8 @@ pub struct Layer<'a> {
     pub reference_density: f64,
     /// Bulk modulus K `[Pa]`.
     pub bulk_modulus: f64,
+    /// What is above it.
+    pub top: Top,
     /// Constitutive law.
     pub rheology: Rheology,
     /// Initial velocity along the slope `[m/s]` at a height `[m]`.
@@ -133,7 +145,11 @@ impl Layer<'_> {
     pub fn scene(&self) -> Scene<2> {
         let spacing = self.spacing();
         let length = self.layer.columns as f64 * spacing;
-        let domain = Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: length }, AxisBoundary::Open] };
+        let above = match self.top {
+            Top::Free => AxisBoundary::Open,
+            Top::Mirror => AxisBoundary::Mirror { lower: None, upper: Some(self.layer.layer_height) },
+        };
+        let domain = Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: length }, above] };
         let bed = Wall::still(1, 0.0, 1.0);
         let wall_rows = (2.0 * self.layer.numerics.smoothing_ratio).ceil() as usize + 1;
         let extent = (Vector::<2>::zeros(), Vector::<2>::new(length, self.layer.layer_height));

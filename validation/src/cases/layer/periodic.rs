@@ -1,6 +1,6 @@
 //! What all cases of a layer ask for alike.
 
-use super::{Layer, Preparation, bulk_modulus};
+use super::{Layer, Preparation, Top, bulk_modulus};
 use crate::case::ParameterError;
 use crate::cases::rules;
 use bagnold_solver::material::rheology::Rheology;
@@ -69,6 +69,7 @@ impl PeriodicLayer {
             slope_angle: slope_angle.to_radians(),
             reference_density,
             bulk_modulus: bulk_modulus(reference_density, self.gravity, self.layer_height, 0.0),
+            top: Top::Free,
             rheology,
             velocity: &|_| 0.0,
             shear_stress: &|_| 0.0,

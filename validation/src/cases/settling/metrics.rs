@@ -21,6 +21,11 @@ quantities! {
     SINKING_OVER_RICHARDSON_ZAKI:
         validated("sinking_over_richardson_zaki", "-", "that velocity over Richardson and Zaki's"),
     UNEVENNESS: verified("unevenness", "%", "scatter of the grains' velocities over the slip"),
+    DRAG_CURVE_ERROR: validated(
+        "drag_curve_error", "%", "largest deviation of a law's drag of one sphere from the standard drag curve",
+    ),
+    LAW_SLIP_ERROR:
+        verified("law_slip_error", "%", "largest deviation of a law's slip from that of the printed law"),
     MOMENTUM_ERROR:
         accounted("momentum_error", "-", "what does not close of a step's momentum, over the grains' weight"),
 }
@@ -35,7 +40,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
         SettlingRun::Grain(own) => alone(own, &run.variant(), &record.data),
         SettlingRun::Suspension(own) => together(own, &run.variant(), &record.data),
     };
-    records.iter().flat_map(judged).collect()
+    records.iter().flat_map(judged).chain(super::laws::all()).collect()
 }
 
 /// Mean of an array over its reference less one `[%]`, observed; its own error is what it may drift by.

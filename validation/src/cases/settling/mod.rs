@@ -4,6 +4,7 @@ mod drag_curves;
 mod experiment;
 mod figures;
 mod grain;
+mod laws;
 mod metrics;
 mod parameters;
 mod probe;
