@@ -22,7 +22,12 @@ const WATER_FILM: &str = "water-film";
 #[must_use]
 pub fn settings_of(case: &str) -> &'static [&'static str] {
     match case {
-        BAGNOLD => &["slope_angles=[22.0, 24.0]"],
+        BAGNOLD => &["slope_angles=[24.0]"],
+        // one slope, and no study of its order
+        BED_LOAD_1D => &["slopes=[0.03]", "dilating_cell_heights=[]", "frozen_cell_heights=[]", "measured=[]"],
+        // other operators are observed and never judged
+        FILM => &["comparison_resolution=0"],
+        STILL_WATER => &["jitters=[0.4]", "unstabilised_jitters=[]"],
         _ => &[],
     }
 }

@@ -9,8 +9,8 @@ use super::profiles;
 use super::quantities::{
     DECAY_LENGTH, DRAG_PEAK_HEIGHT, END_TIME, FIT_AT_BORDER, FIT_MISFIT, FITTED_VISCOSITY, FITTED_YIELD_STRESS,
     FLUID_VELOCITY_MEAN, FLUID_VELOCITY_RMS, GRAIN_CURVATURE_ABOVE, GRAIN_CURVATURE_BELOW, GRAIN_VELOCITY_RMS,
-    HELD_OUT_TRANSPORT_RATIO, HIGHEST_PARTICLE, LAST_TRANSPORT, MOVES_ABOVE, STREAM_VELOCITY, TRANSPORT,
-    TRANSPORT_RATIO,
+    HELD_OUT_TRANSPORT_RATIO, HIGHEST_PARTICLE, LAST_TRANSPORT, MOVES_ABOVE, PREDICTED_TRANSPORT, STREAM_VELOCITY,
+    TRANSPORT, TRANSPORT_RATIO,
 };
 use super::runs::{BedLoadRun, Formulation};
 use super::statements;
@@ -214,6 +214,15 @@ fn continuum(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedL
         Limit::AtMost(0.2),
         "the grains' profile, 0.7 u_* a mm, shifted by a third of a spacing of 1 mm",
     ));
+    if judged && stage == Stage::Dilating {
+        let formula = TransportFormula::WongParker;
+        let expected = formula.transport(run.stream().shields_number());
+        let predicted = channel::observed(PREDICTED_TRANSPORT, &variant, data.channel.average(&data.transport), 1.0);
+        metrics.push(predicted.against(Some(expected), formula.name(), formula.confidence()).gated(
+            Limit::Within(HONEST_BAND.0 * expected, HONEST_BAND.1 * expected),
+            "a factor of two, by which measured rates scatter about any formula; no parameter is fitted to it",
+        ));
+    }
     let ratio = data.channel.average(&data.transport);
     let (within, reason) = match stage {
         Stage::Dilating if own.spacing < FINE => (0.08, "half of what a spacing of 1 mm is given"),

@@ -6,6 +6,7 @@ use crate::metric::quantities;
 quantities! {
     [channel::PARTICLES_LOST, channel::MOMENTUM_RESIDUAL, channel::VELOCITY_DRIFT]
     TRANSPORT: validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)"),
+    PREDICTED_TRANSPORT: validated("predicted_transport", "-", "q* of grains that dilate, whose closures are not fitted to transport"),
     TRANSPORT_RATIO:
         verified("transport_ratio", "-", "q* over that of the 1-D layer, or of the formula on the slope held out"),
     STREAM_VELOCITY:

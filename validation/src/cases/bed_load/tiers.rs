@@ -111,11 +111,11 @@ fn quick() -> BedLoadParameters {
         continuum: Continuum {
             runs: vec![
                 stage(Stage::Porous, &[0.03], &ROWS, &[1.0], 0.5),
-                stage(Stage::Dilating, &[0.03], &COLUMNS, &[1.0], 0.3),
+                StageRuns { averaging_time: 0.6, ..stage(Stage::Dilating, &SLOPES, &COLUMNS, &[1.0], 1.2) },
             ],
-            bed_depth: 0.016,
+            bed_depth: 0.014,
             held_depth: 0.004,
-            length: 0.01,
+            length: 0.0085,
             closures: Closures::default(),
             largest_spacing: 1.3,
             least_fraction: 2e-3,
@@ -140,6 +140,11 @@ fn quick() -> BedLoadParameters {
     }
 }
 
+/// A bed and a period longer than the quick tier's, which are the least that a layer on 5 % and the kernel need.
+fn deeper(continuum: Continuum) -> Continuum {
+    Continuum { bed_depth: 0.016, length: 0.01, ..continuum }
+}
+
 fn paper(quick: BedLoadParameters) -> BedLoadParameters {
     BedLoadParameters {
         paper: Grains { slopes: SLOPES.to_vec(), ..quick.paper },
@@ -154,7 +159,7 @@ fn paper(quick: BedLoadParameters) -> BedLoadParameters {
                 stage(Stage::Dilating, &SLOPES, &COLUMNS, &[1.0], 4.0),
                 stage(Stage::Dilating, &[0.03], &COLUMNS, &[0.3, 1.4], 12.0),
             ],
-            ..quick.continuum
+            ..deeper(quick.continuum)
         },
         ..quick
     }
@@ -169,7 +174,7 @@ fn fine(quick: BedLoadParameters) -> BedLoadParameters {
                 spacings: vec![7e-4, 5e-4],
                 ..stage(Stage::Dilating, &SLOPES, &COLUMNS, &[1.0, 0.3], 4.0)
             }],
-            ..quick.continuum
+            ..deeper(quick.continuum)
         },
         fit: Fit { yield_stresses: vec![1.0, 4.0, 7.0, 10.0], viscosities: vec![0.7, 2.0], ..quick.fit },
         ..quick

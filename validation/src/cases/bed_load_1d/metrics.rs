@@ -12,8 +12,8 @@ use crate::reference::{HONEST_BAND, ORIGIN_DEPTH, TransportFormula, roughness_ra
 
 quantities! {
     [
-        printed_laws::LAW_ERROR, others::FRACTION_DIFFERENCE, others::GRAIN_VELOCITY_DIFFERENCE,
-        others::FLUID_VELOCITY_DIFFERENCE,
+        others::FRACTION_DIFFERENCE, others::GRAIN_VELOCITY_DIFFERENCE, others::FLUID_VELOCITY_DIFFERENCE,
+        printed_laws::LAW_ERROR,
     ]
     TRANSPORT_RATIO: validated("transport_ratio", "-", "q* over that of the formula"),
     TRANSPORT: validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)"),

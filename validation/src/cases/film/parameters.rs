@@ -39,9 +39,6 @@ pub struct EddyLiquid {
     /// C_s of the eddy viscosity (5) `[-]`.
     #[schemars(transform = up_to(1.0, "give C_s; 1 makes a film's eddies felt"))]
     pub smagorinsky_constant: f64,
-    /// Rows of particles over the film: C_s Δ is the mixing length.
-    #[schemars(transform = rules::rows())]
-    pub resolution: usize,
 }
 
 /// Parameters of the case.
@@ -108,7 +105,7 @@ impl Parameters for FilmParameters {
                 flow_index: 0.7,
                 regularisation_rate: 0.3,
             },
-            eddies: EddyLiquid { viscosity: 0.1, smagorinsky_constant: 1.0, resolution: 10 },
+            eddies: EddyLiquid { viscosity: 0.1, smagorinsky_constant: 1.0 },
             // grains that yield by friction alone
             material: Rheology::CoulombBingham(CoulombBingham {
                 yield_stress: 0.0,
@@ -181,8 +178,7 @@ impl Parameters for FilmParameters {
         };
         let mut runs = Vec::new();
         for &kind in &self.fluids {
-            let rows = if kind == FluidKind::Eddies { self.eddies.resolution } else { self.layer.resolution };
-            runs.push(new(kind, Arrangement::Jittered, rows, NumericsSet::Default));
+            runs.push(new(kind, Arrangement::Jittered, self.layer.resolution, NumericsSet::Default));
             if kind == FluidKind::Newtonian {
                 let study = self.convergence_resolutions.iter();
                 runs.extend(study.map(|&rows| new(kind, Arrangement::Lattice, rows, NumericsSet::Default)));
