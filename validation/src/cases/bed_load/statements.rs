@@ -124,7 +124,8 @@ pub(super) fn stabilised(
         observed(SHEARED_UP_TO, above, 1e3),
         observed(SHEARED_FROM, below, 1e3),
     ]);
-    grains(metrics, run, data, judged);
+    // particles of grains are too few for a curvature
+    grains(metrics, run, data, false);
 }
 
 /// The layers that a segmented regression finds, with the errors of their slopes and borders; of a judged flow their number is
