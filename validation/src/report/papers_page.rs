@@ -152,7 +152,8 @@ fn value(shown: &Shown<'_>) -> ValueView {
             address: format!("index.html#{}", anchor(&name.case, &metric.name, &metric.variant)),
             text: format!("{} {}", name.case, metric.name),
         },
-        variant: metric.variant.to_string(),
+        // with spaces, so that a narrow column breaks between its parts
+        variant: metric.variant.to_string().replace(',', ", "),
         value: with_unit(metric.value, &metric.unit),
         printed: name.printed.map(|printed| range(printed, &metric.unit)).unwrap_or_default(),
     }
@@ -168,7 +169,7 @@ fn run(ended: &Ended<'_>) -> ValueView {
     ValueView {
         mark: mark(*status),
         link: Link { address: format!("index.html#case-{}", name.case), text: format!("{} run", name.case) },
-        variant: run.variant.to_string(),
+        variant: run.variant.to_string().replace(',', ", "),
         value: outcome,
         printed: String::new(),
     }
