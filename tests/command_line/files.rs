@@ -126,7 +126,7 @@ fn a_killed_run_leaves_the_old_results_and_the_next_one_cleans_up() {
 }
 
 #[test]
-fn a_report_is_one_page_with_the_verdicts() {
+fn a_report_has_the_verdicts_and_is_self_contained() {
     let place = Place::new();
     // the usual store: what the physics tests have simulated is not simulated again
     let mut command = place.bagnold(&["report", "--cases", "film", "--out", "report"]);
@@ -142,11 +142,15 @@ fn a_report_is_one_page_with_the_verdicts() {
         assert!(page.contains(word), "the page lacks {word:?}");
     }
     assert_eq!(code == Some(1), page.contains("class=\"banner fail\""), "the page and the exit code agree");
-    for outside in ["src=\"http", "href=\"http", "url(http", "@import"] {
-        assert!(!page.contains(outside), "the page must be self-contained: {outside}");
-    }
-    // every picture that the page shows is in the folder
-    for name in page.split("src=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
-        assert!(name.starts_with("data:") || place.path("report").join(name).is_file(), "{name}");
+    for page in ["report/index.html", "report/papers.html", "report/cases/film/index.html"] {
+        let folder = place.path(page).parent().expect("in a folder").to_owned();
+        let page = std::fs::read_to_string(place.path(page)).expect(page);
+        for outside in ["src=\"http", "href=\"http", "url(http", "@import"] {
+            assert!(!page.contains(outside), "the page must be self-contained: {outside}");
+        }
+        // every picture that the page shows is in the folder
+        for name in page.split("src=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
+            assert!(name.starts_with("data:") || folder.join(name).is_file(), "{name}");
+        }
     }
 }

@@ -22,7 +22,8 @@ const RUN_EXAMPLES: &str = "Examples:
 
 A file names its case with `case = \"film\"` and takes from the tier what it leaves out; `bagnold show film`
 prints a complete one. Values of --set are TOML; fields inside tables are reached by dots. The folder
-receives case.toml, metrics.json, provenance.json, tables/*.csv, figures/ and snapshots/*.pvd for ParaView.
+receives index.html, case.toml, metrics.json, provenance.json, tables/*.csv, reference/*.csv, figures/ and
+snapshots/*.pvd for ParaView.
 
 Exit codes: 0 all gates hold, 1 a gate fails, 2 bad input, 3 a run diverged.";
 
@@ -31,7 +32,7 @@ const REPORT_EXAMPLES: &str = "Examples:
   bagnold report --tier paper --cases film,bagnold --out paper-report
   bagnold report --against yesterday --deny drift
 
-The report is one self-contained folder: open its index.html. Failing gates come first.
+The report is one self-contained folder: open its index.html, which leads to a page of every case. What fails comes first.
 
 Exit codes: 0 all gates hold, 1 a gate fails or, with --deny drift, a value has drifted, 2 bad input, 3 a run diverged.";
 
@@ -157,6 +158,9 @@ pub struct Run {
     /// Print metrics.json on standard output, and nothing else there.
     #[arg(long)]
     pub json: bool,
+    /// Write the verdicts as JUnit's XML as well, for CI systems: one test a gate.
+    #[arg(long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
     /// How to compute.
     #[command(flatten)]
     pub work: Work,
@@ -184,6 +188,9 @@ pub struct Report {
     /// End with exit code 1 for this as well.
     #[arg(long, value_enum, value_name = "WHAT", conflicts_with = "accept")]
     pub deny: Option<Denied>,
+    /// Write the verdicts as JUnit's XML as well, for CI systems: one test a gate.
+    #[arg(long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
     /// How to compute.
     #[command(flatten)]
     pub work: Work,

@@ -43,14 +43,7 @@ pub(super) fn report(
     let page = Report {
         title: "Bagnold validation report".to_owned(),
         tier: command.tier,
-        generated: Provenance {
-            version: provenance::version().to_owned(),
-            commit: provenance::commit(),
-            threads: rayon::current_num_threads(),
-            wall_seconds: started.elapsed().as_secs_f64(),
-            command: repeated(command),
-            date: None,
-        },
+        generated: Provenance::of_this_program(started.elapsed(), repeated(command)),
         papers: report::papers::accounted(&cases),
         cases,
         baseline,
@@ -60,6 +53,9 @@ pub(super) fn report(
     };
     report::write(&page, claimed.staging())?;
     claimed.publish()?;
+    if let Some(path) = &command.junit {
+        report::write_junit(&page, path)?;
+    }
 
     for result in &results {
         let is_known = |metric: &_| is_known(&known, result, metric);
@@ -81,7 +77,7 @@ fn baseline(command: &Arguments, cases: &[String]) -> Result<Baseline, ProgramEr
     }
     let mut baseline = Baseline::default();
     for case in cases {
-        baseline.extend(Baseline::read(&accepted_folder(), case, command.tier)?);
+        baseline.extend(accepted(case, command.tier)?);
     }
     Ok(baseline)
 }
@@ -116,7 +112,8 @@ fn repeated(command: &Arguments) -> String {
     words
 }
 
-fn case_report(result: &CaseResult) -> CaseReport {
+/// A finished case as a report shows it.
+pub(super) fn case_report(result: &CaseResult) -> CaseReport {
     CaseReport {
         name: result.name.clone(),
         summary: result.summary.clone(),
@@ -139,6 +136,11 @@ fn reports_folder() -> PathBuf {
 /// The committed folder with accepted values and known failures.
 fn accepted_folder() -> PathBuf {
     provenance::workspace().map_or_else(|| PathBuf::from("snapshots"), |root| root.join("tests").join("snapshots"))
+}
+
+/// The accepted values of a case; none where nothing has been accepted.
+pub(super) fn accepted(case: &str, tier: Tier) -> Result<Baseline, ProgramError> {
+    Ok(Baseline::read(&accepted_folder(), case, tier)?)
 }
 
 /// The committed figures over time.

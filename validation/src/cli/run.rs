@@ -1,4 +1,4 @@
-//! `bagnold run`: one case into one folder.
+//! `bagnold run`: one case into one folder, with its page.
 
 use super::arguments::Run;
 use super::error::ProgramError;
@@ -6,10 +6,12 @@ use super::progress::Progress;
 use super::{Exit, say, summary};
 use crate::case::{AnyCase, CaseFile, CaseResult, Changes, ParameterError, Prepared, Registry, Tier, execute};
 use crate::output::{FileError, OutputFolder};
+use crate::report::{self, Baseline, History, Provenance, Report};
 use crate::result::{MetricsDocument, write_case};
 use crate::store::Store;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 /// Simulates, judges, writes and prints one case.
 pub(super) fn run(
@@ -18,7 +20,7 @@ pub(super) fn run(
     quiet: bool,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
-    let (prepared, tier) = prepare(command, registry)?;
+    let (prepared, tier, changed) = prepare(command, registry)?;
     let folder =
         command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/runs/{}-{tier}", prepared.name())));
     if command.out.is_none() {
@@ -26,6 +28,9 @@ pub(super) fn run(
     }
     let claimed = OutputFolder::claim(&folder)?;
     let known = super::report::known_failures()?;
+    // accepted values are those of the case as it comes
+    let baseline = if changed { Baseline::default() } else { super::report::accepted(prepared.name(), tier)? };
+    let started = Instant::now();
     let results = simulate(vec![prepared], &command.work.open_store(), quiet)?;
 
     let threads = rayon::current_num_threads();
@@ -36,12 +41,27 @@ pub(super) fn run(
             say(output, &document.text());
         }
     }
+    let page = Report {
+        title: results.first().map(|result| result.name.clone()).unwrap_or_default(),
+        tier,
+        generated: Provenance::of_this_program(started.elapsed(), String::new()),
+        cases: results.iter().map(super::report::case_report).collect(),
+        baseline,
+        against: None,
+        history: History::default(),
+        known_failures: known.clone(),
+        papers: &[],
+    };
+    report::write_alone(&page, claimed.staging())?;
     claimed.publish()?;
+    if let Some(path) = &command.junit {
+        report::write_junit(&page, path)?;
+    }
     if !command.json {
         for result in &results {
             say(output, &summary::of_case(result, |metric| super::report::is_known(&known, result, metric)));
         }
-        say(output, &format!("written to {}\n", folder.display()));
+        say(output, &format!("written to {}\n", folder.join("index.html").display()));
     }
     Ok(Exit::of(&results, |result, metric| super::report::is_known(&known, result, metric)))
 }
@@ -58,8 +78,8 @@ pub(super) fn simulate(
     results
 }
 
-/// The case that the target means, with the changes asked for, and its tier.
-fn prepare(command: &Run, registry: Registry) -> Result<(Box<dyn Prepared>, Tier), ProgramError> {
+/// The case that the target means, with the changes asked for, its tier, and whether anything may have been changed.
+fn prepare(command: &Run, registry: Registry) -> Result<(Box<dyn Prepared>, Tier, bool), ProgramError> {
     let (case, tier, file): (&'static dyn AnyCase, _, _) = if names_a_file(&command.target, registry) {
         let file = CaseFile::read(Path::new(&command.target))?;
         let case = registry.find(&file.case).map_err(|error| error.in_file(&file.path))?;
@@ -72,7 +92,8 @@ fn prepare(command: &Run, registry: Registry) -> Result<(Box<dyn Prepared>, Tier
         file: file.as_ref().map(|file| (file.path.as_path(), file.fields.clone())),
         settings: &command.settings,
     };
-    Ok((case.prepare(tier, &changes)?, tier))
+    let changed = file.is_some() || !command.settings.is_empty();
+    Ok((case.prepare(tier, &changes)?, tier, changed))
 }
 
 /// A case goes before a file of the same name; what looks like a path is meant as one.

@@ -16,6 +16,7 @@ mod panel;
 mod range;
 pub mod render;
 mod sheet;
+mod size;
 mod ticks;
 
 #[cfg(test)]
@@ -23,6 +24,7 @@ mod tests;
 
 pub use animation::{Animation, AnimationFrame, write_animation};
 pub use error::FigureError;
+pub use size::size_of;
 
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};

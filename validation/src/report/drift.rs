@@ -117,7 +117,7 @@ struct Row {
     case: String,
     metric: String,
     variant: String,
-    /// Where its row stands; that of the case for what is gone.
+    /// Where it stands on the page of its case; the table of verdicts for what is gone.
     anchor: String,
     tolerances: String,
     value: String,
@@ -160,11 +160,7 @@ fn row(moved: &Moved) -> Row {
         case: key.case.clone(),
         metric: key.metric.clone(),
         variant: key.variant.to_string(),
-        anchor: if moved.is_measured {
-            anchor(&key.case, &key.metric, &key.variant)
-        } else {
-            format!("verdicts-{}", key.case)
-        },
+        anchor: if moved.is_measured { anchor(&key.case, &key.metric, &key.variant) } else { "verdicts".to_owned() },
         tolerances: if moved.tolerances.is_finite() { two_digits(moved.tolerances) } else { "–".to_owned() },
         value: moved.statement.0.clone(),
         baseline: moved.statement.1.clone(),

@@ -50,7 +50,8 @@ impl Judged<'_> {
     }
 }
 
-/// One case, judged; metrics with the worst first, those of one name together.
+/// One case, judged; metrics with the worst first, then what is measured against before the run's own account, those of one
+/// name together.
 #[derive(Debug, Clone)]
 pub struct JudgedCase<'r> {
     /// The case.
@@ -246,7 +247,13 @@ fn judge_case<'r>(report: &'r Report, case: &'r CaseReport) -> JudgedCase<'r> {
         })
         .collect();
     let first_of_name = |name: &str| case.metrics.iter().position(|metric| metric.name == name);
-    metrics.sort_by_key(|judged| (judged.severity(), first_of_name(&judged.metric.name)));
+    let weight = |kind: Kind| match kind {
+        Kind::Validation => 0,
+        Kind::Statement => 1,
+        Kind::Verification => 2,
+        Kind::Bookkeeping => 3,
+    };
+    metrics.sort_by_key(|judged| (judged.severity(), weight(judged.metric.kind), first_of_name(&judged.metric.name)));
     let diverged = case.runs.iter().filter_map(|run| match &run.outcome {
         Outcome::Diverged { message, expected: false } => Some((&run.variant, message.as_str())),
         _ => None,

@@ -86,6 +86,14 @@ impl KnownFailures {
             if failure.reason.trim().is_empty() || failure.date.trim().is_empty() {
                 return Err(refuse(format!("{name} needs a date and a reason")));
             }
+            if ["next entry", "entry above", "entry below", "previous entry"]
+                .iter()
+                .any(|other| failure.reason.contains(other))
+            {
+                return Err(refuse(format!(
+                    "{name} points to another entry, but is shown apart from it: say the reason again"
+                )));
+            }
             if !failure.best_value.is_finite() {
                 return Err(refuse(format!("{name} needs a finite best_value")));
             }
@@ -193,6 +201,7 @@ reason = "slip at the wall"
             (LIST.replace("best_value = 0.9", "best_value = 0.9\nblame = \"x\""), "blame"),
             (LIST.replace("slip at the wall", " "), "date and a reason"),
             (LIST.replace("0.9", "nan"), "finite best_value"),
+            (LIST.replace("slip at the wall", "see the next entry"), "say the reason again"),
             (LIST.repeat(2), "listed twice"),
             (LIST.replace("date = \"2025-01-31\"\n", ""), "date"),
         ] {

@@ -1,12 +1,15 @@
 //! Verdicts → one self-contained folder with a page, figures and the numbers behind them.
 
 pub mod accepted;
+mod case_page;
 pub mod drift;
 mod earlier;
 mod error;
 pub mod history;
 pub mod judgement;
+mod junit;
 pub mod known_failures;
+mod overview;
 mod page;
 pub mod papers;
 mod papers_page;
@@ -17,6 +20,8 @@ mod template;
 mod view;
 mod width;
 
+#[cfg(test)]
+mod pages_tests;
 #[cfg(test)]
 mod tests;
 
@@ -32,8 +37,10 @@ use crate::case::Tier;
 use crate::figure::{self, Animation, Figure, FigureError};
 use crate::metric::Metric;
 use crate::reference::Paper;
+use crate::store::provenance;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Everything that a report shows.
 #[derive(Debug, Clone)]
@@ -75,6 +82,21 @@ pub struct Provenance {
     pub date: Option<String>,
 }
 
+impl Provenance {
+    /// What this program made in `wall` time, by `command` where it is to be shown.
+    #[must_use]
+    pub fn of_this_program(wall: Duration, command: String) -> Self {
+        Self {
+            version: provenance::version().to_owned(),
+            commit: provenance::commit(),
+            threads: rayon::current_num_threads(),
+            wall_seconds: wall.as_secs_f64(),
+            command,
+            date: None,
+        }
+    }
+}
+
 /// One case of a report.
 #[derive(Debug, Clone)]
 pub struct CaseReport {
@@ -107,13 +129,16 @@ struct Drawn {
     name: String,
     /// A GIF, instead of an SVG with a PNG.
     moves: bool,
+    /// Width and height of the picture `[px]`.
+    size: Option<(u32, u32)>,
     /// Why there is no picture, or nothing.
     failure: Option<String>,
 }
 
-/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `figures/CASE/NAME.{svg,png,gif}`,
-/// `cases/CASE/metrics.json` and `cases/CASE/case.toml`, and what the cases say together as `metrics.json` and
-/// `figures/scatter/QUANTITY.{svg,png}`. Files of the same names are replaced, others are left alone.
+/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `figures/CASE/NAME.{svg,png,gif}`, in
+/// `cases/CASE/` the case's page `index.html`, `metrics.json`, `case.toml` and `reference/NAME.csv`, and what the cases say
+/// together as `metrics.json` and `figures/scatter/QUANTITY.{svg,png}`. Files of the same names are replaced, others are left
+/// alone.
 ///
 /// A figure that cannot be drawn does not spoil the report: the page says so in its place.
 ///
@@ -129,13 +154,15 @@ pub fn write(report: &Report, folder: &Path) -> Result<(), ReportError> {
         .par_iter()
         .map(|case| draw(case, &folder.join("figures").join(&case.name)))
         .collect::<Result<_, _>>()?;
-    for case in &report.cases {
-        let place = folder.join("cases").join(&case.name);
-        make(&place)?;
-        put(place.join("metrics.json"), &case.metrics_json)?;
-        put(place.join("case.toml"), &case.parameters_toml)?;
-    }
     let judgement = judge(report);
+    for judged in &judgement.cases {
+        let name = &judged.case.name;
+        let place = folder.join("cases").join(name);
+        put_case(judged.case, &place)?;
+        let pictures = page::pictures(report, &drawn, judged.case);
+        let text = case_page::render(report, judged, pictures, Some(neighbours(report, name)))?;
+        put(place.join("index.html"), &text)?;
+    }
     if !judgement.papers.is_empty() {
         put(folder.join("papers.html"), &papers_page::render(report, &judgement.papers)?)?;
         put(folder.join("papers.json"), &papers_page::json(report.tier, &judgement.papers))?;
@@ -147,11 +174,60 @@ pub fn write(report: &Report, folder: &Path) -> Result<(), ReportError> {
     put(folder.join("index.html"), &page::render(report, &judgement, &drawn, comparisons)?)
 }
 
+/// Writes the page of each case of `report`, which is one as a rule, straight into `folder`: what [`write()`] puts into
+/// `cases/CASE/`, and the figures in `figures/NAME.{svg,png,gif}`.
+///
+/// # Errors
+/// If a file cannot be written.
+pub fn write_alone(report: &Report, folder: &Path) -> Result<(), ReportError> {
+    for judged in &judge(report).cases {
+        let drawn = draw(judged.case, &folder.join("figures"))?;
+        put_case(judged.case, folder)?;
+        put(folder.join("index.html"), &case_page::render(report, judged, &drawn, None)?)?;
+    }
+    Ok(())
+}
+
+/// Writes the verdicts as JUnit's XML, for programs that show tests: one a gate.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_junit(report: &Report, path: &Path) -> Result<(), ReportError> {
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        make(folder)?;
+    }
+    put(path.to_owned(), &junit::text(report, &judge(report)))
+}
+
+/// A case's numbers and parameters, and the tables of reference data that it has.
+fn put_case(case: &CaseReport, folder: &Path) -> Result<(), ReportError> {
+    make(folder)?;
+    put(folder.join("metrics.json"), &case.metrics_json)?;
+    put(folder.join("case.toml"), &case.parameters_toml)?;
+    for (name, text) in case_page::tables(&case.name) {
+        let path = folder.join("reference").join(name);
+        make(path.parent().unwrap_or(folder))?;
+        put(path, text)?;
+    }
+    Ok(())
+}
+
+/// The cases before and after one, in the report's order.
+fn neighbours(report: &Report, name: &str) -> view::Neighbours {
+    let place = report.cases.iter().position(|case| case.name == name).unwrap_or(0);
+    let name_at = |place: Option<usize>| report.cases.get(place?).map(|case| case.name.clone());
+    view::Neighbours {
+        has_papers: !report.papers.is_empty(),
+        previous: name_at(place.checked_sub(1)),
+        next: name_at(Some(place + 1)),
+    }
+}
+
 fn draw(case: &CaseReport, folder: &Path) -> Result<Vec<Drawn>, ReportError> {
     let mut drawn = draw_figures(&case.figures, folder)?;
     let animations = case.animations.par_iter().map(|animation| {
-        let failure = failure_of(figure::write_animation(animation, folder))?;
-        Ok(Drawn { caption: animation.caption.clone(), name: animation.name.clone(), moves: true, failure })
+        let written = figure::write_animation(animation, folder);
+        as_drawn(&animation.name, &animation.caption, true, written)
     });
     drawn.extend(animations.collect::<Result<Vec<Drawn>, ReportError>>()?);
     Ok(drawn)
@@ -159,19 +235,29 @@ fn draw(case: &CaseReport, folder: &Path) -> Result<Vec<Drawn>, ReportError> {
 
 fn draw_figures(figures: &[Figure], folder: &Path) -> Result<Vec<Drawn>, ReportError> {
     let draw = |figure: &Figure| {
-        let failure = failure_of(figure::write(figure, folder))?;
-        Ok(Drawn { caption: figure.caption.clone(), name: figure.name.clone(), moves: false, failure })
+        let written = figure::write(figure, folder).map(|written| written.png);
+        as_drawn(&figure.name, &figure.caption, false, written)
     };
     figures.par_iter().map(draw).collect()
 }
 
-/// Why something was not drawn; a file that cannot be written is an error of the whole report.
-fn failure_of<W>(written: Result<W, FigureError>) -> Result<Option<String>, ReportError> {
-    match written {
-        Ok(_) => Ok(None),
-        Err(error @ FigureError::Write { .. }) => Err(error.into()),
-        Err(error) => Ok(Some(error.to_string())),
-    }
+/// What the page shows of a figure. One that was not drawn is named there and in the log; a file that cannot be written is
+/// an error of the whole report.
+fn as_drawn(
+    name: &str,
+    caption: &str,
+    moves: bool,
+    written: Result<PathBuf, FigureError>,
+) -> Result<Drawn, ReportError> {
+    let (size, failure) = match written {
+        Ok(path) => (figure::size_of(&path), None),
+        Err(error @ FigureError::Write { .. }) => return Err(error.into()),
+        Err(error) => {
+            tracing::error!("figure {name}: failed to {error}");
+            (None, Some(error.to_string()))
+        }
+    };
+    Ok(Drawn { caption: caption.to_owned(), name: name.to_owned(), moves, size, failure })
 }
 
 fn make(folder: &Path) -> Result<(), ReportError> {

@@ -1,20 +1,14 @@
-//! The page: judged report → text → template.
+//! The first page: judged report → text → template.
 
 use super::accepted::tier_name;
-use super::judgement::{JudgedCase, Judgement, Severity, Tally};
+use super::judgement::{Judgement, Severity, Tally};
+use super::overview;
 use super::papers::{self, Status};
 use super::papers_page;
-use super::rows::{mark, note, rows, statement, vanished, worst_mark};
+use super::rows::{note, statement, worst_mark};
 use super::template::fill;
-use super::view::{Banner, BannerItem, Case, Count, Mark, Page, Picture, Run};
+use super::view::{Banner, BannerItem, Count, Mark, Overview, anchor, typed};
 use super::{CaseReport, Drawn, Provenance, Report, drift, scatter};
-use crate::case::RunSummary;
-use crate::metric::Verdict;
-use crate::number::{count, four_digits};
-use crate::observation::Outcome;
-
-/// More lines than this do not fit on a first screen; the rest stands in the table right below.
-const BANNER_LINES: usize = 14;
 
 /// Fills the template; `drawn` holds the figures of the report's cases in the report's order.
 pub(super) fn render(
@@ -23,30 +17,31 @@ pub(super) fn render(
     drawn: &[Vec<Drawn>],
     scatter: Vec<scatter::Row>,
 ) -> Result<String, minijinja::Error> {
-    let pictures = |case: &CaseReport| {
-        let position = report.cases.iter().position(|other| std::ptr::eq(other, case));
-        position.and_then(|position| drawn.get(position)).map_or(&[][..], Vec::as_slice)
-    };
-    let page = Page {
+    let page = Overview {
         title: report.title.clone(),
         tier: tier_name(report.tier),
         banner: banner(judgement),
         counts: counts(judgement),
+        worst: overview::worst(judgement),
+        strip: overview::strip(judgement, |case| pictures(report, drawn, case)),
+        cases: judgement.cases.iter().map(overview::case_line).collect(),
+        gates: overview::gates(judgement),
         drift: drift::table(report, judgement),
         scatter,
-        cases: judgement.cases.iter().map(|judged| case(judged, pictures(judged.case))).collect(),
+        has_papers: !judgement.papers.is_empty(),
         provenance: provenance(&report.generated),
-        command: report.generated.command.clone(),
+        command: typed(&report.generated.command),
         date: report.generated.date.clone(),
         style: include_str!("template/style.css"),
-        script: include_str!("template/filter.js"),
+        script: include_str!("template/page.js"),
     };
-    let partials = [
-        ("drift.html", include_str!("template/drift.html")),
-        ("scatter.html", include_str!("template/scatter.html")),
-        ("width.html", include_str!("template/width.html")),
-    ];
-    fill("index.html", include_str!("template/index.html"), &partials, &page)
+    fill("index.html", &page)
+}
+
+/// The figures of a case among those of all.
+pub(super) fn pictures<'d>(report: &Report, drawn: &'d [Vec<Drawn>], case: &CaseReport) -> &'d [Drawn] {
+    let position = report.cases.iter().position(|other| std::ptr::eq(other, case));
+    position.and_then(|position| drawn.get(position)).map_or(&[][..], Vec::as_slice)
 }
 
 fn banner(judgement: &Judgement<'_>) -> Banner {
@@ -56,46 +51,36 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
             let item = BannerItem {
                 mark: Mark { word: "diverged", ..Mark::FAIL },
                 case: case.case.name.clone(),
+                anchor: "runs".to_owned(),
                 what: "a run diverged".to_owned(),
                 variant: variant.to_string(),
                 statement: message.to_owned(),
                 note: String::new(),
+                note_repeats: false,
             };
             items.push((Severity::Failure, item));
         }
-        for judged in case.metrics.iter().filter(|judged| judged.severity() <= Severity::Drifted) {
+        for judged in case.metrics.iter().filter(|judged| judged.severity() <= Severity::KnownFailure) {
             let item = BannerItem {
                 mark: worst_mark(judged),
                 case: case.case.name.clone(),
+                anchor: anchor(&case.case.name, &judged.metric.name, &judged.metric.variant),
                 what: judged.metric.name.clone(),
                 variant: judged.metric.variant.to_string(),
                 statement: statement(judged),
                 note: note(judged),
+                note_repeats: false,
             };
             items.push((judged.severity(), item));
         }
-        for key in &case.vanished {
-            let item = BannerItem {
-                mark: Mark { word: "vanished", ..Mark::DRIFT },
-                case: case.case.name.clone(),
-                what: key.metric.clone(),
-                variant: key.variant.to_string(),
-                statement: "in the baseline, but no longer measured".to_owned(),
-                note: String::new(),
-            };
-            items.push((Severity::Drifted, item));
-        }
     }
     items.sort_by_key(|(severity, _)| *severity);
-    let omitted = items.len().saturating_sub(BANNER_LINES);
-    let (mark, headline, detail) = headline(judgement);
-    Banner {
-        mark,
-        headline,
-        detail,
-        items: items.into_iter().take(BANNER_LINES).map(|(_, item)| item).collect(),
-        omitted,
+    let mut items: Vec<BannerItem> = items.into_iter().map(|(_, item)| item).collect();
+    for place in 1..items.len() {
+        items[place].note_repeats = !items[place].note.is_empty() && items[place].note == items[place - 1].note;
     }
+    let (mark, headline, detail) = headline(judgement);
+    Banner { mark, headline, detail, items }
 }
 
 fn headline(judgement: &Judgement<'_>) -> (Mark, String, String) {
@@ -203,77 +188,11 @@ fn counts(judgement: &Judgement<'_>) -> Vec<Count> {
     counts
 }
 
-fn case(judged: &JudgedCase<'_>, drawn: &[Drawn]) -> Case {
-    let case = judged.case;
-    let severity = judged.severity();
-    Case {
-        name: case.name.clone(),
-        summary: case.summary.clone(),
-        description: case.description.split("\n\n").map(|text| text.trim().to_owned()).collect(),
-        mark: mark(severity),
-        open: severity <= Severity::Drifted,
-        statement: case_statement(judged),
-        rows: rows(&case.name, &judged.metrics),
-        vanished: judged.vanished.iter().map(vanished).collect(),
-        figures: drawn.iter().map(picture).collect(),
-        parameters: case.parameters_toml.clone(),
-        command: case.command.clone(),
-        runs: case.runs.iter().map(run).collect(),
-    }
-}
-
-fn case_statement(judged: &JudgedCase<'_>) -> String {
-    let drifted = judged.metrics.iter().filter(|metric| metric.drift.is_failure()).count();
-    let parts = [
-        (judged.count(Severity::Failure), "failing"),
-        (judged.count(Severity::KnownFailure), "known to fail"),
-        (judged.metrics.iter().filter(|metric| metric.verdict == Verdict::Pass).count(), "holding"),
-        (judged.count(Severity::Observed), "observed"),
-        (drifted, "drifted"),
-        (judged.vanished.len(), "vanished"),
-        (judged.diverged.len(), "diverged"),
-    ];
-    let words: Vec<String> =
-        parts.iter().filter(|(number, _)| *number > 0).map(|(number, word)| format!("{number} {word}")).collect();
-    if words.is_empty() { "no metrics".to_owned() } else { words.join(" · ") }
-}
-
-pub(super) fn picture(drawn: &Drawn) -> Picture {
-    Picture {
-        name: drawn.name.clone(),
-        caption: drawn.caption.clone(),
-        moves: drawn.moves,
-        failure: drawn.failure.clone(),
-    }
-}
-
-fn run(run: &RunSummary) -> Run {
-    let (mark, outcome) = match &run.outcome {
-        Outcome::Finished => (Mark { word: "finished", ..Mark::PASS }, String::new()),
-        Outcome::Stopped { criterion } => (Mark { word: "stopped", ..Mark::PASS }, criterion.clone()),
-        Outcome::Diverged { message, expected: true } => {
-            (Mark { word: "diverged as expected", ..Mark::OBSERVED }, message.clone())
-        }
-        Outcome::Diverged { message, expected: false } => (Mark { word: "diverged", ..Mark::FAIL }, message.clone()),
+pub(super) fn provenance(provenance: &Provenance) -> Vec<(&'static str, String)> {
+    let commit = match provenance.commit.as_str() {
+        "" => "unknown".to_owned(),
+        commit => commit.chars().take(12).collect(),
     };
-    Run {
-        variant: run.variant.to_string(),
-        mark,
-        outcome,
-        particles: count(run.particles as u64),
-        steps: count(run.steps),
-        simulated_time: four_digits(run.simulated_time),
-        wall_seconds: seconds(run.wall_seconds),
-        threads: run.threads,
-        pace: run.microseconds_per_particle_step.map_or_else(|| "–".to_owned(), four_digits),
-        hash: run.state_hash.clone(),
-        short_hash: run.state_hash.chars().take(12).collect(),
-        from_store: run.from_store,
-    }
-}
-
-fn provenance(provenance: &Provenance) -> Vec<(&'static str, String)> {
-    let commit = if provenance.commit.is_empty() { "unknown".to_owned() } else { provenance.commit.clone() };
     vec![
         ("version", provenance.version.clone()),
         ("commit", commit),
@@ -283,7 +202,7 @@ fn provenance(provenance: &Provenance) -> Vec<(&'static str, String)> {
 }
 
 /// Wall times are known to a tenth of a second at best.
-fn seconds(seconds: f64) -> String {
+pub(super) fn seconds(seconds: f64) -> String {
     if seconds.is_finite() { format!("{seconds:.1}") } else { "unknown".to_owned() }
 }
 

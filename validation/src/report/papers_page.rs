@@ -17,6 +17,7 @@ struct Page {
     tier: &'static str,
     papers: Vec<PaperView>,
     style: &'static str,
+    script: &'static str,
 }
 
 #[derive(Serialize)]
@@ -63,7 +64,9 @@ struct ValueView {
 
 #[derive(Serialize)]
 struct Link {
-    address: String,
+    case: String,
+    /// Where it stands on the case's page.
+    anchor: String,
     text: String,
 }
 
@@ -105,8 +108,9 @@ pub(super) fn render(report: &Report, accounts: &[Account<'_>]) -> Result<String
         tier: tier_name(report.tier),
         papers: accounts.iter().map(|account| paper(account, &report.cases)).collect(),
         style: include_str!("template/style.css"),
+        script: include_str!("template/page.js"),
     };
-    fill("papers.html", include_str!("template/papers.html"), &[], &page)
+    fill("papers.html", &page)
 }
 
 fn paper(account: &Account<'_>, cases: &[CaseReport]) -> PaperView {
@@ -149,8 +153,9 @@ fn value(shown: &Shown<'_>) -> ValueView {
     ValueView {
         mark: status.map_or(Mark::OBSERVED, mark),
         link: Link {
-            address: format!("index.html#{}", anchor(&name.case, &metric.name, &metric.variant)),
-            text: format!("{} {}", name.case, metric.name),
+            case: name.case.clone(),
+            anchor: anchor(&name.case, &metric.name, &metric.variant),
+            text: metric.name.clone(),
         },
         // with spaces, so that a narrow column breaks between its parts
         variant: metric.variant.to_string().replace(',', ", "),
@@ -168,7 +173,7 @@ fn run(ended: &Ended<'_>) -> ValueView {
     };
     ValueView {
         mark: mark(*status),
-        link: Link { address: format!("index.html#case-{}", name.case), text: format!("{} run", name.case) },
+        link: Link { case: name.case.clone(), anchor: "runs".to_owned(), text: "run".to_owned() },
         variant: run.variant.to_string().replace(',', ", "),
         value: outcome,
         printed: String::new(),
@@ -192,8 +197,9 @@ fn figures(fate: &Fate<'_>, cases: &[CaseReport]) -> Vec<Link> {
         let case = cases.iter().find(|case| case.name == wanted.case)?;
         let figure = case.figures.iter().find(|figure| figure.name.starts_with(&wanted.figure))?;
         Some(Link {
-            address: format!("index.html#figure-{}-{}", case.name, figure.name),
-            text: format!("{} {}", case.name, figure.name),
+            case: case.name.clone(),
+            anchor: format!("figure-{}-{}", case.name, figure.name),
+            text: figure.name.clone(),
         })
     });
     drawn.collect()

@@ -164,17 +164,17 @@ fn the_page_has_every_row_and_its_links_land() {
     let folder = tempfile::tempdir().expect("a folder");
     write(&report, folder.path()).expect("written");
     let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).expect(name);
-    let (page, overview) = (read("papers.html"), read("index.html"));
+    let (page, overview, film) = (read("papers.html"), read("index.html"), read("cases/film/index.html"));
     for element in &report.papers[0].elements {
         assert!(page.contains(&format!("id=\"made-up-{}\"", element.id)), "{}", element.id);
     }
     assert!(page.contains("printed &lt;5&gt;") && !page.contains("<5>"), "escaped");
     assert!(page.contains("6.1\u{202f}cm") && page.contains("4.5 … 5.5\u{202f}cm"), "our number beside the paper's");
     let targets: Vec<&str> =
-        page.split("href=\"index.html#").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+        page.split("href=\"cases/film/index.html#").skip(1).filter_map(|rest| rest.split('"').next()).collect();
     assert!(targets.contains(&"figure-film-operators") && targets.len() >= 6, "{targets:?}");
     for target in targets {
-        assert!(overview.contains(&format!("id=\"{target}\"")), "index.html has no {target}");
+        assert!(film.contains(&format!("id=\"{target}\"")), "the case's page has no {target}");
     }
     assert!(overview.contains("href=\"papers.html\"") && overview.contains("2 of 6 elements reproduced"));
     assert!(

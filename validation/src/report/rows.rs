@@ -34,7 +34,8 @@ pub(super) fn rows(case: &str, metrics: &[Judged<'_>]) -> Vec<Row> {
     rows
 }
 
-fn row(case: &str, judged: &Judged<'_>) -> Row {
+/// A metric as a row.
+pub(super) fn row(case: &str, judged: &Judged<'_>) -> Row {
     let metric = judged.metric;
     let reference = metric.reference.as_ref();
     let gate = metric.gate.as_ref();
@@ -50,6 +51,10 @@ fn row(case: &str, judged: &Judged<'_>) -> Row {
             .and_then(|reference| reference.value)
             .map(|value| with_unit(value, &metric.unit))
             .unwrap_or_default(),
+        residual: reference
+            .and_then(|reference| reference.value)
+            .map(|expected| residual(metric.value - expected, expected))
+            .unwrap_or_default(),
         source: reference.map(|reference| reference.source.clone()).unwrap_or_default(),
         confidence: reference.map_or("", |reference| confidence(reference.confidence)),
         kind: kind(metric.kind),
@@ -58,7 +63,10 @@ fn row(case: &str, judged: &Judged<'_>) -> Row {
         reason_repeats: false,
         source_repeats: false,
         margin: gate.map(|gate| margin(metric, gate.limit)).unwrap_or_default(),
-        relative_margin: gate.map(|gate| relative_margin(metric, gate.limit)).unwrap_or_default(),
+        relative_margin: relative_margin(metric),
+        margin_key: margin_share(metric).map(sort_key).unwrap_or_default(),
+        change_key: judged.drift.in_tolerances().map(sort_key).unwrap_or_default(),
+        figure: String::new(),
         drift,
         change,
         relative_change,
@@ -138,14 +146,40 @@ fn margin(metric: &Metric, limit: Limit) -> String {
     format!("{sign}{}", two_digits(margin))
 }
 
-/// The margin as a share of the limit: how near a gate is to its edge.
-fn relative_margin(metric: &Metric, limit: Limit) -> String {
+/// The margin as a share of the limit, how near a gate is to its edge: nothing where it does not judge or its limit has
+/// no size. What is not a number lies beyond every limit.
+pub(super) fn margin_share(metric: &Metric) -> Option<f64> {
+    let limit = metric.gate.as_ref().filter(|_| metric.verdict() != Verdict::Observed)?.limit;
     let scale = match limit {
         Limit::AtMost(bound) | Limit::AtLeast(bound) => bound.abs(),
         Limit::Within(lower, upper) => 0.5 * (upper - lower).abs(),
     };
-    let share = 100.0 * limit.margin(metric.value) / scale;
-    if share.is_finite() { format!("{} % of limit", whole(share)) } else { String::new() }
+    let share = limit.margin(metric.value) / scale;
+    match metric.verdict() {
+        Verdict::Fail if !share.is_finite() => Some(f64::NEG_INFINITY),
+        _ => Some(share).filter(|share| share.is_finite()),
+    }
+}
+
+fn relative_margin(metric: &Metric) -> String {
+    let share = margin_share(metric).filter(|share| share.is_finite());
+    share.map(|share| format!("{} % of limit", whole(100.0 * share))).unwrap_or_default()
+}
+
+/// A number that a script can read, infinite ones included.
+fn sort_key(value: f64) -> String {
+    format!("{:.4e}", value.clamp(-1e99, 1e99))
+}
+
+fn residual(difference: f64, expected: f64) -> String {
+    // what is to be nothing is off by its value
+    if !difference.is_finite() || expected == 0.0 {
+        return String::new();
+    }
+    let sign = |value: f64| if value > 0.0 { "+" } else { "" };
+    let share = 100.0 * difference / expected.abs();
+    let relative = if share.is_finite() { format!(" ({}{} %)", sign(share), two_digits(share)) } else { String::new() };
+    format!("{}{}{relative}", sign(difference), two_digits(difference))
 }
 
 fn drift(judged: &Judged<'_>) -> (Mark, String, String) {
@@ -170,7 +204,8 @@ fn drift(judged: &Judged<'_>) -> (Mark, String, String) {
     }
 }
 
-fn whole(share: f64) -> String {
+/// A percentage: two digits, and no decimals from ten on.
+pub(super) fn whole(share: f64) -> String {
     if share.abs() < 9.95 { two_digits(share) } else { format!("{share:.0}").replace('-', "−") }
 }
 

@@ -1,17 +1,23 @@
 //! Templates: the values of a page → its text.
 
-/// Fills a template whose name ends like the page's: `.html` escapes everything that is inserted. It may include the
-/// partials by their names.
-pub(super) fn fill(
-    name: &'static str,
-    template: &'static str,
-    partials: &[(&'static str, &'static str)],
-    page: &impl serde::Serialize,
-) -> Result<String, minijinja::Error> {
+/// All templates. A name that ends in `.html` escapes everything that is inserted.
+const TEMPLATES: [(&str, &str); 9] = [
+    ("head.html", include_str!("template/head.html")),
+    ("index.html", include_str!("template/index.html")),
+    ("drift.html", include_str!("template/drift.html")),
+    ("scatter.html", include_str!("template/scatter.html")),
+    ("gates.html", include_str!("template/gates.html")),
+    ("case.html", include_str!("template/case.html")),
+    ("metrics.html", include_str!("template/metrics.html")),
+    ("width.html", include_str!("template/width.html")),
+    ("papers.html", include_str!("template/papers.html")),
+];
+
+/// Fills a template, which may include others.
+pub(super) fn fill(name: &'static str, page: &impl serde::Serialize) -> Result<String, minijinja::Error> {
     let mut environment = minijinja::Environment::new();
-    environment.add_template(name, template)?;
-    for (name, partial) in partials {
-        environment.add_template(name, partial)?;
+    for (own, text) in TEMPLATES {
+        environment.add_template(own, text)?;
     }
     environment.get_template(name)?.render(template_value(page)?)
 }

@@ -1,17 +1,18 @@
 //! The page as a whole: what a reader sees first, escaping, and reports with nothing in them.
 
+use super::pages_tests::links;
 use super::*;
 use crate::figure::{AnimationFrame, Axis, Panel, Scale};
 use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
 
-fn gated(name: &str, value: f64) -> Metric {
+pub(super) fn gated(name: &str, value: f64) -> Metric {
     Metric::observed(name, &Variant::of("resolution", 40), value, "%")
         .gated(Limit::AtMost(0.7), "prototype reached 0.56 %")
         .against(Some(0.0), "Eq. (36)", Confidence::Exact)
         .with_snapshot_tolerance(0.05, 0.0)
 }
 
-fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {
+pub(super) fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {
     CaseReport {
         name: name.to_owned(),
         summary: format!("summary of {name}"),
@@ -26,7 +27,7 @@ fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {
     }
 }
 
-fn report(cases: Vec<CaseReport>) -> Report {
+pub(super) fn report(cases: Vec<CaseReport>) -> Report {
     Report {
         title: "Report".to_owned(),
         tier: Tier::Quick,
@@ -40,7 +41,7 @@ fn report(cases: Vec<CaseReport>) -> Report {
     }
 }
 
-fn known(case: &str, metric: &str, best_value: f64) -> KnownFailures {
+pub(super) fn known(case: &str, metric: &str, best_value: f64) -> KnownFailures {
     KnownFailures {
         failures: vec![KnownFailure {
             case: case.to_owned(),
@@ -53,7 +54,7 @@ fn known(case: &str, metric: &str, best_value: f64) -> KnownFailures {
     }
 }
 
-fn html(report: &Report) -> String {
+pub(super) fn html(report: &Report) -> String {
     page::render(report, &judge(report), &[], Vec::new()).expect("page")
 }
 
@@ -61,7 +62,7 @@ fn place(text: &str, part: &str) -> usize {
     text.find(part).unwrap_or_else(|| panic!("{part:?} is not on the page"))
 }
 
-fn drawing(name: &str) -> Figure {
+pub(super) fn drawing(name: &str) -> Figure {
     let axis = |label: &str| Axis { label: label.to_owned(), scale: Scale::Linear, limits: None };
     let panel = Panel {
         title: String::new(),
@@ -107,10 +108,9 @@ fn a_failing_gate_is_the_first_thing_on_the_page() {
     assert!(page.contains("class=\"banner fail\""));
     assert!(place(&page, "velocity_l2") < place(&page, "wall_slip"), "failures come first");
     assert!(page.contains("Nothing has moved against the accepted values"), "there are none");
-    assert!(place(&page, "id=\"verdicts-bagnold\"") < place(&page, "id=\"verdicts-film\""), "so do failing cases");
-    let (film, bagnold) = (place(&page, "id=\"verdicts-film\""), place(&page, "id=\"verdicts-bagnold\""));
-    assert!(page[bagnold..film].split('>').next().is_some_and(|tag| tag.ends_with("open")), "unfolded");
-    assert!(!page[film..].split('>').next().is_some_and(|tag| tag.ends_with("open")), "folded");
+    let line_of = |case: &str| place(&page, &format!("<a href=\"cases/{case}/index.html\">"));
+    assert!(line_of("bagnold") < line_of("film"), "so do failing cases");
+    assert!(place(&page, "id=\"attention\"") < place(&page, "id=\"cases\""), "what fails stands above the table");
     assert!(judge(&report).has_unexpected_failure());
 }
 
@@ -188,7 +188,7 @@ fn an_undeclared_divergence_is_a_failure_and_a_declared_one_is_not() {
     report.cases[0].runs = vec![run(false)];
     assert!(judge(&report).has_unexpected_failure());
     let page = html(&report);
-    assert!(place(&page, "speed of particle 17") < place(&page, "id=\"verdicts\""));
+    assert!(place(&page, "speed of particle 17") < place(&page, "id=\"cases\""));
 }
 
 #[test]
@@ -204,10 +204,13 @@ fn everything_inserted_is_escaped() {
     let mut report = report(vec![case]);
     report.title = evil.to_owned();
     report.generated.commit = evil.to_owned();
-    let page = html(&report);
-    assert!(!page.contains("<script>alert"));
-    assert!(page.contains("&lt;script&gt;alert(1)"));
-    assert_eq!(page.matches("</script>").count(), 1, "only the page's own");
+    let judgement = judge(&report);
+    let of_case = case_page::render(&report, &judgement.cases[0], &[], None).expect("page");
+    for page in [html(&report), of_case] {
+        assert!(!page.contains("<script>alert"));
+        assert!(page.contains("&lt;script&gt;alert(1)"));
+        assert_eq!(page.matches("</script>").count(), 1, "only the page's own");
+    }
 }
 
 #[test]
@@ -219,24 +222,30 @@ fn the_folder_is_self_contained_and_reproducible() {
     let report = report(vec![film]);
     write(&report, folder.path()).expect("written");
     let read = |path: &str| std::fs::read_to_string(folder.path().join(path)).expect(path);
-    let page = read("index.html");
+    let (overview, page) = (read("index.html"), read("cases/film/index.html"));
     assert_eq!(read("cases/film/metrics.json"), "{}\n");
     assert_eq!(read("cases/film/case.toml"), "depth = 0.01\n");
     assert!(folder.path().join("figures/film/velocity-profile.png").exists());
-    assert!(page.contains("figures/film/velocity-profile.svg"));
+    assert!(page.contains("href=\"../../figures/film/velocity-profile.svg\""));
+    let (width, height) = figure::size_of(&folder.path().join("figures/film/velocity-profile.png")).expect("a picture");
+    let sized =
+        format!("velocity-profile.png\" alt=\"a caption\" loading=\"lazy\" width=\"{width}\" height=\"{height}\"");
+    assert!(page.contains(&sized), "a picture that comes late must not move what is linked");
     assert!(folder.path().join("figures/film/collapse.gif").exists());
-    assert!(page.contains("<img src=\"figures/film/collapse.gif\"") && page.contains("a moving caption"));
+    assert!(page.contains("<img src=\"../../figures/film/collapse.gif\"") && page.contains("a moving caption"));
     assert!(!page.contains("collapse.svg") && page.contains("without-pictures could not be drawn"));
     assert!(page.contains("could not be drawn"), "a figure that fails is named on the page");
-    assert!(!page.contains("http"), "nothing is loaded from elsewhere");
+    assert!(!page.contains("http") && !overview.contains("http"), "nothing is loaded from elsewhere");
+    assert!(links(folder.path()) > 10);
     write(&report, folder.path()).expect("written again");
-    assert_eq!(page, read("index.html"));
+    assert_eq!((overview, page), (read("index.html"), read("cases/film/index.html")));
 }
 
 #[test]
 fn empty_reports_and_escaping_names() {
     let folder = tempfile::tempdir().expect("folder");
     write(&report(Vec::new()), folder.path()).expect("an empty report is a report");
+    assert_eq!(links(folder.path()), 3, "the empty report's own places");
     let page = html(&report(vec![case("film", Vec::new())]));
     assert!(page.contains("Nothing was judged") && page.contains("no metrics"));
     assert!(matches!(write(&report(vec![case("../film", Vec::new())]), folder.path()), Err(ReportError::Name { .. })));

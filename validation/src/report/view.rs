@@ -26,20 +26,92 @@ pub(super) fn anchor(case: &str, metric: &str, variant: &Variant) -> String {
     format!("metric-{case}-{metric}-{}", variant.file_name()).chars().map(plain).collect()
 }
 
+/// The command as typed in a checkout, where the program is not installed.
+pub(super) fn typed(command: &str) -> String {
+    command.strip_prefix("bagnold ").map_or_else(|| command.to_owned(), |rest| format!("cargo run -- {rest}"))
+}
+
+/// The first page: what a reader must know, and the way to everything else.
 #[derive(Debug, Serialize)]
-pub(super) struct Page {
+pub(super) struct Overview {
     pub(super) title: String,
     pub(super) tier: &'static str,
     pub(super) banner: Banner,
     pub(super) counts: Vec<Count>,
+    /// Gates that fail, then those that hold by least.
+    pub(super) worst: Vec<Line>,
+    pub(super) strip: Vec<Thumbnail>,
+    pub(super) cases: Vec<CaseLine>,
+    pub(super) gates: Vec<Gate>,
     pub(super) drift: super::drift::Table,
     pub(super) scatter: Vec<super::scatter::Row>,
-    pub(super) cases: Vec<Case>,
+    pub(super) has_papers: bool,
     pub(super) provenance: Vec<(&'static str, String)>,
     pub(super) command: String,
     pub(super) date: Option<String>,
     pub(super) style: &'static str,
     pub(super) script: &'static str,
+}
+
+/// A metric among the worst.
+#[derive(Debug, Serialize)]
+pub(super) struct Line {
+    pub(super) mark: Mark,
+    pub(super) case: String,
+    /// Where it stands on the case's page.
+    pub(super) anchor: String,
+    pub(super) metric: String,
+    pub(super) variant: String,
+    /// The margin's share of the limit.
+    pub(super) number: String,
+    pub(super) statement: String,
+}
+
+/// A picture that stands for a case.
+#[derive(Debug, Serialize)]
+pub(super) struct Thumbnail {
+    pub(super) case: String,
+    pub(super) picture: Picture,
+}
+
+/// A case in the list of cases.
+#[derive(Debug, Serialize)]
+pub(super) struct CaseLine {
+    pub(super) mark: Mark,
+    pub(super) name: String,
+    pub(super) summary: String,
+    pub(super) statement: String,
+    pub(super) least_margin: String,
+}
+
+/// A metric in the table of all cases.
+#[derive(Debug, Serialize)]
+pub(super) struct Gate {
+    pub(super) case: String,
+    pub(super) row: Row,
+}
+
+/// The page of a case.
+#[derive(Debug, Serialize)]
+pub(super) struct CasePage {
+    pub(super) title: String,
+    pub(super) tier: &'static str,
+    pub(super) case: Case,
+    /// Whether there is a baseline to have moved from.
+    pub(super) compared: bool,
+    /// The report that the page belongs to, if it does.
+    pub(super) report: Option<Neighbours>,
+    pub(super) provenance: Vec<(&'static str, String)>,
+    pub(super) style: &'static str,
+    pub(super) script: &'static str,
+}
+
+/// What a case's page leads to in its report.
+#[derive(Debug, Serialize)]
+pub(super) struct Neighbours {
+    pub(super) has_papers: bool,
+    pub(super) previous: Option<String>,
+    pub(super) next: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -48,17 +120,20 @@ pub(super) struct Banner {
     pub(super) headline: String,
     pub(super) detail: String,
     pub(super) items: Vec<BannerItem>,
-    pub(super) omitted: usize,
 }
 
 #[derive(Debug, Serialize)]
 pub(super) struct BannerItem {
     pub(super) mark: Mark,
     pub(super) case: String,
+    /// Where it stands on the case's page.
+    pub(super) anchor: String,
     pub(super) what: String,
     pub(super) variant: String,
     pub(super) statement: String,
     pub(super) note: String,
+    /// The note of the item above says the same.
+    pub(super) note_repeats: bool,
 }
 
 /// One of the separate verdicts.
@@ -79,12 +154,12 @@ pub(super) struct Case {
     pub(super) summary: String,
     pub(super) description: Vec<String>,
     pub(super) mark: Mark,
-    /// Failing cases are unfolded.
-    pub(super) open: bool,
     pub(super) statement: String,
     pub(super) rows: Vec<Row>,
     pub(super) vanished: Vec<String>,
     pub(super) figures: Vec<Picture>,
+    /// Tables of reference data that are written beside the page.
+    pub(super) tables: Vec<&'static str>,
     pub(super) parameters: String,
     pub(super) command: String,
     pub(super) runs: Vec<Run>,
@@ -101,6 +176,8 @@ pub(super) struct Row {
     pub(super) variant: Vec<String>,
     pub(super) value: String,
     pub(super) reference: String,
+    /// How far the value is from the reference.
+    pub(super) residual: String,
     pub(super) source: String,
     pub(super) confidence: &'static str,
     pub(super) kind: &'static str,
@@ -112,18 +189,26 @@ pub(super) struct Row {
     pub(super) source_repeats: bool,
     pub(super) margin: String,
     pub(super) relative_margin: String,
+    /// The margin's share of the limit as a number to sort by, empty if there is none.
+    pub(super) margin_key: String,
+    /// The change in tolerances as a number to sort by, empty if there is none.
+    pub(super) change_key: String,
+    /// The figure of the case that shows it best, or nothing.
+    pub(super) figure: String,
     pub(super) drift: Mark,
     pub(super) change: String,
     pub(super) relative_change: String,
     pub(super) note: String,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub(super) struct Picture {
     pub(super) name: String,
     pub(super) caption: String,
     /// A GIF, instead of an SVG with a PNG.
     pub(super) moves: bool,
+    /// Width and height `[px]`, so that the page does not move when the picture comes.
+    pub(super) size: Option<(u32, u32)>,
     pub(super) failure: Option<String>,
 }
 

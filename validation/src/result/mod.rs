@@ -1,4 +1,4 @@
-//! A finished case as files: `metrics.json`, tables, figures and particle snapshots.
+//! A finished case as files: `metrics.json`, tables and particle snapshots.
 
 mod base64;
 mod document;
@@ -7,12 +7,12 @@ mod snapshots;
 pub use document::{MetricEntry, MetricsDocument, Provenance};
 
 use crate::case::CaseResult;
-use crate::figure::{self, FigureError};
 pub(crate) use document::pretty;
 use std::io;
 use std::path::Path;
 
-/// Writes everything about a case into a folder: parameters, metrics, provenance, tables, figures and snapshots.
+/// Writes everything about a case into a folder but its page and what the page shows: parameters, metrics, provenance,
+/// tables and snapshots.
 ///
 /// # Errors
 /// Files that cannot be written.
@@ -27,24 +27,6 @@ pub fn write_case(folder: &Path, result: &CaseResult, document: &MetricsDocument
     }
     for (run, frames) in result.runs.iter().zip(&result.frames).filter(|(_, frames)| !frames.is_empty()) {
         snapshots::write(&folder.join("snapshots"), &snapshots::file_name(&run.variant), frames)?;
-    }
-    write_figures(&folder.join("figures"), result)
-}
-
-/// Writes a case's figures and animations. One that cannot be drawn is no reason to lose the numbers: it is logged.
-///
-/// # Errors
-/// Files that cannot be written.
-pub fn write_figures(folder: &Path, result: &CaseResult) -> io::Result<()> {
-    let figures = result.figures.iter().map(|drawn| (&drawn.name, figure::write(drawn, folder).err()));
-    let animations =
-        result.animations.iter().map(|moving| (&moving.name, figure::write_animation(moving, folder).err()));
-    for (name, error) in figures.chain(animations) {
-        match error {
-            None => {}
-            Some(FigureError::Write { source, .. }) => return Err(source),
-            Some(error) => tracing::error!("{}, figure {name}: failed to {error}", result.name),
-        }
     }
     Ok(())
 }

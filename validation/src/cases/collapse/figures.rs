@@ -83,8 +83,9 @@ fn scaling_figure(records: &[&Record]) -> Figure {
                 .filter(|(run, _)| run.material == material)
                 .map(|(run, record)| (run.initial_height(), measure(&record.data)))
                 .collect();
-            if !points.is_empty() {
-                let entry = if legend { material.title() } else { String::new() };
+            let law = records.iter().find(|(run, _)| run.material == material).map(|(run, _)| &run.law);
+            if let Some(law) = law.filter(|_| !points.is_empty()) {
+                let entry = if legend { material.title_with(law) } else { String::new() };
                 panel.points(&entry, slot, points);
             }
             if let Some(found) = scaling::fit(records, material, measure) {
@@ -110,6 +111,7 @@ fn scaling_figure(records: &[&Record]) -> Figure {
 
 fn label(run: &ColumnRun) -> String {
     let material = match run.material {
+        own if own.title() != own.title_with(&run.law) => own.title_with(&run.law),
         Material::LAGREE => "Lagrée".to_owned(),
         published if published.is_published() => published.to_string(),
         altered => altered.title(),

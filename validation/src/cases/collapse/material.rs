@@ -1,5 +1,7 @@
 //! Which grains a column is made of.
 
+use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};
+use bagnold_solver::material::rheology::Rheology;
 use serde::Serialize;
 use std::fmt;
 
@@ -44,6 +46,15 @@ impl Grains {
             Self::Lagree => "lagree",
         }
     }
+
+    /// What their source gives them.
+    fn as_published(self) -> &'static PublishedGrains {
+        match self {
+            Self::Sand => &TABLE_2_SAND,
+            Self::Glass => &GLASS_BEADS,
+            Self::Lagree => &LAGREE_GRAINS,
+        }
+    }
 }
 
 impl Material {
@@ -70,6 +81,13 @@ impl Material {
     #[must_use]
     pub fn is_published(self) -> bool {
         self.alteration.is_none()
+    }
+
+    /// What a legend calls them where they have this law: one of a user's own makes grains of his own.
+    #[must_use]
+    pub fn title_with(self, law: &Rheology) -> String {
+        let is_own = self.is_published() && *law != Rheology::MuI(self.grains.as_published().law);
+        if is_own { format!("own grains as {}", self.grains.name()) } else { self.title() }
     }
 
     /// What a legend calls them.
@@ -105,6 +123,17 @@ impl fmt::Display for Material {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bagnold_solver::material::rheology::MuI;
+
+    #[test]
+    fn grains_with_a_law_of_ones_own_are_not_those_of_the_table() {
+        let published = TABLE_2_SAND.law;
+        let own = MuI { static_friction: published.static_friction + 0.01, ..published };
+        assert_eq!(Material::SAND.title_with(&Rheology::MuI(published)), "sand of Table 2");
+        assert_eq!(Material::SAND.title_with(&Rheology::MuI(own)), "own grains as sand");
+        let altered = Material::altered(Grains::Sand, Alteration::ReferenceInertia(0.279));
+        assert_eq!(altered.title_with(&Rheology::MuI(own)), "sand, I_0 = 0.279");
+    }
 
     #[test]
     fn materials_have_a_name_for_files_and_one_for_readers() {

@@ -1,0 +1,192 @@
+//! A finished report in a browser. Needs chromium and chromedriver, and a report: `cargo run -- report` first.
+//!
+//! It stands apart from the other tests, which need no browser; `.ci/run` runs it.
+
+mod driver;
+mod pages;
+
+use driver::Browser;
+use fantoccini::wd::PrintConfiguration;
+use pages::{address, addresses, folder};
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Pages that an overview of two dozen cases may take on paper.
+const MOST_PRINTED: usize = 20;
+
+/// The texts of a list.
+fn list(value: &Value) -> Vec<String> {
+    value.as_array().into_iter().flatten().filter_map(|text| text.as_str().map(str::to_owned)).collect()
+}
+
+#[tokio::test]
+async fn no_page_complains_and_every_picture_comes_in_its_size() {
+    let browser = Browser::open(1280, 720).await;
+    let mut pictures = 0;
+    for page in addresses() {
+        browser.client.goto(&page).await.expect(&page);
+        let answer = browser.wait_for(include_str!("scripts/pictures.js"), Vec::new()).await;
+        pictures += answer[0].as_u64().unwrap_or(0);
+        assert_eq!(list(&answer[1]), [""; 0], "{page}");
+        assert_eq!(browser.console().await, [""; 0], "{page}");
+    }
+    assert!(pictures > 10, "{pictures} pictures");
+}
+
+#[tokio::test]
+async fn every_link_lands_where_it_says() {
+    let browser = Browser::open(1280, 720).await;
+    let pages = addresses();
+    let mut places: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for page in &pages {
+        browser.client.goto(page).await.expect(page);
+        let links = browser.ask("return [...new Set([...document.links].map((link) => link.href))]").await;
+        for link in list(&links) {
+            let (file, place) = link.split_once('#').unwrap_or((&link, ""));
+            let path = url::Url::parse(file).ok().and_then(|file| file.to_file_path().ok());
+            assert!(path.is_some_and(|path| path.is_file()), "{page} leads to {link}");
+            if !place.is_empty() {
+                places.entry(file.to_owned()).or_default().insert(place.to_owned());
+            }
+        }
+    }
+    let script = include_str!("scripts/landing.js");
+    for (page, places) in &places {
+        assert!(pages.contains(page), "{page} is no page");
+        // first as a link of another page does, with pictures that have not come yet: the farthest place of all
+        let last = places.iter().rfind(|place| place.starts_with("figure-")).or(places.last());
+        browser.client.goto("about:blank").await.expect("an empty page");
+        browser.client.goto(&format!("{page}#{}", last.map_or("", String::as_str))).await.expect(page);
+        tokio::time::sleep(std::time::Duration::from_millis(150)).await;
+        let at_once = "const box = document.querySelector(':target').getBoundingClientRect();\
+                       return box.top >= -1 && box.top < innerHeight";
+        assert_eq!(browser.ask(at_once).await, json!(true), "{page}#{last:?} from another page");
+        let lost = browser.wait_for(script, vec![json!(places)]).await;
+        assert_eq!(list(&lost), [""; 0], "{page}");
+    }
+    let number: usize = places.values().map(BTreeSet::len).sum();
+    assert!(number > 50, "{number} places");
+}
+
+/// Rows of the overview's table of gates that are shown: verdict, case and relative margin.
+async fn shown(browser: &Browser) -> Vec<(String, String, Option<f64>)> {
+    let script = "return [...document.querySelectorAll('#gates-table > tbody:not([hidden])')].map((row) => \
+                  [row.querySelector('.verdict').textContent.trim(), row.querySelector('td.case').textContent, row.dataset.margin])";
+    let rows = browser.ask(script).await;
+    let row = |row: &Value| {
+        let text = |place: usize| row[place].as_str().unwrap_or_default().to_owned();
+        (text(0), text(1), text(2).parse().ok())
+    };
+    rows.as_array().expect("rows").iter().map(row).collect()
+}
+
+/// Puts a value into a field of the first filter, as a user does.
+async fn choose(browser: &Browser, field: &str, value: &str) {
+    let script = format!(
+        "const field = document.querySelector('form.filter [name={field}]'); field.value = {value:?};\
+         for (const name of ['input', 'change']) field.dispatchEvent(new Event(name, {{ bubbles: true }}))"
+    );
+    browser.ask(&script).await;
+}
+
+#[tokio::test]
+async fn filters_and_sorting_do_what_they_say() {
+    let browser = Browser::open(1280, 720).await;
+    browser.client.goto(&address(&folder().join("index.html"))).await.expect("the overview");
+    let all = shown(&browser).await;
+    assert!(all.len() > 10, "{} gates", all.len());
+
+    let case = all[all.len() / 2].1.clone();
+    choose(&browser, "search", &case).await;
+    let found = shown(&browser).await;
+    assert!(!found.is_empty() && found.len() <= all.len());
+    choose(&browser, "search", "no such thing").await;
+    assert!(shown(&browser).await.is_empty());
+    let header = browser.ask("return document.querySelector('#gates-table thead').checkVisibility()").await;
+    assert_eq!(header, json!(false), "no header without a row");
+    choose(&browser, "search", "").await;
+    choose(&browser, "case", &case).await;
+    let expected = all.iter().filter(|row| row.1 == case).count();
+    assert_eq!(shown(&browser).await.len(), expected);
+    choose(&browser, "case", "").await;
+
+    choose(&browser, "sort", "6").await;
+    let sorted = shown(&browser).await;
+    assert_eq!(sorted.len(), all.len(), "sorting loses no row");
+    let numbers: Vec<f64> = sorted.iter().filter_map(|row| row.2).collect();
+    assert!(numbers.windows(2).all(|pair| pair[0] <= pair[1]), "smallest margin first");
+    let head = browser.client.find(fantoccini::Locator::Css("#gates-table th[data-key=margin] button")).await;
+    head.expect("a head that sorts").send_keys("\u{e007}").await.expect("it takes the enter key");
+    let turned: Vec<f64> = shown(&browser).await.iter().filter_map(|row| row.2).collect();
+    assert!(turned.windows(2).all(|pair| pair[0] >= pair[1]), "once more, the largest");
+}
+
+#[tokio::test]
+async fn a_key_leads_to_the_search_and_another_away() {
+    let browser = Browser::open(1280, 720).await;
+    let focused = "return document.activeElement.name === 'search'";
+    for page in addresses() {
+        browser.client.goto(&page).await.expect(&page);
+        if browser.ask("return document.querySelector('form.filter:not([hidden])') === null").await == json!(true) {
+            continue;
+        }
+        let body = browser.client.find(fantoccini::Locator::Css("body")).await.expect("a body");
+        body.send_keys("/").await.expect("a key");
+        assert_eq!(browser.ask(focused).await, json!(true), "{page}");
+        let search = browser.client.active_element().await.expect("the search");
+        search.send_keys("zzz\u{e00c}").await.expect("keys");
+        assert_eq!(browser.ask(focused).await, json!(false), "{page}");
+        assert_eq!(browser.ask("return document.querySelector('[name=search]').value").await, json!(""), "{page}");
+    }
+}
+
+#[tokio::test]
+async fn nothing_overflows_on_a_phone_or_a_laptop() {
+    let browser = Browser::open(390, 844).await;
+    for page in addresses() {
+        browser.client.goto(&page).await.expect(&page);
+        for (width, height) in [(1280, 720), (390, 844)] {
+            browser.of_size(width, height).await;
+            let answer = browser.ask(include_str!("scripts/overflow.js")).await;
+            assert_eq!(answer[0], json!(width), "{page}");
+            assert_eq!(list(&answer[1]), [""; 0], "{page} on {width} px");
+        }
+    }
+}
+
+#[tokio::test]
+async fn what_matters_fits_a_laptops_first_screen() {
+    let browser = Browser::open(1280, 720).await;
+    browser.client.goto(&address(&folder().join("index.html"))).await.expect("the overview");
+    for part in [".banner", ".counts", ".pair", ".strip"] {
+        let script = format!("return document.querySelector('{part}').getBoundingClientRect().bottom");
+        let bottom = browser.ask(&script).await.as_f64().expect("a number");
+        assert!(bottom > 0.0 && bottom <= 720.0, "{part} ends at {bottom} px");
+    }
+}
+
+#[tokio::test]
+async fn texts_can_be_read_by_day_and_by_night() {
+    let browser = Browser::open(1280, 720).await;
+    for page in addresses() {
+        browser.client.goto(&page).await.expect(&page);
+        for (scheme, paper) in [("light", 0.9..=1.0), ("dark", 0.0..=0.1)] {
+            browser.with_media("screen", scheme).await;
+            let answer = browser.ask(include_str!("scripts/contrast.js")).await;
+            let light = answer[0].as_f64().unwrap_or(f64::NAN);
+            assert!(paper.contains(&light), "{page}, {scheme}: {light}");
+            assert_eq!(list(&answer[1]), [""; 0], "{page}, {scheme}");
+        }
+    }
+}
+
+#[tokio::test]
+async fn paper_is_not_wasted() {
+    let browser = Browser::open(1280, 720).await;
+    browser.client.goto(&address(&folder().join("index.html"))).await.expect("the overview");
+    let printed = browser.client.print(PrintConfiguration::default()).await.expect("a document");
+    // a page's object names its type; "/Pages" is the tree of them
+    let text = String::from_utf8_lossy(&printed);
+    let number = text.matches("/Type /Page").count() - text.matches("/Type /Pages").count();
+    assert!((1..=MOST_PRINTED).contains(&number), "{number} pages");
+}

@@ -1,0 +1,138 @@
+//! The page of one case: its verdicts, figures, parameters and runs. `run` writes it alone, `report` among others.
+
+use super::accepted::tier_name;
+use super::judgement::{JudgedCase, Severity};
+use super::page::{provenance, seconds};
+use super::rows::{mark, rows, vanished};
+use super::template::fill;
+use super::view::{Case, CasePage, Mark, Neighbours, Picture, Row, Run, typed};
+use super::{Drawn, Report};
+use crate::case::RunSummary;
+use crate::metric::{Kind, Verdict};
+use crate::number::{count, four_digits};
+use crate::observation::Outcome;
+use crate::reference::shipped_tables;
+
+/// Fills the template for one case: in its report's folder `cases/CASE` if it has neighbours there, else in a folder of its
+/// own.
+pub(super) fn render(
+    report: &Report,
+    judged: &JudgedCase<'_>,
+    drawn: &[Drawn],
+    neighbours: Option<Neighbours>,
+) -> Result<String, minijinja::Error> {
+    let page = CasePage {
+        title: report.title.clone(),
+        tier: tier_name(report.tier),
+        case: case(judged, drawn),
+        compared: !report.baseline.is_empty(),
+        report: neighbours,
+        provenance: provenance(&report.generated),
+        style: include_str!("template/style.css"),
+        script: include_str!("template/page.js"),
+    };
+    fill("case.html", &page)
+}
+
+/// Names, within the case's folder, and texts of the tables of reference data that belong to a case.
+pub(super) fn tables(case: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    shipped_tables().filter_map(move |(name, text)| {
+        let own = name.strip_prefix(case)?.strip_prefix('/')?;
+        Some((own, text))
+    })
+}
+
+fn case(judged: &JudgedCase<'_>, drawn: &[Drawn]) -> Case {
+    let case = judged.case;
+    let mut rows = rows(&case.name, &judged.metrics);
+    for (row, judged) in rows.iter_mut().zip(&judged.metrics) {
+        if judged.metric.kind != Kind::Bookkeeping {
+            row.figure = figure(row, drawn);
+        }
+    }
+    Case {
+        name: case.name.clone(),
+        summary: case.summary.clone(),
+        description: case.description.split("\n\n").map(str::to_owned).collect(),
+        mark: if case.metrics.is_empty() { Mark::OBSERVED } else { mark(judged.severity()) },
+        statement: case_statement(judged),
+        rows,
+        vanished: judged.vanished.iter().map(vanished).collect(),
+        figures: drawn.iter().map(picture).collect(),
+        tables: tables(&case.name).map(|(name, _)| name).collect(),
+        parameters: case.parameters_toml.clone(),
+        command: typed(&case.command),
+        runs: case.runs.iter().map(run).collect(),
+    }
+}
+
+/// The figure that shares most words with a metric's name; nothing where none does.
+fn figure(row: &Row, drawn: &[Drawn]) -> String {
+    let is_word_of = |text: &str, word: &str| text.split(|c: char| !c.is_alphanumeric()).any(|other| other == word);
+    let shared = |drawn: &Drawn| {
+        let caption = drawn.caption.to_lowercase();
+        let weight = |word: &str| match word {
+            _ if word.len() < 4 => 0,
+            _ if is_word_of(&drawn.name, word) => 3,
+            _ if is_word_of(&caption, word) => 1,
+            _ => 0,
+        };
+        row.metric.split('_').map(weight).sum::<usize>()
+    };
+    // the first of equals
+    let best = drawn.iter().filter(|drawn| drawn.failure.is_none()).rev().max_by_key(|drawn| shared(drawn));
+    best.filter(|best| shared(best) > 0).map(|best| best.name.clone()).unwrap_or_default()
+}
+
+/// How many metrics of a case are what.
+pub(super) fn case_statement(judged: &JudgedCase<'_>) -> String {
+    let drifted = judged.metrics.iter().filter(|metric| metric.drift.is_failure()).count();
+    let parts = [
+        (judged.count(Severity::Failure), "failing"),
+        (judged.count(Severity::KnownFailure), "known to fail"),
+        (judged.metrics.iter().filter(|metric| metric.verdict == Verdict::Pass).count(), "holding"),
+        (judged.count(Severity::Observed), "observed"),
+        (drifted, "drifted"),
+        (judged.vanished.len(), "vanished"),
+        (judged.diverged.len(), "diverged"),
+    ];
+    let words: Vec<String> =
+        parts.iter().filter(|(number, _)| *number > 0).map(|(number, word)| format!("{number} {word}")).collect();
+    if words.is_empty() { "no metrics".to_owned() } else { words.join(" · ") }
+}
+
+/// A drawn figure as a page refers to it.
+pub(super) fn picture(drawn: &Drawn) -> Picture {
+    Picture {
+        name: drawn.name.clone(),
+        caption: drawn.caption.clone(),
+        moves: drawn.moves,
+        size: drawn.size,
+        failure: drawn.failure.clone(),
+    }
+}
+
+fn run(run: &RunSummary) -> Run {
+    let (mark, outcome) = match &run.outcome {
+        Outcome::Finished => (Mark { word: "finished", ..Mark::PASS }, String::new()),
+        Outcome::Stopped { criterion } => (Mark { word: "stopped", ..Mark::PASS }, criterion.clone()),
+        Outcome::Diverged { message, expected: true } => {
+            (Mark { word: "diverged as expected", ..Mark::OBSERVED }, message.clone())
+        }
+        Outcome::Diverged { message, expected: false } => (Mark { word: "diverged", ..Mark::FAIL }, message.clone()),
+    };
+    Run {
+        variant: run.variant.to_string(),
+        mark,
+        outcome,
+        particles: count(run.particles as u64),
+        steps: count(run.steps),
+        simulated_time: four_digits(run.simulated_time),
+        wall_seconds: seconds(run.wall_seconds),
+        threads: run.threads,
+        pace: run.microseconds_per_particle_step.map_or_else(|| "–".to_owned(), four_digits),
+        hash: run.state_hash.clone(),
+        short_hash: run.state_hash.chars().take(12).collect(),
+        from_store: run.from_store,
+    }
+}

@@ -1,0 +1,120 @@
+//! Verdicts as JUnit's XML, which CI systems show as tests: one a gate, and one for every run that should not have diverged.
+
+use super::Report;
+use super::accepted::tier_name;
+use super::judgement::{Judged, JudgedCase, Judgement};
+use super::known_failures::Standing;
+use super::rows::{note, statement};
+use super::view::typed;
+use crate::metric::Verdict;
+use quick_junit::{NonSuccessKind, Property, TestCase, TestCaseStatus, TestSuite};
+use std::time::Duration;
+
+/// A report as text. A known failure is skipped, with the reason of its entry; a gate that disagrees with the list of
+/// known failures fails, as it fails the report.
+pub(super) fn text(report: &Report, judgement: &Judgement<'_>) -> String {
+    let mut document = quick_junit::Report::new(report.title.as_str());
+    for case in &judgement.cases {
+        let mut suite = TestSuite::new(case.case.name.as_str());
+        let seconds: f64 = case.case.runs.iter().map(|run| run.wall_seconds).sum();
+        suite.set_time(Duration::try_from_secs_f64(seconds).unwrap_or_default());
+        suite.add_property(Property::new("tier", tier_name(report.tier)));
+        suite.add_property(Property::new("command", typed(&case.case.command)));
+        suite.add_test_cases(cases(case));
+        document.add_test_suite(suite);
+    }
+    document.to_string().expect("text that the crate itself has cleaned always serialises")
+}
+
+fn cases(case: &JudgedCase<'_>) -> Vec<TestCase> {
+    let named = |name: &str, variant: String, status| {
+        let name = if variant.is_empty() { name.to_owned() } else { format!("{name} [{variant}]") };
+        let mut test = TestCase::new(name, status);
+        test.set_classname(format!("bagnold.{}", case.case.name));
+        test
+    };
+    let diverged = case.diverged.iter().map(|(variant, message)| {
+        let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
+        status.set_type("divergence").set_message(*message);
+        named("run", variant.to_string(), status)
+    });
+    let gates = case.metrics.iter().filter_map(|judged| {
+        let mut test = named(&judged.metric.name, judged.metric.variant.to_string(), status(judged)?);
+        // what it is, for those who never look at the page
+        test.set_system_out(reason(judged));
+        Some(test)
+    });
+    diverged.chain(gates).collect()
+}
+
+/// How a gate ended; nothing for what is only observed.
+fn status(judged: &Judged<'_>) -> Option<TestCaseStatus> {
+    let failed = |kind: &str, message: String| {
+        let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
+        status.set_type(kind).set_message(message).set_description(reason(judged));
+        status
+    };
+    match (&judged.standing, judged.verdict) {
+        (Standing::Known(_), _) => {
+            let mut status = TestCaseStatus::skipped();
+            status.set_type("known failure").set_message(format!("{}. {}", statement(judged), note(judged)));
+            Some(status)
+        }
+        (standing, _) if standing.is_error() => {
+            Some(failed("list of known failures", format!("{}. {}", statement(judged), note(judged))))
+        }
+        (_, Verdict::Fail) => Some(failed("gate", statement(judged))),
+        (_, Verdict::Pass) => Some(TestCaseStatus::success()),
+        (_, Verdict::Observed) => None,
+    }
+}
+
+/// Value and limit, why the limit stands where it does, and what the value is compared with.
+fn reason(judged: &Judged<'_>) -> String {
+    let why = judged.metric.gate.as_ref().map(|gate| format!("; {}", gate.reason)).unwrap_or_default();
+    let source = judged.metric.reference.as_ref().map(|reference| format!("; reference: {}", reference.source));
+    format!("{}{why}{}", statement(judged), source.unwrap_or_default())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{case, gated, known, report};
+    use super::super::{Report, judge};
+    use super::text;
+
+    fn xml(report: &Report) -> String {
+        text(report, &judge(report))
+    }
+
+    #[test]
+    fn a_gate_is_a_test_and_an_observed_value_is_none() {
+        let observed = crate::metric::Metric { gate: None, ..gated("height", 1.0) };
+        let xml = xml(&report(vec![case("film", vec![gated("velocity_l2", 0.5), gated("wall_slip", 0.9), observed])]));
+        assert!(
+            xml.contains("<testsuites name=\"Report\" tests=\"2\" skipped=\"0\" failures=\"1\" errors=\"0\""),
+            "{xml}"
+        );
+        assert!(xml.contains("name=\"wall_slip [resolution=40]\" classname=\"bagnold.film\""), "{xml}");
+        assert!(xml.contains("<failure message=\"0.9\u{202f}%, limit ≤ 0.7\u{202f}%\" type=\"gate\">"), "{xml}");
+        assert!(xml.contains("prototype reached 0.56 %; reference: Eq. (36)"), "{xml}");
+        assert!(!xml.contains("height"));
+    }
+
+    #[test]
+    fn a_known_failure_is_skipped_with_its_reason_and_one_that_holds_again_fails() {
+        let mut report = report(vec![case("film", vec![gated("velocity_l2", 0.9)])]);
+        report.known_failures = known("film", "velocity_l2", 0.9);
+        let listed = xml(&report);
+        assert!(listed.contains("failures=\"0\"") && listed.contains("<skipped message=\"0.9\u{202f}%"), "{listed}");
+        assert!(listed.contains("two attempts"), "{listed}");
+        report.cases[0].metrics = vec![gated("velocity_l2", 0.5)];
+        let holds = xml(&report);
+        assert!(holds.contains("failures=\"1\"") && holds.contains("remove the entry"), "{holds}");
+    }
+
+    #[test]
+    fn what_xml_cannot_hold_is_cleaned_and_escaped() {
+        let xml = xml(&report(vec![case("film", vec![gated("a<b&\u{1}\"", 0.9)])]));
+        assert!(xml.contains("a&lt;b&amp;&quot;") && !xml.contains('\u{1}'), "{xml}");
+    }
+}

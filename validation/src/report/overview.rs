@@ -1,0 +1,79 @@
+//! What the first page shows of the cases: the worst margins, a picture each, and every gate in one table.
+
+use super::case_page::{case_statement, picture};
+use super::judgement::{Judged, JudgedCase, Judgement, Severity};
+use super::rows::{margin_share, mark, row, statement, whole, worst_mark};
+use super::view::{CaseLine, Gate, Line, Mark, Thumbnail, anchor};
+use super::{CaseReport, Drawn};
+use crate::metric::Kind;
+
+/// Lines of a short list: so many fit beside the counts on a laptop's first screen.
+const LINES: usize = 6;
+
+/// Gates that fail, the known ones last, then those that hold by the least share of their limit. Bookkeeping is shown where
+/// it fails only: what is exact holds by nothing.
+pub(super) fn worst(judgement: &Judgement<'_>) -> Vec<Line> {
+    let mut all: Vec<(Severity, f64, Line)> = Vec::new();
+    for (case, judged) in metrics(judgement) {
+        let fails = judged.severity() <= Severity::KnownFailure;
+        let Some(share) = margin_share(judged.metric).filter(|_| fails || judged.metric.kind != Kind::Bookkeeping)
+        else {
+            continue;
+        };
+        let order = if fails { judged.severity() } else { Severity::Pass };
+        let number = if share.is_finite() { format!("{} %", whole(100.0 * share)) } else { "–".to_owned() };
+        all.push((order, share, line(case, judged, worst_mark(judged), number)));
+    }
+    // Stable: equal ones keep the order of the page.
+    all.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    all.into_iter().take(LINES).map(|(_, _, line)| line).collect()
+}
+
+fn line(case: &JudgedCase<'_>, judged: &Judged<'_>, mark: Mark, number: String) -> Line {
+    Line {
+        mark,
+        case: case.case.name.clone(),
+        anchor: anchor(&case.case.name, &judged.metric.name, &judged.metric.variant),
+        metric: judged.metric.name.clone(),
+        variant: judged.metric.variant.to_string(),
+        number,
+        statement: statement(judged),
+    }
+}
+
+/// A picture a case, a moving one where there is one, in the order of the page.
+pub(super) fn strip<'d>(judgement: &Judgement<'_>, pictures: impl Fn(&CaseReport) -> &'d [Drawn]) -> Vec<Thumbnail> {
+    let of_case = |judged: &JudgedCase<'_>| {
+        let drawn: Vec<&Drawn> = pictures(judged.case).iter().filter(|drawn| drawn.failure.is_none()).collect();
+        let shown = drawn.iter().find(|drawn| drawn.moves).or(drawn.first())?;
+        Some(Thumbnail { case: judged.case.name.clone(), picture: picture(shown) })
+    };
+    judgement.cases.iter().filter_map(of_case).collect()
+}
+
+/// A case's line in the list of cases.
+pub(super) fn case_line(judged: &JudgedCase<'_>) -> CaseLine {
+    let case = judged.case;
+    let gates = judged.metrics.iter().filter(|judged| judged.metric.kind != Kind::Bookkeeping);
+    let least = gates.filter_map(|judged| margin_share(judged.metric)).min_by(f64::total_cmp);
+    CaseLine {
+        mark: if case.metrics.is_empty() { Mark::OBSERVED } else { mark(judged.severity()) },
+        name: case.name.clone(),
+        summary: case.summary.clone(),
+        statement: case_statement(judged),
+        least_margin: match least {
+            Some(share) if share.is_finite() => format!("{} %", whole(100.0 * share)),
+            _ => "–".to_owned(),
+        },
+    }
+}
+
+/// Every metric that is judged or has drifted; what is only observed stands on its case's page.
+pub(super) fn gates(judgement: &Judgement<'_>) -> Vec<Gate> {
+    let judged = metrics(judgement).filter(|(_, judged)| judged.severity() != Severity::Observed);
+    judged.map(|(case, judged)| Gate { case: case.case.name.clone(), row: row(&case.case.name, judged) }).collect()
+}
+
+fn metrics<'a, 'r>(judgement: &'a Judgement<'r>) -> impl Iterator<Item = (&'a JudgedCase<'r>, &'a Judged<'r>)> {
+    judgement.cases.iter().flat_map(|case| case.metrics.iter().map(move |judged| (case, judged)))
+}

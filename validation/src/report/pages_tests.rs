@@ -1,0 +1,77 @@
+//! Pages beside each other: their links, a case alone, and what the first page leads with.
+
+use super::tests::{case, drawing, gated, html, known, report};
+use super::*;
+use crate::metric::Variant;
+
+/// Every link and picture of every page in a folder leads to a file, and to a place in it that is there; how many there are.
+pub(super) fn links(folder: &Path) -> usize {
+    let mut number = 0;
+    let mut folders = vec![folder.to_owned()];
+    while let Some(here) = folders.pop() {
+        for entry in std::fs::read_dir(&here).expect("readable").flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let Some(page) = path.extension().filter(|e| *e == "html").and(std::fs::read_to_string(&path).ok()) else {
+                continue;
+            };
+            let addresses = ["href=\"", "src=\""].into_iter().flat_map(|attribute| page.split(attribute).skip(1));
+            for address in addresses.filter_map(|rest| rest.split('"').next()).filter(|own| !own.starts_with("data:")) {
+                let (file, place) = address.split_once('#').unwrap_or((address, ""));
+                let file = if file.is_empty() { path.clone() } else { here.join(file) };
+                let target = std::fs::read(&file).unwrap_or_else(|_| panic!("{}: {address}", path.display()));
+                let has_place = String::from_utf8_lossy(&target).contains(&format!("id=\"{place}\""));
+                assert!(place.is_empty() || has_place, "{}: {address}", path.display());
+                number += 1;
+            }
+        }
+    }
+    number
+}
+
+#[test]
+fn a_case_alone_has_the_same_page_beside_its_figures() {
+    let folder = tempfile::tempdir().expect("folder");
+    let mut film = case("film", vec![gated("velocity_l2", 0.5), gated("wall_slip", 0.3)]);
+    film.figures = vec![drawing("wall-slip"), drawing("velocity-profile")];
+    film.command = "bagnold run bagnold --tier paper".to_owned();
+    write_alone(&report(vec![film]), folder.path()).expect("written");
+    let page = std::fs::read_to_string(folder.path().join("index.html")).expect("a page");
+    assert!(page.contains("src=\"figures/velocity-profile.png\"") && !page.contains("../"));
+    assert!(page.contains("cargo run -- run bagnold --tier paper"), "as it is typed in a checkout");
+    assert!(page.contains("href=\"#figure-film-velocity-profile\">velocity-profile"), "the metric's own figure");
+    assert!(!page.contains("since baseline"), "there is nothing to have moved from");
+    assert!(links(folder.path()) > 5);
+}
+
+#[test]
+fn the_first_page_leads_with_the_thinnest_margins_and_the_farthest_moves() {
+    let metrics = vec![gated("roomy", 0.1), gated("thin", 0.69), gated("broken", 0.9)];
+    let mut report = report(vec![case("film", metrics)]);
+    report.baseline = Baseline::of("film", &[gated("roomy", 0.1), gated("thin", 0.7), gated("broken", 0.5)]);
+    let judgement = judge(&report);
+    let names = |lines: Vec<view::Line>| lines.into_iter().map(|line| line.metric).collect::<Vec<_>>();
+    assert_eq!(names(overview::worst(&judgement)), ["broken", "thin", "roomy"]);
+    let page = html(&report);
+    let moved: Vec<&str> = page.split("id=\"moved\"").nth(1).expect("a list").split("<b>").skip(1).take(2).collect();
+    assert!(moved[0].starts_with("broken") && moved[1].starts_with("thin"), "{moved:?}");
+    let thin = overview::gates(&judgement).into_iter().find(|gate| gate.row.metric == "thin").expect("a gate");
+    let number = |text: &str| text.parse::<f64>().expect("a number");
+    assert!((number(&thin.row.margin_key) - 0.01 / 0.7).abs() < 1e-5, "{}", thin.row.margin_key);
+    assert!((number(&thin.row.change_key) - 0.01 / (0.05 * 0.7)).abs() < 1e-4, "{}", thin.row.change_key);
+}
+
+#[test]
+fn notes_that_repeat_are_said_once() {
+    let gate = |variant: i32, value| Metric { variant: Variant::of("resolution", variant), ..gated("front", value) };
+    let mut report = report(vec![case("film", vec![gate(20, 0.9), gate(40, 0.9)])]);
+    let entry = known("film", "front", 0.9).failures.remove(0);
+    let of = |variant: i32| KnownFailure { variant: Variant::of("resolution", variant), ..entry.clone() };
+    report.known_failures = KnownFailures { failures: vec![of(20), of(40)] };
+    let page = html(&report);
+    assert_eq!(page.matches("two attempts").count(), 1);
+    assert_eq!(page.matches("for the same reason").count(), 1);
+}
