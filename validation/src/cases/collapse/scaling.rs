@@ -52,9 +52,14 @@ pub(super) fn fit(records: &[&Record], material: Material, quantity: fn(&Collaps
     let points: Vec<(f64, f64)> =
         tall.iter().map(|(run, record)| (run.initial_height(), quantity(&record.data))).collect();
     let law = power_law(&points).filter(|_| points.len() >= FEWEST)?;
-    let half_width = law.standard_error * student_quantile(CONFIDENCE, points.len() - 2);
+    let half_width = half_width(&law, points.len());
     let ends = points.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), (a, _)| (low.min(*a), high.max(*a)));
     Some(Scaling { law, half_width, range: ends })
+}
+
+/// Half width of an exponent's 95 % interval from its scatter about a fit through some points `[-]`.
+fn half_width(law: &Exponent, points: usize) -> f64 {
+    law.standard_error * student_quantile(CONFIDENCE, points - 2)
 }
 
 /// Mean of the run-out over the aspect ratio of shallow columns `[-]`; none without any.
@@ -117,6 +122,14 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_interval_of_an_exponent_is_that_of_the_printed_table() {
+        // Student's distribution, two-sided 95 %: 4.3027 for 2 degrees of freedom, 2.3646 for 7
+        let law = Exponent { value: 0.7, standard_error: 0.01, coefficient: 3.9 };
+        assert!((half_width(&law, 4) - 0.043_027).abs() < 1e-5, "{}", half_width(&law, 4));
+        assert!((half_width(&law, 9) - 0.023_646).abs() < 1e-5, "{}", half_width(&law, 9));
+    }
 
     #[test]
     fn the_branches_meet_at_the_break_point() {
