@@ -8,7 +8,7 @@ use crate::metric::{Value, Variant};
 use crate::observation::Recorded;
 use crate::reference::BagnoldProfile;
 use bagnold_solver::material::rheology::{MuI, Rheology};
-use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscousStep};
 use serde::Serialize;
 
 /// What a run is for.
@@ -27,6 +27,8 @@ pub enum Purpose {
     Runaway,
     /// Bagnold's steady profile with the regularised viscosity (35) and an implicit step.
     Regularised,
+    /// The same as the paper steps it: its numerics, (35) explicitly.
+    Printed,
 }
 
 /// One simulation.
@@ -52,6 +54,9 @@ pub struct BagnoldRun {
     pub material: Option<String>,
     regularisation_rate: f64,
 }
+
+/// The paper's operators: (10) with (11), and with (13).
+const PRINTED: [MomentumOperator; 2] = [MomentumOperator::Pairwise, MomentumOperator::PairwiseCorrected];
 
 /// All runs in report order.
 pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
@@ -104,6 +109,15 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
         let layer = PeriodicLayer { numerics, ..run.layer };
         BagnoldRun { regularisation_rate: parameters.regularised_rate, layer, ..run }
     }));
+    runs.extend(parameters.printed_rates.iter().flat_map(|&rate| {
+        PRINTED.map(|momentum_operator| {
+            let slope = parameters.convergence_slope_angle;
+            let rows = parameters.printed_resolution;
+            let run = new(Purpose::Printed, slope, Start::Profile, Arrangement::Jittered, rows, from_profile);
+            let layer = PeriodicLayer { numerics: Numerics { momentum_operator, ..Numerics::paper() }, ..run.layer };
+            BagnoldRun { regularisation_rate: rate, layer, ..run }
+        })
+    }));
     let (angle, study) = (parameters.convergence_slope_angle, &parameters.convergence_resolutions);
     let convergence =
         |start, particles, rows: usize, duration| new(Purpose::Convergence, angle, start, particles, rows, duration);
@@ -138,6 +152,9 @@ impl Run for BagnoldRun {
             .and("resolution", self.layer.resolution);
         match (&self.purpose, &self.material) {
             (Purpose::Regularised, _) => run.and("regularisation_rate", self.regularisation_rate),
+            (Purpose::Printed, _) => run
+                .and("numerics", self.layer.numerics.pairwise_operator().unwrap_or("default").replace('-', "_"))
+                .and("regularisation_rate", self.regularisation_rate),
             (_, Some(material)) => run.and("material", material.clone()),
             _ => run,
         }
@@ -224,6 +241,7 @@ impl BagnoldRun {
             duration: self.duration,
             window: self.averaging_time,
             interval: 2e-3,
+            may_diverge: self.purpose == Purpose::Printed,
             stop_above: if self.purpose == Purpose::Runaway { 0.5 * self.sound_speed() } else { f64::INFINITY },
             ..self.layer.of(law(&self.grains, self.regularisation_rate), self.density(), self.slope_angle)
         }
