@@ -4,7 +4,7 @@ const width = document.documentElement.clientWidth;
 if (document.documentElement.scrollWidth > width) complaints.push(`the page is ${document.documentElement.scrollWidth} px wide`);
 for (const element of document.querySelectorAll("body *")) {
   const box = element.getBoundingClientRect();
-  if (box.width === 0 || box.right <= width + 1) continue;
+  if (box.width === 0 || box.right <= width + 1 || element.ownerSVGElement) continue;
   let around = element.parentElement;
   while (around && !["auto", "scroll", "hidden"].includes(getComputedStyle(around).overflowX)) around = around.parentElement;
   if (!around || around.getBoundingClientRect().right > width + 1) {

@@ -2,6 +2,7 @@
 
 use super::accepted::tier_name;
 use super::judgement::{Judgement, Severity, Tally};
+use super::known_failures::Standing;
 use super::overview;
 use super::papers::{self, Status};
 use super::papers_page;
@@ -56,11 +57,16 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
                 variant: variant.to_string(),
                 statement: message.to_owned(),
                 note: String::new(),
-                note_repeats: false,
+                reason: String::new(),
+                reason_repeats: false,
             };
             items.push((Severity::Failure, item));
         }
         for judged in case.metrics.iter().filter(|judged| judged.severity() <= Severity::KnownFailure) {
+            let reason = match &judged.standing {
+                Standing::Known(entry) => entry.reason.clone(),
+                _ => String::new(),
+            };
             let item = BannerItem {
                 mark: worst_mark(judged),
                 case: case.case.name.clone(),
@@ -68,8 +74,9 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
                 what: judged.metric.name.clone(),
                 variant: judged.metric.variant.to_string(),
                 statement: statement(judged),
-                note: note(judged),
-                note_repeats: false,
+                note: note(judged).strip_suffix(reason.as_str()).map_or_else(|| note(judged), str::to_owned),
+                reason,
+                reason_repeats: false,
             };
             items.push((judged.severity(), item));
         }
@@ -77,7 +84,7 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
     items.sort_by_key(|(severity, _)| *severity);
     let mut items: Vec<BannerItem> = items.into_iter().map(|(_, item)| item).collect();
     for place in 1..items.len() {
-        items[place].note_repeats = !items[place].note.is_empty() && items[place].note == items[place - 1].note;
+        items[place].reason_repeats = !items[place].reason.is_empty() && items[place].reason == items[place - 1].reason;
     }
     let (mark, headline, detail) = headline(judgement);
     Banner { mark, headline, detail, items }

@@ -132,8 +132,10 @@ pub(super) struct BannerItem {
     pub(super) variant: String,
     pub(super) statement: String,
     pub(super) note: String,
-    /// The note of the item above says the same.
-    pub(super) note_repeats: bool,
+    /// Why it is known to fail, which follows the note.
+    pub(super) reason: String,
+    /// The item above has the same reason.
+    pub(super) reason_repeats: bool,
 }
 
 /// One of the separate verdicts.
