@@ -88,7 +88,7 @@ pub struct BagnoldParameters {
     pub regularised_rate: f64,
     /// Rates α_r `[1/s]` with which the paper's own algorithm runs from the profile of `convergence_slope_angle`: its numerics,
     /// (35) by explicit steps, once with (11) and once with (13); empty for none. The steps become as short as the rate:
-    /// 10 rows take half a minute with 1 1/s and half an hour with 0.01 1/s.
+    /// 10 rows take seconds with 1 1/s and minutes with 0.01 1/s.
     #[schemars(transform = each(positive("0.01 1/s in the paper")))]
     pub printed_rates: Vec<f64>,
     /// Rows of particles in these.
@@ -122,7 +122,7 @@ impl Parameters for BagnoldParameters {
             regularisation_rate: 0.0,
             regularised_slope_angles: Vec::new(),
             regularised_rate: 0.01,
-            printed_rates: Vec::new(),
+            printed_rates: vec![1.0],
             printed_resolution: 10,
         };
         let paper = Self {
@@ -133,7 +133,6 @@ impl Parameters for BagnoldParameters {
             runaway_slope_angles: vec![34.0],
             other_grains: other_grains(),
             regularised_slope_angles: vec![24.0],
-            printed_rates: vec![1.0],
             ..quick.clone()
         };
         match tier {
