@@ -122,7 +122,7 @@ impl Parameters for BagnoldParameters {
             regularisation_rate: 0.0,
             regularised_slope_angles: Vec::new(),
             regularised_rate: 0.01,
-            printed_rates: vec![1.0],
+            printed_rates: Vec::new(),
             printed_resolution: 10,
         };
         let paper = Self {
@@ -132,6 +132,7 @@ impl Parameters for BagnoldParameters {
             convergence_resolutions: vec![10, 20, 40],
             runaway_slope_angles: vec![34.0],
             other_grains: other_grains(),
+            printed_rates: vec![1.0],
             regularised_slope_angles: vec![24.0],
             ..quick.clone()
         };
