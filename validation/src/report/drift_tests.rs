@@ -3,7 +3,7 @@
 use super::*;
 use crate::case::Tier;
 use crate::metric::{Limit, Metric, Variant};
-use crate::report::{Baseline, CaseReport, KnownFailures, Provenance, Report, history, judge};
+use crate::report::{Baseline, Report, history, judge, tests};
 
 fn metric(name: &str, value: f64) -> Metric {
     Metric::observed(name, &Variant::of("resolution", 40), value, "%")
@@ -12,29 +12,7 @@ fn metric(name: &str, value: f64) -> Metric {
 }
 
 fn report(metrics: Vec<Metric>, baseline: Baseline) -> Report {
-    let case = CaseReport {
-        name: "film".to_owned(),
-        summary: String::new(),
-        description: String::new(),
-        parameters_toml: String::new(),
-        command: String::new(),
-        metrics,
-        figures: Vec::new(),
-        animations: Vec::new(),
-        runs: Vec::new(),
-        metrics_json: String::new(),
-    };
-    Report {
-        title: "Report".to_owned(),
-        tier: Tier::Quick,
-        generated: Provenance::default(),
-        cases: vec![case],
-        baseline,
-        against: None,
-        history: History::default(),
-        known_failures: KnownFailures::default(),
-        papers: &[],
-    }
+    Report { baseline, ..tests::report(vec![tests::case("film", metrics)]) }
 }
 
 /// Accepted values of three metrics, and the same with the middle one moved by some of its tolerances.

@@ -1,8 +1,7 @@
 //! Statuses follow from the numbers; every row is on the page, and its links land.
 
-use super::super::{Baseline, History, KnownFailures, Provenance, Report, judge, papers_page, write};
+use super::super::{Report, judge, papers_page, tests, write};
 use super::*;
-use crate::case::Tier;
 use crate::figure::Figure;
 use crate::metric::{Limit, Variant};
 
@@ -69,29 +68,8 @@ fn thickness(value: f64) -> Metric {
 fn report(metrics: Vec<Metric>) -> Report {
     let paper = Paper::parse("made-up", ROWS).expect("readable");
     let figure = Figure { name: "operators".to_owned(), caption: String::new(), panels: Vec::new(), columns: 1 };
-    let film = CaseReport {
-        name: "film".to_owned(),
-        summary: String::new(),
-        description: String::new(),
-        parameters_toml: String::new(),
-        command: String::new(),
-        metrics,
-        figures: vec![figure],
-        animations: Vec::new(),
-        runs: Vec::new(),
-        metrics_json: "{}\n".to_owned(),
-    };
-    Report {
-        title: "Report".to_owned(),
-        tier: Tier::Quick,
-        generated: Provenance::default(),
-        cases: vec![film],
-        baseline: Baseline::default(),
-        against: None,
-        history: History::default(),
-        known_failures: KnownFailures::default(),
-        papers: vec![paper].leak(),
-    }
+    let film = CaseReport { figures: vec![figure], ..tests::case("film", metrics) };
+    Report { papers: vec![paper].leak(), ..tests::report(vec![film]) }
 }
 
 fn statuses(metrics: Vec<Metric>) -> Vec<&'static str> {

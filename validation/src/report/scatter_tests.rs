@@ -1,9 +1,8 @@
 //! Tests of what a report says of a quantity over all its cases.
 
 use super::*;
-use crate::case::Tier;
 use crate::metric::{Origin, Variant};
-use crate::report::{Baseline, CaseReport, History, KnownFailures, Provenance, write};
+use crate::report::{tests, write};
 
 fn compared(name: &str, value: f64, reference: f64) -> Metric {
     Metric::observed(name, &Variant::of("value", value), value, "-").of_kind(Kind::Validation).against(
@@ -14,29 +13,7 @@ fn compared(name: &str, value: f64, reference: f64) -> Metric {
 }
 
 fn report(cases: Vec<(&str, Vec<Metric>)>) -> Report {
-    let case = |(name, metrics): (&str, Vec<Metric>)| CaseReport {
-        name: name.to_owned(),
-        summary: String::new(),
-        description: String::new(),
-        parameters_toml: String::new(),
-        command: String::new(),
-        metrics,
-        figures: Vec::new(),
-        animations: Vec::new(),
-        runs: Vec::new(),
-        metrics_json: "{}".to_owned(),
-    };
-    Report {
-        title: "Report".to_owned(),
-        tier: Tier::Quick,
-        generated: Provenance::default(),
-        cases: cases.into_iter().map(case).collect(),
-        baseline: Baseline::default(),
-        against: None,
-        history: History::default(),
-        known_failures: KnownFailures::default(),
-        papers: &[],
-    }
+    tests::report(cases.into_iter().map(|(name, metrics)| tests::case(name, metrics)).collect())
 }
 
 /// ln(M/E) = −0.1, 0 and 0.1 in two cases, and comparisons that do not count.
