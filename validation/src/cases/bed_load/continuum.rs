@@ -36,6 +36,11 @@ pub struct ContinuumRun {
     pub spacing: f64,
 }
 
+/// The row of a lattice that a height `[m]` lies in.
+fn row_of(height: f64, lattice: Lattice) -> usize {
+    (((height - lattice.bottom) / lattice.spacing) as usize).min(lattice.rows - 1)
+}
+
 /// The grains of a scene.
 #[derive(Default)]
 struct Placed {
@@ -136,15 +141,14 @@ impl ContinuumRun {
         let lattice = Lattice { spacing, rows, columns, bottom: fluid.bottom - WALL_ROWS as f64 * spacing };
         let jitter = if self.stage == Stage::Dilating { self.continuum.sediment_jitter } else { 0.0 };
         let mut placed = Placed::default();
-        let of_layer = SolidFraction::of_cells(layer);
+        let of_rows = self.rows_of_grains(&SolidFraction::of_cells(layer), lattice);
         for (site, place) in lattice.sites().zip(lattice.displaced(jitter, seed.wrapping_add(1))) {
             let point = layer.at(site[1]);
             let fraction = match self.stage {
                 // the top row has what lies below the bed's level, so that no grain is lost or won
                 Stage::Dilating => closures.largest_fraction * (0.5 - site[1] / spacing).clamp(0.0, 1.0),
                 Stage::Porous => point.solid_fraction,
-                // φ is far from straight over a row, and the topmost grains end inside one
-                Stage::Frozen => of_layer.mean(site[1] - 0.5 * spacing, site[1] + 0.5 * spacing),
+                Stage::Frozen => of_rows[row_of(site[1], lattice)],
             };
             if site[1] < held || (self.stage == Stage::Porous && fraction > *least_fraction) {
                 placed.wall.push(site);
@@ -155,6 +159,28 @@ impl ContinuumRun {
             }
         }
         placed
+    }
+
+    /// The layer's mean fraction over each row `[-]`, since φ is far from straight over one and the topmost grains end inside one.
+    ///
+    /// A few hundredths of grains in a row of their own have nothing to rub against but the row below, and are dragged off by
+    /// the water: the topmost row with more takes them.
+    fn rows_of_grains(&self, of_layer: &SolidFraction, lattice: Lattice) -> Vec<f64> {
+        let (half, sparse) = (0.5 * lattice.spacing, self.continuum.sparse_row_fraction);
+        let mut rows: Vec<f64> = (0..lattice.rows)
+            .map(|row| lattice.bottom + (row as f64 + 0.5) * lattice.spacing)
+            .map(|middle| of_layer.mean(middle - half, middle + half))
+            .collect();
+        let mut carried = 0.0;
+        for fraction in rows.iter_mut().rev() {
+            let own = *fraction + carried;
+            if own > sparse {
+                *fraction = own;
+                break;
+            }
+            (*fraction, carried) = (0.0, own);
+        }
+        rows
     }
 
     fn sediment(&self, run: &BedLoadRun, fluid: Lattice, layer: &LayerState) -> Sediment<2> {
@@ -248,6 +274,27 @@ mod tests {
         assert_eq!(of(Stage::Frozen, 0.03, &materials), 1e-3);
         assert_eq!(of(Stage::Frozen, 0.02, &shallow), 4e-4);
         assert_eq!(of(Stage::Dilating, 0.02, &shallow), 1e-3);
+    }
+
+    #[test]
+    fn a_sparse_topmost_row_gives_its_grains_to_the_row_below() {
+        let mut parameters = BedLoadParameters::of_tier(Tier::Quick);
+        let frozen = parameters.continuum.runs[0].clone();
+        parameters.continuum.runs = vec![StageRuns { stage: Stage::Frozen, slopes: vec![0.02], ..frozen }];
+        let mut rows = |sparse: f64| {
+            parameters.continuum.sparse_row_fraction = sparse;
+            let run = runs(&parameters).pop().expect("one run");
+            let Formulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
+            let layer = own.layer(run.stream()).expect("a steady layer");
+            let lattice = Lattice { spacing: 7e-4, rows: 60, columns: 1, bottom: -0.0161 };
+            own.rows_of_grains(&SolidFraction::of_cells(&layer), lattice)
+        };
+        let (plain, gathered) = (rows(0.0), rows(0.03));
+        let top = gathered.iter().rposition(|fraction| *fraction > 0.0).expect("grains");
+        assert!(plain[top + 1] > 0.0 && plain[top + 1] < 0.03 && gathered[top] > 0.03, "{plain:?}");
+        assert_eq!(plain[..top], gathered[..top]);
+        let difference = plain.iter().sum::<f64>() - gathered.iter().sum::<f64>();
+        assert!(difference.abs() < 1e-12, "{difference}");
     }
 
     #[test]

@@ -160,10 +160,13 @@ pub struct Continuum {
     pub closures: Closures,
     /// Largest spacing of grains that move at a given fraction, over τ* d `[-]`: their velocity falls by e over some
     /// 0.9 τ* d, and a layer thinner than that needs finer particles than a file asks for.
-    #[schemars(transform = between(0.1, 100.0, "1.3 puts two rows into the layer that moves"))]
+    #[schemars(transform = between(0.1, 100.0, "0.9 puts three rows into the layer that moves"))]
     pub largest_spacing: f64,
     /// Solid fraction of the layer below which a row carries no sediment particle `[-]`.
     pub least_fraction: f64,
+    /// Solid fraction below which the topmost row of grains at a given fraction gives its grains to the row below `[-]`.
+    #[schemars(transform = between(0.0, 0.3, "0.03; 0 leaves every row as it is"))]
+    pub sparse_row_fraction: f64,
     /// Particles of dilating sediment along a spacing of the water: they cost little, and a layer of a grain's thickness
     /// wants many.
     #[schemars(transform = between(1.0, 8.0, "2 for an error below 1 % in given water"))]
