@@ -36,7 +36,7 @@ const VALIDATION: &[Floor] = &[
     floor(&["store", "inference"]),
     floor(&["case"]),
     floor(&["cases", "evaluation", "result", "report"]),
-    floor(&["sweep", "calibration", "mutation"]),
+    floor(&["sweep", "calibration", "mutation", "judge", "compare"]),
     floor(&["cli"]),
 ];
 

@@ -4,10 +4,12 @@ pub mod calibration;
 pub mod case;
 pub mod cases;
 pub mod cli;
+pub mod compare;
 pub mod evaluation;
 pub mod figure;
 pub mod inference;
 pub mod input;
+pub mod judge;
 pub mod metric;
 #[cfg(feature = "planted-errors")]
 pub mod mutation;

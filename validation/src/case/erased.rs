@@ -2,9 +2,11 @@
 
 use super::changes::{Changes, is_set, resolve, table_of};
 use super::error::ParameterError;
+use super::foreign::ForeignResult;
 use super::notes::notes;
 use super::result::{CaseResult, RunSummary, microseconds_each};
-use super::{Case, CaseFile, Parameters, Progress, RecordOf, Run, RunOf, Tier, schema};
+use super::{Case, CaseFile, Form, Given, Parameters, Progress, RecordOf, Run, RunOf, Tier, schema};
+use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
 use crate::observation::Recorded;
 use crate::store::Store;
@@ -24,6 +26,8 @@ pub trait AnyCase: Sync {
     fn show(&self, tier: Tier) -> String;
     /// The JSON Schema (2020-12) of a case file, with the tier's parameters as defaults.
     fn schema(&self, tier: Tier) -> serde_json::Value;
+    /// What another code may give of a run, beside single numbers.
+    fn form(&self) -> &'static Form;
     /// Types and checks a tier's parameters with the user's changes.
     ///
     /// # Errors
@@ -50,6 +54,13 @@ pub trait Prepared: Send + Sync {
     /// # Errors
     /// Parameters whose combination gives no valid scene.
     fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError>;
+    /// The same with some of its runs only, in this order.
+    fn choose(self: Box<Self>, runs: &[usize]) -> Box<dyn Prepared>;
+    /// Judges and draws what another code gives, a run each; those of which it gives no files are left out.
+    ///
+    /// # Errors
+    /// Columns that are missing beside others, of the run of that number.
+    fn foreign(&self, given: &[Given]) -> Result<ForeignResult, (usize, FieldError)>;
     /// Judges and draws the records. Runs that were not simulated are left out.
     fn finish(self: Box<Self>) -> CaseResult;
 }
@@ -65,6 +76,10 @@ impl<C: Case> AnyCase for C {
 
     fn quantities(&self) -> &'static [Quantity] {
         C::QUANTITIES
+    }
+
+    fn form(&self) -> &'static Form {
+        &C::FORM
     }
 
     fn show(&self, tier: Tier) -> String {
@@ -151,6 +166,33 @@ impl<C: Case> Prepared for Plan<C> {
         }
         slot.get_or_init(|| (record, false));
         Ok(())
+    }
+
+    fn choose(self: Box<Self>, runs: &[usize]) -> Box<dyn Prepared> {
+        let mut plan = *self;
+        let mut slots: Vec<Option<Slot<RunOf<C::Parameters>>>> = plan.slots.into_iter().map(Some).collect();
+        plan.slots = runs.iter().filter_map(|&run| slots.get_mut(run)?.take()).collect();
+        Box::new(plan)
+    }
+
+    fn foreign(&self, given: &[Given]) -> Result<ForeignResult, (usize, FieldError)> {
+        let mut records: Vec<RecordOf<C::Parameters>> = Vec::new();
+        let mut measured = Vec::new();
+        for (number, (given, (run, _))) in given.iter().zip(&self.slots).enumerate() {
+            if given.is_empty() {
+                continue;
+            }
+            if let Some(foreign) = C::foreign(run, given).map_err(|error| (number, error))? {
+                measured.push((run.variant(), foreign.measured));
+                records.push((run.clone(), given.record(foreign.observation)));
+            }
+        }
+        Ok(ForeignResult {
+            metrics: C::metrics(&self.parameters, &records),
+            figures: C::figures(&self.parameters, &records),
+            tables: C::tables(&self.parameters, &records),
+            measured,
+        })
     }
 
     fn finish(self: Box<Self>) -> CaseResult {

@@ -5,6 +5,7 @@ mod erased;
 mod error;
 mod fault;
 mod file;
+mod foreign;
 mod notes;
 #[cfg(test)]
 pub(crate) mod pendulum;
@@ -18,11 +19,13 @@ pub use changes::Changes;
 pub use erased::{AnyCase, Prepared};
 pub use error::{ParameterError, SettingError};
 pub use file::CaseFile;
+pub use foreign::{Columns, Foreign, ForeignResult, Form, Given, Item, Picture};
 pub use registry::Registry;
 pub use result::{CaseResult, RunSummary};
 pub use schedule::{Monitor, Silent, execute, share_out};
 
 use crate::figure::{Animation, Figure};
+use crate::input::FieldError;
 use crate::metric::{Metric, Quantity, Variant};
 use crate::observation::Recorded;
 use schemars::JsonSchema;
@@ -120,6 +123,8 @@ pub trait Case: Sync + 'static {
     const DESCRIPTION: &'static str = Self::SUMMARY;
     /// The quantities that its metrics are built from, each declared once; empty for a case that does not declare them.
     const QUANTITIES: &'static [Quantity] = &[];
+    /// What another code may give of a run, beside single numbers.
+    const FORM: Form = Form::NUMBERS;
     /// Typed parameters.
     type Parameters: Parameters;
 
@@ -132,6 +137,16 @@ pub trait Case: Sync + 'static {
     /// Moving pictures of the observations; few cases have any.
     fn animations(_: &Self::Parameters, _: &[RecordOf<Self::Parameters>]) -> Vec<Animation> {
         Vec::new()
+    }
+    /// The observation of a run from what another code gives of it; none where the case takes single numbers only.
+    ///
+    /// # Errors
+    /// Columns that are missing beside others.
+    fn foreign(
+        _: &RunOf<Self::Parameters>,
+        _: &Given,
+    ) -> Result<Option<Foreign<<RunOf<Self::Parameters> as Run>::Observation>>, FieldError> {
+        Ok(None)
     }
     /// Tables for `run`'s output folder: profiles and time series.
     fn tables(_: &Self::Parameters, _: &[RecordOf<Self::Parameters>]) -> Vec<crate::output::Table> {

@@ -1,5 +1,9 @@
 //! What can be typed: the commands, their options and their help.
 
+mod foreign;
+
+pub(super) use foreign::{Compare, Export, Judge};
+
 use crate::case::Tier;
 use clap::{ArgAction, Args, Parser, Subcommand};
 use std::path::PathBuf;
@@ -11,6 +15,7 @@ const EXAMPLES: &str = "Examples:
   bagnold show film > my.toml                  parameters to edit
   bagnold run my.toml --out results            run the edited file
   bagnold report                               all cases, judged on one page: reports/index.html
+  bagnold judge mine.toml                      another code's results under the same gates
 
 Exit codes: 0 all gates hold, 1 a gate fails, 2 bad input, 3 a run diverged.";
 
@@ -119,6 +124,12 @@ pub enum Command {
     Schema(Show),
     /// Simulate one case and judge it.
     Run(Run),
+    /// Judge other codes' results on a case as our own are judged.
+    Judge(Judge),
+    /// Write what another code needs to run a case.
+    Export(Export),
+    /// Put results that were written earlier beside each other.
+    Compare(Compare),
     /// Simulate many cases and write one page about them.
     Report(Report),
     /// Find the parameters that agree best with data, and judge them on data held out.

@@ -2,6 +2,8 @@
 
 use crate::calibration::CalibrationError;
 use crate::case::ParameterError;
+use crate::compare::CompareError;
+use crate::judge::JudgeError;
 use crate::output::{FileError, FolderError};
 use crate::report::{BaselineError, EarlierError, ReportError};
 use crate::sweep::SweepError;
@@ -24,6 +26,12 @@ pub enum ProgramError {
     /// A calibration is refused.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
+    /// A submission of another code is refused.
+    #[error(transparent)]
+    Judge(#[from] JudgeError),
+    /// Results that cannot be compared.
+    #[error(transparent)]
+    Compare(#[from] CompareError),
     /// A program without errors to plant.
     #[error(
         "failed to plant errors: this program was built without any; build one that has them with \

@@ -2,8 +2,10 @@
 
 mod arguments;
 mod calibrate;
+mod compare;
 mod error;
 mod exit;
+mod judge;
 mod logging;
 #[cfg(feature = "planted-errors")]
 mod mutate;
@@ -76,6 +78,11 @@ pub fn execute(
         Command::Run(command) => in_pool(&command.work, || run::run(command, registry, arguments.quiet, output)),
         Command::Calibrate(command) => {
             in_pool(&command.work, || calibrate::run(command, registry, arguments.quiet, output))
+        }
+        Command::Compare(command) => compare::compare(command, output),
+        Command::Judge(command) => in_pool(&command.work, || judge::judge(command, registry, arguments.quiet, output)),
+        Command::Export(command) => {
+            in_pool(&command.work, || judge::export(command, registry, arguments.quiet, output))
         }
         Command::Sweep(command) => in_pool(&command.work, || sweep::sweep(command, registry, arguments.quiet, output)),
         #[cfg(feature = "planted-errors")]

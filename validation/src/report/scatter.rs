@@ -34,17 +34,23 @@ pub struct QuantityBias {
 /// whatever their case; a reference that is unverified, or exact for the model, is no measurement.
 #[must_use]
 pub fn quantities(report: &Report) -> Vec<QuantityBias> {
+    quantities_of(report.cases.iter().map(|case| (case.name.as_str(), case.metrics.iter().collect())))
+}
+
+/// The same of the metrics of some cases.
+#[must_use]
+pub fn quantities_of<'a>(cases: impl IntoIterator<Item = (&'a str, Vec<&'a Metric>)>) -> Vec<QuantityBias> {
     type Group = (Vec<(String, Vec<Comparison>)>, usize);
     let mut groups: BTreeMap<(String, String), Group> = BTreeMap::new();
-    for case in &report.cases {
-        for (metric, compared) in case.metrics.iter().filter_map(|metric| Some((metric, comparison(metric)?))) {
-            let (cases, left_out) = groups.entry((metric.name.clone(), metric.unit.clone())).or_default();
+    for (case, metrics) in cases {
+        for (metric, compared) in metrics.into_iter().filter_map(|metric| Some((metric, comparison(metric)?))) {
+            let (own, left_out) = groups.entry((metric.name.clone(), metric.unit.clone())).or_default();
             if !(compared.predicted > 0.0 && compared.measured > 0.0 && compared.predicted.is_finite()) {
                 *left_out += 1;
-            } else if let Some((_, own)) = cases.last_mut().filter(|(name, _)| *name == case.name) {
-                own.push(compared);
+            } else if let Some((_, same)) = own.last_mut().filter(|(name, _)| *name == case) {
+                same.push(compared);
             } else {
-                cases.push((case.name.clone(), vec![compared]));
+                own.push((case.to_owned(), vec![compared]));
             }
         }
     }

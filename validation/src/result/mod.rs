@@ -8,6 +8,7 @@ pub use document::{MetricEntry, MetricsDocument, Provenance};
 
 use crate::case::CaseResult;
 pub(crate) use document::pretty;
+pub(crate) use snapshots::write as write_snapshots;
 use std::io;
 use std::path::Path;
 

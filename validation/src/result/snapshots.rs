@@ -14,7 +14,7 @@ const VERTEX: u8 = 1;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub(super) fn write(folder: &Path, name: &str, frames: &[Frame]) -> io::Result<()> {
+pub(crate) fn write(folder: &Path, name: &str, frames: &[Frame]) -> io::Result<()> {
     std::fs::create_dir_all(folder.join(name))?;
     let mut collection = String::new();
     for (number, frame) in frames.iter().enumerate() {

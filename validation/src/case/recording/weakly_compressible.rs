@@ -47,6 +47,7 @@ impl Frame {
             scalars: vec![
                 ("pressure".to_owned(), "Pa".to_owned(), snapshot.pressure.clone()),
                 ("density".to_owned(), "kg/m³".to_owned(), snapshot.density.clone()),
+                ("mass".to_owned(), "kg".to_owned(), snapshot.mass.clone()),
                 ("shear_stress".to_owned(), "Pa".to_owned(), snapshot.stress.iter().map(|s| s[(0, 1)]).collect()),
                 ("viscosity".to_owned(), "Pa·s".to_owned(), apparent_viscosities(snapshot)),
             ],

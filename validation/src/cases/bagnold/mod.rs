@@ -9,8 +9,10 @@ mod runs;
 pub use parameters::{BagnoldParameters, OtherGrains, Start};
 pub use runs::{BagnoldRun, Purpose};
 
-use crate::case::{Case, RecordOf};
+use crate::case::{Case, Foreign, Form, Given, RecordOf};
+use crate::cases::layer::{self, LayerObservation};
 use crate::figure::Figure;
+use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
@@ -32,6 +34,7 @@ impl Case for Bagnold {
         Bagnold's flow makes an error of the friction coefficient eight (25°) to twenty (22°) times as large in the \
         velocity (dln I/dln μ), so the implied stress error \
         |μ(I)/tanθ − 1| stands beside the velocity error.";
+    const FORM: Form = layer::foreign::FORM;
     type Parameters = BagnoldParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -43,7 +46,11 @@ impl Case for Bagnold {
         figures::all(parameters, records)
     }
 
+    fn foreign(run: &BagnoldRun, given: &Given) -> Result<Option<Foreign<LayerObservation>>, FieldError> {
+        run.foreign(given).map(Some)
+    }
+
     fn tables(_: &BagnoldParameters, records: &[Record]) -> Vec<Table> {
-        super::layer::tables_of_runs(records)
+        layer::tables_of_runs(records)
     }
 }

@@ -1,9 +1,10 @@
 //! The simulations that the case asks for.
 
 use super::parameters::{ARREST_DURATION, BagnoldParameters, Start, law};
-use crate::case::{ParameterError, Progress, Run};
+use crate::case::{Foreign, Given, ParameterError, Progress, Run};
 use crate::cases::Arrangement;
-use crate::cases::layer::{Layer, LayerObservation, PeriodicLayer, bulk_modulus};
+use crate::cases::layer::{self, Layer, LayerObservation, PeriodicLayer, bulk_modulus};
+use crate::input::FieldError;
 use crate::metric::{Value, Variant};
 use crate::observation::Recorded;
 use crate::reference::BagnoldProfile;
@@ -191,6 +192,12 @@ impl BagnoldRun {
     #[must_use]
     pub fn start_profile(&self) -> BagnoldProfile {
         self.profile_at(self.start_angle)
+    }
+
+    /// Its observation as another code gives it.
+    pub(super) fn foreign(&self, given: &Given) -> Result<Foreign<LayerObservation>, FieldError> {
+        let nothing = |_: f64| 0.0;
+        layer::foreign::observe(&self.layer(&nothing, &nothing), given)
     }
 
     fn profile_at(&self, angle: f64) -> BagnoldProfile {

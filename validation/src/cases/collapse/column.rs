@@ -213,6 +213,17 @@ impl ColumnRun {
         }
     }
 
+    /// Has measured nothing of it yet.
+    pub(super) fn surveyor(&self) -> Surveyor {
+        Surveyor {
+            half_width: self.half_width,
+            spacing: self.spacing(),
+            gravity: [0.0, -self.release.gravity],
+            bed_end: self.bed_end(),
+            collapse: Collapse::default(),
+        }
+    }
+
     fn scene<const D: usize>(&self) -> Scene<D> {
         let (spacing, n) = (self.spacing(), self.resolution);
         let site = |cell: usize| {
@@ -264,14 +275,8 @@ impl ColumnRun {
             );
         }
         let mut simulation = Simulation::new(self.scene::<D>())?;
-        let surveyor = Surveyor {
-            half_width: self.half_width,
-            spacing: self.spacing(),
-            gravity: [0.0, -self.release.gravity],
-            bed_end: self.bed_end(),
-            collapse: Collapse::default(),
-        };
-        let mut watch = Watch::new(surveyor, FRAME_INTERVAL * scale, self.picture_times(), EARLIEST_REST * scale);
+        let mut watch =
+            Watch::new(self.surveyor(), FRAME_INTERVAL * scale, self.picture_times(), EARLIEST_REST * scale);
         let ending = recording::watch(&mut simulation, (duration, scale / POINTS), progress, |snapshot| {
             let (_, rests) = watch.observe(snapshot);
             if rests { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

@@ -9,6 +9,7 @@ mod convergence;
 mod deposit;
 pub(super) mod figures;
 mod flow_metrics;
+pub(super) mod foreign;
 mod incline;
 mod material;
 pub(super) mod metrics;
@@ -44,9 +45,10 @@ pub(super) fn tables((run, record): &Record) -> Vec<Table> {
     let stem = run.variant().file_name();
     let energy = |kind: &str| format!("{kind} energy [{}]", run.geometry.energy_unit());
     let (kinetic, potential) = (energy("kinetic"), energy("potential"));
-    let columns: [(&str, &[f64]); 5] = [
+    let columns: [(&str, &[f64]); 6] = [
         ("t [s]", &collapse.time),
         ("front/r0 [-]", &collapse.front),
+        ("front at 0.05 r0/r0 [-]", &collapse.rows_front),
         ("height/r0 [-]", &collapse.height),
         (&kinetic, &collapse.kinetic_energy),
         (&potential, &collapse.potential_energy),

@@ -5,9 +5,10 @@ mod runs;
 
 pub use parameters::{ColumnPlanarParameters, Columns, Regularised, Sensitivity, Variants};
 
-use super::collapse::{self, Record};
-use crate::case::Case;
+use super::collapse::{self, Collapse, ColumnRun, Record};
+use crate::case::{Case, Foreign, Form, Given};
 use crate::figure::{Animation, Figure};
+use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
@@ -26,6 +27,7 @@ impl Case for ColumnPlanar {
         Table 2; the other grains are those of Lagrée, Staron & Popinet (2011), whose grain diameter the source does \
         not give. The coefficients of the published laws depend on the material, their exponents much less. With another \
         law than μ(I) the published laws are shown and do not gate.";
+    const FORM: Form = collapse::foreign::FORM;
     type Parameters = ColumnPlanarParameters;
     const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
 
@@ -39,6 +41,10 @@ impl Case for ColumnPlanar {
 
     fn animations(_: &ColumnPlanarParameters, records: &[Record]) -> Vec<Animation> {
         collapse::figures::animations(records)
+    }
+
+    fn foreign(run: &ColumnRun, given: &Given) -> Result<Option<Foreign<Collapse>>, FieldError> {
+        collapse::foreign::observe(run, given).map(Some)
     }
 
     fn tables(_: &ColumnPlanarParameters, records: &[Record]) -> Vec<Table> {

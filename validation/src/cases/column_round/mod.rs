@@ -4,9 +4,10 @@ mod parameters;
 
 pub use parameters::{ColumnRoundParameters, RoundColumn};
 
-use super::collapse::{self, Record};
-use crate::case::Case;
+use super::collapse::{self, Collapse, ColumnRun, Record};
+use crate::case::{Case, Foreign, Form, Given};
 use crate::figure::{Animation, Figure};
+use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
@@ -23,6 +24,7 @@ impl Case for ColumnRound {
         bins. The run-out law of Lube et al. (2004) was measured on such columns; the collapse paper compared its \
         planar runs with it. The height law of the same source is unverified and does not gate. With another \
         law than μ(I) the published laws are shown and do not gate.";
+    const FORM: Form = collapse::foreign::FORM;
     type Parameters = ColumnRoundParameters;
     const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
 
@@ -36,6 +38,10 @@ impl Case for ColumnRound {
 
     fn animations(_: &ColumnRoundParameters, records: &[Record]) -> Vec<Animation> {
         collapse::figures::animations(records)
+    }
+
+    fn foreign(run: &ColumnRun, given: &Given) -> Result<Option<Foreign<Collapse>>, FieldError> {
+        collapse::foreign::observe(run, given).map(Some)
     }
 
     fn tables(_: &ColumnRoundParameters, records: &[Record]) -> Vec<Table> {

@@ -1,9 +1,10 @@
 //! The simulations.
 
 use super::comparison::NumericsSet;
-use crate::case::{ParameterError, Progress, Run};
+use crate::case::{Foreign, Given, ParameterError, Progress, Run};
 use crate::cases::Arrangement;
-use crate::cases::layer::{Layer, LayerObservation, PeriodicLayer, Top, bulk_modulus};
+use crate::cases::layer::{self, Layer, LayerObservation, PeriodicLayer, Top, bulk_modulus};
+use crate::input::FieldError;
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::{Incline, SteadyFilm};
@@ -110,6 +111,11 @@ impl FilmRun {
         // (exp(ah) − exp(a(h − y)))/a − y without cancellation for a stiff fluid
         let integral = libm::exp(rate * (h - height)) * libm::expm1(rate * height) / rate - height;
         Some(libm::tan(layer.slope_angle) * bulk_modulus / law.viscosity * integral)
+    }
+
+    /// Its observation as another code gives it.
+    pub(super) fn foreign(&self, given: &Given) -> Result<Foreign<LayerObservation>, FieldError> {
+        layer::foreign::observe(&self.layer(&|_| 0.0), given)
     }
 
     fn layer<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Layer<'a> {

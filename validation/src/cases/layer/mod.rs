@@ -1,5 +1,6 @@
 //! A layer on an incline, periodic along the slope: the scene that hydrostatic, film and bagnold share.
 
+pub(in crate::cases) mod foreign;
 mod periodic;
 mod preparation;
 mod probe;

@@ -123,6 +123,11 @@ impl LayerProbe {
         }
     }
 
+    /// Averages the profile from a time on `[s]`.
+    pub(super) fn average_from(&mut self, time: f64) {
+        self.window_start = time;
+    }
+
     /// Latest depth mean of the velocity `[m/s]`.
     pub(super) fn mean_velocity(&self) -> f64 {
         self.series.mean_velocity.last().copied().unwrap_or(0.0)

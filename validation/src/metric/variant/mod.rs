@@ -55,6 +55,12 @@ impl Variant {
         self.parts().find(|(other, _)| *other == key).map(|(_, value)| value)
     }
 
+    /// Whether it has every key of another with the same value.
+    #[must_use]
+    pub fn includes(&self, other: &Self) -> bool {
+        other.parts().all(|(key, value)| self.get(key) == Some(value))
+    }
+
     /// Keys and values in order.
     pub fn parts(&self) -> impl Iterator<Item = (&str, &Value)> {
         self.parts.iter().map(|(key, value)| (key.as_str(), value))

@@ -1,0 +1,223 @@
+//! A column as another code gives it: the same measurements, taken by the same surveyor.
+
+use super::column::{ColumnRun, Geometry};
+use super::deposit::Collapse;
+use crate::case::{Foreign, Form, Given, Item, Picture};
+use crate::input::FieldError;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+
+/// What a column's run may yield.
+pub(in crate::cases) const FORM: Form = Form {
+    particles: &[
+        Item::new(
+            "x",
+            "m",
+            "distance from the symmetry plane along the bed; of round columns one of two horizontal axes",
+        ),
+        Item::new("y", "m", "height above the bed"),
+        Item::new("z", "m", "second horizontal axis of round columns"),
+        Item::new("area", "m^2", "area that a particle or cell of a planar column stands for"),
+        Item::new("volume", "m^3", "volume that one of a round column stands for"),
+        Item::new(
+            "mass",
+            "kg",
+            "mass of one, of planar columns a metre of it; with the density in place of area or volume",
+        ),
+        Item::new("density", "kg/m^3", "density"),
+        Item::new("vx", "m/s", "velocity along x"),
+        Item::new("vy", "m/s", "velocity along y"),
+        Item::new("vz", "m/s", "velocity along z"),
+    ],
+    series: &[
+        Item::new("time", "s", "time since the release"),
+        Item::new("front", "m", "distance of the front from the symmetry plane, at a thickness of 0.02 r_0"),
+        Item::new("front_of_rows", "m", "the same at a thickness of 0.05 r_0, by which the time of stopping is told"),
+        Item::new("height", "m", "thickness at the symmetry plane"),
+    ],
+    profile: &[
+        Item::new("x", "m", "distance from the symmetry plane, rising"),
+        Item::new("thickness", "m", "thickness of the deposit there: volume per area of the bed"),
+    ],
+    says: "Only half of a planar column and a quarter of a round one is given, with x (and z) positive; the last picture is the deposit. \
+        The bed is divided into bins (rings) of 0.1 r_0 from the symmetry plane; each particle's volume is spread evenly over a \
+        spacing to either side, and a bin's thickness is the volume in it over its area. The front is where the thickness, \
+        followed outwards from the symmetry plane, first falls below 0.02 r_0, linear between the centres of bins; run_out is \
+        its distance less r_0, over r_0. final_height is the innermost bin's thickness over r_0. stopping_time is when the front \
+        at 0.05 r_0 has covered 99 % of its way, over √(h_0/g). deposit_slope_angle is that of a line through the thickness over \
+        20 to 80 % of the front's distance.",
+};
+
+/// Metrics that a deposit suffices for.
+const OF_DEPOSIT: [&str; 5] = ["run_out", "final_height", "deposit_slope_angle", "scaling_exponent", "break_point"];
+
+pub(in crate::cases) fn observe(run: &ColumnRun, given: &Given) -> Result<Foreign<Collapse>, FieldError> {
+    match run.geometry {
+        Geometry::Planar => of::<2>(run, given),
+        Geometry::Round => of::<3>(run, given),
+    }
+}
+
+fn of<const D: usize>(run: &ColumnRun, given: &Given) -> Result<Foreign<Collapse>, FieldError> {
+    let unmeasured = Collapse {
+        top: f64::NAN,
+        centroid: f64::NAN,
+        quantiles: (f64::NAN, f64::NAN),
+        momentum_residual: f64::NAN,
+        ..Collapse::default()
+    };
+    let mut measured = Vec::new();
+    let mut collapse = unmeasured;
+    if let Some((end, _)) = given.pictures.split_last() {
+        let snapshots: Vec<Snapshot<D>> =
+            given.pictures.iter().map(|picture| snapshot(run, picture)).collect::<Result<_, _>>()?;
+        let mut surveyor = run.surveyor();
+        for snapshot in &snapshots {
+            surveyor.observe(snapshot);
+        }
+        if let Some(last) = snapshots.last() {
+            collapse = surveyor.finish(last);
+        }
+        collapse.momentum_residual = f64::NAN;
+        measured.extend(OF_DEPOSIT);
+        measured.extend(["height_by_top", "particles_lost"]);
+        let moves = ["vx", "vy"].iter().all(|name| !end.column(name).is_empty());
+        if moves && given.pictures.len() > 1 {
+            measured.push("rest_time");
+        }
+        if given.pictures.len() >= PICTURES_OF_A_HISTORY {
+            measured.push("stopping_time");
+        }
+    }
+    let r = run.half_width;
+    let (x, thickness) = (given.profile("x"), given.profile("thickness"));
+    if !x.is_empty() && !thickness.is_empty() {
+        collapse.deposit = x.iter().zip(thickness).map(|(x, thickness)| (x / r, thickness / r)).collect();
+        measured.extend(OF_DEPOSIT);
+    }
+    let time = given.series("time");
+    if !time.is_empty() {
+        let unknown = || vec![f64::NAN; time.len()];
+        let over_r = |name: &str| {
+            let column = given.series(name);
+            if column.is_empty() { unknown() } else { column.iter().map(|length| length / r).collect() }
+        };
+        (collapse.front, collapse.rows_front, collapse.height) =
+            (over_r("front"), over_r("front_of_rows"), over_r("height"));
+        // energies belong to the pictures' times
+        (collapse.kinetic_energy, collapse.potential_energy) = (unknown(), unknown());
+        collapse.time = time.to_vec();
+        measured.retain(|name| !["rest_time", "stopping_time"].contains(name));
+        if !given.series("front_of_rows").is_empty() {
+            measured.push("stopping_time");
+        }
+    }
+    measured.sort_unstable();
+    measured.dedup();
+    Ok(Foreign { observation: collapse, measured })
+}
+
+/// How far from the origin a particle may be, over the sum of half width and height: further than any column spreads.
+const REACH: f64 = 50.0;
+/// Pictures from which on the time of stopping is told from them: four over √(h_0/g), five times as long.
+const PICTURES_OF_A_HISTORY: usize = 20;
+
+fn snapshot<const D: usize>(run: &ColumnRun, picture: &Picture) -> Result<Snapshot<D>, FieldError> {
+    let r = run.half_width;
+    let reach = REACH * r * (1.0 + run.aspect_ratio);
+    let least = if D == 2 { [-run.spacing(), -reach, -reach] } else { [-run.spacing(), -reach, -run.spacing()] };
+    let remedy = "check the unit and the origin: it lies on the bed in the symmetry plane, and only the half (quarter) beyond it is given";
+    picture.within(reach, least, remedy)?;
+    if D == 2 && !picture.column("z").is_empty() {
+        let remedy = "a planar column has x along the bed and y upwards";
+        return Err(FieldError::new("particles.columns.z", "given", "absent: this run is planar", remedy));
+    }
+    let axes = ["x", "y", "z"];
+    let speeds = ["vx", "vy", "vz"];
+    let places: Vec<&[f64]> = axes[..D]
+        .iter()
+        .map(|axis| picture.needed(axis, "a place has two coordinates in a planar column and three in a round one"))
+        .collect::<Result<_, _>>()?;
+    let count = places[0].len();
+    let velocities: Vec<&[f64]> = speeds[..D].iter().map(|speed| picture.column(speed)).collect();
+    let size = if D == 2 { "area" } else { "volume" };
+    let (mass, density) = if picture.column(size).is_empty() {
+        let remedy = format!("name the column of the {size}, or those of mass and density");
+        let wanted = |name| {
+            picture
+                .needed(name, "")
+                .map_err(|_| FieldError::new(&format!("particles.columns.{size}"), "missing", "given", &remedy))
+        };
+        (wanted("mass")?.to_vec(), wanted("density")?.to_vec())
+    } else {
+        let mass = picture.column(size).iter().map(|size| size * run.bulk_density).collect();
+        (mass, vec![run.bulk_density; count])
+    };
+    let of = |columns: &[&[f64]], particle: usize| {
+        Vector::<D>::from_fn(|axis, _| columns[axis].get(particle).copied().unwrap_or(f64::NAN))
+    };
+    Ok(Snapshot {
+        time: picture.time,
+        position: (0..count).map(|particle| of(&places, particle)).collect(),
+        velocity: (0..count).map(|particle| of(&velocities, particle)).collect(),
+        mass,
+        density,
+        ..Snapshot::default()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Columns, Parameters, Tier};
+    use crate::cases::column_planar::ColumnPlanarParameters;
+
+    fn run() -> ColumnRun {
+        ColumnPlanarParameters::of_tier(Tier::Quick).runs().remove(0)
+    }
+
+    /// A wedge of thickness (1 − x/3) r_0 as columns of cells, of which the middle cell of a column is as thick as needed.
+    fn wedge(run: &ColumnRun) -> Picture {
+        let (r, spacing) = (run.half_width, run.spacing());
+        let mut columns: Columns = ["x", "y", "area"].map(|name| (name.to_owned(), Vec::new())).into();
+        let mut push = |name: &str, value: f64| columns.get_mut(name).expect("declared").push(value);
+        for column in 0..3 * run.resolution {
+            let x = (column as f64 + 0.5) * spacing;
+            let thickness = r - x / 3.0;
+            push("x", x);
+            push("y", 0.5 * thickness);
+            push("area", thickness * spacing);
+        }
+        Picture { time: 1.0, columns }
+    }
+
+    #[test]
+    fn a_deposit_from_particles_and_from_its_profile_has_the_run_out_that_geometry_gives() {
+        let run = run();
+        let picture = wedge(&run);
+        let particles = Given { pictures: vec![picture], ..Given::default() };
+        let seen = observe(&run, &particles).expect("complete");
+        // the thickness is 0.02 r_0 at x = 2.94 r_0
+        assert!((seen.observation.run_out() - 1.94).abs() < 0.06, "{}", seen.observation.run_out());
+        assert!(seen.measured.contains(&"run_out") && !seen.measured.contains(&"stopping_time"));
+        assert!(!seen.measured.contains(&"rest_time") && !seen.measured.contains(&"momentum_residual"));
+        let x: Vec<f64> = (0..31).map(|k| 0.1 * f64::from(k) * run.half_width).collect();
+        let thickness = x.iter().map(|x| (run.half_width - x / 3.0).max(0.0)).collect();
+        let profile: Columns = [("x".to_owned(), x), ("thickness".to_owned(), thickness)].into();
+        let seen = observe(&run, &Given { profile, ..Given::default() }).expect("complete");
+        assert!((seen.observation.run_out() - 1.94).abs() < 1e-9, "{}", seen.observation.run_out());
+        assert!(seen.observation.centroid.is_nan() && !seen.measured.contains(&"height_by_top"));
+    }
+
+    #[test]
+    fn particles_without_a_size_are_refused() {
+        let run = run();
+        let mut picture = wedge(&run);
+        picture.columns.remove("area");
+        let message = observe(&run, &Given { pictures: vec![picture], ..Given::default() }).expect_err("no size");
+        assert_eq!(
+            message.to_string(),
+            "`particles.columns.area` is missing, but must be given; name the column of the area, or those of mass and density"
+        );
+    }
+}

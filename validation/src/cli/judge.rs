@@ -1,0 +1,69 @@
+//! `bagnold judge` and `bagnold export`: other codes' results, and what they need for them.
+
+use super::arguments::{Export, Judge};
+use super::error::ProgramError;
+use super::{Exit, run, say};
+use crate::case::{Changes, Registry};
+use crate::judge::{self, Judgement, Trial};
+use crate::output::OutputFolder;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Judges submissions, or prints an empty one.
+pub(super) fn judge(
+    command: &Judge,
+    registry: Registry,
+    quiet: bool,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, ProgramError> {
+    if let Some(case) = &command.template {
+        say(output, &judge::blank(registry.find(case)?, command.tier)?);
+        return Ok(Exit::Held);
+    }
+    let Trial { prepared, entries } = Trial::read(&command.files, registry)?;
+    let folder = command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/judged/{}", prepared.name())));
+    if command.out.is_none() {
+        OutputFolder::adopt(Path::new("reports"))?;
+    }
+    let claimed = OutputFolder::claim(&folder)?;
+    let results = run::simulate(vec![prepared], &command.work.open_store(), quiet)?;
+    let exit = Exit::of(&results, |_, _| true);
+    let Some(own) = results.into_iter().next() else { return Ok(exit) };
+    let judgement = judge::judge(own, &entries)?;
+    judge::write(&judgement, claimed.staging(), command.junit.as_deref())?;
+    claimed.publish()?;
+    say(output, &summary(&judgement));
+    say(output, &format!("written to {}\n", folder.join("index.html").display()));
+    let fails = judgement.codes.iter().any(|judged| judged.counts().1 > 0);
+    Ok(if exit == Exit::Held && fails { Exit::GateFailed } else { exit })
+}
+
+/// A line for each code.
+fn summary(judgement: &Judgement) -> String {
+    let line = |judged: &judge::Judged| {
+        let (holding, failing, not_given) = judged.counts();
+        let name = format!("{} {}", judged.code.name, judged.code.version);
+        format!("{}: {holding} gates hold, {failing} fail, {not_given} not given\n", name.trim())
+    };
+    judgement.codes.iter().map(line).collect()
+}
+
+/// Writes what another code needs to run a case.
+pub(super) fn export(
+    command: &Export,
+    registry: Registry,
+    quiet: bool,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, ProgramError> {
+    let case = registry.find(&command.case)?;
+    let prepared = case.prepare(command.tier, &Changes { file: None, settings: &[] })?;
+    let claimed = OutputFolder::claim(&command.out)?;
+    let results = run::simulate(vec![prepared], &command.work.open_store(), quiet)?;
+    let exit = Exit::of(&results, |_, _| true);
+    if let Some(own) = results.first() {
+        judge::export(case, own, claimed.staging())?;
+    }
+    claimed.publish()?;
+    say(output, &format!("written to {}\n", command.out.display()));
+    Ok(exit)
+}

@@ -1,0 +1,88 @@
+//! Numbers of several folders beside each other, the largest difference first.
+
+use super::reading::Results;
+use crate::metric::Variant;
+use crate::result::MetricEntry;
+
+/// A number in every folder.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// Name of the case.
+    pub case: String,
+    /// Name of the metric.
+    pub metric: String,
+    /// Its run.
+    pub variant: Variant,
+    /// Its unit.
+    pub unit: String,
+    /// The number in every folder; none where the folder has no such number.
+    pub entries: Vec<Option<MetricEntry>>,
+    /// Largest difference from the first folder that has it, in tolerances of its drift; none where fewer than two have it.
+    pub tolerances: Option<f64>,
+}
+
+/// All numbers of some folders, the largest difference in tolerances first, then those that not all folders have, in the
+/// order of the first folder.
+#[must_use]
+pub fn differences(all: &[Results]) -> Vec<Difference> {
+    let mut keys: Vec<(String, String, Variant, String)> = Vec::new();
+    for (case, metric) in all.iter().flat_map(Results::entries) {
+        let key = (case.to_owned(), metric.name.clone(), metric.variant.clone(), metric.unit.clone());
+        if !keys.contains(&key) {
+            keys.push(key);
+        }
+    }
+    let mut differences: Vec<Difference> = keys
+        .into_iter()
+        .map(|(case, metric, variant, unit)| {
+            let find = |results: &Results| {
+                let metrics = &results.cases.get(&case)?.document.metrics;
+                metrics.iter().find(|entry| entry.name == metric && entry.variant == variant).cloned()
+            };
+            let entries: Vec<Option<MetricEntry>> = all.iter().map(find).collect();
+            let tolerances = tolerances(&entries);
+            Difference { case, metric, variant, unit, entries, tolerances }
+        })
+        .collect();
+    // a stable sort keeps the cases' order among equals
+    differences.sort_by(|a, b| b.tolerances.unwrap_or(-1.0).total_cmp(&a.tolerances.unwrap_or(-1.0)));
+    differences
+}
+
+impl Results {
+    fn entries(&self) -> impl Iterator<Item = (&str, &MetricEntry)> {
+        self.cases.iter().flat_map(|(case, own)| own.document.metrics.iter().map(|metric| (case.as_str(), metric)))
+    }
+}
+
+fn tolerances(entries: &[Option<MetricEntry>]) -> Option<f64> {
+    let mut given = entries.iter().flatten();
+    let first = given.next()?;
+    let tolerance =
+        |value: f64| (first.snapshot_tolerance * value.abs()).max(first.snapshot_floor).max(f64::MIN_POSITIVE);
+    let moved = |other: &MetricEntry| match (first.value, other.value) {
+        (Some(value), Some(other)) => (other - value).abs() / tolerance(value),
+        (None, None) => 0.0,
+        _ => f64::INFINITY,
+    };
+    given.map(moved).reduce(f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::metric::Metric;
+
+    fn entry(name: &str, value: f64) -> MetricEntry {
+        let metric = Metric::observed(name, &Variant::default(), value, "m").with_snapshot_tolerance(0.01, 0.0);
+        MetricEntry::from(&metric)
+    }
+
+    #[test]
+    fn a_difference_is_counted_in_tolerances_of_the_first() {
+        let moved = |a: f64, b: f64| tolerances(&[Some(entry("front", a)), None, Some(entry("front", b))]);
+        assert!((moved(2.0, 2.1).expect("two") - 5.0).abs() < 1e-9);
+        assert_eq!(moved(2.0, f64::NAN), Some(f64::INFINITY));
+        assert_eq!(tolerances(&[None, Some(entry("front", 2.0))]), None);
+    }
+}

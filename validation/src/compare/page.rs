@@ -1,0 +1,184 @@
+//! The page of a comparison.
+
+use super::difference::{Difference, differences};
+use super::figures;
+use super::reading::Results;
+use crate::figure::{self, FigureError};
+use crate::metric::Verdict;
+use crate::number::{four_digits, two_digits};
+use crate::report::{ReportError, template_value};
+use crate::result::{MetricEntry, pretty};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Serialize)]
+struct Page {
+    version: &'static str,
+    folders: Vec<Folder>,
+    moved: usize,
+    same: usize,
+    rows: Vec<Row>,
+    pictures: Vec<Picture>,
+    style: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct Folder {
+    label: String,
+    path: String,
+    tier: String,
+    commit: String,
+    hash: String,
+}
+
+#[derive(Debug, Serialize)]
+struct Row {
+    case: String,
+    metric: String,
+    variant: String,
+    unit: String,
+    tolerances: String,
+    is_moved: bool,
+    cells: Vec<Cell>,
+}
+
+#[derive(Debug, Serialize)]
+struct Cell {
+    class: &'static str,
+    symbol: &'static str,
+    value: String,
+    change: String,
+}
+
+#[derive(Debug, Serialize)]
+struct Picture {
+    name: String,
+    caption: String,
+    size: Option<(u32, u32)>,
+}
+
+/// A line of `differences.json`.
+#[derive(Debug, Serialize)]
+struct Line<'a> {
+    case: &'a str,
+    metric: &'a str,
+    variant: String,
+    unit: &'a str,
+    values: Vec<Option<f64>>,
+    /// Largest difference from the first in tolerances of its drift; null where it is not finite or one folder has it only.
+    tolerances: Option<f64>,
+}
+
+/// Writes `index.html`, `differences.json` and `figures/` into a folder; the numbers that differ by more than their tolerance
+/// are counted.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write(all: &[Results], folder: &Path) -> Result<usize, ReportError> {
+    let put =
+        |path: PathBuf, text: &str| std::fs::write(&path, text).map_err(|source| ReportError::Write { path, source });
+    let found = differences(all);
+    let mut cases: Vec<&String> = all.iter().flat_map(|results| results.cases.keys()).collect();
+    cases.sort();
+    cases.dedup();
+    let mut pictures = Vec::new();
+    for picture in cases.into_iter().flat_map(|case| figures::all(all, case)) {
+        match figure::write(&picture, &folder.join("figures")) {
+            Ok(written) => {
+                let size = figure::size_of(&written.png);
+                pictures.push(Picture { name: picture.name, caption: picture.caption, size });
+            }
+            Err(error @ FigureError::Write { .. }) => return Err(error.into()),
+            // a figure that cannot be drawn is no reason to lose the numbers
+            Err(error) => tracing::error!("figure {}: failed to {error}", picture.name),
+        }
+    }
+    let lines: Vec<Line<'_>> = found.iter().map(line).collect();
+    put(folder.join("differences.json"), &pretty(&lines))?;
+    let moved = found.iter().filter(|one| is_moved(one)).count();
+    put(folder.join("index.html"), &render(all, &found, moved, pictures)?)?;
+    Ok(moved)
+}
+
+fn line(one: &Difference) -> Line<'_> {
+    Line {
+        case: &one.case,
+        metric: &one.metric,
+        variant: one.variant.to_string(),
+        unit: &one.unit,
+        values: one.entries.iter().map(|entry| entry.as_ref().and_then(|entry| entry.value)).collect(),
+        tolerances: one.tolerances.filter(|tolerances| tolerances.is_finite()),
+    }
+}
+
+fn is_moved(one: &Difference) -> bool {
+    one.tolerances.is_some_and(|tolerances| tolerances > 1.0)
+}
+
+fn render(
+    all: &[Results],
+    found: &[Difference],
+    moved: usize,
+    pictures: Vec<Picture>,
+) -> Result<String, minijinja::Error> {
+    let page = Page {
+        version: env!("CARGO_PKG_VERSION"),
+        folders: all.iter().map(folder).collect(),
+        moved,
+        same: found.len() - moved,
+        rows: found.iter().map(row).collect(),
+        pictures,
+        style: include_str!("../report/template/style.css"),
+    };
+    let mut environment = minijinja::Environment::new();
+    environment.add_template("compare.html", include_str!("template/compare.html"))?;
+    environment.get_template("compare.html")?.render(template_value(&page)?)
+}
+
+fn folder(results: &Results) -> Folder {
+    let first = results.cases.values().next().map(|case| &case.document);
+    Folder {
+        label: results.label.clone(),
+        path: results.folder.display().to_string(),
+        tier: first.map(|document| document.tier.to_string()).unwrap_or_default(),
+        commit: first.map(|document| document.provenance.commit.chars().take(12).collect()).unwrap_or_default(),
+        hash: first.map(|document| document.provenance.source_hash.chars().take(12).collect()).unwrap_or_default(),
+    }
+}
+
+fn row(one: &Difference) -> Row {
+    let first = one.entries.iter().flatten().find_map(|entry| entry.value);
+    Row {
+        case: one.case.clone(),
+        metric: one.metric.clone(),
+        variant: one.variant.to_string(),
+        unit: one.unit.clone(),
+        tolerances: match one.tolerances {
+            None => "not in all".to_owned(),
+            Some(tolerances) if tolerances.is_finite() => two_digits(tolerances),
+            Some(_) => "∞".to_owned(),
+        },
+        is_moved: is_moved(one),
+        cells: one.entries.iter().map(|entry| cell(entry.as_ref(), first)).collect(),
+    }
+}
+
+fn cell(entry: Option<&MetricEntry>, first: Option<f64>) -> Cell {
+    let Some(entry) = entry else {
+        return Cell { class: "observed", symbol: "–", value: String::new(), change: String::new() };
+    };
+    let (class, symbol) = match entry.verdict {
+        Verdict::Pass => ("pass", "✓"),
+        Verdict::Fail => ("fail", "✗"),
+        Verdict::Observed => ("observed", "○"),
+    };
+    let change = entry.value.zip(first).map(|(value, first)| value - first).filter(|change| *change != 0.0);
+    Cell {
+        class,
+        symbol,
+        value: entry.value.map_or_else(|| "not a number".to_owned(), four_digits),
+        change: change
+            .map(|change| format!("{}{}", if change > 0.0 { "+" } else { "" }, two_digits(change)))
+            .unwrap_or_default(),
+    }
+}

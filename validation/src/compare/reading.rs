@@ -1,0 +1,176 @@
+//! Reads folders of `bagnold run` and `bagnold report`.
+
+use crate::output::{FileError, Table};
+use crate::result::MetricsDocument;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Largest file that is read `[bytes]`.
+const LARGEST_FILE: u64 = 1 << 28;
+
+/// Why nothing can be compared.
+#[derive(Debug, thiserror::Error)]
+pub enum CompareError {
+    /// A folder without results.
+    #[error("{}: holds neither a run's metrics.json nor a report's cases/CASE/metrics.json; name a folder that `bagnold run` or `bagnold report` has written", .folder.display())]
+    NoResults {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// Folders that have nothing in common.
+    #[error("{} and {} have no case in common; compare runs of the same case", .first.display(), .other.display())]
+    NothingInCommon {
+        /// The first.
+        first: PathBuf,
+        /// The other.
+        other: PathBuf,
+    },
+    /// A file that cannot be read or understood.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+/// What a folder holds.
+#[derive(Debug, Clone)]
+pub struct Results {
+    /// The folder as it was named.
+    pub folder: PathBuf,
+    /// What it is called in legends and tables: its name, as far as needed to tell it from others.
+    pub label: String,
+    /// Cases by name.
+    pub cases: BTreeMap<String, CaseResults>,
+}
+
+/// What a folder holds of a case.
+#[derive(Debug, Clone)]
+pub struct CaseResults {
+    /// Its numbers.
+    pub document: MetricsDocument,
+    /// Its profiles and histories, by file name; a report keeps none.
+    pub tables: Vec<Table>,
+}
+
+impl Results {
+    /// Reads folders, the first of which the others are compared with.
+    ///
+    /// # Errors
+    /// A folder without results, a damaged file, folders without a case in common.
+    pub fn read(folders: &[PathBuf]) -> Result<Vec<Self>, CompareError> {
+        let mut all: Vec<Self> = folders.iter().map(|folder| Self::of(folder)).collect::<Result<_, _>>()?;
+        for (place, label) in labels(folders).into_iter().enumerate() {
+            all[place].label = label;
+        }
+        if let Some((first, others)) = all.split_first() {
+            let shares = |other: &&Self| !other.cases.keys().any(|case| first.cases.contains_key(case));
+            if let Some(other) = others.iter().find(shares) {
+                let (first, other) = (first.folder.clone(), other.folder.clone());
+                return Err(CompareError::NothingInCommon { first, other });
+            }
+        }
+        Ok(all)
+    }
+
+    fn of(folder: &Path) -> Result<Self, CompareError> {
+        let mut cases = BTreeMap::new();
+        let alone = folder.join("metrics.json");
+        let is_report = folder.join("cases").is_dir();
+        if is_report {
+            let entries =
+                std::fs::read_dir(folder.join("cases")).map_err(|error| FileError::unreadable(folder, &error))?;
+            for entry in entries.flatten().map(|entry| entry.path()) {
+                let file = entry.join("metrics.json");
+                if file.is_file() {
+                    let case = CaseResults { document: document(&file)?, tables: Vec::new() };
+                    cases.insert(case.document.case.clone(), case);
+                }
+            }
+        } else if alone.is_file() {
+            let case = CaseResults { document: document(&alone)?, tables: tables(&folder.join("tables"))? };
+            cases.insert(case.document.case.clone(), case);
+        }
+        if cases.is_empty() {
+            return Err(CompareError::NoResults { folder: folder.to_owned() });
+        }
+        Ok(Self { folder: folder.to_owned(), label: String::new(), cases })
+    }
+}
+
+/// The last parts of paths, as many as tell them apart; numbered where they are the same.
+fn labels(folders: &[PathBuf]) -> Vec<String> {
+    let parts: Vec<Vec<String>> = folders
+        .iter()
+        .map(|folder| folder.components().map(|part| part.as_os_str().to_string_lossy().into_owned()).collect())
+        .collect();
+    let longest = parts.iter().map(Vec::len).max().unwrap_or(0);
+    let of = |count: usize| -> Vec<String> {
+        parts.iter().map(|parts| parts[parts.len().saturating_sub(count)..].join("/")).collect()
+    };
+    let are_different = |labels: &[String]| {
+        let mut sorted = labels.to_vec();
+        sorted.sort();
+        sorted.windows(2).all(|pair| pair[0] != pair[1])
+    };
+    (1..=longest).map(of).find(|labels| are_different(labels)).unwrap_or_else(|| {
+        let numbered = of(1).into_iter().enumerate();
+        numbered.map(|(place, label)| format!("{label} ({})", place + 1)).collect()
+    })
+}
+
+fn text(file: &Path) -> Result<String, FileError> {
+    let unreadable = |error: std::io::Error| FileError::unreadable(file, &error);
+    let length = std::fs::metadata(file).map_err(unreadable)?.len();
+    if length > LARGEST_FILE {
+        return Err(damaged(file, format!("{length} bytes")));
+    }
+    std::fs::read_to_string(file).map_err(unreadable)
+}
+
+fn damaged(file: &Path, reason: String) -> FileError {
+    FileError::Damaged { file: file.to_owned(), reason, remedy: "write the folder again with `bagnold run`".to_owned() }
+}
+
+fn document(file: &Path) -> Result<MetricsDocument, FileError> {
+    serde_json::from_str(&text(file)?).map_err(|error| damaged(file, error.to_string()))
+}
+
+/// Tables of numbers in a folder, by name; none where there is no such folder.
+fn tables(folder: &Path) -> Result<Vec<Table>, FileError> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Ok(Vec::new()) };
+    let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    files.retain(|file| file.extension().is_some_and(|ending| ending == "csv"));
+    files.sort();
+    files.iter().map(|file| table(file)).collect()
+}
+
+fn table(file: &Path) -> Result<Table, FileError> {
+    let text = text(file)?;
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let wrong = |error: csv::Error| damaged(file, error.to_string());
+    let columns = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
+    let rows = reader.deserialize().collect::<Result<Vec<Vec<f64>>, _>>().map_err(wrong)?;
+    let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    Ok(Table { name, columns, rows })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_as_short_as_they_can_be() {
+        let of = |paths: &[&str]| labels(&paths.iter().map(PathBuf::from).collect::<Vec<_>>());
+        assert_eq!(of(&["out/a", "out/b"]), ["a", "b"]);
+        assert_eq!(of(&["a/out", "b/out"]), ["a/out", "b/out"]);
+        assert_eq!(of(&["out", "out"]), ["out (1)", "out (2)"]);
+    }
+
+    #[test]
+    fn a_folder_without_results_is_refused() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let error = Results::read(&[folder.path().to_owned()]).expect_err("empty");
+        assert!(error.to_string().contains("holds neither a run's metrics.json nor"), "{error}");
+        std::fs::write(folder.path().join("metrics.json"), "{}").expect("writable");
+        let error = Results::read(&[folder.path().to_owned()]).expect_err("damaged");
+        assert!(error.to_string().contains("metrics.json: damaged (missing field"), "{error}");
+    }
+}

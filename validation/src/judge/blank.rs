@@ -1,0 +1,97 @@
+//! A submission to be filled in: everything that a case takes, with what it means.
+
+use crate::case::{AnyCase, Changes, Form, Item, ParameterError, Tier};
+use std::fmt::Write as _;
+
+/// A commented submission for a case: one run written out, the others listed.
+///
+/// # Errors
+/// A tier whose parameters the case refuses, which no case does.
+pub fn blank(case: &'static dyn AnyCase, tier: Tier) -> Result<String, ParameterError> {
+    let prepared = case.prepare(tier, &Changes { file: None, settings: &[] })?;
+    let form = case.form();
+    let mut text = format!(
+        "# What another code gives of the case `{name}`, for `bagnold judge`.\n# {summary}\n#\n# Leave out what the code does not \
+         give: it reads \"not given\" and is never judged.\n# `bagnold show {name} --tier {tier}` prints geometry and \
+         material; `bagnold export {name} --tier {tier} --out DIR`\n# writes them with initial particles, references and definitions.\n\n\
+         case = \"{name}\"\ntier = \"{tier}\"\n# with = {{ … }}          # parameters that differ from the tier's\n\n\
+         [code]\nname = \"my code\"\nversion = \"1.0\"\n\n",
+        name = case.name(),
+        summary = case.summary(),
+    );
+    let variants: Vec<String> = (0..prepared.run_count()).map(|run| prepared.variant(run).to_string()).collect();
+    text.push_str(
+        "# One table [[run]] for each run that the code has. Keys that are the code's own business, such as the resolution,\n\
+         # may be left out as long as one run is meant. The runs of this tier:\n",
+    );
+    for variant in &variants {
+        let _ = writeln!(text, "#   \"{variant}\"");
+    }
+    let _ = writeln!(text, "[[run]]\nvariant = \"{}\"\n", variants.first().map_or("", String::as_str));
+    text.push_str("# Single numbers: metrics of this run by name, in their units.\n[run.numbers]\n");
+    for quantity in case.quantities() {
+        let _ = writeln!(text, "# {} = 0.0  # [{}] {}", quantity.name, quantity.unit, quantity.says);
+    }
+    text.push_str(&files(form));
+    Ok(text)
+}
+
+/// The tables of files that a form has.
+fn files(form: &Form) -> String {
+    let mut text = String::new();
+    if form.particles.is_empty() && form.series.is_empty() && form.profile.is_empty() {
+        text.push_str("\n# This case takes single numbers only.\n");
+        return text;
+    }
+    for line in wrapped(form.says) {
+        let _ = write!(text, "\n# {line}");
+    }
+    text.push_str(
+        "\n\n# Files stand beside this one. Tables of numbers may be parted by commas, semicolons, tabs or blanks, with a heading;\n\
+         # a column is named by its heading and its unit in brackets, such as \"x_cm [cm]\"; in files of VTK places are\n\
+         # \"Points:0 [m]\", parts of a vector \"velocity:0 [m/s]\". What is the same for all is { value = 0.25, unit = \"cm^2\" }.\n",
+    );
+    if !form.particles.is_empty() {
+        text.push_str(
+            "# [run.particles]\n# files = [\"t0.csv\", \"t1.csv\"]   # .csv, .txt, .vtu, .vtp, .vtk, or one .pvd\n\
+             # times = [0.0, 0.1]             # [s], one a file; a .pvd says them itself\n# [run.particles.columns]\n",
+        );
+        text.push_str(&columns(form.particles));
+    }
+    for (name, items) in [("series", form.series), ("profile", form.profile)] {
+        if !items.is_empty() {
+            let _ = writeln!(text, "# [run.{name}]\n# file = \"{name}.csv\"\n# [run.{name}.columns]");
+            text.push_str(&columns(items));
+        }
+    }
+    text
+}
+
+fn columns(items: &[Item]) -> String {
+    items.iter().fold(String::new(), |mut text, item| {
+        let _ = writeln!(
+            text,
+            "# {name} = \"{name} [{unit}]\"  # {says}",
+            name = item.name,
+            unit = item.unit,
+            says = item.says
+        );
+        text
+    })
+}
+
+/// Text in lines of at most 118 letters.
+pub(super) fn wrapped(text: &str) -> Vec<String> {
+    const LONGEST: usize = 118;
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut().filter(|line| line.chars().count() + word.chars().count() < LONGEST) {
+            Some(line) => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            None => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}

@@ -1,0 +1,38 @@
+//! Why nothing can be judged.
+
+use crate::evaluation::PlanError;
+use crate::input::FieldError;
+use crate::output::FolderError;
+use crate::report::ReportError;
+use std::path::PathBuf;
+
+/// Why nothing can be judged.
+#[derive(Debug, thiserror::Error)]
+pub enum JudgeError {
+    /// No submission.
+    #[error("nothing to judge; name a file, or print one to fill with `bagnold judge --template CASE`")]
+    Nothing,
+    /// Two submissions mean different runs of ours.
+    #[error("{}: has another case, tier or `with` than {}; judge them apart", .other.display(), .first.display())]
+    Different {
+        /// The first.
+        first: PathBuf,
+        /// The one that differs.
+        other: PathBuf,
+    },
+    /// A submission or a file of it.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The folder.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// The page.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+}
+
+impl From<FieldError> for JudgeError {
+    fn from(error: FieldError) -> Self {
+        Self::Plan(error.into())
+    }
+}

@@ -1,0 +1,61 @@
+//! Other codes' curves in the figures of our own runs.
+
+use crate::figure::{Figure, Mark, Panel, Series};
+
+/// Our figures with those of other codes drawn in: a panel's curves go into our panel of the same title, behind the code's
+/// name and with points; what has no place of its own, and pictures of particles, becomes a panel behind ours.
+pub(super) fn overlay(own: &[Figure], codes: &[(&str, &[Figure])]) -> Vec<Figure> {
+    let mut figures = own.to_vec();
+    for figure in &mut figures {
+        for (place, (code, theirs)) in codes.iter().enumerate() {
+            let Some(theirs) = theirs.iter().find(|other| other.name == figure.name) else { continue };
+            for panel in &theirs.panels {
+                draw_in(figure, panel, code, place + 1);
+            }
+        }
+    }
+    figures
+}
+
+fn draw_in(figure: &mut Figure, panel: &Panel, code: &str, slot: usize) {
+    let own =
+        figure.panels.iter_mut().find(|own| own.title == panel.title && own.field.is_none() && panel.field.is_none());
+    let Some(own) = own else {
+        if !panel.series.is_empty() || panel.field.is_some() {
+            figure.panels.push(Panel { title: format!("{code}: {}", panel.title), ..panel.clone() });
+        }
+        return;
+    };
+    let is_new = |series: &&Series| series.mark != Mark::Reference && !own.series.contains(series);
+    let curves: Vec<Series> = panel.series.iter().filter(is_new).cloned().collect();
+    // a colour of the code's own, as far as there are any
+    let colours = own.series.iter().map(|series| series.colour + 1).max().unwrap_or(0);
+    let mark = |mark: Mark| if mark == Mark::Line { Mark::LinePoints } else { mark };
+    own.series.extend(curves.into_iter().enumerate().map(|(place, series)| {
+        let label = if series.label.is_empty() { code.to_owned() } else { format!("{code}: {}", series.label) };
+        Series { label, mark: mark(series.mark), colour: colours + slot - 1 + place, ..series }
+    }));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::Axis;
+
+    fn figure(title: &str, height: f64) -> Figure {
+        let mut panel = Panel::new(title, Axis::linear("x [m]"), Axis::linear("y [m]"));
+        panel.line("sand", 0, [(0.0, height), (1.0, 0.0)]);
+        panel.reference("law", [(0.0, 1.0), (1.0, 1.0)]);
+        Figure::new("deposit", "", vec![panel])
+    }
+
+    #[test]
+    fn a_codes_curves_stand_beside_ours_and_the_reference_once() {
+        let merged = overlay(&[figure("a", 1.0)], &[("MPM", &[figure("a", 2.0)]), ("DEM", &[figure("b", 3.0)])]);
+        let panels = &merged[0].panels;
+        let labels = |panel: usize| panels[panel].series.iter().map(|one| one.label.as_str()).collect::<Vec<_>>();
+        assert_eq!(labels(0), ["sand", "law", "MPM: sand"]);
+        assert_ne!(panels[0].series[0].colour, panels[0].series[2].colour);
+        assert_eq!((panels[1].title.as_str(), labels(1)), ("DEM: b", vec!["sand", "law"]));
+    }
+}

@@ -1,0 +1,229 @@
+//! Files of a judgement: the page, its figures and numbers.
+
+use super::document::{biases, document, given, junit};
+use super::{Compared, Judged, Judgement};
+use crate::figure::{self, FigureError};
+use crate::metric::{Limit, Metric, Verdict};
+use crate::number::{four_digits, two_digits};
+use crate::report::{ReportError, template_value};
+use crate::result::pretty;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Serialize)]
+struct Page {
+    case: String,
+    tier: String,
+    description: String,
+    version: &'static str,
+    codes: Vec<CodeRow>,
+    heads: Vec<String>,
+    rows: Vec<Row>,
+    quantities: Vec<Quantity>,
+    pictures: Vec<Picture>,
+    style: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct CodeRow {
+    name: String,
+    version: String,
+    file: String,
+    holding: usize,
+    failing: usize,
+    not_given: usize,
+    class: &'static str,
+}
+
+/// A metric with ours and every code's value.
+#[derive(Debug, Serialize)]
+struct Row {
+    metric: String,
+    variant: String,
+    unit: String,
+    reference: String,
+    source: String,
+    limit: String,
+    reason: String,
+    cells: Vec<Cell>,
+}
+
+#[derive(Debug, Serialize)]
+struct Cell {
+    class: &'static str,
+    symbol: &'static str,
+    word: &'static str,
+    value: String,
+    /// Difference from the reference, where it has one.
+    off: String,
+}
+
+/// Bias and scatter of a quantity, ours and every code's.
+#[derive(Debug, Serialize)]
+struct Quantity {
+    name: String,
+    cells: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct Picture {
+    name: String,
+    caption: String,
+    size: Option<(u32, u32)>,
+}
+
+/// Writes `index.html`, `metrics.json` and `figures/` into a folder, and JUnit's XML into a file where one is named.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write(judgement: &Judgement, folder: &Path, junit_file: Option<&Path>) -> Result<(), ReportError> {
+    let put =
+        |path: PathBuf, text: &str| std::fs::write(&path, text).map_err(|source| ReportError::Write { path, source });
+    let drawn = folder.join("figures");
+    let mut pictures = Vec::new();
+    for picture in &judgement.figures {
+        match figure::write(picture, &drawn) {
+            Ok(written) => pictures.push(Picture {
+                name: picture.name.clone(),
+                caption: picture.caption.clone(),
+                size: figure::size_of(&written.png),
+            }),
+            Err(error @ FigureError::Write { .. }) => return Err(error.into()),
+            // a figure that cannot be drawn is no reason to lose the numbers
+            Err(error) => tracing::error!("figure {}: failed to {error}", picture.name),
+        }
+    }
+    for table in &judgement.own.tables {
+        let tables = folder.join("tables");
+        let failed = |source| ReportError::Write { path: tables.clone(), source };
+        std::fs::create_dir_all(&tables).map_err(failed)?;
+        table.write(&tables).map_err(failed)?;
+    }
+    put(folder.join("metrics.json"), &pretty(&document(judgement)))?;
+    put(folder.join("case.toml"), &judgement.own.parameters_toml)?;
+    if let Some(path) = junit_file {
+        put(path.to_owned(), &junit(judgement))?;
+    }
+    put(folder.join("index.html"), &render(judgement, pictures)?)
+}
+
+fn render(judgement: &Judgement, pictures: Vec<Picture>) -> Result<String, minijinja::Error> {
+    let own = &judgement.own;
+    let heads = judgement.codes.iter().map(|judged| judged.code.name.clone()).collect();
+    let page = Page {
+        case: own.name.clone(),
+        tier: own.tier.to_string(),
+        description: own.description.clone(),
+        version: env!("CARGO_PKG_VERSION"),
+        codes: judgement.codes.iter().map(code_row).collect(),
+        heads,
+        rows: rows(judgement),
+        quantities: quantities(judgement),
+        pictures,
+        style: include_str!("../report/template/style.css"),
+    };
+    let mut environment = minijinja::Environment::new();
+    environment.add_template("judge.html", include_str!("template/judge.html"))?;
+    environment.get_template("judge.html")?.render(template_value(&page)?)
+}
+
+fn code_row(judged: &Judged) -> CodeRow {
+    let (holding, failing, not_given) = judged.counts();
+    CodeRow {
+        name: judged.code.name.clone(),
+        version: judged.code.version.clone(),
+        file: judged.file.display().to_string(),
+        holding,
+        failing,
+        not_given,
+        class: if failing > 0 { "fail" } else { "pass" },
+    }
+}
+
+/// Metrics that any code was judged by, or could have been: those with a gate or a reference, and those that were given.
+fn rows(judgement: &Judgement) -> Vec<Row> {
+    let metrics: Vec<&Metric> = judgement.own.metrics.iter().collect();
+    metrics
+        .into_iter()
+        .filter_map(|metric| {
+            let same = |one: &&Compared| one.own.name == metric.name && one.own.variant == metric.variant;
+            let compared: Vec<Option<&Compared>> =
+                judgement.codes.iter().map(|judged| judged.metrics.iter().find(same)).collect();
+            let is_given = compared.iter().flatten().any(|one| one.foreign.is_some());
+            let is_asked = compared.iter().flatten().next().is_some() && metric.verdict() != Verdict::Observed;
+            if !is_given && !is_asked {
+                return None;
+            }
+            let theirs = compared.iter().map(|one| cell(one.and_then(|one| one.foreign.as_ref())));
+            let reference = metric.reference.as_ref();
+            Some(Row {
+                metric: metric.name.clone(),
+                variant: metric.variant.to_string(),
+                unit: metric.unit.clone(),
+                reference: reference.and_then(|of| of.value).map(four_digits).unwrap_or_default(),
+                source: reference.map(|of| of.source.clone()).unwrap_or_default(),
+                limit: metric.gate.as_ref().map(|gate| limit(gate.limit)).unwrap_or_default(),
+                reason: metric.gate.as_ref().map(|gate| gate.reason.clone()).unwrap_or_default(),
+                cells: std::iter::once(cell(Some(metric))).chain(theirs).collect(),
+            })
+        })
+        .collect()
+}
+
+fn limit(limit: Limit) -> String {
+    match limit {
+        Limit::AtMost(bound) => format!("≤ {}", four_digits(bound)),
+        Limit::AtLeast(bound) => format!("≥ {}", four_digits(bound)),
+        Limit::Within(lower, upper) => format!("{} … {}", four_digits(lower), four_digits(upper)),
+    }
+}
+
+fn cell(metric: Option<&Metric>) -> Cell {
+    let verdict = metric.map(Metric::verdict);
+    let (class, symbol, text) = match verdict {
+        Some(Verdict::Pass) => ("pass", "✓", "holds"),
+        Some(Verdict::Fail) => ("fail", "✗", "fails"),
+        Some(Verdict::Observed) => ("observed", "○", "observed"),
+        None => ("observed", "–", "not given"),
+    };
+    let reference = metric.and_then(|metric| metric.reference.as_ref()?.value);
+    Cell {
+        class,
+        symbol,
+        word: text,
+        value: metric.map(|metric| four_digits(metric.value)).unwrap_or_default(),
+        off: metric.zip(reference).map(|(metric, reference)| signed(metric.value - reference)).unwrap_or_default(),
+    }
+}
+
+fn signed(number: f64) -> String {
+    if number > 0.0 { format!("+{}", two_digits(number)) } else { two_digits(number) }
+}
+
+/// δ, σ_M and the number of comparisons of every quantity that anybody compares often enough.
+fn quantities(judgement: &Judgement) -> Vec<Quantity> {
+    let case = &judgement.own.name;
+    let all: Vec<_> = std::iter::once(biases(case, &judgement.own.metrics))
+        .chain(judgement.codes.iter().map(|judged| biases(case, given(judged))))
+        .collect();
+    let mut names: Vec<String> = all.iter().flatten().map(|bias| bias.quantity.clone()).collect();
+    names.sort();
+    names.dedup();
+    let text = |biases: &[crate::report::scatter::QuantityBias], name: &str| {
+        let bias = biases.iter().find(|bias| bias.quantity == name)?;
+        let (lower, upper) = bias.found.interval;
+        let model = bias.found.model_deviation().map_or_else(
+            || format!("scatter {}", two_digits(bias.found.scatter)),
+            |model| format!("σ_M {}", two_digits(model)),
+        );
+        let (delta, lower, upper) = (two_digits(bias.found.bias), two_digits(lower), two_digits(upper));
+        Some(format!("δ {delta} ({lower} … {upper}), {model}, {} comparisons", bias.found.comparisons))
+    };
+    names
+        .into_iter()
+        .map(|name| Quantity {
+            cells: all.iter().map(|biases| text(biases, &name).unwrap_or_else(|| "–".to_owned())).collect(),
+            name,
+        })
+        .collect()
+}
