@@ -4,6 +4,7 @@ mod bad_input;
 mod calibrate;
 mod exit_codes;
 mod files;
+mod judge;
 mod killed;
 mod mutate;
 mod permission;

@@ -23,6 +23,7 @@ const RUN_EXAMPLES: &str = "Examples:
   bagnold run film
   bagnold run bagnold --tier paper --out results/bagnold
   bagnold run my.toml --set resolution=30 --set numerics.hourglass=0.1
+  bagnold run column-planar --only material=sand,aspect_ratio=3
   bagnold run film --json > metrics.json
 
 A file names its case with `case = \"film\"` and takes from the tier what it leaves out; `bagnold show film`
@@ -130,6 +131,8 @@ pub enum Command {
     Export(Export),
     /// Put results that were written earlier beside each other.
     Compare(Compare),
+    /// Print a shell's completions, or the manual page.
+    Completions(Completions),
     /// Simulate many cases and write one page about them.
     Report(Report),
     /// Find the parameters that agree best with data, and judge them on data held out.
@@ -163,6 +166,9 @@ pub struct Run {
     /// Change one parameter; may be repeated.
     #[arg(long = "set", value_name = "path=value")]
     pub settings: Vec<String>,
+    /// Do the runs with these keys only, such as material=sand,aspect_ratio=3; may be repeated.
+    #[arg(long, value_name = "key=value,…")]
+    pub only: Vec<crate::metric::Variant>,
     /// Folder to write [default: reports/runs/CASE-TIER].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -175,6 +181,30 @@ pub struct Run {
     /// How to compute.
     #[command(flatten)]
     pub work: Work,
+}
+
+/// `bagnold completions`
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  bagnold completions bash > ~/.local/share/bash-completion/completions/bagnold
+  bagnold completions man > ~/.local/share/man/man1/bagnold.1")]
+pub struct Completions {
+    /// For what.
+    #[arg(value_enum)]
+    pub of: CompletionsOf,
+}
+
+/// What can be printed for a shell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum CompletionsOf {
+    /// Bash.
+    Bash,
+    /// Zsh.
+    Zsh,
+    /// Fish.
+    Fish,
+    /// The manual page, in troff.
+    Man,
 }
 
 /// `bagnold report`

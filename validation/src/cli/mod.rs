@@ -3,6 +3,7 @@
 mod arguments;
 mod calibrate;
 mod compare;
+mod completions;
 mod error;
 mod exit;
 mod judge;
@@ -79,6 +80,7 @@ pub fn execute(
         Command::Calibrate(command) => {
             in_pool(&command.work, || calibrate::run(command, registry, arguments.quiet, output))
         }
+        Command::Completions(command) => Ok(completions::completions(command, output)),
         Command::Compare(command) => compare::compare(command, output),
         Command::Judge(command) => in_pool(&command.work, || judge::judge(command, registry, arguments.quiet, output)),
         Command::Export(command) => {

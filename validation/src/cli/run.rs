@@ -5,6 +5,7 @@ use super::error::ProgramError;
 use super::progress::Progress;
 use super::{Exit, say, summary};
 use crate::case::{AnyCase, CaseFile, CaseResult, Changes, ParameterError, Prepared, Registry, Tier, execute};
+use crate::metric::Variant;
 use crate::output::{FileError, OutputFolder};
 use crate::report::{self, Baseline, History, Provenance, Report};
 use crate::result::{MetricsDocument, write_case};
@@ -92,8 +93,30 @@ fn prepare(command: &Run, registry: Registry) -> Result<(Box<dyn Prepared>, Tier
         file: file.as_ref().map(|file| (file.path.as_path(), file.fields.clone())),
         settings: &command.settings,
     };
-    let changed = file.is_some() || !command.settings.is_empty();
-    Ok((case.prepare(tier, &changes)?, tier, changed))
+    let changed = file.is_some() || !command.settings.is_empty() || !command.only.is_empty();
+    Ok((only(case.prepare(tier, &changes)?, &command.only)?, tier, changed))
+}
+
+/// The runs that have all keys of any of the variants asked for; all where none is asked for.
+fn only(prepared: Box<dyn Prepared>, asked: &[Variant]) -> Result<Box<dyn Prepared>, ParameterError> {
+    if asked.is_empty() {
+        return Ok(prepared);
+    }
+    let variants: Vec<Variant> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
+    let has = |asked: &Variant| variants.iter().any(|variant| variant.includes(asked));
+    if let Some(missing) = asked.iter().find(|asked| !has(asked)) {
+        let listed: Vec<String> = variants.iter().take(5).map(|variant| format!("\"{variant}\"")).collect();
+        let rule = format!("keys of a run of this case and tier, such as {}", listed.join(", "));
+        return Err(ParameterError::field(
+            "--only",
+            format!("\"{missing}\""),
+            &rule,
+            "leave out keys to mean several runs",
+        ));
+    }
+    let runs: Vec<usize> =
+        (0..variants.len()).filter(|&run| asked.iter().any(|asked| variants[run].includes(asked))).collect();
+    Ok(prepared.choose(&runs))
 }
 
 /// A case goes before a file of the same name; what looks like a path is meant as one.

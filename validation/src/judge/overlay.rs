@@ -9,20 +9,30 @@ pub(super) fn overlay(own: &[Figure], codes: &[(&str, &[Figure])]) -> Vec<Figure
     for figure in &mut figures {
         for (place, (code, theirs)) in codes.iter().enumerate() {
             let Some(theirs) = theirs.iter().find(|other| other.name == figure.name) else { continue };
-            for panel in &theirs.panels {
-                draw_in(figure, panel, code, place + 1);
+            let own_panels = figure.panels.len();
+            for (number, panel) in theirs.panels.iter().enumerate() {
+                let twin = twin_of(&figure.panels[..own_panels], panel, number);
+                draw_in(figure, panel, twin, code, place + 1);
             }
         }
     }
     figures
 }
 
-fn draw_in(figure: &mut Figure, panel: &Panel, code: &str, slot: usize) {
-    let own =
-        figure.panels.iter_mut().find(|own| own.title == panel.title && own.field.is_none() && panel.field.is_none());
-    let Some(own) = own else {
+/// Our panel that another shows the same of: the same title and axes, of several the one at the same place.
+fn twin_of(own: &[Panel], panel: &Panel, number: usize) -> Option<usize> {
+    let is_same = |own: &Panel| {
+        let axes = (&own.x.label, &own.y.label) == (&panel.x.label, &panel.y.label);
+        own.title == panel.title && axes && own.field.is_none() && panel.field.is_none()
+    };
+    Some(number).filter(|&number| own.get(number).is_some_and(is_same)).or_else(|| own.iter().position(is_same))
+}
+
+fn draw_in(figure: &mut Figure, panel: &Panel, twin: Option<usize>, code: &str, slot: usize) {
+    let Some(own) = twin.and_then(|twin| figure.panels.get_mut(twin)) else {
         if !panel.series.is_empty() || panel.field.is_some() {
-            figure.panels.push(Panel { title: format!("{code}: {}", panel.title), ..panel.clone() });
+            let title = format!("{code}: {}", panel.title);
+            figure.panels.push(Panel { title: title.trim_end_matches([':', ' ']).to_owned(), ..panel.clone() });
         }
         return;
     };
@@ -47,6 +57,22 @@ mod tests {
         panel.line("sand", 0, [(0.0, height), (1.0, 0.0)]);
         panel.reference("law", [(0.0, 1.0), (1.0, 1.0)]);
         Figure::new("deposit", "", vec![panel])
+    }
+
+    #[test]
+    fn panels_without_titles_are_told_by_axes_and_place() {
+        let two = |height: f64| {
+            let mut figure = figure("", height);
+            let mut second = figure.panels[0].clone();
+            second.y = Axis::linear("h [m]");
+            second.series[0].points[0].1 = 2.0 * height;
+            figure.panels.push(second);
+            figure
+        };
+        let merged = overlay(&[two(1.0)], &[("MPM", &[two(3.0)])]);
+        let heights =
+            |panel: usize| merged[0].panels[panel].series.iter().map(|one| one.points[0].1).collect::<Vec<_>>();
+        assert_eq!((merged[0].panels.len(), heights(0), heights(1)), (2, vec![1.0, 1.0, 3.0], vec![2.0, 1.0, 6.0]));
     }
 
     #[test]

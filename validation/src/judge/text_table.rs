@@ -153,4 +153,15 @@ mod tests {
             "`columns.vx` is \"velocty\", but must be a column of a.csv: x, velocity; did you mean `velocity`? headings are taken as they stand"
         );
     }
+
+    proptest::proptest! {
+        #[test]
+        fn any_text_is_a_whole_table_or_refused(text in "[-0-9a-c.,;\\t e#\"\n\r]{0,80}") {
+            if let Ok(table) = parse(&text) {
+                let rows = table.columns.first().map_or(0, Vec::len);
+                proptest::prop_assert!(rows > 0 && table.columns.iter().all(|column| column.len() == rows));
+                proptest::prop_assert_eq!(table.headings.len(), table.columns.len());
+            }
+        }
+    }
 }

@@ -2,8 +2,10 @@
 
 use crate::input::FieldError;
 use resvg::usvg::roxmltree::Document;
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Once;
 use vtkio::Vtk;
 use vtkio::model::{Attribute, DataSet, IOBuffer, Piece};
 
@@ -88,13 +90,26 @@ impl Points {
     }
 }
 
-/// The crate takes some damaged files for impossible and panics; that is caught here.
+thread_local! {
+    /// Whether a panic of this thread is expected and caught.
+    static EXPECTED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// The crate takes some damaged files for impossible and panics: that is caught here, and not printed.
 fn read(bytes: &[u8], file: &Path) -> Result<Vtk, String> {
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let others = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |panic| {
+            if !EXPECTED.get() {
+                others(panic);
+            }
+        }));
+    });
     let is_legacy = file.extension().is_some_and(|ending| ending == "vtk");
-    let silent = std::panic::take_hook();
-    std::panic::set_hook(Box::new(|_| {}));
+    EXPECTED.set(true);
     let read = std::panic::catch_unwind(|| if is_legacy { Vtk::parse_legacy_be(bytes) } else { Vtk::parse_xml(bytes) });
-    std::panic::set_hook(silent);
+    EXPECTED.set(false);
     match read {
         Ok(Ok(vtk)) => Ok(vtk),
         Ok(Err(error)) => Err(format!("damaged ({error})")),
@@ -161,5 +176,25 @@ mod tests {
         assert_eq!(sets, [(0.5, PathBuf::from("out/a/1.vtu"))]);
         assert!(collection("<VTKFile/>", Path::new("all.pvd")).is_err());
         assert!(collection("no", Path::new("all.pvd")).is_err());
+    }
+
+    proptest::proptest! {
+        #![proptest_config(proptest::prelude::ProptestConfig { cases: 300, ..Default::default() })]
+
+        #[test]
+        fn a_file_with_some_bytes_changed_is_read_or_refused(
+            changes in proptest::collection::vec((0..LEGACY.len(), proptest::num::u8::ANY), 1..6),
+            is_legacy in proptest::bool::ANY,
+        ) {
+            let mut bytes = LEGACY.as_bytes().to_vec();
+            for (place, byte) in changes {
+                bytes[place] = byte;
+            }
+            let name = if is_legacy { "a.vtk" } else { "a.vtu" };
+            if let Ok(points) = Points::parse(&bytes, Path::new(name)) {
+                let count = points.arrays["Points:0"].len();
+                proptest::prop_assert!(points.arrays.values().all(|values| values.len() == count));
+            }
+        }
     }
 }

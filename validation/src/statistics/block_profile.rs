@@ -51,6 +51,18 @@ impl BlockProfile {
         Self { bottom, bin, times: 0, sums: vec![vec![BlockSums::default(); BLOCKS]; bins] }
     }
 
+    /// A profile that is known without samples: the same in every block of time, so without a statistical error.
+    #[must_use]
+    pub fn known(points: impl IntoIterator<Item = ProfilePoint>) -> Self {
+        let sums: Vec<Vec<BlockSums>> = points
+            .into_iter()
+            .map(|ProfilePoint { height, velocity, pressure, .. }| {
+                vec![BlockSums { samples: 1.0, height, velocity, pressure }; BLOCKS]
+            })
+            .collect();
+        Self { bottom: 0.0, bin: 1.0, times: BLOCKS, sums }
+    }
+
     /// Adds a sample at `share` of the averaging window, 0 … 1: the particles' positions `[m]`, velocities `[m/s]` and
     /// pressures `[Pa]`. What lies outside of the bins is left out.
     pub fn observe(&mut self, share: f64, position: &[Vector<2>], velocity: &[Vector<2>], pressure: &[f64]) {

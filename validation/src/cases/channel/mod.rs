@@ -16,6 +16,7 @@
 //! body force is (g i, −g), as in the bed-load paper.
 
 mod closure;
+pub(in crate::cases) mod foreign;
 mod metrics;
 mod probe;
 mod scene;

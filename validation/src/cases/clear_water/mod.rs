@@ -8,8 +8,9 @@ mod parameters;
 pub use parameters::{ClearWaterParameters, ClearWaterRun, Flow, Period};
 
 use super::channel;
-use crate::case::{Case, RecordOf};
+use crate::case::{Case, Foreign, Form, Given, RecordOf};
 use crate::figure::Figure;
+use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
@@ -28,6 +29,7 @@ impl Case for ClearWater {
         starts 20 % too slow and is averaged once it is stationary: once its depth mean changes by less than 0.5 % over \
         U/(2 g i) three times in a row. The quick tier starts from the law itself, is too short to be stationary and \
         says so: it judges the balance of momentum only, and reports the rest with its drift.";
+    const FORM: Form = channel::foreign::FORM;
     type Parameters = ClearWaterParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -37,6 +39,10 @@ impl Case for ClearWater {
 
     fn figures(_: &ClearWaterParameters, records: &[Record]) -> Vec<Figure> {
         vec![figures::profiles(records), figures::over_time(records)]
+    }
+
+    fn foreign(_: &ClearWaterRun, given: &Given) -> Result<Option<Foreign<channel::ChannelObservation>>, FieldError> {
+        channel::foreign::observe(given).map(Some)
     }
 
     fn tables(_: &ClearWaterParameters, records: &[Record]) -> Vec<Table> {

@@ -7,8 +7,9 @@ mod parameters;
 pub use parameters::{Film, WaterFilmParameters, WaterFilmRun};
 
 use super::channel;
-use crate::case::{Case, RecordOf};
+use crate::case::{Case, Foreign, Form, Given, RecordOf};
 use crate::figure::Figure;
+use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
@@ -27,6 +28,7 @@ impl Case for WaterFilm {
         0.74, far from water and laminar, so that an exact profile exists. The film starts from it and must keep it for \
         several relaxation times 4h²/(π²ν): what remains is the error of the wall, of the viscous pairs and of the depth \
         that the particles take.";
+    const FORM: Form = channel::foreign::FORM;
     type Parameters = WaterFilmParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -36,6 +38,10 @@ impl Case for WaterFilm {
 
     fn figures(_: &WaterFilmParameters, records: &[Record]) -> Vec<Figure> {
         figures::all(records)
+    }
+
+    fn foreign(_: &WaterFilmRun, given: &Given) -> Result<Option<Foreign<channel::ChannelObservation>>, FieldError> {
+        channel::foreign::observe(given).map(Some)
     }
 
     fn tables(_: &WaterFilmParameters, records: &[Record]) -> Vec<Table> {

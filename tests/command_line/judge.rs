@@ -1,0 +1,122 @@
+//! `judge`, `export` and `compare`: other codes, and our own files as if another code had written them.
+
+use crate::program::{CHEAP, Place};
+use serde_json::Value;
+
+/// One planar column, in a second.
+const COLUMN: &[&str] =
+    &["run", "column-planar", "--only", "material=lagree,aspect_ratio=1,resolution=20", "--out", "own", "--quiet"];
+
+/// Our own pictures of that column as another code's files.
+const OUR_FILES: &str = r#"
+case = "column-planar"
+
+[code]
+name = "our own files"
+
+[[run]]
+variant = "material=lagree,aspect_ratio=1"
+
+[run.particles]
+files = ["own/snapshots/material=lagree,aspect_ratio=1,resolution=20.pvd"]
+[run.particles.columns]
+x = "Points:0 [m]"
+y = "Points:1 [m]"
+mass = "mass [kg]"
+density = "density [kg/m³]"
+vx = "velocity:0 [m/s]"
+vy = "velocity:1 [m/s]"
+"#;
+
+fn read(place: &Place, file: &str) -> Value {
+    let text = std::fs::read_to_string(place.path(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{file}: {error}"))
+}
+
+#[test]
+fn our_own_files_have_the_numbers_of_our_own_run() {
+    let place = Place::new();
+    // the aspect ratio has an ensemble of seeds, which carry further keys: they are the same column
+    place.bagnold(COLUMN).assert().code(0);
+    place.file("mine.toml", OUR_FILES);
+    place.bagnold(&["judge", "mine.toml", "--out", "judged", "--junit", "judged.xml", "--quiet"]).assert().code(0);
+    let metrics = read(&place, "judged/metrics.json")["codes"][0]["metrics"].as_array().expect("metrics").clone();
+    let of = |name: &str, key: &str| {
+        let own = |metric: &&Value| {
+            let variant = metric["variant"].as_str().unwrap_or_default();
+            metric["name"] == name && variant == "material=lagree,aspect_ratio=1,resolution=20"
+        };
+        metrics.iter().find(own).unwrap_or_else(|| panic!("no {name}"))[key].clone()
+    };
+    for name in ["run_out", "final_height", "deposit_slope_angle", "height_by_top", "rest_time"] {
+        assert_eq!(of(name, "value"), of(name, "bagnold"), "{name}");
+        assert!(of(name, "value").is_f64(), "{name}");
+    }
+    // six pictures do not tell when the front stopped, and nobody gave a ledger
+    assert_eq!(of("stopping_time", "verdict"), "not_given");
+    assert!(!metrics.iter().any(|metric| metric["name"] == "energy_residual"));
+    let xml = std::fs::read_to_string(place.path("judged.xml")).expect("written");
+    assert!(xml.contains("our own files") && xml.contains("final_height"), "{xml}");
+}
+
+#[test]
+fn a_code_that_is_wrong_fails_and_a_number_that_is_missing_does_not_pass() {
+    let place = Place::new();
+    let text = "case = \"still-water\"\n[code]\nname = \"one number\"\n[[run]]\n[run.numbers]\n";
+    let template = place.bagnold(&["judge", "--template", "still-water"]).assert().code(0);
+    let template = String::from_utf8_lossy(&template.get_output().stdout).into_owned();
+    let name = template.lines().find_map(|line| line.strip_prefix("# ")?.split_once(" = 0.0")).expect("a metric").0;
+    place.file("wrong.toml", &format!("{text}{name} = 1e9\n"));
+    place.bagnold(&["judge", "wrong.toml", "--out", "judged", "--quiet"]).assert().code(1);
+    let codes = read(&place, "judged/metrics.json")["codes"][0].clone();
+    assert_eq!(codes["failing"], 1, "{codes}");
+    assert!(codes["not_given"].as_u64() > Some(0), "{codes}");
+    let wrong = place.bagnold(&["judge", "missing.toml"]).assert().code(2);
+    let message = String::from_utf8_lossy(&wrong.get_output().stderr).into_owned();
+    assert!(message.contains("missing.toml: cannot be read"), "{message}");
+}
+
+#[test]
+fn every_case_has_a_submission_to_fill_in() {
+    let place = Place::new();
+    let list = place.bagnold(&["list"]).assert().code(0);
+    for line in String::from_utf8_lossy(&list.get_output().stdout).lines() {
+        let case = line.split_whitespace().next().expect("a name");
+        let printed = place.bagnold(&["judge", "--template", case]).assert().code(0);
+        let text = String::from_utf8_lossy(&printed.get_output().stdout).into_owned();
+        let table: toml::Table = toml::from_str(&text).unwrap_or_else(|error| panic!("{case}: {error}"));
+        assert_eq!(table["case"].as_str(), Some(case));
+    }
+}
+
+#[test]
+fn what_another_code_needs_is_exported() {
+    let place = Place::new();
+    place.bagnold(&["export", "still-water", "--out", "out", "--quiet"]).assert().code(0);
+    for file in ["case.toml", "definitions.md", "submission.toml"] {
+        assert!(place.path("out").join(file).is_file(), "{file}");
+    }
+    let definitions = std::fs::read_to_string(place.path("out/definitions.md")).expect("written");
+    assert!(definitions.starts_with("# still-water") && definitions.contains("## Limits"), "{definitions}");
+}
+
+#[test]
+fn two_runs_are_compared_number_by_number() {
+    let place = Place::new();
+    let run = |out: &'static str, more: &[&str]| {
+        let arguments = [&["run"], CHEAP, more, &["--out", out, "--quiet"]].concat();
+        place.bagnold(&arguments).assert().code(0);
+    };
+    run("first", &[]);
+    run("again", &[]);
+    run("thicker", &["--set", "newtonian.viscosity=1.1"]);
+    place.bagnold(&["compare", "first", "again", "--out", "same", "--deny-differences"]).assert().code(0);
+    place.bagnold(&["compare", "first", "thicker", "--out", "other", "--deny-differences"]).assert().code(1);
+    let lines = read(&place, "other/differences.json");
+    assert!(lines[0]["tolerances"].as_f64() > Some(1.0), "{}", lines[0]);
+    let figures = std::fs::read_dir(place.path("other/figures")).expect("figures").count();
+    assert!(figures >= 4, "{figures} files of profile and history");
+    let wrong = place.bagnold(&["compare", "first", "store", "--out", "none"]).assert().code(2);
+    let message = String::from_utf8_lossy(&wrong.get_output().stderr).into_owned();
+    assert!(message.contains("holds neither a run's metrics.json nor a report's"), "{message}");
+}

@@ -1,0 +1,106 @@
+//! The book in `docs/`: its tutorials do what they say, and its links lead somewhere.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A fenced block: what stands behind the fence, and its text.
+struct Block {
+    info: String,
+    text: String,
+}
+
+fn book() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/src")
+}
+
+fn pages() -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(book()).expect("docs/src");
+    let mut pages: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    pages.sort();
+    assert!(pages.len() > 5, "{pages:?}");
+    pages
+}
+
+fn blocks(text: &str) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
+        // blocks in lists are indented
+        let indent = line.len() - line.trim_start().len();
+        if let Some(info) = line.trim_start().strip_prefix("```") {
+            let own = lines.by_ref().take_while(|line| !line.trim_start().starts_with("```"));
+            let text: Vec<&str> = own.map(|line| line.get(indent..).unwrap_or_default()).collect();
+            blocks.push(Block { info: info.to_owned(), text: text.join("\n") + "\n" });
+        }
+    }
+    blocks
+}
+
+/// The program that `cargo test` of the whole workspace builds.
+fn program() -> PathBuf {
+    let test = std::env::current_exe().expect("the test knows its own path");
+    let folder = test.parent().and_then(Path::parent).expect("a test stands in target/PROFILE/deps");
+    folder.join(format!("bagnold{}", std::env::consts::EXE_SUFFIX))
+}
+
+/// Writes the files of a page and does its commands, in order, in a folder of its own.
+fn follow(page: &Path) -> usize {
+    let text = std::fs::read_to_string(page).expect("readable");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut commands = 0;
+    for block in blocks(&text) {
+        match block.info.split_once(' ') {
+            Some(("toml" | "text", name)) => {
+                std::fs::write(folder.path().join(name), &block.text).expect("writable");
+            }
+            None if block.info == "sh" => {
+                for line in block.text.lines() {
+                    let arguments = line.strip_prefix("bagnold ").unwrap_or_else(|| panic!("{}: {line}", page.display()));
+                    // a shell parts the words as the reader's does
+                    let script = format!("\"$BAGNOLD\" --quiet {arguments}");
+                    let done = Command::new("sh")
+                        .args(["-c", &script])
+                        .current_dir(folder.path())
+                        .env("BAGNOLD", program())
+                        .env("BAGNOLD_STORE", folder.path().join("store"))
+                        .output()
+                        .expect("a shell");
+                    // a verdict may be red in a tutorial; bad input and divergence may not
+                    let code = done.status.code();
+                    let errors = String::from_utf8_lossy(&done.stderr);
+                    assert!(matches!(code, Some(0 | 1)), "{}: {line}: {code:?}: {errors}", page.display());
+                    commands += 1;
+                }
+            }
+            _ => {}
+        }
+    }
+    commands
+}
+
+#[test]
+fn the_commands_of_every_tutorial_work() {
+    let done: usize = pages().iter().map(|page| follow(page)).sum();
+    assert!(done >= 12, "{done} commands");
+}
+
+#[test]
+fn every_page_is_in_the_summary_and_every_link_leads_to_a_page() {
+    let mut linked = BTreeSet::new();
+    for page in pages() {
+        let text = std::fs::read_to_string(&page).expect("readable");
+        for target in text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(target, _)| target) {
+            if target.contains("://") {
+                continue;
+            }
+            let file = target.split('#').next().unwrap_or_default();
+            assert!(book().join(file).is_file(), "{}: {target} leads nowhere", page.display());
+            if page.ends_with("SUMMARY.md") {
+                linked.insert(book().join(file));
+            }
+        }
+    }
+    let all: BTreeSet<PathBuf> = pages().into_iter().filter(|page| !page.ends_with("SUMMARY.md")).collect();
+    assert_eq!(all, linked, "the summary lists every page");
+}
