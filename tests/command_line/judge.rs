@@ -120,3 +120,40 @@ fn two_runs_are_compared_number_by_number() {
     let message = String::from_utf8_lossy(&wrong.get_output().stderr).into_owned();
     assert!(message.contains("holds neither a run's metrics.json nor a report's"), "{message}");
 }
+
+/// A submission of `tests/foreign`.
+fn foreign(name: &str) -> String {
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("foreign").join(name);
+    file.display().to_string()
+}
+
+#[test]
+fn two_codes_that_are_not_ours_are_judged_from_their_files() {
+    let place = Place::new();
+    let layer = foreign("layer/bagnold.toml");
+    place.bagnold(&["judge", &layer, "--out", "layer", "--quiet"]).assert().code(0);
+    let code = read(&place, "layer/metrics.json")["codes"][0].clone();
+    let value = |name: &str| {
+        let metrics = code["metrics"].as_array().expect("metrics");
+        metrics.iter().find(|metric| metric["name"] == name).and_then(|metric| metric["value"].as_f64())
+    };
+    // its own script measures 0.008 % against the exact profile, with velocities of four digits
+    assert!(value("velocity_l2").expect("a profile") < 0.02, "{code}");
+    assert!(value("implied_stress_error").expect("a pressure") < 0.1, "{code}");
+    assert!(value("transient_mean_error_half").expect("a history").abs() < 0.5, "{code}");
+    assert_eq!(code["failing"], 0, "{code}");
+
+    let column = foreign("mpm/column-planar.toml");
+    // its height at a = 3 misses the law: a foreign code may fail
+    place.bagnold(&["judge", &column, "--out", "column", "--quiet"]).assert().code(1);
+    let code = read(&place, "column/metrics.json")["codes"][0].clone();
+    let of = |ratio: &str| {
+        let variant = format!("material=lagree,aspect_ratio={ratio},resolution=20");
+        let metrics = code["metrics"].as_array().expect("metrics").clone();
+        let own = |metric: &&Value| metric["name"] == "run_out" && metric["variant"] == variant.as_str();
+        metrics.iter().find(own).and_then(|metric| metric["value"].as_f64()).expect("a deposit")
+    };
+    // as its own script measures them
+    assert!((of("1") - 2.3081).abs() < 1e-4 && (of("3") - 6.7327).abs() < 1e-4, "{} {}", of("1"), of("3"));
+    assert!(code["not_given"].as_u64() > Some(0), "{code}");
+}

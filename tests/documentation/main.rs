@@ -56,7 +56,8 @@ fn follow(page: &Path) -> usize {
             }
             None if block.info == "sh" => {
                 for line in block.text.lines() {
-                    let arguments = line.strip_prefix("bagnold ").unwrap_or_else(|| panic!("{}: {line}", page.display()));
+                    let arguments =
+                        line.strip_prefix("bagnold ").unwrap_or_else(|| panic!("{}: {line}", page.display()));
                     // a shell parts the words as the reader's does
                     let script = format!("\"$BAGNOLD\" --quiet {arguments}");
                     let done = Command::new("sh")

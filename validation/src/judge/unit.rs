@@ -4,7 +4,7 @@
 type Dimension = [i32; 3];
 
 /// Symbols that stand for themselves, with their value in metres, kilograms and seconds.
-const SYMBOLS: [(&str, f64, Dimension); 10] = [
+const SYMBOLS: [(&str, f64, Dimension); 9] = [
     ("m", 1.0, [1, 0, 0]),
     ("g", 1e-3, [0, 1, 0]),
     ("s", 1.0, [0, 0, 1]),
@@ -13,7 +13,6 @@ const SYMBOLS: [(&str, f64, Dimension); 10] = [
     ("N", 1.0, [1, 1, -2]),
     ("J", 1.0, [2, 1, -2]),
     ("-", 1.0, [0, 0, 0]),
-    ("1", 1.0, [0, 0, 0]),
     ("%", 1e-2, [0, 0, 0]),
 ];
 
@@ -70,13 +69,17 @@ fn powered(word: &str) -> Option<(&str, i32)> {
 }
 
 fn symbol_of(word: &str) -> Option<Unit> {
+    // `0.1 mm`: a unit of one's own, such as a hundredth of a layer of 10 mm
+    if let Some(factor) = word.parse::<f64>().ok().filter(|factor| factor.is_finite() && *factor > 0.0) {
+        return Some(Unit { factor, dimension: [0; 3] });
+    }
     let own = |word: &str| {
         let found = SYMBOLS.iter().find(|(symbol, ..)| *symbol == word)?;
         Some(Unit { factor: found.1, dimension: found.2 })
     };
     own(word).or_else(|| {
         PREFIXES.iter().find_map(|(prefix, factor)| {
-            let base = word.strip_prefix(prefix).filter(|base| !["-", "1", "%", "min"].contains(base)).and_then(own)?;
+            let base = word.strip_prefix(prefix).filter(|base| !["-", "%", "min"].contains(base)).and_then(own)?;
             Some(Unit { factor: factor * base.factor, ..base })
         })
     })
@@ -104,6 +107,7 @@ mod tests {
             ("N/m^2", "Pa", 1.0),
             ("Pa·s", "Pa s", 1.0),
             ("%", "-", 1e-2),
+            ("0.1 mm", "m", 1e-4),
         ];
         for (from, to, expected) in cases {
             let found = factor(from, to).unwrap_or(f64::NAN);
