@@ -14,7 +14,7 @@ use rayon::ThreadPoolBuilder;
 const STEPS: usize = 200;
 
 /// A column that starts to collapse beside a mirror plane, large enough for every parallel loop to be split.
-fn column<const D: usize>(cells: [usize; D]) -> Scene<D> {
+pub(crate) fn column<const D: usize>(cells: [usize; D]) -> Scene<D> {
     let disorder = Disorder { jitter: 0.1, speed: 0.05, ..Disorder::NONE };
     let height = cells[D - 1] as f64 * SPACING;
     let mut scene = open_scene(block(cells, disorder, 17));

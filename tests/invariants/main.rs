@@ -9,6 +9,7 @@ mod momentum_balance;
 mod neighbour_list;
 mod open_law;
 mod patches;
+mod restart;
 mod scene_errors;
 mod stopping;
 mod supports;

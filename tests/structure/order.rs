@@ -29,11 +29,11 @@ const SOLVER: &[Floor] = &[
 
 /// `validation/src`, likewise.
 const VALIDATION: &[Floor] = &[
-    floor(&["input", "number", "statistics"]),
+    floor(&["input", "interruption", "number", "statistics"]),
     floor(&["sampling", "output", "figure"]),
     floor(&["metric", "reference"]),
     floor(&["observation"]),
-    floor(&["store", "inference"]),
+    floor(&["store", "checkpoint", "inference"]),
     floor(&["case"]),
     floor(&["cases", "evaluation", "result", "report"]),
     floor(&["sweep", "calibration", "mutation", "judge", "compare"]),

@@ -5,7 +5,6 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
-use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::{domain::Domain, vector::Vector};
 use bagnold_validation::case::{Case, ParameterError, Parameters, Progress, Registry, Run, Tier};
 use bagnold_validation::metric::{Confidence, Limit, Metric, Variant};
@@ -55,11 +54,11 @@ impl Run for Wave {
         let liquid = EquationOfState { reference_density: 1000.0, bulk_modulus: 1e5, tension: Tension::Kept };
         let law = Rheology::Newtonian(Newtonian { viscosity: 1000.0 * self.viscosity });
         let domain = Domain::periodic([0.0; 2], [1.0; 2]);
-        let mut simulation = Simulation::new(Scene { domain, ..Scene::unbounded(flow, spacing, liquid, law) })?;
-        Ok(record(&mut simulation, 0.2, progress, |end| {
+        let scene = || Scene { domain, ..Scene::unbounded(flow.clone(), spacing, liquid, law) };
+        record(scene, 0.2, progress, |end| {
             let waves = end.position.iter().zip(&end.velocity).map(|(x, u)| 2.0 * u[0] * (TAU * x[1]).sin());
             waves.sum::<f64>() / (n * n) as f64
-        }))
+        })
     }
 }
 

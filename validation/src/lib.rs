@@ -3,12 +3,14 @@
 pub mod calibration;
 pub mod case;
 pub mod cases;
+pub mod checkpoint;
 pub mod cli;
 pub mod compare;
 pub mod evaluation;
 pub mod figure;
 pub mod inference;
 pub mod input;
+pub mod interruption;
 pub mod judge;
 pub mod metric;
 #[cfg(feature = "planted-errors")]

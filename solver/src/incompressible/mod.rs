@@ -20,6 +20,7 @@ mod numerics;
 mod passes;
 mod phase;
 mod projection;
+mod saved;
 mod scene;
 mod simulation;
 mod snapshot;
@@ -36,6 +37,7 @@ pub use columns::DrivenGrains;
 pub use numerics::{
     ColumnNumerics, Continuity, DragSlip, MeanFlux, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment,
 };
+pub use saved::SavedIncompressible;
 pub use scene::{
     Bed, DragForm, Fluid, IncompressibleScene, ParticleSet, Sediment, SedimentLoad, SedimentPressure, SolidFraction,
     Turbulence,

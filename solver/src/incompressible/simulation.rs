@@ -5,11 +5,10 @@ use super::scene::IncompressibleScene;
 use super::snapshot::{IncompressibleSnapshot, PhaseSnapshot};
 use super::state::State;
 use super::step::step;
-use crate::run::Divergence;
-use crate::run::SceneError;
-use crate::run::StopReason;
 use crate::run::observed_run::{self, Stepping};
+use crate::run::{Course, Divergence, Observer, SceneError, StopReason, Watching};
 use crate::vector::Vector;
+use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
 /// A running simulation of a fluid, alone or with sediment.
@@ -19,7 +18,7 @@ pub struct IncompressibleSimulation<const D: usize> {
 }
 
 /// What the linear solves and the searches of a run have cost.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SolverCost {
     /// Iterations of the implicit velocities.
     pub velocity_iterations: u64,
@@ -53,7 +52,12 @@ impl IncompressibleSimulation<2> {
     /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
     /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
     pub fn run(&mut self, end: f64, interval: f64, observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<2> {
-        observed_run::run(self, end, interval, observe)
+        self.follow(&mut Course::new(end, interval), &mut Watching(observe))
+    }
+
+    /// Runs along a course, from its start or from where the simulation that is continued was saved.
+    pub fn follow(&mut self, course: &mut Course, observer: &mut impl Observer<Self>) -> StopReason<2> {
+        observed_run::run(self, course, observer)
     }
 }
 

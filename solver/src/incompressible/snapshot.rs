@@ -3,9 +3,10 @@
 use super::columns::Grains;
 use super::phase::Phase;
 use crate::vector::Vector;
+use serde::{Deserialize, Serialize};
 
 /// One phase; every array has the shape `[free particles]`.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct PhaseSnapshot<const D: usize> {
     /// Positions `[m]`.
     pub position: Vec<Vector<D>>,
@@ -20,7 +21,7 @@ pub struct PhaseSnapshot<const D: usize> {
 }
 
 /// Both phases.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct IncompressibleSnapshot<const D: usize> {
     /// Time `[s]`.
     pub time: f64,

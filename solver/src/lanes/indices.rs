@@ -2,6 +2,7 @@
 
 use super::LANES;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Largest bound: any element of any record is then addressed without overflow.
 const LARGEST_BOUND: usize = i32::MAX as usize / 16;
@@ -44,14 +45,37 @@ fn all_below(chunks: &[[u32; LANES]], bound: usize) -> bool {
     bits.iter().fold(0, |all, bits| all | bits) >> 31 == 0
 }
 
-/// Chunks of eight indices, all below one bound. They change only by [`CheckedIndices::refill`], which checks them.
-#[derive(Debug, Default)]
+/// Chunks of eight indices, all below one bound. They change only by [`CheckedIndices::refill`], which checks them, and are
+/// checked when they are read back.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedIndices")]
 pub struct CheckedIndices {
     chunks: Vec<[u32; LANES]>,
     bound: usize,
 }
 
+/// Chunks as they were written.
+#[derive(Deserialize)]
+struct UncheckedIndices {
+    chunks: Vec<[u32; LANES]>,
+    bound: usize,
+}
+
+impl TryFrom<UncheckedIndices> for CheckedIndices {
+    type Error = &'static str;
+
+    fn try_from(UncheckedIndices { chunks, bound }: UncheckedIndices) -> Result<Self, Self::Error> {
+        if all_below(&chunks, bound) { Ok(Self { chunks, bound }) } else { Err("neighbour index out of range") }
+    }
+}
+
 impl CheckedIndices {
+    /// What every index is below.
+    #[must_use]
+    pub fn bound(&self) -> usize {
+        self.bound
+    }
+
     /// Lets `fill` rewrite the chunks and checks that every index is below `bound` afterwards.
     ///
     /// # Panics

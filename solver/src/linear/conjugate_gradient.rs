@@ -67,6 +67,11 @@ impl<T: Unknown> ConjugateGradient<T> {
         }
     }
 
+    /// Goes on counting from so many iterations.
+    pub(crate) fn count_from(&mut self, iterations: u64) {
+        self.iterations = iterations;
+    }
+
     /// Iterations of all solves.
     pub(crate) fn iterations(&self) -> u64 {
         self.iterations

@@ -1,10 +1,15 @@
-//! What the runs of both models have in common: the loop, how it ends, and how it goes wrong.
+//! What the runs of both models have in common: the loop, how it ends, is interrupted and continued, and how it goes wrong.
 
+mod course;
 mod divergence;
 pub(crate) mod observed_run;
+mod saved;
 mod scene_error;
 mod stop_reason;
 
+pub(crate) use course::Watching;
+pub use course::{Course, Observer};
 pub use divergence::Divergence;
+pub use saved::{ContinueError, ForeignState};
 pub use scene_error::SceneError;
 pub use stop_reason::StopReason;

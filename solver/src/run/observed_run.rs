@@ -1,7 +1,6 @@
 //! The loop of a run: steps until an end time, with an observer on the way.
 
-use crate::run::{Divergence, StopReason};
-use std::ops::ControlFlow;
+use crate::run::{Course, Divergence, Observer, StopReason};
 
 /// What can be run.
 pub(crate) trait Stepping<const D: usize> {
@@ -15,35 +14,42 @@ pub(crate) trait Stepping<const D: usize> {
     fn take_one(&mut self) -> Result<(), Divergence<D>>;
 }
 
-/// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of `interval`
-/// `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
+/// Runs along a course, showing the observer the state at the start, then at the first step after every multiple of its
+/// interval, and at the end.
 pub(crate) fn run<S: Stepping<D>, const D: usize>(
     simulation: &mut S,
-    end: f64,
-    interval: f64,
-    mut observe: impl FnMut(&S) -> ControlFlow<()>,
+    course: &mut Course,
+    observer: &mut impl Observer<S>,
 ) -> StopReason<D> {
-    let origin = simulation.now();
-    let mut observed = 0u64;
-    let mut observed_step = simulation.steps_taken();
-    if observe(simulation).is_break() {
-        return StopReason::Stopped;
-    }
+    let origin = match course.origin {
+        Some(origin) => origin,
+        None => {
+            let origin = *course.origin.insert(simulation.now());
+            course.observed_step = simulation.steps_taken();
+            if observer.observe(simulation).is_break() {
+                return StopReason::Stopped;
+            }
+            origin
+        }
+    };
     // half a step of slack, so that rounding does not add a step
-    while simulation.now() < end - 0.5 * simulation.next_step() {
+    while simulation.now() < course.end - 0.5 * simulation.next_step() {
+        if observer.pause(simulation, course).is_break() {
+            return StopReason::Interrupted;
+        }
         if let Err(divergence) = simulation.take_one() {
             return StopReason::Diverged(divergence);
         }
-        let due = ((simulation.now() - origin) / interval + 1e-9).floor() as u64;
-        if due > observed {
-            observed = due;
-            observed_step = simulation.steps_taken();
-            if observe(simulation).is_break() {
+        let due = ((simulation.now() - origin) / course.interval + 1e-9).floor() as u64;
+        if due > course.observed {
+            course.observed = due;
+            course.observed_step = simulation.steps_taken();
+            if observer.observe(simulation).is_break() {
                 return StopReason::Stopped;
             }
         }
     }
-    if observed_step < simulation.steps_taken() && observe(simulation).is_break() {
+    if course.observed_step < simulation.steps_taken() && observer.observe(simulation).is_break() {
         return StopReason::Stopped;
     }
     StopReason::Finished

@@ -9,6 +9,8 @@ pub enum StopReason<const D: usize> {
     Finished,
     /// The observer asked to stop.
     Stopped,
+    /// The observer interrupted it between two steps; its course continues it.
+    Interrupted,
     /// Diverged; the last good state is the last observed one.
     Diverged(Divergence<D>),
 }

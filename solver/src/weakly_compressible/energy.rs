@@ -21,9 +21,10 @@ use crate::lanes::algebra::{accumulate, contraction, matrix_product};
 use crate::material::equation_of_state::{EquationOfState, Tension};
 use crate::vector::{Vector, double_contraction};
 use crate::weakly_compressible::particles::Particles;
+use serde::{Deserialize, Serialize};
 
 /// Energies `[J]`, in two dimensions `[J/m]`, since the start of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct EnergyLedger {
     /// Work of gravity.
     pub gravity: f64,
@@ -75,7 +76,7 @@ impl EnergyLedger {
 }
 
 /// Energies of a state with the ledger that led to it, all in `[J]`, in two dimensions `[J/m]`.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct EnergyAccount {
     /// ½ Σ m v².
     pub kinetic: f64,

@@ -11,6 +11,7 @@ pub mod neighbours;
 pub mod numerics;
 pub mod particles;
 mod passes;
+mod saved;
 pub mod scene;
 mod search;
 pub mod simulation;
@@ -20,3 +21,5 @@ mod step;
 pub mod terms;
 pub mod time_step;
 pub(crate) mod viscous_solve;
+
+pub use saved::SavedSimulation;

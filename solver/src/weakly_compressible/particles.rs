@@ -4,6 +4,7 @@ use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::boundary::{Images, Surface, Wall, wall::WallParticle};
 use crate::weakly_compressible::scene::Flow;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// A far place for the sentinel, in units of the smoothing length `[-]`.
 const FAR: f64 = 1e9;
@@ -12,7 +13,7 @@ const FAR: f64 = 1e9;
 ///
 /// Arrays of the first group have an entry for every particle (shape `[flow + wall + images + 1]`), arrays of the
 /// second for every flow particle (shape `[flow]`). The flow particles are kept sorted by cell.
-#[derive(Debug)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Particles<const D: usize> {
     /// Positions `[m]`.
     pub position: Vec<Vector<D>>,
@@ -78,13 +79,22 @@ pub struct Particles<const D: usize> {
 /// Applies a statement to every array of the first group.
 macro_rules! for_each_shared_array {
     ($particles:ident, $array:ident => $body:expr) => {
+        for_each_shared_array!($particles, $array => $body, in &mut)
+    };
+    ($particles:ident, $array:ident => $body:expr, in $($reference:tt)+) => {
         for_each_shared_array!($particles, $array => $body, of position velocity velocity_gradient stress density
             pressure volume artificial_viscosity corrected_stress pressure_gradient viscosity wall_normal wall_depth
-            wall_velocity sliding_velocity wall_smoothness mirrored)
+            wall_velocity sliding_velocity wall_smoothness mirrored; $($reference)+)
     };
-    ($particles:ident, $array:ident => $body:expr, of $($field:ident)*) => {
+    ($particles:ident, $array:ident => $body:expr, of $($field:ident)*; &mut) => {
         $({
             let $array = &mut $particles.$field;
+            $body;
+        })*
+    };
+    ($particles:ident, $array:ident => $body:expr, of $($field:ident)*; &) => {
+        $({
+            let $array = &$particles.$field;
             $body;
         })*
     };
@@ -220,6 +230,28 @@ impl<const D: usize> Particles<D> {
         permute(&mut self.mass, order, &mut scratch.scalars);
         permute(&mut self.support_impulse, order, &mut scratch.vectors);
         permute(&mut self.identity, order, &mut scratch.identities);
+    }
+
+    /// Whether every array has its length, with so many images, and every particle one identity.
+    pub(crate) fn are_complete(&self, images: usize) -> bool {
+        let Self { identity, mass, correction, force_correction, acceleration, support, by_walls, by_damping, .. } =
+            self;
+        let Self { by_wall_control, support_impulse, flow, .. } = self;
+        let of_flow = [identity.len(), mass.len(), correction.len(), force_correction.len(), acceleration.len()];
+        let beside = [support.len(), by_walls.len(), by_damping.len(), by_wall_control.len(), support_impulse.len()];
+        let mut complete = of_flow.into_iter().chain(beside).all(|length| length == *flow);
+        let total = self.real_count() + images + 1;
+        for_each_shared_array!(self, array => complete &= array.len() == total, in &);
+        let mut seen = vec![false; *flow];
+        for &identity in identity {
+            complete &= seen.get_mut(identity as usize).is_some_and(|seen| !std::mem::replace(seen, true));
+        }
+        complete
+    }
+
+    /// Whether every wall particle belongs to one of so many walls.
+    pub(crate) fn walls_are_below(&self, walls: usize) -> bool {
+        self.wall.iter().all(|&wall| (wall as usize) < walls)
     }
 
     /// Flow indices in the order of their identity.

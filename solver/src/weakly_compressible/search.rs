@@ -29,6 +29,11 @@ impl<const D: usize> Search<D> {
         Self { domain, flow_grid: CellGrid::new(), wall_grid: CellGrid::new(), scratch: SortScratch::new(), count: 0 }
     }
 
+    /// Goes on counting from so many searches.
+    pub(crate) fn count_from(&mut self, count: u64) {
+        self.count = count;
+    }
+
     /// Searches done.
     pub(crate) fn count(&self) -> u64 {
         self.count

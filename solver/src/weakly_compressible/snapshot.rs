@@ -4,9 +4,10 @@ use crate::material::equation_of_state::EquationOfState;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::energy::EnergyAccount;
 use crate::weakly_compressible::particles::Particles;
+use serde::{Deserialize, Serialize};
 
 /// Plain state; every array has the shape `[flow particles]`, ordered by identity.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Snapshot<const D: usize> {
     /// Time `[s]`.
     pub time: f64,

@@ -1,7 +1,7 @@
 //! The folder of a calibration: which plan it belongs to.
 
 use super::error::CalibrationError;
-use crate::output::{FileError, Owner, claim};
+use crate::output::{FileError, Owner, claim, is_claimed, owner_of};
 use crate::store::source_hash;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -37,7 +37,12 @@ impl CalibrationFolder {
     pub fn begin(folder: &Path, plan: &Path, resume: bool) -> Result<Self, CalibrationError> {
         let plan = std::fs::read_to_string(plan).map_err(|error| FileError::unreadable(plan, &error))?;
         let begun = Self { folder: folder.to_owned() };
-        claim(folder, Belongs { source_hash: source_hash().to_owned(), plan }, resume)?;
+        // what is unfinished goes on by itself; the result is written last
+        let own = Belongs { source_hash: source_hash().to_owned(), plan };
+        let unfinished = !folder.join("result.json").exists()
+            && is_claimed::<Belongs>(folder)
+            && owner_of::<Belongs>(folder).is_ok_and(|other| other == own);
+        claim(folder, own, resume || unfinished)?;
         let evaluations = begun.evaluations();
         std::fs::create_dir_all(&evaluations).map_err(|error| FileError::unwritable(&evaluations, &error))?;
         Ok(begun)

@@ -6,6 +6,7 @@ use super::foreign::ForeignResult;
 use super::notes::notes;
 use super::result::{CaseResult, RunSummary, microseconds_each};
 use super::{Case, CaseFile, Form, Given, Parameters, Progress, RecordOf, Run, RunOf, Tier, schema};
+use crate::checkpoint::{Checkpoints, is_interrupted};
 use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
 use crate::observation::Recorded;
@@ -117,6 +118,22 @@ impl<C: Case> AnyCase for C {
     }
 }
 
+/// The progress of a run that keeps checkpoints.
+struct Kept<'a> {
+    progress: &'a dyn Progress,
+    checkpoints: Option<Checkpoints>,
+}
+
+impl Progress for Kept<'_> {
+    fn advance(&self, simulated: f64, total: f64, particle_steps: f64) {
+        self.progress.advance(simulated, total, particle_steps);
+    }
+
+    fn checkpoints(&self) -> Option<&Checkpoints> {
+        self.checkpoints.as_ref()
+    }
+}
+
 /// A run and, once it is done, its record and whether that came from the store.
 type Slot<R> = (R, OnceLock<(Recorded<<R as Run>::Observation>, bool)>);
 
@@ -155,12 +172,21 @@ impl<C: Case> Prepared for Plan<C> {
 
     fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError> {
         let (description, slot) = &self.slots[run];
+        if is_interrupted() {
+            return Err(ParameterError::Interrupted);
+        }
         let key = store.key(self.name(), description);
         if let Some(record) = key.as_ref().and_then(|key| store.fetch(key)) {
             slot.get_or_init(|| (record, true));
             return Ok(());
         }
-        let record = description.simulate(progress)?;
+        let checkpoints = key.as_ref().map(|key| store.checkpoints(key));
+        let simulated = description.simulate(&Kept { progress, checkpoints });
+        let record = match simulated {
+            // what was cut short may look like something that is refused
+            Err(_) if is_interrupted() => return Err(ParameterError::Interrupted),
+            simulated => simulated?,
+        };
         if let Some(key) = &key {
             store.keep(key, &record);
         }

@@ -77,6 +77,9 @@ pub enum ParameterError {
     /// The case's file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A signal has asked the program to end; what the run has come to is kept where it can be.
+    #[error("interrupted before it was done")]
+    Interrupted,
     /// The thread pool cannot be built.
     #[error("`--threads {threads}` cannot be started ({reason}); ask for fewer threads")]
     Threads {

@@ -24,6 +24,7 @@ pub use registry::Registry;
 pub use result::{CaseResult, RunSummary};
 pub use schedule::{Monitor, Silent, execute, share_out};
 
+use crate::checkpoint::Checkpoints;
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity, Variant};
@@ -105,6 +106,10 @@ pub trait Run: Serialize + Clone + Send + Sync {
 pub trait Progress: Sync {
     /// `simulated` of `total` seconds are done, with `particle_steps` particle-steps so far.
     fn advance(&self, simulated: f64, total: f64, particle_steps: f64);
+    /// Where the run keeps its checkpoints; none where nothing is kept.
+    fn checkpoints(&self) -> Option<&Checkpoints> {
+        None
+    }
 }
 
 /// A run of a case with these parameters.

@@ -5,6 +5,7 @@
 
 use super::error::ParameterError;
 use super::{CaseResult, Prepared, Progress};
+use crate::checkpoint::is_interrupted;
 use crate::store::Store;
 use std::sync::{Mutex, PoisonError};
 
@@ -114,7 +115,7 @@ pub fn share_out<J: Send, E: From<ParameterError> + Send>(
 /// Simulates all runs of all cases on the current rayon pool's number of threads and judges them.
 ///
 /// # Errors
-/// The first run whose parameters give no valid scene; runs that have not begun are then left.
+/// The first run whose parameters give no valid scene; an interruption. Runs that have not begun are then left.
 pub fn execute(
     cases: Vec<Box<dyn Prepared>>,
     store: &Store,
@@ -137,5 +138,7 @@ pub fn execute(
         monitor.finished(job.number);
         outcome
     })?;
-    Ok(cases.into_iter().map(Prepared::finish).collect())
+    let results = cases.into_iter().map(Prepared::finish).collect();
+    // a reference that was cut short is none
+    if is_interrupted() { Err(ParameterError::Interrupted) } else { Ok(results) }
 }

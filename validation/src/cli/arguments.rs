@@ -7,6 +7,7 @@ pub(super) use foreign::{Compare, Export, Judge};
 use crate::case::Tier;
 use clap::{ArgAction, Args, Parser, Subcommand};
 use std::path::PathBuf;
+use std::time::Duration;
 
 const EXAMPLES: &str = "Examples:
   bagnold list                                 what can be run
@@ -400,12 +401,22 @@ pub struct Work {
     /// Threads to use [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Simulate even what is stored from an earlier run of the same program.
+    /// Simulate even what is stored or unfinished from an earlier run of the same program.
     #[arg(long)]
     pub fresh: bool,
+    /// Seconds between two checkpoints of a run [default: 60, up to 120 where one costs over 1 %].
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub checkpoint_interval: Option<Duration>,
     /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the workspace].
     #[arg(long, value_name = "DIR")]
     pub store: Option<PathBuf>,
+}
+
+/// A time of an argument.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let rule = "must be a number of seconds from 0 to 1e6, such as 60";
+    let seconds: f64 = text.parse().map_err(|_| rule.to_owned())?;
+    if (0.0..=1e6).contains(&seconds) { Ok(Duration::from_secs_f64(seconds)) } else { Err(rule.to_owned()) }
 }
 
 #[cfg(test)]

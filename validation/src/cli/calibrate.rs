@@ -1,8 +1,8 @@
 //! `bagnold calibrate`: parameters from data.
 
 use super::arguments::Calibrate;
+use super::count::Count;
 use super::error::ProgramError;
-use super::progress::Count;
 use super::{Exit, say};
 use crate::calibration::{CalibrationFolder, Outcome, Plan, Watch, calibrate, write};
 use crate::case::Registry;

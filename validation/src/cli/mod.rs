@@ -4,6 +4,8 @@ mod arguments;
 mod calibrate;
 mod compare;
 mod completions;
+mod count;
+mod display;
 mod error;
 mod exit;
 mod judge;
@@ -17,6 +19,7 @@ mod summary;
 mod sweep;
 #[cfg(test)]
 mod tests;
+mod ticker;
 
 pub use arguments::{Arguments, Command};
 pub use error::ProgramError;
@@ -24,6 +27,8 @@ pub use exit::Exit;
 
 use crate::case::{ParameterError, Registry};
 use crate::cases::REGISTRY;
+use crate::checkpoint::{self, Kept};
+use crate::interruption::{self, Signal};
 use crate::store::{Store, StorePolicy};
 use arguments::Work;
 use clap::Parser;
@@ -42,13 +47,40 @@ pub fn main() -> ExitCode {
 pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitCode {
     let arguments = Arguments::parse_from(arguments);
     logging::start(arguments.verbose, arguments.quiet);
+    if let Err(error) = interruption::listen() {
+        tracing::warn!("no signal is listened to ({error}): an interruption keeps what the last checkpoints hold");
+    }
     match execute(&arguments, registry, &mut std::io::stdout()) {
         Ok(exit) => exit.into(),
-        Err(error) => {
-            eprintln!("error: {error}");
-            Exit::BadInput.into()
-        }
+        Err(error) => match interruption::asked() {
+            Some(signal) => {
+                eprintln!("{}", interrupted(signal, &error));
+                ExitCode::from(signal.exit_code())
+            }
+            None => {
+                eprintln!("error: {error}");
+                Exit::BadInput.into()
+            }
+        },
     }
+}
+
+/// What a signal has left, and how to go on.
+fn interrupted(signal: Signal, error: &ProgramError) -> String {
+    let Kept { whole, lost } = checkpoint::kept_at_the_end();
+    let runs = |count: usize| if count == 1 { "1 run".to_owned() } else { format!("{count} runs") };
+    let mut text = format!("interrupted by {}: what is finished is kept", signal.name);
+    if whole > 0 {
+        text += &format!(", and a checkpoint of {} in progress", runs(whole));
+    }
+    text += "; the same command goes on from there (without --fresh, which begins anew)";
+    if lost > 0 {
+        text += &format!("\n{} could not be kept at this moment and will lose some time", runs(lost));
+    }
+    if error.to_string() != ParameterError::Interrupted.to_string() {
+        text += &format!("\nerror: {error}");
+    }
+    text
 }
 
 /// Does what the arguments ask for, with the cases of a registry.
@@ -119,7 +151,8 @@ fn in_pool_of(
 impl Work {
     fn open_store(&self) -> Store {
         let policy = if self.fresh { StorePolicy::Refresh } else { StorePolicy::Use };
-        self.store.as_ref().map_or_else(|| Store::open(policy), |folder| Store::at(folder, policy))
+        let store = self.store.as_ref().map_or_else(|| Store::open(policy), |folder| Store::at(folder, policy));
+        store.with_checkpoints_every(self.checkpoint_interval)
     }
 }
 

@@ -1,8 +1,8 @@
 //! `bagnold mutate`: plants the solver's errors one at a time, each in a program of its own, and says who noticed.
 
 use super::arguments::{Mutate, MutateAction};
+use super::count::Count;
 use super::error::ProgramError;
-use super::progress::Count;
 use super::{Exit, say, summary};
 use crate::case::{Registry, share_out};
 use crate::mutation::{Finding, Scope, Sighting, Tally, judge, run_trial, scopes, table, write};

@@ -1,9 +1,9 @@
-//! The progress bar: how far, how long still, how fast. Hidden when standard error is not a terminal.
+//! How far the runs of cases are, how long still, how fast.
 
-use super::logging::BARS;
+use super::display::{Display, time_left};
 use crate::case::{Monitor, Prepared};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 /// Resolution of the bar.
@@ -17,19 +17,62 @@ struct RunState {
     name: String,
     /// Expected cost over that of all runs `[-]`.
     weight: f64,
-    /// Bits of the part that is done, 0 … 1.
+    /// Bits of the part that is done, 0 … 1, and of that with which it began here; a NaN before that.
     done: AtomicU64,
-    /// Particle-steps computed now, so none for a run from the store.
+    begun: AtomicU64,
+    /// Particle-steps, and those with which it began here; none for a run from the store.
     particle_steps: AtomicU64,
+    first_steps: AtomicU64,
 }
 
-/// A bar for all runs of some cases.
-pub(super) struct Progress {
-    bar: ProgressBar,
+impl RunState {
+    /// Part that is done, and what of it was done here `[-]`.
+    fn parts(&self) -> (f64, f64) {
+        let read = |bits: &AtomicU64| f64::from_bits(bits.load(Ordering::Relaxed));
+        let (done, begun) = (read(&self.done), read(&self.begun));
+        (done, if begun.is_nan() { 0.0 } else { done - begun })
+    }
+}
+
+/// What is known of all runs.
+struct Runs {
     runs: Vec<RunState>,
     finished: AtomicUsize,
     begin: Instant,
-    /// Milliseconds from `begin` to the last update.
+    /// What was done last.
+    doing: Mutex<String>,
+}
+
+impl Runs {
+    /// Part of all work that is done `[-]`.
+    fn done(&self) -> f64 {
+        self.runs.iter().map(|run| run.weight * run.parts().0).sum::<f64>().min(1.0)
+    }
+
+    fn text(&self) -> String {
+        let here: f64 = self.runs.iter().map(|run| run.weight * run.parts().1).sum();
+        let computed = |run: &RunState| {
+            run.particle_steps.load(Ordering::Relaxed).saturating_sub(run.first_steps.load(Ordering::Relaxed))
+        };
+        let steps: u64 = self.runs.iter().map(computed).sum();
+        let elapsed = self.begin.elapsed();
+        let rate = steps as f64 / elapsed.as_secs_f64().max(1e-3);
+        format!(
+            "{}  {}/{} runs  {:.2} M particle-steps/s  {}",
+            time_left(here, 1.0 - self.done(), elapsed),
+            self.finished.load(Ordering::Relaxed),
+            self.runs.len(),
+            rate * 1e-6,
+            self.doing.lock().unwrap_or_else(PoisonError::into_inner)
+        )
+    }
+}
+
+/// Progress of all runs of some cases.
+pub(super) struct Progress {
+    display: Display,
+    state: Arc<Runs>,
+    /// Milliseconds from the beginning to the last update.
     updated: AtomicU64,
 }
 
@@ -43,52 +86,45 @@ impl Progress {
             })
             .collect();
         let total: f64 = runs.iter().map(|(_, cost)| cost).sum();
-        let bar = if quiet {
-            ProgressBar::with_draw_target(Some(PARTS), ProgressDrawTarget::hidden())
-        } else {
-            BARS.add(ProgressBar::new(PARTS))
-        };
-        if let Ok(style) = ProgressStyle::with_template("{bar:24} {percent:>3} %  {eta} left  {wide_msg}") {
-            bar.set_style(style);
-        }
         let state = |(name, cost): (String, f64)| RunState {
             name,
             weight: cost / total,
             done: AtomicU64::new(0),
+            begun: AtomicU64::new(f64::NAN.to_bits()),
             particle_steps: AtomicU64::new(0),
+            first_steps: AtomicU64::new(0),
         };
-        Self {
-            bar,
+        let state = Arc::new(Runs {
             runs: runs.into_iter().map(state).collect(),
             finished: AtomicUsize::new(0),
             begin: Instant::now(),
-            updated: AtomicU64::new(0),
-        }
+            doing: Mutex::default(),
+        });
+        let display = Display::new(PARTS, "{bar:24} {percent:>3} %  {wide_msg}", quiet);
+        let told = Arc::clone(&state);
+        let lines = display.lines;
+        display.refresh_by(move || {
+            let percent = if lines { format!("{:.1} % done  ", 100.0 * told.done()) } else { String::new() };
+            percent + &told.text()
+        });
+        Self { display, state, updated: AtomicU64::new(0) }
     }
 
     /// Takes the bar off the screen.
     pub(super) fn clear(&self) {
-        self.bar.finish_and_clear();
-        BARS.remove(&self.bar);
+        self.display.clear();
     }
 
-    fn show(&self, doing: &str) {
-        let done: f64 = self.runs.iter().map(|run| run.weight * f64::from_bits(run.done.load(Ordering::Relaxed))).sum();
-        let steps: u64 = self.runs.iter().map(|run| run.particle_steps.load(Ordering::Relaxed)).sum();
-        let rate = steps as f64 / self.begin.elapsed().as_secs_f64().max(1e-3);
-        // A saturating cast: rounding may leave the sum a little above 1.
-        self.bar.set_position(((done * PARTS as f64) as u64).min(PARTS));
-        self.bar.set_message(format!(
-            "{}/{} runs  {:.2} M particle-steps/s  {doing}",
-            self.finished.load(Ordering::Relaxed),
-            self.runs.len(),
-            rate * 1e-6
-        ));
+    fn show(&self, doing: String) {
+        *self.state.doing.lock().unwrap_or_else(PoisonError::into_inner) = doing;
+        // A saturating cast.
+        self.display.bar.set_position(((self.state.done() * PARTS as f64) as u64).min(PARTS));
+        self.display.bar.set_message(self.state.text());
     }
 
     /// Whether this caller is the one to update the bar now.
     fn is_due(&self) -> bool {
-        let now = u64::try_from(self.begin.elapsed().as_millis()).unwrap_or(u64::MAX);
+        let now = u64::try_from(self.display.begin.elapsed().as_millis()).unwrap_or(u64::MAX);
         let last = self.updated.load(Ordering::Relaxed);
         now >= last + UPDATE_INTERVAL
             && self.updated.compare_exchange(last, now, Ordering::Relaxed, Ordering::Relaxed).is_ok()
@@ -97,62 +133,44 @@ impl Progress {
 
 impl Monitor for Progress {
     fn started(&self, run: usize) {
-        self.show(&self.runs[run].name);
+        self.show(self.state.runs[run].name.clone());
     }
 
     fn advanced(&self, run: usize, simulated: f64, total: f64, particle_steps: f64) {
-        let state = &self.runs[run];
+        let state = &self.state.runs[run];
         let part = if total > 0.0 { (simulated / total).clamp(0.0, 1.0) } else { 0.0 };
+        if f64::from_bits(state.begun.load(Ordering::Relaxed)).is_nan() {
+            state.begun.store(part.to_bits(), Ordering::Relaxed);
+            state.first_steps.store(particle_steps as u64, Ordering::Relaxed);
+        }
         state.done.store(part.to_bits(), Ordering::Relaxed);
         state.particle_steps.store(particle_steps as u64, Ordering::Relaxed);
         if self.is_due() {
-            self.show(&format!("{}: {simulated:.3} of {total:.3} s simulated", state.name));
+            self.show(format!("{}: {simulated:.3} of {total:.3} s simulated", state.name));
         }
     }
 
     fn finished(&self, run: usize) {
-        self.runs[run].done.store(1.0_f64.to_bits(), Ordering::Relaxed);
-        self.finished.fetch_add(1, Ordering::Relaxed);
-        self.show(&self.runs[run].name);
+        self.state.runs[run].done.store(1.0_f64.to_bits(), Ordering::Relaxed);
+        self.state.finished.fetch_add(1, Ordering::Relaxed);
+        self.show(self.state.runs[run].name.clone());
     }
 }
 
-/// A bar that counts things of about equal cost.
-pub(super) struct Count(ProgressBar);
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl Count {
-    pub(super) fn new(what: &str, all: usize, done: usize, quiet: bool) -> Self {
-        let bar = if quiet {
-            ProgressBar::with_draw_target(Some(all as u64), ProgressDrawTarget::hidden())
-        } else {
-            BARS.add(ProgressBar::new(all as u64))
+    #[test]
+    fn what_was_done_before_does_not_count_for_the_rate() {
+        let run = RunState {
+            name: String::new(),
+            weight: 1.0,
+            done: AtomicU64::new(0.75_f64.to_bits()),
+            begun: AtomicU64::new(0.5_f64.to_bits()),
+            particle_steps: AtomicU64::new(0),
+            first_steps: AtomicU64::new(0),
         };
-        let template = format!("{{bar:24}} {{pos}}/{{len}} {what}  {{eta}} left  {{wide_msg}}");
-        if let Ok(style) = ProgressStyle::with_template(&template) {
-            bar.set_style(style);
-        }
-        bar.set_position(done as u64);
-        Self(bar)
-    }
-
-    /// So many more are to be done.
-    pub(super) fn expect(&self, more: usize) {
-        self.0.inc_length(more as u64);
-    }
-
-    /// Shows what is being done.
-    pub(super) fn say(&self, doing: &str) {
-        self.0.set_message(doing.to_owned());
-    }
-
-    /// One more is done.
-    pub(super) fn step(&self) {
-        self.0.inc(1);
-    }
-
-    /// Takes the bar off the screen.
-    pub(super) fn clear(&self) {
-        self.0.finish_and_clear();
-        BARS.remove(&self.0);
+        assert_eq!(run.parts(), (0.75, 0.25));
     }
 }

@@ -1,8 +1,8 @@
 //! `bagnold sweep`: many runs of one plan, here or on a cluster.
 
 use super::arguments::{Cluster, Engine, Sweep, SweepAction};
+use super::count::Count;
 use super::error::ProgramError;
-use super::progress::Count;
 use super::{Exit, say};
 use crate::case::Registry;
 use crate::evaluation::Record;
@@ -53,7 +53,10 @@ fn begin(
     if command.engine == Engine::Slurm {
         slurm::available()?;
     }
-    let sweep = SweepFolder::begin(&folder, manifest, command.resume)?;
+    // what is unfinished goes on by itself
+    let unfinished =
+        SweepFolder::open(&folder).is_ok_and(|sweep| *sweep.manifest() == manifest && !sweep.missing().is_empty());
+    let sweep = SweepFolder::begin(&folder, manifest, command.resume || unfinished)?;
     match command.engine {
         Engine::Local => {
             let watch = Bar::new(&sweep, quiet);

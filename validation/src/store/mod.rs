@@ -5,11 +5,12 @@ pub mod provenance;
 
 pub use provenance::{commit, profile, source_hash, target_features, version, workspace};
 
+use crate::checkpoint::Checkpoints;
 use crate::observation::Recorded;
 use serde::{Serialize, de::DeserializeOwned};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 
 /// Folders of this many versions of the sources are kept.
 const KEPT_VERSIONS: usize = 3;
@@ -34,6 +35,8 @@ pub struct Store {
     /// Folder of this version of the sources.
     folder: PathBuf,
     policy: StorePolicy,
+    /// Time between two checkpoints of a run, where the user asks for one.
+    checkpoint_interval: Option<Duration>,
 }
 
 /// Identifies a run of a case by this version of the sources.
@@ -66,7 +69,28 @@ impl Store {
 
     fn for_sources(root: &Path, sources: &str, policy: StorePolicy) -> Self {
         let version = sources.get(..16).unwrap_or(sources);
-        Self { folder: root.join(format!("{FOLDER_PREFIX}{version}")), policy }
+        let folder = root.join(format!("{FOLDER_PREFIX}{version}"));
+        Self { folder, policy, checkpoint_interval: None }
+    }
+
+    /// The same store with another time between two checkpoints of a run.
+    #[must_use]
+    pub fn with_checkpoints_every(self, interval: Option<Duration>) -> Self {
+        Self { checkpoint_interval: interval, ..self }
+    }
+
+    /// Where an unfinished run keeps its checkpoints; emptied where everything is to begin anew.
+    #[must_use]
+    pub fn checkpoints(&self, key: &Key) -> Checkpoints {
+        let checkpoints = Checkpoints::at(&self.checkpoint_folder(key), &key.0, self.checkpoint_interval);
+        if self.policy == StorePolicy::Refresh {
+            checkpoints.discard();
+        }
+        checkpoints
+    }
+
+    fn checkpoint_folder(&self, key: &Key) -> PathBuf {
+        self.folder.join("unfinished").join(&key.0)
     }
 
     /// The key of a run, or `None` if there is nothing to look up or keep.
@@ -103,12 +127,16 @@ impl Store {
         }
     }
 
-    /// Keeps a record. A store that cannot be written costs time later, but is no reason to fail now.
+    /// Keeps a record, whose run then needs no checkpoint. A store that cannot be written costs time later, but is no reason
+    /// to fail now.
     pub fn keep<O: Serialize>(&self, key: &Key, record: &Recorded<O>) {
         let new = !self.folder.is_dir();
         if let Err(error) = entry::write(&self.path(key), record) {
             tracing::warn!("stored result {}: not kept: {error}", self.path(key).display());
-        } else if new {
+            return;
+        }
+        Checkpoints::at(&self.checkpoint_folder(key), &key.0, None).discard();
+        if new {
             self.prune();
         }
     }

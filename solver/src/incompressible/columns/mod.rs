@@ -22,7 +22,7 @@ mod grains;
 mod grid;
 mod nodes;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 pub use driven::DrivenGrains;
 pub(super) use fluctuation::relax_fluctuation;
@@ -35,12 +35,16 @@ use super::scene::{IncompressibleScene, Sediment, SedimentPressure, SolidFractio
 use super::stratification::{ColumnRow, Stratification};
 use crate::domain::AxisBoundary;
 use crate::material::dilatancy::Dilatancy;
+use crate::run::ForeignState;
 use crate::vector::Vector;
 use dilation::Swelling;
 use drag::ColumnDrag;
 use friction::{Chain, FrictionSolve};
 use grid::ColumnGrid;
 use nodes::{NodeLaws, Nodes};
+
+/// Places `[m]` and velocities `[m/s]`.
+pub(super) type Saved<const D: usize> = (Vec<Vector<D>>, Vec<Vector<D>>);
 
 /// The grains of a scene that dilate, and their columns.
 #[derive(Debug)]
@@ -100,6 +104,14 @@ impl<const D: usize> Columns<D> {
         let on_nodes = Stratification::on_columns(strata, row, grid.base - 0.5 * grid.cell, grid.cell, grid.nodes);
         scene.solid_fraction = SolidFraction::Averaged(on_nodes);
         Some(new)
+    }
+
+    /// Takes saved places `[m]` and velocities `[m/s]` of the grains.
+    pub(super) fn restore(&mut self, (position, velocity): Saved<D>) -> Result<(), ForeignState> {
+        ForeignState::check("grains", position.len(), self.grains.len())?;
+        ForeignState::check("velocities of grains", velocity.len(), self.grains.len())?;
+        (self.grains.position, self.grains.velocity) = (position, velocity);
+        Ok(())
     }
 
     /// Particles to nodes, φ to the stratification, and the drag that follows.

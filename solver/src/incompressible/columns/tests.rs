@@ -28,7 +28,11 @@ const LAW: Rheology = Rheology::RootMuI(RootMuI {
 });
 
 /// A bed of 8 mm, the lower 4 mm held, under 12 mm of water of a velocity.
-fn scene(length: f64, velocity: impl Fn(f64) -> f64, seed: u64) -> IncompressibleScene<2> {
+pub(in crate::incompressible) fn scene(
+    length: f64,
+    velocity: impl Fn(f64) -> f64,
+    seed: u64,
+) -> IncompressibleScene<2> {
     let columns = (length / SPACING).round() as i32;
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let mut rows = |from: i32, to: i32, jitter: f64| -> Vec<Vector<2>> {
@@ -96,7 +100,7 @@ fn scene(length: f64, velocity: impl Fn(f64) -> f64, seed: u64) -> Incompressibl
     }
 }
 
-fn shear_flow(height: f64) -> f64 {
+pub(in crate::incompressible) fn shear_flow(height: f64) -> f64 {
     (60.0 * (height + 2e-3)).max(0.0)
 }
 

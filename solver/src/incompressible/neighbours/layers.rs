@@ -7,7 +7,9 @@
 
 use super::super::scene::height_axis;
 use crate::domain::{AxisBoundary, Domain};
+use crate::run::ForeignState;
 use crate::vector::Vector;
+use serde::{Deserialize, Serialize};
 
 /// More layers than this are one: a stray particle far away must not buy memory.
 const MOST_LAYERS: usize = 65_536;
@@ -32,7 +34,29 @@ pub(crate) struct Layers<const D: usize> {
     periodic: bool,
 }
 
+/// Layers as they are saved.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct SavedLayers {
+    layer: Vec<u32>,
+    held: Vec<bool>,
+    periodic: bool,
+}
+
 impl<const D: usize> Layers<D> {
+    pub(crate) fn save(&self) -> SavedLayers {
+        SavedLayers { layer: self.layer.clone(), held: self.held.clone(), periodic: self.periodic }
+    }
+
+    /// Takes saved layers of so many free particles.
+    pub(crate) fn restore(&mut self, saved: SavedLayers, particles: usize) -> Result<(), ForeignState> {
+        ForeignState::check("particles in layers", saved.layer.len(), particles)?;
+        let inside = saved.layer.iter().filter(|&&layer| (layer as usize) < saved.held.len()).count();
+        ForeignState::check("particles in known layers", inside, particles)?;
+        let travels = vec![(Vector::zeros(), Vector::zeros()); saved.held.len()];
+        *self = Self { layer: saved.layer, held: saved.held, travels, periodic: saved.periodic };
+        Ok(())
+    }
+
     pub(crate) fn new() -> Self {
         Self { layer: Vec::new(), held: Vec::new(), travels: Vec::new(), periodic: false }
     }

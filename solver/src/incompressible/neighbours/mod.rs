@@ -6,8 +6,8 @@ mod pairs;
 mod periods;
 
 pub(crate) use grid::Grid;
-pub(crate) use layers::{Layers, Places};
-pub(crate) use pairs::{Pair, Pairs, Sources};
+pub(crate) use layers::{Layers, Places, SavedLayers};
+pub(crate) use pairs::{Pair, Pairs, SavedPairs, Sources};
 pub(crate) use periods::Periods;
 
 /// Particles a task of a parallel loop has at least.

@@ -5,8 +5,10 @@ use super::grid::Grid;
 use super::{LEAST_TASK, Periods};
 use crate::kernel::Kernel;
 use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
+use crate::run::ForeignState;
 use crate::vector::Vector;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Pairs of targets with sources, each target's in a row of its own; all rows are equally long.
 #[derive(Debug)]
@@ -44,7 +46,37 @@ pub(crate) enum Sources {
     Other,
 }
 
+/// Candidates as they are saved; the pairs within reach are measured anew.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct SavedPairs {
+    stride: usize,
+    candidate: Vec<u32>,
+    candidates: Vec<u32>,
+}
+
 impl<const D: usize> Pairs<D> {
+    pub(crate) fn save(&self) -> SavedPairs {
+        let Self { stride, candidate, candidates, .. } = self;
+        SavedPairs { stride: *stride, candidate: candidate.clone(), candidates: candidates.clone() }
+    }
+
+    /// Takes saved candidates of so many targets among so many sources.
+    pub(crate) fn restore(&mut self, saved: SavedPairs, targets: usize, sources: usize) -> Result<(), ForeignState> {
+        let SavedPairs { stride, candidate, candidates } = saved;
+        ForeignState::check("rows of pairs", candidates.len(), targets)?;
+        ForeignState::check("places for pairs", candidate.len(), targets.saturating_mul(stride))?;
+        let whole = stride.is_multiple_of(LANES)
+            && stride > 0
+            && candidates.iter().all(|&count| count as usize <= stride)
+            // a row without sources is filled with the first place
+            && candidate.iter().all(|&source| (source as usize) < sources.max(1));
+        ForeignState::check("whole sets of pairs", usize::from(whole), 1)?;
+        (self.stride, self.candidate, self.candidates) = (stride, candidate, candidates);
+        self.count.resize(targets, 0);
+        self.entry.resize(targets * stride, none());
+        Ok(())
+    }
+
     pub(crate) fn new() -> Self {
         Self {
             stride: LANES,
@@ -100,8 +132,7 @@ impl<const D: usize> Pairs<D> {
             // room for more, so that rows do not grow by one place at a time
             self.stride = (longest + longest / 4 + 1).next_multiple_of(LANES);
         }
-        let none = Pair { source: 0, separation: Vector::zeros(), value: 0.0, gradient: 0.0 };
-        self.entry.resize(targets.len() * self.stride, none);
+        self.entry.resize(targets.len() * self.stride, none());
     }
 
     /// Measures the candidates and keeps those within the kernel's reach.
@@ -161,6 +192,11 @@ impl<const D: usize> Pairs<D> {
     pub(crate) fn stride(&self) -> usize {
         self.stride
     }
+}
+
+/// A place for a pair, without one.
+fn none<const D: usize>() -> Pair<D> {
+    Pair { source: 0, separation: Vector::zeros(), value: 0.0, gradient: 0.0 }
 }
 
 /// The pairs of some targets.

@@ -4,13 +4,14 @@
 //! within the kernel does not enlarge.
 
 use super::super::divergence::{Failure, Quantity};
-use super::super::neighbours::{Grid, LEAST_TASK, Pairs, Periods, Sources};
+use super::super::neighbours::{Grid, LEAST_TASK, Pairs, Periods, SavedPairs, Sources};
 use super::super::numerics::DragSlip;
 use super::super::phase::Phase;
 use super::super::scene::{DragForm, IncompressibleScene, Sediment};
 use super::super::terms::drag_pair;
 use crate::domain::Domain;
 use crate::kernel::{Kernel, KernelShape};
+use crate::run::ForeignState;
 use crate::vector::Vector;
 use rayon::prelude::*;
 
@@ -46,6 +47,24 @@ impl<const D: usize> DragExchange<D> {
 
     pub(crate) fn kernel(&self) -> &Kernel<D> {
         &self.kernel
+    }
+
+    /// Candidates of both sides.
+    pub(crate) fn save(&self) -> (SavedPairs, SavedPairs) {
+        (self.of_sediment.save(), self.of_fluid.save())
+    }
+
+    /// Takes saved candidates of both sides.
+    pub(crate) fn restore(
+        &mut self,
+        (of_sediment, of_fluid): (SavedPairs, SavedPairs),
+        fluid: usize,
+        sediment: &Phase<D>,
+    ) -> Result<(), ForeignState> {
+        let grains = sediment.len() + sediment.wall.len();
+        self.copy_positions(sediment);
+        self.of_sediment.restore(of_sediment, grains, fluid)?;
+        self.of_fluid.restore(of_fluid, fluid, grains)
     }
 
     /// Largest distance of a pair `[m]`.

@@ -1,9 +1,10 @@
 //! The search of candidate pairs, when one is due, and the measures of the pairs in every step.
 
-use super::super::neighbours::{Layers, Periods};
+use super::super::neighbours::{Layers, Periods, SavedLayers};
 use super::super::phase::{Phase, Phases};
 use super::drag_exchange::DragExchange;
 use crate::domain::Domain;
+use crate::run::ForeignState;
 
 /// When the next search is due, and how many there were.
 #[derive(Debug)]
@@ -18,6 +19,17 @@ pub(crate) struct Search<const D: usize> {
 impl<const D: usize> Search<D> {
     pub(crate) fn new(domain: &Domain<D>, skin: f64) -> Self {
         Self { periods: Periods::of(domain), skin, layers: Layers::new(), searches: 0 }
+    }
+
+    /// The layers of the last search.
+    pub(crate) fn save(&self) -> SavedLayers {
+        self.layers.save()
+    }
+
+    /// Goes on from the layers of a saved search, the last of so many.
+    pub(crate) fn restore(&mut self, saved: SavedLayers, particles: usize, searches: u64) -> Result<(), ForeignState> {
+        self.searches = searches;
+        self.layers.restore(saved, particles)
     }
 
     /// Measures all pairs, after a search if one may be missing.

@@ -3,7 +3,7 @@
 
 mod correction;
 mod gauge;
-mod mixture;
+pub(super) mod mixture;
 mod motion;
 mod pressure_links;
 mod pressure_poisson;

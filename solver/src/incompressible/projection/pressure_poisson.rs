@@ -65,6 +65,11 @@ impl<const D: usize> PressurePoisson<D> {
         }
     }
 
+    /// Goes on counting from so many iterations.
+    pub(crate) fn count_from(&mut self, iterations: u64) {
+        self.solver.count_from(iterations);
+    }
+
     /// Iterations of all solves.
     pub(crate) fn iterations(&self) -> u64 {
         self.solver.iterations()

@@ -3,6 +3,7 @@
 mod eddy_viscosity;
 mod pairs;
 mod pressure_operators;
+mod restart;
 
 use super::{
     Bed, DragForm, Fluid, IncompressibleScene, ParticleSet, ProjectionNumerics, Sediment, SedimentLoad,

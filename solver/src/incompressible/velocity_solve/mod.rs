@@ -59,6 +59,17 @@ impl<const D: usize> VelocitySystem<D> {
         self.velocity.resize(rows, Vector::zeros());
     }
 
+    /// u* − uⁿ of the last solve `[m/s]`, where the next one starts.
+    pub(crate) fn change(&self) -> &[Vector<D>] {
+        &self.change
+    }
+
+    /// Goes on from the change of the last solve `[m/s]`, after so many iterations.
+    pub(crate) fn restore(&mut self, change: Vec<Vector<D>>, iterations: u64) {
+        self.change = change;
+        self.solver.count_from(iterations);
+    }
+
     /// Iterations of all solves.
     pub(crate) fn iterations(&self) -> u64 {
         self.solver.iterations()

@@ -6,9 +6,10 @@
 use crate::domain::{AxisBoundary, Domain};
 use crate::planted::{Planted, factor, planted};
 use crate::vector::{Tensor, Vector};
+use serde::{Deserialize, Serialize};
 
 /// One image: x = sign ∘ x_source + shift.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Image<const D: usize> {
     source: u32,
     sign: Vector<D>,
@@ -16,7 +17,7 @@ struct Image<const D: usize> {
 }
 
 /// All images; image k stands at `first + k` in every array.
-#[derive(Debug)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Images<const D: usize> {
     images: Vec<Image<D>>,
     first: usize,
@@ -25,6 +26,11 @@ pub(crate) struct Images<const D: usize> {
 impl<const D: usize> Images<D> {
     pub(crate) fn new() -> Self {
         Self { images: Vec::new(), first: 0 }
+    }
+
+    /// Whether all are images of the first `real` particles and stand behind them.
+    pub(crate) fn belong_to(&self, real: usize) -> bool {
+        self.first == real && self.images.iter().all(|image| (image.source as usize) < real)
     }
 
     pub(crate) fn len(&self) -> usize {

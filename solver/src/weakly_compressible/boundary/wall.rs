@@ -26,7 +26,7 @@ pub enum Surface {
 }
 
 /// A plane wall normal to one axis.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Wall<const D: usize> {
     /// Axis that the wall is normal to.
     pub axis: usize,

@@ -3,6 +3,7 @@
 use super::CellGrid;
 use crate::lanes::{LANES, LanePass, Lanes};
 use crate::vector::Vector;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Particles a block of the parallel loops.
@@ -12,12 +13,19 @@ pub(super) const GROUPS: usize = BLOCK / LANES;
 pub(crate) const LARGEST_ROW: usize = 1024;
 
 /// Where a group's chunks stand, and how many.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Extent {
     pub(super) start: u32,
     pub(super) flow: u16,
     pub(super) wall: u16,
     pub(super) has_images: bool,
+}
+
+impl Extent {
+    /// Index of the last of its chunks.
+    pub(super) fn last_chunk(&self) -> usize {
+        self.start as usize + usize::from(self.flow) + usize::from(self.wall)
+    }
 }
 
 /// What is searched: particles, a radius `[m]` and the grids of flow and walls.

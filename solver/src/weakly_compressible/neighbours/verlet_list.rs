@@ -10,6 +10,7 @@ use super::block_search::{BlockSearch, Extent, GROUPS, Search};
 use crate::lanes::{CheckedIndices, InstructionSet, LANES, LaneChunks, LaneIndices};
 use crate::vector::Vector;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Eight particles and their neighbours.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +39,7 @@ pub struct Row {
 }
 
 /// The neighbour list of all real particles: groups of the flow, then groups of the walls.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct VerletList {
     /// Flow particles.
     flow: usize,
@@ -50,6 +51,17 @@ pub struct VerletList {
 }
 
 impl VerletList {
+    /// Whether the list is that of so many flow and real particles, of all that the arrays hold.
+    pub(crate) fn belongs_to(&self, flow: usize, real: usize, all: usize) -> bool {
+        let groups = flow.div_ceil(LANES) + (real - flow).div_ceil(LANES);
+        let inside = |extent: &Extent| extent.last_chunk() < self.indices.len();
+        self.flow == flow
+            && self.indices.bound() == all
+            && self.sentinel as usize + 1 == all
+            && self.extents.len() == groups
+            && self.extents.iter().all(inside)
+    }
+
     /// Group `index` of eight flow particles: those from 8 `index` on.
     #[inline(always)]
     #[must_use]

@@ -1,8 +1,11 @@
 //! Records of incompressible simulations.
 
-use super::{Recordable, State};
+use super::{Recordable, Restartable, State};
 use crate::observation::Frame;
-use bagnold_solver::incompressible::{IncompressibleSimulation, IncompressibleSnapshot, PhaseSnapshot};
+use bagnold_solver::incompressible::{
+    IncompressibleScene, IncompressibleSimulation, IncompressibleSnapshot, PhaseSnapshot, SavedIncompressible,
+};
+use bagnold_solver::run::{ContinueError, Course, Observer, SceneError, StopReason};
 use bagnold_solver::vector::Vector;
 
 impl<const D: usize> State for IncompressibleSnapshot<D> {
@@ -32,6 +35,27 @@ impl<const D: usize> Recordable for IncompressibleSimulation<D> {
 
     fn time(&self) -> f64 {
         self.time()
+    }
+}
+
+impl Restartable<2> for IncompressibleSimulation<2> {
+    type Scene = IncompressibleScene<2>;
+    type Saved = SavedIncompressible<2>;
+
+    fn begin(scene: IncompressibleScene<2>) -> Result<Self, SceneError> {
+        Self::new(scene)
+    }
+
+    fn continued(scene: IncompressibleScene<2>, saved: Self::Saved) -> Result<Self, ContinueError> {
+        Self::continued(scene, saved)
+    }
+
+    fn saved(&self) -> impl serde::Serialize {
+        self.save()
+    }
+
+    fn follow(&mut self, course: &mut Course, observer: &mut impl Observer<Self>) -> StopReason<2> {
+        self.follow(course, observer)
     }
 }
 

@@ -1,15 +1,22 @@
 //! From a simulation that has ended to its record.
 //!
-//! [`record`] is all that a plain case needs; [`Ending`] is for those that observe on the way.
+//! [`record`] is all that a plain case needs; [`watch`] and [`Ending`] are for those that observe on the way, and [`follow`]
+//! for those that want to see more than states at intervals. All of them can be interrupted between two steps and
+//! continued by another program, with what they have observed.
 
 mod incompressible;
+mod restart;
 mod weakly_compressible;
 
-use crate::case::Progress;
+pub use restart::{Beginning, Followed, Restartable, Stage, Stop, follow, resumed};
+
+use crate::case::{ParameterError, Progress};
 use crate::observation::{Frame, Outcome, Recorded, state_hash};
-use bagnold_solver::run::StopReason;
+use bagnold_solver::run::SceneError;
+use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use serde::{Serialize, de::DeserializeOwned};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -35,46 +42,71 @@ pub trait Recordable {
     fn time(&self) -> f64;
 }
 
-/// Runs a weakly compressible simulation up to a time `[s]` and records it, with the data that `measure` takes from the
-/// last state.
+/// Runs a weakly compressible simulation of a scene up to a time `[s]` and records it, with the data that `measure` takes
+/// from the last state.
+///
+/// # Errors
+/// A scene that breaks a rule; an interruption.
 pub fn record<const D: usize, O>(
-    simulation: &mut Simulation<D>,
+    scene: impl Fn() -> Scene<D>,
     end: f64,
     progress: &dyn Progress,
     measure: impl FnOnce(&Snapshot<D>) -> O,
-) -> Recorded<O>
+) -> Result<Recorded<O>, ParameterError>
 where
     Simulation<D>: Compiled<D>,
 {
-    watch(simulation, (end, 0.01 * end), progress, |_| ControlFlow::Continue(())).record(simulation, measure)
+    let stage = Stage { progress, end, interval: 0.01 * end, context: &() };
+    let watched = watch(stage, |_| Ok(scene()), |_| (), |(), _| ControlFlow::Continue(()))?;
+    Ok(watched.ending.record(&watched.simulation, measure))
 }
 
-/// Runs a weakly compressible simulation up to a time and shows its states to `observe` at intervals, until that breaks.
-/// How it ended is told as of a run that has left no frames, that does not say why it was stopped, and whose divergence
-/// would be an error.
-pub fn watch<const D: usize>(
-    simulation: &mut Simulation<D>,
-    (end, interval): (f64, f64),
-    progress: &dyn Progress,
-    mut observe: impl FnMut(&Snapshot<D>) -> ControlFlow<()>,
-) -> Ending<D>
+/// A simulation that was watched, how it ended, and what its observer has kept.
+pub struct Watched<S: Recordable, O> {
+    /// The simulation at its end.
+    pub simulation: S,
+    /// How it ended, as of a run that has left no frames, that does not say why it was stopped, and whose divergence would
+    /// be an error.
+    pub ending: Ending<S::State>,
+    /// What the observer has kept.
+    pub kept: O,
+}
+
+/// Runs a weakly compressible simulation of a scene up to a time and shows its states to `observe` at intervals, until that
+/// breaks, together with what it keeps: `keep` makes that at the start of a new run.
+///
+/// # Errors
+/// A scene that breaks a rule; an interruption.
+pub fn watch<const D: usize, O, C>(
+    stage: Stage<'_, C>,
+    scene: impl Fn(Beginning) -> Result<Scene<D>, SceneError>,
+    keep: impl FnOnce(&Simulation<D>) -> O,
+    mut observe: impl FnMut(&mut O, &Snapshot<D>) -> ControlFlow<()>,
+) -> Result<Watched<Simulation<D>, O>, ParameterError>
 where
     Simulation<D>: Compiled<D>,
+    O: Serialize + DeserializeOwned,
+    C: Serialize + DeserializeOwned,
 {
-    let started = Instant::now();
-    let mut last_good = simulation.snapshot();
-    let reason = simulation.run(end, interval, |simulation| {
-        last_good = simulation.snapshot();
-        progress.advance(last_good.time, end, simulation.steps() as f64 * last_good.mass.len() as f64);
-        observe(&last_good)
-    });
-    Ending { reason, last_good, criterion: String::new(), may_diverge: false, frames: Vec::new(), started }
+    let Stage { progress, end, .. } = stage;
+    let followed = follow(
+        stage,
+        scene,
+        |simulation: &Simulation<D>| (simulation.snapshot(), keep(simulation)),
+        |(last_good, kept), simulation| {
+            *last_good = simulation.snapshot();
+            progress.advance(last_good.time, end, simulation.steps() as f64 * last_good.mass.len() as f64);
+            observe(kept, last_good)
+        },
+    )?;
+    let Followed { simulation, stop, kept: (last_good, kept), started } = followed;
+    Ok(Watched { simulation, ending: Ending::of(stop, last_good, started), kept })
 }
 
 /// How a run ended, and what it left on its way.
-pub struct Ending<const D: usize, S = Snapshot<D>> {
+pub struct Ending<S> {
     /// Why it ended.
-    pub reason: StopReason<D>,
+    pub stop: Stop,
     /// The state that was observed last.
     pub last_good: S,
     /// The criterion by which the observer stops a run, in words.
@@ -83,19 +115,22 @@ pub struct Ending<const D: usize, S = Snapshot<D>> {
     pub may_diverge: bool,
     /// Pictures on the way; the last state is added to them.
     pub frames: Vec<Frame>,
-    /// When the run was started.
+    /// When the run was started, as if it had not been interrupted.
     pub started: Instant,
 }
 
-impl<const D: usize, S: State> Ending<D, S> {
+impl<S: State> Ending<S> {
+    /// That of a run that has left no frames, does not say why it was stopped, and whose divergence would be an error.
+    pub fn of(stop: Stop, last_good: S, started: Instant) -> Self {
+        Self { stop, last_good, criterion: String::new(), may_diverge: false, frames: Vec::new(), started }
+    }
+
     /// The record, with the data that `measure` takes from the last state: the last good one after a divergence.
     pub fn record<O>(self, simulation: &impl Recordable<State = S>, measure: impl FnOnce(&S) -> O) -> Recorded<O> {
-        let (outcome, end) = match self.reason {
-            StopReason::Finished => (Outcome::Finished, simulation.state()),
-            StopReason::Stopped => (Outcome::Stopped { criterion: self.criterion }, simulation.state()),
-            StopReason::Diverged(divergence) => {
-                (Outcome::Diverged { message: divergence.to_string(), expected: self.may_diverge }, self.last_good)
-            }
+        let (outcome, end) = match self.stop {
+            Stop::Finished => (Outcome::Finished, simulation.state()),
+            Stop::Stopped => (Outcome::Stopped { criterion: self.criterion }, simulation.state()),
+            Stop::Diverged(message) => (Outcome::Diverged { message, expected: self.may_diverge }, self.last_good),
         };
         let mut frames = self.frames;
         frames.push(end.frame());

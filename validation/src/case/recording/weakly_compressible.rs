@@ -1,9 +1,12 @@
 //! Records of weakly compressible simulations.
 
-use super::{Recordable, State};
+use super::{Recordable, Restartable, State};
 use crate::observation::Frame;
+use bagnold_solver::run::{ContinueError, Course, Observer, SceneError, StopReason};
 use bagnold_solver::vector::{Vector, equivalent_shear_stress, shear_rate};
-use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::SavedSimulation;
+use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
 impl<const D: usize> State for Snapshot<D> {
@@ -33,6 +36,30 @@ impl<const D: usize> Recordable for Simulation<D> {
 
     fn time(&self) -> f64 {
         self.time()
+    }
+}
+
+impl<const D: usize> Restartable<D> for Simulation<D>
+where
+    Self: Compiled<D>,
+{
+    type Scene = Scene<D>;
+    type Saved = SavedSimulation<'static, D>;
+
+    fn begin(scene: Scene<D>) -> Result<Self, SceneError> {
+        Self::new(scene)
+    }
+
+    fn continued(scene: Scene<D>, saved: Self::Saved) -> Result<Self, ContinueError> {
+        Self::continued(scene, saved)
+    }
+
+    fn saved(&self) -> impl serde::Serialize {
+        self.save()
+    }
+
+    fn follow(&mut self, course: &mut Course, observer: &mut impl Observer<Self>) -> StopReason<D> {
+        self.follow(course, observer)
     }
 }
 

@@ -37,6 +37,7 @@ pub struct Carried {
 }
 
 /// Watches the grains at every sample.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Observer {
     unit: f64,
     length: f64,

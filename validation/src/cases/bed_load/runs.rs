@@ -183,8 +183,10 @@ impl BedLoadRun {
         layer: Option<&LayerState>,
         progress: &dyn Progress,
     ) -> Result<Recorded<BedLoadObservation>, ParameterError> {
-        let mut observer = Observer::new(self, channel);
-        let record = channel.run_observed(progress, |simulation, in_window| observer.observe(simulation, in_window))?;
+        let (record, observer) =
+            channel.run_observed(progress, Observer::new(self, channel), |observer, simulation, in_window| {
+                observer.observe(simulation, in_window);
+            })?;
         Ok(record.map(|channel| observer.finish(channel, layer)))
     }
 

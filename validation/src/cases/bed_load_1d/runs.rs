@@ -4,6 +4,7 @@ use super::parameters::BedLoad1dParameters;
 use super::sensitivities::Replaced;
 use super::{grain_units, onset, others};
 use crate::case::{ParameterError, Progress, Run};
+use crate::checkpoint::is_interrupted;
 use crate::metric::Variant;
 use crate::observation::{Outcome, Recorded, state_hash};
 use crate::reference::bed_load_layer::{
@@ -147,6 +148,9 @@ impl Run for BedLoad1dRun {
         let fast = if both { Some(layer.approach(layer.fast_start()).map_err(refused)?) } else { None };
         let mut done = Done::of(&approach, fast.as_ref());
         let scan = if self.purpose == Purpose::Onset { self.scan(&approach, &mut done)? } else { Vec::new() };
+        if is_interrupted() {
+            return Err(ParameterError::Interrupted);
+        }
         let simulated_time = approach.steps as f64 * approach.time_step;
         let cells = approach.state.height.len();
         progress.advance(simulated_time, simulated_time, (cells * done.steps) as f64);

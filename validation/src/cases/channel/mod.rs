@@ -36,19 +36,19 @@ pub use stationarity::Mark;
 pub use tables::{tables, tables_of_runs};
 pub use water::Water;
 
-use crate::case::Progress;
-use crate::case::recording::Ending;
+use crate::case::recording::{Ending, Followed, Stage, Stop, follow};
+use crate::case::{ParameterError, Progress};
 use crate::observation::{Frame, Recorded};
 use bagnold_solver::incompressible::{
-    Bed, IncompressibleSimulation, ProjectionNumerics, Sediment, SolidFraction, Turbulence,
+    Bed, IncompressibleSimulation, IncompressibleSnapshot, ProjectionNumerics, Sediment, SolidFraction, Turbulence,
 };
-use bagnold_solver::run::SceneError;
-use bagnold_solver::run::StopReason;
 use probe::ChannelProbe;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
 /// When the averaging window of a run ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Until {
     /// At this time `[s]`.
     Time(f64),
@@ -149,55 +149,75 @@ impl<'a> Channel<'a> {
     /// Runs the channel and records what the probe sees.
     ///
     /// # Errors
-    /// A scene that breaks a rule of the solver.
-    pub fn run(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, SceneError> {
-        self.run_observed(progress, |_, _| {})
+    /// A scene that breaks a rule of the solver; an interruption.
+    pub fn run(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
+        Ok(self.run_observed(progress, (), |(), _, _| {})?.0)
     }
 
-    /// The same, showing the simulation to `observe` at every sample, with whether it lies in the averaging window.
+    /// The same, showing the simulation to `observe` at every sample, with whether it lies in the averaging window, and
+    /// what it keeps, which is given back.
     ///
     /// # Errors
-    /// A scene that breaks a rule of the solver.
-    pub fn run_observed(
+    /// A scene that breaks a rule of the solver; an interruption.
+    pub fn run_observed<O: Serialize + DeserializeOwned>(
         &self,
         progress: &dyn Progress,
-        mut observe: impl FnMut(&IncompressibleSimulation<2>, bool),
-    ) -> Result<Recorded<ChannelObservation>, SceneError> {
-        let started = std::time::Instant::now();
-        let mut simulation = IncompressibleSimulation::new(self.scene())?;
-        let mut probe = ChannelProbe::new(self);
-        let mut last_good = simulation.snapshot();
-        let mut frames = Vec::new();
-        let (longest, particles) = (self.longest(), simulation.free_particles() as f64);
+        beside: O,
+        mut observe: impl FnMut(&mut O, &IncompressibleSimulation<2>, bool),
+    ) -> Result<(Recorded<ChannelObservation>, O), ParameterError> {
+        let longest = self.longest();
         let frame_interval = longest / (self.frames.max(2) - 1) as f64;
         // the bed's impulse is that of every step, so the probe sees every step
-        let every_step = 1e-3 * self.numerics.time_step;
-        let reason = simulation.run(longest, every_step, |simulation| {
-            if !probe.observe(simulation) {
-                return ControlFlow::Continue(());
-            }
-            observe(simulation, probe.in_window());
-            last_good = simulation.snapshot();
-            if last_good.time >= frame_interval * frames.len() as f64 && frames.len() + 1 < self.frames {
-                frames.push(Frame::of_phases(&last_good));
-            }
-            progress.advance(last_good.time, longest, simulation.steps() as f64 * particles);
-            if probe.is_done() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
+        let stage = Stage { progress, end: longest, interval: 1e-3 * self.numerics.time_step, context: &() };
+        let begin = |simulation: &IncompressibleSimulation<2>| Seen {
+            probe: ChannelProbe::new(self),
+            last_good: simulation.snapshot(),
+            frames: Vec::new(),
+            beside,
+        };
+        let followed = follow(
+            stage,
+            |_| Ok(self.scene()),
+            begin,
+            |seen: &mut Seen<O>, simulation| {
+                let Seen { probe, last_good, frames, beside } = seen;
+                if !probe.observe(simulation) {
+                    return ControlFlow::Continue(());
+                }
+                observe(beside, simulation, probe.in_window());
+                *last_good = simulation.snapshot();
+                if last_good.time >= frame_interval * frames.len() as f64 && frames.len() + 1 < self.frames {
+                    frames.push(Frame::of_phases(last_good));
+                }
+                let particles = simulation.free_particles() as f64;
+                progress.advance(last_good.time, longest, simulation.steps() as f64 * particles);
+                if probe.is_done() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            },
+        )?;
+        let Followed { simulation, stop, kept: Seen { probe, last_good, frames, beside }, started } = followed;
         // a fixed time is reached by the probe first, and no criterion of its own
-        let reason = match (reason, self.until) {
-            (StopReason::Stopped, Until::Time(_)) => StopReason::Finished,
-            (StopReason::Stopped, _) if !probe.is_stationary() => StopReason::Finished,
-            (reason, _) => reason,
+        let stop = match (stop, self.until) {
+            (Stop::Stopped, Until::Time(_)) => Stop::Finished,
+            (Stop::Stopped, _) if !probe.is_stationary() => Stop::Finished,
+            (stop, _) => stop,
         };
         let ending = Ending {
-            reason,
+            stop,
             last_good,
             criterion: format!("averaged over {:.1} s after the depth mean had become stationary", self.window),
             may_diverge: self.may_diverge,
             frames,
             started,
         };
-        Ok(ending.record(&simulation, |_| probe.finish()))
+        Ok((ending.record(&simulation, |_| probe.finish()), beside))
     }
+}
+
+/// What has been seen of a run.
+#[derive(Serialize, Deserialize)]
+struct Seen<O> {
+    probe: ChannelProbe,
+    last_good: IncompressibleSnapshot<2>,
+    frames: Vec<Frame>,
+    beside: O,
 }

@@ -85,7 +85,7 @@ pub struct ChannelObservation {
 }
 
 /// Collects observations during a run; sees every step.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(super) struct ChannelProbe {
     floor: f64,
     depth: f64,

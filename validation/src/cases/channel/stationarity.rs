@@ -18,7 +18,7 @@ pub struct Mark {
 }
 
 /// Watches the depth mean of the velocity.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Stationarity {
     until: Until,
     /// g i `[m/s²]`.

@@ -2,6 +2,7 @@
 
 use crate::observation::{Motion, MotionFrame};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use serde::{Deserialize, Serialize};
 
 /// Most pictures of a run: what comes later is at rest.
 const MOST_FRAMES: usize = 60;
@@ -11,7 +12,7 @@ const MOST_PARTICLES: f64 = 5000.0;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// Takes a picture every `interval`; of a flow in space it sees a slab beside the symmetry plane z = 0.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(in crate::cases) struct Camera {
     /// Time between pictures `[s]`.
     pub(in crate::cases) interval: f64,

@@ -6,7 +6,7 @@ use super::deposit::{Collapse, Surveyor, radius};
 use super::material::Material;
 use super::release::Release;
 use super::watch::Watch;
-use crate::case::recording::{self, Ending};
+use crate::case::recording::{self, Ending, Stage, Watched};
 use crate::case::{ParameterError, Progress, Run};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -265,7 +265,6 @@ impl ColumnRun {
     where
         Simulation<D>: Compiled<D>,
     {
-        let started = std::time::Instant::now();
         let (scale, duration) = (self.time_scale(), self.release.duration * self.time_scale());
         if self.regularisation_rate.is_some() {
             tracing::info!(
@@ -274,16 +273,22 @@ impl ColumnRun {
                 self.explicit_viscous_steps(duration)
             );
         }
-        let mut simulation = Simulation::new(self.scene::<D>())?;
-        let mut watch =
-            Watch::new(self.surveyor(), FRAME_INTERVAL * scale, self.picture_times(), EARLIEST_REST * scale);
-        let ending = recording::watch(&mut simulation, (duration, scale / POINTS), progress, |snapshot| {
-            let (_, rests) = watch.observe(snapshot);
-            if rests { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
+        let begin =
+            |_: &_| Watch::new(self.surveyor(), FRAME_INTERVAL * scale, self.picture_times(), EARLIEST_REST * scale);
+        let stage = Stage { progress, end: duration, interval: scale / POINTS, context: &() };
+        let watched = recording::watch(
+            stage,
+            |_| Ok(self.scene::<D>()),
+            begin,
+            |watch, snapshot| {
+                let (_, rests) = watch.observe(snapshot);
+                if rests { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            },
+        )?;
+        let Watched { simulation, ending, kept: mut watch } = watched;
         let criterion = format!("the deposit rests: kinetic energy below {AT_REST:.0e} of the energy released");
         let frames = std::mem::take(&mut watch.frames);
-        let ending = Ending { criterion, frames, started, ..ending };
+        let ending = Ending { criterion, frames, ..ending };
         Ok(ending.record(&simulation, |end| watch.finish_with_deposit(end)))
     }
 }

@@ -56,7 +56,7 @@ pub struct Collapse {
 
 /// Measures snapshots of one column: half a planar one in two dimensions, a quarter of a round one in three. The
 /// vertical axis is the second one; radii are distances from the symmetry plane or axis.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Surveyor {
     /// Half width r_0 `[m]`.
     pub half_width: f64,

@@ -5,7 +5,7 @@ use super::deposit::AT_REST;
 use super::deposit::{Collapse, Surveyor};
 use super::incline::Reservoir;
 use super::watch::Watch;
-use crate::case::recording::{self, Ending};
+use crate::case::recording::{self, Ending, Stage, Watched};
 use crate::case::{ParameterError, Progress, Run};
 use crate::metric::{Value, Variant};
 use crate::observation::Recorded;
@@ -15,7 +15,6 @@ use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::gate::Gate;
 use bagnold_solver::weakly_compressible::scene::Scene;
-use bagnold_solver::weakly_compressible::simulation::Simulation;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -76,8 +75,6 @@ impl Run for SlopeRun {
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, ParameterError> {
-        let started = std::time::Instant::now();
-        let mut simulation = Simulation::new(self.scene())?;
         let Reservoir { reservoir_length, channel_length, duration, .. } = self.reservoir;
         let surveyor = Surveyor {
             half_width: reservoir_length,
@@ -86,21 +83,27 @@ impl Run for SlopeRun {
             bed_end: channel_length,
             collapse: Collapse::default(),
         };
-        let mut watch = Watch::new(surveyor, FRAME_INTERVAL, PICTURES.to_vec(), EARLIEST_REST);
-        let mut thickness = Vec::new();
+        let begin = |_: &_| (Watch::new(surveyor, FRAME_INTERVAL, PICTURES.to_vec(), EARLIEST_REST), Vec::new());
+        let stage = Stage { progress, end: duration, interval: INTERVAL, context: &() };
         let end_of_channel = channel_length - 0.5 * reservoir_length;
-        let ending = recording::watch(&mut simulation, (duration, INTERVAL), progress, |snapshot| {
-            let (profile, rests) = watch.observe(snapshot);
-            thickness.push(profile.iter().map(|bin| bin.1).collect());
-            let arrived = snapshot.position.iter().any(|x| x[0] > end_of_channel);
-            if rests || arrived { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
+        let watched = recording::watch(
+            stage,
+            |_| Ok(self.scene()),
+            begin,
+            |(watch, thickness), snapshot| {
+                let (profile, rests) = watch.observe(snapshot);
+                thickness.push(profile.iter().map(|bin| bin.1).collect::<Vec<f64>>());
+                let arrived = snapshot.position.iter().any(|x| x[0] > end_of_channel);
+                if rests || arrived { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            },
+        )?;
+        let Watched { simulation, ending, kept: (mut watch, thickness) } = watched;
         let criterion = format!(
             "the deposit rests (kinetic energy below {AT_REST:.0e} of the energy released), or a grain nears the end of \
              the channel"
         );
         let frames = std::mem::take(&mut watch.frames);
-        let ending = Ending { criterion, frames, started, ..ending };
+        let ending = Ending { criterion, frames, ..ending };
         Ok(ending.record(&simulation, |end| SlopeCollapse { collapse: watch.finish(end), thickness }))
     }
 }

@@ -4,8 +4,10 @@ use super::camera::Camera;
 use super::deposit::{AT_REST, Collapse, Surveyor, front};
 use crate::observation::Frame;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use serde::{Deserialize, Serialize};
 
 /// What is seen of a run.
+#[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Watch {
     /// Measures every snapshot.
     surveyor: Surveyor,

@@ -1,12 +1,13 @@
 //! The slope at which a layer of given thickness stops flowing, bisected.
 
-use crate::case::recording::Ending;
+use crate::case::recording::{Ending, Followed, Stage, follow, resumed};
 use crate::case::{ParameterError, Progress};
 use crate::cases::layer::{Layer, PeriodicLayer, bulk_modulus};
 use crate::observation::Recorded;
 use crate::reference::BagnoldProfile;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -141,39 +142,27 @@ impl Motion {
 
 impl StartStopRun {
     pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<StartStop>, ParameterError> {
-        let started = std::time::Instant::now();
-        let (mut stopping, mut flowing) = self.bracket;
-        let rounds = 2.0 + ((flowing - stopping) / self.tolerance).log2().ceil().max(0.0);
-        let mut trials = Vec::new();
-        let (mut steps, mut simulated_time) = (0, 0.0);
+        let (stopping, flowing) = self.bracket;
+        let new = Search { stopping, flowing, trials: Vec::new(), steps: 0, simulated_time: 0.0, seconds: 0.0 };
+        let mut search: Search = resumed(progress).unwrap_or(new);
         loop {
-            let angle = match trials.len() {
-                0 => stopping,
-                1 => flowing,
-                _ => 0.5 * (stopping + flowing),
-            };
-            let (trial, simulation, ending) = self.attempt(angle, progress, (trials.len() as f64, rounds), started)?;
-            trials.push(trial);
-            steps += simulation.steps();
-            simulated_time += simulation.time();
-            let bracketed = match (trials.len(), trial.fate) {
-                (_, Fate::Undecided) => false,
-                (1, fate) => fate == Fate::Stops,
-                (2, fate) => fate == Fate::Flows,
-                (_, Fate::Stops) => {
-                    stopping = angle;
-                    true
-                }
-                (_, Fate::Flows) => {
-                    flowing = angle;
-                    true
-                }
-            };
-            if !bracketed || (trials.len() > 1 && flowing - stopping <= self.tolerance * (1.0 + 1e-9)) {
+            let angle = search.next_angle();
+            let (trial, simulation, ending) = self.attempt(angle, progress, &search)?;
+            search.seconds += ending.started.elapsed().as_secs_f64();
+            search.steps += simulation.steps();
+            search.simulated_time += simulation.time();
+            if !search.enter(trial) || search.is_narrow(self.tolerance) {
+                let Search { trials, steps, simulated_time, seconds, .. } = search;
                 let record = ending.record(&simulation, |_| StartStop { trials });
-                return Ok(Recorded { steps, simulated_time, ..record });
+                return Ok(Recorded { steps, simulated_time, wall_seconds: seconds, ..record });
             }
         }
+    }
+
+    /// Layers that the search needs about.
+    fn rounds(&self) -> f64 {
+        let (stopping, flowing) = self.bracket;
+        2.0 + ((flowing - stopping) / self.tolerance).log2().ceil().max(0.0)
     }
 
     /// Runs one layer until it has stopped, is steady or its time is up.
@@ -181,50 +170,106 @@ impl StartStopRun {
         &self,
         angle: f64,
         progress: &dyn Progress,
-        (round, rounds): (f64, f64),
-        started: std::time::Instant,
-    ) -> Result<(Trial, Simulation<2>, Ending<2>), ParameterError> {
+        search: &Search,
+    ) -> Result<(Trial, Simulation<2>, Ending<Snapshot<2>>), ParameterError> {
         let start = Motion::of(self.layer.profile(self.start_angle));
         let layer = self.layer.layer(angle, &start);
-        let mut simulation = Simulation::new(layer.prepared_scene()?)?;
-        let particles = simulation.particles().flow_count() as f64;
+        let (round, rounds) = (search.trials.len() as f64, self.rounds());
         let (h, duration) = (self.layer.layer.layer_height, self.layer.duration);
         let threshold = STOPPED * (self.layer.layer.gravity * h).sqrt();
         let lag = (STEADY_TIME / INTERVAL) as usize;
-        let mut means: Vec<f64> = Vec::new();
-        let mut trial =
-            Trial { slope_angle: angle, fate: Fate::Undecided, time: 0.0, mean_velocity: f64::NAN, lost: 0 };
-        let mut last_good = simulation.snapshot();
-        let reason = simulation.run(duration, INTERVAL, |simulation| {
-            let snapshot = simulation.snapshot();
-            let mass: f64 = snapshot.mass.iter().sum();
-            let mean = snapshot.mass.iter().zip(&snapshot.velocity).map(|(m, v)| m * v[0]).sum::<f64>() / mass;
-            means.push(mean);
-            let steady = means.len() > lag && (mean / means[means.len() - 1 - lag] - 1.0).abs() < STEADY;
-            let fate = match (mean < threshold, steady) {
-                (true, _) => Fate::Stops,
-                (false, true) => Fate::Flows,
-                (false, false) => Fate::Undecided,
-            };
-            let lost = snapshot.position.iter().filter(|x| !(x[1] > 0.0 && x[1] < 2.0 * h)).count();
-            trial = Trial { slope_angle: angle, fate, time: snapshot.time, mean_velocity: mean, lost };
-            progress.advance(
-                round * duration + snapshot.time,
-                rounds * duration,
-                simulation.steps() as f64 * particles,
-            );
-            last_good = snapshot;
-            if fate == Fate::Undecided { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        });
-        let ending = Ending {
-            reason,
-            last_good,
-            criterion: "the slope at which the layer stops is bracketed".to_owned(),
-            may_diverge: false,
-            frames: Vec::new(),
-            started,
+        let stage = Stage { progress, end: duration, interval: INTERVAL, context: search };
+        let begin = |simulation: &Simulation<2>| Seen {
+            means: Vec::new(),
+            trial: Trial { slope_angle: angle, fate: Fate::Undecided, time: 0.0, mean_velocity: f64::NAN, lost: 0 },
+            last_good: simulation.snapshot(),
         };
-        Ok((trial, simulation, ending))
+        let followed = follow(
+            stage,
+            |beginning| layer.scene_for(beginning),
+            begin,
+            |seen, simulation| {
+                let Seen { means, trial, last_good } = seen;
+                let snapshot = simulation.snapshot();
+                let mass: f64 = snapshot.mass.iter().sum();
+                let mean = snapshot.mass.iter().zip(&snapshot.velocity).map(|(m, v)| m * v[0]).sum::<f64>() / mass;
+                means.push(mean);
+                let steady = means.len() > lag && (mean / means[means.len() - 1 - lag] - 1.0).abs() < STEADY;
+                let fate = match (mean < threshold, steady) {
+                    (true, _) => Fate::Stops,
+                    (false, true) => Fate::Flows,
+                    (false, false) => Fate::Undecided,
+                };
+                let lost = snapshot.position.iter().filter(|x| !(x[1] > 0.0 && x[1] < 2.0 * h)).count();
+                *trial = Trial { slope_angle: angle, fate, time: snapshot.time, mean_velocity: mean, lost };
+                progress.advance(
+                    round * duration + snapshot.time,
+                    rounds * duration,
+                    simulation.steps() as f64 * snapshot.mass.len() as f64,
+                );
+                *last_good = snapshot;
+                if fate == Fate::Undecided { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            },
+        )?;
+        let Followed { simulation, stop, kept: Seen { trial, last_good, .. }, started } = followed;
+        let criterion = "the slope at which the layer stops is bracketed".to_owned();
+        Ok((trial, simulation, Ending { criterion, ..Ending::of(stop, last_good, started) }))
+    }
+}
+
+/// What has been seen of a layer.
+#[derive(Serialize, Deserialize)]
+struct Seen {
+    /// Depth means of its velocity `[m/s]`.
+    means: Vec<f64>,
+    trial: Trial,
+    last_good: Snapshot<2>,
+}
+
+/// How far a search has come.
+#[derive(Serialize, Deserialize)]
+struct Search {
+    /// Steepest slope at which a layer stopped, and gentlest at which one flowed `[°]`.
+    stopping: f64,
+    flowing: f64,
+    trials: Vec<Trial>,
+    /// Steps, simulated time and wall time `[s]` of all trials.
+    steps: u64,
+    simulated_time: f64,
+    seconds: f64,
+}
+
+impl Search {
+    /// Slope of the next trial `[°]`.
+    fn next_angle(&self) -> f64 {
+        match self.trials.len() {
+            0 => self.stopping,
+            1 => self.flowing,
+            _ => 0.5 * (self.stopping + self.flowing),
+        }
+    }
+
+    /// Enters a trial; whether the change is still bracketed.
+    fn enter(&mut self, trial: Trial) -> bool {
+        self.trials.push(trial);
+        match (self.trials.len(), trial.fate) {
+            (_, Fate::Undecided) => false,
+            (1, fate) => fate == Fate::Stops,
+            (2, fate) => fate == Fate::Flows,
+            (_, Fate::Stops) => {
+                self.stopping = trial.slope_angle;
+                true
+            }
+            (_, Fate::Flows) => {
+                self.flowing = trial.slope_angle;
+                true
+            }
+        }
+    }
+
+    /// Whether the bracket is no wider than a tolerance `[°]`.
+    fn is_narrow(&self, tolerance: f64) -> bool {
+        self.trials.len() > 1 && self.flowing - self.stopping <= tolerance * (1.0 + 1e-9)
     }
 }
 

@@ -4,16 +4,17 @@ pub(in crate::cases) mod foreign;
 mod periodic;
 mod preparation;
 mod probe;
+mod tables;
 
 pub use periodic::PeriodicLayer;
 pub use preparation::Preparation;
 pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
+pub use tables::tables_of_runs;
 
-use crate::case::recording::{self, Ending};
-use crate::case::{Progress, Run};
+use crate::case::recording::{self, Beginning, Ending, Stage, Watched};
+use crate::case::{ParameterError, Progress};
 use crate::metric::{Limit, Metric, Variant, quantities};
 use crate::observation::{Frame, Recorded};
-use crate::output::Table;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::Rheology;
@@ -190,13 +191,19 @@ impl Layer<'_> {
         }
     }
 
-    /// Runs the layer and records what the probe sees.
+    /// The scene that a run begins with or is continued in.
     ///
     /// # Errors
     /// A scene that breaks a rule of the solver.
-    pub fn run(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, SceneError> {
-        let started = std::time::Instant::now();
-        let mut simulation = Simulation::new(self.prepared_scene()?)?;
+    pub fn scene_for(&self, beginning: Beginning) -> Result<Scene<2>, SceneError> {
+        match beginning {
+            Beginning::New => self.prepared_scene(),
+            Beginning::Continued => Ok(self.scene()),
+        }
+    }
+
+    /// Says how long a run will take whose steps the viscosity bounds.
+    fn announce(&self, simulation: &Simulation<2>) {
         let steps = simulation.estimated_steps(self.duration);
         let acoustic = self.duration / simulation.time_step_bounds().acoustic;
         if steps > WORTH_A_WARNING * acoustic {
@@ -213,20 +220,36 @@ impl Layer<'_> {
         } else if steps > acoustic {
             tracing::info!("explicit viscous step: about {steps:.1e} steps for {} s", self.duration);
         }
-        let mut probe = LayerProbe::new(self);
-        let mut frames = Vec::new();
+    }
+
+    /// Runs the layer and records what the probe sees.
+    ///
+    /// # Errors
+    /// A scene that breaks a rule of the solver; an interruption.
+    pub fn run(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
+        let stage = Stage { progress, end: self.duration, interval: self.interval, context: &() };
+        let begin = |simulation: &Simulation<2>| {
+            self.announce(simulation);
+            (LayerProbe::new(self), Vec::new())
+        };
         let frame_interval = self.duration / (self.frames.max(2) - 1) as f64;
-        let ending = recording::watch(&mut simulation, (self.duration, self.interval), progress, |snapshot| {
-            probe.observe(snapshot);
-            if snapshot.time >= frame_interval * frames.len() as f64 && frames.len() + 1 < self.frames.max(2) {
-                frames.push(Frame::of_flow(snapshot));
-            }
-            let stop = probe.mean_velocity() > self.stop_above;
-            if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
+        let watched = recording::watch(
+            stage,
+            |beginning| self.scene_for(beginning),
+            begin,
+            |(probe, frames), snapshot| {
+                probe.observe(snapshot);
+                if snapshot.time >= frame_interval * frames.len() as f64 && frames.len() + 1 < self.frames.max(2) {
+                    frames.push(Frame::of_flow(snapshot));
+                }
+                let stop = probe.mean_velocity() > self.stop_above;
+                if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            },
+        )?;
+        let Watched { simulation, ending, kept: (probe, frames) } = watched;
         let limit = self.stop_above;
         let criterion = format!("the depth mean of the velocity passed {limit:.3} m/s, half the sound speed");
-        let ending = Ending { criterion, may_diverge: self.may_diverge, frames, started, ..ending };
+        let ending = Ending { criterion, may_diverge: self.may_diverge, frames, ..ending };
         Ok(ending.record(&simulation, |_| probe.finish()))
     }
 }
@@ -235,36 +258,6 @@ impl Layer<'_> {
 #[must_use]
 pub fn hydrostatic_pressure(bulk_modulus: f64, reference_density: f64, gravity_across: f64, depth: f64) -> f64 {
     bulk_modulus * libm::expm1(reference_density * gravity_across * depth.max(0.0) / bulk_modulus)
-}
-
-/// Tables of all runs of a case.
-#[must_use]
-pub fn tables_of_runs<R: Run>(records: &[(R, Recorded<LayerObservation>)]) -> Vec<Table> {
-    records.iter().flat_map(|(run, record)| tables(&run.variant(), &record.data)).collect()
-}
-
-/// Tables of one run: depth profile and time series.
-fn tables(variant: &Variant, data: &LayerObservation) -> Vec<Table> {
-    let stem = variant.file_name();
-    let (profile, series) = (&data.profile, &data.series);
-    let row = |bin: usize| {
-        let DepthProfile { height, velocity, pressure, normal_stress, shear_stress, samples } = profile;
-        [height, velocity, pressure, normal_stress, shear_stress, samples].map(|column| column[bin]).to_vec()
-    };
-    let headings = ["y [m]", "u [m/s]", "p [Pa]", "p - s_yy [Pa]", "s_xy [Pa]", "samples [-]"];
-    let columns: [(&str, &[f64]); 4] = [
-        ("t [s]", &series.time),
-        ("mean u [m/s]", &series.mean_velocity),
-        ("rms speed [m/s]", &series.rms_speed),
-        ("relative height [-]", &series.relative_height),
-    ];
-    let mut tables = vec![
-        Table::of_rows(format!("profile-{stem}"), &headings, profile.filled().map(row)),
-        Table::of_columns(format!("series-{stem}"), &columns),
-    ];
-    // a run that diverged before its averaging window has no profile
-    tables.retain(|table| !table.rows.is_empty());
-    tables
 }
 
 quantities! {

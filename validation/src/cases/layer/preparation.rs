@@ -1,5 +1,6 @@
 //! How displaced particles come to rest before a run starts.
 
+use crate::checkpoint::is_interrupted;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
@@ -40,8 +41,8 @@ pub(super) fn settled(scene: Scene<2>) -> Result<Scene<2>, SceneError> {
         let mut simulation = Simulation::new(resting.clone())?;
         let mut highest = 0.0_f64;
         while elapsed + simulation.time() < limit {
-            if simulation.step().is_err() {
-                // the run itself will say what is wrong with this start
+            // the run itself will say what is wrong with this start, and does not begin where the program is to end
+            if is_interrupted() || simulation.step().is_err() {
                 return Ok(scene);
             }
             let energy = kinetic_energy(&simulation);

@@ -87,7 +87,7 @@ pub struct LayerObservation {
 }
 
 /// Collects observations during a run.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub struct LayerProbe {
     height: f64,
     length: f64,

@@ -1,16 +1,15 @@
 //! What a settling run leaves behind: slip over time, and how far momentum closes in every step.
 
-use crate::case::Progress;
-use crate::case::recording::Ending;
+use crate::case::recording::{Ending, Followed, Stage, follow};
+use crate::case::{ParameterError, Progress};
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::output::Table;
 use crate::reference::SettlingGrains;
 use crate::statistics::block_average;
 use bagnold_solver::domain::AxisBoundary;
-use bagnold_solver::incompressible::{IncompressibleScene, IncompressibleSimulation, Sediment};
+use bagnold_solver::incompressible::{IncompressibleScene, IncompressibleSimulation, IncompressibleSnapshot, Sediment};
 use bagnold_solver::kernel::{Kernel, KernelShape};
-use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::Vector;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -80,31 +79,35 @@ pub(super) enum Drag {
     OfMean,
 }
 
-/// Collects observations during a run; sees every step.
+/// Watches a run; sees every step.
 pub(super) struct Probe {
     drag: Drag,
     grains: SettlingGrains,
     kernel: Kernel<2>,
     size: Vector<2>,
     interval: f64,
+}
+
+/// What has been seen of a run.
+#[derive(Serialize, Deserialize)]
+struct Seen {
+    /// Momentum of both phases after the last step, and its time `[s]`.
     momentum: Vector<2>,
     time: f64,
     observation: SettlingObservation,
+    last_good: IncompressibleSnapshot<2>,
 }
 
 impl Probe {
     /// Runs a scene with a sediment.
     pub(super) fn run(
-        scene: IncompressibleScene<2>,
+        scene: &IncompressibleScene<2>,
         drag: Drag,
         duration: f64,
         progress: &dyn Progress,
-    ) -> Result<Recorded<SettlingObservation>, SceneError> {
-        let started = std::time::Instant::now();
-        let mut simulation = IncompressibleSimulation::new(scene)?;
-        let scene = simulation.scene();
-        let sediment = sediment(&simulation);
-        let mut probe = Self {
+    ) -> Result<Recorded<SettlingObservation>, ParameterError> {
+        let sediment = sediment_of(scene);
+        let probe = Self {
             drag,
             grains: SettlingGrains {
                 grain_diameter: sediment.grain_diameter,
@@ -119,43 +122,48 @@ impl Probe {
                 AxisBoundary::Open | AxisBoundary::Mirror { .. } => f64::INFINITY,
             }),
             interval: duration / SAMPLES,
+        };
+        // momentum is that of every step
+        let stage = Stage { progress, end: duration, interval: 1e-3 * scene.numerics.time_step, context: &() };
+        let begin = |simulation: &IncompressibleSimulation<2>| Seen {
             momentum: Vector::zeros(),
             time: 0.0,
             observation: SettlingObservation::default(),
+            last_good: simulation.snapshot(),
         };
-        let particles = simulation.free_particles() as f64;
-        let mut last_good = simulation.snapshot();
-        // momentum is that of every step
-        let every_step = 1e-3 * scene.numerics.time_step;
-        let reason = simulation.run(duration, every_step, |simulation| {
-            if probe.observe(simulation) {
-                last_good = simulation.snapshot();
-                progress.advance(simulation.time(), duration, simulation.steps() as f64 * particles);
-            }
-            ControlFlow::Continue(())
-        });
-        let ending =
-            Ending { reason, last_good, criterion: String::new(), may_diverge: false, frames: Vec::new(), started };
-        Ok(ending.record(&simulation, |_| probe.observation))
+        let followed = follow(
+            stage,
+            |_| Ok(scene.clone()),
+            begin,
+            |seen, simulation| {
+                if probe.observe(seen, simulation) {
+                    seen.last_good = simulation.snapshot();
+                    let particles = simulation.free_particles() as f64;
+                    progress.advance(simulation.time(), duration, simulation.steps() as f64 * particles);
+                }
+                ControlFlow::Continue(())
+            },
+        )?;
+        let Followed { simulation, stop, kept: Seen { last_good, observation, .. }, started } = followed;
+        Ok(Ending::of(stop, last_good, started).record(&simulation, |_| observation))
     }
 
     /// Sees a step; true where it was a sample.
-    fn observe(&mut self, simulation: &IncompressibleSimulation<2>) -> bool {
+    fn observe(&self, seen: &mut Seen, simulation: &IncompressibleSimulation<2>) -> bool {
         let (momentum, force) = momentum(simulation);
-        let (before, step) = (self.momentum, simulation.time() - self.time);
-        (self.momentum, self.time) = (momentum, simulation.time());
+        let (before, step) = (seen.momentum, simulation.time() - seen.time);
+        (seen.momentum, seen.time) = (momentum, simulation.time());
         if simulation.steps() == 0 {
             return false;
         }
         let error = (momentum - before - force.all * step).norm() / (force.weight.norm() * step);
-        self.observation.momentum_error = self.observation.momentum_error.max(error);
-        let series = &mut self.observation.series;
-        if self.time < self.interval * (series.time.len() + 1) as f64 * (1.0 - 1e-9) {
+        let SettlingObservation { series, momentum_error } = &mut seen.observation;
+        *momentum_error = momentum_error.max(error);
+        if seen.time < self.interval * (series.time.len() + 1) as f64 * (1.0 - 1e-9) {
             return false;
         }
         let (around, sinking) = self.around_grains(simulation);
-        let series = &mut self.observation.series;
-        series.time.push(self.time);
+        series.time.push(seen.time);
         series.slip.push(match self.drag {
             Drag::OfMean => around.mean,
             Drag::OfPairs => self.grains.slip_of_drag(sediment(simulation).drag, around.drag).unwrap_or(f64::NAN),
@@ -245,5 +253,9 @@ fn unevenness(velocity: &[Vector<2>]) -> f64 {
 }
 
 fn sediment(simulation: &IncompressibleSimulation<2>) -> &Sediment<2> {
-    simulation.scene().sediment.as_ref().expect("a settling run has grains")
+    sediment_of(simulation.scene())
+}
+
+fn sediment_of(scene: &IncompressibleScene<2>) -> &Sediment<2> {
+    scene.sediment.as_ref().expect("a settling run has grains")
 }

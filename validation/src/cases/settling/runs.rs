@@ -45,7 +45,7 @@ impl Run for SettlingRun {
             Self::Grain(run) => (run.scene(), run.drag()),
             Self::Suspension(run) => (run.scene(), Drag::OfMean),
         };
-        Ok(Probe::run(scene, drag, self.experiment().duration, progress)?)
+        Probe::run(&scene, drag, self.experiment().duration, progress)
     }
 }
 

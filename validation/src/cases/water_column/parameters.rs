@@ -1,6 +1,6 @@
 //! Parameters, tiers and runs.
 
-use crate::case::recording;
+use crate::case::recording::{self, Stage, Watched};
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
 use crate::cases::rules;
 use crate::metric::Variant;
@@ -14,7 +14,6 @@ use bagnold_solver::weakly_compressible::boundary::wall::fill;
 use bagnold_solver::weakly_compressible::boundary::{Surface, Wall};
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
-use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use rand::{RngExt, SeedableRng};
 use schemars::JsonSchema;
@@ -168,18 +167,24 @@ impl Run for WaterColumnRun {
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ColumnObservation>, ParameterError> {
-        let mut simulation = Simulation::new(self.scene())?;
-        let mut observation = ColumnObservation::default();
         let end = self.column.duration * self.time_scale();
-        let ending = recording::watch(&mut simulation, (end, end / SAMPLES), progress, |snapshot| {
-            observation.time.push(snapshot.time / self.time_scale());
-            observation.front.push(self.front(snapshot) / self.column.width);
-            if let Some(account) = &snapshot.energy {
-                observation.energy.enter(account);
-            }
-            ControlFlow::Continue(())
-        });
-        Ok(ending.record(&simulation, |_| observation))
+        let stage = Stage { progress, end, interval: end / SAMPLES, context: &() };
+        let begin = |_: &_| ColumnObservation::default();
+        let watched = recording::watch(
+            stage,
+            |_| Ok(self.scene()),
+            begin,
+            |observation, snapshot| {
+                observation.time.push(snapshot.time / self.time_scale());
+                observation.front.push(self.front(snapshot) / self.column.width);
+                if let Some(account) = &snapshot.energy {
+                    observation.energy.enter(account);
+                }
+                ControlFlow::Continue(())
+            },
+        )?;
+        let Watched { simulation, ending, kept } = watched;
+        Ok(ending.record(&simulation, |_| kept))
     }
 }
 

@@ -48,6 +48,7 @@ pub use states::{SAME_STATE, SteadyStates, TwoStates};
 pub use stream::Stream;
 
 use super::ReferenceError;
+use crate::interruption;
 use column::{Column, Stride};
 
 /// A layer and how it is computed.
@@ -159,6 +160,9 @@ impl BedLoadLayer {
             let unsteady = if !change.velocity.is_finite() {
                 column = last_good;
                 Some("a velocity is no longer a finite number".to_owned())
+            } else if interruption::asked().is_some() {
+                // whoever asked for the layer sees that too, and drops it
+                Some("the program was asked to end".to_owned())
             } else if change.left_over > 1e-9 * self.stream.bed_stress() && (steady || steps == LARGEST_STEPS) {
                 Some(format!("the grains need {:.2e} Pa of room above the water's surface", change.left_over))
             } else if steps == LARGEST_STEPS {

@@ -18,7 +18,7 @@
 
 mod step;
 #[cfg(test)]
-mod tests;
+pub(in crate::incompressible) mod tests;
 
 pub(crate) use step::Flux;
 
@@ -96,6 +96,17 @@ impl<const D: usize> Mixture<D> {
             mean_gradient: Vector::zeros(),
             solver: ConjugateGradient::new(),
         }
+    }
+
+    /// Accelerations by all pressure of the last step `[m/s²]`, with which the next one begins.
+    pub(crate) fn push(&self) -> &[Vector<D>] {
+        &self.push
+    }
+
+    /// Goes on from the accelerations of the last step `[m/s²]`, after so many iterations.
+    pub(crate) fn restore(&mut self, push: Vec<Vector<D>>, iterations: u64) {
+        self.push = push;
+        self.solver.count_from(iterations);
     }
 
     /// Iterations of all solves.

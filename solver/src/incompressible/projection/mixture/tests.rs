@@ -22,7 +22,7 @@ const WAVE_NUMBER: f64 = 2.0 * std::f64::consts::PI / (ROWS as f64 * SPACING);
 const LAWLESS: Rheology = Rheology::Newtonian(Newtonian { viscosity: 0.0 });
 
 /// A displaced suspension in a periodic box, with velocities by place.
-fn suspension(
+pub(in crate::incompressible) fn suspension(
     fluid: impl Fn(Vector<2>) -> Vector<2>,
     sediment: impl Fn(Vector<2>) -> Vector<2>,
     (mean_flux, gravity): (MeanFlux, f64),

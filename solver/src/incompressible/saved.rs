@@ -1,0 +1,136 @@
+//! A simulation as it is kept between two programs: all that its next step follows from, and that the scene does not say.
+//!
+//! The candidates of the pairs are kept, because sums run in their order, and what has moved since they were searched; so
+//! are the pressures, the last change of the velocities and the last push of a mixture's pressure, from which the solves
+//! of the next step start. Everything else a step makes anew before it reads it.
+
+use super::neighbours::{SavedLayers, SavedPairs};
+use super::phase::Phase;
+use super::scene::IncompressibleScene;
+use super::simulation::{IncompressibleSimulation, SolverCost};
+use super::state::State;
+use crate::run::{ContinueError, ForeignState};
+use crate::vector::Vector;
+use serde::{Deserialize, Serialize};
+
+/// A simulation between two steps, for a file; made by [`IncompressibleSimulation::save`].
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct SavedIncompressible<const D: usize> {
+    fluid: SavedPhase<D>,
+    sediment: Option<SavedPhase<D>>,
+    exchange: Option<(SavedPairs, SavedPairs)>,
+    grains: Option<(Vec<Vector<D>>, Vec<Vector<D>>)>,
+    layers: SavedLayers,
+    change: Vec<Vector<D>>,
+    push: Vec<Vector<D>>,
+    cost: SolverCost,
+    /// Iterations of the mixture's equation among those of the fluid's.
+    mixture_iterations: u64,
+    time: f64,
+    steps: u64,
+    last_step: f64,
+}
+
+/// One phase.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct SavedPhase<const D: usize> {
+    position: Vec<Vector<D>>,
+    velocity: Vec<Vector<D>>,
+    pressure: Vec<f64>,
+    travel: Vec<Vector<D>>,
+    free_pairs: SavedPairs,
+    wall_pairs: SavedPairs,
+}
+
+impl<const D: usize> SavedPhase<D> {
+    fn of(phase: &Phase<D>) -> Self {
+        Self {
+            position: phase.position.clone(),
+            velocity: phase.velocity.clone(),
+            pressure: phase.pressure.clone(),
+            travel: phase.travel.clone(),
+            free_pairs: phase.free_pairs.save(),
+            wall_pairs: phase.wall_pairs.save(),
+        }
+    }
+
+    fn restore(self, phase: &mut Phase<D>) -> Result<(), ForeignState> {
+        let count = phase.len();
+        let lengths = [self.position.len(), self.velocity.len(), self.pressure.len(), self.travel.len()];
+        for length in lengths {
+            ForeignState::check("particles of a phase", length, count)?;
+        }
+        phase.free_pairs.restore(self.free_pairs, count, count)?;
+        phase.wall_pairs.restore(self.wall_pairs, count, phase.wall.len())?;
+        (phase.position, phase.velocity) = (self.position, self.velocity);
+        (phase.pressure, phase.travel) = (self.pressure, self.travel);
+        Ok(())
+    }
+}
+
+impl<const D: usize> IncompressibleSimulation<D> {
+    /// The simulation as it stands, to be written and continued.
+    #[must_use]
+    pub fn save(&self) -> SavedIncompressible<D> {
+        let State { phases, exchange, columns, search, system, projection, .. } = &self.state;
+        SavedIncompressible {
+            fluid: SavedPhase::of(&phases.fluid),
+            sediment: phases.sediment.as_ref().map(SavedPhase::of),
+            exchange: phases.sediment.as_ref().map(|_| exchange.save()),
+            grains: columns.as_ref().map(|columns| (columns.grains.position.clone(), columns.grains.velocity.clone())),
+            layers: search.save(),
+            change: system.change().to_vec(),
+            push: projection.mixture.push().to_vec(),
+            cost: self.cost(),
+            mixture_iterations: projection.mixture.iterations(),
+            time: self.state.time,
+            steps: self.state.steps,
+            last_step: self.state.last_step,
+        }
+    }
+}
+
+impl<const D: usize> State<D> {
+    /// Takes a saved state of the same scene.
+    pub(super) fn restore(&mut self, saved: SavedIncompressible<D>) -> Result<(), ForeignState> {
+        let State { phases, exchange, columns, search, system, projection, .. } = self;
+        let particles: usize = phases.all().map(Phase::len).sum();
+        ForeignState::check("sediments", saved.sediment.iter().count(), phases.sediment.iter().count())?;
+        ForeignState::check("exchanges", saved.exchange.iter().count(), phases.sediment.iter().count())?;
+        ForeignState::check("sets of columns", saved.grains.iter().count(), columns.iter().count())?;
+        saved.fluid.restore(&mut phases.fluid)?;
+        if let (Some(sediment), Some(of_sediment), Some(pairs)) = (&mut phases.sediment, saved.sediment, saved.exchange)
+        {
+            of_sediment.restore(sediment)?;
+            exchange.restore(pairs, phases.fluid.len(), sediment)?;
+        }
+        if let (Some(columns), Some(grains)) = (columns, saved.grains) {
+            columns.restore(grains)?;
+        }
+        search.restore(saved.layers, particles, saved.cost.searches)?;
+        // empty before the first step, and without a mixture
+        for rows in [saved.change.len(), saved.push.len()].into_iter().filter(|rows| *rows > 0) {
+            ForeignState::check("rows of velocities", rows, particles)?;
+        }
+        system.restore(saved.change, saved.cost.velocity_iterations);
+        let of_fluid = saved.cost.fluid_pressure_iterations.saturating_sub(saved.mixture_iterations);
+        projection.fluid.count_from(of_fluid);
+        projection.sediment.count_from(saved.cost.sediment_pressure_iterations);
+        projection.mixture.restore(saved.push, saved.mixture_iterations);
+        (self.time, self.steps, self.last_step) = (saved.time, saved.steps, saved.last_step);
+        Ok(())
+    }
+}
+
+impl IncompressibleSimulation<2> {
+    /// A saved simulation, to be continued bit by bit as if it had never been interrupted. `scene` is the one that it was
+    /// begun with; of its free particles only the number counts.
+    ///
+    /// # Errors
+    /// A scene that breaks a rule, a state that is not one of this scene.
+    pub fn continued(scene: IncompressibleScene<2>, saved: SavedIncompressible<2>) -> Result<Self, ContinueError> {
+        let mut state = State::of(scene)?;
+        state.restore(saved)?;
+        Ok(Self { state })
+    }
+}

@@ -1,0 +1,49 @@
+//! Where a run stands between its observations.
+
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+
+/// How far a run is to go, and which observations it has behind it: with the simulation and what its observer keeps, all
+/// that the rest of the run follows from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Course {
+    /// End of the run `[s]`.
+    pub(super) end: f64,
+    /// Time between two observations `[s]`.
+    pub(super) interval: f64,
+    /// Time at its start `[s]`; none before it.
+    pub(super) origin: Option<f64>,
+    /// Observations that were due.
+    pub(super) observed: u64,
+    /// Step of the last one.
+    pub(super) observed_step: u64,
+}
+
+impl Course {
+    /// A run up to `end` `[s]`, observed at intervals `[s]`.
+    #[must_use]
+    pub fn new(end: f64, interval: f64) -> Self {
+        Self { end, interval, origin: None, observed: 0, observed_step: 0 }
+    }
+}
+
+/// Who watches a run, and may interrupt it between two steps.
+pub trait Observer<S> {
+    /// Sees a state that is due; [`ControlFlow::Break`] ends the run.
+    fn observe(&mut self, simulation: &S) -> ControlFlow<()>;
+
+    /// Called before every step. [`ControlFlow::Break`] interrupts the run, which the same course continues, with this
+    /// simulation or with one that was saved here and has been continued.
+    fn pause(&mut self, _simulation: &S, _course: &Course) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+/// A closure that observes, and never interrupts.
+pub(crate) struct Watching<F>(pub(crate) F);
+
+impl<S, F: FnMut(&S) -> ControlFlow<()>> Observer<S> for Watching<F> {
+    fn observe(&mut self, simulation: &S) -> ControlFlow<()> {
+        (self.0)(simulation)
+    }
+}

@@ -1,0 +1,33 @@
+//! What is common to saved simulations: why one cannot be continued.
+
+use super::SceneError;
+
+/// Why a saved simulation is not continued.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ContinueError {
+    /// Its scene breaks a rule.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// It is that of another scene.
+    #[error(transparent)]
+    Foreign(#[from] ForeignState),
+}
+
+/// A saved simulation that does not belong to the scene it is to be continued with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the saved state has {found} {what}, but its scene has {expected}")]
+pub struct ForeignState {
+    /// What was counted.
+    pub what: &'static str,
+    /// Number in the saved state.
+    pub found: usize,
+    /// Number in the scene.
+    pub expected: usize,
+}
+
+impl ForeignState {
+    /// Compares two numbers.
+    pub(crate) fn check(what: &'static str, found: usize, expected: usize) -> Result<(), Self> {
+        if found == expected { Ok(()) } else { Err(Self { what, found, expected }) }
+    }
+}

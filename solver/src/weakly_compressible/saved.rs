@@ -1,0 +1,89 @@
+//! A simulation as it is kept between two programs: all that its next step follows from, and that the scene does not say.
+//!
+//! The neighbour list is kept with the particles in their sorted order, because sums run in its order and a new search
+//! would be that of other positions. What every step makes anew before it reads it (records, pair weights, the viscous
+//! system) is left out.
+
+use crate::run::{ContinueError, ForeignState};
+use crate::weakly_compressible::boundary::{Images, Wall};
+use crate::weakly_compressible::energy::EnergyLedger;
+use crate::weakly_compressible::neighbours::VerletList;
+use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::scene::Scene;
+use crate::weakly_compressible::simulation::Simulation;
+use crate::weakly_compressible::state::State;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
+/// A simulation between two steps, for a file; made by [`Simulation::save`].
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct SavedSimulation<'a, const D: usize> {
+    particles: Cow<'a, Particles<D>>,
+    images: Cow<'a, Images<D>>,
+    walls: Cow<'a, [Wall<D>]>,
+    list: Cow<'a, VerletList>,
+    energy: EnergyLedger,
+    searches: u64,
+    viscous_iterations: u64,
+    time: f64,
+    steps: u64,
+    largest_speed: f64,
+    kinematic_viscosity: f64,
+    displacement: f64,
+}
+
+impl<const D: usize> Simulation<D> {
+    /// The simulation as it stands, to be written and continued.
+    #[must_use]
+    pub fn save(&self) -> SavedSimulation<'_, D> {
+        let State { particles, images, walls, model, energy, search, viscous, .. } = &self.state;
+        SavedSimulation {
+            particles: Cow::Borrowed(particles),
+            images: Cow::Borrowed(images),
+            walls: Cow::Borrowed(walls),
+            list: Cow::Borrowed(&model.list),
+            energy: *energy,
+            searches: search.count(),
+            viscous_iterations: viscous.iterations(),
+            time: self.state.time,
+            steps: self.state.steps,
+            largest_speed: self.state.largest_speed,
+            kinematic_viscosity: self.state.kinematic_viscosity,
+            displacement: self.state.displacement,
+        }
+    }
+
+    /// A saved simulation, to be continued bit by bit as if it had never been interrupted. `scene` is the one that it was
+    /// begun with; of its flow only the number of particles counts.
+    ///
+    /// # Errors
+    /// A scene that breaks a rule, a state that is not one of this scene.
+    pub fn continued(scene: Scene<D>, saved: SavedSimulation<'_, D>) -> Result<Self, ContinueError> {
+        scene.check()?;
+        let (particles, images) = (saved.particles.into_owned(), saved.images.into_owned());
+        let (list, walls) = (saved.list.into_owned(), saved.walls.into_owned());
+        let (flow, real) = (particles.flow_count(), particles.real_count());
+        ForeignState::check("flow particles", flow, scene.flow.position.len())?;
+        ForeignState::check("wall particles", particles.wall_count(), scene.wall_particles.len())?;
+        ForeignState::check("walls", walls.len(), scene.walls.len())?;
+        let whole = particles.are_complete(images.len())
+            && images.belong_to(real)
+            && particles.walls_are_below(walls.len())
+            && list.belongs_to(flow, real, real + images.len() + 1);
+        ForeignState::check("whole sets of arrays", usize::from(whole), 1)?;
+        let mut state = State::new(scene);
+        state.particles = particles;
+        state.images = images;
+        state.walls = walls;
+        state.model.list = list;
+        state.energy = saved.energy;
+        state.search.count_from(saved.searches);
+        state.viscous.count_from(saved.viscous_iterations);
+        state.time = saved.time;
+        state.steps = saved.steps;
+        state.largest_speed = saved.largest_speed;
+        state.kinematic_viscosity = saved.kinematic_viscosity;
+        state.displacement = saved.displacement;
+        Ok(Self { state })
+    }
+}

@@ -1,0 +1,199 @@
+//! Runs that can be interrupted between two steps and continued by another program: simulation, where it stands between
+//! its observations, and what its observer keeps are one checkpoint.
+
+use super::Recordable;
+use crate::case::{ParameterError, Progress};
+use crate::checkpoint::{Checkpoints, count_stopped, is_interrupted};
+use bagnold_solver::run::{ContinueError, Course, Observer, SceneError, StopReason};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use std::marker::PhantomData;
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+/// What a scene is made for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Beginning {
+    /// A new run, with all that comes before its start.
+    New,
+    /// A run that is continued: of its flow only the number of particles counts.
+    Continued,
+}
+
+/// A simulation that can be saved and continued.
+pub trait Restartable<const D: usize>: Recordable + Sized {
+    /// What it is set up from.
+    type Scene;
+    /// What it is saved as.
+    type Saved: DeserializeOwned;
+    /// Sets it up.
+    ///
+    /// # Errors
+    /// A scene that breaks a rule.
+    fn begin(scene: Self::Scene) -> Result<Self, SceneError>;
+    /// Continues a saved one of the same scene.
+    ///
+    /// # Errors
+    /// A state that is not one of the scene.
+    fn continued(scene: Self::Scene, saved: Self::Saved) -> Result<Self, ContinueError>;
+    /// Itself, to be written and read as [`Restartable::Saved`].
+    fn saved(&self) -> impl Serialize;
+    /// Runs along a course.
+    fn follow(&mut self, course: &mut Course, observer: &mut impl Observer<Self>) -> StopReason<D>;
+}
+
+/// One simulation of a run.
+#[derive(Clone, Copy)]
+pub struct Stage<'a, C> {
+    /// How far it has come, and where it is kept.
+    pub progress: &'a dyn Progress,
+    /// Its end `[s]`.
+    pub end: f64,
+    /// Time between two observations `[s]`.
+    pub interval: f64,
+    /// What the run has come to before it; [`resumed`] gives that of an interrupted one.
+    pub context: &'a C,
+}
+
+/// How a simulation ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Stop {
+    /// Reached its end time.
+    Finished,
+    /// The observer ended it.
+    Stopped,
+    /// Diverged, in words.
+    Diverged(String),
+}
+
+/// A simulation that was followed, how it ended, and what its observer has kept.
+pub struct Followed<S, O> {
+    /// The simulation at its end.
+    pub simulation: S,
+    /// How it ended.
+    pub stop: Stop,
+    /// What the observer has kept.
+    pub kept: O,
+    /// When it was started, as if it had not been interrupted.
+    pub started: Instant,
+}
+
+/// A checkpoint. What it reads is what [`Written`] has written.
+#[derive(Deserialize)]
+struct Read<C, O, S> {
+    _context: C,
+    seconds: f64,
+    course: Course,
+    kept: O,
+    simulation: S,
+}
+
+/// The context comes first, so that it can be read alone.
+#[derive(Serialize)]
+struct Written<'a, C, O, S> {
+    context: &'a C,
+    seconds: f64,
+    course: &'a Course,
+    kept: &'a O,
+    simulation: S,
+}
+
+/// What the run had come to before the simulation in which it was interrupted.
+pub fn resumed<C: DeserializeOwned>(progress: &dyn Progress) -> Option<C> {
+    let context = |bytes: &[u8]| postcard::take_from_bytes(bytes).map(|(context, _)| context);
+    progress.checkpoints()?.look(|bytes| context(bytes).map_err(|error| error.to_string()))
+}
+
+/// Runs a simulation and shows it to `observe` at the start, at intervals and at the end, until that breaks, together with
+/// what it keeps, which `keep` makes at the start of a new run. An interrupted run goes on where its last checkpoint stands.
+///
+/// # Errors
+/// A scene that breaks a rule; an interruption.
+pub fn follow<const D: usize, S, O, C>(
+    stage: Stage<'_, C>,
+    scene: impl Fn(Beginning) -> Result<S::Scene, SceneError>,
+    keep: impl FnOnce(&S) -> O,
+    observe: impl FnMut(&mut O, &S) -> ControlFlow<()>,
+) -> Result<Followed<S, O>, ParameterError>
+where
+    S: Restartable<D>,
+    O: Serialize + DeserializeOwned,
+    C: Serialize + DeserializeOwned,
+{
+    let now = Instant::now();
+    let Stage { progress, end, interval, context } = stage;
+    let checkpoints = progress.checkpoints();
+    let left = checkpoints.and_then(|checkpoints| {
+        checkpoints.take(|bytes| {
+            let read: Read<C, O, S::Saved> = postcard::from_bytes(bytes).map_err(|error| error.to_string())?;
+            let scene = scene(Beginning::Continued).map_err(|error| error.to_string())?;
+            let simulation = S::continued(scene, read.simulation).map_err(|error| error.to_string())?;
+            Ok((simulation, read.course, read.kept, read.seconds))
+        })
+    });
+    let (mut simulation, mut course, kept, started) = match left {
+        Some((simulation, course, kept, seconds)) => {
+            tracing::info!("goes on at t = {:.6} s, step {}", simulation.time(), simulation.steps());
+            let spent = Duration::try_from_secs_f64(seconds).unwrap_or_default();
+            (simulation, course, kept, now.checked_sub(spent).unwrap_or(now))
+        }
+        None => {
+            let simulation = S::begin(scene(Beginning::New)?)?;
+            // what comes before the start may have been cut short
+            if is_interrupted() {
+                return Err(ParameterError::Interrupted);
+            }
+            let kept = keep(&simulation);
+            (simulation, Course::new(end, interval), kept, now)
+        }
+    };
+    let mut watching = Watching { checkpoints, context, started, kept, observe, simulation: PhantomData };
+    let stop = match simulation.follow(&mut course, &mut watching) {
+        StopReason::Finished => Stop::Finished,
+        StopReason::Stopped => Stop::Stopped,
+        StopReason::Diverged(divergence) => Stop::Diverged(divergence.to_string()),
+        StopReason::Interrupted => return Err(ParameterError::Interrupted),
+    };
+    Ok(Followed { simulation, stop, kept: watching.kept, started })
+}
+
+/// Shows a simulation to the observer of a case, and keeps checkpoints.
+struct Watching<'a, const D: usize, S, O, C, F> {
+    checkpoints: Option<&'a Checkpoints>,
+    context: &'a C,
+    started: Instant,
+    kept: O,
+    observe: F,
+    simulation: PhantomData<S>,
+}
+
+impl<const D: usize, S, O, C, F> Observer<S> for Watching<'_, D, S, O, C, F>
+where
+    S: Restartable<D>,
+    O: Serialize,
+    C: Serialize,
+    F: FnMut(&mut O, &S) -> ControlFlow<()>,
+{
+    fn observe(&mut self, simulation: &S) -> ControlFlow<()> {
+        (self.observe)(&mut self.kept, simulation)
+    }
+
+    fn pause(&mut self, simulation: &S, course: &Course) -> ControlFlow<()> {
+        let interrupted = is_interrupted();
+        let wanted = self.checkpoints.filter(|checkpoints| interrupted || checkpoints.is_due());
+        let is_kept = wanted.is_some_and(|checkpoints| {
+            let written = Written {
+                context: self.context,
+                seconds: self.started.elapsed().as_secs_f64(),
+                course,
+                kept: &self.kept,
+                simulation: simulation.saved(),
+            };
+            checkpoints.keep(|| postcard::to_stdvec(&written))
+        });
+        if !interrupted {
+            return ControlFlow::Continue(());
+        }
+        count_stopped(is_kept);
+        ControlFlow::Break(())
+    }
+}

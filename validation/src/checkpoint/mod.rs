@@ -1,0 +1,211 @@
+//! Checkpoints of unfinished runs: written at intervals and when the program is asked to end, the last two of each run
+//! kept, and continued by the next command that wants the same run of the same program.
+
+mod file;
+
+use crate::interruption;
+use file::Refused;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Time between two checkpoints, unless the user asks for another.
+pub const USUAL_INTERVAL: Duration = Duration::from_secs(60);
+
+/// A checkpoint may cost this part of the time until the next one, unless the user asks for an interval; but that is no
+/// longer than what a run may lose.
+const SHARE_OF_TIME: f64 = 0.01;
+const LONGEST_INTERVAL: Duration = Duration::from_secs(120);
+
+/// Checkpoints of a run that are kept.
+const KEPT: usize = 2;
+
+/// Ends the names of checkpoints.
+const EXTENSION: &str = "checkpoint";
+
+/// Where one run keeps its checkpoints. Used by one run at a time; another program that simulates the same run does no harm,
+/// because both would write the same states.
+#[derive(Debug)]
+pub struct Checkpoints {
+    folder: PathBuf,
+    key: String,
+    interval: Option<Duration>,
+    state: Mutex<State>,
+}
+
+#[derive(Debug)]
+struct State {
+    /// What an earlier program left, the newest first, until a run has taken it.
+    left: Option<Vec<Found>>,
+    /// When the next one is due.
+    due: Instant,
+}
+
+/// A whole checkpoint of this run.
+#[derive(Debug, Clone)]
+struct Found {
+    path: PathBuf,
+    contents: Vec<u8>,
+}
+
+impl Checkpoints {
+    /// The checkpoints of the run with a key, in a folder that is its own; `interval` is that which the user asks for.
+    #[must_use]
+    pub fn at(folder: &Path, key: &str, interval: Option<Duration>) -> Self {
+        let due = Instant::now() + interval.unwrap_or(USUAL_INTERVAL);
+        let state = Mutex::new(State { left: None, due });
+        Self { folder: folder.to_owned(), key: key.to_owned(), interval, state }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Lets `decode` try what is left of an earlier program, the newest first, and gives what it makes of the first that
+    /// it does not refuse, with a reason. Only the first caller finds anything: what follows in a run is new.
+    pub fn take<T>(&self, mut decode: impl FnMut(&[u8]) -> Result<T, String>) -> Option<T> {
+        let mut state = self.lock();
+        let left = state.left.take().unwrap_or_else(|| self.whole());
+        state.left = Some(Vec::new());
+        left.into_iter().find_map(|found| self.decoded(&found, &mut decode))
+    }
+
+    /// The same without taking it: the first that `decode` does not refuse stays, alone, for the next caller.
+    pub fn look<T>(&self, mut decode: impl FnMut(&[u8]) -> Result<T, String>) -> Option<T> {
+        let mut state = self.lock();
+        let left = state.left.take().unwrap_or_else(|| self.whole());
+        let seen = left.into_iter().find_map(|found| Some((self.decoded(&found, &mut decode)?, found)));
+        let (decoded, found) = seen.map_or((None, None), |(decoded, found)| (Some(decoded), Some(found)));
+        state.left = Some(found.into_iter().collect());
+        decoded
+    }
+
+    fn decoded<T>(&self, found: &Found, decode: &mut impl FnMut(&[u8]) -> Result<T, String>) -> Option<T> {
+        let refuse = |reason| self.warn(&found.path, &Refused::State(reason));
+        decode(&found.contents).map_err(refuse).ok()
+    }
+
+    /// All whole checkpoints, the newest first; others are refused with their reason.
+    fn whole(&self) -> Vec<Found> {
+        let mut numbers = self.numbers();
+        numbers.reverse();
+        let read = |number: u64| {
+            let path = self.path(number);
+            match file::read(&path, &self.key) {
+                Ok(contents) => Some(Found { path, contents }),
+                Err(refused) => {
+                    self.warn(&path, &refused);
+                    None
+                }
+            }
+        };
+        numbers.into_iter().filter_map(read).collect()
+    }
+
+    fn warn(&self, path: &Path, refused: &Refused) {
+        tracing::warn!(
+            "checkpoint {}: not continued: {refused}; the one before it is used, or the run begins anew",
+            path.display()
+        );
+    }
+
+    /// Whether it is time for a checkpoint.
+    #[must_use]
+    pub fn is_due(&self) -> bool {
+        Instant::now() >= self.lock().due
+    }
+
+    /// Writes a checkpoint and drops all but the last two. One that cannot be written is said, and the run goes on: those
+    /// before it stay as they are. Whether it was written.
+    pub fn keep(&self, encode: impl FnOnce() -> postcard::Result<Vec<u8>>) -> bool {
+        let begun = Instant::now();
+        let written = encode().map_err(io::Error::other).and_then(|contents| self.write(&contents));
+        let cost = begun.elapsed();
+        let usual = || cost.div_f64(SHARE_OF_TIME).clamp(USUAL_INTERVAL, LONGEST_INTERVAL);
+        let wait = self.interval.unwrap_or_else(usual);
+        self.lock().due = Instant::now() + wait;
+        match &written {
+            Ok(()) => {
+                tracing::info!("checkpoint in {}, written in {:.0} ms", self.folder.display(), cost.as_secs_f64() * 1e3)
+            }
+            Err(error) => tracing::warn!(
+                "checkpoint in {}: not kept ({error}); those before it stay, and the run goes on",
+                self.folder.display()
+            ),
+        }
+        written.is_ok()
+    }
+
+    fn write(&self, contents: &[u8]) -> io::Result<()> {
+        std::fs::create_dir_all(&self.folder)?;
+        let numbers = self.numbers();
+        let next = numbers.last().map_or(0, |last| last + 1);
+        file::write(&self.path(next), &self.key, contents)?;
+        for old in numbers.iter().rev().skip(KEPT - 1) {
+            // another program may have been faster
+            let _ = std::fs::remove_file(self.path(*old));
+        }
+        Ok(())
+    }
+
+    /// Removes all checkpoints of the run: it is finished, or begins anew.
+    pub fn discard(&self) {
+        self.lock().left = Some(Vec::new());
+        if let Err(error) = std::fs::remove_dir_all(&self.folder)
+            && error.kind() != io::ErrorKind::NotFound
+        {
+            tracing::debug!("checkpoints {}: not removed: {error}", self.folder.display());
+        }
+    }
+
+    /// Numbers of the checkpoints in the folder, rising.
+    fn numbers(&self) -> Vec<u64> {
+        let number = |entry: std::fs::DirEntry| {
+            let name = entry.file_name();
+            name.to_str()?.strip_suffix(EXTENSION)?.strip_suffix('.')?.parse().ok()
+        };
+        let entries = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
+        let mut numbers: Vec<u64> = entries.filter_map(number).collect();
+        numbers.sort_unstable();
+        numbers
+    }
+
+    fn path(&self, number: u64) -> PathBuf {
+        self.folder.join(format!("{number}.{EXTENSION}"))
+    }
+}
+
+/// How many runs an interruption has found in progress.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Kept {
+    /// Those of which a checkpoint was written.
+    pub whole: usize,
+    /// Those of which none could be written, or that keep none.
+    pub lost: usize,
+}
+
+static WHOLE: AtomicUsize = AtomicUsize::new(0);
+static LOST: AtomicUsize = AtomicUsize::new(0);
+
+/// Counts a run that an interruption has stopped.
+pub fn count_stopped(is_kept: bool) {
+    let count = if is_kept { &WHOLE } else { &LOST };
+    count.fetch_add(1, Ordering::Relaxed);
+}
+
+/// Runs that an interruption has stopped so far.
+#[must_use]
+pub fn kept_at_the_end() -> Kept {
+    Kept { whole: WHOLE.load(Ordering::Relaxed), lost: LOST.load(Ordering::Relaxed) }
+}
+
+/// Whether the program has been asked to end.
+#[must_use]
+pub fn is_interrupted() -> bool {
+    interruption::asked().is_some()
+}
+
+#[cfg(test)]
+mod tests;
