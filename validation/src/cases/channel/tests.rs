@@ -28,9 +28,8 @@ fn film(until: Until, window: f64) -> Channel<'static> {
 
 #[test]
 fn momentum_closes_and_samples_are_evenly_spaced() {
-    let mut seen = (0, 0);
-    let record = film(Until::Time(0.1), 0.05)
-        .run_observed(&Silent, |simulation, in_window| {
+    let (record, seen) = film(Until::Time(0.1), 0.05)
+        .run_observed(&Silent, (0, 0), |seen: &mut (usize, usize), simulation, in_window| {
             assert_eq!(simulation.fluid().0.len(), 36);
             seen.0 += 1;
             seen.1 += usize::from(in_window);
