@@ -115,8 +115,11 @@ pub trait Progress: Sync {
 /// A run of a case with these parameters.
 pub type RunOf<P> = <P as Parameters>::Run;
 
+/// What such a run leaves behind.
+pub type ObservationOf<P> = <RunOf<P> as Run>::Observation;
+
 /// A run with what it left behind.
-pub type RecordOf<P> = (RunOf<P>, Recorded<<RunOf<P> as Run>::Observation>);
+pub type RecordOf<P> = (RunOf<P>, Recorded<ObservationOf<P>>);
 
 /// A canonical case. Implementors hold no state: everything comes from the parameters.
 pub trait Case: Sync + 'static {
@@ -150,7 +153,7 @@ pub trait Case: Sync + 'static {
     fn foreign(
         _: &RunOf<Self::Parameters>,
         _: &Given,
-    ) -> Result<Option<Foreign<<RunOf<Self::Parameters> as Run>::Observation>>, FieldError> {
+    ) -> Result<Option<Foreign<ObservationOf<Self::Parameters>>>, FieldError> {
         Ok(None)
     }
     /// Tables for `run`'s output folder: profiles and time series.

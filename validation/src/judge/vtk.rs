@@ -79,7 +79,7 @@ impl Points {
         let values: Vec<f64> =
             data.cast_into().ok_or_else(|| format!("with an array `{name}` that is not of numbers"))?;
         let components = components.max(1);
-        if values.len() % components != 0 {
+        if !values.len().is_multiple_of(components) {
             return Err(format!("with {} values of `{name}`, which has {components} components", values.len()));
         }
         for component in 0..components {
