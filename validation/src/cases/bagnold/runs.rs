@@ -177,7 +177,7 @@ impl Run for BagnoldRun {
         // first fall freely until the elastic shear is wound up, which at 22° is a sixth of its steady velocity.
         let friction = self.grains.static_friction.min(libm::tan(self.slope_angle.to_radians()));
         let shear_stress = |y: f64| if moving { start.shear_stress(y) } else { friction * start.pressure(y) };
-        Ok(self.layer(&velocity, &shear_stress).run(progress)?)
+        self.layer(&velocity, &shear_stress).run(progress)
     }
 }
 

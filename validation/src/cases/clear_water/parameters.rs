@@ -158,7 +158,7 @@ impl Run for ClearWaterRun {
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         let law = self.reference();
-        Ok(self.channel(&|z| self.flow.start_share * law.velocity(z)).run(progress)?)
+        self.channel(&|z| self.flow.start_share * law.velocity(z)).run(progress)
     }
 }
 

@@ -60,7 +60,7 @@ impl Run for FilmRun {
         // a law that carries its stress along starts with that of the film, others make it from the velocity
         let (plastic, incline) = (self.law.is_plastic(), self.incline());
         let shear_stress = |y: f64| if plastic { incline.shear_stress(y) } else { 0.0 };
-        Ok(Layer { shear_stress: &shear_stress, ..self.layer(&velocity) }.run(progress)?)
+        Layer { shear_stress: &shear_stress, ..self.layer(&velocity) }.run(progress)
     }
 }
 

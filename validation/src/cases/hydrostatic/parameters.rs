@@ -104,7 +104,7 @@ impl Run for HydrostaticRun {
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
-        Ok(self.layer().run(progress)?)
+        self.layer().run(progress)
     }
 }
 

@@ -126,7 +126,7 @@ impl Run for StillWaterRun {
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
-        Ok(self.channel().run(progress)?)
+        self.channel().run(progress)
     }
 }
 

@@ -128,7 +128,7 @@ impl Run for WaterFilmRun {
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         let film = self.exact(self.water.depth);
-        Ok(self.channel(&|z| film.velocity(z)).run(progress)?)
+        self.channel(&|z| film.velocity(z)).run(progress)
     }
 }
 
