@@ -152,5 +152,5 @@ fn a_full_disk_is_said_and_leaves_the_checkpoint_before() {
     let (_, said) = what_it_said(RUN_IN_PLANE.start(&place, "full", "1"));
     assert!(!said.contains("WARN"), "{said}");
     assert_eq!(RUN_IN_PLANE.states(&place, "full"), expected);
-    assert_eq!(checkpoints(&place, "full-store"), [PathBuf::new(); 0]);
+    assert!(checkpoints(&place, "full-store").is_empty());
 }
