@@ -33,7 +33,7 @@ fn a_signal_keeps_what_there_is_and_says_how_to_go_on() {
         let (status, said) = what_it_said(child);
         assert_eq!(status.code(), Some(code), "{}: {said}", work.name);
         let first = format!("interrupted by SIG{signal}: what is finished is kept, and a checkpoint of ");
-        assert!(said.starts_with(&first), "{said}");
+        assert!(said.contains(&first), "{said}");
         assert!(said.contains("the same command goes on from there"), "{said}");
         assert!(!checkpoints(&place, "asked-store").is_empty());
         let left = std::fs::read_dir(place.path("asked")).into_iter().flatten().flatten();
@@ -161,5 +161,5 @@ fn a_full_disk_is_said_and_leaves_the_checkpoint_before() {
     let (_, said) = what_it_said(RUN_IN_PLANE.start(&place, "full", "1"));
     assert!(!said.contains("WARN"), "{said}");
     assert_eq!(RUN_IN_PLANE.states(&place, "full"), expected);
-    assert_eq!(checkpoints(&place, "full-store"), [PathBuf::new(); 0]);
+    assert!(checkpoints(&place, "full-store").is_empty());
 }

@@ -191,7 +191,7 @@ fn killed(work: &Work) {
     assert_eq!(ended.code(), status.code(), "{}: {said}", work.name);
     assert!(!said.contains("WARN"), "{}: {said}", work.name);
     assert_eq!(work.states(&place, "killed"), expected, "{} after {hits} kills", work.name);
-    assert_eq!(checkpoints(&place, "killed-store"), [PathBuf::new(); 0], "{}: checkpoints stay", work.name);
+    assert!(checkpoints(&place, "killed-store").is_empty(), "{}: checkpoints stay", work.name);
     println!("{}: {hits} kills, final states equal", work.name);
 }
 

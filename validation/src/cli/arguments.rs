@@ -46,7 +46,6 @@ Exit codes: 0 all gates hold, 1 a gate fails or, with --deny drift, a value has 
 const CALIBRATE_EXAMPLES: &str = "Examples:
   bagnold calibrate validation/calibrations/lube-run-out.toml
   bagnold calibrate my.toml --out mine
-  bagnold calibrate my.toml --out mine --resume
   bagnold run mine/calibrated.toml
 
 A file with one parameter and one fitted datum; [[hold_out]] has the form of [[fit]]:
@@ -69,7 +68,6 @@ The folder receives index.html, figures/, result.json, data.csv, evaluations.csv
 
 const SWEEP_EXAMPLES: &str = "Examples:
   bagnold sweep viscosity.toml --out viscosity        here
-  bagnold sweep viscosity.toml --out viscosity --resume
   bagnold sweep viscosity.toml --out /shared/viscosity --engine slurm --partition short --time 00:30:00 --throttle 50
   bagnold sweep collect /shared/viscosity --resubmit
 
@@ -255,7 +253,7 @@ pub struct Calibrate {
     /// Folder to write [default: reports/calibrations/FILE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Go on with a calibration that was interrupted.
+    /// Open a calibration that is done again; an unfinished one goes on by itself.
     #[arg(long)]
     pub resume: bool,
     /// How to compute.
@@ -276,7 +274,7 @@ pub struct Sweep {
     /// Folder of the sweep [default: reports/sweeps/FILE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Go on with a sweep that was interrupted.
+    /// Open a sweep that is done again; an unfinished one goes on by itself.
     #[arg(long)]
     pub resume: bool,
     /// What runs it.
