@@ -336,7 +336,9 @@ fn a_reservoir_of_too_few_or_too_many_rows() {
             "`resolution` is {resolution}, but must be such that the reservoir is 4 to 1000 rows of particles high; its height, `initial_height` over `reservoir_length` times this, is {rows}: choose a {choice} resolution"
         )
     };
-    refused(&place, &["incline-collapse", "--set", "initial_height=0.01"], &message(30, 1, "larger"));
+    // the field that was changed comes first
+    let lowered = format!("`initial_height` is 0.01, and so {}", message(30, 1, "larger"));
+    refused(&place, &["incline-collapse", "--set", "initial_height=0.01"], &lowered);
     refused(
         &place,
         &["incline-collapse", "--set", "initial_height=2.0", "--set", "resolution=900"],
@@ -538,7 +540,7 @@ fn a_channel_that_is_too_short_and_times_that_do_not_fit() {
     refused(
         &place,
         &["still-water", "--set", "averaging_time=inf"],
-        "`averaging_time` is inf, but must be between 0.2 and 2.5; the window lies in the second half",
+        "`averaging_time` is inf, but must be of a size between 1e-12 and 1e9 s; check the number: its unit is s",
     );
     refused(
         &place,

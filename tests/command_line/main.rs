@@ -1,5 +1,6 @@
 //! The program as a user meets it: messages, exit codes, files.
 
+mod bad;
 mod bad_input;
 mod calibrate;
 mod exit_codes;
@@ -10,5 +11,6 @@ mod killed;
 mod mutate;
 mod permission;
 mod program;
+mod published;
 mod restart;
 mod sweep;

@@ -6,7 +6,7 @@ use crate::program::{CHEAP, Place, path};
 use std::fs::{Permissions, set_permissions};
 use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::os::unix::process::CommandExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// User and group that own nothing.
@@ -16,6 +16,16 @@ fn restrict(path: &Path, mode: u32) {
     set_permissions(path, Permissions::from_mode(mode)).expect("one may change one's own files");
 }
 
+/// A copy of the program that everybody may start. A process of its own makes it: a file that this process has open for
+/// writing is open in whatever another test forks meanwhile, and Linux starts no program that is open for writing.
+fn copied(place: &Place, name: &str) -> PathBuf {
+    let program = place.path(name);
+    let status = Command::new("cp").arg("--").args([&path(), &program]).status().expect("cp is everywhere");
+    assert!(status.success(), "cp: {status}");
+    restrict(&program, 0o755);
+    program
+}
+
 /// The program with the rights of an ordinary user.
 fn ordinary(place: &Place) -> assert_cmd::Command {
     let folder = place.path("");
@@ -23,9 +33,7 @@ fn ordinary(place: &Place) -> assert_cmd::Command {
     let mut program = path();
     if is_root {
         // the build folder may be closed to others
-        program = place.path("program");
-        std::fs::copy(path(), &program).expect("copied");
-        restrict(&program, 0o755);
+        program = copied(place, "program");
         restrict(&folder, 0o755);
     }
     let mut command = Command::new(program);
@@ -86,4 +94,25 @@ fn a_shared_folder_that_may_not_be_written() {
     ordinary(&place).args(["sweep", "plan.toml", "--out", "shared/sweep"]).assert().code(2).stdout("").stderr(
         "error: shared/sweep: cannot be written (permission denied); choose a folder that you may write to with --out\n",
     );
+}
+
+#[test]
+fn a_copied_program_starts_whatever_is_started_meanwhile() {
+    let place = Place::new();
+    let done = std::sync::atomic::AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                while !done.load(std::sync::atomic::Ordering::Relaxed) {
+                    Command::new("true").status().expect("started");
+                }
+            });
+        }
+        for copy in 0..10 {
+            let program = copied(&place, &format!("program-{copy}"));
+            let output = Command::new(program).arg("--version").output().expect("started");
+            assert!(output.status.success());
+        }
+        done.store(true, std::sync::atomic::Ordering::Relaxed);
+    });
 }

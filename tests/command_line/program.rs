@@ -46,6 +46,14 @@ impl Place {
         self.folder.path().join(name)
     }
 
+    /// Names of what lies in the folder, sorted.
+    pub(crate) fn names(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.folder.path()).expect("readable").flatten();
+        let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
     /// Writes a file and returns its path as text.
     pub(crate) fn file(&self, name: &str, contents: &str) -> String {
         let path = self.path(name);

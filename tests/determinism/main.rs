@@ -22,7 +22,7 @@ const WIDE: &[&str] =
 
 fn run(settings: &[&[&str]], threads: usize) -> CaseResult {
     let settings: Vec<String> = settings.concat().into_iter().map(str::to_owned).collect();
-    let changes = Changes { file: None, settings: &settings };
+    let changes = Changes { file: None, settings: &settings, ..Changes::default() };
     let prepared = REGISTRY.find("bagnold").and_then(|case| case.prepare(Tier::Quick, &changes)).expect("valid input");
     let store = Store::open(StorePolicy::Bypass);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");

@@ -95,9 +95,18 @@ fn schema_and_program_refuse_the_same_values() {
             let name = path.join(".");
             let settings = [format!("{name}={value}")];
             assert!(!validator.is_valid(&with(file.clone(), &path, value)), "{}: {}", case.name(), settings[0]);
-            let refused = case.prepare(Tier::Quick, &Changes { file: None, settings: &settings }).err();
+            let refused =
+                case.prepare(Tier::Quick, &Changes { file: None, settings: &settings, ..Changes::default() }).err();
             let message = refused.map(|error| error.to_string()).unwrap_or_default();
             assert!(message.contains(&format!("`{name}` is ")), "{}: {}: {message}", case.name(), settings[0]);
         }
+    }
+}
+
+#[test]
+fn every_number_of_every_case_is_bounded_on_both_sides() {
+    for case in REGISTRY.iter() {
+        let loose = bagnold_solver::parameter::unbounded(&case.schema(Tier::Quick));
+        assert!(loose.is_empty(), "{}: give a unit in the doc comment, or a rule: {loose:?}", case.name());
     }
 }

@@ -1,6 +1,6 @@
 //! The one checker: a tree of values along a schema. TOML's values keep NaN and infinity, JSON's do not.
 
-use super::{ParameterProblem, Shape, Variant};
+use super::{ParameterProblem, Shape, Variant, shortened};
 use serde_json::Value as Schema;
 use toml::{Table, Value};
 
@@ -188,7 +188,8 @@ fn broken_bound(rule: &Schema, value: f64) -> Option<String> {
         && above.is_none_or(|bound| value > bound)
         && most.is_none_or(|bound| value <= bound)
         && below.is_none_or(|bound| value < bound)
-        && (!finite || value.is_finite());
+        && (!finite || value.is_finite())
+        && bound("x-smallest").is_none_or(|smallest| value == 0.0 || value.abs() >= smallest);
     (!holds).then(|| match (least, above, most, below) {
         (Some(least), _, Some(most), _) => format!("between {} and {}", number(least), number(most)),
         (_, Some(above), Some(most), _) => format!("above {} and at most {}", number(above), number(most)),
@@ -246,7 +247,7 @@ fn number(bound: f64) -> String {
 
 /// A value as TOML writes it, if that takes one line.
 fn shown(value: &Value) -> Option<String> {
-    Some(value.to_string()).filter(|text| !text.contains('\n'))
+    Some(value.to_string()).filter(|text| !text.contains('\n')).map(shortened)
 }
 
 /// A value in a message on its range: a name without its quotes.

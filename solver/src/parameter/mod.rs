@@ -20,9 +20,12 @@
 //! );
 //! ```
 //!
+//! What no rule bounds, the unit does: a length of 1e308 m is refused wherever it stands, and so is an angle of 1e-308°.
+//!
 //! A rule that compares fields is a function of the struct that holds them.
 
 mod check;
+mod magnitude;
 mod problem;
 mod rules;
 mod schema;
@@ -31,9 +34,9 @@ mod shape;
 mod tests;
 
 pub use check::{Fault, first_fault};
-pub use problem::ParameterProblem;
+pub use problem::{ParameterProblem, shortened};
 pub use rules::{
     Rule, above, at_least, between, each, entry, filled, inside, not_negative, positive, unique, up_to, within,
 };
-pub use schema::{description, range_problem, schema_of};
+pub use schema::{description, range_problem, schema_of, unbounded};
 pub use shape::{Shape, Variant};

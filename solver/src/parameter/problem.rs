@@ -18,7 +18,12 @@ impl ParameterProblem {
     /// A problem of a field.
     #[must_use]
     pub fn new(field: &str, value: impl std::fmt::Display, rule: &str, remedy: &str) -> Self {
-        Self { field: field.to_owned(), value: value.to_string(), rule: rule.to_owned(), remedy: remedy.to_owned() }
+        Self {
+            field: field.to_owned(),
+            value: shortened(value.to_string()),
+            rule: rule.to_owned(),
+            remedy: remedy.to_owned(),
+        }
     }
 
     /// Says that the field is part of a group of parameters.
@@ -26,5 +31,21 @@ impl ParameterProblem {
     pub fn within(mut self, group: &str) -> Self {
         self.field = format!("{group}.{}", self.field);
         self
+    }
+}
+
+/// Most characters of a value that a message shows.
+const SHOWN: usize = 200;
+
+/// A value as a message shows it: a number of many digits with an exponent, a long text by its beginning.
+#[must_use]
+pub fn shortened(text: String) -> String {
+    if text.len() <= 24 {
+        return text;
+    }
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => format!("{number:e}"),
+        _ if text.chars().count() > SHOWN => text.chars().take(SHOWN).chain("…".chars()).collect(),
+        _ => text,
     }
 }

@@ -1,6 +1,6 @@
 //! The schema of a type, made once.
 
-use super::{Fault, ParameterProblem, first_fault};
+use super::{Fault, ParameterProblem, first_fault, magnitude};
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde::Serialize;
@@ -9,7 +9,8 @@ use std::any::TypeId;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// The schema of a type's serialised form, everything inlined: no `$ref`. Made at the first call, then kept for good.
+/// The schema of a type's serialised form, everything inlined: no `$ref`; numbers have the bounds of their units besides
+/// those of their fields. Made at the first call, then kept for good.
 pub fn schema_of<T: JsonSchema + 'static>() -> &'static Value {
     static MADE: Mutex<BTreeMap<TypeId, &'static Value>> = Mutex::new(BTreeMap::new());
     let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
@@ -17,6 +18,7 @@ pub fn schema_of<T: JsonSchema + 'static>() -> &'static Value {
         let settings = SchemaSettings::draft2020_12().with(|settings| settings.inline_subschemas = true);
         let mut schema = Value::from(settings.into_generator().into_root_schema_for::<T>());
         close(&mut schema);
+        magnitude::bound(&mut schema);
         Box::leak(Box::new(schema))
     })
 }
@@ -36,6 +38,40 @@ pub fn range_problem<T: Serialize + JsonSchema + 'static>(value: &T) -> Option<P
 pub fn description(schema: &Value) -> Option<String> {
     let text = schema.get("description")?.as_str()?;
     Some(text.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
+/// The dotted paths of numbers that no unit bounds and no rule bounds on both sides; a test wants none in any case.
+#[must_use]
+pub fn unbounded(schema: &Value) -> Vec<String> {
+    let mut found = Vec::new();
+    collect_unbounded(schema, "", &mut found);
+    found
+}
+
+fn collect_unbounded(schema: &Value, path: &str, found: &mut Vec<String>) {
+    let kinds = match schema.get("type") {
+        Some(Value::Array(kinds)) => kinds.iter().filter_map(Value::as_str).collect(),
+        Some(Value::String(kind)) => vec![kind.as_str()],
+        _ => Vec::new(),
+    };
+    let further = schema.get("allOf").and_then(Value::as_array);
+    let rules: Vec<&Value> = std::iter::once(schema).chain(further.into_iter().flatten()).collect();
+    let has = |keys: [&str; 2]| rules.iter().any(|rule| keys.iter().any(|key| rule.get(key).is_some()));
+    let both = has(["minimum", "exclusiveMinimum"]) && has(["maximum", "exclusiveMaximum"]);
+    if kinds.contains(&"number") && !both {
+        found.push(path.to_owned());
+    }
+    for (name, field) in schema.get("properties").and_then(Value::as_object).into_iter().flatten() {
+        collect_unbounded(field, &format!("{path}.{name}"), found);
+    }
+    if let Some(items) = schema.get("items") {
+        collect_unbounded(items, &format!("{path}[]"), found);
+    }
+    for key in ["anyOf", "oneOf", "prefixItems"] {
+        for choice in schema.get(key).and_then(Value::as_array).into_iter().flatten() {
+            collect_unbounded(choice, path, found);
+        }
+    }
 }
 
 /// Says of every table of fields that it has no others.

@@ -7,6 +7,9 @@ use crate::reference::{Column, MeasuredData};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
+/// No datum is larger, in whatever unit; squares of such numbers are still finite.
+const LARGEST: f64 = 1e30;
+
 /// A group of data as a plan gives it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -130,8 +133,13 @@ impl DatumText {
         if self.table.is_some() {
             return wrong("file", "missing", "given with a table", "a profile needs a CSV file, or a `noise`");
         }
-        if !value.is_finite() {
-            return wrong("value", &value.to_string(), "finite", "give a number");
+        if value.abs() > LARGEST || value.is_nan() {
+            return wrong(
+                "value",
+                &value.to_string(),
+                "a number of a size up to 1e30",
+                "check the exponent and the unit",
+            );
         }
         if self.unit.is_none() {
             return wrong("unit", "missing", "the unit of the value", "such as unit = \"m\"; \"-\" for none");

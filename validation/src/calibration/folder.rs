@@ -1,6 +1,7 @@
 //! The folder of a calibration: which plan it belongs to.
 
 use super::error::CalibrationError;
+use crate::input::{WRITTEN_BY_HAND, read_text};
 use crate::output::{FileError, Owner, claim, is_claimed, owner_of};
 use crate::store::source_hash;
 use serde::{Deserialize, Serialize};
@@ -35,7 +36,7 @@ impl CalibrationFolder {
     /// A folder with another calibration, somebody else's files, or a calibration that is not to be resumed; files that
     /// cannot be read or written.
     pub fn begin(folder: &Path, plan: &Path, resume: bool) -> Result<Self, CalibrationError> {
-        let plan = std::fs::read_to_string(plan).map_err(|error| FileError::unreadable(plan, &error))?;
+        let plan = read_text(plan, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(plan, &error))?;
         let begun = Self { folder: folder.to_owned() };
         // what is unfinished goes on by itself; the result is written last
         let own = Belongs { source_hash: source_hash().to_owned(), plan };

@@ -1,6 +1,7 @@
 //! From defaults, a TOML file and `--set` to typed parameters, with errors that name the field.
 
 use super::error::{ParameterError, SettingError};
+use super::estimate::Limits;
 use super::fault;
 use bagnold_solver::material::rheology::open::registered;
 use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
@@ -17,6 +18,8 @@ pub struct Changes<'a> {
     pub file: Option<(&'a Path, Table)>,
     /// `path=value` arguments, applied in order after the file.
     pub settings: &'a [String],
+    /// How much the runs may ask for.
+    pub limits: Limits,
 }
 
 /// The parameters as a TOML table.
@@ -212,6 +215,11 @@ fn value_of(text: &str) -> Value {
         .unwrap_or_else(|| Value::String(text.to_owned()))
 }
 
+/// The dotted paths of all values that are no tables.
+pub(super) fn leaves(table: &Table) -> Vec<String> {
+    paths(table).into_iter().filter(|path| find(table, path).is_some_and(|value| !value.is_table())).collect()
+}
+
 /// All dotted paths of a table, parents first.
 fn paths(table: &Table) -> Vec<String> {
     table
@@ -224,7 +232,7 @@ fn paths(table: &Table) -> Vec<String> {
 }
 
 /// The value at a dotted path.
-fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+pub(super) fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
     let mut keys = path.split('.');
     let first = table.get(keys.next()?)?;
     keys.try_fold(first, |value, key| value.as_table()?.get(key))

@@ -1,11 +1,14 @@
 //! Cases without their types: what the command line, the report and the tests work with.
 
-use super::changes::{Changes, is_set, resolve, table_of};
+use super::causes::explained;
+use super::changes::{Changes, resolve, table_of};
 use super::error::ParameterError;
+use super::finite::fail_broken_profiles;
 use super::foreign::ForeignResult;
+use super::guard::{Guard, with_changed};
 use super::notes::notes;
 use super::result::{CaseResult, RunSummary, microseconds_each};
-use super::{Case, CaseFile, Form, Given, Parameters, Progress, RecordOf, Run, RunOf, Tier, schema};
+use super::{Case, CaseFile, Estimate, Form, Given, Parameters, Progress, RecordOf, Run, RunOf, Tier, schema};
 use crate::checkpoint::{Checkpoints, is_interrupted};
 use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
@@ -48,6 +51,8 @@ pub trait Prepared: Send + Sync {
     fn variant(&self, run: usize) -> Variant;
     /// Expected cost of a run in particle-steps.
     fn particle_steps(&self, run: usize) -> f64;
+    /// What all runs are expected to need.
+    fn estimate(&self) -> Estimate;
     /// What a run is known by in a store: the same for the same simulation; none where the store is bypassed.
     fn identity(&self, run: usize, store: &Store) -> Option<String>;
     /// Takes a run's record from the store or simulates it, in the current rayon pool.
@@ -95,14 +100,9 @@ impl<C: Case> AnyCase for C {
     fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, ParameterError> {
         let defaults = C::Parameters::of_tier(tier);
         let parameters = resolve(C::NAME, &defaults, changes)?;
-        parameters.check().map_err(|error| match (&changes.file, error.field_path()) {
-            (Some((file, _)), Some(field)) if !is_set(changes.settings, field) => error.in_file(file),
-            _ => error,
-        })?;
-        let runs = parameters.runs();
-        if runs.is_empty() {
-            return Err(ParameterError::NothingToRun { case: C::NAME.to_owned() });
-        }
+        let guard = Guard::new((C::NAME, tier), changes, (&defaults, &parameters));
+        let runs = guard.runs()?;
+        let differs = guard.changed();
         let changed = table_of(&parameters) != table_of(&defaults);
         Ok(Box::new(Plan::<C> {
             tier,
@@ -113,6 +113,7 @@ impl<C: Case> AnyCase for C {
             },
             parameters_toml: file_text::<C>(tier, &parameters),
             slots: runs.into_iter().map(|run| (run, OnceLock::new())).collect(),
+            differs,
             parameters,
         }))
     }
@@ -142,6 +143,8 @@ struct Plan<C: Case> {
     parameters: C::Parameters,
     parameters_toml: String,
     command: String,
+    /// Fields that differ from the tier's, with their values.
+    differs: Vec<(String, String)>,
     slots: Vec<Slot<RunOf<C::Parameters>>>,
 }
 
@@ -166,6 +169,10 @@ impl<C: Case> Prepared for Plan<C> {
         self.slots[run].0.particle_steps()
     }
 
+    fn estimate(&self) -> Estimate {
+        self.slots.iter().map(|(run, _)| Estimate::of(run)).fold(Estimate::default(), Estimate::and)
+    }
+
     fn identity(&self, run: usize, store: &Store) -> Option<String> {
         store.key(self.name(), &self.slots[run].0).map(|key| key.to_string())
     }
@@ -185,7 +192,7 @@ impl<C: Case> Prepared for Plan<C> {
         let record = match simulated {
             // what was cut short may look like something that is refused
             Err(_) if is_interrupted() => return Err(ParameterError::Interrupted),
-            simulated => simulated?,
+            simulated => simulated.map(explained).map_err(|error| with_changed(error, &self.differs))?,
         };
         if let Some(key) = &key {
             store.keep(key, &record);
@@ -223,7 +230,7 @@ impl<C: Case> Prepared for Plan<C> {
 
     fn finish(self: Box<Self>) -> CaseResult {
         let plan = *self;
-        let (summaries, records): (Vec<RunSummary>, Vec<RecordOf<C::Parameters>>) = plan
+        let (mut summaries, records): (Vec<RunSummary>, Vec<RecordOf<C::Parameters>>) = plan
             .slots
             .into_iter()
             .filter_map(|(run, slot)| slot.into_inner().map(|(record, from_store)| (run, record, from_store)))
@@ -233,6 +240,7 @@ impl<C: Case> Prepared for Plan<C> {
         let figures = C::figures(&plan.parameters, &records);
         let animations = C::animations(&plan.parameters, &records);
         let tables = C::tables(&plan.parameters, &records);
+        fail_broken_profiles(&mut summaries, &tables);
         CaseResult {
             name: C::NAME.to_owned(),
             summary: C::SUMMARY.to_owned(),

@@ -10,6 +10,26 @@ pub enum ParameterError {
     /// A field holds a value that breaks a rule.
     #[error(transparent)]
     Field(#[from] FieldError),
+    /// A field of the user's leads to an error about another one.
+    #[error("{}`{field}` is {value}, and so {error}", origin(.file))]
+    Follows {
+        /// File it stands in, where known.
+        file: Option<PathBuf>,
+        /// Dotted TOML path.
+        field: String,
+        /// Its value.
+        value: String,
+        /// What follows from it.
+        error: Box<ParameterError>,
+    },
+    /// An error that names no field of the user's.
+    #[error("{error}; what differs from the tier's parameters: {changed}")]
+    Changed {
+        /// The error.
+        error: Box<ParameterError>,
+        /// The fields that the user has changed, with their values.
+        changed: String,
+    },
     /// The parameters are each in range, but together give no valid scene.
     #[error("the parameters give no valid scene: {0}")]
     Scene(#[from] bagnold_solver::run::SceneError),
@@ -149,7 +169,8 @@ impl ParameterError {
         match self {
             Self::Field(FieldError { field, .. })
             | Self::UnknownField { field, .. }
-            | Self::MissingField { field, .. } => Some(field),
+            | Self::MissingField { field, .. }
+            | Self::Follows { field, .. } => Some(field),
             _ => None,
         }
     }
@@ -160,6 +181,7 @@ impl ParameterError {
         if let Self::Field(FieldError { file, .. })
         | Self::UnknownField { file, .. }
         | Self::MissingField { file, .. }
+        | Self::Follows { file, .. }
         | Self::UnknownCase { file, .. } = &mut self
         {
             file.get_or_insert_with(|| path.to_owned());

@@ -2,8 +2,9 @@
 
 use super::Tier;
 use super::error::ParameterError;
-use crate::input::{nearest, position};
+use crate::input::{WRITTEN_BY_HAND, nearest, position, read_text};
 use crate::output::FileError;
+use bagnold_solver::parameter::shortened;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
@@ -27,7 +28,7 @@ impl CaseFile {
     /// # Errors
     /// A file that cannot be read, is not TOML, or does not name its case.
     pub fn read(path: &Path) -> Result<Self, ParameterError> {
-        let text = std::fs::read_to_string(path).map_err(|error| FileError::unreadable(path, &error))?;
+        let text = read_text(path, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(path, &error))?;
         Self::parse(path, &text)
     }
 
@@ -40,7 +41,7 @@ impl CaseFile {
             ParameterError::field(field, value, rule, remedy).in_file(path)
         };
         let case = match fields.remove("case") {
-            Some(Value::String(case)) => case,
+            Some(Value::String(case)) => shortened(case),
             Some(other) => return Err(wrong("case", &other, "the name of a case", "`bagnold list` prints the names")),
             None => return Err(ParameterError::NoCase { file: path.to_owned() }),
         };

@@ -1,11 +1,16 @@
 //! What a case is: typed parameters → independent runs → observations → metrics and figures.
 
+mod causes;
 mod changes;
+pub mod cost;
 mod erased;
 mod error;
+mod estimate;
 mod fault;
 mod file;
+mod finite;
 mod foreign;
+mod guard;
 mod notes;
 #[cfg(test)]
 pub(crate) mod pendulum;
@@ -18,6 +23,7 @@ mod schema;
 pub use changes::Changes;
 pub use erased::{AnyCase, Prepared};
 pub use error::{ParameterError, SettingError};
+pub use estimate::{Estimate, Limits};
 pub use file::CaseFile;
 pub use foreign::{Columns, Foreign, ForeignResult, Form, Given, Item, Picture};
 pub use registry::Registry;
@@ -94,6 +100,14 @@ pub trait Run: Serialize + Clone + Send + Sync {
     /// known.
     fn particle_steps(&self) -> f64 {
         1e6
+    }
+    /// Particles, or cells, that it holds at once `[-]`: what its memory is estimated from. 0, if nothing is known.
+    fn particles(&self) -> f64 {
+        0.0
+    }
+    /// What a particle-step costs on one core `[s]`, for estimates.
+    fn seconds_per_particle_step(&self) -> f64 {
+        1e-6
     }
     /// Simulates it. A divergence is part of the record, not an error.
     ///

@@ -106,7 +106,8 @@ mod tests {
     fn prepared(case: &str, settings: &[&str]) -> Result<Box<dyn Prepared>, String> {
         let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
         let case = REGISTRY.iter().find(|other| other.name() == case).expect("a case");
-        case.prepare(Tier::Quick, &Changes { file: None, settings: &settings }).map_err(|error| error.to_string())
+        case.prepare(Tier::Quick, &Changes { file: None, settings: &settings, ..Changes::default() })
+            .map_err(|error| error.to_string())
     }
 
     #[test]

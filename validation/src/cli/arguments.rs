@@ -138,6 +138,10 @@ pub enum Command {
     Calibrate(Calibrate),
     /// Simulate cases at many points of their parameters, here or on a cluster.
     Sweep(Box<Sweep>),
+    /// Run every case for a moment and compare the final states with the committed hashes, bit by bit.
+    Verify(Verify),
+    /// List what is stored, or delete what is old or too much of it.
+    Store(Store),
     /// Plant errors in the solver, one at a time, and say which gates notice.
     Mutate(Mutate),
 }
@@ -177,6 +181,9 @@ pub struct Run {
     /// Write the verdicts as JUnit's XML as well, for CI systems: one test a gate.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
+    /// How much it may ask for.
+    #[command(flatten)]
+    pub allowance: Allowance,
     /// How to compute.
     #[command(flatten)]
     pub work: Work,
@@ -231,6 +238,9 @@ pub struct Report {
     /// Write the verdicts as JUnit's XML as well, for CI systems: one test a gate.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
+    /// How much it may ask for.
+    #[command(flatten)]
+    pub allowance: Allowance,
     /// How to compute.
     #[command(flatten)]
     pub work: Work,
@@ -328,6 +338,46 @@ pub enum SweepAction {
     Template,
 }
 
+/// `bagnold verify`
+#[derive(Debug, Args)]
+#[command(after_help = "Exit codes: 0 the same bits, 1 other bits, 2 bad input.")]
+pub struct Verify {
+    /// List of short runs to use instead of the committed one.
+    #[arg(long, value_name = "FILE.toml")]
+    pub file: Option<PathBuf>,
+    /// Write the list with the hashes of this program.
+    #[arg(long, value_name = "FILE.toml")]
+    pub write: Option<PathBuf>,
+}
+
+/// `bagnold store`
+#[derive(Debug, Args)]
+pub struct Store {
+    /// What to do.
+    #[command(subcommand)]
+    pub action: StoreAction,
+    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the workspace].
+    #[arg(long, value_name = "DIR", global = true)]
+    pub store: Option<PathBuf>,
+}
+
+/// What to do with stored results.
+#[derive(Debug, Clone, Copy, Subcommand)]
+pub enum StoreAction {
+    /// List the versions of the program that have results, with number, size and age.
+    List,
+    /// Delete entries, the oldest first.
+    #[command(group = clap::ArgGroup::new("limit").required(true).multiple(true))]
+    Prune {
+        /// Delete what is older.
+        #[arg(long, value_name = "DAYS", value_parser = positive, group = "limit")]
+        days: Option<f64>,
+        /// Delete the oldest until the rest is no larger.
+        #[arg(long, value_name = "GIB", value_parser = positive, group = "limit")]
+        size: Option<f64>,
+    },
+}
+
 /// `bagnold mutate`
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, after_help = MUTATE_EXAMPLES)]
@@ -391,6 +441,22 @@ pub struct Cluster {
     /// Job script to use instead of the one that `bagnold sweep template` prints.
     #[arg(long, value_name = "FILE")]
     pub template: Option<PathBuf>,
+}
+
+/// How much runs may ask for; more is refused before anything is allocated.
+#[derive(Debug, Clone, Copy, Default, Args)]
+pub struct Allowance {
+    /// Memory that the runs may ask for [default: $BAGNOLD_MOST_MEMORY, else that of the machine].
+    #[arg(long, value_name = "GIB", value_parser = positive)]
+    pub most_memory: Option<f64>,
+    /// Hours of one core that the runs of a case may ask for [default: $BAGNOLD_MOST_HOURS, else 10000].
+    #[arg(long, value_name = "HOURS", value_parser = positive)]
+    pub most_hours: Option<f64>,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|number| *number > 0.0);
+    number.ok_or_else(|| "must be a positive number".to_owned())
 }
 
 /// Options of everything that simulates.

@@ -56,7 +56,7 @@ pub(super) fn export(
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
     let case = registry.find(&command.case)?;
-    let prepared = case.prepare(command.tier, &Changes { file: None, settings: &[] })?;
+    let prepared = case.prepare(command.tier, &Changes::default())?;
     let claimed = OutputFolder::claim(&command.out)?;
     let results = run::simulate(vec![prepared], &command.work.open_store(), quiet)?;
     let exit = Exit::of(&results, |_, _| true);

@@ -15,22 +15,24 @@ mod mutate;
 mod progress;
 mod report;
 mod run;
+mod store;
 mod summary;
 mod sweep;
 #[cfg(test)]
 mod tests;
 mod ticker;
+mod verify;
 
 pub use arguments::{Arguments, Command};
 pub use error::ProgramError;
 pub use exit::Exit;
 
-use crate::case::{ParameterError, Registry};
+use crate::case::{Limits, ParameterError, Registry};
 use crate::cases::REGISTRY;
 use crate::checkpoint::{self, Kept};
 use crate::interruption::{self, Signal};
 use crate::store::{Store, StorePolicy};
-use arguments::Work;
+use arguments::{Allowance, Work};
 use clap::Parser;
 use std::ffi::OsString;
 use std::io::Write;
@@ -118,6 +120,8 @@ pub fn execute(
         Command::Export(command) => {
             in_pool(&command.work, || judge::export(command, registry, arguments.quiet, output))
         }
+        Command::Verify(command) => verify::verify(command, registry, output),
+        Command::Store(command) => store::store(command, output),
         Command::Sweep(command) => in_pool(&command.work, || sweep::sweep(command, registry, arguments.quiet, output)),
         #[cfg(feature = "planted-errors")]
         Command::Mutate(command) => mutate::mutate(command, registry, arguments.quiet, output),
@@ -146,6 +150,12 @@ fn in_pool_of(
         .build()
         .map_err(|error| ParameterError::Threads { threads, reason: error.to_string() })?;
     pool.install(command)
+}
+
+impl Allowance {
+    fn limits(&self) -> Limits {
+        Limits::of(self.most_memory, self.most_hours)
+    }
 }
 
 impl Work {

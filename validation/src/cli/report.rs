@@ -2,7 +2,7 @@
 
 use super::arguments::{Denied, Report as Arguments};
 use super::error::ProgramError;
-use super::run::simulate;
+use super::run::{announce, simulate};
 use super::{Exit, say, summary};
 use crate::case::{CaseResult, Changes, ParameterError, Prepared, Registry, Tier};
 use crate::output::OutputFolder;
@@ -26,6 +26,7 @@ pub(super) fn report(
     let claimed = OutputFolder::claim(&command.out)?;
     let known = known_failures()?;
     let history = History::read(&history_file(), command.tier)?;
+    announce(&cases, quiet);
     let started = Instant::now();
     let results = simulate(cases, &command.work.open_store(), quiet)?;
     if command.accept {
@@ -94,7 +95,8 @@ fn prepare(command: &Arguments, registry: Registry) -> Result<Vec<Box<dyn Prepar
     } else {
         command.cases.iter().map(|name| registry.find(name.trim())).collect::<Result<Vec<_>, _>>()?
     };
-    wanted.into_iter().map(|case| case.prepare(command.tier, &Changes::default())).collect()
+    let changes = Changes { limits: command.allowance.limits(), ..Changes::default() };
+    wanted.into_iter().map(|case| case.prepare(command.tier, &changes)).collect()
 }
 
 /// The command that makes the same report again.

@@ -4,7 +4,9 @@ use super::arguments::Run;
 use super::error::ProgramError;
 use super::progress::Progress;
 use super::{Exit, say, summary};
-use crate::case::{AnyCase, CaseFile, CaseResult, Changes, ParameterError, Prepared, Registry, Tier, execute};
+use crate::case::{
+    AnyCase, CaseFile, CaseResult, Changes, Estimate, ParameterError, Prepared, Registry, Tier, execute,
+};
 use crate::metric::Variant;
 use crate::output::{FileError, OutputFolder};
 use crate::report::{self, Baseline, History, Provenance, Report};
@@ -28,6 +30,7 @@ pub(super) fn run(
         OutputFolder::adopt(Path::new("reports"))?;
     }
     let claimed = OutputFolder::claim(&folder)?;
+    announce(std::slice::from_ref(&prepared), quiet || command.json);
     let known = super::report::known_failures()?;
     // accepted values are those of the case as it comes
     let baseline = if changed { Baseline::default() } else { super::report::accepted(prepared.name(), tier)? };
@@ -67,6 +70,14 @@ pub(super) fn run(
     Ok(Exit::of(&results, |result, metric| super::report::is_known(&known, result, metric)))
 }
 
+/// Says on standard error what the runs are expected to need.
+pub(super) fn announce(cases: &[Box<dyn Prepared>], quiet: bool) {
+    if !quiet {
+        let estimate = cases.iter().map(|case| case.estimate()).fold(Estimate::default(), Estimate::and);
+        eprintln!("{}", estimate.in_words(rayon::current_num_threads()));
+    }
+}
+
 /// Simulates with a progress bar.
 pub(super) fn simulate(
     cases: Vec<Box<dyn Prepared>>,
@@ -92,6 +103,7 @@ fn prepare(command: &Run, registry: Registry) -> Result<(Box<dyn Prepared>, Tier
     let changes = Changes {
         file: file.as_ref().map(|file| (file.path.as_path(), file.fields.clone())),
         settings: &command.settings,
+        limits: command.allowance.limits(),
     };
     let changed = file.is_some() || !command.settings.is_empty() || !command.only.is_empty();
     Ok((only(case.prepare(tier, &changes)?, &command.only)?, tier, changed))

@@ -51,6 +51,7 @@ fn begin(
         OutputFolder::adopt(Path::new("reports"))?;
     }
     if command.engine == Engine::Slurm {
+        slurm::check(&folder, &asked(&command.cluster, command.work.store.clone(), slurm::Request::default()))?;
         slurm::available()?;
     }
     // what is unfinished goes on by itself
@@ -101,7 +102,14 @@ fn submit(
         return Ok(());
     }
     let last = slurm::last_request(sweep)?;
-    let request = slurm::Request {
+    let jobs = slurm::submit(sweep, &numbers, &asked(cluster, store, last))?;
+    say(output, &format!("submitted {} runs as Slurm job {}\n", numbers.len(), jobs.join(", ")));
+    Ok(())
+}
+
+/// What the options ask for, and where they say nothing, what was asked for the last time.
+fn asked(cluster: &Cluster, store: Option<PathBuf>, last: slurm::Request) -> slurm::Request {
+    slurm::Request {
         partition: cluster.partition.clone().or(last.partition),
         time: cluster.time.clone().or(last.time),
         memory: cluster.memory.clone().or(last.memory),
@@ -109,10 +117,7 @@ fn submit(
         throttle: cluster.throttle.or(last.throttle),
         template: cluster.template.clone().or(last.template),
         store: store.or(last.store),
-    };
-    let jobs = slurm::submit(sweep, &numbers, &request)?;
-    say(output, &format!("submitted {} runs as Slurm job {}\n", numbers.len(), jobs.join(", ")));
-    Ok(())
+    }
 }
 
 /// Gathers and says how far the sweep is.

@@ -1,7 +1,7 @@
 //! Why a plan of many evaluations is refused, whatever they are made for.
 
 use crate::case::{ParameterError, SettingError};
-use crate::input::{FieldError, did_you_mean, position};
+use crate::input::{FieldError, WRITTEN_BY_HAND, did_you_mean, position, read_text};
 use crate::output::FileError;
 use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
@@ -57,6 +57,12 @@ impl PlanError {
             ParameterError::Setting(SettingError::Value { path, value, rule, remedy }) => {
                 Self::Field(FieldError::new(&path, value, &rule, &remedy).in_file(plan))
             }
+            ParameterError::Setting(SettingError::Form { argument, .. }) => {
+                let given = argument.split('=').next().unwrap_or_default();
+                let (rule, remedy) =
+                    ("the dotted path of a parameter", "such as \"slope_angle\"; `bagnold show` prints all");
+                Self::Field(FieldError::new("parameters.path", format!("{given:?}"), rule, remedy).in_file(plan))
+            }
             other => Self::Parameter(other.in_file(plan)),
         }
     }
@@ -67,7 +73,7 @@ impl PlanError {
 /// # Errors
 /// A file that cannot be read, or whose text is not TOML or does not have the type's fields, with the place.
 pub fn read_plan<T: DeserializeOwned>(file: &Path, command: &'static str) -> Result<T, PlanError> {
-    let text = std::fs::read_to_string(file).map_err(|error| FileError::unreadable(file, &error))?;
+    let text = read_text(file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(file, &error))?;
     toml::from_str(&text).map_err(|error| {
         let (line, column) = position(&text, error.span().map_or(0, |span| span.start));
         PlanError::Syntax { file: file.to_owned(), line, column, message: error.message().to_owned(), command }

@@ -54,7 +54,7 @@ impl CaseRequest {
         settings: &[String],
     ) -> Result<Box<dyn Prepared>, ParameterError> {
         let case = registry.find(&self.case).map_err(|error| error.in_file(file))?;
-        case.prepare(self.tier, &Changes { file: Some((file, self.with.clone())), settings })
+        case.prepare(self.tier, &Changes { file: Some((file, self.with.clone())), settings, ..Changes::default() })
     }
 }
 
@@ -84,7 +84,11 @@ pub fn evaluate(prepared: Box<dyn Prepared>, store: &Store, monitor: &dyn Monito
             .next()
             .map_or_else(|| Record::failed(&key, &case, "nothing was simulated"), |result| Record::of(&key, &result))),
         Ok(Err(
-            error @ (ParameterError::Field(_) | ParameterError::Scene(_) | ParameterError::NothingToRun { .. }),
+            error @ (ParameterError::Field(_)
+            | ParameterError::Scene(_)
+            | ParameterError::Follows { .. }
+            | ParameterError::Changed { .. }
+            | ParameterError::NothingToRun { .. }),
         )) => Ok(Record::failed(&key, &case, &error.to_string())),
         Ok(Err(error)) => Err(error),
         Err(_) => Ok(Record::failed(&key, &case, "a run panicked, which is an error of the program; please report it")),

@@ -85,8 +85,8 @@ impl Record {
     /// The record in a file; `None` if there is none, it is damaged or it belongs to another key.
     #[must_use]
     pub fn read(path: &Path, key: &str) -> Option<Self> {
-        match entry::read::<Self>(path) {
-            Ok(record) => record.filter(|record| record.key == key),
+        match entry::read::<Self>(path, key) {
+            Ok(record) => record,
             Err(damage) => {
                 tracing::warn!("{}: {damage}; simulated again", path.display());
                 None
@@ -99,7 +99,7 @@ impl Record {
     /// # Errors
     /// A file that cannot be written.
     pub fn write(&self, path: &Path) -> io::Result<()> {
-        entry::write(path, self)
+        entry::write(path, &self.key, self)
     }
 }
 

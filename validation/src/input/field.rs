@@ -1,6 +1,7 @@
 //! A field whose value breaks a rule: the error that most input is refused with.
 
 use super::name::origin;
+use bagnold_solver::parameter::shortened;
 use std::path::{Path, PathBuf};
 
 /// "`field` is `value`, but must be `rule`; `remedy`".
@@ -23,7 +24,8 @@ impl FieldError {
     /// The error of a field whose file is not known yet.
     #[must_use]
     pub fn new(field: &str, value: impl std::fmt::Display, rule: &str, remedy: &str) -> Self {
-        Self { file: None, field: field.to_owned(), value: value.to_string(), rule: rule.into(), remedy: remedy.into() }
+        let value = shortened(value.to_string());
+        Self { file: None, field: field.to_owned(), value, rule: rule.into(), remedy: remedy.into() }
     }
 
     /// Says that the field is part of a group of fields.

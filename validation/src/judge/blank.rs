@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 /// # Errors
 /// A tier whose parameters the case refuses, which no case does.
 pub fn blank(case: &'static dyn AnyCase, tier: Tier) -> Result<String, ParameterError> {
-    let prepared = case.prepare(tier, &Changes { file: None, settings: &[] })?;
+    let prepared = case.prepare(tier, &Changes::default())?;
     let form = case.form();
     let mut text = format!(
         "# What another code gives of the case `{name}`, for `bagnold judge`.\n# {summary}\n#\n# Leave out what the code does not \

@@ -104,7 +104,7 @@ impl Trial {
         }
         let case =
             registry.find(&first.case).map_err(|error| PlanError::of(error.in_file(&first.path), &first.path))?;
-        let changes = Changes { file: Some((&first.path, first.with.clone())), settings: &[] };
+        let changes = Changes { file: Some((&first.path, first.with.clone())), settings: &[], ..Changes::default() };
         let all = case.prepare(first.tier, &changes).map_err(|error| PlanError::of(error, &first.path))?;
         // the runs of ours that any code gives something of, in our order
         let places: Vec<Vec<usize>> =
@@ -254,7 +254,7 @@ mod tests {
         let mut cases = 0;
         for case in REGISTRY.iter().filter(|case| *case.form() != Form::NUMBERS) {
             cases += 1;
-            let prepared = case.prepare(Tier::Quick, &Changes { file: None, settings: &[] }).expect("a tier");
+            let prepared = case.prepare(Tier::Quick, &Changes::default()).expect("a tier");
             for given in parts(case.form(), case.name() != "column-round") {
                 let all = vec![given; prepared.run_count()];
                 let result =

@@ -66,9 +66,18 @@ pub enum Limit {
 }
 
 impl Limit {
-    /// Whether `value` respects the limit; NaN never does.
+    /// Whether `value` respects the limit. What is not a finite number never does, and a bound that is not one holds
+    /// nothing: both say that something was not measured or not known.
     #[must_use]
     pub fn holds(self, value: f64) -> bool {
+        let bounds_are_finite = match self {
+            Self::AtMost(bound) | Self::AtLeast(bound) => bound.is_finite(),
+            Self::Within(lower, upper) => lower.is_finite() && upper.is_finite(),
+        };
+        value.is_finite() && bounds_are_finite && self.admits(value)
+    }
+
+    fn admits(self, value: f64) -> bool {
         match self {
             Self::AtMost(bound) => value <= bound,
             Self::AtLeast(bound) => value >= bound,
@@ -217,6 +226,41 @@ impl Metric {
                 }
             }
             _ => Verdict::Observed,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BROKEN: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+    #[test]
+    fn what_is_not_a_number_passes_no_gate() {
+        let limits = [Limit::AtMost(1.0), Limit::AtLeast(-1.0), Limit::Within(-1.0, 1.0)];
+        for limit in limits {
+            assert!(limit.holds(0.0), "{limit:?}");
+            for value in BROKEN {
+                assert!(!limit.holds(value), "{limit:?} holds {value}");
+                let metric = Metric::observed("front", &Variant::default(), value, "m").gated(limit, "a reason");
+                assert_eq!(metric.verdict(), Verdict::Fail);
+            }
+        }
+    }
+
+    #[test]
+    fn a_gate_without_finite_edges_holds_nothing() {
+        for edge in BROKEN {
+            for limit in [
+                Limit::AtMost(edge),
+                Limit::AtLeast(edge),
+                Limit::Within(edge, 1.0),
+                Limit::Within(-1.0, edge),
+                Limit::Within(edge, edge),
+            ] {
+                assert!(!limit.holds(0.0), "{limit:?}");
+            }
         }
     }
 }

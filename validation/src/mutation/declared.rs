@@ -105,7 +105,7 @@ mod tests {
             assert!(!scopes.is_empty(), "{} is seen by no case", error.name());
             for scope in scopes {
                 let case = REGISTRY.find(&scope.case).expect("a case");
-                let changes = Changes { file: None, settings: &scope.settings };
+                let changes = Changes { file: None, settings: &scope.settings, ..Changes::default() };
                 assert!(case.prepare(Tier::Quick, &changes).is_ok(), "{scope:?}");
             }
         }

@@ -70,7 +70,7 @@ pub fn run_trial(
     if let Some(error) = error {
         plant(error);
     }
-    let changes = Changes { file: None, settings: &scope.settings };
+    let changes = Changes { file: None, settings: &scope.settings, ..Changes::default() };
     let prepared = registry.find(&scope.case)?.prepare(Tier::Quick, &changes)?;
     let results = execute(vec![prepared], &Store::open(StorePolicy::Bypass), &Silent)?;
     let sighting = results.first().map(Sighting::of);

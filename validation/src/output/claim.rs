@@ -2,6 +2,7 @@
 
 use super::error::{FileError, FolderError};
 use super::whole::{is_unused, write_whole};
+use crate::input::{STORED, read_text};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::path::Path;
@@ -59,7 +60,7 @@ pub fn is_claimed<O: Owner>(folder: &Path) -> bool {
 /// A marker that cannot be read or is damaged.
 pub fn owner_of<O: Owner>(folder: &Path) -> Result<O, FileError> {
     let marker = folder.join(O::MARKER);
-    let text = std::fs::read_to_string(&marker).map_err(|error| FileError::unreadable(&marker, &error))?;
+    let text = read_text(&marker, STORED).map_err(|error| FileError::unreadable(&marker, &error))?;
     serde_json::from_str(&text).map_err(|error| FileError::Damaged {
         file: marker,
         reason: error.to_string(),

@@ -1,15 +1,21 @@
 //! The folder that a command writes: claimed before the work, filled in one go after it.
 
 use super::error::{FileError, FolderError};
+use super::publication;
+use super::whole::write_whole;
+use crate::input::{DOCUMENT, read_text};
 use std::collections::BTreeSet;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
 /// Says that a folder is Bagnold's, and which of its entries are.
-const MARKER: &str = ".bagnold-output";
+pub(super) const MARKER: &str = ".bagnold-output";
 
 /// What a fresh checkout holds in `reports/`, and the store that tests may have filled: they make no folder foreign.
 const COMMITTED: [&str; 4] = ["README.md", "gallery", "history.csv", "store"];
+
+/// Begins the name of the folder in which a process puts the new contents together; its number follows.
+pub(super) const STAGING_PREFIX: &str = ".bagnold-output-staging-";
 
 const MARKER_TITLE: &str = "Written by bagnold, which replaces these entries the next time:";
 
@@ -33,7 +39,7 @@ impl OutputFolder {
         let mut claimed = Self {
             folder: folder.to_owned(),
             // The process's number keeps two commands apart that write to the same folder.
-            staging: folder.join(format!("{MARKER}-staging-{}", std::process::id())),
+            staging: folder.join(format!("{STAGING_PREFIX}{}", std::process::id())),
             made: Vec::new(),
         };
         match std::fs::read_dir(folder) {
@@ -63,7 +69,7 @@ impl OutputFolder {
             write_marker(folder, &BTreeSet::new()).map_err(unwritable)?;
             claimed.made.insert(0, marker);
         }
-        remove_abandoned(folder);
+        publication::tidy(folder).map_err(unwritable)?;
         std::fs::create_dir_all(&claimed.staging).map_err(unwritable)?;
         Ok(claimed)
     }
@@ -83,44 +89,14 @@ impl OutputFolder {
         &self.staging
     }
 
-    /// Puts the new contents in place of the old ones.
+    /// Puts the new contents in place of the old ones, after the disk has all of them; by one rename where it can.
     ///
     /// # Errors
-    /// Files that cannot be moved; an entry that was not reached is still the old one.
+    /// Files that cannot be moved; what a kill leaves undone is done by the next command that claims the folder.
     pub fn publish(mut self) -> Result<(), FolderError> {
-        self.move_in().map_err(|error| FileError::unwritable(&self.folder, &error).into())
-    }
-
-    fn move_in(&mut self) -> io::Result<()> {
         self.made.clear();
-        let old = read_marker(&self.folder);
-        let mut new = BTreeSet::new();
-        for entry in std::fs::read_dir(&self.staging)? {
-            new.insert(entry?.file_name().to_string_lossy().into_owned());
-        }
-        // Both, while neither is complete.
-        write_marker(&self.folder, &old.union(&new).cloned().collect())?;
-        let aside = self.staging.join("replaced");
-        for name in &new {
-            let (source, target) = (self.staging.join(name), self.folder.join(name));
-            let replaced = target.exists();
-            if replaced {
-                std::fs::rename(&target, &aside)?;
-            }
-            if let Err(error) = std::fs::rename(&source, &target) {
-                if replaced {
-                    std::fs::rename(&aside, &target)?;
-                }
-                return Err(error);
-            }
-            if replaced {
-                remove(&aside)?;
-            }
-        }
-        for name in old.difference(&new) {
-            remove(&self.folder.join(name))?;
-        }
-        write_marker(&self.folder, &new)
+        publication::publish(&self.folder, &self.staging)
+            .map_err(|error| FileError::unwritable(&self.folder, &error).into())
     }
 }
 
@@ -134,44 +110,18 @@ impl Drop for OutputFolder {
     }
 }
 
-fn remove(path: &Path) -> io::Result<()> {
-    let removed = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
-    match removed {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
-    }
-}
-
-/// Removes what killed processes left half written; a living process keeps its own.
-fn remove_abandoned(folder: &Path) {
-    // without /proc nothing tells which processes live
-    if !Path::new("/proc/self").exists() {
-        return;
-    }
-    let Ok(entries) = std::fs::read_dir(folder) else { return };
-    for entry in entries.flatten() {
-        let name = entry.file_name();
-        let process = name.to_str().and_then(|name| name.strip_prefix(MARKER)?.strip_prefix("-staging-"));
-        if process.is_some_and(|process| !Path::new("/proc").join(process).exists())
-            && let Err(error) = std::fs::remove_dir_all(entry.path())
-        {
-            tracing::warn!("cannot remove {}: {error}", entry.path().display());
-        }
-    }
-}
-
-fn write_marker(folder: &Path, entries: &BTreeSet<String>) -> io::Result<()> {
+pub(super) fn write_marker(folder: &Path, entries: &BTreeSet<String>) -> io::Result<()> {
     let lines: String = entries.iter().map(|name| format!("{name}\n")).collect();
-    std::fs::write(folder.join(MARKER), format!("{MARKER_TITLE}\n{lines}"))
+    write_whole(&folder.join(MARKER), format!("{MARKER_TITLE}\n{lines}").as_bytes())
 }
 
 /// The entries that Bagnold wrote. A name that leads out of the folder was not written by it.
-fn read_marker(folder: &Path) -> BTreeSet<String> {
+pub(super) fn read_marker(folder: &Path) -> BTreeSet<String> {
     let is_plain = |name: &str| {
         let mut parts = Path::new(name).components();
         matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None))
     };
-    let text = std::fs::read_to_string(folder.join(MARKER)).unwrap_or_default();
+    let text = read_text(&folder.join(MARKER), DOCUMENT).unwrap_or_default();
     text.lines().skip(1).filter(|name| is_plain(name)).map(str::to_owned).collect()
 }
 

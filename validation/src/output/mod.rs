@@ -3,6 +3,7 @@
 mod claim;
 mod error;
 mod folder;
+mod publication;
 mod table;
 mod whole;
 

@@ -2,7 +2,7 @@
 
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
-use std::io;
+use std::io::{self, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -20,10 +20,41 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> io::Result<()> {
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
     let unique = format!("{}-{count}-{random:016x}.partial", std::process::id());
     let partial = path.with_extension(unique);
-    std::fs::write(&partial, contents).and_then(|()| std::fs::rename(&partial, path)).inspect_err(|_| {
+    write_through(&partial, contents).and_then(|()| std::fs::rename(&partial, path)).inspect_err(|_| {
         // Best effort: the error that counts is the one already at hand.
         let _ = std::fs::remove_file(&partial);
-    })
+    })?;
+    path.parent().map_or(Ok(()), settle)
+}
+
+/// Writes a file and waits until the disk has it: a rename may otherwise reach the disk before the contents do.
+fn write_through(path: &Path, contents: &[u8]) -> io::Result<()> {
+    let mut file = std::fs::File::create(path)?;
+    file.write_all(contents)?;
+    file.sync_all()
+}
+
+/// Waits until the disk has a folder's list of names.
+pub(super) fn settle(folder: &Path) -> io::Result<()> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    match std::fs::File::open(folder).and_then(|folder| folder.sync_all()) {
+        // some file systems know no such thing, and a folder may be written to that may not be read
+        Err(error) if matches!(error.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::PermissionDenied) => Ok(()),
+        settled => settled,
+    }
+}
+
+/// Waits until the disk has everything in a folder.
+pub(super) fn settle_all(folder: &Path) -> io::Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        if entry.file_type()?.is_dir() {
+            settle_all(&entry.path())?;
+        } else {
+            std::fs::File::open(entry.path())?.sync_all()?;
+        }
+    }
+    settle(folder)
 }
 
 /// Whether a folder is missing, empty, or holds only what a command that was killed at its very start leaves.

@@ -16,6 +16,7 @@
 //! holds labels.
 
 use super::ReferenceError;
+use crate::input::{DOCUMENT, read_text};
 use crate::metric::{Confidence, Kind};
 use std::path::Path;
 
@@ -110,8 +111,8 @@ impl MeasuredData {
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Self, ReferenceError> {
         let file = path.display().to_string();
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| ReferenceError::Unreadable { file: file.clone(), source })?;
+        let text =
+            read_text(path, DOCUMENT).map_err(|source| ReferenceError::Unreadable { file: file.clone(), source })?;
         Self::parse(&file, &text)
     }
 

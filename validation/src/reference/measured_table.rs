@@ -2,6 +2,9 @@
 
 use super::{Column, ReferenceError};
 
+/// No measured number is larger, in whatever unit; squares of such numbers are still finite.
+const LARGEST: f64 = 1e30;
+
 /// Columns of the table that follows `header_lines` lines of a text.
 pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result<Vec<Column>, ReferenceError> {
     let table: String = text.lines().skip(header_lines).flat_map(|line| [line, "\n"]).collect();
@@ -42,7 +45,7 @@ pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result
             match column {
                 Column::Labels { values, .. } => values.push(text.to_owned()),
                 Column::Numbers { name, values, .. } => match text.parse::<f64>() {
-                    Ok(value) if value.is_finite() => values.push(value),
+                    Ok(value) if value.abs() <= LARGEST => values.push(value),
                     _ => {
                         return Err(ReferenceError::Number {
                             file: file.to_owned(),

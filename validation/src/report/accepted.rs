@@ -5,6 +5,7 @@ use super::error::BaselineError;
 use super::snapshot_text::{self, Line};
 use crate::case::Tier;
 use crate::figure::is_file_name;
+use crate::input::{DOCUMENT, read_text};
 use crate::metric::{Metric, Variant, Verdict};
 use crate::number::with_unit;
 use std::collections::{BTreeMap, BTreeSet};
@@ -151,7 +152,7 @@ impl Baseline {
             return Err(BaselineError::Name { name: case.to_owned() });
         }
         let path = Self::path(folder, case, tier);
-        let text = match std::fs::read_to_string(&path) {
+        let text = match read_text(&path, DOCUMENT) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
             Err(source) => return Err(BaselineError::Read { path, source }),

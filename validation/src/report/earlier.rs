@@ -4,6 +4,7 @@ use super::accepted::{Baseline, Key, tier_name};
 use super::error::EarlierError;
 use crate::case::Tier;
 use crate::figure::is_file_name;
+use crate::input::{DOCUMENT, read_text};
 use crate::result::MetricsDocument;
 use std::path::Path;
 
@@ -18,7 +19,7 @@ impl Baseline {
         let mut found = false;
         for case in cases.iter().filter(|case| is_file_name(case)) {
             let path = folder.join("cases").join(case).join("metrics.json");
-            let text = match std::fs::read_to_string(&path) {
+            let text = match read_text(&path, DOCUMENT) {
                 Ok(text) => text,
                 Err(error) if error.kind() == std::io::ErrorKind::NotFound => continue,
                 Err(source) => return Err(EarlierError::Read { path, source }),

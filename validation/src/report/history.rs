@@ -3,6 +3,7 @@
 use super::accepted::Key;
 use super::error::BaselineError;
 use crate::case::Tier;
+use crate::input::{DOCUMENT, read_text};
 use crate::metric::{Metric, Variant, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -78,13 +79,13 @@ impl History {
     /// # Errors
     /// If the file is there but cannot be read or is malformed.
     pub fn read(path: &Path, tier: Tier) -> Result<Self, BaselineError> {
-        let file = match std::fs::File::open(path) {
-            Ok(file) => file,
+        let text = match read_text(path, DOCUMENT) {
+            Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
             Err(source) => return Err(BaselineError::Read { path: path.to_owned(), source }),
         };
         let mut read = Self::default();
-        for row in csv::Reader::from_reader(file).deserialize() {
+        for row in csv::Reader::from_reader(text.as_bytes()).deserialize() {
             let row: ReadRow = row.map_err(|error: csv::Error| BaselineError::Content {
                 path: path.to_owned(),
                 message: error.to_string(),

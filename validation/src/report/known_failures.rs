@@ -2,6 +2,7 @@
 
 use super::accepted::{Key, snapshot_tolerance};
 use super::error::BaselineError;
+use crate::input::{WRITTEN_BY_HAND, read_text};
 use crate::metric::{Metric, Variant, Verdict};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -74,7 +75,7 @@ impl KnownFailures {
     /// If the file cannot be read, has an unknown or missing field, an empty reason or date, a best value that is not
     /// finite, or names a gate twice.
     pub fn read(path: &Path) -> Result<Self, BaselineError> {
-        let text = match std::fs::read_to_string(path) {
+        let text = match read_text(path, WRITTEN_BY_HAND) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
             Err(source) => return Err(BaselineError::Read { path: path.to_owned(), source }),
@@ -118,9 +119,9 @@ impl KnownFailures {
         match (metric.verdict(), &metric.gate) {
             (Verdict::Pass, _) => Standing::PassesAgain(entry),
             (Verdict::Fail, Some(gate)) => {
-                // The margin knows which direction is worse; a NaN is worse than anything.
+                // The margin knows which direction is worse; what is not a number is worse than anything.
                 let lost = gate.limit.margin(entry.best_value) - gate.limit.margin(metric.value);
-                if lost <= snapshot_tolerance(metric, entry.best_value) {
+                if metric.value.is_finite() && lost <= snapshot_tolerance(metric, entry.best_value) {
                     Standing::Known(entry)
                 } else {
                     Standing::Worse(entry)

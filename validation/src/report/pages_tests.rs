@@ -79,3 +79,52 @@ fn notes_that_repeat_are_said_once() {
     assert_eq!(page.matches("two attempts").count(), 1);
     assert!(page.contains("best 0.9\u{202f}%") && page.contains("best 0.89\u{202f}%): for the same reason"));
 }
+
+/// What people write into cases, laws and data ends up in pictures and messages as well as in the page's own text.
+#[test]
+fn labels_captions_and_messages_of_runs_are_text_and_not_markup() {
+    let folder = tempfile::tempdir().expect("folder");
+    let evil = "</text></svg><script>alert(1)</script><img src=x onerror=\"alert(2)\">]]>&amp;";
+    let mut film = case("film", vec![gated("velocity_l2", 0.9)]);
+    let mut figure = drawing("velocity-profile");
+    figure.caption = evil.to_owned();
+    for panel in &mut figure.panels {
+        panel.title = evil.to_owned();
+        panel.x.label = evil.to_owned();
+        panel.line(evil, 0, [(0.0, 0.0), (1.0, 1.0)]);
+    }
+    film.figures = vec![figure];
+    film.runs = vec![crate::case::RunSummary {
+        variant: Variant::of("law", evil),
+        outcome: crate::observation::Outcome::Diverged { message: evil.to_owned(), expected: false },
+        particles: 1,
+        steps: 1,
+        simulated_time: 1.0,
+        wall_seconds: 1.0,
+        threads: 1,
+        microseconds_per_particle_step: None,
+        state_hash: evil.to_owned(),
+        from_store: false,
+    }];
+    let mut report = report(vec![film]);
+    report.known_failures = known("film", "velocity_l2", 0.9);
+    report.known_failures.failures[0].reason = evil.to_owned();
+    write(&report, folder.path()).expect("written");
+    let mut folders = vec![folder.path().to_owned()];
+    let mut read = 0;
+    while let Some(here) = folders.pop() {
+        for path in std::fs::read_dir(here).expect("readable").flatten().map(|entry| entry.path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "html" || ending == "svg") {
+                let text = std::fs::read_to_string(&path).expect("text");
+                for markup in ["<script>alert", "<img src=x", "]]>"] {
+                    assert!(!text.contains(markup), "{}: {markup}", path.display());
+                }
+                assert!(path.extension().is_some_and(|ending| ending == "html") || text.contains("&lt;script&gt;"));
+                read += 1;
+            }
+        }
+    }
+    assert!(read >= 3, "{read} pages and pictures");
+}

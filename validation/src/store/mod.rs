@@ -1,8 +1,10 @@
 //! Finished runs on disk, shared by tests and report: nothing is simulated twice by the same program.
 
 pub(crate) mod entry;
+mod inventory;
 pub mod provenance;
 
+pub use inventory::{Keep, Pruned, Version, prune, versions};
 pub use provenance::{commit, profile, source_hash, target_features, version, workspace};
 
 use crate::checkpoint::Checkpoints;
@@ -93,6 +95,12 @@ impl Store {
         self.folder.join("unfinished").join(&key.0)
     }
 
+    /// The folder that holds all versions.
+    #[must_use]
+    pub fn root(&self) -> &Path {
+        self.folder.parent().unwrap_or(&self.folder)
+    }
+
     /// The key of a run, or `None` if there is nothing to look up or keep.
     #[must_use]
     pub fn key<R: Serialize>(&self, case: &str, run: &R) -> Option<Key> {
@@ -118,7 +126,7 @@ impl Store {
         if self.policy != StorePolicy::Use {
             return None;
         }
-        match entry::read(&self.path(key)) {
+        match entry::read(&self.path(key), &key.0) {
             Ok(record) => record,
             Err(damage) => {
                 tracing::warn!("stored result {}: {damage}; simulated again", self.path(key).display());
@@ -131,7 +139,7 @@ impl Store {
     /// to fail now.
     pub fn keep<O: Serialize>(&self, key: &Key, record: &Recorded<O>) {
         let new = !self.folder.is_dir();
-        if let Err(error) = entry::write(&self.path(key), record) {
+        if let Err(error) = entry::write(&self.path(key), &key.0, record) {
             tracing::warn!("stored result {}: not kept: {error}", self.path(key).display());
             return;
         }

@@ -30,7 +30,7 @@ pub fn run_entry(sweep: &SweepFolder, entry: &Entry, registry: Registry, store: 
     let listed = folder.join("case.toml");
     write_whole(&listed, entry.parameters_toml.as_bytes()).map_err(unwritable)?;
     let file = CaseFile::read(&listed)?;
-    let changes = Changes { file: Some((&listed, file.fields)), settings: &[] };
+    let changes = Changes { file: Some((&listed, file.fields)), settings: &[], ..Changes::default() };
     let prepared = registry.find(&entry.case)?.prepare(entry.tier, &changes)?;
     let record = evaluation::evaluate(prepared, store, &Silent)?;
     if let Some(reason) = &record.failure {

@@ -18,6 +18,7 @@ mod manifest;
 mod map;
 mod plan;
 pub mod slurm;
+mod slurm_request;
 
 pub use error::SweepError;
 pub use folder::{SweepFolder, Tally};

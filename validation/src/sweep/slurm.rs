@@ -3,6 +3,8 @@
 
 use super::error::SweepError;
 use super::folder::SweepFolder;
+pub use super::slurm_request::Request;
+use crate::input::{WRITTEN_BY_HAND, read_text};
 use crate::output::{FileError, write_whole};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -14,25 +16,6 @@ pub const TEMPLATE: &str = include_str!("template/array.sh");
 
 /// Tasks of one array: Slurm's default largest index is 1000.
 const ARRAY_LENGTH: usize = 1000;
-
-/// What a job asks of the cluster.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Request {
-    /// Partition; `None` for the cluster's default.
-    pub partition: Option<String>,
-    /// Time limit of a task as Slurm reads it, such as `01:30:00`.
-    pub time: Option<String>,
-    /// Memory of a task, such as `2G`.
-    pub memory: Option<String>,
-    /// Cores of a task.
-    pub cpus: u16,
-    /// Tasks that may run at the same time; `None` for no limit.
-    pub throttle: Option<u32>,
-    /// A template of one's own.
-    pub template: Option<PathBuf>,
-    /// Store of finished runs that the tasks use; `None` for the program's usual one.
-    pub store: Option<PathBuf>,
-}
 
 /// One submitted array.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -46,13 +29,11 @@ struct Job {
 /// Submits arrays for entries by number and returns Slurm's job numbers.
 ///
 /// # Errors
-/// No Slurm on this machine, a submission that is refused, a template that cannot be read or filled, files that cannot be
+/// What [`check`] refuses, no Slurm on this machine, a submission that is refused, a template that cannot be read or filled, files that cannot be
 /// written.
 pub fn submit(sweep: &SweepFolder, numbers: &[usize], request: &Request) -> Result<Vec<String>, SweepError> {
-    let template = match &request.template {
-        Some(file) => std::fs::read_to_string(file).map_err(|error| FileError::unreadable(file, &error))?,
-        None => TEMPLATE.to_owned(),
-    };
+    check(sweep.path(), request)?;
+    let template = template_of(request)?;
     let folder = sweep.path().canonicalize().map_err(|error| FileError::unreadable(sweep.path(), &error))?;
     let scripts = folder.join("slurm");
     let logs = scripts.join("logs");
@@ -80,6 +61,24 @@ pub fn submit(sweep: &SweepFolder, numbers: &[usize], request: &Request) -> Resu
         submitted.push(id);
     }
     Ok(submitted)
+}
+
+/// Whether a job script can be written for a sweep in `folder` that holds what was asked for and nothing else.
+///
+/// # Errors
+/// A value that Slurm does not take, a folder whose name cannot stand in a script, a template that cannot be read or filled.
+pub fn check(folder: &Path, request: &Request) -> Result<(), SweepError> {
+    let folder = std::path::absolute(folder).map_err(|error| FileError::unreadable(folder, &error))?;
+    request.check(&folder)?;
+    fill(&template_of(request)?, &folder, &folder.join("slurm").join("logs"), 0, &[1], request)?;
+    Ok(())
+}
+
+fn template_of(request: &Request) -> Result<String, FileError> {
+    match &request.template {
+        Some(file) => read_text(file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(file, &error)),
+        None => Ok(TEMPLATE.to_owned()),
+    }
 }
 
 /// Numbers of the entries that wait or run in Slurm's queue.
@@ -127,7 +126,7 @@ fn read_jobs(scripts: &Path) -> Result<Vec<Job>, FileError> {
 
 /// What a file holds; the default without a file.
 fn read_json<T: Default + serde::de::DeserializeOwned>(file: &Path) -> Result<T, FileError> {
-    let text = match std::fs::read_to_string(file) {
+    let text = match read_text(file, WRITTEN_BY_HAND) {
         Ok(text) => text,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(T::default()),
         Err(error) => return Err(FileError::unreadable(file, &error)),
@@ -159,14 +158,17 @@ fn fill(
         command = format!("env BAGNOLD_STORE={} {command}", quoted(store));
     }
     let throttle = request.throttle.map_or_else(String::new, |most| format!("%{most}"));
-    let environment = minijinja::Environment::new();
+    let mut environment = minijinja::Environment::new();
+    // a word that is misspelt must not become an empty one
+    environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
     let text = |value: &Option<String>| value.clone().unwrap_or_default();
     let name = folder.file_name().map_or_else(|| "bagnold".to_owned(), |name| name.to_string_lossy().into_owned());
     let values = minijinja::Value::from_pairs([
         ("name", name),
         ("array", format!("{}{throttle}", ranges(tasks))),
         ("cpus", request.cpus.to_string()),
-        ("logs", logs.display().to_string()),
+        // in the name of an output file `%` begins a pattern of Slurm's
+        ("logs", logs.display().to_string().replace('%', "%%")),
         ("partition", text(&request.partition)),
         ("time", text(&request.time)),
         ("memory", text(&request.memory)),
@@ -270,5 +272,10 @@ mod tests {
         );
         let broken = fill("{{ array", folder, logs, 0, &[1], &request).map_err(|error| error.to_string());
         assert!(broken.is_err_and(|message| message.contains("bagnold sweep template")));
+        let misspelt = fill("#SBATCH --time={{ tiem }}", folder, logs, 0, &[1], &request);
+        let message = misspelt.expect_err("an unknown word").to_string();
+        assert!(message.contains("undefined value") && message.contains("bagnold sweep template"), "{message}");
+        let percent = fill(TEMPLATE, folder, Path::new("/shared/50%"), 0, &[1], &request).expect("a good template");
+        assert!(percent.contains("--output=\"/shared/50%%/%A_%a.log\""), "{percent}");
     }
 }

@@ -61,7 +61,7 @@ fn layer() -> Layer {
 fn resolved(file: &str, settings: &[&str]) -> Result<Layer, String> {
     let settings: Vec<String> = settings.iter().map(|&text| text.to_owned()).collect();
     let fields = toml::from_str(file).expect("test TOML");
-    let changes = Changes { file: Some((Path::new("layer.toml"), fields)), settings: &settings };
+    let changes = Changes { file: Some((Path::new("layer.toml"), fields)), settings: &settings, ..Changes::default() };
     resolve("layer", &layer(), &changes).map_err(|error| error.to_string())
 }
 
@@ -203,8 +203,9 @@ fn a_law_that_nobody_knows_is_refused_at_its_key() {
     }
     let defaults = Bed { material: Rheology::Newtonian(Newtonian { viscosity: 1.0 }) };
     let settings = ["material.law=newtonain".to_owned()];
-    let error =
-        resolve("bed", &defaults, &Changes { file: None, settings: &settings }).expect_err("refused").to_string();
+    let error = resolve("bed", &defaults, &Changes { settings: &settings, ..Changes::default() })
+        .expect_err("refused")
+        .to_string();
     assert!(
         error.starts_with("`--set material.law=newtonain`: `material.law` is newtonain, but must be one of "),
         "{error}"

@@ -6,7 +6,7 @@ use crate::cases::layer::PeriodicLayer;
 use crate::cases::rules;
 use crate::reference::{BagnoldProfile, GLASS_BEADS};
 use bagnold_solver::material::rheology::{MuI, Rheology};
-use bagnold_solver::parameter::{between, each, positive};
+use bagnold_solver::parameter::{between, each, not_negative, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -65,12 +65,14 @@ pub struct BagnoldParameters {
     pub convergence_resolutions: Vec<usize>,
     /// Slope angles below the band of steady flow `[°]`; each starts with the profile of `arrest_start_angle`.
     #[schemars(transform = each(rules::slope_angle()))]
+    #[schemars(transform = each(not_negative("the layer lies on a slope that it flows down: give its angle in degrees")))]
     pub arrest_slope_angles: Vec<f64>,
     /// Slope angle whose profile the arresting layers start with `[°]`.
     #[schemars(transform = rules::slope_angle())]
     pub arrest_start_angle: f64,
     /// Slope angles above the band `[°]`, from rest.
     #[schemars(transform = each(rules::slope_angle()))]
+    #[schemars(transform = each(not_negative("the layer lies on a slope that it flows down: give its angle in degrees")))]
     pub runaway_slope_angles: Vec<f64>,
     /// Grains of other materials, whose profile is the same law's: what holds for one material is to hold for all.
     pub other_grains: Vec<OtherGrains>,

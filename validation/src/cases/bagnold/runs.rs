@@ -1,7 +1,7 @@
 //! The simulations that the case asks for.
 
 use super::parameters::{ARREST_DURATION, BagnoldParameters, Start, law};
-use crate::case::{Foreign, Given, ParameterError, Progress, Run};
+use crate::case::{Foreign, Given, ParameterError, Progress, Run, cost};
 use crate::cases::Arrangement;
 use crate::cases::layer::{self, Layer, LayerObservation, PeriodicLayer, bulk_modulus};
 use crate::input::FieldError;
@@ -159,6 +159,14 @@ impl Run for BagnoldRun {
             (_, Some(material)) => run.and("material", material.clone()),
             _ => run,
         }
+    }
+
+    fn particles(&self) -> f64 {
+        self.layer.particles()
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        cost::WEAKLY_COMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

@@ -61,6 +61,8 @@ impl BedLoadParameters {
             whole(&field(name), length, diameter, "of the grain diameter")?;
             whole(&field(name), length, grains.spacing, "of the spacing")?;
         }
+        let remedy = "a fraction of a grain diameter; it lies within the bed";
+        rules::between(&field("origin_offset"), grains.origin_offset, 0.0, grains.bed_depth, remedy)?;
         let least = 4.8 * diameter;
         rules::between(&field("length"), grains.length, least, 10.0, "the period must hold twice the grains' kernel")?;
         whole("materials.depth", self.materials.depth, grains.spacing, "of the spacing of every formulation")?;

@@ -6,7 +6,7 @@ use crate::reference::bed_load_layer::Closures;
 use bagnold_solver::incompressible::{ColumnNumerics, PairLaw, ProjectionNumerics};
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::rheology::Rheology;
-use bagnold_solver::parameter::{between, each, positive};
+use bagnold_solver::parameter::{between, each, not_negative, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +26,7 @@ pub struct Materials {
     #[schemars(transform = positive("give it in m²/s; water has 1e-6"))]
     pub kinematic_viscosity: f64,
     /// Density of the grains `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 2600"))]
     pub grain_density: f64,
     /// Diameter of the grains `[m]`.
     #[schemars(transform = positive("give it in metres; 0.005 for 5 mm"))]
@@ -41,8 +42,10 @@ pub struct Grains {
     /// How the grains resist a shear, a law by its name; its pressure is the weight of the grains below the top row.
     pub material: Rheology,
     /// Depth of the bed `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.03"))]
     pub bed_depth: f64,
     /// Length of the period `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.04"))]
     pub length: f64,
     /// Spacing of the water's particles `[m]`.
     #[schemars(transform = positive("give it in metres; 0.002 for the paper's"))]
@@ -50,6 +53,7 @@ pub struct Grains {
     /// Closure of the water's turbulence above the bed.
     pub turbulence: TurbulenceClosure,
     /// Depth of the origin of the mixing length below the bed `[m]`.
+    #[schemars(transform = not_negative("a fraction of a grain diameter, such as 0.0006"))]
     pub origin_offset: f64,
     /// Drag law.
     pub drag: DragLaw,
@@ -163,6 +167,7 @@ pub struct Continuum {
     #[schemars(transform = between(0.1, 100.0, "0.9 puts three rows into the layer that moves"))]
     pub largest_spacing: f64,
     /// Solid fraction of the layer below which a row carries no sediment particle `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.002 leaves out what carries nothing"))]
     pub least_fraction: f64,
     /// Solid fraction below which the topmost row of grains at a given fraction gives its grains to the row below `[-]`.
     #[schemars(transform = between(0.0, 0.3, "0.03; 0 leaves every row as it is"))]

@@ -3,7 +3,7 @@
 use super::continuum::ContinuumRun;
 use super::observation::{BedLoadObservation, Observer};
 use super::parameters::{BedLoadParameters, Continuum, Grains, Materials};
-use crate::case::{ParameterError, Progress, Run};
+use crate::case::{ParameterError, Progress, Run, cost};
 use crate::cases::channel::Channel;
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -146,17 +146,18 @@ impl Run for BedLoadRun {
         }
     }
 
+    fn particles(&self) -> f64 {
+        let (area, spacing, _) = self.size();
+        area / spacing.powi(2)
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        // grains and their drag cost as much as the water's particles
+        2.0 * cost::INCOMPRESSIBLE
+    }
+
     fn particle_steps(&self) -> f64 {
-        let depth = self.materials.depth;
-        let (area, spacing, step) = match &self.formulation {
-            Formulation::Paper(grains) | Formulation::Stabilised(grains) | Formulation::Fit { grains, .. } => {
-                (grains.length * (depth + grains.bed_depth), grains.spacing, grains.numerics.time_step)
-            }
-            Formulation::Continuum(own) => {
-                let both = own.continuum.length * (depth + 2.0 * own.continuum.bed_depth);
-                (both, own.spacing, own.numerics().time_step)
-            }
-        };
+        let (area, spacing, step) = self.size();
         area / spacing.powi(2) * self.duration / step
     }
 
@@ -177,6 +178,20 @@ impl Run for BedLoadRun {
 }
 
 impl BedLoadRun {
+    /// Area of both phases `[m²]`, spacing `[m]` and time step `[s]`.
+    fn size(&self) -> (f64, f64, f64) {
+        let depth = self.materials.depth;
+        match &self.formulation {
+            Formulation::Paper(grains) | Formulation::Stabilised(grains) | Formulation::Fit { grains, .. } => {
+                (grains.length * (depth + grains.bed_depth), grains.spacing, grains.numerics.time_step)
+            }
+            Formulation::Continuum(own) => {
+                let both = own.continuum.length * (depth + 2.0 * own.continuum.bed_depth);
+                (both, own.spacing, own.numerics().time_step)
+            }
+        }
+    }
+
     fn observe(
         &self,
         channel: &Channel<'_>,

@@ -127,6 +127,14 @@ impl Run for BedLoad1dRun {
         }
     }
 
+    fn particles(&self) -> f64 {
+        (self.stream.flow_depth + self.stream.bed_depth) / self.cell_height
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        0.5e-6
+    }
+
     fn particle_steps(&self) -> f64 {
         let layers = match self.purpose {
             Purpose::Onset => 2.0 * onset::SCANNED.len() as f64,

@@ -1,6 +1,6 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
 use crate::cases::channel::{Channel, ChannelObservation, TurbulenceClosure, Until, Water};
 use crate::cases::rules;
 use crate::metric::Variant;
@@ -8,7 +8,7 @@ use crate::observation::Recorded;
 use crate::reference::{RoughChannel, roughness_ratio};
 use bagnold_solver::incompressible::Bed;
 use bagnold_solver::material::turbulence::{MixingLengthShape, RoughWall};
-use bagnold_solver::parameter::{between, each, filled, positive, unique};
+use bagnold_solver::parameter::{between, each, filled, not_negative, positive, unique};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -50,6 +50,7 @@ pub struct Flow {
     #[schemars(transform = positive("give it in metres; about the grain diameter"))]
     pub sand_roughness: f64,
     /// Depth z_off of the wall law's origin below the bed `[m]`.
+    #[schemars(transform = not_negative("a fraction of a grain diameter, such as 0.0006"))]
     pub origin_offset: f64,
     /// Closure of the turbulence; the logarithmic law belongs to the parabolic mixing length.
     pub turbulence: TurbulenceClosure,
@@ -150,6 +151,14 @@ impl Run for ClearWaterRun {
 
     fn variant(&self) -> Variant {
         Variant::of("slope", self.slope).and("resolution", self.water.resolution)
+    }
+
+    fn particles(&self) -> f64 {
+        self.water.particles()
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        cost::INCOMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

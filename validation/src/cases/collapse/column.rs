@@ -7,7 +7,7 @@ use super::material::Material;
 use super::release::Release;
 use super::watch::Watch;
 use crate::case::recording::{self, Ending, Stage, Watched};
-use crate::case::{ParameterError, Progress, Run};
+use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -103,6 +103,17 @@ impl Run for ColumnRun {
                 column.and("hourglass", self.release.numerics.hourglass).and("seed", self.release.seed)
             }
             Purpose::Regularised => column.and("regularisation_rate", self.regularisation_rate.unwrap_or(0.0)),
+        }
+    }
+
+    fn particles(&self) -> f64 {
+        Self::particles(self)
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        match self.geometry {
+            Geometry::Planar => cost::WEAKLY_COMPRESSIBLE,
+            Geometry::Round => 4.0 * cost::WEAKLY_COMPRESSIBLE,
         }
     }
 

@@ -10,6 +10,9 @@ use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// What to do about a slope that leads upwards.
+const DOWN: &str = "the grains run down the slope: give its angle in degrees";
+
 /// The reservoir, its channel and how they are simulated: what all runs of a case share.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Reservoir {
@@ -50,18 +53,21 @@ pub struct InclineCollapseParameters {
     pub reservoir: Reservoir,
     /// Slopes `[°]`.
     #[schemars(transform = each(rules::slope_angle()))]
+    #[schemars(transform = each(not_negative(DOWN)))]
     pub slope_angles: Vec<f64>,
     /// Speed of the gate, pulled up normal to the slope `[m/s]`; 1.3 in the paper, 2.3 in Ionescu et al. (2015), 0 for no gate.
     #[schemars(transform = between(0.0, 100.0, "the paper pulls it at 1.3 m/s; 0 is no gate"))]
     pub gate_speed: f64,
     /// Slope at which other gates are tried `[°]`.
     #[schemars(transform = rules::slope_angle())]
+    #[schemars(transform = not_negative(DOWN))]
     pub gate_slope_angle: f64,
     /// Speeds of the other gates `[m/s]`, 0 for no gate; empty for none.
     #[schemars(transform = each(between(0.0, 100.0, "the experiment pulls it at 2.3 m/s; 0 is no gate")))]
     pub other_gate_speeds: Vec<f64>,
     /// Slopes at which the collapse is repeated with the regularised viscosity (35), implicitly `[°]`.
     #[schemars(transform = each(rules::slope_angle()))]
+    #[schemars(transform = each(not_negative(DOWN)))]
     pub regularised_slope_angles: Vec<f64>,
     /// Its rate α_r `[1/s]`.
     #[schemars(transform = positive("0.01 1/s in the paper"))]

@@ -6,7 +6,7 @@ use super::deposit::{Collapse, Surveyor};
 use super::incline::Reservoir;
 use super::watch::Watch;
 use crate::case::recording::{self, Ending, Stage, Watched};
-use crate::case::{ParameterError, Progress, Run};
+use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::{Value, Variant};
 use crate::observation::Recorded;
 use crate::reference::SLOPE_EXPERIMENT;
@@ -66,6 +66,14 @@ impl Run for SlopeRun {
             None => collapse,
             Some(rate) => collapse.and("regularisation_rate", rate),
         }
+    }
+
+    fn particles(&self) -> f64 {
+        Self::particles(self)
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        cost::WEAKLY_COMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

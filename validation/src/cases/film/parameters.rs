@@ -8,7 +8,7 @@ use crate::cases::layer::{PeriodicLayer, Top};
 use crate::cases::rules;
 use crate::reference::{Incline, SteadyFilm};
 use bagnold_solver::material::rheology::{Bingham, CoulombBingham, HerschelBulkley, Newtonian, Rheology};
-use bagnold_solver::parameter::{between, each, positive, up_to};
+use bagnold_solver::parameter::{between, each, positive, unique, up_to, within};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -28,6 +28,9 @@ pub enum FluidKind {
     /// That of any law, under `material`.
     Material,
 }
+
+/// What to do about a film without a viscosity.
+const VISCOUS: &str = "a film flows by its viscosity, and its time is ρh²/η; 1 is quick";
 
 /// A thin liquid whose eddies carry as much as its viscosity.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -55,9 +58,11 @@ pub struct FilmParameters {
     #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub density: f64,
     /// Fluids to run.
+    #[schemars(transform = unique("name every fluid once"))]
     pub fluids: Vec<FluidKind>,
     /// Rows of the Newtonian convergence study on the lattice; empty for none.
     #[schemars(transform = each(rules::rows()))]
+    #[schemars(transform = unique("name every resolution once"))]
     pub convergence_resolutions: Vec<usize>,
     /// Rows of the Newtonian film that compares other operators and walls with the default; 0 for none.
     pub comparison_resolution: usize,
@@ -68,10 +73,13 @@ pub struct FilmParameters {
     #[schemars(transform = positive("1 lets the errors of the start decay"))]
     pub yield_relaxation_times: f64,
     /// The Newtonian fluid.
+    #[schemars(transform = within("viscosity", positive(VISCOUS)))]
     pub newtonian: Newtonian,
     /// The Bingham fluid.
+    #[schemars(transform = within("plastic_viscosity", positive(VISCOUS)))]
     pub bingham: Bingham,
     /// The Herschel–Bulkley fluid.
+    #[schemars(transform = within("consistency", positive(VISCOUS)))]
     pub herschel_bulkley: HerschelBulkley,
     /// The liquid with eddies.
     pub eddies: EddyLiquid,

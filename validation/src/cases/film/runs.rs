@@ -1,7 +1,7 @@
 //! The simulations.
 
 use super::comparison::NumericsSet;
-use crate::case::{Foreign, Given, ParameterError, Progress, Run};
+use crate::case::{Foreign, Given, ParameterError, Progress, Run, cost};
 use crate::cases::Arrangement;
 use crate::cases::layer::{self, Layer, LayerObservation, PeriodicLayer, Top, bulk_modulus};
 use crate::input::FieldError;
@@ -48,6 +48,14 @@ impl Run for FilmRun {
             other => variant.and("numerics", other.name()),
         };
         variant.and("resolution", self.layer.resolution)
+    }
+
+    fn particles(&self) -> f64 {
+        self.layer.particles()
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        cost::WEAKLY_COMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

@@ -10,7 +10,7 @@ pub use start_stop::{Fate, LayerAtSlope, StartStop, StartStopRun, Trial};
 
 use super::collapse::{SlopeCollapse, SlopeRun};
 use super::layer::LayerObservation;
-use crate::case::{Case, ParameterError, Progress, RecordOf, Run};
+use crate::case::{Case, ParameterError, Progress, RecordOf, Run, cost};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity, Variant};
 use crate::observation::Recorded;
@@ -69,6 +69,18 @@ impl Run for FlowThicknessRun {
                 .and("slope_angle", run.slope_angle)
                 .and("rows", run.layer.layer.resolution),
         }
+    }
+
+    fn particles(&self) -> f64 {
+        match self {
+            Self::Collapse(run) => run.particles(),
+            Self::StartStop(run) => run.layer.particles(),
+            Self::Steady(run) => run.layer.particles(),
+        }
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        cost::WEAKLY_COMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

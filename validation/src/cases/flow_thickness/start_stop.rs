@@ -114,6 +114,10 @@ impl LayerAtSlope {
     }
 
     /// Expected particle-steps of one layer.
+    pub(super) fn particles(&self) -> f64 {
+        self.layer.particles()
+    }
+
     pub(super) fn particle_steps(&self) -> f64 {
         let PeriodicLayer { layer_height, gravity, resolution, numerics, .. } = &self.layer;
         let step = numerics.acoustic_courant * numerics.smoothing_ratio * layer_height

@@ -1,6 +1,6 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
 use crate::cases::layer::{Layer, LayerObservation, PeriodicLayer};
 use crate::cases::{Bulk, rules};
 use crate::metric::Variant;
@@ -97,6 +97,14 @@ impl Run for HydrostaticRun {
         Variant::of("material", self.law.name().replace('-', "_"))
             .and("density_coupling", self.layer.numerics.density_coupling)
             .and("resolution", self.layer.resolution)
+    }
+
+    fn particles(&self) -> f64 {
+        self.layer.particles()
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        cost::WEAKLY_COMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

@@ -12,7 +12,7 @@ pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 pub use tables::tables_of_runs;
 
 use crate::case::recording::{self, Beginning, Ending, Stage, Watched};
-use crate::case::{ParameterError, Progress};
+use crate::case::{ParameterError, Progress, cost};
 use crate::metric::{Limit, Metric, Variant, quantities};
 use crate::observation::{Frame, Recorded};
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -73,9 +73,6 @@ pub struct Layer<'a> {
 
 /// Ratio of viscous to acoustic steps from which a run says how long it will take before it starts.
 const WORTH_A_WARNING: f64 = 100.0;
-
-/// What a particle-step of a small layer costs on one core, for estimates `[s]`.
-const SECONDS_PER_PARTICLE_STEP: f64 = 0.7e-6;
 
 /// Bins over the depth.
 pub const BINS: usize = 20;
@@ -215,7 +212,7 @@ impl Layer<'_> {
                 self.layer.resolution,
                 self.duration,
                 steps / acoustic,
-                steps * self.layer.particles() * SECONDS_PER_PARTICLE_STEP / 3600.0
+                steps * self.layer.particles() * cost::WEAKLY_COMPRESSIBLE / 3600.0
             );
         } else if steps > acoustic {
             tracing::info!("explicit viscous step: about {steps:.1e} steps for {} s", self.duration);

@@ -4,7 +4,7 @@ use super::experiment::Experiment;
 use super::grain::GrainRun;
 use super::probe::{Drag, Probe, SettlingObservation};
 use super::suspension::SuspensionRun;
-use crate::case::{ParameterError, Progress, Run};
+use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use serde::Serialize;
@@ -30,14 +30,22 @@ impl Run for SettlingRun {
         }
     }
 
-    fn particle_steps(&self) -> f64 {
-        let Experiment { vessel, duration, numerics, .. } = self.experiment();
-        let cells = vessel.lattice().len();
+    fn particles(&self) -> f64 {
+        let cells = self.experiment().vessel.lattice().len();
         let particles = match self {
             Self::Grain(_) => cells + 1,
             Self::Suspension(_) => 2 * cells,
         };
-        duration / numerics.time_step * particles as f64
+        particles as f64
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        cost::INCOMPRESSIBLE
+    }
+
+    fn particle_steps(&self) -> f64 {
+        let Experiment { duration, numerics, .. } = self.experiment();
+        duration / numerics.time_step * self.particles()
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, ParameterError> {

@@ -1,6 +1,6 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
 use crate::cases::channel::{Channel, ChannelObservation, Until, Water};
 use crate::cases::rules;
 use crate::metric::Variant;
@@ -119,6 +119,14 @@ impl Run for StillWaterRun {
         Variant::of("jitter", self.jitter)
             .and("stabilisation", self.water.numerics.stabilisation)
             .and("resolution", self.water.resolution)
+    }
+
+    fn particles(&self) -> f64 {
+        self.water.particles()
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        cost::INCOMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

@@ -1,7 +1,7 @@
 //! Parameters, tiers and runs.
 
 use crate::case::recording::{self, Stage, Watched};
-use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
 use crate::cases::rules;
 use crate::metric::Variant;
 use crate::observation::{EnergyBook, Recorded};
@@ -158,6 +158,14 @@ impl Run for WaterColumnRun {
         let surface = if self.surface == BedSurface::Smooth { "smooth" } else { "rough" };
         let tension = if self.tension == Tension::Kept { "kept" } else { "cut" };
         Variant::of("bed", surface).and("tension", tension).and("resolution", self.resolution)
+    }
+
+    fn particles(&self) -> f64 {
+        self.column.aspect_ratio * (self.resolution as f64).powi(2)
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        cost::WEAKLY_COMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

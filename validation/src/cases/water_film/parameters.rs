@@ -1,6 +1,6 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
 use crate::cases::Arrangement;
 use crate::cases::channel::{Channel, ChannelObservation, Until, Water};
 use crate::cases::rules;
@@ -120,6 +120,14 @@ impl Run for WaterFilmRun {
 
     fn variant(&self) -> Variant {
         Variant::of("particles", self.particles.name()).and("resolution", self.water.resolution)
+    }
+
+    fn particles(&self) -> f64 {
+        self.water.particles()
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        cost::INCOMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

@@ -1,0 +1,135 @@
+//! Plans, tables and case files with random mistakes in them: an error or a plan, never a panic.
+
+use crate::judge::{count, runner};
+use bagnold_validation::calibration::Plan;
+use bagnold_validation::case::{AnyCase, CaseFile, Tier};
+use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::reference::MeasuredData;
+use bagnold_validation::sweep::SweepPlan;
+use proptest::prelude::*;
+use proptest::sample::Index;
+use proptest::strategy::ValueTree;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// What a slip of the hand puts into a text.
+const SLIPS: [&str; 24] = [
+    "",
+    "\"",
+    "[",
+    "]",
+    "{",
+    "}",
+    "=",
+    ",",
+    "#",
+    "\n",
+    "nan",
+    "inf",
+    "-",
+    "1e308",
+    "9223372036854775808",
+    "\u{0}",
+    "ä",
+    "[[",
+    "../../x",
+    "\r",
+    "'''",
+    "0x",
+    "true",
+    "  ",
+];
+
+/// A place, how many characters go, and what comes instead.
+type Slip = (Index, usize, Index);
+
+fn slips() -> impl Strategy<Value = (Index, Vec<Slip>)> {
+    (any::<Index>(), prop::collection::vec((any::<Index>(), 0..6_usize, any::<Index>()), 1..=4))
+}
+
+fn with_slips(text: &str, slips: &[Slip]) -> String {
+    let mut letters: Vec<char> = text.chars().collect();
+    for (place, gone, slip) in slips {
+        let start = place.index(letters.len() + 1);
+        let end = (start + gone).min(letters.len());
+        letters.splice(start..end, SLIPS[slip.index(SLIPS.len())].chars());
+    }
+    letters.into_iter().collect()
+}
+
+/// Texts in the repository with one of these endings.
+fn shipped(folder: &str, ending: &str) -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder);
+    let mut paths: Vec<_> =
+        std::fs::read_dir(root).expect("in the repository").flatten().map(|entry| entry.path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|own| own == ending));
+    paths.sort();
+    paths.into_iter().map(|path| std::fs::read_to_string(path).expect("text")).collect()
+}
+
+/// Mistakes in each of some texts; the reader must come back with whatever it likes, soon.
+fn read_with_slips(texts: &[String], mut read: impl FnMut(&str)) {
+    let mut runner = runner();
+    for _ in 0..count() {
+        let (which, slips) = slips().new_tree(&mut runner).expect("slips").current();
+        let text = with_slips(&texts[which.index(texts.len())], &slips);
+        let begun = Instant::now();
+        read(&text);
+        assert!(begun.elapsed() < Duration::from_secs(5), "took {:?}:\n{text}", begun.elapsed());
+    }
+}
+
+#[test]
+fn a_case_file_is_read_or_refused() {
+    let texts: Vec<String> = REGISTRY.iter().map(|case| case.show(Tier::Quick)).collect();
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let path = folder.path().join("case.toml");
+    read_with_slips(&texts, |text| {
+        std::fs::write(&path, text).expect("writable");
+        if let Ok(file) = CaseFile::read(&path)
+            && let Ok(case) = REGISTRY.find(&file.case)
+        {
+            let changes = bagnold_validation::case::Changes { file: Some((&path, file.fields)), ..Default::default() };
+            if let Err(error) = AnyCase::prepare(case, Tier::Quick, &changes) {
+                assert!(error.to_string().contains("case.toml"), "{error}");
+            }
+        }
+    });
+}
+
+#[test]
+fn a_sweep_plan_is_read_or_refused() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let path = folder.path().join("plan.toml");
+    let mut texts = shipped("validation/sweeps", "toml");
+    texts.push(
+        "design = \"grid\"\n[[cases]]\ncase = \"film\"\nwith = { resolution = 10 }\n[[parameters]]\npath = \"slope_angle\"\n\
+         lower = 1.0\nupper = 20.0\nlevels = 3\n"
+            .to_owned(),
+    );
+    read_with_slips(&texts, |text| {
+        std::fs::write(&path, text).expect("writable");
+        if let Ok(plan) = SweepPlan::read(&path) {
+            // what the cases refuse is an error too
+            let _ = plan.manifest(REGISTRY);
+        }
+    });
+}
+
+#[test]
+fn a_calibration_plan_is_read_or_refused() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let path = folder.path().join("plan.toml");
+    read_with_slips(&shipped("validation/calibrations", "toml"), |text| {
+        std::fs::write(&path, text).expect("writable");
+        let _ = Plan::read(&path, REGISTRY);
+    });
+}
+
+#[test]
+fn a_table_of_measurements_is_read_or_refused() {
+    let texts = [shipped("reference-data/settling", "csv"), shipped("validation/calibrations", "csv")].concat();
+    read_with_slips(&texts, |text| {
+        let _ = MeasuredData::parse("table.csv", text);
+    });
+}

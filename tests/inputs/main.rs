@@ -1,0 +1,8 @@
+//! Generated inputs: whatever a file or `--set` holds, the program refuses it by the name of its field or takes it, within
+//! five seconds and without a panic; and what it takes and computes never passes a gate without a number.
+//!
+//! `cargo test` tries a few hundred; `tests/inputs/study.sh` tries thousands.
+
+mod changes;
+mod files;
+mod judge;

@@ -1,0 +1,235 @@
+//! What runs will need, before anything is allocated: particles, memory, steps and time; and how much is allowed.
+
+use super::Run;
+use std::fmt;
+
+/// Memory of a particle while its run goes on: state, neighbours, pair weights, solves `[bytes]`. A film of 200 000
+/// particles takes 1.8 kB each, still water of 160 000 some 2.3 kB.
+const BYTES_WHILE_RUNNING: f64 = 3e3;
+
+/// Memory of a particle in the snapshots of a run that is done `[bytes]`.
+const BYTES_KEPT: f64 = 700.0;
+
+/// Memory that may be taken where the system does not say how much there is `[bytes]`.
+const USUAL_MEMORY: f64 = 16.0 * GIBIBYTE;
+
+const GIBIBYTE: f64 = 1024.0 * 1024.0 * 1024.0;
+
+/// Hours of one core that the runs of a case may take unless somebody says otherwise: two months of eight cores. The
+/// longest fine tier takes some tens.
+const USUAL_CORE_HOURS: f64 = 10_000.0;
+
+/// What some runs are expected to need.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Estimate {
+    /// Number of runs.
+    pub runs: usize,
+    /// Particles of the largest run `[-]`.
+    pub particles: f64,
+    /// Particles of all runs `[-]`.
+    pub all_particles: f64,
+    /// Particle-steps of all runs `[-]`.
+    pub particle_steps: f64,
+    /// Time of all runs on one core `[s]`.
+    pub core_seconds: f64,
+}
+
+impl Estimate {
+    /// Of one run.
+    pub(super) fn of(run: &impl Run) -> Self {
+        let (particles, particle_steps) = (run.particles(), run.particle_steps());
+        Self {
+            runs: 1,
+            particles,
+            all_particles: particles,
+            particle_steps,
+            core_seconds: particle_steps * run.seconds_per_particle_step(),
+        }
+    }
+
+    /// Of two sets of runs together.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            runs: self.runs + other.runs,
+            // whichever is larger; NaN, which is refused, stays
+            particles: if other.particles <= self.particles { self.particles } else { other.particles },
+            all_particles: self.all_particles + other.all_particles,
+            particle_steps: self.particle_steps + other.particle_steps,
+            core_seconds: self.core_seconds + other.core_seconds,
+        }
+    }
+
+    /// Memory at its most on so many threads, of which each may hold a run `[bytes]`.
+    #[must_use]
+    pub fn memory(&self, threads: usize) -> f64 {
+        let at_once = threads.clamp(1, self.runs.max(1)) as f64;
+        (self.particles * at_once).min(self.all_particles) * BYTES_WHILE_RUNNING + self.all_particles * BYTES_KEPT
+    }
+
+    /// How far it is beyond what is allowed: above 1 if it is. One run at a time must fit into the memory.
+    fn excess(&self, limits: &Limits) -> f64 {
+        let excess = (self.memory(1) / limits.memory).max(self.core_seconds / 3600.0 / limits.core_hours);
+        // a run whose cost is not even a number is beyond any limit
+        if excess.is_finite() && self.memory(1).is_finite() && self.core_seconds.is_finite() {
+            excess
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// The limit that it breaks: the rule, completing "must be …", and what to do about it.
+    pub(super) fn problem(&self, limits: &Limits) -> Option<(String, String)> {
+        if self.excess(limits) <= 1.0 {
+            return None;
+        }
+        let hours = self.core_seconds / 3600.0;
+        Some(if self.memory(1) > limits.memory || !self.memory(1).is_finite() {
+            let most = limits.memory / GIBIBYTE;
+            (
+                format!("such that the runs fit into {} GiB of memory", rounded(most)),
+                format!(
+                    "{} particles would take {} GiB: ask for fewer, or allow more with --most-memory",
+                    rounded(self.all_particles),
+                    rounded(self.memory(1) / GIBIBYTE)
+                ),
+            )
+        } else {
+            (
+                format!("such that the runs take at most {} hours of one core", rounded(limits.core_hours)),
+                format!(
+                    "{} particle-steps would take {} hours: ask for less, or allow more with --most-hours",
+                    rounded(self.particle_steps),
+                    rounded(hours)
+                ),
+            )
+        })
+    }
+
+    /// Whether it asks for less than another, as the limits count it.
+    pub(super) fn is_less_than(&self, other: &Self, limits: &Limits) -> bool {
+        self.excess(limits) < other.excess(limits)
+    }
+}
+
+/// "9 runs, about 2 min on 2 threads".
+impl Estimate {
+    /// In words, for so many threads.
+    #[must_use]
+    pub fn in_words(&self, threads: usize) -> String {
+        let parallel = threads.max(1) as f64;
+        let seconds = self.core_seconds / parallel;
+        let runs = if self.runs == 1 { "1 run".to_owned() } else { format!("{} runs", self.runs) };
+        let threads = if threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") };
+        format!("{runs}, about {} on {threads} of this machine if nothing is stored", Duration(seconds))
+    }
+}
+
+/// A time in the unit that suits it.
+struct Duration(f64);
+
+impl fmt::Display for Duration {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let seconds = self.0;
+        if seconds < 90.0 {
+            write!(formatter, "{} s", rounded(seconds.max(1.0)))
+        } else if seconds < 5400.0 {
+            write!(formatter, "{} min", rounded(seconds / 60.0))
+        } else {
+            write!(formatter, "{} h", rounded(seconds / 3600.0))
+        }
+    }
+}
+
+/// Two digits are more than an estimate knows.
+fn rounded(value: f64) -> String {
+    if value.abs() >= 1e4 {
+        return format!("{value:.1e}");
+    }
+    let text = format!("{value:.1e}").parse::<f64>().unwrap_or(value);
+    format!("{text}")
+}
+
+/// How much the runs of a case may ask for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Memory `[bytes]`.
+    pub memory: f64,
+    /// Hours of one core `[h]`.
+    pub core_hours: f64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        let memory = of_environment("BAGNOLD_MOST_MEMORY").map(|gibibytes| gibibytes * GIBIBYTE);
+        Self {
+            memory: memory.or_else(installed_memory).unwrap_or(USUAL_MEMORY),
+            core_hours: of_environment("BAGNOLD_MOST_HOURS").unwrap_or(USUAL_CORE_HOURS),
+        }
+    }
+}
+
+/// A positive number in a variable of the environment.
+fn of_environment(name: &str) -> Option<f64> {
+    let text = std::env::var(name).ok().filter(|text| !text.is_empty())?;
+    let number = text.trim().parse::<f64>().ok().filter(|number| *number > 0.0);
+    if number.is_none() {
+        tracing::warn!("`{name}` is {text}, but must be a positive number; it is left out of account");
+    }
+    number
+}
+
+impl Limits {
+    /// Those of the environment or the usual ones, but for those given: gibibytes of memory and hours of one core.
+    #[must_use]
+    pub fn of(memory: Option<f64>, core_hours: Option<f64>) -> Self {
+        let usual = Self::default();
+        Self {
+            memory: memory.map_or(usual.memory, |memory| memory * GIBIBYTE),
+            core_hours: core_hours.unwrap_or(usual.core_hours),
+        }
+    }
+}
+
+/// The machine's memory `[bytes]`, where the system says it.
+fn installed_memory() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
+    let kibibytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kibibytes * 1024.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIMITS: Limits = Limits { memory: 16.0 * GIBIBYTE, core_hours: 100.0 };
+
+    fn of(particles: f64, core_seconds: f64) -> Estimate {
+        Estimate { runs: 1, particles, all_particles: particles, particle_steps: 1e6 * core_seconds, core_seconds }
+    }
+
+    #[test]
+    fn what_fits_passes_and_what_does_not_is_said_with_its_size() {
+        assert_eq!(of(1e5, 3600.0).problem(&LIMITS), None);
+        let (rule, remedy) = of(1e8, 1.0).problem(&LIMITS).expect("too large");
+        assert_eq!(rule, "such that the runs fit into 16 GiB of memory");
+        assert!(remedy.starts_with("1.0e8 particles would take 340 GiB"), "{remedy}");
+        let (rule, remedy) = of(1.0, 1e9).problem(&LIMITS).expect("too long");
+        assert_eq!(rule, "such that the runs take at most 100 hours of one core");
+        assert!(remedy.starts_with("1.0e15 particle-steps would take 2.8e5 hours"), "{remedy}");
+        for cost in [f64::NAN, f64::INFINITY] {
+            assert!(of(cost, 1.0).problem(&LIMITS).is_some() && of(1.0, cost).problem(&LIMITS).is_some());
+            assert!(of(1.0, 1.0).and(of(cost, cost)).problem(&LIMITS).is_some());
+            assert!(of(cost, cost).and(of(1.0, 1.0)).problem(&LIMITS).is_some());
+        }
+    }
+
+    #[test]
+    fn an_estimate_is_said_in_the_unit_that_suits_it() {
+        assert_eq!(of(1.0, 30.0).in_words(1), "1 run, about 30 s on 1 thread of this machine if nothing is stored");
+        let two = of(1.0, 600.0).and(of(1.0, 600.0));
+        assert_eq!(two.in_words(2), "2 runs, about 10 min on 2 threads of this machine if nothing is stored");
+        assert!(of(1.0, 36_000.0).in_words(1).contains("about 10 h"));
+    }
+}

@@ -1,0 +1,225 @@
+//! What is asked of a case's parameters as a whole, before anything is allocated: the rules between fields, runs that can
+//! be told apart, and a size that this machine can take. Every refusal names a field that the user has changed.
+
+use super::changes::{Changes, find, is_set, leaves, table_of};
+use super::error::ParameterError;
+use super::{Estimate, Parameters, Run, Tier};
+use bagnold_solver::parameter::shortened;
+use std::collections::BTreeMap;
+use toml::{Table, Value};
+
+/// Most changed fields that a message lists.
+const LISTED: usize = 8;
+
+/// Parameters between those of a tier and those that a user asks for.
+pub(super) struct Guard<'a, P> {
+    pub(super) case: &'static str,
+    pub(super) tier: Tier,
+    pub(super) changes: &'a Changes<'a>,
+    defaults: Table,
+    asked: Table,
+    parameters: &'a P,
+}
+
+impl<'a, P: Parameters> Guard<'a, P> {
+    pub(super) fn new(
+        (case, tier): (&'static str, Tier),
+        changes: &'a Changes<'a>,
+        (defaults, parameters): (&P, &'a P),
+    ) -> Self {
+        Self { case, tier, changes, defaults: table_of(defaults), asked: table_of(parameters), parameters }
+    }
+
+    /// The runs that the parameters ask for.
+    pub(super) fn runs(&self) -> Result<Vec<P::Run>, ParameterError> {
+        self.parameters.check().map_err(|error| self.placed(self.named(error)))?;
+        let runs = self.parameters.runs();
+        if runs.is_empty() {
+            return Err(ParameterError::NothingToRun { case: self.case.to_owned() });
+        }
+        self.told_apart(&runs).map_err(|error| self.placed(error))?;
+        self.affordable(&runs).map_err(|error| self.placed(error))?;
+        Ok(runs)
+    }
+
+    /// Fields that differ from the tier's, with their values.
+    pub(super) fn changed(&self) -> Vec<(String, String)> {
+        leaves(&self.asked)
+            .into_iter()
+            .filter(|path| find(&self.asked, path) != find(&self.defaults, path))
+            .map(|path| {
+                let value = find(&self.asked, &path).map(ToString::to_string).unwrap_or_default();
+                (path, shortened(value.replace('\n', " ")))
+            })
+            .collect()
+    }
+
+    /// An error whose field stands in the user's file says so.
+    fn placed(&self, error: ParameterError) -> ParameterError {
+        match (&self.changes.file, error.field_path()) {
+            (Some((file, _)), Some(field)) if !is_set(self.changes.settings, field) => error.in_file(file),
+            _ => error,
+        }
+    }
+
+    /// An error about a field that the user has not changed becomes one of the field that leads to it.
+    fn named(&self, error: ParameterError) -> ParameterError {
+        let changed = self.changed();
+        let is_changed = |field: &str| changed.iter().any(|(path, _)| is_same_or_within(field, path));
+        if error.field_path().is_some_and(is_changed) {
+            return error;
+        }
+        let leads = |path: &str| self.restored(path).is_some_and(|parameters| parameters.check().is_ok());
+        match changed.iter().find(|(path, _)| leads(path)) {
+            Some((field, value)) => ParameterError::Follows {
+                file: None,
+                field: field.clone(),
+                value: value.clone(),
+                error: Box::new(error),
+            },
+            None => with_changed(error, &changed),
+        }
+    }
+
+    /// The parameters with one field as the tier has it, if that makes any.
+    fn restored(&self, path: &str) -> Option<P> {
+        let before = find(&self.defaults, path)?.clone();
+        let mut table = self.asked.clone();
+        let mut keys: Vec<&str> = path.split('.').collect();
+        let last = keys.pop()?;
+        let holder = keys.into_iter().try_fold(&mut table, |table, key| table.get_mut(key)?.as_table_mut())?;
+        holder.insert(last.to_owned(), before);
+        Value::Table(table).try_into().ok()
+    }
+
+    /// Runs are known by their names: two of one name would be taken for each other.
+    fn told_apart(&self, runs: &[P::Run]) -> Result<(), ParameterError> {
+        let Some(twin) = twin(runs) else { return Ok(()) };
+        let remedy = format!("two runs would both be called `{twin}`: name it once");
+        let lists = leaves(&self.asked).into_iter().filter_map(|path| {
+            let values = find(&self.asked, &path)?.as_array()?;
+            let index = (0..values.len()).find(|&index| values[..index].contains(&values[index]))?;
+            Some((format!("{path}[{index}]"), values[index].to_string()))
+        });
+        let is_cause = |(path, _): &(String, String)| {
+            let field = path.split('[').next().unwrap_or(path);
+            self.restored(field).is_some_and(|parameters| twin_of(&parameters).is_none())
+        };
+        let changed = self.changed();
+        let cause = lists.chain(changed.iter().cloned()).find(is_cause).or_else(|| changed.first().cloned());
+        let (field, value) = cause.unwrap_or_else(|| ("tier".to_owned(), self.tier.name().to_owned()));
+        Err(ParameterError::field(&field, value, "unlike the others", &remedy))
+    }
+
+    /// What the runs need must be there; the field is the one that, as the tier has it, saves most.
+    fn affordable(&self, runs: &[P::Run]) -> Result<(), ParameterError> {
+        let limits = &self.changes.limits;
+        let estimate = of_runs(runs);
+        let Some((rule, remedy)) = estimate.problem(limits) else { return Ok(()) };
+        let mut least: Option<(Estimate, (String, String))> = None;
+        for field in self.changed() {
+            let Some(parameters) = self.restored(&field.0).filter(|parameters| parameters.check().is_ok()) else {
+                continue;
+            };
+            let without = of_runs(&parameters.runs());
+            let best = least.as_ref().map_or(&estimate, |(best, _)| best);
+            if without.is_less_than(best, limits) {
+                least = Some((without, field));
+            }
+        }
+        let cause = least.map(|(_, field)| field).or_else(|| self.changed().into_iter().next());
+        let (field, value) = cause.unwrap_or_else(|| ("tier".to_owned(), self.tier.name().to_owned()));
+        Err(ParameterError::field(&field, value, &rule, &remedy))
+    }
+}
+
+/// What runs need together.
+fn of_runs<R: Run>(runs: &[R]) -> Estimate {
+    runs.iter().map(Estimate::of).fold(Estimate::default(), Estimate::and)
+}
+
+fn twin_of<P: Parameters>(parameters: &P) -> Option<String> {
+    if parameters.check().is_err() { None } else { twin(&parameters.runs()) }
+}
+
+/// The name that two runs share.
+fn twin<R: Run>(runs: &[R]) -> Option<String> {
+    let mut seen = BTreeMap::new();
+    runs.iter().map(|run| run.variant().to_string()).find(|name| seen.insert(name.clone(), ()).is_some())
+}
+
+/// Whether a field is another, or lies within it, or holds it.
+fn is_same_or_within(field: &str, other: &str) -> bool {
+    let within = |inner: &str, outer: &str| {
+        inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+    };
+    within(field, other) || within(other, field)
+}
+
+/// An error that names no field of the user's says which ones he has changed.
+pub(super) fn with_changed(error: ParameterError, changed: &[(String, String)]) -> ParameterError {
+    let is_named = |field: &str| changed.iter().any(|(path, _)| is_same_or_within(field, path));
+    if changed.is_empty() || error.field_path().is_some_and(is_named) {
+        return error;
+    }
+    let mut listed: Vec<String> =
+        changed.iter().take(LISTED).map(|(path, value)| format!("`{path}` is {value}")).collect();
+    if changed.len() > LISTED {
+        listed.push(format!("and {} more", changed.len() - LISTED));
+    }
+    ParameterError::Changed { error: Box::new(error), changed: listed.join(", ") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::pendulum::Pendulum;
+    use super::super::{AnyCase, Changes, Limits, Tier};
+    use super::*;
+
+    const LIMITS: Limits = Limits { memory: 1e9, core_hours: 1.0 };
+
+    fn refused(settings: &[&str], limits: Limits) -> String {
+        let settings: Vec<String> = settings.iter().map(|&text| text.to_owned()).collect();
+        let changes = Changes { settings: &settings, limits, ..Changes::default() };
+        match Pendulum.prepare(Tier::Quick, &changes) {
+            Ok(_) => "taken".to_owned(),
+            Err(error) => error.to_string(),
+        }
+    }
+
+    #[test]
+    fn two_runs_of_one_name_are_refused_with_the_list_that_makes_them() {
+        assert_eq!(
+            refused(&["steps=[5, 7, 5]"], LIMITS),
+            "`steps[2]` is 5, but must be unlike the others; two runs would both be called `steps=5`: name it once"
+        );
+    }
+
+    #[test]
+    fn the_field_that_saves_most_is_blamed_for_a_size() {
+        let message = refused(&["grain.damping=2.0", "steps=[900000, 10]"], Limits { core_hours: 1e-5, ..LIMITS });
+        assert_eq!(
+            message,
+            "`steps` is [900000, 10], but must be such that the runs take at most 0.00001 hours of one core; 9.0e5 \
+             particle-steps would take 0.00025 hours: ask for less, or allow more with --most-hours"
+        );
+        assert_eq!(refused(&["steps=[900000, 10]"], LIMITS), "taken");
+    }
+
+    #[test]
+    fn a_tier_that_is_beyond_a_limit_is_named_itself() {
+        let message = refused(&[], Limits { core_hours: 1e-12, ..LIMITS });
+        assert!(message.starts_with("`tier` is quick, but must be such that the runs take"), "{message}");
+    }
+
+    #[test]
+    fn an_error_without_a_changed_field_gets_those_that_were_changed() {
+        let unnamed = || ParameterError::NothingToRun { case: "pendulum".to_owned() };
+        let changed = [("grain.damping".to_owned(), "2.0".to_owned())];
+        let message = with_changed(unnamed(), &changed).to_string();
+        assert!(message.ends_with("; what differs from the tier's parameters: `grain.damping` is 2.0"), "{message}");
+        assert_eq!(with_changed(unnamed(), &[]).to_string(), unnamed().to_string());
+        let named = ParameterError::field("grain", 1, "2", "change it");
+        assert!(!with_changed(named, &changed).to_string().contains("differs"));
+    }
+}

@@ -1,0 +1,48 @@
+//! `bagnold store`: what is stored, and making it smaller.
+
+use super::arguments::{Store as Arguments, StoreAction};
+use super::error::ProgramError;
+use super::{Exit, say};
+use crate::output::FileError;
+use crate::store::{Keep, Store, StorePolicy, prune, versions};
+use std::io::Write;
+use std::time::{Duration, SystemTime};
+
+const BYTES_PER_GIBIBYTE: f64 = 1024.0 * 1024.0 * 1024.0;
+const SECONDS_PER_DAY: f64 = 86_400.0;
+
+/// Lists or prunes.
+pub(super) fn store(command: &Arguments, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+    let policy = StorePolicy::Use;
+    let store = command.store.as_ref().map_or_else(|| Store::open(policy), |folder| Store::at(folder, policy));
+    let root = store.root();
+    let now = SystemTime::now();
+    let mut text = String::new();
+    if let StoreAction::Prune { days, size } = command.action {
+        let keep = Keep {
+            younger_than: days.map(|days| Duration::from_secs_f64(days.min(1e6) * SECONDS_PER_DAY)),
+            bytes: size.map(|gibibytes| (gibibytes * BYTES_PER_GIBIBYTE) as u64),
+        };
+        let pruned = prune(root, keep, now).map_err(|error| FileError::unwritable(root, &error))?;
+        text += &format!("deleted {} entries, {}\n", pruned.entries, size_in_words(pruned.bytes));
+    }
+    let versions = versions(root).map_err(|error| FileError::unreadable(root, &error))?;
+    for version in &versions {
+        let days = now.duration_since(version.newest).unwrap_or_default().as_secs_f64() / SECONDS_PER_DAY;
+        text += &format!(
+            "{}  {} entries, {}, the newest {days:.1} days old\n",
+            version.name,
+            version.entries,
+            size_in_words(version.bytes)
+        );
+    }
+    let (entries, bytes) =
+        versions.iter().fold((0, 0), |(entries, bytes), version| (entries + version.entries, bytes + version.bytes));
+    text += &format!("{}: {entries} entries, {}\n", root.display(), size_in_words(bytes));
+    say(output, &text);
+    Ok(Exit::Held)
+}
+
+fn size_in_words(bytes: u64) -> String {
+    format!("{:.1} MiB", bytes as f64 / 1024.0 / 1024.0)
+}

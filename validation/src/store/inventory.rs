@@ -1,0 +1,176 @@
+//! What lies in a store, and how it is made smaller on request.
+
+use super::is_version;
+use std::io::Result;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+/// Ends the names of entries, and of what a killed process left half written.
+const ENDINGS: [&str; 2] = ["postcard", "partial"];
+
+/// One file of the store.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Stored {
+    path: PathBuf,
+    bytes: u64,
+    modified: SystemTime,
+}
+
+/// The entries of one version of the sources.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Version {
+    /// Name of its folder.
+    pub name: String,
+    /// Number of entries.
+    pub entries: usize,
+    /// Size of them all.
+    pub bytes: u64,
+    /// When the newest was written.
+    pub newest: SystemTime,
+}
+
+/// What is to stay in a store; `None` sets no limit.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Keep {
+    /// Entries that are not older.
+    pub younger_than: Option<Duration>,
+    /// The newest, of this size in all `[bytes]`.
+    pub bytes: Option<u64>,
+}
+
+/// What was deleted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Pruned {
+    /// Number of entries.
+    pub entries: usize,
+    /// Size of them all.
+    pub bytes: u64,
+}
+
+/// The versions in a store, the newest first.
+///
+/// # Errors
+/// A folder that cannot be read; a missing one is empty.
+pub fn versions(root: &Path) -> Result<Vec<Version>> {
+    let mut versions = Vec::new();
+    for folder in folders(root)? {
+        let stored = stored_in(&folder)?;
+        let Some(newest) = stored.iter().map(|entry| entry.modified).max() else { continue };
+        versions.push(Version {
+            name: folder.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+            entries: stored.len(),
+            bytes: stored.iter().map(|entry| entry.bytes).sum(),
+            newest,
+        });
+    }
+    versions.sort_by(|a, b| b.newest.cmp(&a.newest).then_with(|| a.name.cmp(&b.name)));
+    Ok(versions)
+}
+
+/// Deletes what is not to stay, the oldest first, and folders that become empty. Only entries of the store are touched.
+///
+/// # Errors
+/// A folder that cannot be read or an entry that cannot be deleted.
+pub fn prune(root: &Path, keep: Keep, now: SystemTime) -> Result<Pruned> {
+    let folders = folders(root)?;
+    let mut stored = Vec::new();
+    for folder in &folders {
+        stored.extend(stored_in(folder)?);
+    }
+    stored.sort_by(|a, b| b.modified.cmp(&a.modified).then_with(|| a.path.cmp(&b.path)));
+    let (mut kept, mut pruned) = (0, Pruned::default());
+    for entry in stored {
+        let age = now.duration_since(entry.modified).unwrap_or_default();
+        let is_young = keep.younger_than.is_none_or(|most| age <= most);
+        let fits = keep.bytes.is_none_or(|most| kept + entry.bytes <= most);
+        if is_young && fits {
+            kept += entry.bytes;
+        } else {
+            std::fs::remove_file(&entry.path)?;
+            pruned.entries += 1;
+            pruned.bytes += entry.bytes;
+        }
+    }
+    for folder in folders {
+        // fails where something is left, which is what is wanted
+        let _ = std::fs::remove_dir(folder);
+    }
+    Ok(pruned)
+}
+
+/// The folders of versions; no links, which may lead out of the store.
+fn folders(root: &Path) -> Result<Vec<PathBuf>> {
+    let entries = match std::fs::read_dir(root) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries?,
+    };
+    let mut folders = Vec::new();
+    for entry in entries {
+        let entry = entry?;
+        if entry.file_type()?.is_dir() && is_version(&entry.file_name().to_string_lossy()) {
+            folders.push(entry.path());
+        }
+    }
+    Ok(folders)
+}
+
+fn stored_in(folder: &Path) -> Result<Vec<Stored>> {
+    let mut stored = Vec::new();
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        let path = entry.path();
+        let is_entry = path.extension().is_some_and(|ending| ENDINGS.iter().any(|own| ending == *own));
+        // not followed: a link that somebody put here is his
+        let metadata = entry.metadata()?;
+        if is_entry && metadata.is_file() {
+            stored.push(Stored { path, bytes: metadata.len(), modified: metadata.modified()? });
+        }
+    }
+    Ok(stored)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DAY: Duration = Duration::from_secs(86_400);
+
+    /// Ten entries of a kilobyte in two versions, a day apart, and what is not the store's.
+    fn store() -> (tempfile::TempDir, SystemTime) {
+        let root = tempfile::tempdir().expect("temporary folder");
+        let now = SystemTime::UNIX_EPOCH + 1000 * DAY;
+        for age in 0..10_u32 {
+            let folder = root.path().join(format!("sources-{}", if age < 5 { "a" } else { "b" }.repeat(16)));
+            std::fs::create_dir_all(&folder).expect("writable");
+            let file = folder.join(format!("{age}.postcard"));
+            std::fs::write(&file, [0; 1000]).expect("writable");
+            std::fs::File::open(&file).and_then(|file| file.set_modified(now - age * DAY)).expect("settable");
+        }
+        std::fs::create_dir(root.path().join("sources-of-mine")).expect("writable");
+        std::fs::write(root.path().join("sources-of-mine/thesis.postcard"), "").expect("writable");
+        (root, now)
+    }
+
+    #[test]
+    fn versions_are_listed_the_newest_first() {
+        let (root, now) = store();
+        let versions = versions(root.path()).expect("readable");
+        let brief: Vec<_> = versions.iter().map(|version| (version.entries, version.bytes, version.newest)).collect();
+        assert_eq!(brief, [(5, 5000, now), (5, 5000, now - 5 * DAY)]);
+        assert_eq!(super::versions(&root.path().join("none")).expect("empty"), []);
+    }
+
+    #[test]
+    fn what_is_too_old_or_too_much_goes_and_nothing_else() {
+        let (root, now) = store();
+        let of = |keep| prune(root.path(), keep, now).expect("writable");
+        assert_eq!(of(Keep::default()), Pruned::default());
+        let young = Keep { younger_than: Some(7 * DAY), bytes: None };
+        assert_eq!(of(young), Pruned { entries: 2, bytes: 2000 });
+        let small = Keep { younger_than: None, bytes: Some(3500) };
+        assert_eq!(of(small), Pruned { entries: 5, bytes: 5000 });
+        assert_eq!(versions(root.path()).expect("readable").len(), 1);
+        assert!(!root.path().join(format!("sources-{}", "b".repeat(16))).exists(), "an empty version is gone");
+        assert!(root.path().join("sources-of-mine/thesis.postcard").exists());
+    }
+}
