@@ -24,7 +24,8 @@ data = [{ table = "profile-fluid-newtonian-particles-jittered-resolution-10", x 
 
 [[hold_out]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = 12, convergence_resolutions = [], comparison_resolution = 0 }
+conditions = ["slope_angle"]
+with = { fluids = ["newtonian"], resolution = 10, slope_angle = 12.0, convergence_resolutions = [], comparison_resolution = 0 }
 data = [{ metric = "particles_lost", value = 0.0, unit = "-", uncertainty = 1.0, source = "own" }]
 "#;
 
@@ -75,6 +76,30 @@ fn viscosity_of_the_exact_film() -> (f64, f64) {
     (1.0 / fluidity, 1.0 / (down.sqrt() * fluidity * fluidity))
 }
 
+/// χ², p and the intervals of a result belong to the best point, which was evaluated, and so were the ends.
+fn assert_one_point(result: &serde_json::Value) {
+    let evaluations = result["evaluations"].as_array().expect("a list");
+    let least =
+        evaluations.iter().filter_map(|evaluation| evaluation["chi_squared"].as_f64()).fold(f64::INFINITY, f64::min);
+    assert_eq!(result["chi_squared"].as_f64(), Some(least));
+    let parameters = result["parameters"].as_array().expect("a list");
+    let data = result["fit"].as_array().expect("a list").len();
+    let reduced = result["reduced_chi_squared"].as_f64().expect("more data than parameters");
+    assert!((reduced * (data - parameters.len()) as f64 / least - 1.0).abs() < 1e-12, "{reduced} of {least}");
+    let p = bagnold_validation::inference::chi_squared_tail(least, data - parameters.len());
+    assert_eq!(result["p_value"].as_f64(), Some(p));
+    for (k, parameter) in parameters.iter().enumerate() {
+        for end in 0..2 {
+            let value = parameter["interval"][end].as_f64().expect("a number");
+            let there = evaluations.iter().find(|evaluation| {
+                evaluation["values"][k].as_f64().is_some_and(|other| (other / value - 1.0).abs() < 1e-12)
+            });
+            let rise = there.and_then(|there| there["chi_squared"].as_f64()).expect("evaluated") - least;
+            assert!((rise / 3.841_459 - 1.0).abs() < 0.1, "{rise} at the end {value}");
+        }
+    }
+}
+
 #[test]
 fn own_data_give_parameters_a_page_and_a_case_to_run() {
     let (place, plan) = place();
@@ -93,7 +118,7 @@ fn own_data_give_parameters_a_page_and_a_case_to_run() {
         low < best && best < high && (0.9..1.1).contains(&width),
         "{low} {best} {high}, {width} of the exact width"
     );
-    assert!(result["searched"].as_u64().is_some_and(|count| count <= 12));
+    assert_one_point(&result);
     for name in ["index.html", "data.csv", "evaluations.csv", "figures/profiles.svg", "figures/fit.png"] {
         assert!(place.path("out").join(name).is_file(), "{name}");
     }
@@ -134,7 +159,7 @@ fn wrong_plans_are_refused_by_name() {
         "error: plan.toml: `parameters[0].lower` is 5, but must be below `upper`, which is 2; exchange the two bounds"
     );
     assert_eq!(
-        plan("resolution = 12", "resolution = 10"),
+        plan("slope_angle = 12.0, ", ""),
         "error: plan.toml: the run `film fluid=newtonian,particles=jittered,resolution=10` is in both `fit[0]` and \
          `hold_out[0]`; what is predicted must not be fitted, so take it out of one"
     );
@@ -154,6 +179,38 @@ fn wrong_plans_are_refused_by_name() {
     );
     let unit = plan("unit = \"-\", uncertainty", "unit = \"m\", uncertainty");
     assert!(unit.ends_with("the case gives `particles_lost` in [-], but the data are in [m]; convert them"), "{unit}");
+}
+
+/// Neither another cell nor a slope that differs by rounding is another experiment.
+#[test]
+fn what_is_held_out_must_differ_in_its_physics() {
+    let plan = |to: &'static str| refusal(move |text| text.replace("slope_angle = 12.0", to), str::to_owned);
+    let same = |value: &str| {
+        format!(
+            "error: plan.toml: `hold_out[0]` has the conditions of `fit[0]` (slope_angle {value} and 10: the same within 1 \
+             %); what is predicted must differ in its physics, so hold out other conditions"
+        )
+    };
+    assert_eq!(plan("slope_angle = 10.000001"), same("10.000001"));
+    assert_eq!(
+        refusal(|text| text.replace("resolution = 10, slope_angle = 12.0", "resolution = 12"), str::to_owned),
+        same("10")
+    );
+    assert_eq!(
+        refusal(|text| text.replace("conditions = [\"slope_angle\"]\n", ""), str::to_owned),
+        "error: plan.toml: `hold_out[0].conditions` is missing, but must be given where `fit[0]` has the same case; name the \
+         parameters that make it differ from what is fitted, such as conditions = [\"slopes\"]"
+    );
+    assert_eq!(
+        refusal(|text| text.replace("conditions = [\"slope_angle\"]", "conditions = [\"slope_angel\"]"), str::to_owned),
+        "error: plan.toml: `path` is `slope_angel`, but `film` has no such field; did you mean `slope_angle`? `bagnold show \
+         film` prints all fields"
+    );
+    assert_eq!(
+        refusal(|text| text.replace("conditions = [\"slope_angle\"]", "conditions = [\"fluids\"]"), str::to_owned),
+        "error: plan.toml: `hold_out[0].conditions` is fluids, but must be a number or a list of numbers of the case; name \
+         what is measured along, such as a slope"
+    );
 }
 
 #[test]
@@ -227,7 +284,8 @@ data = [{ table = "profile-fluid-newtonian-particles-jittered-resolution-10", x 
 
 [[hold_out]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = 12, convergence_resolutions = [], comparison_resolution = 0 }
+conditions = ["slope_angle"]
+with = { fluids = ["newtonian"], resolution = 10, slope_angle = 12.0, convergence_resolutions = [], comparison_resolution = 0 }
 data = [{ metric = "no_such_metric", value = 0.0, unit = "-", uncertainty = 1.0, source = "own" }]
 "#;
 
@@ -281,7 +339,7 @@ fn friction_and_inertia_are_found_again_from_profiles() {
     place.bagnold(&["-q", "calibrate", &plan, "--out", "out"]).assert().code(0);
     let text = std::fs::read_to_string(place.path("out/result.json")).expect("written");
     let result: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-    assert!(result["searched"].as_u64().is_some_and(|count| count <= 25));
+    assert!(result["searched"].as_u64().is_some_and(|count| count <= 25 + 8 + 25));
     for parameter in result["parameters"].as_array().expect("a list") {
         let number = |name: &str| parameter[name].as_f64().expect("a number");
         let error = number("best") / number("truth") - 1.0;

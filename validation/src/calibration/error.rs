@@ -40,6 +40,20 @@ pub enum CalibrationError {
         /// Where it is held out.
         hold_out: String,
     },
+    /// What is held out has the conditions of what is fitted.
+    #[error("{}: `{hold_out}` has the conditions of `{fit}` ({same}: the same within {percent} %); what is predicted must differ in its physics, so hold out other conditions", .file.display())]
+    SameConditions {
+        /// The plan.
+        file: PathBuf,
+        /// The block that is held out.
+        hold_out: String,
+        /// The fitted one.
+        fit: String,
+        /// The parameters with both values.
+        same: String,
+        /// Difference up to which two values are the same `[%]`.
+        percent: f64,
+    },
     /// Data have no counterpart in what a case computes.
     #[error("{}: `{field}`: the case gives {reason}", .file.display())]
     Counterpart {

@@ -10,38 +10,39 @@
 //!
 //! The search is deterministic, so one that was killed is begun anew and finds its evaluations done.
 
+mod conditions;
 mod data;
 mod error;
 mod figures;
+mod findings;
 mod folder;
 mod objective;
 mod page;
 mod plan;
+mod prediction;
 mod result;
 mod screening;
 mod target;
 mod text;
 mod trials;
 
+pub use conditions::Conditions;
 pub use error::CalibrationError;
 pub use folder::CalibrationFolder;
 pub use objective::Watch;
 pub use page::write;
 pub use plan::{Block, Choice, Parameter, Plan};
-pub use result::{Compared, Evaluation, Found, Outcome, Place, Sensitivity, weighted_error};
+pub use result::{Compared, Evaluation, Found, FoundMinimum, Outcome, Place, Sensitivity, weighted_error};
 pub use trials::Trial;
 
 use crate::case::Registry;
 use crate::evaluation::Record;
-use crate::inference::{self, Budget, Explored, Method, Search, SearchError, Uncertainties, explore};
+use crate::inference::{self, Answer, Evaluate, Method, SearchError, chi_squared};
 use crate::sampling::design;
 use crate::store::Store;
 use objective::Objective;
 use result::compared;
 use std::sync::Mutex;
-
-/// Share of repeated experiments below which a χ² is taken as a sign that the model misses something.
-const UNLIKELY: f64 = 0.05;
 
 /// Searches, or tries every choice, and judges on what was held out. What `folder` holds is not done again.
 ///
@@ -75,8 +76,14 @@ pub fn calibrate(
             tracing::warn!("at the first point: {reason}");
         }
     }
-    let found = search(plan, &mut objective, &start);
-    let found = found.map_err(|error| match error {
+    let steps = inference::Plan {
+        start,
+        method: plan.method,
+        design: if plan.levels.is_empty() { Vec::new() } else { design::full_grid(&plan.levels) },
+        budget: plan.budget,
+        region_evaluations: plan.region_evaluations,
+    };
+    let answer = inference::solve(&mut objective, &steps).map_err(|error| match error {
         SearchError::Model(error) => error,
         other => {
             let cause =
@@ -84,46 +91,32 @@ pub fn calibrate(
             CalibrationError::Search { file: plan.file.clone(), reason: format!("{other}{cause}") }
         }
     })?;
-    let searched = found.history.len();
-    let mapped = region_of(plan, &mut objective, &found)?;
-    let history = mapped.as_ref().map_or_else(|| found.history.clone(), |mapped| mapped.history.clone());
-    let best = history
-        .iter()
-        .filter_map(|evaluated| evaluated.chi_squared.map(|chi_squared| (chi_squared, &evaluated.point)))
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map_or_else(|| found.best.clone(), |(_, point)| point.clone());
+    let truth_inside = truth_inside(plan, &mut objective, &answer)?;
     let sensitivity = screening::screen(&mut objective, plan.trajectories)?;
-    let values = plan.values(&best);
+    let values = plan.values(&answer.search.best);
     let failed = |reason: String| CalibrationError::Search { file: plan.file.clone(), reason };
-    let fit = compare_at(&objective, &values, false)?.map_err(failed)?;
-    let hold_out = compare_at(&objective, &values, true)?;
-    let calibrated = result::calibrated(&objective, &values)?;
-    let search = Search { best, history, ..found };
-    Ok(result::assemble(plan, &search, searched, mapped.as_ref(), sensitivity, (fit, hold_out), calibrated))
-}
-
-fn search(plan: &Plan, objective: &mut Objective<'_>, start: &[f64]) -> Result<Search, SearchError<CalibrationError>> {
-    if plan.method == Method::Design && !plan.levels.is_empty() {
-        let points = design::full_grid(&plan.levels);
-        let budget = Budget { evaluations: points.len() + 1, ..plan.budget };
-        return inference::search_design(objective, &points, budget);
-    }
-    inference::search(objective, start, plan.method, plan.budget)
-}
-
-/// The region of what was evaluated and of further points, where it is wider; none with too few points. Uncertainties are
-/// enlarged where the model does not explain the data.
-fn region_of(plan: &Plan, objective: &mut Objective<'_>, found: &Search) -> Result<Option<Explored>, CalibrationError> {
-    let budget = Budget { evaluations: plan.region_evaluations, ..plan.budget };
-    let stated = explore(objective, found.history.clone(), Uncertainties::AsStated, &budget)?;
-    match stated {
-        Some(stated) if stated.region.p_value.is_some_and(|p| p < UNLIKELY) => {
-            let left = plan.region_evaluations.saturating_sub(stated.history.len() - found.history.len());
-            let budget = Budget { evaluations: left, ..budget };
-            explore(objective, stated.history, Uncertainties::Inflated, &budget)
+    let mut fit = compare_at(&objective, &values, false)?.map_err(failed)?;
+    let mut hold_out = compare_at(&objective, &values, true)?;
+    let posterior = prediction::posterior(&objective, &answer);
+    if let (Some(posterior), Some(explored)) = (&posterior, &answer.explored) {
+        prediction::of_fit(&objective, explored, posterior, &mut fit);
+        if let Ok(hold_out) = &mut hold_out {
+            prediction::of_hold_out(&objective, &answer, posterior, hold_out)?;
         }
-        other => Ok(other),
     }
+    let asked = posterior.as_ref().filter(|_| plan.method == Method::Posterior);
+    let calibrated = result::calibrated(&objective, &values)?;
+    Ok(result::assemble(plan, &answer, sensitivity, (fit, hold_out), calibrated, truth_inside, asked))
+}
+
+/// Whether the joint 95 % region holds the truth of synthetic data, as the model itself says, which made them there.
+fn truth_inside(plan: &Plan, objective: &mut Objective<'_>, answer: &Answer) -> Result<Option<bool>, CalibrationError> {
+    let truth: Option<Vec<f64>> =
+        plan.parameters.iter().map(|p| p.truth.map(|truth| p.bounds.coordinate(truth))).collect();
+    let Some((truth, explored)) = truth.zip(answer.explored.as_ref()) else { return Ok(None) };
+    let residuals = objective.residuals(std::slice::from_ref(&truth))?.pop().flatten();
+    let rise = residuals.map(|residuals| chi_squared(&residuals) - answer.search.chi_squared);
+    Ok(rise.map(|rise| rise <= explored.region.threshold))
 }
 
 /// The fitted or held-out data beside what the model says at physical values, or why a run of theirs failed.

@@ -210,7 +210,7 @@ impl Evaluate for Objective<'_> {
             let residual = |datum: &Datum| {
                 let record = record(datum.block).filter(|record| record.failure.is_none())?;
                 let (value, _) = datum.target.predicted(record).ok()?;
-                Some(datum.residual(value)).filter(|residual| residual.is_finite())
+                Some(self.plan.loss.root(datum.residual(value))).filter(|residual| residual.is_finite())
             };
             self.data_of(false).map(residual).collect::<Option<Vec<f64>>>()
         };

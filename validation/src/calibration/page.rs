@@ -1,8 +1,9 @@
 //! Files of a calibration: the page, its figures, tables and the calibrated cases.
 
 use super::figures;
-use super::result::{Compared, Outcome, relative_error, weighted_error};
+use super::result::{Compared, Found, FoundMinimum, Outcome, relative_error, weighted_error};
 use crate::figure::{self, FigureError};
+use crate::inference::UNLIKELY;
 use crate::number::four_digits;
 use crate::output::{FileError, write_whole};
 use crate::report::template_value;
@@ -102,13 +103,17 @@ fn data(outcome: &Outcome) -> io::Result<Vec<u8>> {
         "upper",
         "model",
         "residual [-]",
+        "predicted lower",
+        "predicted upper",
         "source",
     ])?;
     for (name, datum) in all_data(outcome) {
         let numbers =
             [datum.datum, datum.band.0, datum.band.1, datum.model, datum.residual].map(|value| value.to_string());
+        let predicted =
+            datum.predicted.map_or_else(Default::default, |(low, high)| [low.to_string(), high.to_string()]);
         let head = [name, datum.block.clone(), datum.label.clone(), datum.unit.clone()];
-        writer.write_record(head.into_iter().chain(numbers).chain([datum.source.clone()]))?;
+        writer.write_record(head.into_iter().chain(numbers).chain(predicted).chain([datum.source.clone()]))?;
     }
     writer.into_inner().map_err(|error| io::Error::other(error.to_string()))
 }
@@ -134,9 +139,18 @@ fn summary(outcome: &Outcome) -> Vec<String> {
         let failed = outcome.evaluations.iter().filter(|evaluation| evaluation.chi_squared.is_none()).count();
         let beyond = outcome.evaluations.len() - outcome.searched;
         lines.push(format!(
-            "{} evaluations by {} and {beyond} at the ends of the intervals, {failed} of them failed; {}.",
+            "{} evaluations by {} and {beyond} at the ends of the intervals and the edge of the joint region, {failed} of them \
+             failed; {}.",
             outcome.searched, outcome.method, outcome.stopped
         ));
+        if outcome.minima.len() > 1 {
+            let minimum = |minimum: &FoundMinimum| {
+                let values: Vec<String> = minimum.values.iter().map(|value| four_digits(*value)).collect();
+                format!("χ² {} at ({})", four_digits(minimum.chi_squared), values.join(", "))
+            };
+            let minima: Vec<String> = outcome.minima.iter().map(minimum).collect();
+            lines.push(format!("Descents ended in {} minima: {}.", minima.len(), minima.join("; ")));
+        }
         if let (Some(reduced), Some(p)) = (outcome.reduced_chi_squared, outcome.p_value) {
             let judged = if outcome.inflation > 1.0 {
                 format!(
@@ -144,6 +158,8 @@ fn summary(outcome: &Outcome) -> Vec<String> {
                      intervals",
                     four_digits(outcome.inflation)
                 )
+            } else if p > 1.0 - UNLIKELY {
+                "the data agree with the model better than their uncertainties allow".to_owned()
             } else {
                 "the model explains the data within their uncertainties".to_owned()
             };
@@ -152,6 +168,14 @@ fn summary(outcome: &Outcome) -> Vec<String> {
                 four_digits(reduced),
                 four_digits(p)
             ));
+        }
+        let credible = |found: &Found| {
+            let (low, high) = found.credible?;
+            Some(format!("{} {} … {} {}", found.name, four_digits(low), four_digits(high), found.unit))
+        };
+        let credible: Vec<String> = outcome.parameters.iter().filter_map(credible).collect();
+        if !credible.is_empty() {
+            lines.push(format!("Posterior with a prior that is flat over the ranges, 95 %: {}.", credible.join("; ")));
         }
         if let Some(inside) = outcome.truth_inside {
             let word = if inside { "holds" } else { "does not hold" };
@@ -165,14 +189,15 @@ fn summary(outcome: &Outcome) -> Vec<String> {
 }
 
 fn render(outcome: &Outcome, pictures: Vec<Picture>) -> Result<String, minijinja::Error> {
-    let parameter = |found: &super::result::Found| {
+    let parameter = |found: &Found| {
         let interval = found.interval.map_or_else(
             || "–".to_owned(),
             |(low, high)| {
                 let end = |open: bool, value: f64, sign: &str| {
                     if open { format!("{sign} {} (bound)", four_digits(value)) } else { four_digits(value) }
                 };
-                format!("{} … {}", end(found.open.0, low, "≤"), end(found.open.1, high, "≥"))
+                let doubt = if found.settled == (true, true) { "" } else { " (not settled)" };
+                format!("{} … {}{doubt}", end(found.open.0, low, "≤"), end(found.open.1, high, "≥"))
             },
         );
         let bounds = format!("{} … {}", four_digits(found.bounds.0), four_digits(found.bounds.1));

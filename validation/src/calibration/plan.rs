@@ -1,11 +1,12 @@
 //! A calibration as a TOML file.
 
+use super::conditions::{self, Conditions, Known};
 use super::data::DatumText;
 use super::error::CalibrationError;
 use super::text::Text;
 use crate::case::Registry;
 use crate::evaluation::{CaseRequest, PlanError, read_plan};
-use crate::inference::{Budget, Method};
+use crate::inference::{Budget, Loss, Method};
 use crate::input::{FieldError, nearest};
 use crate::sampling::{Bounds, Paths, float};
 use crate::store::Store;
@@ -47,6 +48,8 @@ pub struct Block {
     pub request: CaseRequest,
     /// Whether its data are held out.
     pub held_out: bool,
+    /// What makes its conditions, if it is held out.
+    pub conditions: Option<Conditions>,
     /// Where it stands in the file, such as `fit[0]`.
     pub field: String,
 }
@@ -64,6 +67,8 @@ pub struct Plan {
     pub method: Method,
     /// What the search may spend.
     pub budget: Budget,
+    /// What a residual costs.
+    pub loss: Loss,
     /// Evaluations beyond the search that may map the region of agreement.
     pub region_evaluations: usize,
     /// Trajectories of the screening; 0 for none.
@@ -163,6 +168,7 @@ impl Plan {
         let start: Vec<f64> = self.parameters.iter().map(|parameter| parameter.start).collect();
         let store = Store::open(crate::store::StorePolicy::Use);
         let mut fitted: BTreeMap<String, String> = BTreeMap::new();
+        let mut known = Vec::new();
         for block in &self.blocks {
             let settings = self.settings(block, &start);
             if settings.is_empty() && self.choices.is_empty() {
@@ -194,8 +200,11 @@ impl Plan {
                     });
                 }
             }
+            // what the program itself wrote can be read
+            let parameters = toml::from_str(prepared.parameters_toml()).unwrap_or_default();
+            known.push(Known { block, parameters });
         }
-        Ok(())
+        conditions::check(self, &known)
     }
 }
 

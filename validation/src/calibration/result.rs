@@ -1,14 +1,19 @@
 //! What a calibration hands to its page and files: plain data without a trace of when or where it ran.
 
 use super::error::CalibrationError;
+use super::findings;
 use super::objective::Objective;
-use super::plan::Plan;
+use super::plan::{Parameter, Plan};
 use super::target::{Datum, Target};
 use super::trials::Trial;
 use crate::evaluation::Record;
-use crate::inference::{Explored, Parameter as Named, Search, Stopped, assess, chi_squared};
+use crate::inference::posterior::Posterior;
+use crate::inference::{Answer, Evaluated, LocalMinimum};
 use crate::sampling::Spacing;
 use serde::{Deserialize, Serialize};
+
+/// Samples of the posterior that are kept.
+const MOST_SAMPLES: usize = 1000;
 
 /// Where a datum lies in a profile.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -42,6 +47,8 @@ pub struct Compared {
     pub unit: String,
     /// (model − datum)/σ, or the same of logarithms `[-]`.
     pub residual: f64,
+    /// What 95 % of the posterior give; none of a bake-off.
+    pub predicted: Option<(f64, f64)>,
     /// Where the datum comes from.
     pub source: String,
 }
@@ -65,6 +72,12 @@ pub struct Found {
     pub interval: Option<(f64, f64)>,
     /// Whether the interval ends at a bound only because the search does.
     pub open: (bool, bool),
+    /// Whether the model itself has confirmed its ends.
+    pub settled: (bool, bool),
+    /// χ² of the model at the ends above that of the best point `[-]`; none where it was not evaluated there.
+    pub rise: (Option<f64>, Option<f64>),
+    /// 95 % of the posterior's samples, as many left out below as above; none unless asked for.
+    pub credible: Option<(f64, f64)>,
     /// Profile of χ² above its minimum over the parameter.
     pub profile: Vec<(f64, f64)>,
     /// The value that synthetic data were made with.
@@ -78,6 +91,15 @@ pub struct Evaluation {
     pub values: Vec<f64>,
     /// χ² `[-]`; none where the model failed.
     pub chi_squared: Option<f64>,
+}
+
+/// A minimum that a descent has ended in.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FoundMinimum {
+    /// Parameters, in their units.
+    pub values: Vec<f64>,
+    /// χ² `[-]`.
+    pub chi_squared: f64,
 }
 
 /// What one parameter does to the data over its whole range.
@@ -102,15 +124,17 @@ pub struct Outcome {
     pub method: String,
     /// Why it ended.
     pub stopped: String,
-    /// Evaluations of the search itself.
+    /// Evaluations of the search itself, other starts among them.
     pub searched: usize,
     /// All evaluations by number: the search, then the ends of the intervals.
     pub evaluations: Vec<Evaluation>,
     /// The parameters.
     pub parameters: Vec<Found>,
-    /// χ² at the best point `[-]`.
+    /// Minima in which descents ended, the lowest first.
+    pub minima: Vec<FoundMinimum>,
+    /// χ² at the best point, which was evaluated, or the sum of another loss `[-]`.
     pub chi_squared: Option<f64>,
-    /// χ² over the degrees of freedom `[-]`; none unless there are more data than parameters.
+    /// The same χ² over the degrees of freedom `[-]`; none unless there are more data than parameters.
     pub reduced_chi_squared: Option<f64>,
     /// Share of repeated experiments in which a true model gives a larger χ² `[-]`.
     pub p_value: Option<f64>,
@@ -122,6 +146,8 @@ pub struct Outcome {
     pub truth_inside: Option<bool>,
     /// What the data leave open, in sentences.
     pub findings: Vec<String>,
+    /// Samples of the posterior, parameters in their units; empty unless asked for.
+    pub samples: Vec<Vec<f64>>,
     /// Screening; empty if none was asked for.
     pub sensitivity: Vec<Sensitivity>,
     /// Fitted data at the best point.
@@ -168,6 +194,7 @@ pub(super) fn compared<'r>(
         model,
         unit: datum.unit.clone(),
         residual: datum.residual(model),
+        predicted: None,
         source: datum.source,
     };
     Ok(data.into_iter().zip(predicted).map(one).collect())
@@ -185,97 +212,51 @@ pub(super) fn calibrated(objective: &Objective<'_>, values: &[f64]) -> Result<Ve
         .collect()
 }
 
-/// Everything about a search, in physical units.
+/// Everything about a search, in physical units; with samples of the posterior if they were asked for.
 pub(super) fn assemble(
     plan: &Plan,
-    search: &Search,
-    searched: usize,
-    mapped: Option<&Explored>,
+    answer: &Answer,
     sensitivity: Vec<Sensitivity>,
     (fit, hold_out): (Vec<Compared>, Result<Vec<Compared>, String>),
     calibrated: Vec<String>,
+    truth_inside: Option<bool>,
+    posterior: Option<&Posterior>,
 ) -> Outcome {
-    let region = mapped.map(|mapped| &mapped.region);
-    let (hold_out, held_out_failure) = match hold_out {
-        Ok(data) => (data, None),
-        Err(reason) => (Vec::new(), Some(format!("what was held out failed at the best parameters: {reason}"))),
-    };
-    let physical = |k: usize, u: f64| plan.parameters[k].bounds.value(u);
-    let best = plan.values(&search.best);
-    let found = |(k, parameter): (usize, &super::plan::Parameter)| {
-        let profile = region.map(|region| &region.profiles[k]);
-        Found {
-            name: parameter.name.clone(),
-            unit: parameter.unit.clone(),
-            bounds: (parameter.bounds.lower, parameter.bounds.upper),
-            logarithmic: parameter.bounds.spacing == Spacing::Log,
-            start: parameter.start,
-            best: best[k],
-            interval: profile.map(|p| (physical(k, p.interval[0]), physical(k, p.interval[1]))),
-            open: profile.map_or((false, false), |p| (p.open_below, p.open_above)),
-            profile: profile.map_or_else(Vec::new, |p| {
-                p.curve.iter().map(|point| (physical(k, point.point[k]), point.rise)).collect()
-            }),
-            truth: parameter.truth,
-        }
-    };
-    let names: Vec<Named> =
-        plan.parameters.iter().map(|p| Named { name: p.name.clone(), unit: p.unit.clone() }).collect();
-    let truth: Option<Vec<f64>> =
-        plan.parameters.iter().map(|p| p.truth.map(|truth| p.bounds.coordinate(truth))).collect();
-    let mut findings = Vec::new();
-    if matches!(search.stopped, Stopped::BudgetSpent | Stopped::Stalled) {
-        findings.push(format!("the search did not converge: {}", search.stopped));
-    }
-    match mapped {
-        None => {
-            findings.push("too few evaluations succeeded to say how well the data determine the parameters".to_owned())
-        }
-        Some(mapped) => {
-            let region = &mapped.region;
-            if region.inflation > 1.0 {
-                findings.push("the model does not explain the data within their uncertainties".to_owned());
-            }
-            findings.extend(assess(&region.jacobian(), region, &names, &physical).iter().map(ToString::to_string));
-            for (k, profile) in region.profiles.iter().enumerate() {
-                let [low, high] = profile.interval;
-                if !(low..=high).contains(&search.best[k]) {
-                    findings.push(format!(
-                        "the best `{}` that was evaluated lies outside its own interval, which rests on a polynomial through \
-                         all evaluations: they lie too far apart, or the model is noisy",
-                        names[k].name
-                    ));
-                }
-            }
-            if !mapped.settled {
-                let text = "ends of intervals lie where the model was not evaluated; allow more `region_evaluations`";
-                findings.push(text.to_owned());
-            }
-        }
-    }
-    findings.extend(held_out_failure);
+    let search = &answer.search;
+    let region = answer.explored.as_ref().map(|explored| &explored.region);
+    let mut findings = findings::of(plan, answer, &fit);
+    let hold_out = hold_out.unwrap_or_else(|reason| {
+        findings.push(format!("what was held out failed at the best parameters: {reason}"));
+        Vec::new()
+    });
     let correlation = region.map_or_else(Vec::new, |region| {
         region.correlation.row_iter().map(|row| row.iter().copied().collect()).collect()
     });
-    let evaluation = |evaluated: &crate::inference::Evaluated| Evaluation {
+    let evaluation = |evaluated: &Evaluated| Evaluation {
         values: plan.values(&evaluated.point),
         chi_squared: evaluated.chi_squared,
     };
-    let residuals: Vec<f64> = fit.iter().map(|datum| datum.residual).collect();
+    let minimum =
+        |minimum: &LocalMinimum| FoundMinimum { values: plan.values(&minimum.point), chi_squared: minimum.chi_squared };
     Outcome {
         title: plan.title.clone(),
         note: plan.note.clone(),
         method: plan.method.name().to_owned(),
         stopped: search.stopped.to_string(),
-        searched,
+        searched: answer.searched,
         evaluations: search.history.iter().map(evaluation).collect(),
-        parameters: plan.parameters.iter().enumerate().map(found).collect(),
-        chi_squared: Some(chi_squared(&residuals)),
+        parameters: found(plan, answer, posterior),
+        samples: posterior.map_or_else(Vec::new, |posterior| {
+            let every = (posterior.samples.len() / MOST_SAMPLES).max(1);
+            posterior.samples.iter().step_by(every).map(|sample| plan.values(sample)).collect()
+        }),
+        minima: search.minima.iter().map(minimum).collect(),
+        chi_squared: Some(search.chi_squared),
         reduced_chi_squared: region.and_then(|region| region.reduced_chi_squared),
         p_value: region.and_then(|region| region.p_value),
         inflation: region.map_or(1.0, |region| region.inflation),
         correlation,
-        truth_inside: region.zip(truth).map(|(region, truth)| region.contains(&truth)),
+        truth_inside,
         findings,
         sensitivity,
         fit,
@@ -283,4 +264,35 @@ pub(super) fn assemble(
         trials: Vec::new(),
         calibrated,
     }
+}
+
+/// What was found of every parameter.
+fn found(plan: &Plan, answer: &Answer, posterior: Option<&Posterior>) -> Vec<Found> {
+    let best = plan.values(&answer.search.best);
+    let found = |(k, parameter): (usize, &Parameter)| {
+        let physical = |u: f64| parameter.bounds.value(u);
+        let profile = answer.explored.as_ref().map(|explored| &explored.region.profiles[k]);
+        let ends = answer.explored.as_ref().map(|explored| &explored.ends[k]);
+        Found {
+            name: parameter.name.clone(),
+            unit: parameter.unit.clone(),
+            bounds: (parameter.bounds.lower, parameter.bounds.upper),
+            logarithmic: parameter.bounds.spacing == Spacing::Log,
+            start: parameter.start,
+            best: best[k],
+            interval: profile.map(|profile| (physical(profile.interval[0]), physical(profile.interval[1]))),
+            open: ends.map_or((false, false), |[below, above]| (below.open, above.open)),
+            settled: ends.map_or((false, false), |[below, above]| (below.settled, above.settled)),
+            rise: ends.map_or((None, None), |[below, above]| (below.rise, above.rise)),
+            credible: posterior.map(|posterior| {
+                let [low, high] = posterior.intervals[k].map(physical);
+                (low, high)
+            }),
+            profile: profile.map_or_else(Vec::new, |profile| {
+                profile.curve.iter().map(|point| (physical(point.point[k]), point.rise)).collect()
+            }),
+            truth: parameter.truth,
+        }
+    };
+    plan.parameters.iter().enumerate().map(found).collect()
 }

@@ -182,6 +182,15 @@ impl Datum {
         }
     }
 
+    /// The value that has a residual.
+    #[must_use]
+    pub(super) fn of_residual(&self, residual: f64) -> f64 {
+        match self.uncertainty {
+            Uncertainty::Absolute(sigma) => self.value + sigma * residual,
+            Uncertainty::Factor(factor) => self.value * libm::pow(factor, residual),
+        }
+    }
+
     /// The value one standard deviation below and above.
     #[must_use]
     pub(super) fn band(&self) -> (f64, f64) {

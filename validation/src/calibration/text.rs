@@ -1,10 +1,11 @@
 //! A calibration as it is written: what its numbers and lists must satisfy before any case is looked at.
 
+use super::conditions::Conditions;
 use super::data::DatumText;
 use super::plan::{Block, Choice, Parameter, Plan};
 use crate::case::Tier;
 use crate::evaluation::CaseRequest;
-use crate::inference::{Budget, Method};
+use crate::inference::{Budget, Loss, Method};
 use crate::input::FieldError;
 use crate::sampling::{Bounds, Paths, Spacing};
 use serde::Deserialize;
@@ -15,6 +16,9 @@ const MOST_EVALUATIONS: usize = 10_000;
 
 /// The same for the screening, each of whose trajectories costs one evaluation more than there are parameters.
 const MOST_TRAJECTORIES: usize = 1000;
+
+/// Relative difference up to which two conditions are the same, unless the plan says otherwise.
+const SAME_WITHIN: f64 = 0.01;
 
 /// One parameter that is sought.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -41,6 +45,9 @@ struct BlockText {
     tier: Option<Tier>,
     #[serde(default)]
     with: toml::Table,
+    /// Of what is held out: the parameters that make its conditions.
+    conditions: Option<Vec<String>>,
+    same_within: Option<f64>,
     data: Vec<DatumText>,
 }
 
@@ -58,6 +65,9 @@ pub(super) struct Text {
     #[serde(default)]
     trajectories: usize,
     region_evaluations: Option<usize>,
+    starts: Option<usize>,
+    #[serde(default)]
+    loss: Loss,
     #[serde(default)]
     parameters: Vec<ParameterText>,
     #[serde(default)]
@@ -78,7 +88,7 @@ impl Text {
         self.check_lists()?;
         let parameters = self.parameters()?;
         let levels = self.levels()?;
-        let budget = self.budget()?;
+        let mut budget = self.budget()?;
         let method = match (self.method, levels.is_empty()) {
             (Some(method), false) if method != Method::Design => {
                 let remedy = "leave out the method or the levels";
@@ -87,8 +97,11 @@ impl Text {
             (_, false) => Method::Design,
             (method, true) => method.unwrap_or(Method::TrustRegion),
         };
-        // a grid covers the whole range already
-        let usual = if levels.is_empty() { 4 * parameters.len() } else { 0 };
+        // a grid covers the whole range already, and generations of random points do
+        let usual = if levels.is_empty() { 16 * parameters.len() } else { 0 };
+        let local = matches!(method, Method::TrustRegion | Method::NelderMead | Method::Posterior);
+        let usual_starts = if local && !parameters.is_empty() { 2 * parameters.len() + 2 } else { 0 };
+        budget.starts = self.starts.unwrap_or(usual_starts);
         let (blocks, data) = blocks(self.fit, self.hold_out)?;
         Ok(Plan {
             file: file.to_owned(),
@@ -96,6 +109,7 @@ impl Text {
             note: self.note,
             method,
             budget,
+            loss: self.loss,
             trajectories: self.trajectories,
             region_evaluations: self.region_evaluations.unwrap_or(usual),
             parameters,
@@ -160,6 +174,7 @@ impl Text {
         for (name, value, most) in [
             ("evaluations", self.evaluations.unwrap_or(1), MOST_EVALUATIONS),
             ("region_evaluations", self.region_evaluations.unwrap_or(0), MOST_EVALUATIONS),
+            ("starts", self.starts.unwrap_or(0), MOST_EVALUATIONS),
             ("trajectories", self.trajectories, MOST_TRAJECTORIES),
         ] {
             if value > most {
@@ -183,6 +198,7 @@ impl Text {
             seed: self.seed.unwrap_or(default.seed),
             difference: self.difference.unwrap_or(default.difference),
             tolerance: self.tolerance.unwrap_or(default.tolerance),
+            starts: 0,
         })
     }
 }
@@ -206,13 +222,39 @@ fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<(Vec<Block>, 
                     return Err(FieldError::new(&field, "fitted too", "held out only", remedy));
                 }
             }
+            let conditions = block.conditions(&field, held_out)?;
             let tier = block.tier.unwrap_or(Tier::Quick);
             let request = CaseRequest { case: block.case, name: None, tier, with: block.with };
-            blocks.push(Block { request, held_out, field });
+            blocks.push(Block { request, held_out, conditions, field });
             data.push(block.data);
         }
     }
     Ok((blocks, data))
+}
+
+impl BlockText {
+    /// What makes the conditions of a block that is held out.
+    fn conditions(&self, field: &str, held_out: bool) -> Result<Option<Conditions>, FieldError> {
+        let given = [("conditions", self.conditions.is_some()), ("same_within", self.same_within.is_some())];
+        if let Some((name, _)) = given.iter().find(|(_, given)| *given && !held_out) {
+            return Err(FieldError::new(
+                &format!("{field}.{name}"),
+                "given",
+                "absent where data are fitted",
+                "drop it",
+            ));
+        }
+        let same_within = self.same_within.unwrap_or(SAME_WITHIN);
+        if !(0.0..1.0).contains(&same_within) {
+            let remedy = "0.01 is one per cent";
+            return Err(FieldError::new(&format!("{field}.same_within"), same_within, "from 0 to below 1", remedy));
+        }
+        if self.conditions.as_ref().is_some_and(Vec::is_empty) {
+            let remedy = "name the parameters that make its conditions, such as [\"slopes\"]";
+            return Err(FieldError::new(&format!("{field}.conditions"), "[]", "at least one path", remedy));
+        }
+        Ok(self.conditions.clone().map(|paths| Conditions { paths, same_within }))
+    }
 }
 
 impl ParameterText {

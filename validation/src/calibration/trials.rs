@@ -101,6 +101,8 @@ impl Outcome {
             searched: trials.len(),
             evaluations: Vec::new(),
             parameters: Vec::new(),
+            minima: Vec::new(),
+            samples: Vec::new(),
             chi_squared: None,
             reduced_chi_squared: None,
             p_value: None,

@@ -43,11 +43,12 @@ fn text(outcome: &Outcome) -> String {
         let interval = found.interval.map_or_else(String::new, |(low, high)| {
             let end = |open: bool| if open { " (bound)" } else { "" };
             format!(
-                "  95 %: {}{} … {}{}",
+                "  95 %: {}{} … {}{}{}",
                 aligned_digits(low),
                 end(found.open.0),
                 aligned_digits(high),
-                end(found.open.1)
+                end(found.open.1),
+                if found.settled == (true, true) { "" } else { " (not settled)" }
             )
         });
         let unit = if found.unit == "-" { "" } else { &found.unit };

@@ -1,40 +1,58 @@
-//! The region of a search's points and, where it is wider than they reach, of further ones.
+//! The region of agreement as the model has it: its ends and its edge are evaluated until they hold.
 //!
 //! A search that converges fast leaves its points close to the minimum. If the data determine a parameter badly, the
-//! region lies far beyond them, where their polynomial is a guess. The model is then evaluated at the ends of the
-//! intervals and at points spread between them, and the polynomials are fitted over the whole of the region, until it
-//! no longer grows.
+//! region lies far beyond them, where their emulator is a guess. The model is then evaluated at the ends of the intervals
+//! that the emulator proposes, and again where it disagrees; then just inside and just outside of the joint region along
+//! its principal axes. Whoever finds a lower point on the way ends the exploration: the search is to go on from there.
 
-use super::emulator::{Degree, Emulator};
+use super::emulator::{Degree, Emulator, Minimum};
+use super::ends::{End, Side};
 use super::region::{Region, Uncertainties};
 use super::{Budget, Evaluate, Evaluated};
-use crate::sampling::design::sobol;
 use nalgebra::SymmetricEigen;
 
 /// Rounds of further points.
-const MOST_ROUNDS: usize = 4;
+const MOST_ROUNDS: usize = 12;
 
-/// Rise of χ² over the region's threshold up to which points count as near a narrow region.
-const NEARBY: f64 = 4.0;
+/// Points whose χ² rises by more than this many times the threshold say little about the region.
+const FAR: f64 = 25.0;
 
-/// An end of an interval is trusted with a point nearer than this share of its distance from the minimum.
-const NEAR: f64 = 0.25;
+/// Shares of the threshold at which the joint region is checked, inside and outside.
+const EDGE: [f64; 2] = [0.8, 1.25];
 
 /// The region, and what it rests on.
 #[derive(Debug, Clone)]
 pub struct Explored {
-    /// The emulator of all points.
+    /// The emulator of the points in and about the region.
     pub emulator: Emulator,
-    /// Its region.
+    /// Its region, with the intervals that the model has decided.
     pub region: Region,
+    /// Lower and upper end of every parameter's interval.
+    pub ends: Vec<[End; 2]>,
+    /// Whether the model agrees with the joint region just inside and just outside of its edge.
+    pub joint_settled: bool,
     /// Every point of the search and the further ones.
     pub history: Vec<Evaluated>,
-    /// Whether every end of an interval lies near an evaluated point; if not, the budget or four rounds did not
-    /// suffice.
-    pub settled: bool,
+    /// Whether a point was found that is lower than the search's best by more than is negligible.
+    pub lower: bool,
 }
 
-/// Maps the region, evaluating at most `budget.evaluations` points that are not in the history; none without points
+impl Explored {
+    /// Whether the model has decided every end and the joint region.
+    #[must_use]
+    pub fn is_settled(&self) -> bool {
+        self.joint_settled && self.ends.iter().flatten().all(|end| end.settled)
+    }
+}
+
+/// A check of the joint region: an axis, its sense, and whether the model agreed.
+struct Check {
+    axis: usize,
+    sense: f64,
+    holds: bool,
+}
+
+/// Explores the region, evaluating at most `budget.evaluations` points that are not in the history; none without points
 /// enough for an emulator.
 ///
 /// # Errors
@@ -46,53 +64,99 @@ pub fn explore<M: Evaluate>(
     budget: &Budget,
 ) -> Result<Option<Explored>, M::Error> {
     let most = history.len() + budget.evaluations;
-    let mut resolution = budget.difference;
+    let Some(first) = best(&history) else { return Ok(None) };
+    let dimensions = first.point.len();
+    let mut sides = Side::all(dimensions);
+    let senses = |axis| [1.0, -1.0].map(|sense| Check { axis, sense, holds: false });
+    // with one parameter the joint region is its interval
+    let mut checks: Vec<Check> = if dimensions > 1 { (0..dimensions).flat_map(senses).collect() } else { Vec::new() };
     for round in 0.. {
-        let Some(emulator) = Emulator::fit(&history, resolution) else { return Ok(None) };
-        let region = Region::new(&emulator, uncertainties);
-        if extent(&region) <= budget.difference {
-            return refine(model, history, (emulator, region), uncertainties, most).map(Some);
+        let Some((emulator, region)) = mapped(&history, uncertainties, budget) else { return Ok(None) };
+        let negligible = budget.negligible(first.chi_squared, emulator.data());
+        let lower = first.chi_squared - region.minimum.chi_squared > negligible;
+        let ends: Vec<End> = sides.iter().map(|side| side.judge(&region, &history)).collect();
+        let open: Vec<usize> = (0..sides.len()).filter(|side| !ends[*side].settled).collect();
+        let of_edge: Vec<usize> = if open.is_empty() {
+            (0..checks.len()).filter(|check| !checks[*check].holds).collect()
+        } else {
+            Vec::new()
+        };
+        let at_ends: Vec<Vec<f64>> = open.iter().map(|side| sides[*side].propose(&region, &history)).collect();
+        let at_edge: Vec<Vec<f64>> = of_edge.iter().map(|check| edge(&region, &checks[*check])).collect();
+        // where the emulator promises something lower, the model is asked
+        let bottom = Some(emulator.minimum())
+            .filter(|bottom| region.minimum.chi_squared - bottom.chi_squared > negligible)
+            .map(|bottom| bottom.point);
+        let mut fresh: Vec<Vec<f64>> = Vec::new();
+        for point in at_ends.iter().chain(&at_edge).chain(&bottom) {
+            if place_of(&history, point).is_none() && !fresh.contains(point) {
+                fresh.push(point.clone());
+            }
         }
-        let mut points = wanted(&region, &history, budget);
-        let settled = points.is_empty();
-        points.truncate(most - history.len());
-        if points.is_empty() || round == MOST_ROUNDS {
-            return Ok(Some(Explored { emulator, region, history, settled }));
+        fresh.truncate(most.saturating_sub(history.len()));
+        if lower || fresh.is_empty() || round == MOST_ROUNDS {
+            let joint_settled = open.is_empty() && of_edge.is_empty();
+            return Ok(Some(finished(emulator, region, &ends, joint_settled, history, lower)));
         }
-        evaluate(model, &mut history, points)?;
-        resolution = budget.difference.max(extent(&region));
+        evaluate(model, &mut history, fresh)?;
+        for (side, point) in open.iter().zip(&at_ends) {
+            sides[*side].proposals.extend(place_of(&history, point));
+        }
+        for (check, point) in of_edge.iter().zip(&at_edge) {
+            let chi_squared = place_of(&history, point).and_then(|place| history[place].chi_squared);
+            let agrees = chi_squared.is_some_and(|chi| chi - region.minimum.chi_squared <= region.threshold);
+            checks[*check].holds = agrees == region.contains(point);
+        }
     }
     Ok(None)
 }
 
-/// A region that is narrower than the steps of the search: the model at both ends of its principal axes, and an emulator of
-/// the points in and near it alone. Slopes over longer steps would turn a narrow valley out of its direction.
-fn refine<M: Evaluate>(
-    model: &mut M,
-    mut history: Vec<Evaluated>,
-    (emulator, region): (Emulator, Region),
-    uncertainties: Uncertainties,
-    most: usize,
-) -> Result<Explored, M::Error> {
-    let mut points = axes(&region);
-    points.truncate(most - history.len());
-    evaluate(model, &mut history, points)?;
-    let near: Vec<Evaluated> = history
+/// The evaluated point of least χ².
+fn best(history: &[Evaluated]) -> Option<Minimum> {
+    history
         .iter()
-        .filter(|evaluated| {
-            emulator.chi_squared(&evaluated.point) - region.minimum.chi_squared <= NEARBY * region.threshold
-        })
-        .cloned()
-        .collect();
-    let enough = near.len() > 2 * region.profiles.len();
-    let local = if enough { Emulator::fit(&near, 0.5 * extent(&region)) } else { None };
-    Ok(match local {
-        Some(local) => {
-            let region = Region::new(&local, uncertainties);
-            Explored { emulator: local, region, history, settled: true }
-        }
-        None => Explored { emulator, region, history, settled: true },
-    })
+        .filter_map(|evaluated| Some(Minimum { point: evaluated.point.clone(), chi_squared: evaluated.chi_squared? }))
+        .min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared))
+}
+
+/// Where a point stands in the history.
+fn place_of(history: &[Evaluated], point: &[f64]) -> Option<usize> {
+    history.iter().position(|evaluated| evaluated.point == point)
+}
+
+/// The emulator and region of the points in and about the region, if they are enough, or of all.
+fn mapped(history: &[Evaluated], uncertainties: Uncertainties, budget: &Budget) -> Option<(Emulator, Region)> {
+    let best = best(history)?;
+    let emulator = Emulator::fit(history, budget.difference)?;
+    let region = Region::about(&emulator, best.clone(), uncertainties);
+    let limit = best.chi_squared + FAR * region.threshold;
+    let near: Vec<Evaluated> =
+        history.iter().filter(|evaluated| evaluated.chi_squared.is_some_and(|chi| chi <= limit)).cloned().collect();
+    if near.len() < Degree::Quadratic.points(best.point.len()) {
+        return Some((emulator, region));
+    }
+    let local = Emulator::fit(&near, 0.5 * extent(&region))?;
+    let region = Region::about(&local, best, uncertainties);
+    Some((local, region))
+}
+
+/// Everything, with the intervals that the model has decided.
+fn finished(
+    emulator: Emulator,
+    mut region: Region,
+    ends: &[End],
+    joint_settled: bool,
+    history: Vec<Evaluated>,
+    lower: bool,
+) -> Explored {
+    let ends: Vec<[End; 2]> = ends.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect();
+    for (k, (profile, [below, above])) in region.profiles.iter_mut().zip(&ends).enumerate() {
+        profile.interval = [below.point[k], above.point[k]];
+        profile.ends = [below.point.clone(), above.point.clone()];
+        (profile.open_below, profile.open_above) = (below.open, above.open);
+    }
+    region.draw();
+    Explored { emulator, region, ends, joint_settled, history, lower }
 }
 
 /// Adds the model at some points to the history.
@@ -102,46 +166,26 @@ fn evaluate<M: Evaluate>(model: &mut M, history: &mut Vec<Evaluated>, points: Ve
     Ok(())
 }
 
-/// Both ends of the principal axes of the joint region, within the cube.
-fn axes(region: &Region) -> Vec<Vec<f64>> {
+/// A point on a principal axis, just inside the edge of the joint region on one side and just outside on the other, or on
+/// the face of the cube.
+fn edge(region: &Region, check: &Check) -> Vec<f64> {
     let factors = SymmetricEigen::new(region.covariance.clone());
-    let radius = region.threshold.sqrt() / region.inflation;
-    let end = |axis: usize, sign: f64| {
-        let step = sign * radius * factors.eigenvalues[axis].max(0.0).sqrt();
-        let moved = |(k, u): (usize, &f64)| (u + step * factors.eigenvectors[(k, axis)]).clamp(0.0, 1.0);
+    let wanted = region.threshold * if check.sense > 0.0 { EDGE[0] } else { EDGE[1] };
+    let at = |step: f64| -> Vec<f64> {
+        let moved =
+            |(k, u): (usize, &f64)| (u + check.sense * step * factors.eigenvectors[(k, check.axis)]).clamp(0.0, 1.0);
         region.minimum.point.iter().enumerate().map(moved).collect()
     };
-    (0..region.profiles.len()).flat_map(|axis| [end(axis, -1.0), end(axis, 1.0)]).collect()
-}
-
-/// The points that the region still lacks: ends of intervals, and as many between them as a quadratic needs.
-fn wanted(region: &Region, history: &[Evaluated], budget: &Budget) -> Vec<Vec<f64>> {
-    let mut points: Vec<Vec<f64>> = Vec::new();
-    for end in region.profiles.iter().flat_map(|profile| &profile.ends) {
-        let near = budget.difference.max(NEAR * distance(end, &region.minimum.point));
-        let known = |point: &[f64]| distance(point, end) <= near;
-        if !history.iter().any(|evaluated| known(&evaluated.point)) && !points.iter().any(|point| known(point)) {
-            points.push(end.clone());
-        }
+    let guess = region.threshold.sqrt() / region.inflation * factors.eigenvalues[check.axis].max(0.0).sqrt();
+    let (mut near, mut far) = (0.0, 0.25 * guess.min(1.0));
+    while region.rise(&at(far)) < wanted && far < 2.0 {
+        (near, far) = (far, 1.5 * far);
     }
-    let dimensions = region.profiles.len();
-    let inside = |point: &[f64]| (0..dimensions).all(|k| within(point[k], region.profiles[k].interval));
-    let present = history.iter().filter(|evaluated| inside(&evaluated.point)).count() + points.len();
-    let lacking = Degree::Quadratic.points(dimensions).saturating_sub(present);
-    // each round continues the sequence where the points so far would end it
-    for point in sobol(present + lacking, dimensions, budget.seed).iter().skip(present) {
-        let place = |k: usize| {
-            let [from, to] = region.profiles[k].interval;
-            from + point[k] * (to - from)
-        };
-        points.push((0..dimensions).map(place).collect());
+    for _ in 0..30 {
+        let middle = 0.5 * (near + far);
+        if region.rise(&at(middle)) < wanted { near = middle } else { far = middle }
     }
-    points.retain(|point| !history.iter().any(|evaluated| evaluated.point == *point));
-    points
-}
-
-fn within(value: f64, interval: [f64; 2]) -> bool {
-    (interval[0]..=interval[1]).contains(&value)
+    at(far)
 }
 
 /// Largest distance of an end of an interval from the minimum.
@@ -156,101 +200,4 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::descent::{Smooth, descend};
-    use super::super::search::{Method, search};
-    use super::super::stand_in::{Curve, Slopes};
-    use super::*;
-    use nalgebra::{DMatrix, DVector};
-    use std::convert::Infallible;
-
-    /// The curve from data that say less.
-    struct Vague {
-        curve: Curve,
-        /// Standard uncertainty over that of the curve.
-        vagueness: f64,
-    }
-
-    impl Evaluate for Vague {
-        type Error = Infallible;
-        fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Infallible> {
-            Ok(points.iter().map(|u| Some(Smooth::residuals(self, u).as_slice().to_vec())).collect())
-        }
-    }
-
-    impl Smooth for Vague {
-        fn residuals(&self, point: &[f64]) -> DVector<f64> {
-            DVector::from_vec(self.curve.at(point)) / self.vagueness
-        }
-        fn jacobian(&self, point: &[f64]) -> DMatrix<f64> {
-            self.curve.jacobian(point) / self.vagueness
-        }
-    }
-
-    /// The end of the interval of the model itself.
-    fn exact(model: &Vague, k: usize, bound: f64) -> f64 {
-        let rise = |value: f64| {
-            let (mut lower, mut upper) = (vec![0.0; 3], vec![1.0; 3]);
-            (lower[k], upper[k]) = (value, value);
-            descend(model, &model.curve.truth, &lower, &upper).chi_squared
-        };
-        if rise(bound) <= 3.841_459 {
-            return bound;
-        }
-        let (mut inside, mut outside) = (model.curve.truth[k], bound);
-        for _ in 0..40 {
-            let middle = 0.5 * (inside + outside);
-            if rise(middle) > 3.841_459 { outside = middle } else { inside = middle }
-        }
-        inside
-    }
-
-    #[test]
-    fn wide_intervals_are_those_of_the_model_itself() {
-        for vagueness in [2.0, 4.0, 8.0] {
-            let mut model = Vague { curve: Curve::new(), vagueness };
-            let budget = Budget::default();
-            let found = search(&mut model, &[0.5; 3], Method::TrustRegion, budget).unwrap();
-            let first = Emulator::fit(&found.history, budget.difference).unwrap();
-            let before = Region::new(&first, Uncertainties::AsStated);
-            let searched = found.history.len();
-            let explored = explore(&mut model, found.history, Uncertainties::AsStated, &budget).unwrap().unwrap();
-            println!(
-                "vagueness {vagueness}: {searched} + {} points, settled {}, leave-one-out {:.3?}",
-                explored.history.len() - searched,
-                explored.settled,
-                explored.emulator.leave_one_out()
-            );
-            for k in 0..3 {
-                let ends = [exact(&model, k, 0.0), exact(&model, k, 1.0)];
-                let profile = &explored.region.profiles[k];
-                println!("  {:.3?} then {:.3?}, exactly {ends:.3?}", before.profiles[k].interval, profile.interval);
-                for (found, exact) in profile.interval.iter().zip(ends) {
-                    assert!((found - exact).abs() < 0.15 * (ends[1] - ends[0]), "{found} is not {exact}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn a_region_within_reach_needs_the_ends_of_its_axes_only() {
-        let mut model = Slopes::new(3);
-        let budget = Budget::default();
-        let found = search(&mut model, &[0.5; 3], Method::TrustRegion, budget).unwrap();
-        let count = found.history.len();
-        let explored = explore(&mut model, found.history, Uncertainties::AsStated, &budget).unwrap().unwrap();
-        assert!(explored.settled && explored.history.len() == count + 2 * explored.region.profiles.len());
-    }
-
-    #[test]
-    fn the_budget_is_kept() {
-        for evaluations in 0..6 {
-            let mut model = Vague { curve: Curve::new(), vagueness: 8.0 };
-            let found = search(&mut model, &[0.5; 3], Method::TrustRegion, Budget::default()).unwrap();
-            let count = found.history.len();
-            let budget = Budget { evaluations, ..Budget::default() };
-            let explored = explore(&mut model, found.history, Uncertainties::AsStated, &budget).unwrap().unwrap();
-            assert!(!explored.settled && explored.history.len() == count + evaluations);
-        }
-    }
-}
+mod tests;

@@ -9,23 +9,34 @@ mod box_least_squares;
 #[cfg(test)]
 mod coverage;
 mod descent;
+pub mod diagnosis;
 pub mod emulator;
+pub mod ends;
 pub mod explore;
 pub mod identifiability;
+mod loss;
+pub mod posterior;
 mod profile;
 pub mod region;
 pub mod scores;
 pub mod search;
 pub mod sensitivity;
+pub mod solve;
 #[cfg(test)]
 mod stand_in;
 
 pub use emulator::Emulator;
+pub use ends::End;
 pub use explore::{Explored, explore};
 pub use identifiability::{Parameter, assess};
+pub use loss::Loss;
 pub use profile::{Profile, ProfilePoint};
-pub use region::{Region, Uncertainties, chi_squared_quantile};
-pub use search::{Budget, Evaluated, Method, Search, SearchError, Stopped, search, search_design};
+pub use region::{Region, Uncertainties, chi_squared_quantile, chi_squared_tail};
+pub use search::{
+    Budget, Evaluated, LocalMinimum, Method, Search, SearchError, Stopped, continue_search, search, search_design,
+};
+
+pub use solve::{Answer, Plan, UNLIKELY, solve};
 
 /// The model as the search sees it.
 pub trait Evaluate {

@@ -12,7 +12,7 @@ const LARGEST_STEP: f64 = 0.1;
 const GROWTH: f64 = 1.2;
 
 /// Halvings by which a crossing of the threshold is refined.
-const HALVINGS: usize = 40;
+const HALVINGS: usize = 24;
 
 /// Points of the curve.
 const CURVE_POINTS: usize = 41;
@@ -55,12 +55,17 @@ impl Profile {
     }
 }
 
-/// The profile of the parameter `which` up to a rise of χ² by `threshold`; `deviation` is a guess of its standard
-/// deviation in the unit cube.
+/// The interval of the parameter `which` up to a rise of χ² by `threshold`, without its curve; `deviation` is a guess of its
+/// standard deviation in the unit cube.
 pub(super) fn profile(emulator: &Emulator, minimum: &Minimum, which: usize, deviation: f64, threshold: f64) -> Profile {
     let side = |direction: f64| crossing(emulator, minimum, which, direction, deviation, threshold);
     let ((below, open_below), (above, open_above)) = (side(-1.0), side(1.0));
     let interval = [below[which], above[which]];
+    Profile { interval, open_below, open_above, ends: [below, above], curve: Vec::new() }
+}
+
+/// The curve over an interval and half its width beyond.
+pub(super) fn curve(emulator: &Emulator, minimum: &Minimum, which: usize, interval: [f64; 2]) -> Vec<ProfilePoint> {
     let margin = 0.5 * (interval[1] - interval[0]);
     let (from, to) = ((interval[0] - margin).max(0.0), (interval[1] + margin).min(1.0));
     let value = |k: usize| from + (to - from) * k as f64 / (CURVE_POINTS - 1) as f64;
@@ -79,11 +84,17 @@ pub(super) fn profile(emulator: &Emulator, minimum: &Minimum, which: usize, devi
     let mut curve = walk((0..middle).rev().collect());
     curve.reverse();
     curve.extend(walk((middle..CURVE_POINTS).collect()));
-    Profile { interval, open_below, open_above, ends: [below, above], curve }
+    curve
 }
 
 /// The best point with one parameter held.
-fn constrained(emulator: &Emulator, minimum: &Minimum, start: &[f64], which: usize, value: f64) -> ProfilePoint {
+pub(super) fn constrained(
+    emulator: &Emulator,
+    minimum: &Minimum,
+    start: &[f64],
+    which: usize,
+    value: f64,
+) -> ProfilePoint {
     let (mut lower, mut upper) = (vec![0.0; start.len()], vec![1.0; start.len()]);
     (lower[which], upper[which]) = (value, value);
     let bottom = descend(emulator, start, &lower, &upper);

@@ -5,7 +5,7 @@
 //! (Wilks, Annals of Mathematical Statistics 9 (1938) 60).
 
 use super::emulator::{Emulator, Minimum};
-use super::profile::{Profile, profile};
+use super::profile::{Profile, ProfilePoint, constrained, curve, profile};
 use nalgebra::DMatrix;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -26,14 +26,18 @@ pub enum Uncertainties {
     Inflated,
 }
 
-/// The parameters that agree with the data, in the unit cube.
+/// The parameters that agree with the data, in the unit cube, as the emulator has it.
 #[derive(Debug, Clone)]
 pub struct Region {
     emulator: Emulator,
-    /// The least χ² of the emulator.
+    /// The best point, with the χ² that was evaluated there.
     pub minimum: Minimum,
+    /// The same point with the emulator's χ²: what its rises are counted from.
+    base: Minimum,
     /// Rise of χ² at the edge of the joint region `[-]`.
     pub threshold: f64,
+    /// Rise of χ² at the ends of intervals `[-]`.
+    pub limit: f64,
     /// Profile of every parameter with its interval.
     pub profiles: Vec<Profile>,
     /// Covariance (JᵀJ)⁻¹ at the minimum. A standard deviation far above 1, the range, only says that the data do not
@@ -41,7 +45,7 @@ pub struct Region {
     pub covariance: DMatrix<f64>,
     /// Correlation of the parameters `[-]`.
     pub correlation: DMatrix<f64>,
-    /// χ² over the number of data less that of parameters `[-]`; none unless there are more data.
+    /// χ² at the best point over the number of data less that of parameters `[-]`; none unless there are more data.
     pub reduced_chi_squared: Option<f64>,
     /// Share of repeated experiments in which a true model gives a larger χ² `[-]`.
     pub p_value: Option<f64>,
@@ -50,10 +54,17 @@ pub struct Region {
 }
 
 impl Region {
-    /// The region of an emulator.
+    /// The region of an emulator about its own minimum.
     #[must_use]
     pub fn new(emulator: &Emulator, uncertainties: Uncertainties) -> Self {
-        let minimum = emulator.minimum();
+        let mut region = Self::about(emulator, emulator.minimum(), uncertainties);
+        region.draw();
+        region
+    }
+
+    /// The region about an evaluated point with the χ² that the model has there; its profiles have no curves yet.
+    #[must_use]
+    pub fn about(emulator: &Emulator, minimum: Minimum, uncertainties: Uncertainties) -> Self {
         let dimensions = emulator.dimensions();
         let freedom = emulator.data().checked_sub(dimensions).filter(|freedom| *freedom > 0);
         let reduced_chi_squared = freedom.map(|freedom| minimum.chi_squared / freedom as f64);
@@ -64,15 +75,13 @@ impl Region {
         };
         let squared = inflation * inflation;
         let covariance = squared * covariance(&emulator.jacobian(&minimum.point));
-        let profiles = (0..dimensions)
-            .map(|k| {
-                let deviation = covariance[(k, k)].sqrt();
-                profile(emulator, &minimum, k, deviation, squared * chi_squared_quantile(CONFIDENCE, 1))
-            })
-            .collect();
+        let base = Minimum { chi_squared: emulator.chi_squared(&minimum.point), point: minimum.point.clone() };
+        let limit = squared * chi_squared_quantile(CONFIDENCE, 1);
+        let profiles = (0..dimensions).map(|k| profile(emulator, &base, k, covariance[(k, k)].sqrt(), limit)).collect();
         Self {
             emulator: emulator.clone(),
             threshold: squared * chi_squared_quantile(CONFIDENCE, dimensions),
+            limit,
             profiles,
             correlation: correlation(&covariance),
             covariance,
@@ -80,7 +89,33 @@ impl Region {
             p_value,
             inflation,
             minimum,
+            base,
         }
+    }
+
+    /// The emulator that it rests on.
+    #[must_use]
+    pub fn emulator(&self) -> &Emulator {
+        &self.emulator
+    }
+
+    /// Draws the curves of the profiles over their intervals.
+    pub fn draw(&mut self) {
+        for k in 0..self.profiles.len() {
+            self.profiles[k].curve = curve(&self.emulator, &self.base, k, self.profiles[k].interval);
+        }
+    }
+
+    /// The best point of the emulator with one parameter held, downhill from `start`.
+    #[must_use]
+    pub fn held(&self, start: &[f64], which: usize, value: f64) -> ProfilePoint {
+        constrained(&self.emulator, &self.base, start, which, value)
+    }
+
+    /// Rise of the emulator's χ² at a point `[-]`.
+    #[must_use]
+    pub fn rise(&self, point: &[f64]) -> f64 {
+        self.emulator.chi_squared(point) - self.base.chi_squared
     }
 
     /// Derivatives of the weighted residuals at the minimum, one row a datum, one column a parameter.
@@ -92,7 +127,7 @@ impl Region {
     /// Whether a point of the cube agrees with the data.
     #[must_use]
     pub fn contains(&self, point: &[f64]) -> bool {
-        self.emulator.chi_squared(point) - self.minimum.chi_squared <= self.threshold
+        self.rise(point) <= self.threshold
     }
 }
 

@@ -18,7 +18,7 @@ pub fn search_design<M: Evaluate>(
     }
     let mut recorder = Recorder::new(model, budget.evaluations);
     let outcome = run(&mut recorder, points, &budget);
-    recorder.finish(outcome)
+    recorder.finish(outcome, Vec::new(), true)
 }
 
 /// Evaluates the design and then the minimum of its emulator, if the points suffice for one.

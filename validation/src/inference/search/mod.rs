@@ -1,9 +1,11 @@
-//! The search for the point of least χ², by one of four methods, within a budget of evaluations.
+//! The search for the point of least χ², by one of several methods, within a budget of evaluations.
 
 mod design;
+mod differences;
 mod evolution;
 mod nelder_mead;
 mod recorder;
+mod starts;
 mod trust_region;
 
 pub use design::search_design;
@@ -25,6 +27,8 @@ pub enum Method {
     Evolution,
     /// Points spread over the whole cube, and the minimum of a polynomial through them.
     Design,
+    /// The trust region, and then samples of the posterior.
+    Posterior,
 }
 
 impl Method {
@@ -36,6 +40,7 @@ impl Method {
             Self::NelderMead => "nelder-mead",
             Self::Evolution => "evolution",
             Self::Design => "design",
+            Self::Posterior => "posterior",
         }
     }
 }
@@ -52,17 +57,19 @@ pub struct Budget {
     pub difference: f64,
     /// Change of χ² that is not worth another evaluation, in units of the reduced χ² or 1, whichever is more `[-]`.
     pub tolerance: f64,
+    /// Points spread over the cube from which other minima are looked for, with as many evaluations again.
+    pub starts: usize,
 }
 
 impl Default for Budget {
     fn default() -> Self {
-        Self { evaluations: 40, seed: 1, difference: 0.02, tolerance: 0.01 }
+        Self { evaluations: 40, seed: 1, difference: 0.02, tolerance: 0.01, starts: 0 }
     }
 }
 
 impl Budget {
     /// The change of χ² `[-]` that is not worth an evaluation, where χ² of `data` data has this value.
-    fn negligible(&self, chi_squared: f64, data: usize) -> f64 {
+    pub(super) fn negligible(&self, chi_squared: f64, data: usize) -> f64 {
         self.tolerance * (chi_squared / data.max(1) as f64).max(1.0)
     }
 }
@@ -113,6 +120,31 @@ impl fmt::Display for Stopped {
     }
 }
 
+/// A minimum that a descent has ended in.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LocalMinimum {
+    /// The evaluated point, in the unit cube.
+    pub point: Vec<f64>,
+    /// χ² there `[-]`.
+    pub chi_squared: f64,
+}
+
+/// Distance along an axis within which two minima are one.
+const SAME: f64 = 0.05;
+
+impl LocalMinimum {
+    /// Whether both are one.
+    #[must_use]
+    pub fn is_near(&self, other: &Self) -> bool {
+        self.is_at(&other.point)
+    }
+
+    /// Whether it lies at a point.
+    pub(super) fn is_at(&self, point: &[f64]) -> bool {
+        self.point.iter().zip(point).all(|(a, b)| (a - b).abs() <= SAME)
+    }
+}
+
 /// What a search has found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Search {
@@ -124,6 +156,10 @@ pub struct Search {
     pub history: Vec<Evaluated>,
     /// Why it ended.
     pub stopped: Stopped,
+    /// Minima in which descents have ended, the lowest first.
+    pub minima: Vec<LocalMinimum>,
+    /// Whether every one of the other starts was followed up.
+    pub every_start: bool,
 }
 
 /// Why a search has found nothing. Completes "failed to search: …".
@@ -158,7 +194,8 @@ pub enum SearchError<E> {
     },
 }
 
-/// Searches the unit cube for the least χ² from `start`; a design does not need the start, but takes its dimension.
+/// Searches the unit cube for the least χ² from `start`; a design does not need the start, but takes its dimension. From
+/// the budget's other starts it descends by the trust region, whatever the method.
 ///
 /// # Errors
 /// A setting out of range, an error of the model itself, or no point at which the model worked.
@@ -168,18 +205,56 @@ pub fn search<M: Evaluate>(
     method: Method,
     budget: Budget,
 ) -> Result<Search, SearchError<M::Error>> {
+    continue_search(model, Vec::new(), start, method, budget)
+}
+
+/// The same with points that were evaluated before and count for nothing in the budget.
+///
+/// # Errors
+/// The same.
+pub fn continue_search<M: Evaluate>(
+    model: &mut M,
+    history: Vec<Evaluated>,
+    start: &[f64],
+    method: Method,
+    budget: Budget,
+) -> Result<Search, SearchError<M::Error>> {
     check(start, &budget)?;
-    let mut recorder = Recorder::new(model, budget.evaluations);
-    let outcome = match method {
-        Method::TrustRegion => trust_region::run(&mut recorder, start, &budget),
-        Method::NelderMead => nelder_mead::run(&mut recorder, start, &budget),
-        Method::Evolution => evolution::run(&mut recorder, start, &budget),
+    let known = history.len();
+    let mut recorder = Recorder::with(model, history, known + budget.evaluations);
+    let first = match method {
+        Method::TrustRegion | Method::Posterior => {
+            trust_region::run(&mut recorder, start, &budget, &[]).map(|descent| {
+                let minimum = LocalMinimum { point: descent.point, chi_squared: descent.chi_squared };
+                (descent.stopped.unwrap_or(Stopped::Converged), Some(minimum))
+            })
+        }
+        Method::NelderMead => nelder_mead::run(&mut recorder, start, &budget).map(|stopped| (stopped, None)),
+        Method::Evolution => evolution::run(&mut recorder, start, &budget).map(|stopped| (stopped, None)),
         Method::Design => {
             let points = crate::sampling::design::sobol((budget.evaluations - 1).max(1), start.len(), budget.seed);
-            design::run(&mut recorder, &points, &budget)
+            design::run(&mut recorder, &points, &budget).map(|stopped| (stopped, None))
         }
     };
-    recorder.finish(outcome)
+    let of_best = |recorder: &Recorder<'_, M>| {
+        let best = recorder.best();
+        best.map(|(best, chi_squared)| LocalMinimum { point: best.point.clone(), chi_squared })
+    };
+    let (outcome, first) = match first {
+        Ok((stopped, Some(minimum))) => (Ok(stopped), Some(minimum)),
+        Ok((stopped, None)) => (Ok(stopped), of_best(&recorder)),
+        Err(halt) => (Err(halt), of_best(&recorder)),
+    };
+    let mut minima: Vec<LocalMinimum> = first.into_iter().collect();
+    let mut every_start = true;
+    if budget.starts > 0 && !minima.is_empty() && !matches!(outcome, Err(Halt::Model(_) | Halt::Residuals(..))) {
+        recorder.allow(budget.evaluations);
+        match starts::follow(&mut recorder, &mut minima, &budget) {
+            Ok(every) => every_start = every,
+            Err(halt) => return recorder.finish(Err(halt), minima, false),
+        }
+    }
+    recorder.finish(outcome, minima, every_start)
 }
 
 /// Refuses settings with which no search can work.
@@ -201,109 +276,4 @@ fn check<E>(start: &[f64], budget: &Budget) -> Result<(), SearchError<E>> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::stand_in::{Curve, Failing, Valley};
-    use super::*;
-
-    const METHODS: [Method; 4] = [Method::TrustRegion, Method::NelderMead, Method::Evolution, Method::Design];
-
-    fn budget(evaluations: usize) -> Budget {
-        Budget { evaluations, ..Budget::default() }
-    }
-
-    fn sound(found: &Search, evaluations: usize) {
-        assert!(found.history.len() <= evaluations, "{} > {evaluations}", found.history.len());
-        for evaluated in &found.history {
-            assert!(evaluated.point.iter().all(|u| (0.0..=1.0).contains(u)), "{:?}", evaluated.point);
-        }
-        let least = found.history.iter().filter_map(|e| e.chi_squared).fold(f64::INFINITY, f64::min);
-        assert_eq!(found.chi_squared, least);
-        for (k, one) in found.history.iter().enumerate() {
-            assert!(found.history[..k].iter().all(|other| other.point != one.point));
-        }
-    }
-
-    #[test]
-    fn every_method_descends_the_valley_of_rosenbrock() {
-        for (method, evaluations) in
-            [(Method::TrustRegion, 40), (Method::NelderMead, 150), (Method::Evolution, 500), (Method::Design, 60)]
-        {
-            let budget = Budget { tolerance: 1e-4, ..budget(evaluations) };
-            let found = search(&mut Valley, &[0.2, 0.8], method, budget).unwrap();
-            sound(&found, evaluations);
-            let distance = (found.best[0] - 0.6).abs().max((found.best[1] - 0.36).abs());
-            println!("{method:?}: {} evaluations, off by {distance:.1e}, {}", found.history.len(), found.stopped);
-            assert!(distance < 0.02, "{method:?}: {:?} {}", found.best, found.chi_squared);
-        }
-    }
-
-    #[test]
-    fn every_method_fits_a_curve_of_three_parameters() {
-        let model = Curve::new();
-        for (method, evaluations, accuracy) in [
-            (Method::TrustRegion, 25, 0.005),
-            (Method::NelderMead, 150, 0.01),
-            (Method::Evolution, 500, 0.01),
-            (Method::Design, 80, 0.05),
-        ] {
-            for start in [[0.35, 0.75, 0.3], [0.8, 0.2, 0.2], [0.5, 0.5, 0.5]] {
-                let found = search(&mut model.clone(), &start, method, budget(evaluations)).unwrap();
-                sound(&found, evaluations);
-                let distance = (0..3).map(|k| (found.best[k] - model.truth[k]).abs()).fold(0.0, f64::max);
-                println!("{method:?}: {} evaluations, off by {distance:.1e}, {}", found.history.len(), found.stopped);
-                assert!(distance < accuracy, "{method:?}: {:?} {}", found.best, found.chi_squared);
-            }
-        }
-    }
-
-    #[test]
-    fn no_budget_is_exceeded_however_small() {
-        for method in METHODS {
-            for evaluations in 1..20 {
-                let found = search(&mut Curve::new(), &[0.9, 0.1, 0.5], method, budget(evaluations)).unwrap();
-                sound(&found, evaluations);
-            }
-        }
-    }
-
-    #[test]
-    fn regions_where_the_model_fails_are_survived() {
-        for method in METHODS {
-            // the minimum lies at the edge of the failing half, and the second start within it
-            for start in [[0.3, 0.5, 0.5], [0.95, 0.5, 0.5]] {
-                let mut model = Failing { curve: Curve::new(), beyond: 0.62 };
-                let found = search(&mut model, &start, method, budget(250)).unwrap();
-                sound(&found, 250);
-                let distance = (0..3).map(|k| (found.best[k] - model.curve.truth[k]).abs()).fold(0.0, f64::max);
-                println!("{method:?}: {} evaluations, off by {distance:.1e}, {}", found.history.len(), found.stopped);
-                assert!(distance < 0.1, "{method:?}: {:?} {}", found.best, found.chi_squared);
-            }
-        }
-    }
-
-    #[test]
-    fn a_model_that_always_fails_is_reported() {
-        for method in METHODS {
-            let mut model = Failing { curve: Curve::new(), beyond: -1.0 };
-            let error = search(&mut model, &[0.5; 3], method, budget(9)).unwrap_err();
-            assert!(matches!(error, SearchError::NothingWorked { evaluations: 1..=9 }), "{method:?}: {error}");
-        }
-    }
-
-    #[test]
-    fn a_search_is_repeated_exactly() {
-        for method in METHODS {
-            let run = || search(&mut Curve::new(), &[0.3, 0.4, 0.9], method, budget(40)).unwrap();
-            assert_eq!(run(), run());
-        }
-    }
-
-    #[test]
-    fn settings_out_of_range_are_refused() {
-        let run =
-            |start: &[f64], budget| search(&mut Valley, start, Method::TrustRegion, budget).unwrap_err().to_string();
-        assert!(run(&[1.2, 0.0], budget(9)).starts_with("`start` is [1.2, 0.0], but must be"));
-        assert!(run(&[0.5, 0.5], budget(0)).starts_with("`evaluations` is 0, but must be"));
-        assert!(run(&[0.5; 2], Budget { difference: 0.0, ..budget(9) }).starts_with("`difference` is 0, but must be"));
-    }
-}
+mod tests;

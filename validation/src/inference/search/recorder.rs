@@ -1,6 +1,6 @@
 //! What has been evaluated: each distinct point once, never more than the budget.
 
-use super::{Evaluated, Search, SearchError, Stopped};
+use super::{Evaluated, LocalMinimum, Search, SearchError, Stopped};
 use crate::inference::Evaluate;
 use crate::sampling::design;
 use std::collections::BTreeMap;
@@ -37,7 +37,19 @@ const RESCUE_BATCH: usize = 4;
 
 impl<'a, M: Evaluate> Recorder<'a, M> {
     pub(in crate::inference) fn new(model: &'a mut M, budget: usize) -> Self {
-        Self { model, budget, history: Vec::new(), known: BTreeMap::new(), data: None }
+        Self::with(model, Vec::new(), budget)
+    }
+
+    /// One that knows some points already; they count in the budget.
+    pub(in crate::inference) fn with(model: &'a mut M, history: Vec<Evaluated>, budget: usize) -> Self {
+        let known = history.iter().enumerate().map(|(place, evaluated)| (bits(&evaluated.point), place)).collect();
+        let data = history.iter().find_map(|evaluated| evaluated.residuals.as_ref().map(Vec::len));
+        Self { model, budget, history, known, data }
+    }
+
+    /// Allows so many points more than there are now.
+    pub(in crate::inference) fn allow(&mut self, evaluations: usize) {
+        self.budget = self.history.len() + evaluations;
     }
 
     /// Every distinct point so far.
@@ -116,6 +128,8 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
     pub(in crate::inference) fn finish(
         self,
         outcome: Result<Stopped, Halt<M::Error>>,
+        mut minima: Vec<LocalMinimum>,
+        every_start: bool,
     ) -> Result<Search, SearchError<M::Error>> {
         let stopped = match outcome {
             Ok(stopped) => stopped,
@@ -124,7 +138,10 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
             Err(Halt::Residuals(expected, found)) => return Err(SearchError::Residuals { expected, found }),
         };
         match self.best().map(|(best, chi_squared)| (best.point.clone(), chi_squared)) {
-            Some((best, chi_squared)) => Ok(Search { best, chi_squared, history: self.history, stopped }),
+            Some((best, chi_squared)) => {
+                minima.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
+                Ok(Search { best, chi_squared, history: self.history, stopped, minima, every_start })
+            }
             None => Err(SearchError::NothingWorked { evaluations: self.history.len() }),
         }
     }

@@ -12,9 +12,11 @@
 //!
 //! Source: Nocedal & Wright, "Numerical Optimization", 2nd ed. (2006), chapters 4 and 11 (Broyden's update: 11.17).
 
-use super::{Budget, Halt, Recorder, Stopped};
+use super::differences::{Place, central_differences, differences};
+use super::starts::is_parted;
+use super::{Budget, Halt, LocalMinimum, Recorder, Stopped};
 use crate::inference::box_least_squares::box_least_squares;
-use crate::inference::{Emulator, Evaluate, chi_squared};
+use crate::inference::{Emulator, Evaluate};
 use nalgebra::{DMatrix, DVector};
 
 /// First Δ, in the unit cube.
@@ -29,56 +31,84 @@ const POOR: f64 = 0.25;
 /// Share of the predicted fall above which Δ may grow.
 const GOOD: f64 = 0.75;
 
-/// Evaluations at the minimum of the emulator, at last.
+/// Distance, in steps of a difference, within which differences both ways hold.
+const NEAR: f64 = 0.5;
+
+/// Predicted fall of χ² as a share of it, below which a descent looks whether its valley is known.
+const SLOW: f64 = 0.5;
+
+/// Visits to the minimum of the emulator.
 const MOST_POLISHES: usize = 3;
 
-/// A point with its residuals and χ².
-struct Place {
-    point: Vec<f64>,
-    residuals: DVector<f64>,
-    chi_squared: f64,
-}
+/// Distance below which the emulator of a descent trusts no difference.
+const LEAST_SCALE: f64 = 0.02;
 
 impl Place {
-    fn new(point: Vec<f64>, residuals: Vec<f64>) -> Self {
-        let residuals = DVector::from_vec(residuals);
-        let chi_squared = residuals.norm_squared();
-        Self { point, residuals, chi_squared }
+    fn descent(self, stopped: Option<Stopped>) -> Descent {
+        Descent { point: self.point, chi_squared: self.chi_squared, stopped }
     }
 }
 
-/// Descends from `start` until no step is worth an evaluation.
+/// Where a descent has ended, and why.
+pub(super) struct Descent {
+    /// The best point of this descent.
+    pub(super) point: Vec<f64>,
+    /// χ² there `[-]`.
+    pub(super) chi_squared: f64,
+    /// Why it ended; none where it came to a minimum that is known.
+    pub(super) stopped: Option<Stopped>,
+}
+
+/// Descends from `start` until differences both ways say that no step is worth an evaluation, or into the
+/// neighbourhood of a minimum that is `known`.
 pub(super) fn run<M: Evaluate>(
     recorder: &mut Recorder<'_, M>,
     start: &[f64],
     budget: &Budget,
-) -> Result<Stopped, Halt<M::Error>> {
+    known: &[LocalMinimum],
+) -> Result<Descent, Halt<M::Error>> {
     let (point, residuals) = recorder.working_start(start, budget.seed)?;
     let mut here = Place::new(point, residuals);
     let mut jacobian = differences(recorder, &here, budget.difference)?;
-    // where the differences were taken last
-    let mut origin = here.point.clone();
+    // where the differences were taken last, and where both ways
+    let (mut origin, mut confirmed) = (here.point.clone(), None);
     let mut radius = FIRST_RADIUS;
-    let mut failures = 0;
+    let (mut failures, mut polishes) = (0, 0);
     loop {
         let step = box_step(&here, &jacobian, radius);
         let predicted = here.chi_squared - (&here.residuals + &jacobian * &step).norm_squared();
-        let negligible = predicted <= budget.negligible(here.chi_squared, here.residuals.len());
-        let short = radius < LEAST_RADIUS * budget.difference;
+        let least = budget.negligible(here.chi_squared, here.residuals.len());
+        let (negligible, short) = (predicted <= least, radius < LEAST_RADIUS * budget.difference);
         if negligible || short {
-            // differences from nearby, corrected since, will do to confirm a minimum, but not to give one up
-            let near = if short { 0.0 } else { budget.difference };
-            if distance(&origin, &here.point) > near {
-                jacobian = differences(recorder, &here, budget.difference)?;
+            if leads_to_known(recorder, &here, known, budget) {
+                return Ok(here.descent(None));
+            }
+            // differences both ways hold, corrected since, as long as the point is near
+            if confirmed.as_ref().is_none_or(|at: &Vec<f64>| distance(at, &here.point) > NEAR * budget.difference) {
                 origin.clone_from(&here.point);
+                confirmed = Some(here.point.clone());
+                (jacobian, here) = central_differences(recorder, here, &jacobian, budget)?;
                 radius = radius.max(budget.difference);
                 continue;
             }
-            return polish(recorder, budget);
+            polishes += 1;
+            match polish(recorder, &here, least, polishes <= MOST_POLISHES)? {
+                Some(better) => {
+                    here = better;
+                    jacobian = differences(recorder, &here, budget.difference)?;
+                    origin.clone_from(&here.point);
+                    radius = radius.max(budget.difference);
+                    continue;
+                }
+                None => return Ok(here.descent(Some(if negligible { Stopped::Converged } else { Stopped::Stalled }))),
+            }
         }
 
         let trial: Vec<f64> = here.point.iter().zip(step.iter()).map(|(u, s)| (u + s).clamp(0.0, 1.0)).collect();
         let length = step.amax();
+        if predicted < SLOW * here.chi_squared && leads_to_known(recorder, &here, known, budget) {
+            return Ok(here.descent(None));
+        }
         let Some(residuals) = recorder.residuals_at(&trial)? else {
             radius = 0.25 * length;
             continue;
@@ -105,26 +135,35 @@ pub(super) fn run<M: Evaluate>(
     }
 }
 
-/// Tries the minimum of the emulator of all evaluations, which knows curvature where differences do not, until that is
-/// as good as the best point.
-fn polish<M: Evaluate>(recorder: &mut Recorder<'_, M>, budget: &Budget) -> Result<Stopped, Halt<M::Error>> {
-    for _ in 0..MOST_POLISHES {
-        let (Some(emulator), Some((_, least))) =
-            (Emulator::fit(recorder.history(), budget.difference), recorder.best())
-        else {
-            break;
-        };
-        let minimum = emulator.minimum();
-        let negligible = budget.negligible(least, emulator.data());
-        if least - minimum.chi_squared <= negligible {
-            return Ok(Stopped::Converged);
-        }
-        let residuals = recorder.residuals_at(&minimum.point)?;
-        if residuals.is_some_and(|residuals| (chi_squared(&residuals) - least).abs() <= negligible) {
-            return Ok(Stopped::Converged);
-        }
+/// Whether nothing on the emulator parts a place from a minimum that is known.
+fn leads_to_known<M: Evaluate>(
+    recorder: &Recorder<'_, M>,
+    here: &Place,
+    known: &[LocalMinimum],
+    budget: &Budget,
+) -> bool {
+    if known.is_empty() {
+        return false;
     }
-    Ok(Stopped::Stalled)
+    let Some(emulator) = Emulator::fit(recorder.history(), budget.difference) else { return false };
+    known.iter().any(|minimum| !is_parted(&emulator, &here.point, &minimum.point))
+}
+
+/// The minimum of the emulator of all evaluations, which knows curvature where differences do not, if the model is lower
+/// there than at the best point.
+fn polish<M: Evaluate>(
+    recorder: &mut Recorder<'_, M>,
+    here: &Place,
+    negligible: f64,
+    allowed: bool,
+) -> Result<Option<Place>, Halt<M::Error>> {
+    let Some(emulator) = Emulator::fit(recorder.history(), LEAST_SCALE).filter(|_| allowed) else { return Ok(None) };
+    let minimum = emulator.minimum_near(&here.point);
+    if here.chi_squared - minimum.chi_squared <= negligible {
+        return Ok(None);
+    }
+    let there = recorder.residuals_at(&minimum.point)?.map(|residuals| Place::new(minimum.point, residuals));
+    Ok(there.filter(|there| here.chi_squared - there.chi_squared > negligible))
 }
 
 /// The step of least predicted χ² within the radius and the cube.
@@ -139,42 +178,8 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// The Jacobian from one batch of p points: forward, or backward at the upper bound. Where the model fails it is asked
-/// on the other side, then at half the step; a coordinate along which all fail counts as without effect.
-fn differences<M: Evaluate>(
-    recorder: &mut Recorder<'_, M>,
-    here: &Place,
-    difference: f64,
-) -> Result<DMatrix<f64>, Halt<M::Error>> {
-    let count = here.point.len();
-    let mut jacobian = DMatrix::zeros(here.residuals.len(), count);
-    let mut missing: Vec<usize> = (0..count).collect();
-    for step in [difference, -difference, 0.5 * difference, -0.5 * difference] {
-        let shifted = |k: usize| {
-            let mut point = here.point.clone();
-            let forward = if difference > 1.0 - point[k] { -step } else { step };
-            point[k] += forward;
-            point
-        };
-        let tried: Vec<usize> = missing.iter().copied().filter(|k| (0.0..=1.0).contains(&shifted(*k)[*k])).collect();
-        let points: Vec<Vec<f64>> = tried.iter().map(|k| shifted(*k)).collect();
-        for ((k, point), residuals) in tried.iter().zip(&points).zip(recorder.residuals(&points)?) {
-            if let Some(residuals) = residuals {
-                let change = DVector::from_vec(residuals) - &here.residuals;
-                jacobian.set_column(*k, &(change / (point[*k] - here.point[*k])));
-                missing.retain(|other| other != k);
-            }
-        }
-        if missing.is_empty() {
-            break;
-        }
-    }
-    Ok(jacobian)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::super::stand_in::{Curve, Failing};
     use super::super::{Method, search};
     use super::*;
     use std::convert::Infallible;
@@ -201,24 +206,7 @@ mod tests {
     #[test]
     fn a_linear_model_takes_one_step_once_it_is_in_reach() {
         let found = search(&mut Linear(vec![0.6, 0.4]), &[0.5, 0.5], Method::TrustRegion, Budget::default()).unwrap();
-        // the start, two differences, the minimum, and two differences there
-        assert!(found.history.len() <= 6 && found.chi_squared < 1e-15, "{found:?}");
-    }
-
-    #[test]
-    fn differences_stay_inside_the_cube_and_out_of_failures() {
-        let mut model = Failing { curve: Curve::new(), beyond: 0.5 };
-        let mut recorder = Recorder::new(&mut model, 99);
-        let point = vec![0.49, 1.0, 0.0];
-        let residuals = recorder.residuals_at(&point).unwrap().unwrap();
-        let jacobian = differences(&mut recorder, &Place::new(point, residuals), 0.02).unwrap();
-        let asked: Vec<Vec<f64>> = recorder.history().iter().map(|evaluated| evaluated.point.clone()).collect();
-        assert_eq!(asked[2], [0.49, 0.98, 0.0]);
-        assert_eq!(asked[3], [0.49, 1.0, 0.02]);
-        assert_eq!(asked[4], [0.47, 1.0, 0.0]);
-        let exact = Curve::new().jacobian(&[0.49, 1.0, 0.0]);
-        for k in 0..3 {
-            assert!((jacobian.column(k) - exact.column(k)).norm() < 0.05 * exact.column(k).norm(), "{k}");
-        }
+        // the start, two differences, the minimum, and differences there both ways
+        assert!(found.history.len() <= 8 && found.chi_squared < 1e-15, "{found:?}");
     }
 }

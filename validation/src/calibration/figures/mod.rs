@@ -1,5 +1,7 @@
 //! Figures of a calibration, from its outcome alone.
 
+mod corner;
+
 use super::result::{Compared, Outcome};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::inference::chi_squared_quantile;
@@ -9,6 +11,7 @@ pub(super) fn all(outcome: &Outcome) -> Vec<Figure> {
     let mut figures = Vec::new();
     figures.extend(history(outcome));
     figures.extend(profiles(outcome));
+    figures.extend(corner::figure(outcome));
     if outcome.trials.is_empty() {
         figures.extend(agreement("fit", "Data that were fitted, and the model.", &outcome.fit));
         figures.extend(agreement(
@@ -23,11 +26,11 @@ pub(super) fn all(outcome: &Outcome) -> Vec<Figure> {
     figures
 }
 
-fn axis(logarithmic: bool, label: &str) -> Axis {
+pub(super) fn axis(logarithmic: bool, label: &str) -> Axis {
     if logarithmic { Axis::logarithmic(label) } else { Axis::linear(label) }
 }
 
-fn labelled(name: &str, unit: &str) -> String {
+pub(super) fn labelled(name: &str, unit: &str) -> String {
     format!("{name} [{unit}]")
 }
 
@@ -78,6 +81,9 @@ fn profiles(outcome: &Outcome) -> Option<Figure> {
         panel.line("profile", 0, points);
         panel.reference("95 %", [(ends.0, threshold), (ends.1, threshold)]);
         panel.points("best", 1, [(parameter.best, 0.0)]);
+        let runs = parameter.interval.map(|(low, high)| [(low, parameter.rise.0), (high, parameter.rise.1)]);
+        let evaluated = runs.into_iter().flatten().filter_map(|(value, rise)| Some((value, rise?)));
+        panel.points("model", 3, evaluated.filter(|point| point.1 <= highest));
         if let Some(truth) = parameter.truth.filter(|truth| *truth >= ends.0 && *truth <= ends.1) {
             panel.points("truth", 2, [(truth, 0.0)]);
         }
@@ -87,8 +93,8 @@ fn profiles(outcome: &Outcome) -> Option<Figure> {
     (columns > 0).then(|| {
         Figure::new(
             "profiles",
-            "Profile likelihood: χ² with all other parameters at their best, on a polynomial through the \
-             evaluations. Values below the dashed line agree with the data at 95 %.",
+            "Profile likelihood: χ² with all other parameters at their best, on an emulator of the \
+             evaluations. Values below the dashed line agree with the data at 95 %; points at the ends are runs of the model.",
             panels,
         )
         .in_columns(columns)
@@ -117,7 +123,9 @@ fn agreement(name: &str, caption: &str, data: &[Compared]) -> Option<Figure> {
         None => panel(title, members),
     };
     let panels: Vec<Panel> = groups.iter().map(titled).collect();
-    let mut caption = format!("{caption} Error bars are one standard uncertainty.");
+    let mut caption = format!(
+        "{caption} Error bars are one standard uncertainty, bands and bars of the model 95 % of what the posterior predicts."
+    );
     if let Some(first) = tables.first() {
         let middle = if tables.len() > 1 { "…" } else { &first[head..first.len() - tail] };
         caption += &format!(" Profiles of {}{middle}{}.", &first[..head], &first[first.len() - tail..]);
@@ -150,6 +158,13 @@ fn panel(title: &str, members: &[&Compared]) -> Panel {
         let of = |value: fn(&Compared) -> f64| -> Vec<(f64, f64)> {
             members.iter().filter_map(|datum| Some((datum.at.as_ref()?.at, value(datum)))).collect()
         };
+        let band = |datum: &&Compared| {
+            datum.predicted.zip(datum.at.as_ref()).map(|((low, high), place)| (place.at, low, high))
+        };
+        let band: Vec<(f64, f64, f64)> = members.iter().filter_map(band).collect();
+        if band.len() > 1 {
+            panel.band("model, 95 %", band);
+        }
         panel.line("model", 0, of(|datum| datum.model));
         let mut points = Series::new("data", Mark::Points, 1, of(|datum| datum.datum));
         points.error = errors;
@@ -161,6 +176,12 @@ fn panel(title: &str, members: &[&Compared]) -> Panel {
     let values: Vec<f64> = members.iter().flat_map(|datum| [datum.datum, datum.model]).collect();
     let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
     panel.reference("equal", [(low, low), (high, high)]);
+    for (place, datum) in members.iter().enumerate() {
+        if let Some((low, high)) = datum.predicted {
+            let label = if place == 0 { "model, 95 %" } else { "" };
+            panel.line(label, 0, [(low, datum.datum), (high, datum.datum)]);
+        }
+    }
     let mut points =
         Series::new("data", Mark::Points, 1, members.iter().map(|datum| (datum.model, datum.datum)).collect());
     points.error = errors;

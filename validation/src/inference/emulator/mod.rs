@@ -1,55 +1,32 @@
-//! A polynomial for every residual through the evaluated points, most faithful at the best of them.
+//! A polynomial for every residual through the evaluated points, most faithful at the best of them, corrected for what it
+//! misses at each.
 //!
 //! With t = (u − u_best)/δ a residual is c_0 + Σ c_k t_k, and with points enough + Σ_{k ≤ l} c_kl t_k t_l. What a
 //! polynomial of degree m leaves out grows as |t|^(m + 1), so the points are weighted by 1/(1 + |t|^(m + 1)): those
 //! within δ, the distance of just enough neighbours, count almost fully, and the first guesses of a search hardly at
-//! all.
+//! all; large residuals need to be right in proportion only. What is left over at the points is carried between them by a
+//! correction, where that predicts them better.
+
+mod correction;
+mod polynomial;
 
 use super::box_least_squares::least_squares;
 use super::descent::{Bottom, Smooth, descend};
 use super::search::Evaluated;
+use correction::Correction;
 use nalgebra::{DMatrix, DVector};
+use polynomial::{basis, local};
 
-/// Quadratic from this many points per coefficient on.
-const POINTS_PER_COEFFICIENT: f64 = 1.5;
+pub use polynomial::Degree;
+
+/// Residuals above this need only be right in proportion.
+const ROUGH: f64 = 10.0;
+
+/// Mean square of the residuals above which a point is too far from all data to tell anything.
+const HOPELESS: f64 = 1e6;
 
 /// Other starts of the descent to the minimum, the best evaluated points.
 const STARTS: usize = 8;
-
-/// Degree of the polynomials.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Degree {
-    /// Constant and slopes.
-    Linear,
-    /// With all squares and products.
-    Quadratic,
-}
-
-impl Degree {
-    /// Coefficients of a polynomial of this degree.
-    fn coefficients(self, dimensions: usize) -> usize {
-        match self {
-            Self::Linear => dimensions + 1,
-            Self::Quadratic => (dimensions + 1) * (dimensions + 2) / 2,
-        }
-    }
-
-    /// Points from which on a polynomial of this degree is fitted.
-    pub(super) fn points(self, dimensions: usize) -> usize {
-        match self {
-            Self::Linear => self.coefficients(dimensions),
-            Self::Quadratic => (POINTS_PER_COEFFICIENT * self.coefficients(dimensions) as f64).ceil() as usize,
-        }
-    }
-
-    /// How the terms that it leaves out grow with |t|.
-    fn remainder(self, t: f64) -> f64 {
-        match self {
-            Self::Linear => t * t,
-            Self::Quadratic => t * t * t,
-        }
-    }
-}
 
 /// A minimum of the emulator.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,7 +45,9 @@ pub struct Emulator {
     centre: Vec<f64>,
     /// δ in the unit cube.
     scale: f64,
-    /// One row a residual, one column a coefficient.
+    /// What the polynomials miss.
+    correction: Option<Correction>,
+    /// One row a residual, one column a coefficient, those of the correction last.
     coefficients: DMatrix<f64>,
     /// The same χ² with as many rows as columns at most.
     compact: DMatrix<f64>,
@@ -87,6 +66,8 @@ impl Emulator {
             .filter_map(|evaluated| Some((&*evaluated.point, evaluated.residuals.as_deref()?, evaluated.chi_squared?)))
             .collect();
         points.sort_by(|a, b| a.2.total_cmp(&b.2));
+        let least = points.first()?.2;
+        points.retain(|(_, residuals, chi_squared)| *chi_squared <= least + HOPELESS * residuals.len() as f64);
         let dimensions = points.first()?.0.len();
         if points.len() < Degree::Linear.points(dimensions) {
             return None;
@@ -103,7 +84,11 @@ impl Emulator {
         let mut sorted = distances.clone();
         sorted.sort_by(f64::total_cmp);
         let scale = sorted[(degree.coefficients(centre.len()) - 1).min(sorted.len() - 1)].max(resolution);
-        let weights: Vec<f64> = distances.iter().map(|d| 1.0 / (1.0 + degree.remainder(d / scale))).collect();
+        let data = points[0].1.len().max(1) as f64;
+        let weight = |(d, (_, _, chi_squared)): (&f64, &(&[f64], &[f64], f64))| {
+            1.0 / (1.0 + degree.remainder(d / scale)) / (1.0 + (chi_squared / data).sqrt() / ROUGH)
+        };
+        let weights: Vec<f64> = distances.iter().zip(points).map(weight).collect();
 
         let columns = degree.coefficients(centre.len());
         let mut matrix = DMatrix::zeros(points.len(), columns);
@@ -114,10 +99,28 @@ impl Emulator {
         }
         let solution = least_squares(matrix.clone(), &right);
         let leave_one_out = leave_one_out(&matrix, &right, &solution, &weights);
-        let coefficients = solution.transpose();
-        let compact = if coefficients.nrows() > columns { coefficients.clone().qr().r() } else { coefficients.clone() };
+        let mut left = right - matrix * &solution;
+        for (row, weight) in weights.iter().enumerate() {
+            left.row_mut(row).unscale_mut(*weight);
+        }
+        let places: Vec<&[f64]> = points.iter().map(|(point, _, _)| *point).collect();
+        let data = left.ncols() as f64;
+        // without a point to spare the polynomial passes through all of them
+        let correction =
+            leave_one_out.and_then(|error| Correction::fit(&places, &left, &weights, data * error * error));
+        let known = correction.as_ref().map_or(0, Correction::len);
+        let mut coefficients = solution.transpose().resize_horizontally(columns + known, 0.0);
+        if let Some(correction) = &correction {
+            coefficients.columns_mut(columns, known).copy_from(&correction.coefficients.transpose());
+        }
+        let compact = if coefficients.nrows() > coefficients.ncols() {
+            coefficients.clone().qr().r()
+        } else {
+            coefficients.clone()
+        };
+        let leave_one_out = correction.as_ref().map_or(leave_one_out, |correction| Some(correction.leave_one_out()));
         let points = points.iter().map(|(point, _, _)| point.to_vec()).collect();
-        Self { degree, centre, scale, coefficients, compact, points, leave_one_out }
+        Self { degree, centre, scale, correction, coefficients, compact, points, leave_one_out }
     }
 
     /// The degree of the polynomials.
@@ -191,6 +194,14 @@ impl Emulator {
         Minimum { point, chi_squared }
     }
 
+    /// The minimum downhill of a point.
+    #[must_use]
+    pub fn minimum_near(&self, start: &[f64]) -> Minimum {
+        let (lower, upper) = (vec![0.0; self.dimensions()], vec![1.0; self.dimensions()]);
+        let Bottom { point, chi_squared } = descend(self, start, &lower, &upper);
+        Minimum { point, chi_squared }
+    }
+
     /// Whether a point at which the model worked lies near, no farther than [`scale`](Self::scale).
     #[must_use]
     pub fn supports(&self, point: &[f64]) -> bool {
@@ -198,7 +209,11 @@ impl Emulator {
     }
 
     fn basis(&self, point: &[f64]) -> DVector<f64> {
-        basis(self.degree, &local(point, &self.centre, self.scale))
+        let polynomial = basis(self.degree, &local(point, &self.centre, self.scale));
+        let Some(correction) = &self.correction else { return polynomial };
+        let mut both = polynomial.clone().resize_vertically(self.coefficients.ncols(), 0.0);
+        both.rows_mut(polynomial.len(), correction.len()).copy_from(&correction.basis(point));
+        both
     }
 
     /// Derivatives of the basis (rows) by the coordinates (columns).
@@ -218,7 +233,12 @@ impl Emulator {
                 }
             }
         }
-        slopes / self.scale
+        slopes /= self.scale;
+        if let Some(correction) = &self.correction {
+            let first = self.coefficients.ncols() - correction.len();
+            slopes.rows_mut(first, correction.len()).copy_from(&correction.slopes(point));
+        }
+        slopes
     }
 }
 
@@ -235,23 +255,6 @@ impl Smooth for Emulator {
 /// Euclidean distance.
 fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
-}
-
-/// t of a point.
-fn local(point: &[f64], centre: &[f64], scale: f64) -> Vec<f64> {
-    point.iter().zip(centre).map(|(u, c)| (u - c) / scale).collect()
-}
-
-/// 1, t_k and, where quadratic, t_k t_l.
-fn basis(degree: Degree, t: &[f64]) -> DVector<f64> {
-    let mut values = vec![1.0];
-    values.extend_from_slice(t);
-    if degree == Degree::Quadratic {
-        for k in 0..t.len() {
-            values.extend((k..t.len()).map(|l| t[k] * t[l]));
-        }
-    }
-    DVector::from_vec(values)
 }
 
 /// The weighted error of each point as predicted by the others, from the leverages of the one fit.
@@ -271,90 +274,4 @@ fn leave_one_out(matrix: &DMatrix<f64>, right: &DMatrix<f64>, solution: &DMatrix
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::stand_in::Curve;
-    use super::super::{Evaluate, chi_squared};
-    use super::*;
-    use crate::sampling::design::{full_grid, latin_hypercube};
-
-    fn evaluated(points: &[Vec<f64>], residuals: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Vec<Evaluated> {
-        let one = |point: &Vec<f64>| {
-            let residuals = residuals(point);
-            let chi_squared = residuals.as_deref().map(chi_squared);
-            Evaluated { point: point.clone(), residuals, chi_squared }
-        };
-        points.iter().map(one).collect()
-    }
-
-    /// Two residuals that are polynomials of second degree; the minimum, χ² = 0, lies at (0.4, 0.7).
-    fn quadratic(u: &[f64]) -> Vec<f64> {
-        let (x, y) = (u[0] - 0.4, u[1] - 0.7);
-        vec![3.0 * x + x * y - 2.0 * y * y, 5.0 * y + x * x]
-    }
-
-    #[test]
-    fn quadratic_residuals_are_reproduced() {
-        let history = evaluated(&latin_hypercube(12, 2, 3), |u| Some(quadratic(u)));
-        let emulator = Emulator::fit(&history, 0.02).unwrap();
-        assert_eq!(emulator.degree(), Degree::Quadratic);
-        let u = [0.15, 0.3];
-        for (found, exact) in emulator.predict(&u).iter().zip(quadratic(&u)) {
-            assert!((found - exact).abs() < 1e-10);
-        }
-        assert!((emulator.chi_squared(&u) - chi_squared(&quadratic(&u))).abs() < 1e-9);
-        assert!(emulator.leave_one_out().unwrap() < 1e-9);
-        let minimum = emulator.minimum();
-        assert!((minimum.point[0] - 0.4).abs() < 1e-6 && (minimum.point[1] - 0.7).abs() < 1e-6, "{minimum:?}");
-    }
-
-    #[test]
-    fn the_jacobian_is_that_of_differences() {
-        let history = evaluated(&latin_hypercube(12, 2, 3), |u| Some(quadratic(u)));
-        let emulator = Emulator::fit(&history, 0.02).unwrap();
-        let (u, h) = ([0.2, 0.6], 1e-5);
-        let jacobian = emulator.jacobian(&u);
-        for k in 0..2 {
-            let at = |step: f64| {
-                let mut point = u;
-                point[k] += step;
-                emulator.predict(&point)
-            };
-            for row in 0..2 {
-                let difference = (at(h)[row] - at(-h)[row]) / (2.0 * h);
-                assert!((jacobian[(row, k)] - difference).abs() < 1e-8);
-            }
-        }
-    }
-
-    #[test]
-    fn the_degree_follows_the_number_of_points() {
-        let degree = |count| {
-            let history = evaluated(&latin_hypercube(count, 2, 3), |u| Some(quadratic(u)));
-            Emulator::fit(&history, 0.02).map(|emulator| emulator.degree())
-        };
-        assert_eq!(
-            [2, 3, 8, 9].map(degree),
-            [None, Some(Degree::Linear), Some(Degree::Linear), Some(Degree::Quadratic)]
-        );
-    }
-
-    #[test]
-    fn failed_points_are_left_out() {
-        let history = evaluated(&latin_hypercube(20, 2, 3), |u| (u[0] < 0.6).then(|| quadratic(u)));
-        let minimum = Emulator::fit(&history, 0.02).unwrap().minimum();
-        assert!((minimum.point[0] - 0.4).abs() < 1e-6 && (minimum.point[1] - 0.7).abs() < 1e-6);
-    }
-
-    #[test]
-    fn the_minimum_of_a_smooth_curve_is_close() {
-        let curve = Curve::new();
-        let points = full_grid(&[4, 4, 4]);
-        let residuals = curve.clone().residuals(&points).unwrap();
-        let history = evaluated(&points, |u| residuals[points.iter().position(|point| point == u)?].clone());
-        let emulator = Emulator::fit(&history, 0.02).unwrap();
-        let minimum = emulator.minimum();
-        let off = (0..3).map(|k| (minimum.point[k] - curve.truth[k]).abs()).fold(0.0, f64::max);
-        println!("off by {off}, leave-one-out error {:?}", emulator.leave_one_out());
-        assert!(off < 0.05);
-    }
-}
+mod tests;

@@ -1,0 +1,92 @@
+//! What is held out must differ in its physics from what is fitted: another slope, another aspect ratio, not another cell.
+//!
+//! A block that is held out names the parameters that make its conditions (`conditions`). It is refused where all of them
+//! have a value that a fitted block of the same case has too, within a tolerance (`same_within`).
+
+use super::error::CalibrationError;
+use super::plan::{Block, Plan};
+use crate::evaluation::PlanError;
+use crate::input::{FieldError, nearest};
+
+/// What makes the conditions of a block that is held out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conditions {
+    /// Dotted paths of the case's parameters, numbers or lists of numbers.
+    pub(super) paths: Vec<String>,
+    /// Relative difference up to which two values are the same `[-]`.
+    pub(super) same_within: f64,
+}
+
+/// The parameters of a block's case, all of them.
+pub(super) struct Known<'a> {
+    pub(super) block: &'a Block,
+    pub(super) parameters: toml::Table,
+}
+
+impl Known<'_> {
+    /// The numbers at a dotted path.
+    fn numbers(&self, path: &str, plan: &Plan) -> Result<Vec<f64>, CalibrationError> {
+        let mut keys = path.split('.');
+        let first = keys.next().and_then(|key| self.parameters.get(key));
+        let Some(value) = keys.try_fold(first, |value, key| Some(value?.get(key))).flatten() else {
+            let mut paths = Vec::new();
+            collect(&self.parameters, "", &mut paths);
+            let guess = nearest(path, paths.iter().map(String::as_str));
+            let (file, case) = (plan.file.clone(), self.block.request.case.clone());
+            return Err(PlanError::Path { file, path: path.to_owned(), nearest: guess, case }.into());
+        };
+        let number = |value: &toml::Value| value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
+        let list = value.as_array().map_or_else(|| vec![number(value)], |list| list.iter().map(number).collect());
+        list.into_iter().collect::<Option<Vec<f64>>>().ok_or_else(|| {
+            let field = format!("{}.conditions", self.block.field);
+            let remedy = "name what is measured along, such as a slope";
+            FieldError::new(&field, path, "a number or a list of numbers of the case", remedy)
+                .in_file(&plan.file)
+                .into()
+        })
+    }
+}
+
+/// All dotted paths of a table.
+fn collect(table: &toml::Table, head: &str, paths: &mut Vec<String>) {
+    for (key, value) in table {
+        let path = if head.is_empty() { key.clone() } else { format!("{head}.{key}") };
+        match value.as_table() {
+            Some(inner) => collect(inner, &path, paths),
+            None => paths.push(path),
+        }
+    }
+}
+
+/// Refuses a block that is held out if its conditions are those of a fitted one.
+pub(super) fn check(plan: &Plan, known: &[Known<'_>]) -> Result<(), CalibrationError> {
+    for held_out in known.iter().filter(|known| known.block.held_out) {
+        let case = &held_out.block.request.case;
+        for fitted in known.iter().filter(|known| !known.block.held_out && known.block.request.case == *case) {
+            let Some(conditions) = &held_out.block.conditions else {
+                let field = format!("{}.conditions", held_out.block.field);
+                let remedy =
+                    "name the parameters that make it differ from what is fitted, such as conditions = [\"slopes\"]";
+                let rule = format!("given where `{}` has the same case", fitted.block.field);
+                return Err(FieldError::new(&field, "missing", &rule, remedy).in_file(&plan.file).into());
+            };
+            let mut same = Vec::new();
+            for path in &conditions.paths {
+                let (here, there) = (held_out.numbers(path, plan)?, fitted.numbers(path, plan)?);
+                let pair = here.iter().flat_map(|a| there.iter().map(move |b| (*a, *b)));
+                let close = |(a, b): &(f64, f64)| (a - b).abs() <= conditions.same_within * a.abs().max(b.abs());
+                same.extend(pair.clone().find(close).map(|(a, b)| format!("{path} {a} and {b}")));
+            }
+            if same.len() == conditions.paths.len() {
+                return Err(CalibrationError::SameConditions {
+                    file: plan.file.clone(),
+                    hold_out: held_out.block.field.clone(),
+                    fit: fitted.block.field.clone(),
+                    same: same.join(", "),
+                    percent: 100.0 * conditions.same_within,
+                });
+            }
+        }
+    }
+    Ok(())
+}

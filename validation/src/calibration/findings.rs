@@ -1,0 +1,215 @@
+//! What a calibration leaves open, in sentences: of the search, of the fit, of the intervals.
+
+use super::plan::Plan;
+use super::result::Compared;
+use crate::inference::diagnosis::{outliers, serial_correlation};
+use crate::inference::{Answer, Explored, Parameter as Named, Stopped, UNLIKELY, assess};
+use crate::number::short_digits;
+
+/// Everything that a search and its region leave open, the gravest first.
+pub(super) fn of(plan: &Plan, answer: &Answer, fit: &[Compared]) -> Vec<String> {
+    let mut findings = of_search(plan, answer);
+    match &answer.explored {
+        None => {
+            findings.push("too few evaluations succeeded to say how well the data determine the parameters".to_owned());
+        }
+        Some(explored) => {
+            findings.extend(of_fit(plan.parameters.len(), explored.region.p_value, fit));
+            findings.extend(of_region(plan, explored));
+        }
+    }
+    findings
+}
+
+fn of_search(plan: &Plan, answer: &Answer) -> Vec<String> {
+    let search = &answer.search;
+    let mut findings = Vec::new();
+    if matches!(search.stopped, Stopped::BudgetSpent | Stopped::Stalled) {
+        findings.push(format!("the search did not converge: {}", search.stopped));
+    }
+    if !search.every_start {
+        findings.push(format!(
+            "the evaluations did not suffice to follow all {} other starts: there may be a lower minimum; allow more",
+            plan.budget.starts
+        ));
+    }
+    let rival = answer.explored.as_ref().map_or(0.0, |explored| explored.region.threshold);
+    for minimum in search.minima.iter().filter(|minimum| minimum.chi_squared - search.chi_squared <= rival).skip(1) {
+        let names = plan.parameters.iter().zip(plan.values(&minimum.point));
+        let place: Vec<String> =
+            names.map(|(parameter, value)| format!("`{}` = {}", parameter.name, short_digits(value, 3))).collect();
+        findings.push(format!(
+            "a second minimum agrees with the data at 95 % too: {} with χ² {} beside {}",
+            place.join(", "),
+            short_digits(minimum.chi_squared, 3),
+            short_digits(search.chi_squared, 3)
+        ));
+    }
+    findings
+}
+
+/// What the residuals at the best point say.
+fn of_fit(parameters: usize, p_value: Option<f64>, fit: &[Compared]) -> Vec<String> {
+    let mut findings = Vec::new();
+    match p_value {
+        Some(p) if p < UNLIKELY => findings.push(format!(
+            "the model does not explain the data within their uncertainties (p = {}): the model is wrong, a datum is, or the \
+             uncertainties are too small",
+            short_digits(p, 2)
+        )),
+        Some(p) if p > 1.0 - UNLIKELY => findings.push(format!(
+            "the data agree with the model better than their uncertainties allow (1 − p = {}): the uncertainties are too \
+             large, or the errors are correlated",
+            short_digits(1.0 - p, 2)
+        )),
+        _ => {}
+    }
+    let residuals: Vec<f64> = fit.iter().map(|datum| datum.residual).collect();
+    for (place, distance) in outliers(&residuals, parameters) {
+        let datum = &fit[place];
+        findings.push(format!(
+            "the datum `{}` = {} {} of `{}` lies {} robust standard deviations from the others: an outlier; check it, or use \
+             loss = \"huber\"",
+            datum.label,
+            short_digits(datum.datum, 4),
+            datum.unit,
+            datum.block,
+            short_digits(distance, 2)
+        ));
+    }
+    let profiles = profiles(fit);
+    for (name, residuals) in &profiles {
+        if let Some(correlation) = serial_correlation(residuals, profiles.len()) {
+            findings.push(format!(
+                "neighbouring residuals along `{name}` correlate ({}): the model has another shape than the data, or their \
+                 errors are not independent, and the intervals are too narrow",
+                short_digits(correlation, 2)
+            ));
+        }
+    }
+    findings
+}
+
+/// Residuals of every profile in the order of its abscissas.
+fn profiles(fit: &[Compared]) -> Vec<(String, Vec<f64>)> {
+    let mut profiles: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
+    for datum in fit {
+        let Some(place) = &datum.at else { continue };
+        let name = format!("{} of {}", place.table, datum.block);
+        match profiles.iter_mut().find(|(other, _)| *other == name) {
+            Some((_, points)) => points.push((place.at, datum.residual)),
+            None => profiles.push((name, vec![(place.at, datum.residual)])),
+        }
+    }
+    profiles
+        .into_iter()
+        .map(|(name, mut points)| {
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            (name, points.into_iter().map(|point| point.1).collect())
+        })
+        .collect()
+}
+
+fn of_region(plan: &Plan, explored: &Explored) -> Vec<String> {
+    let region = &explored.region;
+    let physical = |k: usize, u: f64| plan.parameters[k].bounds.value(u);
+    let names: Vec<Named> =
+        plan.parameters.iter().map(|p| Named { name: p.name.clone(), unit: p.unit.clone() }).collect();
+    let mut findings: Vec<String> =
+        assess(&region.jacobian(), region, &names, &physical).iter().map(ToString::to_string).collect();
+    for (parameter, ends) in names.iter().zip(&explored.ends) {
+        for (end, word) in ends.iter().zip(["lower", "upper"]) {
+            if !end.settled {
+                findings.push(format!(
+                    "interval not settled: the model has not confirmed the {word} end of `{}`, and the wider of what it and \
+                     its emulator say is given; allow more `region_evaluations`",
+                    parameter.name
+                ));
+            } else if end.fails {
+                findings.push(format!("the model fails beyond the {word} end of `{}`", parameter.name));
+            }
+        }
+    }
+    if !explored.joint_settled && explored.ends.iter().flatten().all(|end| end.settled) {
+        findings.push(
+            "joint region not settled: the model disagrees with it at its edge; allow more `region_evaluations`"
+                .to_owned(),
+        );
+    }
+    findings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::result::Place;
+    use super::*;
+    use crate::inference::chi_squared_tail;
+    use crate::sampling::Random;
+
+    /// A profile of fitted data with these residuals.
+    fn fit(residuals: &[f64]) -> Vec<Compared> {
+        let datum = |(k, residual): (usize, &f64)| Compared {
+            block: "fit[0]".to_owned(),
+            label: format!("u at {k}"),
+            at: Some(Place {
+                table: "profile".to_owned(),
+                x: "y [m]".to_owned(),
+                y: "u [m/s]".to_owned(),
+                at: k as f64,
+            }),
+            datum: 1.0,
+            band: (0.9, 1.1),
+            model: 1.0 + 0.1 * residual,
+            unit: "m/s".to_owned(),
+            residual: *residual,
+            predicted: None,
+            source: "a test".to_owned(),
+        };
+        residuals.iter().enumerate().map(datum).collect()
+    }
+
+    fn findings(residuals: &[f64]) -> Vec<String> {
+        let chi_squared = residuals.iter().map(|residual| residual * residual).sum();
+        of_fit(2, Some(chi_squared_tail(chi_squared, residuals.len() - 2)), &fit(residuals))
+    }
+
+    fn normal(seed: u64, scale: f64) -> Vec<f64> {
+        let mut random = Random::new(seed);
+        (0..15).map(|_| scale * random.normal()).collect()
+    }
+
+    #[test]
+    fn correct_data_raise_nothing_in_nine_of_ten_experiments() {
+        let raised = (0..200).filter(|seed| !findings(&normal(*seed, (13.0_f64 / 15.0).sqrt())).is_empty()).count();
+        assert!(raised <= 20, "{raised} of 200");
+    }
+
+    #[test]
+    fn uncertainties_three_times_too_large_or_small_are_told() {
+        for seed in 0..10 {
+            assert!(findings(&normal(seed, 0.3))[0].contains("better than their uncertainties allow"));
+            assert!(findings(&normal(seed, 3.0))[0].contains("does not explain the data"));
+        }
+    }
+
+    #[test]
+    fn outliers_are_named() {
+        let mut residuals = normal(3, 1.0);
+        residuals[4] = 8.0;
+        residuals[12] = -8.0;
+        let found = findings(&residuals);
+        assert!(found.iter().any(|text| text.contains("`u at 4` = 1 m/s of `fit[0]`")), "{found:?}");
+        assert!(found.iter().any(|text| text.contains("`u at 12`")), "{found:?}");
+    }
+
+    #[test]
+    fn a_wrong_law_is_told_by_its_shape() {
+        let bent: Vec<f64> =
+            normal(3, 0.5).iter().enumerate().map(|(k, z)| z + 0.08 * (k as f64 - 7.0).powi(2) - 1.5).collect();
+        let found = findings(&bent);
+        assert!(
+            found.iter().any(|text| text.contains("neighbouring residuals along `profile of fit[0]`")),
+            "{found:?}"
+        );
+    }
+}

@@ -1,0 +1,64 @@
+//! What the posterior predicts for every datum: a band of 95 %, for fitted data and for those held out.
+//!
+//! Predictions are those of the emulator at samples of the posterior. For what was held out an emulator of its own rests on
+//! the best point and the ends of the intervals.
+
+use super::error::CalibrationError;
+use super::objective::{Objective, Question};
+use super::result::{Compared, compared};
+use crate::evaluation::Record;
+use crate::inference::posterior::sample;
+use crate::inference::posterior::{Posterior, predictive};
+use crate::inference::{Answer, Emulator, Evaluated, Explored};
+
+/// Samples of the posterior, if there is a region.
+pub(super) fn posterior(objective: &Objective<'_>, answer: &Answer) -> Option<Posterior> {
+    answer.explored.as_ref().map(|explored| sample(&explored.region, objective.plan.budget.seed))
+}
+
+/// Gives every fitted datum its band.
+pub(super) fn of_fit(objective: &Objective<'_>, explored: &Explored, posterior: &Posterior, fit: &mut [Compared]) {
+    let bands = predictive(&explored.emulator, posterior);
+    let loss = objective.plan.loss;
+    for ((datum, band), known) in fit.iter_mut().zip(bands).zip(objective.data_of(false)) {
+        let [low, high] = band.map(|root| known.of_residual(loss.residual(root)));
+        datum.predicted = Some((low, high));
+    }
+}
+
+/// Gives every datum that was held out its band, as far as its runs succeed at the ends of the intervals.
+pub(super) fn of_hold_out(
+    objective: &Objective<'_>,
+    answer: &Answer,
+    posterior: &Posterior,
+    hold_out: &mut [Compared],
+) -> Result<(), CalibrationError> {
+    let plan = objective.plan;
+    let (Some(explored), false) = (&answer.explored, hold_out.is_empty()) else { return Ok(()) };
+    let mut points: Vec<Vec<f64>> = vec![answer.search.best.clone()];
+    points.extend(explored.ends.iter().flatten().map(|end| end.point.clone()));
+    let blocks: Vec<usize> = (0..plan.blocks.len()).filter(|&block| plan.blocks[block].held_out).collect();
+    let questions: Vec<Question> = points
+        .iter()
+        .flat_map(|point| {
+            let values = plan.values(point);
+            blocks.iter().map(move |&block| objective.question(block, &values)).collect::<Vec<_>>()
+        })
+        .collect();
+    let records = objective.ask(&questions)?;
+    let evaluated = |(point, records): (&Vec<f64>, &[Record])| {
+        let record = |block: usize| blocks.iter().position(|&other| other == block).map(|place| &records[place]);
+        let data = compared(objective, true, record, Clone::clone).ok();
+        let residuals = data.map(|data| data.iter().map(|datum| datum.residual).collect());
+        Evaluated::new(point.clone(), residuals)
+    };
+    let history: Vec<Evaluated> = points.iter().zip(records.chunks(blocks.len())).map(evaluated).collect();
+    // without points enough there is no band
+    let Some(emulator) = Emulator::fit(&history, plan.budget.difference) else { return Ok(()) };
+    for ((datum, band), known) in hold_out.iter_mut().zip(predictive(&emulator, posterior)).zip(objective.data_of(true))
+    {
+        let [low, high] = band.map(|residual| known.of_residual(residual));
+        datum.predicted = Some((low, high));
+    }
+    Ok(())
+}

@@ -1,0 +1,133 @@
+//! A search, the region about its best point, and the search again from any lower point that turns up on the way.
+
+use super::emulator::Minimum;
+use super::explore::{Explored, explore};
+use super::region::{Uncertainties, chi_squared_tail};
+use super::search::{Budget, LocalMinimum, Method, Search, SearchError, continue_search, search, search_design};
+use super::{Evaluate, Evaluated};
+
+/// Share of repeated experiments below which a χ² is a sign that the model or the stated uncertainties are wrong, and above
+/// which it is too good to be true.
+pub const UNLIKELY: f64 = 0.01;
+
+/// Searches that are begun anew from a lower point.
+const MOST_RESTARTS: usize = 3;
+
+/// What is done, and with how much.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Start in the unit cube.
+    pub start: Vec<f64>,
+    /// How the minimum is looked for.
+    pub method: Method,
+    /// Points of a design that is given; empty for a search.
+    pub design: Vec<Vec<f64>>,
+    /// What each search may spend.
+    pub budget: Budget,
+    /// What the exploration of the region may spend, each time.
+    pub region_evaluations: usize,
+}
+
+/// The minimum and its region.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    /// The search, with every point that was evaluated.
+    pub search: Search,
+    /// Evaluations of the first search.
+    pub searched: usize,
+    /// The region; none with too few points.
+    pub explored: Option<Explored>,
+    /// Searches that were begun anew because a lower point had turned up.
+    pub restarts: usize,
+}
+
+/// Searches and explores until nothing lower turns up.
+///
+/// # Errors
+/// What [`search`](super::search()) returns.
+pub fn solve<M: Evaluate>(model: &mut M, plan: &Plan) -> Result<Answer, SearchError<M::Error>> {
+    let mut found = if plan.design.is_empty() {
+        search(model, &plan.start, plan.method, plan.budget)?
+    } else {
+        let budget = Budget { evaluations: plan.design.len() + 1, ..plan.budget };
+        search_design(model, &plan.design, budget)?
+    };
+    let searched = found.history.len();
+    let mut restarts = 0;
+    loop {
+        let budget = Budget { evaluations: plan.region_evaluations, ..plan.budget };
+        let uncertainties = uncertainties(&found);
+        let explored = explore(model, found.history.clone(), uncertainties, &budget).map_err(SearchError::Model)?;
+        let Some(explored) = explored else { return Ok(Answer { search: found, searched, explored: None, restarts }) };
+        let lowest = explored.region.minimum.clone();
+        if explored.lower && restarts < MOST_RESTARTS {
+            restarts += 1;
+            found = again(model, found, explored.history, &lowest, plan.budget)?;
+            continue;
+        }
+        let search =
+            Search { best: lowest.point, chi_squared: lowest.chi_squared, history: explored.history.clone(), ..found };
+        return Ok(Answer { search, searched, explored: Some(explored), restarts });
+    }
+}
+
+/// The search from a lower point, with everything that is known.
+fn again<M: Evaluate>(
+    model: &mut M,
+    before: Search,
+    history: Vec<Evaluated>,
+    lowest: &Minimum,
+    budget: Budget,
+) -> Result<Search, SearchError<M::Error>> {
+    let budget = Budget { starts: 0, ..budget };
+    let found = continue_search(model, history, &lowest.point, Method::TrustRegion, budget)?;
+    let mut minima = before.minima;
+    minima.retain(|minimum| !found.minima.iter().any(|new| new.is_near(minimum)));
+    minima.extend(found.minima.iter().cloned());
+    minima.sort_by(|a: &LocalMinimum, b| a.chi_squared.total_cmp(&b.chi_squared));
+    Ok(Search { minima, every_start: before.every_start, ..found })
+}
+
+/// Uncertainties are enlarged where the model does not explain the data.
+fn uncertainties(found: &Search) -> Uncertainties {
+    let residuals = found.history.iter().find(|evaluated| evaluated.point == found.best);
+    let data = residuals.and_then(|evaluated| evaluated.residuals.as_ref()).map_or(0, Vec::len);
+    match data.checked_sub(found.best.len()).filter(|freedom| *freedom > 0) {
+        Some(freedom) if chi_squared_tail(found.chi_squared, freedom) < UNLIKELY => Uncertainties::Inflated,
+        _ => Uncertainties::AsStated,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::convert::Infallible;
+
+    /// Two wells; the lower one is at 0.9.
+    struct Wells;
+
+    impl Evaluate for Wells {
+        type Error = Infallible;
+        fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Infallible> {
+            let one = |u: &Vec<f64>| vec![14.0 * (u[0] - 0.15) * (u[0] - 0.9), 2.0 * (1.0 - u[0]), 0.5, -0.5];
+            Ok(points.iter().map(|u| Some(one(u))).collect())
+        }
+    }
+
+    #[test]
+    fn a_search_is_begun_anew_from_a_lower_point() {
+        let plan = Plan {
+            start: vec![0.1],
+            method: Method::TrustRegion,
+            design: Vec::new(),
+            budget: Budget::default(),
+            region_evaluations: 20,
+        };
+        let answer = solve(&mut Wells, &plan).expect("it works");
+        assert!(answer.restarts == 1 && (answer.search.best[0] - 0.9).abs() < 0.02, "{:?}", answer.search.best);
+        assert_eq!(answer.search.minima.len(), 2);
+        let explored = answer.explored.expect("enough points");
+        assert!(explored.is_settled() && explored.region.minimum.point == answer.search.best);
+        assert_eq!(explored.region.minimum.chi_squared, answer.search.chi_squared);
+    }
+}
