@@ -75,7 +75,7 @@ pub fn sample(region: &Region, seed: u64) -> Posterior {
         for (k, means) in means.iter_mut().enumerate() {
             means.push(walkers.iter().map(|walker| walker[k]).sum::<f64>() / WALKERS as f64);
         }
-        if (step - BURN_IN) % THINNING == 0 {
+        if (step - BURN_IN).is_multiple_of(THINNING) {
             samples.extend(walkers.iter().cloned());
         }
     }

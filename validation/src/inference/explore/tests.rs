@@ -86,7 +86,7 @@ fn every_end_is_a_run_of_the_model() {
         let explored = explore(&mut model, found.history, Uncertainties::AsStated, &budget).unwrap().unwrap();
         assert!(explored.is_settled());
         for (k, end) in explored.ends.iter().flatten().enumerate() {
-            let rise = chi_squared(&Smooth::residuals(&model, &end.point).as_slice().to_vec()) - least;
+            let rise = chi_squared(Smooth::residuals(&model, &end.point).as_slice()) - least;
             assert!((rise - end.rise.unwrap()).abs() < 1e-9);
             let limit = explored.region.limit;
             assert!(end.open && rise <= limit || (rise / limit - 1.0).abs() <= 0.1, "end {k}: {rise} of {limit}");
