@@ -195,8 +195,8 @@ mod tests {
     #[test]
     fn outliers_are_named() {
         let mut residuals = normal(3, 1.0);
-        residuals[4] = 8.0;
-        residuals[12] = -8.0;
+        residuals[4] = 12.0;
+        residuals[12] = -12.0;
         let found = findings(&residuals);
         assert!(found.iter().any(|text| text.contains("`u at 4` = 1 m/s of `fit[0]`")), "{found:?}");
         assert!(found.iter().any(|text| text.contains("`u at 12`")), "{found:?}");
@@ -205,7 +205,7 @@ mod tests {
     #[test]
     fn a_wrong_law_is_told_by_its_shape() {
         let bent: Vec<f64> =
-            normal(3, 0.5).iter().enumerate().map(|(k, z)| z + 0.08 * (k as f64 - 7.0).powi(2) - 1.5).collect();
+            normal(3, 0.2).iter().enumerate().map(|(k, z)| z + 0.16 * (k as f64 - 7.0).powi(2) - 3.0).collect();
         let found = findings(&bent);
         assert!(
             found.iter().any(|text| text.contains("neighbouring residuals along `profile of fit[0]`")),
