@@ -204,7 +204,7 @@ fn no_pair_is_missed_within_a_step_of_a_run_with_strong_shear() {
     scene.fluid.gravity = Vector::zeros();
     scene.numerics.time_step = 2e-3;
     // searched for, but not moved: the candidates of the end of a step are those of its positions
-    scene.numerics.shifting = 1e-30;
+    scene.numerics.shifting = 1e-15;
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
     for step in 0..60 {
         simulation.step().expect("a step");
