@@ -1,12 +1,10 @@
 //! Reads folders of `bagnold run` and `bagnold report`.
 
+use crate::input::{STORED, read_text};
 use crate::output::{FileError, Table};
 use crate::result::MetricsDocument;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-/// Largest file that is read `[bytes]`.
-const LARGEST_FILE: u64 = 1 << 28;
 
 /// Why nothing can be compared.
 #[derive(Debug, thiserror::Error)]
@@ -117,12 +115,7 @@ fn labels(folders: &[PathBuf]) -> Vec<String> {
 }
 
 fn text(file: &Path) -> Result<String, FileError> {
-    let unreadable = |error: std::io::Error| FileError::unreadable(file, &error);
-    let length = std::fs::metadata(file).map_err(unreadable)?.len();
-    if length > LARGEST_FILE {
-        return Err(damaged(file, format!("{length} bytes")));
-    }
-    std::fs::read_to_string(file).map_err(unreadable)
+    read_text(file, STORED).map_err(|error| FileError::unreadable(file, &error))
 }
 
 fn damaged(file: &Path, reason: String) -> FileError {

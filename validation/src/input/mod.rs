@@ -9,4 +9,4 @@ pub use field::FieldError;
 pub use name::nearest;
 pub(crate) use name::{did_you_mean, origin};
 pub(crate) use place::position;
-pub(crate) use reading::{DOCUMENT, STORED, WRITTEN_BY_HAND, read_own, read_text};
+pub(crate) use reading::{DOCUMENT, STORED, WRITTEN_BY_HAND, read_bytes, read_own, read_text};

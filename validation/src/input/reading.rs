@@ -22,6 +22,11 @@ pub(crate) fn read_text(path: &Path, most: u64) -> Result<String> {
     String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "stream did not contain valid UTF-8"))
 }
 
+/// Any file of at most so many bytes. Links are followed.
+pub(crate) fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>> {
+    read_all(open(path, false)?, most)
+}
+
 /// A file that a program wrote under this very name: no link.
 pub(crate) fn read_own(path: &Path, most: u64) -> Result<Vec<u8>> {
     if std::fs::symlink_metadata(path)?.file_type().is_symlink() {

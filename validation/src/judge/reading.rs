@@ -6,7 +6,7 @@ use super::text_table::TextTable;
 use super::vtk::{self, PLACES, Points};
 use crate::case::{Columns, Form, Given, Item, Picture};
 use crate::evaluation::PlanError;
-use crate::input::{FieldError, did_you_mean, nearest};
+use crate::input::{self, FieldError, did_you_mean, nearest};
 use crate::output::FileError;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -113,16 +113,7 @@ fn pictures(files: &ParticleFiles, plan: &Plan, folder: &Path) -> Result<Vec<Pic
 }
 
 fn read_bytes(file: &Path) -> Result<Vec<u8>, PlanError> {
-    let unreadable = |error: std::io::Error| FileError::unreadable(file, &error);
-    let metadata = std::fs::metadata(file).map_err(unreadable)?;
-    if !metadata.is_file() || metadata.len() > LARGEST_FILE {
-        let value = if metadata.is_file() { format!("of {} bytes", metadata.len()) } else { "no file".to_owned() };
-        let rule = format!("a file of at most {LARGEST_FILE} bytes");
-        return Err(FieldError::new("file", value, &rule, "give a smaller file, or fewer particles")
-            .in_file(file)
-            .into());
-    }
-    Ok(std::fs::read(file).map_err(unreadable)?)
+    Ok(input::read_bytes(file, LARGEST_FILE).map_err(|error| FileError::unreadable(file, &error))?)
 }
 
 fn read_text_table(file: &Path) -> Result<TextTable, PlanError> {
