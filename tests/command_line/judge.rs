@@ -75,6 +75,9 @@ fn a_code_that_is_wrong_fails_and_a_number_that_is_missing_does_not_pass() {
     let wrong = place.bagnold(&["judge", "missing.toml"]).assert().code(2);
     let message = String::from_utf8_lossy(&wrong.get_output().stderr).into_owned();
     assert!(message.contains("missing.toml: cannot be read"), "{message}");
+    let twice = place.bagnold(&["judge", "wrong.toml", "wrong.toml", "--out", "twice"]).assert().code(2);
+    let message = String::from_utf8_lossy(&twice.get_output().stderr).into_owned();
+    assert!(message.contains("but must be another code than that of wrong.toml"), "{message}");
 }
 
 #[test]

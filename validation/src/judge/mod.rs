@@ -91,12 +91,12 @@ impl Trial {
     pub fn read(files: &[PathBuf], registry: Registry) -> Result<Self, JudgeError> {
         let submissions: Vec<Submission> = files.iter().map(|file| Submission::read(file)).collect::<Result<_, _>>()?;
         let Some(first) = submissions.first() else { return Err(JudgeError::Nothing) };
-        for other in &submissions[1..] {
+        for (place, other) in submissions.iter().enumerate().skip(1) {
             let same = (&other.case, other.tier, &other.with) == (&first.case, first.tier, &first.with);
             if !same {
                 return Err(JudgeError::Different { first: first.path.clone(), other: other.path.clone() });
             }
-            if let Some(twin) = submissions.iter().find(|twin| twin.path != other.path && twin.code == other.code) {
+            if let Some(twin) = submissions[..place].iter().find(|twin| twin.code == other.code) {
                 let value = format!("\"{} {}\"", other.code.name, other.code.version);
                 let rule = format!("another code than that of {}", twin.path.display());
                 return Err(FieldError::new("code", value, &rule, "give it a version").in_file(&other.path).into());
