@@ -49,10 +49,37 @@ fn three_when_a_run_diverges() {
         assert!(message.contains(part), "{message}");
     }
     assert!(run.steps > 1);
-    let frames = std::fs::read_dir(place.path("out/snapshots")).expect("the last good state is kept").count();
-    assert!(frames > 0);
     let printed = place.run(&[CHEAP, &settings].concat()).code(3);
-    assert!(String::from_utf8_lossy(&printed.get_output().stdout).contains("DIVERGED: "));
+    let printed = String::from_utf8_lossy(&printed.get_output().stdout).into_owned();
+    assert!(printed.contains("DIVERGED: ") && printed.contains("NAME-first-bad.pvd"), "{printed}");
+}
+
+/// Last good and first bad state of a run that diverges can be opened beside each other.
+#[test]
+fn a_divergence_leaves_the_states_before_and_after() {
+    let place = Place::new();
+    place.run(&[CHEAP, &["--set", "newtonian.viscosity=20", "--set", "numerics.viscous_courant=1"]].concat()).code(3);
+    let snapshots = place.path("out/snapshots");
+    let collections: Vec<String> = std::fs::read_dir(&snapshots)
+        .expect("snapshots")
+        .flatten()
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .filter(|name| name.ends_with(".pvd"))
+        .collect();
+    let (bad, good): (Vec<&String>, Vec<&String>) =
+        collections.iter().partition(|name| name.ends_with("-first-bad.pvd"));
+    assert_eq!((good.len(), bad.len()), (1, 1), "{collections:?}");
+    let last = |name: &str, attribute: &str| -> String {
+        let text = std::fs::read_to_string(snapshots.join(name)).expect("a collection");
+        let opening = format!("{attribute}=\"");
+        let found = text.split(&opening).skip(1).filter_map(|rest| rest.split('"').next());
+        found.last().expect("an attribute").to_owned()
+    };
+    let time = |name: &str| -> f64 { last(name, "timestep").parse().expect("a number") };
+    // a step that fails has not moved the clock
+    assert!(time(bad[0]) >= time(good[0]), "the bad state comes after the good one");
+    let bytes = |name: &str| std::fs::read(snapshots.join(last(name, "file"))).expect("a snapshot");
+    assert_ne!(bytes(bad[0]), bytes(good[0]), "it is another state");
 }
 
 #[test]

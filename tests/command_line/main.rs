@@ -2,6 +2,7 @@
 
 mod bad;
 mod bad_input;
+mod bad_parameters;
 mod calibrate;
 mod exit_codes;
 mod files;
@@ -14,3 +15,4 @@ mod program;
 mod published;
 mod restart;
 mod sweep;
+mod vanished;

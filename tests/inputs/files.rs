@@ -2,7 +2,7 @@
 
 use crate::judge::{count, runner};
 use bagnold_validation::calibration::Plan;
-use bagnold_validation::case::{AnyCase, CaseFile, Tier};
+use bagnold_validation::case::{AnyCase, CaseFile, Limits, Tier};
 use bagnold_validation::cases::REGISTRY;
 use bagnold_validation::reference::MeasuredData;
 use bagnold_validation::sweep::SweepPlan;
@@ -111,7 +111,7 @@ fn a_sweep_plan_is_read_or_refused() {
         std::fs::write(&path, text).expect("writable");
         if let Ok(plan) = SweepPlan::read(&path) {
             // what the cases refuse is an error too
-            let _ = plan.manifest(REGISTRY);
+            let _ = plan.manifest(REGISTRY, Limits::default());
         }
     });
 }
@@ -122,7 +122,7 @@ fn a_calibration_plan_is_read_or_refused() {
     let path = folder.path().join("plan.toml");
     read_with_slips(&shipped("validation/calibrations", "toml"), |text| {
         std::fs::write(&path, text).expect("writable");
-        let _ = Plan::read(&path, REGISTRY);
+        let _ = Plan::read(&path, REGISTRY, Limits::default());
     });
 }
 

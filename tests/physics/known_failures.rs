@@ -129,6 +129,7 @@ fn result(value: f64, outcome: Outcome) -> CaseResult {
             from_store: false,
         }],
         frames: Vec::new(),
+        first_bad: Vec::new(),
         state_hash: String::new(),
     }
 }

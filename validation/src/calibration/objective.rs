@@ -54,7 +54,7 @@ impl Objective<'_> {
         let mut waiting: Vec<(usize, String, Box<dyn Prepared>)> = Vec::new();
         for (place, question) in questions.iter().enumerate() {
             let request = &self.plan.blocks[question.block].request;
-            match request.prepare(self.registry, &self.plan.file, &question.settings) {
+            match request.prepare(self.registry, &self.plan.file, &question.settings, self.plan.limits) {
                 Ok(prepared) => {
                     let key = evaluation::key(prepared.as_ref());
                     let known = Record::read(&self.file(&key), &key);
@@ -86,7 +86,7 @@ impl Objective<'_> {
         for (answer, question) in answers.iter_mut().zip(questions) {
             if answer.is_none() {
                 let request = &self.plan.blocks[question.block].request;
-                let prepared = request.prepare(self.registry, &self.plan.file, &question.settings)?;
+                let prepared = request.prepare(self.registry, &self.plan.file, &question.settings, self.plan.limits)?;
                 let key = evaluation::key(prepared.as_ref());
                 let file = self.file(&key);
                 *answer = Some(Record::read(&file, &key).ok_or_else(|| {

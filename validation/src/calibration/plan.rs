@@ -4,7 +4,7 @@ use super::conditions::{self, Conditions, Known};
 use super::data::DatumText;
 use super::error::CalibrationError;
 use super::text::Text;
-use crate::case::Registry;
+use crate::case::{Limits, Registry};
 use crate::evaluation::{CaseRequest, PlanError, read_plan};
 use crate::inference::{Budget, Loss, Method};
 use crate::input::{FieldError, nearest};
@@ -69,6 +69,8 @@ pub struct Plan {
     pub budget: Budget,
     /// What a residual costs.
     pub loss: Loss,
+    /// How much one point may ask for.
+    pub limits: Limits,
     /// Evaluations beyond the search that may map the region of agreement.
     pub region_evaluations: usize,
     /// Trajectories of the screening; 0 for none.
@@ -91,9 +93,9 @@ impl Plan {
     /// # Errors
     /// A file that cannot be read or typed, ranges that break a rule, a case or a path that does not exist, a run that is
     /// in both fit and hold-out.
-    pub fn read(file: &Path, registry: Registry) -> Result<Self, CalibrationError> {
+    pub fn read(file: &Path, registry: Registry, limits: Limits) -> Result<Self, CalibrationError> {
         let text: Text = read_plan(file, "calibrate")?;
-        let plan = text.checked(file).map_err(|error| error.in_file(file))?;
+        let plan = text.checked(file, limits).map_err(|error| error.in_file(file))?;
         plan.check_cases(registry)?;
         Ok(plan)
     }
@@ -179,7 +181,7 @@ impl Plan {
                     .into());
             }
             let prepare = |settings: &[String]| {
-                let prepared = block.request.prepare(registry, &self.file, settings);
+                let prepared = block.request.prepare(registry, &self.file, settings, self.limits);
                 prepared.map_err(|error| PlanError::of(error, &self.file))
             };
             for choice in &self.choices {

@@ -206,7 +206,8 @@ pub(super) fn calibrated(objective: &Objective<'_>, values: &[f64]) -> Result<Ve
     let fitted = plan.blocks.iter().filter(|block| !block.held_out);
     fitted
         .map(|block| {
-            let prepared = block.request.prepare(objective.registry, &plan.file, &plan.settings(block, values))?;
+            let prepared =
+                block.request.prepare(objective.registry, &plan.file, &plan.settings(block, values), plan.limits)?;
             Ok(prepared.parameters_toml().to_owned())
         })
         .collect()

@@ -3,7 +3,7 @@
 use super::conditions::Conditions;
 use super::data::DatumText;
 use super::plan::{Block, Choice, Parameter, Plan};
-use crate::case::Tier;
+use crate::case::{Limits, Tier};
 use crate::evaluation::CaseRequest;
 use crate::inference::{Budget, Loss, Method};
 use crate::input::FieldError;
@@ -84,7 +84,7 @@ fn none() -> String {
 
 impl Text {
     /// The plan, unless its own numbers or lists break a rule.
-    pub(super) fn checked(self, file: &Path) -> Result<Plan, FieldError> {
+    pub(super) fn checked(self, file: &Path, limits: Limits) -> Result<Plan, FieldError> {
         self.check_lists()?;
         let parameters = self.parameters()?;
         let levels = self.levels()?;
@@ -110,6 +110,7 @@ impl Text {
             method,
             budget,
             loss: self.loss,
+            limits,
             trajectories: self.trajectories,
             region_evaluations: self.region_evaluations.unwrap_or(usual),
             parameters,

@@ -69,6 +69,7 @@ mod tests {
             wall_seconds: 1.0,
             threads: 1,
             frames: Vec::new(),
+            first_bad: None,
             data: (),
         };
         match explained(record).outcome {

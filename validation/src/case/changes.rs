@@ -143,11 +143,13 @@ fn parts(argument: &str) -> Option<(&str, &str)> {
 /// table's, whose fields are not its own.
 fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
     let shape = Shape::of(schema);
+    let chosen = shape.chosen(&Value::Table(changes.clone())).or_else(|| shape.chosen(&Value::Table(table.clone())));
+    let in_degrees = with_friction(chosen.and_then(|variant| variant.content), changes);
+    let changes = in_degrees.as_ref().unwrap_or(changes);
     if is_other_choice(&shape, table, changes) {
         table.clone_from(changes);
         return;
     }
-    let chosen = shape.chosen(&Value::Table(changes.clone())).or_else(|| shape.chosen(&Value::Table(table.clone())));
     let content = |key: &str| match &shape {
         Shape::Choice(_) => chosen.filter(|variant| variant.name == key).and_then(|variant| variant.content),
         Shape::Tagged { .. } => chosen.and_then(|variant| variant.content?.get("properties")?.get(key)),
@@ -164,6 +166,24 @@ fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
             }
         }
     }
+}
+
+/// The changes with the coefficient of friction in place of a friction angle `[°]`, where the law has the one and knows
+/// nothing of the other: sand is as often told by its angle.
+fn with_friction(law: Option<&Schema>, changes: &Table) -> Option<Table> {
+    const ANGLE: &str = "friction_angle";
+    const COEFFICIENT: &str = "static_friction";
+    let properties = law?.get("properties")?.as_object()?;
+    let takes = properties.contains_key(COEFFICIENT) && !properties.contains_key(ANGLE);
+    let angle =
+        changes.get(ANGLE).and_then(|angle| angle.as_float().or(angle.as_integer().map(|angle| angle as f64)))?;
+    if !takes || changes.contains_key(COEFFICIENT) {
+        return None;
+    }
+    let mut changes = changes.clone();
+    changes.remove(ANGLE);
+    changes.insert(COEFFICIENT.to_owned(), Value::Float(libm::tan(angle.to_radians())));
+    Some(changes)
 }
 
 /// Whether `changes` picks another variant of an enum than `table`.

@@ -240,6 +240,7 @@ impl<C: Case> Prepared for Plan<C> {
         let figures = C::figures(&plan.parameters, &records);
         let animations = C::animations(&plan.parameters, &records);
         let tables = C::tables(&plan.parameters, &records);
+        let (frames, first_bad) = records.into_iter().map(|(_, record)| (record.frames, record.first_bad)).unzip();
         fail_broken_profiles(&mut summaries, &tables);
         CaseResult {
             name: C::NAME.to_owned(),
@@ -254,7 +255,8 @@ impl<C: Case> Prepared for Plan<C> {
             tables,
             state_hash: hash_of_states(&summaries),
             runs: summaries,
-            frames: records.into_iter().map(|(_, record)| record.frames).collect(),
+            frames,
+            first_bad,
         }
     }
 }

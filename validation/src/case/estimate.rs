@@ -180,6 +180,9 @@ fn of_environment(name: &str) -> Option<f64> {
 }
 
 impl Limits {
+    /// Whatever is asked for.
+    pub const NONE: Self = Self { memory: f64::INFINITY, core_hours: f64::INFINITY };
+
     /// Those of the environment or the usual ones, but for those given: gibibytes of memory and hours of one core.
     #[must_use]
     pub fn of(memory: Option<f64>, core_hours: Option<f64>) -> Self {

@@ -122,7 +122,7 @@ impl ForeignResult {
 
 impl Given {
     /// The record of a run that another code made.
-    pub(super) fn record<O>(&self, observation: O) -> Recorded<O> {
+    pub(crate) fn record<O>(&self, observation: O) -> Recorded<O> {
         let mut frames: Vec<Frame> = self.pictures.iter().map(Picture::frame).collect();
         // a picture whose particles are not those of the first cannot be compared with it one by one
         let count = frames.last().map_or(0, |frame| frame.position.len());
@@ -143,6 +143,7 @@ impl Given {
             wall_seconds: 0.0,
             threads: 0,
             frames,
+            first_bad: None,
             data: observation,
         }
     }

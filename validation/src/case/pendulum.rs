@@ -76,6 +76,7 @@ impl Run for Swing {
                 scalars: vec![("angle".to_owned(), "rad".to_owned(), vec![end])],
                 vectors: vec![("velocity".to_owned(), "m/s".to_owned(), vec![[0.0, 1.0, 2.0]])],
             }],
+            first_bad: None,
             data: angle,
         })
     }

@@ -73,6 +73,8 @@ pub struct CaseResult {
     pub runs: Vec<RunSummary>,
     /// Snapshots of each run, in the order of `runs`.
     pub frames: Vec<Vec<Frame>>,
+    /// The state in which each run was found to have diverged, in the order of `runs`.
+    pub first_bad: Vec<Option<Frame>>,
     /// SHA-256 over the runs' state hashes in order.
     pub state_hash: String,
 }

@@ -1,13 +1,20 @@
 //! What can be typed: the commands, their options and their help.
 
 mod foreign;
+mod sweep;
+mod upkeep;
+mod work;
 
 pub(super) use foreign::{Compare, Export, Judge};
+pub(super) use sweep::{Cluster, Engine, Sweep, SweepAction};
+#[cfg(feature = "planted-errors")]
+pub(super) use upkeep::MutateAction;
+pub(super) use upkeep::{Mutate, Store, StoreAction, Verify};
+pub(super) use work::{Allowance, Work};
 
 use crate::case::Tier;
 use clap::{ArgAction, Args, Parser, Subcommand};
 use std::path::PathBuf;
-use std::time::Duration;
 
 const EXAMPLES: &str = "Examples:
   bagnold list                                 what can be run
@@ -65,38 +72,6 @@ A file with one parameter and one fitted datum; [[hold_out]] has the form of [[f
 
 data may also name a CSV: { table = \"profile-…\", x = \"y [m]\", y = \"u [m/s]\", file = \"mine.csv\" }.
 The folder receives index.html, figures/, result.json, data.csv, evaluations.csv and calibrated.toml.";
-
-const SWEEP_EXAMPLES: &str = "Examples:
-  bagnold sweep viscosity.toml --out viscosity        here
-  bagnold sweep viscosity.toml --out /shared/viscosity --engine slurm --partition short --time 00:30:00 --throttle 50
-  bagnold sweep collect /shared/viscosity --resubmit
-
-A file that varies the viscosity of a film over a grid:
-
-  design = \"grid\"   # or design.sobol = { points = 64, seed = 1 }, design.latin_hypercube = { … }
-
-  [[cases]]
-  case = \"film\"
-  with = { fluids = [\"newtonian\"], resolution = 10 }
-
-  [[parameters]]
-  path = \"newtonian.viscosity\"
-  values = [0.5, 1.0, 2.0]         # or lower, upper, levels, scale = \"log\"
-
-The folder receives manifest.json, runs/NNNN-CASE/, results.csv (one line a metric), failures.csv and figures/.
-
-Exit codes: 0 every run has numbers, 1 some are missing, 2 bad input, 3 some failed (see failures.csv).";
-
-const MUTATE_EXAMPLES: &str = "Examples:
-  cargo run --package bagnold-validation --features planted-errors -- mutate
-  bagnold mutate list                                    the errors, and the cases that ought to see them
-  bagnold mutate --errors von-karman,gravity-value       some of them
-  bagnold mutate trial von-karman clear-water            one case with one error, as `bagnold run` shows it
-
-Needs a program built with the feature planted-errors; one built without has no errors in it. Each error is
-caught by a gate that held without it, by a run that stops, only by the snapshot of accepted values, or by nothing.
-
-Exit codes: 0 enough errors are caught, and by gates; 1 too few; 2 bad input, or a program without errors.";
 
 /// Granular and sediment flows by smoothed particle hydrodynamics, judged against exact solutions and experiments.
 #[derive(Debug, Parser)]
@@ -266,221 +241,12 @@ pub struct Calibrate {
     /// Open a calibration that is done again; an unfinished one goes on by itself.
     #[arg(long)]
     pub resume: bool,
+    /// How much the runs of a case may ask for at one point.
+    #[command(flatten)]
+    pub allowance: Allowance,
     /// How to compute.
     #[command(flatten)]
     pub work: Work,
-}
-
-/// `bagnold sweep`
-#[derive(Debug, Args)]
-#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, after_help = SWEEP_EXAMPLES)]
-pub struct Sweep {
-    /// What to do with a sweep that was begun.
-    #[command(subcommand)]
-    pub action: Option<SweepAction>,
-    /// TOML file that says which cases, which parameters and which points.
-    #[arg(value_name = "FILE.toml", required = true)]
-    pub file: Option<PathBuf>,
-    /// Folder of the sweep [default: reports/sweeps/FILE].
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-    /// Open a sweep that is done again; an unfinished one goes on by itself.
-    #[arg(long)]
-    pub resume: bool,
-    /// What runs it.
-    #[arg(long, value_enum, default_value_t = Engine::Local)]
-    pub engine: Engine,
-    /// What to ask of Slurm.
-    #[command(flatten)]
-    pub cluster: Cluster,
-    /// How to compute.
-    #[command(flatten)]
-    pub work: Work,
-}
-
-/// What runs a sweep.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum Engine {
-    /// The threads of this machine.
-    Local,
-    /// A Slurm cluster that shares the sweep's folder: one task a run.
-    Slurm,
-}
-
-/// What to do with a sweep that was begun.
-#[derive(Debug, Subcommand)]
-pub enum SweepAction {
-    /// Gather the results of a sweep, and submit again what is missing.
-    Collect {
-        /// Folder of the sweep.
-        #[arg(value_name = "DIR")]
-        folder: PathBuf,
-        /// Submit to Slurm again what is neither done nor queued.
-        #[arg(long)]
-        resubmit: bool,
-        /// What to ask of Slurm.
-        #[command(flatten)]
-        cluster: Cluster,
-    },
-    /// Run one entry of a sweep's manifest, as the tasks of a cluster do.
-    Task {
-        /// Folder of the sweep.
-        #[arg(value_name = "DIR")]
-        folder: PathBuf,
-        /// Number of the entry, from 1.
-        #[arg(long, value_name = "N")]
-        entry: usize,
-        /// How to compute.
-        #[command(flatten)]
-        work: Work,
-    },
-    /// Print the Slurm script that ships with bagnold, to be edited for --template.
-    Template,
-}
-
-/// `bagnold verify`
-#[derive(Debug, Args)]
-#[command(after_help = "Exit codes: 0 the same bits, 1 other bits, 2 bad input.")]
-pub struct Verify {
-    /// List of short runs to use instead of the committed one.
-    #[arg(long, value_name = "FILE.toml")]
-    pub file: Option<PathBuf>,
-    /// Write the list with the hashes of this program.
-    #[arg(long, value_name = "FILE.toml")]
-    pub write: Option<PathBuf>,
-}
-
-/// `bagnold store`
-#[derive(Debug, Args)]
-pub struct Store {
-    /// What to do.
-    #[command(subcommand)]
-    pub action: StoreAction,
-    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the workspace].
-    #[arg(long, value_name = "DIR", global = true)]
-    pub store: Option<PathBuf>,
-}
-
-/// What to do with stored results.
-#[derive(Debug, Clone, Copy, Subcommand)]
-pub enum StoreAction {
-    /// List the versions of the program that have results, with number, size and age.
-    List,
-    /// Delete entries, the oldest first.
-    #[command(group = clap::ArgGroup::new("limit").required(true).multiple(true))]
-    Prune {
-        /// Delete what is older.
-        #[arg(long, value_name = "DAYS", value_parser = positive, group = "limit")]
-        days: Option<f64>,
-        /// Delete the oldest until the rest is no larger.
-        #[arg(long, value_name = "GIB", value_parser = positive, group = "limit")]
-        size: Option<f64>,
-    },
-}
-
-/// `bagnold mutate`
-#[derive(Debug, Args)]
-#[command(args_conflicts_with_subcommands = true, after_help = MUTATE_EXAMPLES)]
-pub struct Mutate {
-    /// What to do instead of trying errors.
-    #[command(subcommand)]
-    pub action: Option<MutateAction>,
-    /// Errors by name, separated by commas [default: all].
-    #[arg(long, value_name = "ERROR,…", value_delimiter = ',')]
-    pub errors: Vec<String>,
-    /// Folder to write.
-    #[arg(long, value_name = "DIR", default_value = "reports/mutation")]
-    pub out: PathBuf,
-    /// Threads to use [default: all cores].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
-}
-
-/// What `bagnold mutate` does beside trying errors.
-#[derive(Debug, Subcommand)]
-pub enum MutateAction {
-    /// List the errors and the cases that ought to see them.
-    List,
-    /// Plant one error and run one case at the quick tier; the store is neither read nor written.
-    Trial {
-        /// Name of the error, or `none`.
-        error: String,
-        /// Name of the case.
-        case: String,
-        /// Change one parameter; may be repeated.
-        #[arg(long = "set", value_name = "path=value")]
-        settings: Vec<String>,
-        /// File to write what the case said to, as `bagnold mutate` reads it, instead of printing it.
-        #[arg(long, value_name = "FILE")]
-        result: Option<PathBuf>,
-        /// Threads to use [default: all cores].
-        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-        threads: Option<u16>,
-    },
-}
-
-/// What to ask of Slurm.
-#[derive(Debug, Clone, Args)]
-#[command(next_help_heading = "Slurm")]
-pub struct Cluster {
-    /// Partition [default: the cluster's].
-    #[arg(long, value_name = "NAME")]
-    pub partition: Option<String>,
-    /// Time limit of one run, such as 01:30:00.
-    #[arg(long, value_name = "TIME")]
-    pub time: Option<String>,
-    /// Memory of one run, such as 2G.
-    #[arg(long, value_name = "SIZE")]
-    pub memory: Option<String>,
-    /// Cores of one run [default: 1].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub cpus: Option<u16>,
-    /// Runs at the same time, at most.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub throttle: Option<u32>,
-    /// Job script to use instead of the one that `bagnold sweep template` prints.
-    #[arg(long, value_name = "FILE")]
-    pub template: Option<PathBuf>,
-}
-
-/// How much runs may ask for; more is refused before anything is allocated.
-#[derive(Debug, Clone, Copy, Default, Args)]
-pub struct Allowance {
-    /// Memory that the runs may ask for [default: $BAGNOLD_MOST_MEMORY, else that of the machine].
-    #[arg(long, value_name = "GIB", value_parser = positive)]
-    pub most_memory: Option<f64>,
-    /// Hours of one core that the runs of a case may ask for [default: $BAGNOLD_MOST_HOURS, else 10000].
-    #[arg(long, value_name = "HOURS", value_parser = positive)]
-    pub most_hours: Option<f64>,
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    let number = text.parse::<f64>().ok().filter(|number| *number > 0.0);
-    number.ok_or_else(|| "must be a positive number".to_owned())
-}
-
-/// Options of everything that simulates.
-#[derive(Debug, Args)]
-pub struct Work {
-    /// Threads to use [default: all cores].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
-    /// Simulate even what is stored or unfinished from an earlier run of the same program.
-    #[arg(long)]
-    pub fresh: bool,
-    /// Seconds between two checkpoints of a run [default: 60, up to 120 where one costs over 1 %].
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
-    pub checkpoint_interval: Option<Duration>,
-    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the workspace].
-    #[arg(long, value_name = "DIR")]
-    pub store: Option<PathBuf>,
-}
-
-/// A time of an argument.
-fn seconds(text: &str) -> Result<Duration, String> {
-    let rule = "must be a number of seconds from 0 to 1e6, such as 60";
-    let seconds: f64 = text.parse().map_err(|_| rule.to_owned())?;
-    if (0.0..=1e6).contains(&seconds) { Ok(Duration::from_secs_f64(seconds)) } else { Err(rule.to_owned()) }
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ pub(super) fn run(
     quiet: bool,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
-    let plan = Plan::read(&command.file, registry)?;
+    let plan = Plan::read(&command.file, registry, command.allowance.limits())?;
     let folder = command.out.clone().unwrap_or_else(|| {
         Path::new("reports/calibrations").join(command.file.file_stem().unwrap_or_else(|| "calibration".as_ref()))
     });

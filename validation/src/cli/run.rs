@@ -65,6 +65,11 @@ pub(super) fn run(
         for result in &results {
             say(output, &summary::of_case(result, |metric| super::report::is_known(&known, result, metric)));
         }
+        if results.iter().any(|result| result.unexpected_divergences().next().is_some()) {
+            let states =
+                "of a run that diverged, NAME.pvd ends with the last good state, NAME-first-bad.pvd is the one after";
+            say(output, &format!("{}: {states}\n", folder.join("snapshots").display()));
+        }
         say(output, &format!("written to {}\n", folder.join("index.html").display()));
     }
     Ok(Exit::of(&results, |result, metric| super::report::is_known(&known, result, metric)))

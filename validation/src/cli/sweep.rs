@@ -42,7 +42,7 @@ fn begin(
     quiet: bool,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
-    let manifest = SweepPlan::read(file)?.manifest(registry)?;
+    let manifest = SweepPlan::read(file)?.manifest(registry, command.allowance.limits())?;
     let folder = command
         .out
         .clone()

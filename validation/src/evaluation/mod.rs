@@ -9,7 +9,7 @@ mod record;
 pub use error::{PlanError, read_plan};
 pub use record::{MetricValue, Record};
 
-use crate::case::{Changes, Monitor, ParameterError, Prepared, Registry, Tier, execute};
+use crate::case::{Changes, Limits, Monitor, ParameterError, Prepared, Registry, Tier, execute};
 use crate::store::{Store, hexadecimal, source_hash};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -43,7 +43,7 @@ impl CaseRequest {
         self.name.as_deref().unwrap_or(&self.case)
     }
 
-    /// Types and checks the parameters, `settings` (`path=value`) over what the file gives.
+    /// Types and checks the parameters, `settings` (`path=value`) over what the file gives, and what they ask for.
     ///
     /// # Errors
     /// An unknown case, or the first field that is unknown, of the wrong type, or breaks a rule.
@@ -52,9 +52,10 @@ impl CaseRequest {
         registry: Registry,
         file: &Path,
         settings: &[String],
+        limits: Limits,
     ) -> Result<Box<dyn Prepared>, ParameterError> {
         let case = registry.find(&self.case).map_err(|error| error.in_file(file))?;
-        case.prepare(self.tier, &Changes { file: Some((file, self.with.clone())), settings, ..Changes::default() })
+        case.prepare(self.tier, &Changes { file: Some((file, self.with.clone())), settings, limits })
     }
 }
 

@@ -94,6 +94,8 @@ pub struct Recorded<O> {
     pub threads: usize,
     /// Snapshots in time order, last one the final (or last good) state.
     pub frames: Vec<Frame>,
+    /// The state in which a run that diverged was found to have done so.
+    pub first_bad: Option<Frame>,
     /// What the case measured.
     pub data: O,
 }
@@ -101,9 +103,31 @@ pub struct Recorded<O> {
 impl<O> Recorded<O> {
     /// The same record with other data.
     pub fn map<P>(self, change: impl FnOnce(O) -> P) -> Recorded<P> {
-        let Self { outcome, state_hash, particles, steps, simulated_time, wall_seconds, threads, frames, data } = self;
+        let Self {
+            outcome,
+            state_hash,
+            particles,
+            steps,
+            simulated_time,
+            wall_seconds,
+            threads,
+            frames,
+            first_bad,
+            data,
+        } = self;
         let data = change(data);
-        Recorded { outcome, state_hash, particles, steps, simulated_time, wall_seconds, threads, frames, data }
+        Recorded {
+            outcome,
+            state_hash,
+            particles,
+            steps,
+            simulated_time,
+            wall_seconds,
+            threads,
+            frames,
+            first_bad,
+            data,
+        }
     }
 }
 

@@ -29,5 +29,11 @@ pub fn write_case(folder: &Path, result: &CaseResult, document: &MetricsDocument
     for (run, frames) in result.runs.iter().zip(&result.frames).filter(|(_, frames)| !frames.is_empty()) {
         snapshots::write(&folder.join("snapshots"), &snapshots::file_name(&run.variant), frames)?;
     }
+    for (run, frame) in result.runs.iter().zip(&result.first_bad) {
+        if let Some(frame) = frame {
+            let name = format!("{}-first-bad", snapshots::file_name(&run.variant));
+            snapshots::write(&folder.join("snapshots"), &name, std::slice::from_ref(frame))?;
+        }
+    }
     Ok(())
 }

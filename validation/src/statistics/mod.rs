@@ -6,6 +6,7 @@ mod fit;
 mod grid_convergence;
 mod mean;
 mod model_bias;
+mod rank_correlation;
 mod segmented;
 mod student;
 
@@ -17,5 +18,6 @@ pub use fit::{
 pub use grid_convergence::{GridConvergence, Mean, grid_convergence};
 pub use mean::{mean, relative_l2};
 pub use model_bias::{Comparison, Deviation, ModelBias, model_bias};
+pub use rank_correlation::rank_correlation;
 pub use segmented::{Segmented, curvature, number_of_pieces, segmented_regression};
 pub use student::{student_quantile, student_quantile_of};

@@ -202,6 +202,7 @@ mod tests {
             wall_seconds: 4.0,
             threads: 1,
             frames: Vec::new(),
+            first_bad: None,
             data,
         }
     }

@@ -2,10 +2,10 @@
 
 use super::error::SweepError;
 use super::folder::SweepFolder;
-use super::manifest::Entry;
-use crate::case::{CaseFile, Changes, Registry, Silent, share_out};
+use super::manifest::{Entry, Manifest};
+use crate::case::{CaseFile, Changes, Limits, Registry, Silent, share_out};
 use crate::evaluation::{self, Record};
-use crate::output::{FileError, write_whole};
+use crate::output::{FileError, Owner, write_whole};
 use crate::store::Store;
 
 /// Watches a sweep, for a progress bar. Called from several threads.
@@ -30,9 +30,13 @@ pub fn run_entry(sweep: &SweepFolder, entry: &Entry, registry: Registry, store: 
     let listed = folder.join("case.toml");
     write_whole(&listed, entry.parameters_toml.as_bytes()).map_err(unwritable)?;
     let file = CaseFile::read(&listed)?;
-    let changes = Changes { file: Some((&listed, file.fields)), settings: &[], ..Changes::default() };
+    // how much it may ask for was decided when it was planned
+    let changes = Changes { file: Some((&listed, file.fields)), settings: &[], limits: Limits::NONE };
     let prepared = registry.find(&entry.case)?.prepare(entry.tier, &changes)?;
     let record = evaluation::evaluate(prepared, store, &Silent)?;
+    // a folder that somebody has removed meanwhile is not made again for a part of the sweep
+    let marker = sweep.path().join(Manifest::MARKER);
+    marker.metadata().map_err(|error| FileError::unwritable(sweep.path(), &error))?;
     if let Some(reason) = &record.failure {
         write_whole(&folder.join("failure.txt"), format!("{reason}\n").as_bytes()).map_err(unwritable)?;
     }

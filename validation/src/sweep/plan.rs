@@ -2,7 +2,7 @@
 
 use super::error::SweepError;
 use super::manifest::{Entry, Manifest};
-use crate::case::{ParameterError, Prepared, Registry};
+use crate::case::{Limits, ParameterError, Prepared, Registry};
 use crate::evaluation::{self, CaseRequest, PlanError, read_plan};
 use crate::input::FieldError;
 use crate::sampling::{Bounds, Paths, Spacing, design, float};
@@ -184,8 +184,8 @@ impl SweepPlan {
     /// unless all points do.
     ///
     /// # Errors
-    /// A case's fields or a path that do not exist, or values that no run accepts.
-    pub fn manifest(&self, registry: Registry) -> Result<Manifest, SweepError> {
+    /// A case's fields or a path that do not exist, or values that no run accepts or that all ask for more than `limits`.
+    pub fn manifest(&self, registry: Registry, limits: Limits) -> Result<Manifest, SweepError> {
         let points = self.points();
         let runs = points.len() * self.text.cases.len();
         if runs > MOST_RUNS {
@@ -195,7 +195,7 @@ impl SweepPlan {
         let mut entries = Vec::with_capacity(runs);
         let mut refusal = None;
         for request in &self.text.cases {
-            request.prepare(registry, &self.file, &[])?;
+            request.prepare(registry, &self.file, &[], limits)?;
             for point in &points {
                 let setting = |(parameter, value): (&Varied, &String)| {
                     format!("{}={value}", parameter.path.in_case(&request.case).unwrap_or_default())
@@ -215,7 +215,7 @@ impl SweepPlan {
                     parameters_toml: String::new(),
                     refusal: None,
                 };
-                match request.prepare(registry, &self.file, &settings) {
+                match request.prepare(registry, &self.file, &settings, limits) {
                     Ok(prepared) => {
                         entry.key = evaluation::key(prepared.as_ref());
                         entry.particle_steps = cost(prepared.as_ref());

@@ -176,6 +176,23 @@ fn another_law_takes_nothing_of_the_defaults_in_whatever_order_it_is_given() {
 }
 
 #[test]
+fn a_friction_angle_stands_for_its_tangent_where_the_law_has_one() {
+    let steeper =
+        Layer { material: Material::MuI { static_friction: libm::tan(0.5), limiting_friction: 0.6 }, ..layer() };
+    let angle = 0.5_f64.to_degrees();
+    assert_eq!(resolved(&format!("material.friction_angle = {angle:?}"), &[]).as_ref(), Ok(&steeper));
+    assert_eq!(resolved("", &[&format!("material.friction_angle={angle:?}")]).as_ref(), Ok(&steeper));
+    assert_eq!(
+        message("material = { friction_angle = 20, static_friction = 0.4 }", &[]),
+        "layer.toml: unknown field `material.friction_angle`; did you mean `material.limiting_friction`? `bagnold show layer` prints all fields"
+    );
+    assert_eq!(
+        message("material = { law = \"newtonian\", viscosity = 1, friction_angle = 20 }", &[]),
+        "layer.toml: unknown field `material.friction_angle`; did you mean `material.viscosity`? `bagnold show layer` prints all fields"
+    );
+}
+
+#[test]
 fn laws_that_do_not_exist_or_lack_a_parameter_are_refused() {
     assert_eq!(
         message("", &["material.law=newtonain"]),

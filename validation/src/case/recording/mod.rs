@@ -127,10 +127,14 @@ impl<S: State> Ending<S> {
 
     /// The record, with the data that `measure` takes from the last state: the last good one after a divergence.
     pub fn record<O>(self, simulation: &impl Recordable<State = S>, measure: impl FnOnce(&S) -> O) -> Recorded<O> {
-        let (outcome, end) = match self.stop {
-            Stop::Finished => (Outcome::Finished, simulation.state()),
-            Stop::Stopped => (Outcome::Stopped { criterion: self.criterion }, simulation.state()),
-            Stop::Diverged(message) => (Outcome::Diverged { message, expected: self.may_diverge }, self.last_good),
+        let now = simulation.state();
+        let (outcome, end, first_bad) = match self.stop {
+            Stop::Finished => (Outcome::Finished, now, None),
+            Stop::Stopped => (Outcome::Stopped { criterion: self.criterion }, now, None),
+            Stop::Diverged(message) => {
+                let outcome = Outcome::Diverged { message, expected: self.may_diverge };
+                (outcome, self.last_good, Some(now.frame()))
+            }
         };
         let mut frames = self.frames;
         frames.push(end.frame());
@@ -143,6 +147,7 @@ impl<S: State> Ending<S> {
             wall_seconds: self.started.elapsed().as_secs_f64(),
             threads: rayon::current_num_threads(),
             frames,
+            first_bad,
             data: measure(&end),
         }
     }

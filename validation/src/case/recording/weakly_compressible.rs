@@ -77,6 +77,11 @@ impl Frame {
                 ("mass".to_owned(), "kg".to_owned(), snapshot.mass.clone()),
                 ("shear_stress".to_owned(), "Pa".to_owned(), snapshot.stress.iter().map(|s| s[(0, 1)]).collect()),
                 ("viscosity".to_owned(), "Pa·s".to_owned(), apparent_viscosities(snapshot)),
+                (
+                    "shear_rate".to_owned(),
+                    "1/s".to_owned(),
+                    snapshot.velocity_gradient.iter().map(shear_rate).collect(),
+                ),
             ],
             vectors: vec![("velocity".to_owned(), "m/s".to_owned(), snapshot.velocity.iter().map(flat).collect())],
         }

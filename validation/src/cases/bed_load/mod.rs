@@ -4,6 +4,7 @@ mod checks;
 mod continuum;
 mod figures;
 mod fit;
+mod foreign;
 mod metrics;
 mod observation;
 mod parameters;
@@ -19,9 +20,10 @@ pub use observation::BedLoadObservation;
 pub use parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns};
 pub use runs::{BedLoadRun, Formulation};
 
-use crate::case::{Case, RecordOf, Run};
+use crate::case::{Case, Foreign, Form, Given, RecordOf, Run};
 use crate::cases::channel;
 use crate::figure::Figure;
+use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
@@ -40,6 +42,7 @@ impl Case for BedLoad {
         against the 1-D layer of bed-load-1d in three stages: grains at rest, grains that move at a given fraction, grains \
         that dilate. `paper` is the set-up as printed, which fails in documented ways: its metrics are observations. The \
         quick tier is too short to be stationary and says so: it judges conservation.";
+    const FORM: Form = foreign::FORM;
     type Parameters = BedLoadParameters;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
@@ -49,6 +52,10 @@ impl Case for BedLoad {
 
     fn figures(_: &BedLoadParameters, records: &[Record]) -> Vec<Figure> {
         figures::all(records)
+    }
+
+    fn foreign(run: &BedLoadRun, given: &Given) -> Result<Option<Foreign<BedLoadObservation>>, FieldError> {
+        foreign::observe(run, given).map(Some)
     }
 
     fn tables(_: &BedLoadParameters, records: &[Record]) -> Vec<Table> {

@@ -36,6 +36,7 @@ quantities! {
     MOTION_DEPTH_GROWTH:
         stated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next"),
     DECAY_LENGTH_GROWTH: stated("decay_length_growth", "-", "the same of the decay length"),
+    DRAG_DEPTH_GROWTH: stated("drag_depth_growth", "-", "the same of the depth down to which the drag exceeds a tenth of its peak"),
     ONSET_RATIO: validated("onset_ratio", "-", "Shields number at which grains move over that of Shields' curve"),
     ONSET: validated("onset", "-", "that Shields number"),
     TRANSPORT_SENSITIVITY:
@@ -317,15 +318,18 @@ fn with_slope(metrics: &mut Vec<Metric>, layers: &[(&BedLoad1dRun, &LayerState)]
     };
     let depth = growth(|state| state.moves_above(MOVING).map(|z| -z));
     let decay = growth(|state| state.decay_length(TAIL));
-    for (quantity, value) in [(MOTION_DEPTH_GROWTH, depth), (DECAY_LENGTH_GROWTH, decay)] {
+    let drag = growth(|state| Some(-state.drag_peak(DRAG_RANGE).from));
+    let deeper = "the bed-load paper's figures 10 and 11: motion reaches deeper on the steeper slope";
+    let drag_deeper = "the bed-load paper's figures 12 and 13: drag reaches deeper on the steeper slope";
+    for (quantity, value, statement) in [
+        (MOTION_DEPTH_GROWTH, depth, deeper),
+        (DECAY_LENGTH_GROWTH, decay, deeper),
+        (DRAG_DEPTH_GROWTH, drag, drag_deeper),
+    ] {
         metrics.push(
             quantity
                 .of(&variant, value)
-                .against(
-                    None,
-                    "the bed-load paper's figures 10 and 11: motion reaches deeper on the steeper slope",
-                    Confidence::Medium,
-                )
+                .against(None, statement, Confidence::Medium)
                 .gated(Limit::AtLeast(1.05), "grows from each slope to the next; 5 % is above any error of the cells")
                 .with_snapshot_tolerance(0.01, 0.0),
         );

@@ -185,6 +185,7 @@ impl Run for BedLoad1dRun {
             wall_seconds: started.elapsed().as_secs_f64(),
             threads: 1,
             frames: Vec::new(),
+            first_bad: None,
             data: LayerObservation {
                 velocity_change: approach.velocity_change,
                 fraction_change: approach.fraction_change,

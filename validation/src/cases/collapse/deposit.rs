@@ -1,6 +1,7 @@
 //! What is measured of a spreading heap: thickness, front, heights, centroid and energies.
 
 use crate::observation::{EnergyBook, Motion};
+use crate::statistics::{linear_fit, linear_regression};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
@@ -259,10 +260,19 @@ impl Collapse {
     /// Inclination of the deposit's surface `[°]`: a line through the thickness over 20–80 % of the front's distance.
     #[must_use]
     pub fn slope_angle(&self) -> f64 {
+        linear_fit(&self.flank()).map_or(f64::NAN, |fit| libm::atan(-fit.slope).to_degrees())
+    }
+
+    /// Share of the variance of the flank's thickness that a straight line explains `[-]`: 1 for a cone or a wedge.
+    #[must_use]
+    pub fn flank_r_squared(&self) -> f64 {
+        linear_regression(&self.flank()).map_or(f64::NAN, |line| line.r_squared)
+    }
+
+    /// The deposit from 20 to 80 % of the way to its front.
+    fn flank(&self) -> Vec<(f64, f64)> {
         let front = front(&self.deposit);
-        let middle: Vec<(f64, f64)> =
-            self.deposit.iter().copied().filter(|(x, _)| (0.2..=0.8).contains(&(x / front))).collect();
-        crate::statistics::linear_fit(&middle).map_or(f64::NAN, |fit| libm::atan(-fit.slope).to_degrees())
+        self.deposit.iter().copied().filter(|(x, _)| (0.2..=0.8).contains(&(x / front))).collect()
     }
 }
 

@@ -68,9 +68,16 @@ fn of<const D: usize>(run: &ColumnRun, given: &Given) -> Result<Foreign<Collapse
     };
     let mut measured = Vec::new();
     let mut collapse = unmeasured;
+    let room = Room {
+        spacing: run.spacing(),
+        reach: REACH * run.half_width * (1.0 + run.aspect_ratio),
+        density: run.bulk_density,
+        kind: "column",
+        origin: ORIGIN,
+    };
     if let Some((end, _)) = given.pictures.split_last() {
         let snapshots: Vec<Snapshot<D>> =
-            given.pictures.iter().map(|picture| snapshot(run, picture)).collect::<Result<_, _>>()?;
+            given.pictures.iter().map(|picture| snapshot(&room, picture)).collect::<Result<_, _>>()?;
         let mut surveyor = run.surveyor();
         for snapshot in &snapshots {
             surveyor.observe(snapshot);
@@ -122,14 +129,28 @@ const REACH: f64 = 50.0;
 /// Pictures from which on the time of stopping is told from them: four over √(h_0/g), five times as long.
 const PICTURES_OF_A_HISTORY: usize = 20;
 
-fn snapshot<const D: usize>(run: &ColumnRun, picture: &Picture) -> Result<Snapshot<D>, FieldError> {
-    let r = run.half_width;
-    let reach = REACH * r * (1.0 + run.aspect_ratio);
-    let least = if D == 2 { [-run.spacing(), -reach, -reach] } else { [-run.spacing(), -reach, -run.spacing()] };
-    let remedy = "check the unit and the origin: it lies on the bed in the symmetry plane, and only the half (quarter) beyond it is given";
-    picture.within(reach, least, remedy)?;
+const ORIGIN: &str = "check the unit and the origin: it lies on the bed in the symmetry plane, and only the half (quarter) beyond it is given";
+
+/// Where particles of a heap may be, and what they weigh.
+pub(super) struct Room {
+    /// Particle spacing of ours `[m]`.
+    pub(super) spacing: f64,
+    /// Largest coordinate `[m]`.
+    pub(super) reach: f64,
+    /// Density in bulk `[kg/m³]`.
+    pub(super) density: f64,
+    /// What collapses, in words.
+    pub(super) kind: &'static str,
+    /// What to do about places that are out of reach.
+    pub(super) origin: &'static str,
+}
+
+pub(super) fn snapshot<const D: usize>(room: &Room, picture: &Picture) -> Result<Snapshot<D>, FieldError> {
+    let Room { spacing, reach, density: bulk_density, .. } = *room;
+    let least = if D == 2 { [-spacing, -reach, -reach] } else { [-spacing, -reach, -spacing] };
+    picture.within(reach, least, room.origin)?;
     if D == 2 && !picture.column("z").is_empty() {
-        let remedy = "a planar column has x along the bed and y upwards";
+        let remedy = &format!("a planar {} has x along the bed and y upwards", room.kind);
         return Err(FieldError::new("particles.columns.z", "given", "absent: this run is planar", remedy));
     }
     let axes = ["x", "y", "z"];
@@ -150,8 +171,8 @@ fn snapshot<const D: usize>(run: &ColumnRun, picture: &Picture) -> Result<Snapsh
         };
         (wanted("mass")?.to_vec(), wanted("density")?.to_vec())
     } else {
-        let mass = picture.column(size).iter().map(|size| size * run.bulk_density).collect();
-        (mass, vec![run.bulk_density; count])
+        let mass = picture.column(size).iter().map(|size| size * bulk_density).collect();
+        (mass, vec![bulk_density; count])
     };
     let of = |columns: &[&[f64]], particle: usize| {
         Vector::<D>::from_fn(|axis, _| columns[axis].get(particle).copied().unwrap_or(f64::NAN))

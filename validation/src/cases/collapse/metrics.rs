@@ -7,8 +7,8 @@ use super::convergence::{numerical_uncertainty, relative_spread};
 use super::deposit::Collapse;
 use super::material::{Grains, Material};
 use super::quantities::{
-    DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, HEIGHT_BY_TOP, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME, RUN_OUT,
-    STOPPING_TIME,
+    DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, FLANK_R_SQUARED, HEIGHT_BY_TOP, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
+    RUN_OUT, STOPPING_TIME,
 };
 use crate::case::Run;
 use crate::cases::energy_ledger;
@@ -16,6 +16,11 @@ use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Variant};
 use crate::reference::{COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+
+/// Aspect ratios about that of the paper's cone `[-]`.
+const CONES: std::ops::RangeInclusive<f64> = 2.0..=3.5;
+/// Share of the variance that a line explains of a flank whose lower half is half as steep as its upper one `[-]`.
+const BENT_FLANK: f64 = 0.973;
 
 pub(in crate::cases) fn all(records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
@@ -165,6 +170,12 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: Known) -> Vec<Metric> 
         } else {
             slope
         },
+        observed(FLANK_R_SQUARED, collapse.flank_r_squared())
+            .against(Some(1.0), "statement of the collapse paper, of a = 2.75: the deposit is a cone in the end", Confidence::Medium)
+            .gated_by(
+                (of_sand && CONES.contains(&a)).then_some(Limit::AtLeast(BENT_FLANK)),
+                "straighter than a flank whose lower half is half as steep as its upper one, of which a line explains 0.973",
+            ),
         HEIGHT_BY_TOP
             .of(&variant, 100.0 * (collapse.top / collapse.final_height() - 1.0))
             .exactly(0.0, "highest particle beside the symmetry plane against the volume there")

@@ -10,6 +10,7 @@ mod deposit;
 pub(super) mod figures;
 mod flow_metrics;
 pub(super) mod foreign;
+pub(super) mod foreign_slope;
 mod incline;
 mod material;
 pub(super) mod metrics;

@@ -13,6 +13,7 @@ quantities! {
     STOPPING_TIME: validated("stopping_time", "√(h0/g)", "time of 99 % of the front's way"),
     REST_TIME: verified("rest_time", "s", "when the kinetic energy had fallen to 5e-7 of the energy released; infinite for never"),
     DEPOSIT_SLOPE_ANGLE: verified("deposit_slope_angle", "°", "slope of a line through 20–80 % of the deposit"),
+    FLANK_R_SQUARED: stated("flank_r_squared", "-", "share of the variance of the thickness over 20–80 % of the deposit that a line explains"),
     HEIGHT_BY_TOP:
         verified("height_by_top", "%", "highest particle beside the symmetry plane over the final height, less 1"),
     ENERGY_GAIN:

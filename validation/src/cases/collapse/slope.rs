@@ -23,7 +23,7 @@ const EARLIEST_REST: f64 = 0.4;
 /// Interval of the time series `[s]`.
 const INTERVAL: f64 = 0.02;
 /// Times of the pictures `[s]`; the last state follows.
-const PICTURES: [f64; 4] = [0.0, 0.2, 0.4, 0.8];
+const PICTURES: [f64; 5] = [0.0, 0.12, 0.2, 0.4, 0.8];
 /// Time between the frames of the moving picture `[s]`.
 const FRAME_INTERVAL: f64 = 0.04;
 /// Rows of particles through the gate: its two sides must not see each other.
@@ -84,13 +84,7 @@ impl Run for SlopeRun {
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, ParameterError> {
         let Reservoir { reservoir_length, channel_length, duration, .. } = self.reservoir;
-        let surveyor = Surveyor {
-            half_width: reservoir_length,
-            spacing: self.spacing(),
-            gravity: self.gravity(),
-            bed_end: channel_length,
-            collapse: Collapse::default(),
-        };
+        let surveyor = self.surveyor();
         let begin = |_: &_| (Watch::new(surveyor, FRAME_INTERVAL, PICTURES.to_vec(), EARLIEST_REST), Vec::new());
         let stage = Stage { progress, end: duration, interval: INTERVAL, context: &() };
         let end_of_channel = channel_length - 0.5 * reservoir_length;
@@ -117,6 +111,17 @@ impl Run for SlopeRun {
 }
 
 impl SlopeRun {
+    /// What measures it.
+    pub(super) fn surveyor(&self) -> Surveyor {
+        Surveyor {
+            half_width: self.reservoir.reservoir_length,
+            spacing: self.spacing(),
+            gravity: self.gravity(),
+            bed_end: self.reservoir.channel_length,
+            collapse: Collapse::default(),
+        }
+    }
+
     /// Particle spacing `[m]`.
     #[must_use]
     pub fn spacing(&self) -> f64 {

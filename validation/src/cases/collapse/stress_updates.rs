@@ -119,6 +119,7 @@ mod tests {
             wall_seconds: 1.0,
             threads: 1,
             frames: Vec::new(),
+            first_bad: None,
             data: Collapse { deposit: vec![(0.05, 0.5), (2.95, 0.03), (3.05, 0.01)], ..Collapse::default() },
         };
         let columns = sand.iter().map(|&ratio| column(ratio, None)).chain([column(1.0, Some(0.01))]);

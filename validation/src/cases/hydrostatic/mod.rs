@@ -2,15 +2,17 @@
 
 mod elasticity;
 mod figures;
+mod foreign;
 mod kernel;
 mod metrics;
 mod parameters;
 
 pub use parameters::{HydrostaticParameters, HydrostaticRun};
 
-use super::layer;
-use crate::case::{Case, RecordOf};
+use super::layer::{self, LayerObservation};
+use crate::case::{Case, Foreign, Form, Given, RecordOf};
 use crate::figure::Figure;
+use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
@@ -29,6 +31,7 @@ impl Case for Hydrostatic {
         measure can fail. Under friction the pressure of a layer at rest is not unique (between the active and the \
         passive state), but the stress across the layer is: p − s_yy is gated and p observed, for whatever law carries its \
         stress along; every other law is judged by p.";
+    const FORM: Form = foreign::FORM;
     type Parameters = HydrostaticParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -41,6 +44,10 @@ impl Case for Hydrostatic {
 
     fn figures(_: &HydrostaticParameters, records: &[Record]) -> Vec<Figure> {
         figures::all(records)
+    }
+
+    fn foreign(run: &HydrostaticRun, given: &Given) -> Result<Option<Foreign<LayerObservation>>, FieldError> {
+        foreign::observe(run, given).map(Some)
     }
 
     fn tables(_: &HydrostaticParameters, records: &[Record]) -> Vec<Table> {

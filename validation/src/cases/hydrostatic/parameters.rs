@@ -144,6 +144,12 @@ impl HydrostaticRun {
         layer.reference_density * gravity * layer_height.powi(2) * columns as f64 * layer.spacing()
     }
 
+    /// Height of the layer `[m]`.
+    #[must_use]
+    pub fn height(&self) -> f64 {
+        self.layer.layer_height
+    }
+
     /// Exact pressure `[Pa]` at a height `[m]`.
     #[must_use]
     pub fn pressure(&self, y: f64) -> f64 {

@@ -1,10 +1,10 @@
 //! The case's figures.
 
 use super::Record;
-use crate::cases::collapse::{BIN_WIDTH, SlopeRun};
+use crate::cases::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun};
 use crate::figure::{Animation, Axis, Field, Figure, Panel};
-use crate::observation::Frame;
 use crate::observation::pictures::{View, animation};
+use crate::observation::{Frame, Recorded};
 use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
 
 /// Times at which thickness profiles are drawn `[s]`.
@@ -17,7 +17,9 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         return Vec::new();
     }
     let mut figures = vec![fronts(records), thickness(records), run_outs(records)];
-    figures.extend(records.iter().filter(|(run, _)| run.slope_angle > 15.0).map(fields));
+    for record in records.iter().filter(|(run, _)| run.slope_angle > 15.0) {
+        figures.extend([velocities(record), viscosities(record)]);
+    }
     figures
 }
 
@@ -128,23 +130,54 @@ fn run_outs(records: &[Record]) -> Figure {
     )
 }
 
-/// Speed and viscosity in time: the paper's figures 4 to 6.
-fn fields((run, record): &Record) -> Figure {
-    let moving: Vec<&Frame> = record.frames.iter().filter(|frame| frame.time > 0.3).collect();
-    let fastest = moving.iter().flat_map(|frame| frame.speeds()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
-    let high = run.reservoir.initial_height;
-    let far = moving.iter().flat_map(|frame| &frame.position).map(|x| x[0]).fold(0.0, f64::max);
-    let mut panels = Vec::new();
-    for frame in moving {
-        let title = format!("t = {:.2} s", frame.time);
+/// Times from which fields are drawn `[s]`: the paper's begin at 0.11 s.
+const FIRST_FIELD: f64 = 0.1;
+/// Decades of shear rates that the colours span.
+const SHEAR_RATES: (f64, f64) = (-1.0, 2.0);
+
+/// What is drawn of a picture: values, label, limits.
+type Drawn = (Vec<f64>, &'static str, (f64, f64));
+
+/// Velocity along the slope and shear rate in time: the paper's figure 4 and what it says beside figure 5.
+fn velocities((run, record): &Record) -> Figure {
+    let along = |frame: &Frame| -> Vec<f64> { frame.vector("velocity").iter().map(|v| v[0]).collect() };
+    let fastest = fields_of(record).flat_map(along).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let caption = "velocity along the slope, and shear rate on a logarithmic scale; colours end where the scale does.";
+    fields("velocities", caption, run, record, |frame| {
+        let decades = frame.scalar("shear_rate").iter().map(|rate| libm::log10(rate.max(1e-3))).collect();
+        vec![(along(frame), "u_x [m/s]", (0.0, fastest)), (decades, "log10 |γ̇| [1/s]", SHEAR_RATES)]
+    })
+}
+
+/// The viscosity in time: the paper's figure 5.
+fn viscosities((run, record): &Record) -> Figure {
+    let caption = "apparent viscosity on the paper's scale of 0 to 1.5 Pa·s and on a logarithmic one. The viscosity of \
+                   grains that hardly move has no upper bound.";
+    fields("fields", caption, run, record, |frame| {
         let viscosity = frame.scalar("viscosity").to_vec();
         let decades = viscosity.iter().map(|v| libm::log10(v.max(1e-3))).collect();
-        let columns = [
-            (frame.speeds(), "|v| [m/s]", (0.0, fastest)),
-            (viscosity, "η [Pa·s]", PAPER_SCALE),
-            (decades, "log10 η [Pa·s]", (-1.0, 4.0)),
-        ];
-        for (values, label, limits) in columns {
+        vec![(viscosity, "η [Pa·s]", PAPER_SCALE), (decades, "log10 η [Pa·s]", (-1.0, 4.0))]
+    })
+}
+
+fn fields_of(record: &Recorded<SlopeCollapse>) -> impl Iterator<Item = &Frame> {
+    record.frames.iter().filter(|frame| frame.time > FIRST_FIELD)
+}
+
+/// Panels below each other, those of one time together.
+fn fields(
+    name: &str,
+    caption: &str,
+    run: &SlopeRun,
+    record: &Recorded<SlopeCollapse>,
+    drawn: impl Fn(&Frame) -> Vec<Drawn>,
+) -> Figure {
+    let high = run.reservoir.initial_height;
+    let far = fields_of(record).flat_map(|frame| &frame.position).map(|x| x[0]).fold(0.0, f64::max);
+    let mut panels = Vec::new();
+    for frame in fields_of(record) {
+        let title = format!("t = {:.2} s", frame.time);
+        for (values, label, limits) in drawn(frame) {
             let (x, y) = (Axis::linear("x [m]").between(0.0, far), Axis::linear("y [m]").between(0.0, high));
             let mut panel = Panel::new(&title, x, y);
             let points = frame.position.iter().map(|x| (x[0], x[1]));
@@ -152,14 +185,5 @@ fn fields((run, record): &Record) -> Figure {
             panels.push(panel);
         }
     }
-    Figure::new(
-        &format!("fields-{}", stem(run)),
-        &format!(
-            "{}: speed, and apparent viscosity on the paper's scale of 0 to 1.5 Pa·s and on a logarithmic one. The \
-             viscosity of grains that hardly move has no upper bound.",
-            label(run)
-        ),
-        panels,
-    )
-    .in_columns(1)
+    Figure::new(&format!("{name}-{}", stem(run)), &format!("{}: {caption}", label(run)), panels).in_columns(1)
 }

@@ -1,18 +1,32 @@
 //! How a collapse on a slope is judged.
 
 use super::Record;
+use super::inside::Inside;
 use crate::case::Run;
 use crate::cases::collapse::metrics::{at_rest, conservation};
 use crate::cases::collapse::quantities::{DEPOSIT_SLOPE_ANGLE, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME};
+use crate::cases::collapse::{SlopeCollapse, SlopeRun};
 use crate::cases::energy_ledger;
-use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
+use crate::observation::Recorded;
 use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
 
 quantities! {
     [PARTICLES_LOST, MOMENTUM_RESIDUAL, REST_TIME, DEPOSIT_SLOPE_ANGLE, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     FRONT_DISPLACEMENT: validated("front_displacement", "m", "the front's way from the gate to the end of the deposit"),
     FRONT: validated("front", "-", "place of the front at a time, over r_0"),
+    FASTEST_DEPTH: stated("fastest_depth", "-", "mean depth of the fastest twentieth of the grains along the slope, over the local thickness, at a time"),
+    VISCOSITY_AND_DEPTH: stated("viscosity_and_depth", "-", "rank correlation of the apparent viscosity and the depth below the surface, at a time"),
+    VISCOSITY_LIKE_PRESSURE: stated("viscosity_like_pressure", "-", "rank correlation of the apparent viscosity with the pressure less that with the shear rate, both as sizes, at a time"),
+    FRONT_VISCOSITY: stated("front_viscosity", "Pa·s", "median apparent viscosity of the last tenth of the reservoir's length behind the front, at a time"),
 }
+
+/// Times of the paper's figures 4 and 5 at which fields are measured `[s]`; they begin at 0.11 s.
+const FIELD_TIMES: [f64; 3] = [0.12, 0.2, 0.4];
+/// Slope of those figures `[°]`.
+const FIELD_SLOPE: f64 = 22.0;
+/// "Near the surface", of the local thickness `[-]`: the upper third.
+const NEAR_SURFACE: f64 = 1.0 / 3.0;
 
 /// What the gate allows beyond the band of the law's two quotations `[-]`.
 const MARGIN: f64 = 0.15;
@@ -56,5 +70,53 @@ pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
             metrics.push(observed(FRONT, &variant, data.front[index]));
         }
     }
+    if is_of_the_figures(run) {
+        metrics.extend(FIELD_TIMES.iter().filter_map(|&time| inside(time, run, record)).flatten());
+    }
     metrics
+}
+
+/// Whether the run is that of the paper's figures 4 and 5, with the law itself.
+fn is_of_the_figures(run: &SlopeRun) -> bool {
+    run.slope_angle == FIELD_SLOPE && run.regularisation_rate.is_none()
+}
+
+/// What the paper says of velocity and viscosity inside the collapse, at a time.
+fn inside(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Option<Vec<Metric>> {
+    let inside = Inside::at(time, run, record)?;
+    let variant = Variant::of("time", time).followed_by(&run.variant());
+    let is_judged = run.is_resolved() && run.law.is_plastic();
+    let of = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-2, 1e-2);
+    let mut metrics = vec![
+        of(FASTEST_DEPTH, inside.fastest_depth)
+            .against(None, "statement: the largest velocity is near the surface, in a shallow region", Confidence::Medium)
+            .gated_by(
+                is_judged.then_some(Limit::AtMost(NEAR_SURFACE)),
+                "near the surface means in the upper third of the local thickness; grains that are as fast at every depth have 1/2",
+            ),
+    ];
+    let rises = "statement: the viscosity grows with the distance from the free surface, mainly through the pressure";
+    if let Some(correlation) = inside.viscosity_and_depth {
+        metrics.push(of(VISCOSITY_AND_DEPTH, correlation).against(None, rises, Confidence::Medium).gated_by(
+            is_judged.then_some(Limit::AtLeast(0.5)),
+            "grows with depth: 1 is a viscosity that rises all the way down, 0 one without order; half of it at least",
+        ));
+    }
+    if let (Some(pressure), Some(rate)) = (inside.viscosity_and_pressure, inside.viscosity_and_shear_rate) {
+        let looks = "statement: the field of the viscosity looks like that of the pressure and hides the effect of the strain rate";
+        metrics.push(
+            of(VISCOSITY_LIKE_PRESSURE, pressure.abs() - rate.abs()).against(None, looks, Confidence::Medium).gated_by(
+                is_judged.then_some(Limit::AtLeast(0.0)),
+                "it goes with the pressure more than with the rate",
+            ),
+        );
+    }
+    metrics.extend(inside.front_viscosity.map(|viscosity| {
+        of(FRONT_VISCOSITY, viscosity).against(
+            Some(0.7),
+            "statement: towards the front it falls to less than 0.7 Pa·s; the scan leaves the digit in doubt",
+            Confidence::Unverified,
+        )
+    }));
+    Some(metrics)
 }

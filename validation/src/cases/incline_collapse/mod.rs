@@ -1,12 +1,15 @@
 //! Grains released by a gate on an incline.
 
 mod figures;
+mod inside;
 mod metrics;
 
 pub use super::collapse::InclineCollapseParameters;
 
-use crate::case::{Case, RecordOf, Run};
+use super::collapse::{self, SlopeCollapse, SlopeRun};
+use crate::case::{Case, Foreign, Form, Given, RecordOf, Run};
 use crate::figure::{Animation, Figure};
+use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 
@@ -28,6 +31,7 @@ impl Case for InclineCollapse {
         thickness (volume per bin of 0.1 r_0, each particle spread over a spacing to either side) first falls below \
         0.02 r_0. With another law of the grains than μ(I), whose contact friction takes the place of μ_s, the fit does not \
         gate.";
+    const FORM: Form = collapse::foreign_slope::FORM;
     type Parameters = InclineCollapseParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -41,6 +45,10 @@ impl Case for InclineCollapse {
 
     fn animations(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Animation> {
         figures::animations(records)
+    }
+
+    fn foreign(run: &SlopeRun, given: &Given) -> Result<Option<Foreign<SlopeCollapse>>, FieldError> {
+        collapse::foreign_slope::observe(run, given).map(Some)
     }
 
     fn tables(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Table> {

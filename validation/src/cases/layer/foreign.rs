@@ -123,7 +123,7 @@ pub(in crate::cases) fn observe(layer: &Layer<'_>, given: &Given) -> Result<Fore
 }
 
 /// Nothing was measured: two times without a number, so that a history can be asked for.
-fn unmeasured() -> LayerObservation {
+pub(in crate::cases) fn unmeasured() -> LayerObservation {
     let nothing = || vec![f64::NAN; 2];
     LayerObservation {
         series: TimeSeries {

@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Optimisation changes no bit: an unoptimised build with all its checks and a release build end short runs of every case in
+# the committed states. `bash tests/builds.sh`, about a quarter of an hour on 2 cores.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+target=${CARGO_TARGET_DIR:-target}
+for profile in unoptimised release; do
+    cargo build --profile "$profile" --bin bagnold
+    printf '%s:\n' "$profile"
+    "$target/$profile/bagnold" verify
+done
+echo "unoptimised and release builds give the same bits"

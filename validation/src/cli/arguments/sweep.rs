@@ -1,0 +1,120 @@
+//! Arguments of `bagnold sweep`.
+
+use super::{Allowance, Work};
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+
+const SWEEP_EXAMPLES: &str = "Examples:
+  bagnold sweep viscosity.toml --out viscosity        here
+  bagnold sweep viscosity.toml --out /shared/viscosity --engine slurm --partition short --time 00:30:00 --throttle 50
+  bagnold sweep collect /shared/viscosity --resubmit
+
+A file that varies the viscosity of a film over a grid:
+
+  design = \"grid\"   # or design.sobol = { points = 64, seed = 1 }, design.latin_hypercube = { … }
+
+  [[cases]]
+  case = \"film\"
+  with = { fluids = [\"newtonian\"], resolution = 10 }
+
+  [[parameters]]
+  path = \"newtonian.viscosity\"
+  values = [0.5, 1.0, 2.0]         # or lower, upper, levels, scale = \"log\"
+
+The folder receives manifest.json, runs/NNNN-CASE/, results.csv (one line a metric), failures.csv and figures/.
+
+Exit codes: 0 every run has numbers, 1 some are missing, 2 bad input, 3 some failed (see failures.csv).";
+
+/// `bagnold sweep`
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, after_help = SWEEP_EXAMPLES)]
+pub struct Sweep {
+    /// What to do with a sweep that was begun.
+    #[command(subcommand)]
+    pub action: Option<SweepAction>,
+    /// TOML file that says which cases, which parameters and which points.
+    #[arg(value_name = "FILE.toml", required = true)]
+    pub file: Option<PathBuf>,
+    /// Folder of the sweep [default: reports/sweeps/FILE].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Open a sweep that is done again; an unfinished one goes on by itself.
+    #[arg(long)]
+    pub resume: bool,
+    /// What runs it.
+    #[arg(long, value_enum, default_value_t = Engine::Local)]
+    pub engine: Engine,
+    /// What to ask of Slurm.
+    #[command(flatten)]
+    pub cluster: Cluster,
+    /// How much each run may ask for.
+    #[command(flatten)]
+    pub allowance: Allowance,
+    /// How to compute.
+    #[command(flatten)]
+    pub work: Work,
+}
+
+/// What runs a sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Engine {
+    /// The threads of this machine.
+    Local,
+    /// A Slurm cluster that shares the sweep's folder: one task a run.
+    Slurm,
+}
+
+/// What to do with a sweep that was begun.
+#[derive(Debug, Subcommand)]
+pub enum SweepAction {
+    /// Gather the results of a sweep, and submit again what is missing.
+    Collect {
+        /// Folder of the sweep.
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+        /// Submit to Slurm again what is neither done nor queued.
+        #[arg(long)]
+        resubmit: bool,
+        /// What to ask of Slurm.
+        #[command(flatten)]
+        cluster: Cluster,
+    },
+    /// Run one entry of a sweep's manifest, as the tasks of a cluster do.
+    Task {
+        /// Folder of the sweep.
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+        /// Number of the entry, from 1.
+        #[arg(long, value_name = "N")]
+        entry: usize,
+        /// How to compute.
+        #[command(flatten)]
+        work: Work,
+    },
+    /// Print the Slurm script that ships with bagnold, to be edited for --template.
+    Template,
+}
+
+/// What to ask of Slurm.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Slurm")]
+pub struct Cluster {
+    /// Partition [default: the cluster's].
+    #[arg(long, value_name = "NAME")]
+    pub partition: Option<String>,
+    /// Time limit of one run, such as 01:30:00.
+    #[arg(long, value_name = "TIME")]
+    pub time: Option<String>,
+    /// Memory of one run, such as 2G.
+    #[arg(long, value_name = "SIZE")]
+    pub memory: Option<String>,
+    /// Cores of one run [default: 1].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub cpus: Option<u16>,
+    /// Runs at the same time, at most.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub throttle: Option<u32>,
+    /// Job script to use instead of the one that `bagnold sweep template` prints.
+    #[arg(long, value_name = "FILE")]
+    pub template: Option<PathBuf>,
+}

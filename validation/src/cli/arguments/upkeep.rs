@@ -1,0 +1,97 @@
+//! Arguments of the commands that look after the program itself: `verify`, `store`, `mutate`.
+
+use super::work::positive;
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+
+const MUTATE_EXAMPLES: &str = "Examples:
+  cargo run --package bagnold-validation --features planted-errors -- mutate
+  bagnold mutate list                                    the errors, and the cases that ought to see them
+  bagnold mutate --errors von-karman,gravity-value       some of them
+  bagnold mutate trial von-karman clear-water            one case with one error, as `bagnold run` shows it
+
+Needs a program built with the feature planted-errors; one built without has no errors in it. Each error is
+caught by a gate that held without it, by a run that stops, only by the snapshot of accepted values, or by nothing.
+
+Exit codes: 0 enough errors are caught, and by gates; 1 too few; 2 bad input, or a program without errors.";
+
+/// `bagnold verify`
+#[derive(Debug, Args)]
+#[command(after_help = "Exit codes: 0 the same bits, 1 other bits, 2 bad input.")]
+pub struct Verify {
+    /// List of short runs to use instead of the committed one.
+    #[arg(long, value_name = "FILE.toml")]
+    pub file: Option<PathBuf>,
+    /// Write the list with the hashes of this program.
+    #[arg(long, value_name = "FILE.toml")]
+    pub write: Option<PathBuf>,
+}
+
+/// `bagnold store`
+#[derive(Debug, Args)]
+pub struct Store {
+    /// What to do.
+    #[command(subcommand)]
+    pub action: StoreAction,
+    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the workspace].
+    #[arg(long, value_name = "DIR", global = true)]
+    pub store: Option<PathBuf>,
+}
+
+/// What to do with stored results.
+#[derive(Debug, Clone, Copy, Subcommand)]
+pub enum StoreAction {
+    /// List the versions of the program that have results, with number, size and age.
+    List,
+    /// Delete entries, the oldest first.
+    #[command(group = clap::ArgGroup::new("limit").required(true).multiple(true))]
+    Prune {
+        /// Delete what is older.
+        #[arg(long, value_name = "DAYS", value_parser = positive, group = "limit")]
+        days: Option<f64>,
+        /// Delete the oldest until the rest is no larger.
+        #[arg(long, value_name = "GIB", value_parser = positive, group = "limit")]
+        size: Option<f64>,
+    },
+}
+
+/// `bagnold mutate`
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, after_help = MUTATE_EXAMPLES)]
+pub struct Mutate {
+    /// What to do instead of trying errors.
+    #[command(subcommand)]
+    pub action: Option<MutateAction>,
+    /// Errors by name, separated by commas [default: all].
+    #[arg(long, value_name = "ERROR,…", value_delimiter = ',')]
+    pub errors: Vec<String>,
+    /// Folder to write.
+    #[arg(long, value_name = "DIR", default_value = "reports/mutation")]
+    pub out: PathBuf,
+    /// Threads to use [default: all cores].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+/// What `bagnold mutate` does beside trying errors.
+#[derive(Debug, Subcommand)]
+pub enum MutateAction {
+    /// List the errors and the cases that ought to see them.
+    List,
+    /// Plant one error and run one case at the quick tier; the store is neither read nor written.
+    Trial {
+        /// Name of the error, or `none`.
+        error: String,
+        /// Name of the case.
+        case: String,
+        /// Change one parameter; may be repeated.
+        #[arg(long = "set", value_name = "path=value")]
+        settings: Vec<String>,
+        /// File to write what the case said to, as `bagnold mutate` reads it, instead of printing it.
+        #[arg(long, value_name = "FILE")]
+        result: Option<PathBuf>,
+        /// Threads to use [default: all cores].
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+        threads: Option<u16>,
+    },
+}

@@ -1,0 +1,45 @@
+//! Options of everything that simulates: how much it may ask for, and how to compute.
+
+use clap::Args;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// How much runs may ask for; more is refused before anything is allocated.
+#[derive(Debug, Clone, Copy, Default, Args)]
+pub struct Allowance {
+    /// Memory that the runs may ask for [default: $BAGNOLD_MOST_MEMORY, else that of the machine].
+    #[arg(long, value_name = "GIB", value_parser = positive)]
+    pub most_memory: Option<f64>,
+    /// Hours of one core that the runs of a case may ask for [default: $BAGNOLD_MOST_HOURS, else 10000].
+    #[arg(long, value_name = "HOURS", value_parser = positive)]
+    pub most_hours: Option<f64>,
+}
+
+pub(super) fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|number| *number > 0.0);
+    number.ok_or_else(|| "must be a positive number".to_owned())
+}
+
+/// Options of everything that simulates.
+#[derive(Debug, Args)]
+pub struct Work {
+    /// Threads to use [default: all cores].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Simulate even what is stored or unfinished from an earlier run of the same program.
+    #[arg(long)]
+    pub fresh: bool,
+    /// Seconds between two checkpoints of a run [default: 60, up to 120 where one costs over 1 %].
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub checkpoint_interval: Option<Duration>,
+    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the workspace].
+    #[arg(long, value_name = "DIR")]
+    pub store: Option<PathBuf>,
+}
+
+/// A time of an argument.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let rule = "must be a number of seconds from 0 to 1e6, such as 60";
+    let seconds: f64 = text.parse().map_err(|_| rule.to_owned())?;
+    if (0.0..=1e6).contains(&seconds) { Ok(Duration::from_secs_f64(seconds)) } else { Err(rule.to_owned()) }
+}
