@@ -46,7 +46,7 @@ pub(crate) struct Tally {
     pub(crate) single: Vec<usize>,
     /// Experiments all of whose ends and whose joint region the model has confirmed.
     pub(crate) settled: usize,
-    /// Experiments with a finding about the fit or the search.
+    /// Experiments with a finding about the search, the fit, or ends and regions that are not settled.
     pub(crate) raised: usize,
     /// Evaluations of every experiment.
     pub(crate) evaluations: Vec<usize>,
@@ -84,6 +84,7 @@ impl Tally {
         let unlikely = explored.region.p_value.is_some_and(|p| !(UNLIKELY..=1.0 - UNLIKELY).contains(&p));
         self.raised += usize::from(
             unlikely
+                || !explored.is_settled()
                 || answer.search.stopped != Stopped::Converged
                 || !answer.search.every_start
                 || !outliers(&residuals, problem.truth.len()).is_empty()
