@@ -53,16 +53,25 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// Repeats an experiment with many seeds.
+    /// Repeats an experiment with many seeds, as a calibration that says no more than its start.
     pub(crate) fn of<F: Fn(&[f64]) -> Option<Vec<f64>>>(
         seeds: std::ops::Range<u64>,
         start: &[f64],
         problem: impl Fn(u64) -> Problem<F>,
     ) -> Self {
-        let mut tally = Self { single: vec![0; start.len()], ..Self::default() };
+        Self::by(seeds, &usual(start.to_vec()), problem)
+    }
+
+    /// The same by another plan.
+    pub(crate) fn by<F: Fn(&[f64]) -> Option<Vec<f64>>>(
+        seeds: std::ops::Range<u64>,
+        plan: &Plan,
+        problem: impl Fn(u64) -> Problem<F>,
+    ) -> Self {
+        let mut tally = Self { single: vec![0; plan.start.len()], ..Self::default() };
         for seed in seeds {
             let mut problem = problem(seed);
-            let answer = solve(&mut problem, &usual(start.to_vec())).expect("the model works");
+            let answer = solve(&mut problem, plan).expect("the model works");
             tally.add(&problem, &answer);
         }
         tally.evaluations.sort_unstable();
