@@ -46,23 +46,32 @@ pub(crate) struct Tally {
     pub(crate) single: Vec<usize>,
     /// Experiments all of whose ends and whose joint region the model has confirmed.
     pub(crate) settled: usize,
-    /// Experiments with a finding about the fit or the search.
+    /// Experiments with a finding about the search, the fit, or ends and regions that are not settled.
     pub(crate) raised: usize,
     /// Evaluations of every experiment.
     pub(crate) evaluations: Vec<usize>,
 }
 
 impl Tally {
-    /// Repeats an experiment with many seeds.
+    /// Repeats an experiment with many seeds, as a calibration that says no more than its start.
     pub(crate) fn of<F: Fn(&[f64]) -> Option<Vec<f64>>>(
         seeds: std::ops::Range<u64>,
         start: &[f64],
         problem: impl Fn(u64) -> Problem<F>,
     ) -> Self {
-        let mut tally = Self { single: vec![0; start.len()], ..Self::default() };
+        Self::by(seeds, &usual(start.to_vec()), problem)
+    }
+
+    /// The same by another plan.
+    pub(crate) fn by<F: Fn(&[f64]) -> Option<Vec<f64>>>(
+        seeds: std::ops::Range<u64>,
+        plan: &Plan,
+        problem: impl Fn(u64) -> Problem<F>,
+    ) -> Self {
+        let mut tally = Self { single: vec![0; plan.start.len()], ..Self::default() };
         for seed in seeds {
             let mut problem = problem(seed);
-            let answer = solve(&mut problem, &usual(start.to_vec())).expect("the model works");
+            let answer = solve(&mut problem, plan).expect("the model works");
             tally.add(&problem, &answer);
         }
         tally.evaluations.sort_unstable();
@@ -84,6 +93,7 @@ impl Tally {
         let unlikely = explored.region.p_value.is_some_and(|p| !(UNLIKELY..=1.0 - UNLIKELY).contains(&p));
         self.raised += usize::from(
             unlikely
+                || !explored.is_settled()
                 || answer.search.stopped != Stopped::Converged
                 || !answer.search.every_start
                 || !outliers(&residuals, problem.truth.len()).is_empty()

@@ -5,4 +5,7 @@
 
 mod coverage;
 mod film;
+mod findings;
 mod layer;
+mod minima;
+mod simulated;

@@ -13,6 +13,9 @@ pub const TOLERANCE: f64 = 0.1;
 /// Distance, as a share of that between best point and end, within which two values are one.
 const CLOSE: f64 = 0.03;
 
+/// Miss of a promised rise, as a share of the limit, up to which the emulator is trusted.
+const FAIR: f64 = 0.3;
+
 /// One end of the interval of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct End {
@@ -37,21 +40,24 @@ pub(super) struct Side {
     pub(super) upper: bool,
     /// Places of the evaluated proposals in the history.
     pub(super) proposals: Vec<usize>,
+    /// Distance up to which the emulator has earned trust.
+    radius: f64,
 }
 
 /// What the model has said about a side, as distances from the best point.
 struct Bracket {
     /// The farthest point that agrees.
     inside: Option<(f64, usize)>,
-    /// The nearest point beyond that does not, or where the model fails.
-    outside: f64,
-    fails: bool,
+    /// Distance of the nearest point beyond at which the model fails.
+    failing: f64,
 }
 
 impl Side {
     /// Both sides of every parameter.
     pub(super) fn all(dimensions: usize) -> Vec<Self> {
-        let side = |parameter| [false, true].map(|upper| Self { parameter, upper, proposals: Vec::new() });
+        let side = |parameter| {
+            [false, true].map(|upper| Self { parameter, upper, proposals: Vec::new(), radius: f64::INFINITY })
+        };
         (0..dimensions).flat_map(side).collect()
     }
 
@@ -76,10 +82,16 @@ impl Side {
         if self.upper { best + distance } else { best - distance }
     }
 
-    /// The end as the emulator has it.
-    fn expected<'r>(&self, region: &'r Region) -> (&'r [f64], bool) {
+    /// The end as the emulator has it: along its profile, followed from the best point and from the farthest that agrees.
+    fn expected(&self, region: &Region, farthest: Option<&[f64]>) -> (Vec<f64>, bool) {
         let profile = &region.profiles[self.parameter];
-        if self.upper { (&profile.ends[1], profile.open_above) } else { (&profile.ends[0], profile.open_below) }
+        let [below, above] = &profile.ends;
+        let from_best = if self.upper { (above, profile.open_above) } else { (below, profile.open_below) };
+        let beyond = farthest.map(|point| region.end_beyond(point, self.parameter, self.upper));
+        match beyond {
+            Some((end, open)) if self.outwards(region, &end) >= self.outwards(region, from_best.0) => (end, open),
+            _ => (from_best.0.clone(), from_best.1),
+        }
     }
 
     fn bracket(&self, region: &Region, history: &[Evaluated]) -> Bracket {
@@ -91,22 +103,20 @@ impl Side {
             .filter(|(distance, _)| *distance > 0.0)
             .max_by(|a, b| a.0.total_cmp(&b.0));
         let reached = inside.map_or(0.0, |(distance, _)| distance);
-        let (mut outside, mut fails) = (f64::INFINITY, false);
-        for place in &self.proposals {
-            let evaluated = &history[*place];
-            let distance = self.outwards(region, &evaluated.point);
-            let failed = evaluated.chi_squared.is_none();
-            // other values of the other parameters might agree there
-            let beyond = failed
-                || rise(evaluated).is_some_and(|rise| rise > region.limit) && {
-                    let held = region.held(&evaluated.point, self.parameter, evaluated.point[self.parameter]);
-                    held.rise > region.limit
-                };
-            if beyond && distance > reached && distance < outside {
-                (outside, fails) = (distance, failed);
-            }
-        }
-        Bracket { inside, outside, fails }
+        let failed = self.proposals.iter().filter(|place| history[**place].chi_squared.is_none());
+        let failures = failed.map(|place| self.outwards(region, &history[*place].point));
+        let failing = failures.filter(|distance| *distance > reached).fold(f64::INFINITY, f64::min);
+        Bracket { inside, failing }
+    }
+
+    /// Takes note of an evaluated proposal: where the model disagrees with what was promised, the next step is shorter.
+    pub(super) fn learn(&mut self, region: &Region, place: usize, point: &[f64], rise: Option<f64>) {
+        self.proposals.push(place);
+        let Some(rise) = rise else { return };
+        let miss = (rise - region.rise(point)).abs() / region.limit;
+        // a residual is missed by the third power of the distance, χ² by its square
+        let factor = libm::pow(FAIR / miss.max(1e-9), 1.0 / 6.0).clamp(0.2, 2.0);
+        self.radius = if miss <= FAIR { f64::INFINITY } else { factor * self.outwards(region, point) };
     }
 
     /// The end as it stands.
@@ -114,18 +124,19 @@ impl Side {
         let bracket = self.bracket(region, history);
         let reached = bracket.inside.map_or(0.0, |(distance, _)| distance);
         let tolerance = TOLERANCE * region.limit;
-        let settles = |place: &usize| {
-            let evaluated = &history[*place];
+        let settles = |place: usize| {
+            let evaluated = &history[place];
             let rise = evaluated.chi_squared? - region.minimum.chi_squared;
             let distance = self.outwards(region, &evaluated.point);
-            let at_bound = distance >= self.room(region);
-            let right = (rise - region.limit).abs() <= tolerance || at_bound && rise <= region.limit;
-            let held = region.held(&evaluated.point, self.parameter, evaluated.point[self.parameter]);
-            let farthest = reached <= distance * (1.0 + CLOSE);
             // an open end is proved by its point, whatever others there may be
-            let best = held.rise >= rise - tolerance || at_bound && rise <= region.limit;
-            let open = at_bound && rise <= region.limit;
-            (right && farthest && best).then(|| End {
+            let open = distance >= self.room(region) && rise <= region.limit;
+            let right = (rise - region.limit).abs() <= tolerance || open;
+            let farthest = (distance > 0.0 || open) && reached <= distance * (1.0 + CLOSE);
+            let best = || {
+                let held = region.held(&evaluated.point, self.parameter, evaluated.point[self.parameter]);
+                (held.rise - region.limit).abs() <= tolerance || open
+            };
+            (right && farthest && best()).then(|| End {
                 point: evaluated.point.clone(),
                 rise: Some(rise),
                 open,
@@ -134,38 +145,42 @@ impl Side {
             })
         };
         let off = |end: &End| end.rise.map_or(f64::INFINITY, |rise| (rise - region.limit).abs());
-        let settled = self.proposals.iter().filter_map(settles);
+        let settled = (0..history.len()).filter_map(settles);
         if let Some(end) = settled.min_by(|a, b| b.open.cmp(&a.open).then(off(a).total_cmp(&off(b)))) {
             return end;
         }
-        let (expected, open) = self.expected(region);
+        let farthest = bracket.inside.map(|(_, place)| &*history[place].point);
+        let (expected, open) = self.expected(region, farthest);
+        let fails = bracket.failing <= self.outwards(region, &expected);
         let wider = match bracket.inside {
-            Some((distance, place)) if bracket.fails || distance >= self.outwards(region, expected) => {
+            Some((distance, place)) if fails || distance >= self.outwards(region, &expected) => {
                 let evaluated = &history[place];
                 let rise = evaluated.chi_squared.map(|chi| chi - region.minimum.chi_squared);
                 End { point: evaluated.point.clone(), rise, open: false, fails: false, settled: false }
             }
-            _ => End { point: expected.to_vec(), rise: None, open, fails: false, settled: false },
+            _ => End { point: expected, rise: None, open, fails: false, settled: false },
         };
-        let cornered = bracket.fails && bracket.outside - reached <= CLOSE * bracket.outside;
+        let cornered = fails && bracket.failing - reached <= CLOSE * bracket.failing;
         End { fails: cornered, settled: cornered, ..wider }
     }
 
-    /// The point whose evaluation would tell most about the end.
+    /// The point whose evaluation would tell most about the end: where the emulator has it, as far as that is trusted.
     pub(super) fn propose(&self, region: &Region, history: &[Evaluated]) -> Vec<f64> {
         let bracket = self.bracket(region, history);
         let reached = bracket.inside.map_or(0.0, |(distance, _)| distance);
-        let (expected, _) = self.expected(region);
-        let mut distance = self.outwards(region, expected);
-        let room = self.room(region);
-        if bracket.fails || distance <= reached * (1.0 + 1e-6) || distance >= bracket.outside {
-            distance =
-                if bracket.outside.is_finite() { 0.5 * (reached + bracket.outside) } else { (1.5 * reached).min(room) };
+        let farthest = bracket.inside.map(|(_, place)| &*history[place].point);
+        let (expected, _) = self.expected(region, farthest);
+        let promised = self.outwards(region, &expected);
+        let sought = if bracket.failing <= promised { 0.5 * (reached + bracket.failing) } else { promised };
+        let distance = sought.min(self.radius.max(1.1 * reached));
+        if distance == promised {
+            return expected;
         }
-        let start = match bracket.inside {
-            Some((inside, place)) if inside > 0.5 * distance => &history[place].point,
-            _ => expected,
-        };
-        region.held(start, self.parameter, self.coordinate(region, distance)).point
+        // on the way there, as the emulator's valley has it
+        let from = farthest.unwrap_or(&region.minimum.point);
+        let share = (distance - reached) / (promised - reached).max(f64::MIN_POSITIVE);
+        let between = |(from, to): (&f64, &f64)| (from + share * (to - from)).clamp(0.0, 1.0);
+        let start: Vec<f64> = from.iter().zip(&expected).map(between).collect();
+        region.held(&start, self.parameter, self.coordinate(region, distance)).point
     }
 }

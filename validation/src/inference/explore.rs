@@ -12,7 +12,7 @@ use super::{Budget, Evaluate, Evaluated};
 use nalgebra::SymmetricEigen;
 
 /// Rounds of further points.
-const MOST_ROUNDS: usize = 12;
+const MOST_ROUNDS: usize = 40;
 
 /// Points whose χ² rises by more than this many times the threshold say little about the region.
 const FAR: f64 = 25.0;
@@ -63,7 +63,8 @@ pub fn explore<M: Evaluate>(
     uncertainties: Uncertainties,
     budget: &Budget,
 ) -> Result<Option<Explored>, M::Error> {
-    let most = history.len() + budget.evaluations;
+    let searched = history.len();
+    let most = searched + budget.evaluations;
     let Some(first) = best(&history) else { return Ok(None) };
     let dimensions = first.point.len();
     let mut sides = Side::all(dimensions);
@@ -71,7 +72,7 @@ pub fn explore<M: Evaluate>(
     // with one parameter the joint region is its interval
     let mut checks: Vec<Check> = if dimensions > 1 { (0..dimensions).flat_map(senses).collect() } else { Vec::new() };
     for round in 0.. {
-        let Some((emulator, region)) = mapped(&history, uncertainties, budget) else { return Ok(None) };
+        let Some((emulator, region)) = mapped(&history, searched, uncertainties, budget) else { return Ok(None) };
         let negligible = budget.negligible(first.chi_squared, emulator.data());
         let lower = first.chi_squared - region.minimum.chi_squared > negligible;
         let ends: Vec<End> = sides.iter().map(|side| side.judge(&region, &history)).collect();
@@ -100,7 +101,10 @@ pub fn explore<M: Evaluate>(
         }
         evaluate(model, &mut history, fresh)?;
         for (side, point) in open.iter().zip(&at_ends) {
-            sides[*side].proposals.extend(place_of(&history, point));
+            if let Some(place) = place_of(&history, point) {
+                let rise = history[place].chi_squared.map(|chi| chi - region.minimum.chi_squared);
+                sides[*side].learn(&region, place, point, rise);
+            }
         }
         for (check, point) in of_edge.iter().zip(&at_edge) {
             let chi_squared = place_of(&history, point).and_then(|place| history[place].chi_squared);
@@ -124,17 +128,31 @@ fn place_of(history: &[Evaluated], point: &[f64]) -> Option<usize> {
     history.iter().position(|evaluated| evaluated.point == point)
 }
 
-/// The emulator and region of the points in and about the region, if they are enough, or of all.
-fn mapped(history: &[Evaluated], uncertainties: Uncertainties, budget: &Budget) -> Option<(Emulator, Region)> {
+/// The emulator and region of the points in and about the region and of what was asked beyond the search, which refutes what
+/// an emulator promised there; of all points, if these are too few.
+fn mapped(
+    history: &[Evaluated],
+    searched: usize,
+    uncertainties: Uncertainties,
+    budget: &Budget,
+) -> Option<(Emulator, Region)> {
     let best = best(history)?;
     let emulator = Emulator::fit(history, budget.difference)?;
     let region = Region::about(&emulator, best.clone(), uncertainties);
     let limit = best.chi_squared + FAR * region.threshold;
-    let near: Vec<Evaluated> =
-        history.iter().filter(|evaluated| evaluated.chi_squared.is_some_and(|chi| chi <= limit)).cloned().collect();
-    if near.len() < Degree::Quadratic.points(best.point.len()) {
+    let mut known: Vec<(f64, usize)> =
+        history.iter().enumerate().filter_map(|(place, evaluated)| Some((evaluated.chi_squared?, place))).collect();
+    let least = Degree::Quadratic.points(best.point.len());
+    if known.len() < least {
         return Some((emulator, region));
     }
+    known.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let near: Vec<Evaluated> = known
+        .iter()
+        .enumerate()
+        .filter(|(rank, (chi_squared, place))| *rank < least || *chi_squared <= limit || *place >= searched)
+        .map(|(_, (_, place))| history[*place].clone())
+        .collect();
     let local = Emulator::fit(&near, 0.5 * extent(&region))?;
     let region = Region::about(&local, best, uncertainties);
     Some((local, region))

@@ -58,7 +58,7 @@ impl Profile {
 /// The interval of the parameter `which` up to a rise of χ² by `threshold`, without its curve; `deviation` is a guess of its
 /// standard deviation in the unit cube.
 pub(super) fn profile(emulator: &Emulator, minimum: &Minimum, which: usize, deviation: f64, threshold: f64) -> Profile {
-    let side = |direction: f64| crossing(emulator, minimum, which, direction, deviation, threshold);
+    let side = |direction| crossing(emulator, minimum, &minimum.point, which, direction, deviation, threshold);
     let ((below, open_below), (above, open_above)) = (side(-1.0), side(1.0));
     let interval = [below[which], above[which]];
     Profile { interval, open_below, open_above, ends: [below, above], curve: Vec::new() }
@@ -101,10 +101,12 @@ pub(super) fn constrained(
     ProfilePoint { point: bottom.point, rise: bottom.chi_squared - minimum.chi_squared }
 }
 
-/// The last point in a direction below the threshold, and whether it lies at the bound.
-fn crossing(
+/// The last point in a direction below the threshold, and whether it lies at the bound; all values of the others are followed
+/// from `start` on, as along a valley.
+pub(super) fn crossing(
     emulator: &Emulator,
     minimum: &Minimum,
+    start: &[f64],
     which: usize,
     direction: f64,
     deviation: f64,
@@ -112,7 +114,7 @@ fn crossing(
 ) -> (Vec<f64>, bool) {
     let bound = if direction < 0.0 { 0.0 } else { 1.0 };
     let mut step = (STEP * deviation).clamp(LEAST_STEP, LARGEST_STEP);
-    let mut inside = minimum.point.clone();
+    let mut inside = start.to_vec();
     while inside[which] != bound {
         let next = (inside[which] + direction * step).clamp(0.0, 1.0);
         let trial = constrained(emulator, minimum, &inside, which, next);

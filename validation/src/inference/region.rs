@@ -5,7 +5,7 @@
 //! (Wilks, Annals of Mathematical Statistics 9 (1938) 60).
 
 use super::emulator::{Emulator, Minimum};
-use super::profile::{Profile, ProfilePoint, constrained, curve, profile};
+use super::profile::{Profile, ProfilePoint, constrained, crossing, curve, profile};
 use nalgebra::DMatrix;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -110,6 +110,14 @@ impl Region {
     #[must_use]
     pub fn held(&self, start: &[f64], which: usize, value: f64) -> ProfilePoint {
         constrained(&self.emulator, &self.base, start, which, value)
+    }
+
+    /// Where the emulator's profile along one parameter leaves the interval beyond a point, and whether that is at the bound.
+    #[must_use]
+    pub fn end_beyond(&self, start: &[f64], which: usize, upper: bool) -> (Vec<f64>, bool) {
+        let direction = if upper { 1.0 } else { -1.0 };
+        let deviation = self.covariance[(which, which)].sqrt();
+        crossing(&self.emulator, &self.base, start, which, direction, deviation, self.limit)
     }
 
     /// Rise of the emulator's χ² at a point `[-]`.

@@ -3,7 +3,9 @@
 use super::emulator::Minimum;
 use super::explore::{Explored, explore};
 use super::region::{Uncertainties, chi_squared_tail};
-use super::search::{Budget, LocalMinimum, Method, Search, SearchError, continue_search, search, search_design};
+use super::search::{
+    Budget, LocalMinimum, Method, Search, SearchError, Stopped, continue_search, search, search_design,
+};
 use super::{Evaluate, Evaluated};
 
 /// Share of repeated experiments below which a χ² is a sign that the model or the stated uncertainties are wrong, and above
@@ -53,7 +55,7 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &Plan) -> Result<Answer, SearchEr
         search_design(model, &plan.design, budget)?
     };
     let searched = found.history.len();
-    let mut restarts = 0;
+    let (mut restarts, mut continued) = (0, false);
     loop {
         let budget = Budget { evaluations: plan.region_evaluations, ..plan.budget };
         let uncertainties = uncertainties(&found);
@@ -63,6 +65,13 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &Plan) -> Result<Answer, SearchEr
         if explored.lower && restarts < MOST_RESTARTS {
             restarts += 1;
             found = again(model, found, explored.history, &lowest, plan.budget)?;
+            continue;
+        }
+        // what the region has left over is for a search that was cut short: the region's points may have brought it home
+        let left = (found.history.len() + plan.region_evaluations).saturating_sub(explored.history.len());
+        if found.stopped == Stopped::BudgetSpent && left > 0 && !continued {
+            continued = true;
+            found = again(model, found, explored.history, &lowest, Budget { evaluations: left, ..plan.budget })?;
             continue;
         }
         let search =

@@ -240,7 +240,7 @@ pub fn continue_search<M: Evaluate>(
         let best = recorder.best();
         best.map(|(best, chi_squared)| LocalMinimum { point: best.point.clone(), chi_squared })
     };
-    let (outcome, first) = match first {
+    let (mut outcome, first) = match first {
         Ok((stopped, Some(minimum))) => (Ok(stopped), Some(minimum)),
         Ok((stopped, None)) => (Ok(stopped), of_best(&recorder)),
         Err(halt) => (Err(halt), of_best(&recorder)),
@@ -253,8 +253,25 @@ pub fn continue_search<M: Evaluate>(
             Ok(every) => every_start = every,
             Err(halt) => return recorder.finish(Err(halt), minima, false),
         }
+        // what the other starts have left over is for a first descent that was cut short
+        if every_start && matches!(outcome, Err(Halt::BudgetSpent)) {
+            outcome = descend_on(&mut recorder, &mut minima, &budget);
+        }
     }
     recorder.finish(outcome, minima, every_start)
+}
+
+/// Descends on from the best point, whose minimum takes the place of those near it.
+fn descend_on<M: Evaluate>(
+    recorder: &mut Recorder<'_, M>,
+    minima: &mut Vec<LocalMinimum>,
+    budget: &Budget,
+) -> Result<Stopped, Halt<M::Error>> {
+    let Some(start) = recorder.best().map(|(best, _)| best.point.clone()) else { return Err(Halt::NothingWorked) };
+    let descent = trust_region::run(recorder, &start, budget, &[])?;
+    minima.retain(|minimum| !minimum.is_at(&descent.point) && !minimum.is_at(&start));
+    minima.push(LocalMinimum { point: descent.point, chi_squared: descent.chi_squared });
+    Ok(descent.stopped.unwrap_or(Stopped::Converged))
 }
 
 /// Refuses settings with which no search can work.

@@ -1,0 +1,127 @@
+//! Whole calibrations of a film's viscosity: each thing that can be wrong with a problem has its finding.
+
+use super::coverage::normal;
+use bagnold_validation::calibration::{CalibrationFolder, Outcome, Plan, Watch, calibrate};
+use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::reference::{HerschelBulkleyFilm, Incline};
+use bagnold_validation::store::{Store, StorePolicy};
+use std::fmt::Write;
+use std::path::Path;
+
+const VISCOSITY: &str = r#"
+[[parameters]]
+path = "newtonian.viscosity"
+name = "viscosity"
+unit = "Pa·s"
+lower = 0.2
+upper = 2.0
+scale = "log"
+truth = 0.5
+"#;
+
+const DENSITY: &str = r#"
+[[parameters]]
+path = "density"
+name = "density"
+unit = "kg/m³"
+lower = 500.0
+upper = 2000.0
+scale = "log"
+start = 800.0
+truth = 1000.0
+"#;
+
+// displaced particles would make χ² scatter
+const FILM: &str = r#"
+[[fit]]
+case = "film"
+with = { fluids = ["newtonian"], resolution = 10, jitter = 0.0, convergence_resolutions = [], comparison_resolution = 0 }
+"#;
+
+const PROFILE: &str =
+    r#"table = "profile-fluid-newtonian-particles-jittered-resolution-10", x = "y [m]", y = "u [m/s]""#;
+
+struct Unseen;
+
+impl Watch for Unseen {
+    fn expected(&self, _: usize) {}
+    fn evaluated(&self, _: &str, _: Option<&str>) {}
+}
+
+/// What a plan in a folder comes to.
+fn outcome(folder: &Path, text: &str) -> Outcome {
+    let file = folder.join("plan.toml");
+    std::fs::write(&file, text).expect("a folder to write in");
+    let plan = Plan::read(&file, REGISTRY).unwrap_or_else(|error| panic!("{error}"));
+    let kept = CalibrationFolder::begin(&folder.join("out"), &file, false).unwrap_or_else(|error| panic!("{error}"));
+    calibrate(&plan, &kept, REGISTRY, &Store::open(StorePolicy::Use), &Unseen).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Findings with data that the film itself gives, with noise of a seed.
+fn of_own_data(parameters: &str, seed: usize) -> Vec<String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let data = format!("data = [{{ {PROFILE}, noise = 0.03, bins = 9 }}]");
+    outcome(folder.path(), &format!("title = \"a film\"\nseed = {seed}\n{parameters}{FILM}{data}\n")).findings
+}
+
+/// Findings with velocities `[m/s]` at twelve heights of the exact film of a flow index, whose noise of 3 % may be stated wrongly.
+fn of_exact_data(flow_index: f64, stated: f64, change: fn(usize, f64) -> f64) -> Vec<String> {
+    let incline = Incline { layer_height: 0.01, slope_angle: 10.0_f64.to_radians(), gravity: 9.81, density: 1000.0 };
+    let film = HerschelBulkleyFilm { incline, yield_stress: 0.0, consistency: 0.5, flow_index };
+    let mut text = String::from(
+        "# quantity: velocity of a film\n# unit: m/s\n# kind: computed\n# confidence: high\n# uncertainty: column\n\
+         # source: exact\n# licence: own data\ny [m],u [m/s],uncertainty [m/s]\n",
+    );
+    for (k, noise) in normal(5, 12).into_iter().enumerate() {
+        let height = 0.01 * (k as f64 + 2.0) / 14.0;
+        let velocity = film.velocity(height);
+        let datum = change(k, velocity * (1.0 + 0.03 * noise));
+        writeln!(text, "{height},{datum},{}", 0.03 * stated * velocity).expect("a string");
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("exact.csv"), text).expect("a folder to write in");
+    let data = format!("data = [{{ {PROFILE}, file = \"exact.csv\" }}]");
+    outcome(folder.path(), &format!("title = \"a film\"\n{VISCOSITY}{FILM}{data}\n")).findings
+}
+
+fn assert_told(findings: &[String], words: &[&str]) {
+    assert!(findings.iter().any(|finding| words.iter().all(|word| finding.contains(word))), "{words:?}: {findings:?}");
+}
+
+/// A film's velocity depends on density over viscosity only.
+#[test]
+fn parameters_that_are_known_together_only_are_told() {
+    assert_told(&of_own_data(&format!("{VISCOSITY}{DENSITY}"), 1), &["`viscosity`", "`density`", "only together"]);
+}
+
+#[test]
+fn a_truth_on_a_bound_is_told() {
+    let bounded = VISCOSITY.replace("lower = 0.2", "lower = 0.5");
+    for seed in 1..=2 {
+        assert_told(&of_own_data(&bounded, seed), &["`viscosity`", "lower bound 0.5"]);
+    }
+}
+
+#[test]
+fn a_wrong_law_is_told() {
+    let findings = of_exact_data(0.4, 1.0, |_, velocity| velocity);
+    assert_told(&findings, &["does not explain the data"]);
+    assert_told(&findings, &["neighbouring residuals along", "correlate"]);
+}
+
+#[test]
+fn uncertainties_that_are_stated_wrongly_are_told() {
+    assert_told(&of_exact_data(1.0, 3.0, |_, velocity| velocity), &["better than their uncertainties allow"]);
+    assert_told(&of_exact_data(1.0, 1.0 / 3.0, |_, velocity| velocity), &["does not explain the data"]);
+}
+
+#[test]
+fn data_far_from_all_others_are_named() {
+    let findings = of_exact_data(1.0, 1.0, |k, velocity| match k {
+        3 => 1.3 * velocity,
+        8 => 0.7 * velocity,
+        _ => velocity,
+    });
+    assert_told(&findings, &["u [m/s] at 3.5714e-3", "an outlier"]);
+    assert_told(&findings, &["u [m/s] at 7.1429e-3", "an outlier"]);
+}

@@ -1,0 +1,132 @@
+//! The simulator itself in the place of a formula: μ_s from the run-out of columns, the fluid's viscosity from velocities at
+//! which suspensions sink, to which it comes through the drag.
+
+use super::coverage::{Problem, Tally, normal, usual};
+use bagnold_validation::case::{Silent, Tier};
+use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::evaluation::{CaseRequest, Record, evaluate};
+use bagnold_validation::inference::{Budget, Plan};
+use bagnold_validation::store::{Store, StorePolicy};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// A case with one parameter, and the data that are taken from it.
+struct Simulated {
+    case: &'static str,
+    /// What differs from the quick tier.
+    with: &'static str,
+    /// The parameter's path and its value at a point.
+    setting: fn(f64) -> String,
+    /// The data of a record.
+    predict: fn(&Record) -> Vec<f64>,
+    /// How many they are.
+    data: usize,
+    /// Their relative standard uncertainty.
+    noise: f64,
+    /// Where they come from, in the unit cube.
+    truth: f64,
+    /// Step of differences in the unit cube, above the scatter of runs.
+    difference: f64,
+    /// What was simulated, by the bits of the coordinate: many seeds ask for the same points.
+    known: RefCell<BTreeMap<u64, Option<Vec<f64>>>>,
+}
+
+impl Simulated {
+    /// The data at a point; none where a run fails.
+    fn values(&self, u: f64) -> Option<Vec<f64>> {
+        let known = self.known.borrow().get(&u.to_bits()).cloned();
+        known.unwrap_or_else(|| {
+            let values = self.simulated(u);
+            self.known.borrow_mut().insert(u.to_bits(), values.clone());
+            values
+        })
+    }
+
+    fn simulated(&self, u: f64) -> Option<Vec<f64>> {
+        let with = toml::from_str(self.with).expect("parameters of the case");
+        let request = CaseRequest { case: self.case.to_owned(), name: None, tier: Tier::Quick, with };
+        let prepared = request.prepare(REGISTRY, Path::new("simulated.rs"), &[(self.setting)(u)]).ok()?;
+        let record = evaluate(prepared, &Store::open(StorePolicy::Use), &Silent).expect("threads to run it");
+        record.failure.is_none().then(|| (self.predict)(&record)).filter(|values| values.len() == self.data)
+    }
+
+    fn problem(&self, seed: u64) -> Problem<impl Fn(&[f64]) -> Option<Vec<f64>>> {
+        let exact = self.values(self.truth).expect("the truth can be simulated");
+        let noise = normal(seed, exact.len());
+        let residuals = move |u: &[f64]| {
+            let model = self.values(u[0])?;
+            Some((0..model.len()).map(|k| (model[k] / exact[k] - 1.0) / self.noise - noise[k]).collect())
+        };
+        Problem { residuals, truth: vec![self.truth] }
+    }
+
+    /// Repeats the calibration with many seeds.
+    fn study(&self, name: &str, seeds: std::ops::Range<u64>) -> Tally {
+        let plan = usual(vec![0.3]);
+        let plan = Plan { budget: Budget { difference: self.difference, ..plan.budget }, ..plan };
+        let tally = Tally::by(seeds, &plan, |seed| self.problem(seed));
+        tally.print(name);
+        println!("{} points were simulated in all", self.known.borrow().len());
+        tally
+    }
+}
+
+/// Run-outs of three columns of sand, ten particles over the half width.
+fn columns() -> Simulated {
+    Simulated {
+        case: "column-planar",
+        with: "resolution = 10\ntall_resolution = 10\nsand = { aspect_ratios = [0.9, 1.5, 3.0] }\nlagree = { aspect_ratios = [] }\n\
+               sensitivity = { aspect_ratios = [] }\nregularised = { aspect_ratios = [] }\n",
+        setting: |u| format!("sand.law.static_friction={}", 0.4 + 0.4 * u),
+        predict: |record| {
+            let run_outs = record.metrics.iter().filter(|metric| metric.name == "run_out");
+            run_outs.map(|metric| metric.value).collect()
+        },
+        data: 3,
+        noise: 0.1,
+        truth: 0.45,
+        difference: 0.05,
+        known: RefCell::default(),
+    }
+}
+
+/// Sinking velocities of three suspensions by Wen and Yu's law, means over the second half of the run.
+fn suspensions() -> Simulated {
+    Simulated {
+        case: "settling",
+        with: "grain = { laws = [] }\n\
+               suspension = { laws = [\"wen-yu\"], solid_fractions = [0.1, 0.3, 0.5], dilute_fraction = 0.0 }\n",
+        setting: |u| format!("water.kinematic_viscosity={}", 5e-7 * 8.0_f64.powf(u)),
+        predict: |record| {
+            record
+                .tables
+                .iter()
+                .filter_map(|table| {
+                    let column = table.columns.iter().position(|column| column == "sinking velocity [m/s]")?;
+                    let half = &table.rows[table.rows.len() / 2..];
+                    Some(half.iter().map(|row| row[column]).sum::<f64>() / half.len() as f64)
+                })
+                .collect()
+        },
+        data: 3,
+        noise: 0.05,
+        truth: 1.0 / 3.0,
+        difference: 0.02,
+        known: RefCell::default(),
+    }
+}
+
+#[test]
+#[ignore = "the full study: columns are simulated for a quarter of an hour"]
+fn regions_of_columns_hold_the_friction() {
+    let tally = columns().study("column run-out, μ_s", 100..112);
+    assert!(tally.joint >= 10 && tally.single[0] >= 10, "{tally:?}");
+}
+
+#[test]
+#[ignore = "the full study: suspensions are simulated for some minutes"]
+fn regions_of_suspensions_hold_the_viscosity() {
+    let tally = suspensions().study("settling, viscosity by the drag", 100..140);
+    assert!(tally.joint >= 34 && tally.single[0] >= 34, "{tally:?}");
+}
