@@ -8,4 +8,5 @@ mod literals;
 mod order;
 mod papers;
 mod planted;
+mod references;
 mod source;
