@@ -1,4 +1,5 @@
-//! Gives the crate a hash of everything that a stored result depends on, and the tables of `reference-data`.
+//! Gives the crate a hash of everything that a stored result depends on, and the texts that an installed program carries:
+//! tables of `reference-data`, accepted values, shipped calibrations and sweeps.
 
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
@@ -16,11 +17,14 @@ fn main() {
             add_file(&mut hash, &workspace, &file);
         }
     }
-    let tables = reference_tables(&package.join("reference-data"));
+    let tables = texts(&package, &["reference-data"], &["csv"]);
     for (name, file) in &tables {
         add(&mut hash, &format!("reference-data/{name}"), &std::fs::read(file).unwrap_or_default());
     }
-    embed(&tables);
+    embed("reference_data", &tables);
+    // what follows is compared with results or makes new ones, but no result depends on it
+    embed("accepted_values", &texts(&package, &["snapshots"], &["snap", "toml"]));
+    embed("plans", &texts(&package, &["calibrations", "sweeps"], &["toml", "csv"]));
     for name in ["Cargo.lock", "Cargo.toml"] {
         let file = workspace.join(name);
         println!("cargo::rerun-if-changed={}", file.display());
@@ -44,26 +48,36 @@ fn main() {
     println!("cargo::rerun-if-changed=build.rs");
 }
 
-/// The CSV files of a folder by their names in it. In the workspace the folder is a link to the common one; in a package
-/// it is a copy.
-fn reference_tables(folder: &Path) -> Vec<(String, PathBuf)> {
-    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
-    println!("cargo::rerun-if-changed={}", folder.display());
-    let is_table = |file: &PathBuf| file.extension().is_some_and(|extension| extension == "csv");
-    let name = |file: &PathBuf| file.strip_prefix(&folder).unwrap_or(file).to_string_lossy().replace('\\', "/");
-    sorted_files(&folder).into_iter().filter(is_table).map(|file| (name(&file), file)).collect()
+/// Files of some of the package's folders with such endings, by their names: in a single folder, or with the folder where
+/// there are several. In the workspace some folders are links to common ones; in a package they are copies.
+fn texts(package: &Path, folders: &[&str], endings: &[&str]) -> Vec<(String, PathBuf)> {
+    let mut texts = Vec::new();
+    for name in folders {
+        let folder = package.join(name);
+        let folder = folder.canonicalize().unwrap_or(folder);
+        println!("cargo::rerun-if-changed={}", folder.display());
+        let above = if folders.len() == 1 { String::new() } else { format!("{name}/") };
+        for file in sorted_files(&folder) {
+            let ending = file.extension().unwrap_or_default().to_string_lossy();
+            if endings.contains(&ending.as_ref()) {
+                let below = file.strip_prefix(&folder).unwrap_or(&file).to_string_lossy().replace('\\', "/");
+                texts.push((above.clone() + &below, file));
+            }
+        }
+    }
+    texts
 }
 
-/// Writes the tables as an array of names and texts that `reference/shipped.rs` includes.
-fn embed(tables: &[(String, PathBuf)]) {
-    let rows = tables.iter().fold(String::new(), |mut text, (name, file)| {
+/// Writes texts as an array of names and contents into a file for `include!`.
+fn embed(name: &str, texts: &[(String, PathBuf)]) {
+    let rows = texts.iter().fold(String::new(), |mut rows, (name, file)| {
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "    ({name:?}, include_str!({file:?})),");
-        text
+        let _ = writeln!(rows, "    ({name:?}, include_str!({file:?})),");
+        rows
     });
-    let text = format!("static FILES: [(&str, &str); {}] = [\n{rows}];\n", tables.len());
-    let out = PathBuf::from(std::env::var_os("OUT_DIR").unwrap_or_default()).join("reference_data.rs");
-    if let Err(error) = std::fs::write(&out, text) {
+    let code = format!("static FILES: [(&str, &str); {}] = [\n{rows}];\n", texts.len());
+    let out = PathBuf::from(std::env::var_os("OUT_DIR").unwrap_or_default()).join(format!("{name}.rs"));
+    if let Err(error) = std::fs::write(&out, code) {
         println!("cargo::error=failed to write {}: {error}", out.display());
     }
 }

@@ -86,6 +86,34 @@ fn the_commands_of_every_tutorial_work() {
     assert!(done >= 12, "{done} commands");
 }
 
+/// What `mdbook build` has made, for `tests/documentation/book.sh`.
+#[test]
+#[ignore = "needs a book that mdbook has built: bash tests/documentation/book.sh"]
+fn every_link_of_the_built_book_leads_somewhere() {
+    let book =
+        PathBuf::from(std::env::var_os("BAGNOLD_BOOK").expect("BAGNOLD_BOOK names the folder of the built book"));
+    let read =
+        |file: &Path| std::fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+    let mut checked = 0;
+    for page in pages().into_iter().filter(|page| !page.ends_with("SUMMARY.md")) {
+        let name = page.with_extension("html").file_name().expect("a name").to_owned();
+        let text = read(&book.join(&name));
+        let attributes = ["href=\"", "src=\""].into_iter().flat_map(|key| text.split(key).skip(1));
+        for target in attributes.filter_map(|rest| rest.split('"').next()) {
+            if target.contains("://") || target.starts_with("data:") || target.starts_with("mailto:") {
+                continue;
+            }
+            let (file, anchor) = target.split_once('#').unwrap_or((target, ""));
+            let file = if file.is_empty() { book.join(&name) } else { book.join(file) };
+            assert!(file.is_file(), "{}: {target} leads nowhere", page.display());
+            let is_there = || read(&file).contains(&format!("id=\"{anchor}\""));
+            assert!(anchor.is_empty() || is_there(), "{}: {target} names no heading", page.display());
+            checked += 1;
+        }
+    }
+    assert!(checked > 100, "{checked} links");
+}
+
 #[test]
 fn every_page_is_in_the_summary_and_every_link_leads_to_a_page() {
     let mut linked = BTreeSet::new();

@@ -8,4 +8,6 @@ mod literals;
 mod order;
 mod papers;
 mod planted;
+mod python;
+mod references;
 mod source;

@@ -72,6 +72,20 @@ pub fn asked() -> Option<Signal> {
     SIGNALS.into_iter().find(|signal| usize::from(signal.number) == number)
 }
 
+/// Asks for what a signal asks for: for programs that handle signals themselves, as a Python interpreter does.
+pub fn ask() {
+    let flags = FLAGS.get_or_init(Flags::default);
+    flags.number.store(usize::from(SIGNALS[0].number), Ordering::SeqCst);
+    flags.asked.store(true, Ordering::SeqCst);
+}
+
+/// Takes it back, once what was to end has ended: the process lives on.
+pub fn withdraw() {
+    if let Some(flags) = FLAGS.get() {
+        flags.asked.store(false, Ordering::SeqCst);
+    }
+}
+
 /// Whether the process was started with a signal ignored; where the system does not tell, it was not.
 fn is_ignored(number: u8) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -18,6 +18,8 @@ pub struct CaseFile {
     pub case: String,
     /// The tier whose parameters fill what the file leaves out.
     pub tier: Option<Tier>,
+    /// Files with measurements to be drawn into its figures; beside the file, unless they say otherwise.
+    pub overlay: Vec<PathBuf>,
     /// Everything else.
     pub fields: Table,
 }
@@ -55,7 +57,16 @@ impl CaseFile {
                 wrong("tier", &value, rule, &remedy)
             })?),
         };
-        Ok(Self { path: path.to_owned(), case, tier, fields })
+        let overlay = match fields.remove("overlay") {
+            None => Vec::new(),
+            Some(value) => value.clone().try_into::<Vec<PathBuf>>().map_err(|_| {
+                let rule = "a list of CSV files with measurements";
+                wrong("overlay", &value, rule, "such as overlay = [\"mine.csv\"]; their paths begin at this file")
+            })?,
+        };
+        let beside = path.parent().unwrap_or(Path::new(""));
+        let overlay = overlay.into_iter().map(|file| beside.join(file)).collect();
+        Ok(Self { path: path.to_owned(), case, tier, overlay, fields })
     }
 
     /// The text of a complete file: the parameters in the order of their struct, each with its note.
@@ -112,6 +123,18 @@ mod tests {
             "case.toml: `tier` is \"papre\", but must be one of `quick`, `paper`, `fine`; did you mean `paper`?"
         );
         assert!(message("case = \"film\"\ndepth = = 1").starts_with("case.toml: line 2, column 9: "));
+    }
+
+    #[test]
+    fn measurements_are_files_beside_it() {
+        let read = |text: &str| CaseFile::parse(Path::new("mine/case.toml"), text);
+        let file = read("case = \"film\"\noverlay = [\"a.csv\", \"/b.csv\"]").expect("a case file");
+        assert_eq!(file.overlay, [Path::new("mine/a.csv"), Path::new("/b.csv")]);
+        assert!(file.fields.is_empty());
+        assert_eq!(
+            read("case = \"film\"\noverlay = 3").expect_err("no list").to_string(),
+            "mine/case.toml: `overlay` is 3, but must be a list of CSV files with measurements; such as overlay = [\"mine.csv\"]; their paths begin at this file"
+        );
     }
 
     #[test]

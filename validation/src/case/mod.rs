@@ -16,6 +16,7 @@ mod notes;
 pub(crate) mod pendulum;
 pub mod recording;
 mod registry;
+mod request;
 mod result;
 mod schedule;
 mod schema;
@@ -27,6 +28,7 @@ pub use estimate::{Estimate, Limits};
 pub use file::CaseFile;
 pub use foreign::{Columns, Foreign, ForeignResult, Form, Given, Item, Picture};
 pub use registry::Registry;
+pub use request::{Request, Requested};
 pub use result::{CaseResult, RunSummary};
 pub use schedule::{Monitor, Silent, execute, share_out};
 

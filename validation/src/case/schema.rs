@@ -18,6 +18,9 @@ pub(super) fn of_file(case: &str, summary: &str, tier: Tier, parameters: &Schema
     let mut fields = Map::new();
     fields.insert("case".to_owned(), json!({ "type": "string", "const": case, "description": summary }));
     fields.insert("tier".to_owned(), tiers);
+    let overlay = "CSV files with measurements to be drawn into the case's figures; their paths begin at this file.";
+    let files = json!({ "type": "array", "items": { "type": "string" }, "default": [], "description": overlay });
+    fields.insert("overlay".to_owned(), files);
     let mut parameters = parameters.clone();
     fill(&mut parameters, &Value::Table(defaults.clone()));
     if let Some(Schema::Object(properties)) = parameters.get_mut("properties").map(Schema::take) {

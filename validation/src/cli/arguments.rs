@@ -1,10 +1,12 @@
 //! What can be typed: the commands, their options and their help.
 
+mod examples;
 mod foreign;
 mod sweep;
 mod upkeep;
 mod work;
 
+pub(super) use examples::Examples;
 pub(super) use foreign::{Compare, Export, Judge};
 pub(super) use sweep::{Cluster, Engine, Sweep, SweepAction};
 #[cfg(feature = "planted-errors")]
@@ -24,6 +26,7 @@ const EXAMPLES: &str = "Examples:
   bagnold run my.toml --out results            run the edited file
   bagnold report                               all cases, judged on one page: reports/index.html
   bagnold judge mine.toml                      another code's results under the same gates
+  bagnold examples --out examples              calibrations and sweeps to begin with
 
 Exit codes: 0 all gates hold, 1 a gate fails, 2 bad input, 3 a run diverged.";
 
@@ -33,10 +36,19 @@ const RUN_EXAMPLES: &str = "Examples:
   bagnold run my.toml --set resolution=30 --set numerics.hourglass=0.1
   bagnold run column-planar --only material=sand,aspect_ratio=3
   bagnold run film --json > metrics.json
+  bagnold run film --overlay mine.csv
 
 A file names its case with `case = \"film\"` and takes from the tier what it leaves out; `bagnold show film`
-prints a complete one. Values of --set are TOML; fields inside tables are reached by dots. The folder
-receives index.html, case.toml, metrics.json, provenance.json, tables/*.csv, reference/*.csv, figures/ and
+prints a complete one. Values of --set are TOML; fields inside tables are reached by dots.
+
+Measurements for --overlay are a table of three columns, named as the axes of a figure are, with units:
+
+  # source: own flume, May
+  # limit: 2                       largest root mean square residual; without it nothing is judged
+  y/h [-],u [cm/s],uncertainty [cm/s]
+  0.3,8.6,0.3
+
+`# figure:`, `# panel:` and `# curve:` say which is meant where there are several. The folder receives index.html, case.toml, metrics.json, provenance.json, tables/*.csv, reference/*.csv, figures/ and
 snapshots/*.pvd for ParaView.
 
 Exit codes: 0 all gates hold, 1 a gate fails, 2 bad input, 3 a run diverged.";
@@ -51,7 +63,8 @@ The report is one self-contained folder: open its index.html, which leads to a p
 Exit codes: 0 all gates hold, 1 a gate fails or, with --deny drift, a value has drifted, 2 bad input, 3 a run diverged.";
 
 const CALIBRATE_EXAMPLES: &str = "Examples:
-  bagnold calibrate validation/calibrations/lube-run-out.toml
+  bagnold examples --out examples
+  bagnold calibrate examples/calibrations/lube-run-out.toml
   bagnold calibrate my.toml --out mine
   bagnold run mine/calibrated.toml
 
@@ -105,6 +118,8 @@ pub enum Command {
     Export(Export),
     /// Put results that were written earlier beside each other.
     Compare(Compare),
+    /// Write the calibrations and sweeps that ship with bagnold, to run or to edit.
+    Examples(Examples),
     /// Print a shell's completions, or the manual page.
     Completions(Completions),
     /// Simulate many cases and write one page about them.
@@ -147,6 +162,9 @@ pub struct Run {
     /// Do the runs with these keys only, such as material=sand,aspect_ratio=3; may be repeated.
     #[arg(long, value_name = "key=value,…")]
     pub only: Vec<crate::metric::Variant>,
+    /// Draw measurements into the case's figure with their axes, and say how far the case is from them; may be repeated.
+    #[arg(long, value_name = "FILE.csv")]
+    pub overlay: Vec<PathBuf>,
     /// Folder to write [default: reports/runs/CASE-TIER].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -201,7 +219,8 @@ pub struct Report {
     /// Folder to write.
     #[arg(long, value_name = "DIR", default_value = "reports")]
     pub out: PathBuf,
-    /// Accept these values: later reports and the drift test are compared with them.
+    /// Accept these values: later reports and the drift test are compared with them. They go to tests/snapshots of the
+    /// checkout that one works in, else to snapshots in the current folder, which goes before what bagnold carries.
     #[arg(long)]
     pub accept: bool,
     /// Compare with an earlier report's folder instead of the accepted values.

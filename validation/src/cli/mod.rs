@@ -7,11 +7,13 @@ mod completions;
 mod count;
 mod display;
 mod error;
+mod examples;
 mod exit;
 mod judge;
 mod logging;
 #[cfg(feature = "planted-errors")]
 mod mutate;
+mod places;
 mod progress;
 mod report;
 mod run;
@@ -115,6 +117,7 @@ pub fn execute(
             in_pool(&command.work, || calibrate::run(command, registry, arguments.quiet, output))
         }
         Command::Completions(command) => Ok(completions::completions(command, output)),
+        Command::Examples(command) => examples::examples(command, output),
         Command::Compare(command) => compare::compare(command, output),
         Command::Judge(command) => in_pool(&command.work, || judge::judge(command, registry, arguments.quiet, output)),
         Command::Export(command) => {

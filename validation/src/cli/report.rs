@@ -3,14 +3,13 @@
 use super::arguments::{Denied, Report as Arguments};
 use super::error::ProgramError;
 use super::run::{announce, simulate};
-use super::{Exit, say, summary};
+use super::{Exit, places, say, summary};
 use crate::case::{CaseResult, Changes, ParameterError, Prepared, Registry, Tier};
 use crate::output::OutputFolder;
 use crate::report::{self, Baseline, CaseReport, History, KnownFailures, Provenance, Report, Standing, history};
 use crate::result::MetricsDocument;
 use crate::store::provenance;
 use std::io::Write;
-use std::path::PathBuf;
 use std::time::Instant;
 
 /// Simulates and judges the cases, writes the page and prints what fails.
@@ -24,8 +23,8 @@ pub(super) fn report(
     let names: Vec<String> = cases.iter().map(|case| case.name().to_owned()).collect();
     let mut baseline = baseline(command, &names)?;
     let claimed = OutputFolder::claim(&command.out)?;
-    let known = known_failures()?;
-    let history = History::read(&history_file(), command.tier)?;
+    let known = places::known_failures()?;
+    let history = History::read(&places::history_file(), command.tier)?;
     announce(&cases, quiet);
     let started = Instant::now();
     let results = simulate(cases, &command.work.open_store(), quiet)?;
@@ -34,9 +33,9 @@ pub(super) fn report(
         let commit = provenance::commit();
         for result in &results {
             let fresh = Baseline::of(&result.name, &result.metrics);
-            fresh.write(&accepted_folder(), &result.name, command.tier)?;
+            fresh.write(&places::accepted_folder(), &result.name, command.tier)?;
             let made_by = (provenance::version(), commit.as_str());
-            history::append(&history_file(), made_by, command.tier, &result.name, &result.metrics)?;
+            history::append(&places::history_file(), made_by, command.tier, &result.name, &result.metrics)?;
             baseline.extend(fresh);
         }
     }
@@ -78,7 +77,7 @@ fn baseline(command: &Arguments, cases: &[String]) -> Result<Baseline, ProgramEr
     }
     let mut baseline = Baseline::default();
     for case in cases {
-        baseline.extend(accepted(case, command.tier)?);
+        baseline.extend(places::accepted(case, command.tier)?);
     }
     Ok(baseline)
 }
@@ -128,31 +127,6 @@ pub(super) fn case_report(result: &CaseResult) -> CaseReport {
         runs: result.runs.clone(),
         metrics_json: MetricsDocument::of(result, rayon::current_num_threads()).text(),
     }
-}
-
-/// The project's own folder of reports, with what is committed in it.
-fn reports_folder() -> PathBuf {
-    provenance::workspace().map_or_else(|| PathBuf::from("reports"), |root| root.join("reports"))
-}
-
-/// The committed folder with accepted values and known failures.
-fn accepted_folder() -> PathBuf {
-    provenance::workspace().map_or_else(|| PathBuf::from("snapshots"), |root| root.join("tests").join("snapshots"))
-}
-
-/// The accepted values of a case; none where nothing has been accepted.
-pub(super) fn accepted(case: &str, tier: Tier) -> Result<Baseline, ProgramError> {
-    Ok(Baseline::read(&accepted_folder(), case, tier)?)
-}
-
-/// The committed figures over time.
-fn history_file() -> PathBuf {
-    reports_folder().join("history.csv")
-}
-
-/// The gates that are known to fail, from `tests/snapshots/known_failures.toml`.
-pub(super) fn known_failures() -> Result<KnownFailures, ProgramError> {
-    Ok(KnownFailures::read(&accepted_folder().join("known_failures.toml"))?)
 }
 
 /// Whether a failing gate is listed, and fails as listed.

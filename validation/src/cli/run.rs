@@ -3,11 +3,9 @@
 use super::arguments::Run;
 use super::error::ProgramError;
 use super::progress::Progress;
-use super::{Exit, say, summary};
-use crate::case::{
-    AnyCase, CaseFile, CaseResult, Changes, Estimate, ParameterError, Prepared, Registry, Tier, execute,
-};
-use crate::metric::Variant;
+use super::{Exit, places, say, summary};
+use crate::case::{CaseResult, Estimate, ParameterError, Prepared, Registry, Request, Requested, execute};
+use crate::judge::{self, Measurements};
 use crate::output::{FileError, OutputFolder};
 use crate::report::{self, Baseline, History, Provenance, Report};
 use crate::result::{MetricsDocument, write_case};
@@ -23,7 +21,16 @@ pub(super) fn run(
     quiet: bool,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
-    let (prepared, tier, changed) = prepare(command, registry)?;
+    let request = Request {
+        target: &command.target,
+        tier: command.tier,
+        settings: &command.settings,
+        only: &command.only,
+        limits: command.allowance.limits(),
+    };
+    let Requested { prepared, tier, overlay, changed } = request.prepare(registry)?;
+    let overlay: Vec<Measurements> =
+        overlay.iter().chain(&command.overlay).map(|file| Measurements::read(file)).collect::<Result<_, _>>()?;
     let folder =
         command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/runs/{}-{tier}", prepared.name())));
     if command.out.is_none() {
@@ -31,16 +38,21 @@ pub(super) fn run(
     }
     let claimed = OutputFolder::claim(&folder)?;
     announce(std::slice::from_ref(&prepared), quiet || command.json);
-    let known = super::report::known_failures()?;
+    let known = places::known_failures()?;
     // accepted values are those of the case as it comes
-    let baseline = if changed { Baseline::default() } else { super::report::accepted(prepared.name(), tier)? };
+    let baseline = if changed { Baseline::default() } else { places::accepted(prepared.name(), tier)? };
     let started = Instant::now();
-    let results = simulate(vec![prepared], &command.work.open_store(), quiet)?;
+    let mut results = simulate(vec![prepared], &command.work.open_store(), quiet)?;
+    for result in &mut results {
+        judge::draw_measured(result, &overlay)?;
+    }
 
     let threads = rayon::current_num_threads();
     for result in &results {
         let document = MetricsDocument::of(result, threads);
-        write_case(claimed.staging(), result, &document).map_err(|error| FileError::unwritable(&folder, &error))?;
+        write_case(claimed.staging(), result, &document)
+            .and_then(|()| overlay.iter().try_for_each(|own| own.keep(claimed.staging())))
+            .map_err(|error| FileError::unwritable(&folder, &error))?;
         if command.json {
             say(output, &document.text());
         }
@@ -93,52 +105,4 @@ pub(super) fn simulate(
     let results = execute(cases, store, &progress);
     progress.clear();
     results
-}
-
-/// The case that the target means, with the changes asked for, its tier, and whether anything may have been changed.
-fn prepare(command: &Run, registry: Registry) -> Result<(Box<dyn Prepared>, Tier, bool), ProgramError> {
-    let (case, tier, file): (&'static dyn AnyCase, _, _) = if names_a_file(&command.target, registry) {
-        let file = CaseFile::read(Path::new(&command.target))?;
-        let case = registry.find(&file.case).map_err(|error| error.in_file(&file.path))?;
-        (case, command.tier.or(file.tier), Some(file))
-    } else {
-        (registry.find(&command.target)?, command.tier, None)
-    };
-    let tier = tier.unwrap_or(Tier::Quick);
-    let changes = Changes {
-        file: file.as_ref().map(|file| (file.path.as_path(), file.fields.clone())),
-        settings: &command.settings,
-        limits: command.allowance.limits(),
-    };
-    let changed = file.is_some() || !command.settings.is_empty() || !command.only.is_empty();
-    Ok((only(case.prepare(tier, &changes)?, &command.only)?, tier, changed))
-}
-
-/// The runs that have all keys of any of the variants asked for; all where none is asked for.
-fn only(prepared: Box<dyn Prepared>, asked: &[Variant]) -> Result<Box<dyn Prepared>, ParameterError> {
-    if asked.is_empty() {
-        return Ok(prepared);
-    }
-    let variants: Vec<Variant> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
-    let has = |asked: &Variant| variants.iter().any(|variant| variant.includes(asked));
-    if let Some(missing) = asked.iter().find(|asked| !has(asked)) {
-        let listed: Vec<String> = variants.iter().take(5).map(|variant| format!("\"{variant}\"")).collect();
-        let rule = format!("keys of a run of this case and tier, such as {}", listed.join(", "));
-        return Err(ParameterError::field(
-            "--only",
-            format!("\"{missing}\""),
-            &rule,
-            "leave out keys to mean several runs",
-        ));
-    }
-    let runs: Vec<usize> =
-        (0..variants.len()).filter(|&run| asked.iter().any(|asked| variants[run].includes(asked))).collect();
-    Ok(prepared.choose(&runs))
-}
-
-/// A case goes before a file of the same name; what looks like a path is meant as one.
-fn names_a_file(target: &str, registry: Registry) -> bool {
-    let path = Path::new(target);
-    registry.find(target).is_err()
-        && (path.components().count() > 1 || path.extension().is_some_and(|ending| ending == "toml") || path.is_file())
 }

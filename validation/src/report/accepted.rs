@@ -2,6 +2,7 @@
 //! report and the drift test read the same files and compare in the same way.
 
 use super::error::BaselineError;
+use super::shipped;
 use super::snapshot_text::{self, Line};
 use crate::case::Tier;
 use crate::figure::is_file_name;
@@ -157,8 +158,24 @@ impl Baseline {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
             Err(source) => return Err(BaselineError::Read { path, source }),
         };
+        Self::parse(path, &text, case, tier)
+    }
+
+    /// The values of `case` that the program carries; none where there are none.
+    ///
+    /// # Errors
+    /// If they are malformed, which a test excludes.
+    pub fn shipped(case: &str, tier: Tier) -> Result<Self, BaselineError> {
+        let path = Self::path(Path::new(""), case, tier);
+        match shipped::text(&path) {
+            Some(text) => Self::parse(path, text, case, tier),
+            None => Ok(Self::default()),
+        }
+    }
+
+    fn parse(path: PathBuf, text: &str, case: &str, tier: Tier) -> Result<Self, BaselineError> {
         let refuse = |message: String| BaselineError::Content { path: path.clone(), message };
-        let lines = snapshot_text::parse(&text, case, tier_name(tier)).map_err(refuse)?;
+        let lines = snapshot_text::parse(text, case, tier_name(tier)).map_err(refuse)?;
         let mut read = Self::default();
         for (line, row) in lines.into_iter().enumerate() {
             let key = Key { case: case.to_owned(), metric: row.name.to_owned(), variant: row.variant.clone() };

@@ -36,6 +36,9 @@ pub fn append(
     metrics: &[Metric],
 ) -> Result<(), BaselineError> {
     let write_error = |source| BaselineError::Write { path: path.to_owned(), source };
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(write_error)?;
+    }
     let is_new = !path.exists();
     let file = std::fs::OpenOptions::new().create(true).append(true).open(path).map_err(write_error)?;
     let mut writer = csv::WriterBuilder::new().has_headers(is_new).from_writer(file);

@@ -2,6 +2,7 @@
 
 use super::accepted::{Key, snapshot_tolerance};
 use super::error::BaselineError;
+use super::shipped;
 use crate::input::{WRITTEN_BY_HAND, read_text};
 use crate::metric::{Metric, Variant, Verdict};
 use serde::{Deserialize, Serialize};
@@ -80,8 +81,21 @@ impl KnownFailures {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
             Err(source) => return Err(BaselineError::Read { path: path.to_owned(), source }),
         };
+        Self::parse(path, &text)
+    }
+
+    /// The list that the program carries.
+    ///
+    /// # Errors
+    /// If it is malformed, which a test excludes.
+    pub fn shipped() -> Result<Self, BaselineError> {
+        let path = Path::new("known_failures.toml");
+        shipped::text(path).map_or_else(|| Ok(Self::default()), |text| Self::parse(path, text))
+    }
+
+    fn parse(path: &Path, text: &str) -> Result<Self, BaselineError> {
         let refuse = |message: String| BaselineError::Content { path: path.to_owned(), message };
-        let list: Self = toml::from_str(&text).map_err(|error| refuse(error.to_string().trim_end().to_owned()))?;
+        let list: Self = toml::from_str(text).map_err(|error| refuse(error.to_string().trim_end().to_owned()))?;
         for (index, failure) in list.failures.iter().enumerate() {
             let name = format!("failure {} ({} {} {})", index + 1, failure.case, failure.metric, failure.variant);
             if failure.reason.trim().is_empty() || failure.date.trim().is_empty() {

@@ -15,6 +15,7 @@ pub mod papers;
 mod papers_page;
 mod rows;
 pub mod scatter;
+mod shipped;
 mod snapshot_text;
 mod template;
 mod view;

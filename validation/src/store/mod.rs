@@ -9,6 +9,7 @@ pub use provenance::{commit, profile, source_hash, target_features, version, wor
 
 use crate::checkpoint::Checkpoints;
 use crate::observation::Recorded;
+use etcetera::BaseStrategy;
 use serde::{Serialize, de::DeserializeOwned};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -52,13 +53,17 @@ impl std::fmt::Display for Key {
 }
 
 impl Store {
-    /// The store at its usual place: `BAGNOLD_STORE`, else `reports/store` in the workspace that this
-    /// program was built in, else `.bagnold-store` in the current folder.
+    /// The store at its usual place: `BAGNOLD_STORE`; else, if one works in the workspace that this program was built
+    /// in, its `reports/store`; else `bagnold` in the platform's folder for caches; else, without a home,
+    /// `.bagnold-store` in the current folder.
     #[must_use]
     pub fn open(policy: StorePolicy) -> Self {
         let root = match std::env::var_os("BAGNOLD_STORE") {
             Some(path) if !path.is_empty() => PathBuf::from(path),
-            _ => workspace().map_or_else(|| PathBuf::from(".bagnold-store"), |root| root.join("reports").join("store")),
+            _ => workspace()
+                .map(|root| root.join("reports").join("store"))
+                .or_else(cache_folder)
+                .unwrap_or_else(|| PathBuf::from(".bagnold-store")),
         };
         Self::at(&root, policy)
     }
@@ -170,6 +175,12 @@ impl Store {
             }
         }
     }
+}
+
+/// Where the platform keeps what can be made again, such as `~/.cache/bagnold`.
+fn cache_folder() -> Option<PathBuf> {
+    let folders = etcetera::base_strategy::choose_native_strategy().ok()?;
+    Some(folders.cache_dir().join("bagnold"))
 }
 
 fn is_version(name: &str) -> bool {

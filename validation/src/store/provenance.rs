@@ -26,14 +26,20 @@ pub fn target_features() -> &'static str {
     env!("BAGNOLD_TARGET_FEATURES")
 }
 
-/// The workspace that this program was built in, if it is still there.
+/// The workspace that this program was built in, if the current folder lies in it. Elsewhere an installed program must
+/// neither read nor write a checkout that happens to be there still.
 #[must_use]
 pub fn workspace() -> Option<&'static Path> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent()?;
-    root.join("Cargo.lock").is_file().then_some(root)
+    is_worked_in(root, &std::env::current_dir().ok()?).then_some(root)
 }
 
-/// Commit checked out in the workspace, or `unknown`. Read when asked for, since a build script that
+/// Whether a folder is a workspace and holds the current one, which has no links in its path.
+fn is_worked_in(root: &Path, current: &Path) -> bool {
+    root.join("Cargo.lock").is_file() && root.canonicalize().is_ok_and(|root| current.starts_with(root))
+}
+
+/// Commit checked out in the workspace that one works in, or `unknown`. Read when asked for, since a build script that
 /// watched it would rebuild the crate on every commit.
 #[must_use]
 pub fn commit() -> String {
@@ -76,6 +82,17 @@ mod tests {
     use super::*;
 
     const ID: &str = "0123456789abcdef0123456789abcdef01234567";
+
+    #[test]
+    fn a_workspace_counts_where_one_works_in_it() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let root = folder.path().canonicalize().expect("there");
+        assert!(!is_worked_in(&root, &root), "no workspace");
+        std::fs::write(root.join("Cargo.lock"), "").expect("writable");
+        assert!(is_worked_in(&root, &root) && is_worked_in(&root, &root.join("tests")));
+        assert!(!is_worked_in(&root, root.parent().expect("a temporary folder lies somewhere")));
+        assert!(workspace().is_some(), "tests are run in the workspace");
+    }
 
     #[test]
     fn the_commit_is_found_loose_packed_detached_or_not_at_all() {

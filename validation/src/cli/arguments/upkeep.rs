@@ -33,7 +33,8 @@ pub struct Store {
     /// What to do.
     #[command(subcommand)]
     pub action: StoreAction,
-    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the workspace].
+    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the checkout
+    /// that one works in, else the user's cache].
     #[arg(long, value_name = "DIR", global = true)]
     pub store: Option<PathBuf>,
 }

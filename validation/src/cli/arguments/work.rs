@@ -32,7 +32,8 @@ pub struct Work {
     /// Seconds between two checkpoints of a run [default: 60, up to 120 where one costs over 1 %].
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub checkpoint_interval: Option<Duration>,
-    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the workspace].
+    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the checkout
+    /// that one works in, else the user's cache].
     #[arg(long, value_name = "DIR")]
     pub store: Option<PathBuf>,
 }

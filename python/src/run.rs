@@ -1,0 +1,79 @@
+//! One case, simulated and judged in memory.
+
+use crate::results::{Figures, particles, table};
+use crate::waiting::{Refused, wait_for};
+use bagnold_validation::case::{CaseResult, Limits, ParameterError, Request, Requested, Silent, Tier, execute};
+use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::cli::ProgramError;
+use bagnold_validation::judge::{Measurements, draw_measured};
+use bagnold_validation::metric::Variant;
+use bagnold_validation::result::MetricsDocument;
+use bagnold_validation::store::{Store, StorePolicy};
+use clap::ValueEnum;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use std::path::PathBuf;
+
+/// Simulates a case, or takes its runs from the store, and judges it.
+#[pyfunction]
+#[pyo3(signature = (target, *, tier=None, settings=Vec::new(), only=Vec::new(), overlay=Vec::new(), fresh=false, threads=None, store=None))]
+#[expect(clippy::too_many_arguments, reason = "they are keywords, and stand for the options of `bagnold run`")]
+pub(crate) fn run<'py>(
+    py: Python<'py>,
+    target: &str,
+    tier: Option<&str>,
+    settings: Vec<String>,
+    only: Vec<String>,
+    overlay: Vec<PathBuf>,
+    fresh: bool,
+    threads: Option<u16>,
+    store: Option<PathBuf>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let refused = |text: String| Refused::new_err(text);
+    let tier = tier.map(|name| Tier::from_str(name, false)).transpose().map_err(|_| {
+        refused(format!("`tier` must be one of \"quick\", \"paper\", \"fine\", but is {:?}", tier.unwrap_or_default()))
+    })?;
+    let only: Vec<Variant> = only
+        .iter()
+        .map(|text| text.parse().map_err(|error| refused(format!("`only` is {text:?}: {error}"))))
+        .collect::<PyResult<_>>()?;
+    let policy = if fresh { StorePolicy::Refresh } else { StorePolicy::Use };
+    let (result, document) = wait_for(py, threads, || {
+        let request = Request { target, tier, settings: &settings, only: &only, limits: Limits::of(None, None) };
+        let Requested { prepared, overlay: named, .. } = request.prepare(REGISTRY)?;
+        let measured =
+            named.iter().chain(&overlay).map(|file| Measurements::read(file)).collect::<Result<Vec<_>, _>>()?;
+        let store = store.map_or_else(|| Store::open(policy), |folder| Store::at(&folder, policy));
+        let mut result = execute(vec![prepared], &store, &Silent)?.pop().ok_or(ParameterError::Interrupted)?;
+        draw_measured(&mut result, &measured)?;
+        let document = MetricsDocument::of(&result, rayon::current_num_threads()).text();
+        Ok::<_, ProgramError>((result, document))
+    })?;
+    described(py, result, document)
+}
+
+/// The result as Python's own values and arrays.
+fn described(py: Python<'_>, result: CaseResult, document: String) -> PyResult<Bound<'_, PyDict>> {
+    let described = PyDict::new(py);
+    described.set_item("document", document)?;
+    let parameters: toml::Table = toml::from_str(&result.parameters_toml)
+        .map_err(|error| Refused::new_err(format!("failed to read the parameters as run: {error}")))?;
+    let parameters = serde_json::to_string(&parameters)
+        .map_err(|error| Refused::new_err(format!("failed to read the parameters as run: {error}")))?;
+    described.set_item("parameters", parameters)?;
+    described.set_item("case_file", result.parameters_toml)?;
+    described.set_item("description", result.description)?;
+    let tables = PyDict::new(py);
+    for own in &result.tables {
+        tables.set_item(&own.name, table(py, own)?)?;
+    }
+    described.set_item("tables", tables)?;
+    let frames = PyDict::new(py);
+    for (run, own) in result.runs.iter().zip(result.frames) {
+        let pictures = own.into_iter().map(|frame| particles(py, frame)).collect::<PyResult<Vec<_>>>()?;
+        frames.set_item(run.variant.to_string(), PyList::new(py, pictures)?)?;
+    }
+    described.set_item("frames", frames)?;
+    described.set_item("figures", Figures(result.figures).into_pyobject(py)?)?;
+    Ok(described)
+}

@@ -1,0 +1,43 @@
+"""Other threads go on while Bagnold simulates, and Ctrl-C ends it."""
+
+import os
+import signal
+import threading
+import time
+
+import bagnold
+import pytest
+
+LONG = {"slope_angles": [24.0], "runaway_slope_angles": [], "resolution": 60}
+
+
+def test_other_threads_go_on_and_an_interrupted_run_goes_on_later():
+    counted = 0
+    done = threading.Event()
+
+    def count():
+        nonlocal counted
+        while not done.wait(0.01):
+            counted += 1
+
+    def interrupt():
+        time.sleep(1.5)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threads = [threading.Thread(target=count), threading.Thread(target=interrupt)]
+    for thread in threads:
+        thread.start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        bagnold.run("bagnold", only="slope_angle=24,start=rest", **LONG)
+    took = time.monotonic() - begin
+    done.set()
+    for thread in threads:
+        thread.join()
+    assert took < 20, f"it took {took} s to end"
+    assert counted > 20, "the interpreter was free"
+    checkpoints = [file for _, _, files in os.walk(os.environ["BAGNOLD_STORE"]) for file in files if file.endswith("checkpoint")]
+    assert checkpoints, "what was computed is kept"
+    # the interruption is over: the next run is not ended by it
+    cheap = {"fluids": ["newtonian"], "convergence_resolutions": [], "comparison_resolution": 0, "resolution": 10}
+    assert bagnold.run("film", **cheap, fresh=True).holds

@@ -1,0 +1,20 @@
+//! The command that unpacks what ships with the program.
+
+use clap::Args;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "Examples:
+  bagnold examples --out examples
+  bagnold calibrate examples/calibrations/mu-i-from-profiles.toml
+  bagnold sweep examples/sweeps/bed-load-1d-map.toml
+
+The folder receives calibrations/*.toml with their data and sweeps/*.toml.";
+
+/// `bagnold examples`
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Examples {
+    /// Folder to write.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}

@@ -1,0 +1,175 @@
+//! Where measurements belong: the panel whose axes are theirs, and its curves.
+
+use super::reading::same_kind;
+use super::{Column, Measurements};
+use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::input::FieldError;
+use std::collections::BTreeSet;
+
+/// A panel with the axes of the measurements.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    /// Number of the figure.
+    pub(super) figure: usize,
+    /// Number of its panel.
+    pub(super) panel: usize,
+    /// Whether what was measured stands on the horizontal axis, as velocities over the depth do.
+    pub(super) is_across: bool,
+    /// Factors to the units of the axes: of the abscissa, of what was measured `[-]`.
+    pub(super) factors: (f64, f64),
+}
+
+/// A curve of the panel beside the measurements.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Curve {
+    /// Its legend.
+    pub(super) label: String,
+    /// Root mean square of (curve − measurement)/uncertainty where the curve has a value `[-]`.
+    pub(super) residual: f64,
+}
+
+impl Place {
+    /// The only panel with these axes that fits what the file says.
+    pub(super) fn of(measurements: &Measurements, figures: &[Figure]) -> Result<Self, FieldError> {
+        let mut found = Vec::new();
+        for (figure, own) in figures.iter().enumerate() {
+            for (panel, drawn) in own.panels.iter().enumerate() {
+                let said = &measurements.said;
+                let is_meant = said.figure.as_ref().is_none_or(|name| *name == own.name)
+                    && said.panel.as_ref().is_none_or(|title| *title == drawn.title);
+                if let Some(place) = Self::at(measurements, drawn).filter(|_| is_meant) {
+                    found.push(Self { figure, panel, ..place });
+                }
+            }
+        }
+        match found.as_slice() {
+            [only] => Ok(*only),
+            [] => Err(none(measurements, figures)),
+            several => Err(too_many(measurements, figures, several)),
+        }
+    }
+
+    fn at(measurements: &Measurements, panel: &Panel) -> Option<Self> {
+        let (over, what) = (&measurements.abscissa, &measurements.measured);
+        let has_curves = panel.field.is_none() && panel.series.iter().any(is_ours);
+        let fit = |x: &Column, y: &Column| Some((factor(x, &panel.x)?, factor(y, &panel.y)?));
+        let place = |is_across, factors| Self { figure: 0, panel: 0, is_across, factors };
+        let upright = fit(over, what).map(|factors| place(false, factors));
+        let across = fit(what, over).map(|(what, over)| place(true, (over, what)));
+        upright.or(across).filter(|_| has_curves)
+    }
+
+    /// A point of a curve or measurement as (abscissa, value).
+    pub(super) fn turned(&self, (x, y): (f64, f64)) -> (f64, f64) {
+        if self.is_across { (y, x) } else { (x, y) }
+    }
+
+    /// The curves that are compared, with their residuals.
+    pub(super) fn curves(&self, measurements: &Measurements, figures: &[Figure]) -> Result<Vec<Curve>, FieldError> {
+        let panel = &figures[self.figure].panels[self.panel];
+        let meant = |series: &&Series| {
+            is_ours(series) && measurements.said.curve.as_ref().is_none_or(|label| *label == series.label)
+        };
+        let series: Vec<&Series> = panel.series.iter().filter(meant).collect();
+        if let (Some(label), true) = (&measurements.said.curve, series.is_empty()) {
+            let labels: Vec<String> =
+                panel.series.iter().filter(|one| is_ours(one)).map(|one| format!("`{}`", one.label)).collect();
+            let rule = format!("the legend of a curve of {}: {}", figures[self.figure].name, labels.join(", "));
+            let error = FieldError::new("# curve", format!("\"{label}\""), &rule, "without it all are compared");
+            return Err(error.in_file(&measurements.path));
+        }
+        let residual = |series: &&Series| {
+            Some(Curve { label: series.label.clone(), residual: self.residual(measurements, &series.points)? })
+        };
+        let curves: Vec<Curve> = series.iter().filter_map(residual).collect();
+        if curves.is_empty() {
+            let (name, figure) = (&measurements.abscissa.name, &figures[self.figure].name);
+            let values = measurements.abscissa.values.iter().map(|value| value * self.factors.0);
+            let rule = format!("where a curve of {figure} has a value; {}", reach(self, &series));
+            let error = FieldError::new(name, range(values), &rule, "check the unit and the origin of the abscissa");
+            return Err(error.in_file(&measurements.path));
+        }
+        Ok(curves)
+    }
+
+    /// None where the curve has no value at any measurement.
+    fn residual(&self, measurements: &Measurements, points: &[(f64, f64)]) -> Option<f64> {
+        let mut curve: Vec<(f64, f64)> = points.iter().map(|point| self.turned(*point)).collect();
+        curve.retain(|(x, y)| x.is_finite() && y.is_finite());
+        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (to_x, to_y) = self.factors;
+        let given = measurements.abscissa.values.iter().zip(&measurements.measured.values);
+        let squares: Vec<f64> = given
+            .zip(&measurements.uncertainty)
+            .filter_map(|((x, y), uncertainty)| {
+                let residual = (value_at(&curve, x * to_x)? - y * to_y) / (uncertainty * to_y);
+                Some(residual * residual)
+            })
+            .collect();
+        (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+    }
+}
+
+/// The value of a curve between its points; none beyond its ends.
+fn value_at(curve: &[(f64, f64)], x: f64) -> Option<f64> {
+    let after = curve.partition_point(|point| point.0 < x);
+    let &(right, above) = curve.get(after)?;
+    if right == x {
+        return Some(above);
+    }
+    let &(left, below) = curve.get(after.checked_sub(1)?)?;
+    Some(below + (above - below) * (x - left) / (right - left))
+}
+
+/// What a simulation has drawn.
+fn is_ours(series: &Series) -> bool {
+    series.mark != Mark::Reference && series.points.len() > 1
+}
+
+/// The factor from a column's unit to that of an axis of its name.
+fn factor(column: &Column, axis: &Axis) -> Option<f64> {
+    let label = axis.label.trim();
+    let parted = label.strip_suffix(']').and_then(|label| label.rsplit_once('['));
+    let (name, unit) = parted.map_or((label, "-"), |(name, unit)| (name.trim(), unit.trim()));
+    if name == column.name { same_kind(&column.unit, unit) } else { None }
+}
+
+fn axes(measurements: &Measurements) -> String {
+    let heading = |column: &Column| format!("{} [{}]", column.name, column.unit);
+    format!("{} over {}", heading(&measurements.measured), heading(&measurements.abscissa))
+}
+
+fn none(measurements: &Measurements, figures: &[Figure]) -> FieldError {
+    let panels = figures.iter().flat_map(|figure| figure.panels.iter().map(move |panel| (figure, panel)));
+    let drawn = panels.filter(|(_, panel)| panel.field.is_none() && panel.series.iter().any(is_ours));
+    let there: BTreeSet<String> =
+        drawn.map(|(figure, panel)| format!("{}: {} and {}", figure.name, panel.x.label, panel.y.label)).collect();
+    let there: Vec<String> = there.into_iter().collect();
+    let rule = format!("the axes of one of the case's figures, in names and kinds of units ({})", there.join("; "));
+    let remedy = "name the columns as the axes are labelled, with any unit of the same kind";
+    FieldError::new("columns", axes(measurements), &rule, remedy).in_file(&measurements.path)
+}
+
+fn too_many(measurements: &Measurements, figures: &[Figure], several: &[Place]) -> FieldError {
+    let name = |place: &Place| {
+        let figure = &figures[place.figure];
+        let title = &figure.panels[place.panel].title;
+        if title.is_empty() { figure.name.clone() } else { format!("{}, panel {title}", figure.name) }
+    };
+    let names: Vec<String> = several.iter().map(name).collect();
+    let rule = format!("the axes of a single panel, but these have them: {}", names.join("; "));
+    let remedy = "write `# figure: NAME`, and `# panel: TITLE` where that does not suffice, above the table";
+    FieldError::new("columns", axes(measurements), &rule, remedy).in_file(&measurements.path)
+}
+
+/// Where curves have values.
+fn reach(place: &Place, series: &[&Series]) -> String {
+    let points = series.iter().flat_map(|series| &series.points).map(|point| place.turned(*point).0);
+    format!("they reach over {}", range(points))
+}
+
+fn range(values: impl Iterator<Item = f64>) -> String {
+    let (lower, upper) =
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lower, upper), value| (lower.min(value), upper.max(value)));
+    format!("{lower} … {upper}")
+}

@@ -1,0 +1,169 @@
+use super::*;
+use crate::case::Tier;
+use crate::figure::{Axis, Figure, Mark, Panel};
+use crate::metric::Verdict;
+
+const TABLE: &str = "# source: own flume\nt [ms],front [cm],uncertainty [mm]\n100,20,10\n200,40,10\n";
+
+fn read(text: &str) -> Result<Measurements, String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.csv");
+    std::fs::write(&path, text).expect("writable");
+    Measurements::read(&path).map_err(|error| error.to_string().replace(&path.display().to_string(), "mine.csv"))
+}
+
+/// A front that moves 2 m/s in one panel, and a profile u = 3 y in another.
+fn result() -> CaseResult {
+    let mut front = Panel::new("", Axis::linear("t [s]"), Axis::linear("front [m]"));
+    front.line("sand", 0, [(0.0, 0.0), (1.0, 2.0)]);
+    front.reference("law", [(0.0, 0.0), (1.0, 9.0)]);
+    let mut profile = Panel::new("", Axis::linear("u [m/s]"), Axis::linear("y/h"));
+    profile.points("coarse", 0, [(0.0, 0.0), (3.0, 1.0)]);
+    profile.line_points("fine", 1, [(0.0, 0.0), (6.0, 1.0)]);
+    CaseResult {
+        name: "film".to_owned(),
+        summary: String::new(),
+        description: String::new(),
+        tier: Tier::Quick,
+        parameters_toml: String::new(),
+        command: String::new(),
+        metrics: Vec::new(),
+        figures: vec![Figure::new("front", "", vec![front]), Figure::new("profile", "", vec![profile])],
+        animations: Vec::new(),
+        tables: Vec::new(),
+        runs: Vec::new(),
+        frames: Vec::new(),
+        state_hash: String::new(),
+    }
+}
+
+fn refused(text: &str) -> String {
+    match read(text) {
+        Err(message) => message,
+        Ok(measurements) => {
+            let error = measurements.draw(&mut result()).expect_err("refused").to_string();
+            error.replace(&measurements.path.display().to_string(), "mine.csv")
+        }
+    }
+}
+
+#[test]
+fn points_with_bars_go_into_the_panel_with_their_axes_and_units_are_converted() {
+    let mut result = result();
+    read(TABLE).expect("a table").draw(&mut result).expect("axes that are there");
+    let series = result.figures[0].panels[0].series.last().expect("drawn");
+    assert_eq!((series.label.as_str(), series.mark, series.colour), ("mine", Mark::Points, 1));
+    assert_eq!(series.points, [(0.1, 0.2), (0.2, 0.4)]);
+    assert_eq!(series.error, [0.01, 0.01]);
+    let [metric] = result.metrics.as_slice() else { panic!("{:?}", result.metrics) };
+    assert_eq!((metric.name.as_str(), metric.variant.to_string().as_str()), ("overlay_residual", "overlay=mine"));
+    assert!(metric.value < 1e-12, "the front is where it was measured: {}", metric.value);
+    assert_eq!(metric.verdict(), Verdict::Observed);
+    assert_eq!(metric.reference.as_ref().map(|reference| reference.source.as_str()), Some("own flume"));
+}
+
+#[test]
+fn a_residual_is_the_root_mean_square_in_uncertainties_and_a_stated_limit_judges() {
+    // 2 and 4 uncertainties above the curve: √((4 + 16)/2) = √10
+    let text = |limit: f64| format!("# limit: {limit}\nt [s],front [m],σ [m]\n0.1,0.22,0.01\n0.2,0.44,0.01\n7,1,1\n");
+    for (limit, verdict) in [(3.0, Verdict::Fail), (3.2, Verdict::Pass)] {
+        let mut result = result();
+        read(&text(limit)).expect("a table").draw(&mut result).expect("drawn");
+        assert!((result.metrics[0].value - 10f64.sqrt()).abs() < 1e-12, "{}", result.metrics[0].value);
+        assert_eq!(result.metrics[0].verdict(), verdict);
+    }
+    let mut result = result();
+    let unverified = "# confidence: unverified\n".to_owned() + &text(3.0);
+    read(&unverified).expect("a table").draw(&mut result).expect("drawn");
+    assert_eq!(result.metrics[0].verdict(), Verdict::Observed, "what is unverified never judges");
+}
+
+#[test]
+fn what_stands_on_the_horizontal_axis_is_compared_over_the_vertical_one_with_every_curve() {
+    let table = "y/h [-],u [cm/s],uncertainty [cm/s]\n0.5,150,10\n1,300,10\n";
+    let mut own = result();
+    read(table).expect("a table").draw(&mut own).expect("drawn");
+    let panel = &own.figures[1].panels[0];
+    assert_eq!(panel.series.last().expect("drawn").points, [(1.5, 0.5), (3.0, 1.0)]);
+    assert_eq!(panel.series[2].points, [(1.4, 0.5), (1.6, 0.5)], "a bar along the axis of what was measured");
+    let found: Vec<(String, f64)> =
+        own.metrics.iter().map(|metric| (metric.variant.to_string(), metric.value)).collect();
+    assert_eq!(found[0], ("overlay=mine,curve=coarse".to_owned(), 0.0));
+    assert!(found[1].0 == "overlay=mine,curve=fine" && (found[1].1 - 562.5f64.sqrt()).abs() < 1e-9, "{found:?}");
+    let mut own = result();
+    read(&format!("# curve: fine\n{table}")).expect("a table").draw(&mut own).expect("drawn");
+    assert_eq!(own.metrics.len(), 1);
+}
+
+#[test]
+fn what_cannot_be_placed_is_refused_with_what_is_there() {
+    assert_eq!(
+        refused("t [s],back [m],uncertainty [m]\n1,1,1\n"),
+        "mine.csv: `columns` is back [m] over t [s], but must be the axes of one of the case's figures, in names and kinds of units \
+         (front: t [s] and front [m]; profile: u [m/s] and y/h); name the columns as the axes are labelled, with any unit of the same kind"
+    );
+    let other_unit = refused("t [s],front [kg],uncertainty [kg]\n1,1,1\n");
+    assert!(other_unit.contains("is front [kg] over t [s], but must be the axes"), "{other_unit}");
+    assert_eq!(
+        refused("t [s],front [m],uncertainty [m]\n5,1,1\n6,1,1\n"),
+        "mine.csv: `t` is 5 … 6, but must be where a curve of front has a value; they reach over 0 … 1; check the unit and the origin of the abscissa"
+    );
+    assert_eq!(
+        refused("# curve: gravel\nt [s],front [m],uncertainty [m]\n0.5,1,1\n"),
+        "mine.csv: `# curve` is \"gravel\", but must be the legend of a curve of front: `sand`; without it all are compared"
+    );
+    let mut twice = result();
+    let again = Figure { name: "again".to_owned(), ..twice.figures[0].clone() };
+    twice.figures.push(again);
+    let error = read(TABLE).expect("a table").draw(&mut twice).expect_err("two panels").to_string();
+    assert!(error.contains("but these have them: front; again; write `# figure: NAME`"), "{error}");
+    let one = read(&format!("# figure: again\n{TABLE}")).expect("a table");
+    one.draw(&mut twice).expect("named");
+    assert_eq!(twice.figures[2].panels[0].series.len(), 3);
+}
+
+#[test]
+fn what_is_no_table_of_measurements_is_refused() {
+    for (text, message) in [
+        (
+            "t [s],front [m]\n1,1\n",
+            "mine.csv: `columns` is 2 (t [s], front [m]), but must be three: what was varied, what was measured, and its standard uncertainty, each with its unit; such as y/h [-],u [m/s],uncertainty [m/s]",
+        ),
+        (
+            "t,front [m],uncertainty [m]\n1,1,1\n",
+            "mine.csv: `t` is \"t\", but must be a heading with its unit in brackets; such as \"x [cm]\" for a column with its unit, or { value = 0.25, unit = \"cm^2\" } for all",
+        ),
+        (
+            "t [s],front [m],uncertainty [s]\n1,1,1\n",
+            "mine.csv: `uncertainty` is [s], but must be a unit of the same kind as [m], which is that of front; mend the heading",
+        ),
+        (
+            "t [s],front [m],uncertainty [m]\n1,nan,1\n",
+            "mine.csv: `front [m]` is NaN in row 1, but must be finite numbers up to 1e30; leave the row out or mend it",
+        ),
+        (
+            "t [s],front [m],uncertainty [m]\n1,1,1\n2,1,0\n",
+            "mine.csv: `uncertainty` is 0 in row 2, but must be positive; give a standard deviation; without one there is nothing to compare by",
+        ),
+        (
+            "# limit: much\nt [s],front [m],uncertainty [m]\n1,1,1\n",
+            "mine.csv: `# limit` is much, but must be a positive number; such as 2, in standard uncertainties",
+        ),
+        (
+            "# limt: 2\nt [s],front [m],uncertainty [m]\n1,1,1\n",
+            "mine.csv: `# limt` is 2, but must be a comment of another form, or one of the keys limit, figure, panel, curve, source, confidence; did you mean `limit`?",
+        ),
+        (
+            "t [s],front [m],uncertainty [m]\n1,1\n",
+            "mine.csv: `line 2` is of 2 columns, but must be of 3 columns, as the lines before; mend the file",
+        ),
+    ] {
+        assert_eq!(refused(text), message);
+    }
+}
+
+#[test]
+fn names_become_values_of_variants() {
+    assert_eq!(text_of_variant("24°, N = 40_a"), "24-N-40-a");
+    assert_eq!(text_of_variant("="), "unnamed");
+}
