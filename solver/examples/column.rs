@@ -8,7 +8,7 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::run::StopReason;
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::{Wall, wall};
+use bagnold_solver::weakly_compressible::boundary::{Enclosure, Wall, wall};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
@@ -55,7 +55,19 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let gravity = Vector::<2>::new(0.0, -GRAVITY);
     let numerics = Numerics::default();
     let spacing = SPACING;
-    let scene = Scene { flow, walls, wall_particles, domain, gravity, spacing, equation_of_state, rheology, numerics };
+    let enclosure = Enclosure::default();
+    let scene = Scene {
+        flow,
+        walls,
+        wall_particles,
+        enclosure,
+        domain,
+        gravity,
+        spacing,
+        equation_of_state,
+        rheology,
+        numerics,
+    };
 
     // The run: one second, looked at ten times.
     let mut simulation = Simulation::new(scene)?;

@@ -6,7 +6,7 @@ use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::{Wall, wall};
+use bagnold_solver::weakly_compressible::boundary::{Enclosure, Wall, wall};
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscousStep};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
@@ -89,8 +89,18 @@ where
     let wall_particles = wall::fill(&walls, &domain, (Vector::zeros(), reach), SPACING, 4);
     let mut gravity = Vector::zeros();
     gravity[D - 1] = -GRAVITY;
-    let scene =
-        Scene { flow, walls, wall_particles, domain, gravity, spacing: SPACING, equation_of_state, rheology, numerics };
+    let scene = Scene {
+        flow,
+        walls,
+        wall_particles,
+        enclosure: Enclosure::default(),
+        domain,
+        gravity,
+        spacing: SPACING,
+        equation_of_state,
+        rheology,
+        numerics,
+    };
     Simulation::new(scene).expect("a valid scene")
 }
 

@@ -11,6 +11,7 @@ mod open_law;
 mod patches;
 mod restart;
 mod scene_errors;
+mod shells;
 mod stopping;
 mod supports;
 mod symmetries;

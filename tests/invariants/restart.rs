@@ -3,6 +3,7 @@
 
 use crate::determinism::column;
 use crate::patches::{self, GRAINS, SYRUP, bed, simulation};
+use crate::shells;
 use crate::two_phases;
 use bagnold_solver::incompressible::{IncompressibleScene, IncompressibleSimulation, SavedIncompressible};
 use bagnold_solver::material::rheology::Rheology;
@@ -91,6 +92,16 @@ fn a_wall_that_travels_goes_on_in_the_same_bits() {
     travelling.travel = 0.01;
     scene.walls = vec![travelling];
     check(&scene);
+}
+
+#[test]
+fn walls_of_segments_and_open_sides_go_on_in_the_same_bits() {
+    let mut scene = shells::gated();
+    scene.enclosure.exits.lower = Vector::<2>::new(f64::NEG_INFINITY, 0.004);
+    check(&scene);
+    let mut simulation = simulation(scene);
+    patches::advance(&mut simulation, STEPS);
+    assert!(simulation.departures().particles() > 0, "somebody leaves on the way");
 }
 
 fn check_phases(scene: &IncompressibleScene<2>) {

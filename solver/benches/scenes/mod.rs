@@ -4,7 +4,7 @@ use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::{Wall, WallTreatment, wall};
+use bagnold_solver::weakly_compressible::boundary::{Enclosure, Wall, WallTreatment, wall};
 use bagnold_solver::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use rand::{RngExt, SeedableRng};
@@ -86,6 +86,7 @@ pub(crate) fn dam_break<const D: usize>(size: usize, law: Law) -> Scene<D> {
         flow,
         walls,
         wall_particles,
+        enclosure: Enclosure::default(),
         domain,
         gravity,
         spacing,

@@ -7,7 +7,7 @@ use crate::planted::{Planted, factor};
 use serde::{Deserialize, Serialize};
 
 /// What becomes of a negative pressure.
-#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Serialize, Deserialize, schemars::JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum Tension {
     /// Cut to zero: dry grains carry no tension.

@@ -23,6 +23,8 @@ pub enum Quantity {
         /// As many as it can hold.
         limit: usize,
     },
+    /// Distance from a shell, negative behind it `[m]`; the rule names the wall.
+    Penetration,
     /// Residual of an implicit viscous step over its start; the particle is the one with the largest.
     ViscousResidual {
         /// `viscous_tolerance` `[-]`.
@@ -40,6 +42,7 @@ impl Quantity {
             Self::Speed { .. } => "speed",
             Self::Density { .. } => "density",
             Self::Neighbours { .. } => "number of neighbours",
+            Self::Penetration => "distance",
             Self::ViscousResidual { .. } => "viscous step",
         }
     }
@@ -51,6 +54,7 @@ impl Quantity {
             Self::Speed { .. } => "m/s",
             Self::Density { .. } => "kg/m³",
             Self::Neighbours { .. } => "or more",
+            Self::Penetration => "m",
             Self::ViscousResidual { .. } => "(residual over its start)",
         }
     }
@@ -64,6 +68,7 @@ impl Quantity {
                 format!(", outside the {lower:.4e} to {upper:.4e} kg/m³ that the model allows")
             }
             Self::Neighbours { limit } => format!(", above the {limit} that a neighbour list row can hold"),
+            Self::Penetration => " before a wall: it has passed it".to_owned(),
             Self::ViscousResidual { tolerance, most_iterations } => {
                 format!(" after at most {most_iterations} iterations, above the {tolerance:.1e} of `viscous_tolerance`")
             }

@@ -19,7 +19,7 @@
 use crate::lanes::Lanes;
 use crate::lanes::algebra::{accumulate, contraction, matrix_product};
 use crate::material::equation_of_state::{EquationOfState, Tension};
-use crate::vector::{Vector, double_contraction};
+use crate::vector::{Tensor, Vector, double_contraction};
 use crate::weakly_compressible::particles::Particles;
 use serde::{Deserialize, Serialize};
 
@@ -99,8 +99,7 @@ impl EnergyAccount {
             kinetic += 0.5 * mass * particles.velocity[index].norm_squared();
             elastic += mass * compression_energy(equation_of_state, density);
             if let Some(shear_modulus) = shear_modulus {
-                let stress = &particles.stress[index];
-                elastic += mass / density * double_contraction(stress, stress) / (4.0 * shear_modulus);
+                elastic += shear_energy(mass / density, &particles.stress[index], shear_modulus);
             }
         }
         Self { kinetic, elastic, ledger }
@@ -120,6 +119,24 @@ impl EnergyAccount {
         let given = (now.walls - then.walls) + (now.correction - then.correction);
         self.total() - before.total() - given + (now.dissipated() - then.dissipated())
     }
+}
+
+/// Kinetic and elastic energy of one particle `[J]`.
+pub(crate) fn energy_of<const D: usize>(
+    particles: &Particles<D>,
+    index: usize,
+    equation_of_state: &EquationOfState,
+    shear_modulus: Option<f64>,
+) -> f64 {
+    let (mass, density) = (particles.mass[index], particles.density[index]);
+    let shear = |modulus| shear_energy(mass / density, &particles.stress[index], modulus);
+    mass * (0.5 * particles.velocity[index].norm_squared() + compression_energy(equation_of_state, density))
+        + shear_modulus.map_or(0.0, shear)
+}
+
+/// Energy of elastic shear in a volume `[J]`.
+fn shear_energy<const D: usize>(volume: f64, stress: &Tensor<D>, shear_modulus: f64) -> f64 {
+    volume * double_contraction(stress, stress) / (4.0 * shear_modulus)
 }
 
 /// ∫ p/ρ² dρ from ρ0 `[J/kg]`.

@@ -18,6 +18,7 @@ pub mod simulation;
 pub mod snapshot;
 mod state;
 mod step;
+mod surroundings;
 pub mod terms;
 pub mod time_step;
 pub(crate) mod viscous_solve;

@@ -1,8 +1,8 @@
 //! The particles as a structure of arrays: flow, walls, images and the sentinel, in this order.
 
 use crate::vector::{Tensor, Vector};
-use crate::weakly_compressible::boundary::{Images, Surface, Wall, wall::WallParticle};
-use crate::weakly_compressible::scene::Flow;
+use crate::weakly_compressible::boundary::{Images, Surface};
+use crate::weakly_compressible::scene::Scene;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -101,18 +101,15 @@ macro_rules! for_each_shared_array {
 }
 
 impl<const D: usize> Particles<D> {
-    /// Arrays for the flow given by positions, velocities, densities, masses and stresses, and for the walls.
-    pub(crate) fn new(
-        flow: &Flow<D>,
-        walls: &[Wall<D>],
-        wall_particles: &[WallParticle<D>],
-        spacing: f64,
-        reference_density: f64,
-    ) -> Self {
-        let (n, m) = (flow.position.len(), wall_particles.len());
+    /// Arrays for the flow, the walls and the shells of a scene.
+    pub(crate) fn new(scene: &Scene<D>) -> Self {
+        let Scene { flow, walls, wall_particles, .. } = scene;
+        let (n, m) = (flow.position.len(), wall_particles.len() + scene.backing_particles());
         let real = n + m;
+        let backing = || scene.enclosure.shells.iter().flat_map(|shell| &shell.backing);
+        let places = wall_particles.iter().map(|wall| wall.position).chain(backing().map(|particle| particle.position));
         let mut particles = Self {
-            position: flow.position.iter().copied().chain(wall_particles.iter().map(|w| w.position)).collect(),
+            position: flow.position.iter().copied().chain(places).collect(),
             velocity: flow.velocity.clone(),
             velocity_gradient: vec![Tensor::zeros(); real],
             stress: flow.stress.clone(),
@@ -144,8 +141,9 @@ impl<const D: usize> Particles<D> {
         };
         particles.velocity.resize(real, Vector::zeros());
         particles.stress.resize(real, Tensor::zeros());
-        particles.density.resize(real, reference_density);
-        particles.volume.resize(real, spacing.powi(D as i32));
+        particles.density.resize(real, scene.equation_of_state.reference_density);
+        particles.volume.resize(n + wall_particles.len(), scene.spacing.powi(D as i32));
+        particles.volume.extend(backing().map(|particle| particle.volume));
         for particle in wall_particles {
             let wall = &walls[particle.wall];
             particles.wall_normal.push(wall.normal());
@@ -154,15 +152,54 @@ impl<const D: usize> Particles<D> {
             particles.wall_smoothness.push(if wall.roughness == Surface::Smooth { 1.0 } else { 0.0 });
             particles.wall.push(particle.wall as u32);
         }
+        for (index, shell) in scene.enclosure.shells.iter().enumerate() {
+            for particle in &shell.backing {
+                particles.wall_normal.push(particle.normal);
+                particles.wall_depth.push(particle.depth);
+                particles.wall_velocity.push(shell.motion.velocity(0.0));
+                particles.wall_smoothness.push(if shell.roughness == Surface::Smooth { 1.0 } else { 0.0 });
+                particles.wall.push((walls.len() + index) as u32);
+            }
+        }
         particles
     }
 
-    /// Moves the wall particles with their walls, which have been displaced `[m]` and now have these velocities.
-    pub(crate) fn move_walls(&mut self, walls: &[Wall<D>], displacements: &[Vector<D>]) {
+    /// Moves the wall particles with their walls, from `first` on, by displacements `[m]`, to these velocities `[m/s]`;
+    /// those of other walls stay.
+    pub(crate) fn move_walls(
+        &mut self,
+        first: usize,
+        displacements: &[Vector<D>],
+        velocity: impl Fn(usize) -> Vector<D>,
+    ) {
         for (offset, &wall) in self.wall.iter().enumerate() {
-            self.position[self.flow + offset] += displacements[wall as usize];
-            self.wall_velocity[self.flow + offset] = walls[wall as usize].velocity;
+            let Some(wall) = (wall as usize).checked_sub(first).filter(|&wall| wall < displacements.len()) else {
+                continue;
+            };
+            self.position[self.flow + offset] += displacements[wall];
+            self.wall_velocity[self.flow + offset] = velocity(wall);
         }
+    }
+
+    /// Which wall, then which shell, the wall particle at a place among them belongs to.
+    pub(crate) fn wall(&self, offset: usize) -> usize {
+        self.wall[offset] as usize
+    }
+
+    /// Takes flow particles out; there are no images now.
+    pub(crate) fn remove(&mut self, gone: &[bool]) {
+        let flow = self.flow;
+        for_each_shared_array!(self, array => retain(array, |index| index >= flow || !gone[index]));
+        let Self { identity, mass, correction, force_correction, acceleration, support, .. } = self;
+        retain(identity, |index| !gone[index]);
+        retain(mass, |index| !gone[index]);
+        retain(correction, |index| !gone[index]);
+        retain(force_correction, |index| !gone[index]);
+        let Self { by_walls, by_damping, by_wall_control, support_impulse, .. } = self;
+        for array in [acceleration, support, by_walls, by_damping, by_wall_control, support_impulse] {
+            retain(array, |index| !gone[index]);
+        }
+        self.flow -= gone.iter().filter(|&&gone| gone).count();
     }
 
     /// Number of flow particles.
@@ -232,8 +269,9 @@ impl<const D: usize> Particles<D> {
         permute(&mut self.identity, order, &mut scratch.identities);
     }
 
-    /// Whether every array has its length, with so many images, and every particle one identity.
-    pub(crate) fn are_complete(&self, images: usize) -> bool {
+    /// Whether every array has its length, with so many images, and every particle one identity of those that the scene
+    /// began with.
+    pub(crate) fn are_complete(&self, images: usize, begun: usize) -> bool {
         let Self { identity, mass, correction, force_correction, acceleration, support, by_walls, by_damping, .. } =
             self;
         let Self { by_wall_control, support_impulse, flow, .. } = self;
@@ -242,7 +280,7 @@ impl<const D: usize> Particles<D> {
         let mut complete = of_flow.into_iter().chain(beside).all(|length| length == *flow);
         let total = self.real_count() + images + 1;
         for_each_shared_array!(self, array => complete &= array.len() == total, in &);
-        let mut seen = vec![false; *flow];
+        let mut seen = vec![false; begun];
         for &identity in identity {
             complete &= seen.get_mut(identity as usize).is_some_and(|seen| !std::mem::replace(seen, true));
         }
@@ -257,12 +295,19 @@ impl<const D: usize> Particles<D> {
     /// Flow indices in the order of their identity.
     #[must_use]
     pub fn by_identity(&self) -> Vec<usize> {
-        let mut order = vec![0; self.flow];
-        for (index, &identity) in self.identity.iter().enumerate() {
-            order[identity as usize] = index;
-        }
+        let mut order: Vec<usize> = (0..self.flow).collect();
+        order.sort_unstable_by_key(|&index| self.identity[index]);
         order
     }
+}
+
+/// Keeps the entries at some places.
+fn retain<T>(array: &mut Vec<T>, keep: impl Fn(usize) -> bool) {
+    let mut index = 0;
+    array.retain(|_| {
+        index += 1;
+        keep(index - 1)
+    });
 }
 
 /// Buffers of the sort, reused.

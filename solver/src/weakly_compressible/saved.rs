@@ -12,6 +12,7 @@ use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::scene::Scene;
 use crate::weakly_compressible::simulation::Simulation;
 use crate::weakly_compressible::state::State;
+use crate::weakly_compressible::surroundings::Books;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -21,6 +22,7 @@ pub struct SavedSimulation<'a, const D: usize> {
     particles: Cow<'a, Particles<D>>,
     images: Cow<'a, Images<D>>,
     walls: Cow<'a, [Wall<D>]>,
+    books: Cow<'a, Books<D>>,
     list: Cow<'a, VerletList>,
     energy: EnergyLedger,
     searches: u64,
@@ -36,11 +38,12 @@ impl<const D: usize> Simulation<D> {
     /// The simulation as it stands, to be written and continued.
     #[must_use]
     pub fn save(&self) -> SavedSimulation<'_, D> {
-        let State { particles, images, walls, model, energy, search, viscous, .. } = &self.state;
+        let State { particles, images, walls, surroundings, model, energy, search, viscous, .. } = &self.state;
         SavedSimulation {
             particles: Cow::Borrowed(particles),
             images: Cow::Borrowed(images),
             walls: Cow::Borrowed(walls),
+            books: Cow::Borrowed(&surroundings.books),
             list: Cow::Borrowed(&model.list),
             energy: *energy,
             searches: search.count(),
@@ -63,12 +66,18 @@ impl<const D: usize> Simulation<D> {
         let (particles, images) = (saved.particles.into_owned(), saved.images.into_owned());
         let (list, walls) = (saved.list.into_owned(), saved.walls.into_owned());
         let (flow, real) = (particles.flow_count(), particles.real_count());
-        ForeignState::check("flow particles", flow, scene.flow.position.len())?;
-        ForeignState::check("wall particles", particles.wall_count(), scene.wall_particles.len())?;
+        let (books, shells) = (saved.books.into_owned(), scene.enclosure.shells.len());
+        let begun = scene.flow.position.len();
+        let departed = books.departures.particles() as usize;
+        ForeignState::check("flow particles", flow.saturating_add(departed), begun)?;
+        let wall_particles = scene.wall_particles.len() + scene.backing_particles();
+        ForeignState::check("wall particles", particles.wall_count(), wall_particles)?;
         ForeignState::check("walls", walls.len(), scene.walls.len())?;
-        let whole = particles.are_complete(images.len())
+        ForeignState::check("walls of segments", books.impulses.len(), shells)?;
+        let whole = particles.are_complete(images.len(), begun)
             && images.belong_to(real)
-            && particles.walls_are_below(walls.len())
+            && particles.walls_are_below(walls.len() + shells)
+            && books.departures.sides.len() == 2 * D
             && list.belongs_to(flow, real, real + images.len() + 1);
         ForeignState::check("whole sets of arrays", usize::from(whole), 1)?;
         let mut state = State::new(scene);
@@ -84,6 +93,8 @@ impl<const D: usize> Simulation<D> {
         state.largest_speed = saved.largest_speed;
         state.kinematic_viscosity = saved.kinematic_viscosity;
         state.displacement = saved.displacement;
+        state.surroundings.restore(books, saved.time);
+        state.assign_shells();
         Ok(Self { state })
     }
 }

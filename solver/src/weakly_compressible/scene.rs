@@ -6,7 +6,7 @@ use crate::material::rheology::Rheology;
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 use crate::vector::{Tensor, Vector};
-use crate::weakly_compressible::boundary::{Wall, wall::WallParticle};
+use crate::weakly_compressible::boundary::{Enclosure, Wall, shell::BackingParticle, wall::WallParticle};
 use crate::weakly_compressible::numerics::Numerics;
 
 /// The flow particles at the start; all arrays have the shape `[particles]`.
@@ -48,6 +48,8 @@ pub struct Scene<const D: usize> {
     pub walls: Vec<Wall<D>>,
     /// Wall particles, see [`crate::weakly_compressible::boundary::wall::fill`].
     pub wall_particles: Vec<WallParticle<D>>,
+    /// Shells and open sides.
+    pub enclosure: Enclosure<D>,
     /// Boundaries of the domain.
     pub domain: Domain<D>,
     /// Gravity `[m/s²]`.
@@ -70,6 +72,7 @@ impl<const D: usize> Scene<D> {
             flow,
             walls: Vec::new(),
             wall_particles: Vec::new(),
+            enclosure: Enclosure::default(),
             domain: Domain { axes: [AxisBoundary::Open; D] },
             gravity: Vector::zeros(),
             spacing,
@@ -93,6 +96,7 @@ impl<const D: usize> Scene<D> {
         self.check_lengths()?;
         self.check_parameters()?;
         self.check_values()?;
+        self.check_shells()?;
         self.check_domain()
     }
 
@@ -102,7 +106,7 @@ impl<const D: usize> Scene<D> {
         if expected == 0 {
             return Err(SceneError::Empty);
         }
-        if expected + self.wall_particles.len() > i32::MAX as usize / 64 {
+        if expected + self.wall_particles.len() + self.backing_particles() > i32::MAX as usize / 64 {
             return Err(SceneError::TooLarge(expected));
         }
         let lengths = [
@@ -132,13 +136,15 @@ impl<const D: usize> Scene<D> {
                 return Err(ParameterProblem::new(field, value, rule, remedy).into());
             }
         }
-        let mut surfaces = self.walls.iter().map(|wall| wall.roughness);
+        let shells = self.enclosure.shells.iter().map(|shell| shell.roughness);
+        let mut surfaces = self.walls.iter().map(|wall| wall.roughness).chain(shells);
         let problem = self
             .numerics
             .parameter_problem()
             .or_else(|| self.rheology.parameter_problem())
             .or_else(|| surfaces.find_map(|roughness| self.numerics.wall_problem(roughness)))
-            .or_else(|| self.numerics.step_problem(&self.rheology));
+            .or_else(|| self.numerics.step_problem(&self.rheology))
+            .or_else(|| self.enclosure.numerics_problem(&self.numerics));
         problem.map_or(Ok(()), |problem| Err(problem.into()))
     }
 
@@ -158,6 +164,31 @@ impl<const D: usize> Scene<D> {
             for (quantity, value) in [("density", self.flow.density[particle]), ("mass", self.flow.mass[particle])] {
                 if !is_positive(value) {
                     return Err(SceneError::Value { quantity, particle, value, rule: "positive and finite" });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Dummy particles of all shells.
+    pub(crate) fn backing_particles(&self) -> usize {
+        self.enclosure.shells.iter().map(|shell| shell.backing.len()).sum()
+    }
+
+    /// Shells of finite facets, whose tables rise and begin where the facets are.
+    fn check_shells(&self) -> Result<(), SceneError> {
+        for (particle, shell) in self.enclosure.shells.iter().enumerate() {
+            let corners = shell.facets.iter().flat_map(|facet| &facet.corners);
+            let backed = |particle: &BackingParticle<D>| is_positive(particle.depth) && is_positive(particle.volume);
+            let begun = shell.motion.displacement(0.0) == Vector::<D>::zeros();
+            for (quantity, sound) in [
+                ("corner of a wall's segments", corners.into_iter().all(|corner| corner.sum().is_finite())),
+                ("table of a wall's motion", shell.motion.is_sound() && begun),
+                ("depth or volume behind a wall", shell.backing.iter().all(backed)),
+            ] {
+                if !sound {
+                    let rule = "finite, with times that rise from rest and positive depths";
+                    return Err(SceneError::Value { quantity, particle, value: f64::NAN, rule });
                 }
             }
         }

@@ -5,6 +5,9 @@ use crate::material::equation_of_state::EquationOfState;
 use crate::material::rheology::Rheology;
 use crate::run::observed_run::{self, Stepping};
 use crate::run::{Course, Divergence, Observer, SceneError, StopReason, Watching};
+use crate::vector::Vector;
+use crate::weakly_compressible::boundary::enclosure::Departures;
+use crate::weakly_compressible::boundary::shell::Shell;
 use crate::weakly_compressible::energy::EnergyAccount;
 use crate::weakly_compressible::model::GradientUse;
 use crate::weakly_compressible::neighbours::VerletList;
@@ -186,6 +189,30 @@ impl<const D: usize> Simulation<D> {
     #[must_use]
     pub fn neighbours(&self) -> &VerletList {
         &self.state.model.list
+    }
+
+    /// Impulse that each shell of the scene has given to the flow since the start `[kg m/s]`, contacts included.
+    #[must_use]
+    pub fn shell_impulses(&self) -> &[Vector<D>] {
+        &self.state.surroundings.books.impulses
+    }
+
+    /// How far each shell has moved since the start `[m]`.
+    #[must_use]
+    pub fn shell_displacements(&self) -> &[Vector<D>] {
+        self.state.surroundings.displacements()
+    }
+
+    /// The shells of the scene, where they were at the start.
+    #[must_use]
+    pub fn shells(&self) -> &[Shell<D>] {
+        self.state.surroundings.shells()
+    }
+
+    /// What has left by open sides.
+    #[must_use]
+    pub fn departures(&self) -> &Departures<D> {
+        &self.state.surroundings.books.departures
     }
 
     /// Particle spacing Δ `[m]`.

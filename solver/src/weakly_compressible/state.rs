@@ -15,6 +15,7 @@ use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::PairData;
 use crate::weakly_compressible::scene::Scene;
 use crate::weakly_compressible::search::Search;
+use crate::weakly_compressible::surroundings::Surroundings;
 use crate::weakly_compressible::terms::artificial_viscosity::SWITCH_LOWEST;
 use crate::weakly_compressible::time_step::TimeStepBounds;
 use crate::weakly_compressible::viscous_solve::ViscousSystem;
@@ -27,6 +28,8 @@ pub(crate) struct State<const D: usize> {
     pub(crate) walls: Vec<Wall<D>>,
     /// Displacement of each wall in a step `[m]`.
     pub(crate) wall_displacements: Vec<Vector<D>>,
+    /// Shells and open sides.
+    pub(crate) surroundings: Surroundings<D>,
     pub(crate) model: Model<D>,
     pub(crate) pairs: PairData<D>,
     pub(crate) viscous: ViscousSystem<D>,
@@ -44,9 +47,7 @@ impl<const D: usize> State<D> {
     /// The state of a checked scene, before its first neighbour search.
     pub(crate) fn new(scene: Scene<D>) -> Self {
         let numerics = scene.numerics;
-        let reference_density = scene.equation_of_state.reference_density;
-        let mut particles =
-            Particles::new(&scene.flow, &scene.walls, &scene.wall_particles, scene.spacing, reference_density);
+        let mut particles = Particles::new(&scene);
         let initial = match numerics.viscosity_switch {
             ViscositySwitch::Constant => numerics.artificial_viscosity,
             ViscositySwitch::MorrisMonaghan => SWITCH_LOWEST,
@@ -58,6 +59,7 @@ impl<const D: usize> State<D> {
             images: Images::new(),
             wall_displacements: vec![Vector::zeros(); scene.walls.len()],
             walls: scene.walls,
+            surroundings: Surroundings::new(scene.enclosure),
             model: Model {
                 list: VerletList::default(),
                 kernel: Kernel::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing),
@@ -86,8 +88,10 @@ impl<const D: usize> State<D> {
     /// # Errors
     /// A particle with more neighbours than a list row can hold.
     pub(crate) fn search_neighbours(&mut self) -> Result<(), Divergence<D>> {
+        self.release();
         let filled = self.search.run(&mut self.particles, &mut self.images, &mut self.model);
         self.displacement = 0.0;
+        self.assign_shells();
         filled.map_err(|crowded| {
             self.divergence(crowded.particle, Quantity::Neighbours { limit: LARGEST_ROW }, LARGEST_ROW as f64)
         })
@@ -104,7 +108,7 @@ impl<const D: usize> State<D> {
             &self.model.numerics,
             self.model.kernel.smoothing_length(),
             self.model.equation_of_state.sound_speed(),
-            self.largest_speed,
+            self.largest_speed + self.surroundings.largest_speed(),
             kinematic_viscosity,
         )
     }

@@ -46,7 +46,9 @@ impl<const D: usize> State<D> {
                 pairwise::run(&self.model, &mut self.particles, &mut self.pairs);
             }
         }
+        self.book_shells(time_step);
         self.update_velocity(time_step)?;
+        self.touch_shells(time_step, self.model.contact_friction * factor(Planted::ContactFriction))?;
         self.update_density_and_stress(time_step)?;
         self.update_position(time_step);
         Ok(())
@@ -185,7 +187,8 @@ impl<const D: usize> State<D> {
             fastest = fastest.max(if wall.travel > 0.0 { wall.velocity.norm() } else { 0.0 });
             *displacement = wall.advance(time_step);
         }
-        self.particles.move_walls(&self.walls, &self.wall_displacements);
+        let walls = &self.walls;
+        self.particles.move_walls(0, &self.wall_displacements, |wall| walls[wall].velocity);
         self.images.copy_vectors(&mut self.particles.wall_velocity);
         fastest
     }
@@ -202,7 +205,7 @@ impl<const D: usize> State<D> {
                 *position -= acceleration * (time_step * time_step);
             }
         }
-        let fastest_wall = self.move_walls(time_step);
+        let fastest_wall = self.move_walls(time_step).max(self.move_shells(time_step));
         self.images.copy_positions(&mut self.particles.position);
         self.displacement += time_step * self.largest_speed.max(fastest_wall);
         self.time += time_step;

@@ -1,9 +1,16 @@
-//! Boundaries: periodic and mirrored axes as images, solid walls as dummy particles, contact as insurance.
+//! Boundaries: periodic and mirrored axes as images, solid walls as dummy particles, contact as insurance. Walls are
+//! planes normal to an axis ([`wall`]) or shells of segments ([`shell`]); open sides let particles leave ([`enclosure`]).
 
+pub mod backing;
 pub mod contact;
+pub mod enclosure;
+pub mod facet;
 pub mod gate;
 mod images;
+pub mod shell;
+pub(crate) mod shell_contact;
 pub mod wall;
 
+pub use enclosure::Enclosure;
 pub(crate) use images::Images;
 pub use wall::{Surface, Wall, WallTreatment};

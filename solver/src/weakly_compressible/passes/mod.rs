@@ -9,6 +9,8 @@ mod new_state;
 mod pair_data;
 pub(crate) mod pairwise;
 pub(crate) mod records;
+pub(crate) mod shell_impulse;
+mod wall_partner;
 pub(crate) mod wall_stress;
 pub(crate) mod wall_velocity;
 

@@ -3,14 +3,15 @@
 
 use super::PairData;
 use super::records::{self, LaneRecord, Records, Writer};
-use crate::lanes::algebra::{accumulate, difference, dot, load_tensor, scaled, store_vector, zero_vector};
+use super::wall_partner::{WallPair, WallPartner};
+use crate::lanes::algebra::{accumulate, difference, dot, load_tensor, store_vector, zero_vector};
 use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, gather};
 use crate::vector::Vector;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::numerics::{HourglassDirection, ViscositySwitch};
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::terms::{artificial_viscosity, hourglass, pair_distance, stress_divergence, wall_slip};
+use crate::weakly_compressible::terms::{artificial_viscosity, hourglass, pair_distance, stress_divergence};
 use rayon::prelude::*;
 
 /// Values of a record: the layout of [`FlowPartner`], which is the longer one.
@@ -19,38 +20,22 @@ pub(super) const fn values(dimension: usize) -> usize {
 }
 
 /// What is read of a flow particle.
-struct FlowPartner<V, const D: usize> {
-    position: [V; D],
-    velocity: [V; D],
-    density: V,
+pub(super) struct FlowPartner<V, const D: usize> {
+    pub(super) position: [V; D],
+    pub(super) velocity: [V; D],
+    pub(super) density: V,
     /// √(p/ρ0) `[m/s]`.
-    pressure_speed: V,
+    pub(super) pressure_speed: V,
     /// α of (15) `[-]`.
     alpha: V,
     /// σE `[Pa]`.
-    corrected_stress: [[V; D]; D],
-    velocity_gradient: [[V; D]; D],
-}
-
-/// What is read of a wall particle: records of the same length with a layout of their own.
-struct WallPartner<V, const D: usize> {
-    position: [V; D],
-    /// Velocity of the wall itself.
-    velocity: [V; D],
-    /// Depth behind the surface `[m]`.
-    depth: V,
-    /// √(p/ρ0) `[m/s]`.
-    pressure_speed: V,
-    /// 1 if the wall is smooth `[-]`.
-    smoothness: V,
-    /// σ `[Pa]`.
-    stress: [[V; D]; D],
-    normal: [V; D],
+    pub(super) corrected_stress: [[V; D]; D],
+    pub(super) velocity_gradient: [[V; D]; D],
 }
 
 impl<V: Lanes, const D: usize> FlowPartner<V, D> {
     #[inline(always)]
-    fn load(records: &Records, indices: &LaneIndices<'_>) -> Self {
+    pub(super) fn load(records: &Records, indices: &LaneIndices<'_>) -> Self {
         let record: LaneRecord<V> = records.load(const { values(D).div_ceil(4) }, indices);
         Self {
             position: records::vector(&record, 0),
@@ -60,22 +45,6 @@ impl<V: Lanes, const D: usize> FlowPartner<V, D> {
             alpha: records::scalar(&record, 2 * D + 2),
             corrected_stress: records::tensor(&record, 2 * D + 3),
             velocity_gradient: records::tensor(&record, 2 * D + 3 + D * D),
-        }
-    }
-}
-
-impl<V: Lanes, const D: usize> WallPartner<V, D> {
-    #[inline(always)]
-    fn load(records: &Records, indices: &LaneIndices<'_>) -> Self {
-        let record: LaneRecord<V> = records.load(const { values(D).div_ceil(4) }, indices);
-        Self {
-            position: records::vector(&record, 0),
-            velocity: records::vector(&record, D),
-            depth: records::scalar(&record, 2 * D),
-            pressure_speed: records::scalar(&record, 2 * D + 1),
-            smoothness: records::scalar(&record, 2 * D + 2),
-            stress: records::tensor(&record, 2 * D + 3),
-            normal: records::vector(&record, 2 * D + 3 + D * D),
         }
     }
 }
@@ -149,15 +118,30 @@ struct Output<'a, const D: usize> {
 }
 
 /// What the loops need of the numerics.
-struct Constants {
-    smoothing_length: f64,
+pub(super) struct Constants {
+    pub(super) smoothing_length: f64,
     /// h c `[m²/s]`.
     speed_length: f64,
     /// k h `[m]` of the hourglass control.
-    hourglass_strength: f64,
+    pub(super) hourglass_strength: f64,
     artificial_viscosity: f64,
     viscosity_switch: ViscositySwitch,
-    hourglass_direction: HourglassDirection,
+    pub(super) hourglass_direction: HourglassDirection,
+}
+
+impl Constants {
+    #[inline(always)]
+    pub(super) fn of<const D: usize>(model: &Model<D>) -> Self {
+        let smoothing_length = model.kernel.smoothing_length();
+        Self {
+            smoothing_length,
+            speed_length: smoothing_length * model.equation_of_state.sound_speed(),
+            hourglass_strength: model.numerics.hourglass * smoothing_length,
+            artificial_viscosity: model.numerics.artificial_viscosity,
+            viscosity_switch: model.numerics.viscosity_switch,
+            hourglass_direction: model.numerics.hourglass_direction,
+        }
+    }
 }
 
 /// The pair sums of eight particles with the flow, images included, the part of them that images behind mirrors cause,
@@ -177,15 +161,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
         let Self { model, particles, pairs, block, out } = self;
-        let smoothing_length = model.kernel.smoothing_length();
-        let constants = Constants {
-            smoothing_length,
-            speed_length: smoothing_length * model.equation_of_state.sound_speed(),
-            hourglass_strength: model.numerics.hourglass * smoothing_length,
-            artificial_viscosity: model.numerics.artificial_viscosity,
-            viscosity_switch: model.numerics.viscosity_switch,
-            hourglass_direction: model.numerics.hourglass_direction,
-        };
+        let constants = Constants::of(model);
         let count = out.acceleration.len();
         for offset in 0..count.div_ceil(LANES) {
             let group = model.list.group(block * (BLOCK / LANES) + offset);
@@ -278,20 +254,10 @@ fn wall_forces<V: Lanes, const D: usize>(
     correction: &[[V; D]; D],
     forces: &mut Forces<V, D>,
 ) {
-    let none = constants.hourglass_direction == HourglassDirection::Radial;
-    let rough = constants.hourglass_direction == HourglassDirection::All;
     for (w, weight) in group.wall.zip(weights) {
         let wall = WallPartner::<V, D>::load(records, &w);
-        let r = difference(&own.position, &wall.position);
+        let WallPair { traction, drag, unexplained } = WallPair::of(constants, own, &wall, correction);
         let weight = V::load(weight);
-        let beta = wall_slip::factor(&r, &wall.normal, wall.depth, constants.smoothing_length, wall_slip::LIMIT);
-        let slip = scaled(beta, &difference(&own.velocity, &wall.velocity));
-        let traction = stress_divergence::wall_traction(&own.corrected_stress, &wall.stress, correction, &r);
-        let speed_sum = own.pressure_speed + wall.pressure_speed;
-        let strength = if none { 0.0 } else { constants.hourglass_strength };
-        let drag = hourglass::twice_viscosity::<V>(strength, speed_sum);
-        let normal_only = if rough { wall.smoothness } else { V::splat(1.0) };
-        let unexplained = hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, &r, &wall.normal, normal_only);
         accumulate(&mut forces.wall_divergence, weight, &traction);
         accumulate(&mut forces.wall_control, weight * drag, &unexplained);
     }

@@ -4,7 +4,7 @@ use crate::lanes::LANES;
 use crate::material::equation_of_state::{EquationOfState, Tension};
 use crate::material::rheology::{Bingham, Rheology};
 use crate::vector::{Tensor, Vector};
-use crate::weakly_compressible::boundary::{Wall, wall};
+use crate::weakly_compressible::boundary::{Enclosure, Wall, wall};
 use crate::weakly_compressible::divergence::Quantity;
 use crate::weakly_compressible::numerics::{Numerics, ViscousStep};
 use crate::weakly_compressible::scene::{Flow, Scene};
@@ -53,6 +53,7 @@ where
         flow,
         walls,
         wall_particles,
+        enclosure: Enclosure::default(),
         domain,
         gravity: Vector::zeros(),
         spacing: SPACING,

@@ -5,8 +5,8 @@ use bagnold_solver::domain::Domain;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::Wall;
 use bagnold_solver::weakly_compressible::boundary::wall::fill;
+use bagnold_solver::weakly_compressible::boundary::{Enclosure, Wall};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use rand::{RngExt, SeedableRng};
@@ -48,6 +48,7 @@ impl<const D: usize> Block<D> {
         Scene {
             flow: self.fill(sites, &equation_of_state),
             wall_particles: fill(&[bed], &domain, (Vector::zeros(), far), self.spacing, layers),
+            enclosure: Enclosure::default(),
             walls: vec![bed],
             domain,
             gravity: self.gravity,

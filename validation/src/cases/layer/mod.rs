@@ -20,8 +20,8 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::Wall;
 use bagnold_solver::weakly_compressible::boundary::wall::fill;
+use bagnold_solver::weakly_compressible::boundary::{Enclosure, Wall};
 use bagnold_solver::weakly_compressible::numerics::ViscousStep;
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
@@ -178,6 +178,7 @@ impl Layer<'_> {
         Scene {
             flow,
             wall_particles: fill(&[bed], &domain, extent, spacing, wall_rows),
+            enclosure: Enclosure::default(),
             walls: vec![bed],
             domain,
             gravity: Vector::<2>::new(libm::sin(self.slope_angle), -libm::cos(self.slope_angle)) * self.layer.gravity,

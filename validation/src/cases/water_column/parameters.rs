@@ -11,7 +11,7 @@ use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::parameter::{between, each, filled, not_negative, positive, unique};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::wall::fill;
-use bagnold_solver::weakly_compressible::boundary::{Surface, Wall};
+use bagnold_solver::weakly_compressible::boundary::{Enclosure, Surface, Wall};
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
@@ -229,6 +229,7 @@ impl WaterColumnRun {
         Scene {
             flow,
             wall_particles: fill(&[bed], &domain, (Vector::zeros(), far), spacing, layers),
+            enclosure: Enclosure::default(),
             walls: vec![bed],
             domain,
             gravity: Vector::<2>::new(0.0, -gravity),

@@ -1,0 +1,112 @@
+//! What encloses the flow beside plane walls: shells of any shape, and open sides by which it leaves.
+
+use super::shell::Shell;
+use crate::parameter::ParameterProblem;
+use crate::vector::Vector;
+use crate::weakly_compressible::numerics::{Numerics, ViscousStep};
+use serde::{Deserialize, Serialize};
+
+/// Shells and open sides of a scene; by default there is neither.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Enclosure<const D: usize> {
+    /// Walls of facets.
+    pub shells: Vec<Shell<D>>,
+    /// Planes beyond which a particle has left and is taken out.
+    pub exits: Exits<D>,
+}
+
+impl<const D: usize> Enclosure<D> {
+    /// Whether there is nothing to do.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.shells.is_empty() && self.exits == Exits::default()
+    }
+
+    /// The choice of numerics that goes neither with shells nor with exits: what walls have of the forces is booked by the
+    /// single divergence in explicit steps.
+    #[must_use]
+    pub fn numerics_problem(&self, numerics: &Numerics) -> Option<ParameterProblem> {
+        if self.is_empty() {
+            return None;
+        }
+        let remedy = "the impulse on a wall of segments and what leaves are booked by these only";
+        if let Some(operator) = numerics.pairwise_operator() {
+            let rule = "\"single-divergence\" or \"uncorrected-divergence\" with walls of segments or open sides";
+            return Some(ParameterProblem::new("momentum_operator", operator, rule, remedy));
+        }
+        (numerics.viscous_step == ViscousStep::Implicit).then(|| {
+            let rule = "\"explicit\" with walls of segments or open sides";
+            ParameterProblem::new("viscous_step", "implicit", rule, remedy)
+        })
+    }
+}
+
+/// Planes normal to the axes beyond which a particle has left; infinite where a side is not open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exits<const D: usize> {
+    /// Below the flow, one an axis `[m]`.
+    pub lower: Vector<D>,
+    /// Above it `[m]`.
+    pub upper: Vector<D>,
+}
+
+impl<const D: usize> Default for Exits<D> {
+    fn default() -> Self {
+        Self { lower: Vector::repeat(f64::NEG_INFINITY), upper: Vector::repeat(f64::INFINITY) }
+    }
+}
+
+impl<const D: usize> Exits<D> {
+    /// The side by which a place lies outside, as [`Departures::sides`] counts them.
+    #[must_use]
+    pub fn side(&self, place: &Vector<D>) -> Option<usize> {
+        let out = |axis: &usize| place[*axis] < self.lower[*axis] || place[*axis] > self.upper[*axis];
+        (0..D).find(out).map(|axis| 2 * axis + usize::from(place[axis] > self.upper[axis]))
+    }
+}
+
+/// What has left by one side since the start.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Departed<const D: usize> {
+    /// Particles.
+    pub particles: u64,
+    /// Mass `[kg]`, per metre of depth in 2-D.
+    pub mass: f64,
+    /// Σ m t with the times at which they left `[kg s]`: gravity has given g times that.
+    pub mass_times_time: f64,
+    /// Momentum `[kg m/s]`.
+    pub momentum: Vector<D>,
+    /// Impulse that walls, mirrors and contacts had given it `[kg m/s]`.
+    pub support: Vector<D>,
+    /// Kinetic and elastic energy `[J]`.
+    pub energy: f64,
+}
+
+/// What has left, side by side.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Departures<const D: usize> {
+    /// By the lower and the upper side of the first axis, then of the next, shape `[2 D]`.
+    pub sides: Vec<Departed<D>>,
+}
+
+impl<const D: usize> Default for Departures<D> {
+    fn default() -> Self {
+        let none = Departed {
+            momentum: Vector::zeros(),
+            support: Vector::zeros(),
+            particles: 0,
+            mass: 0.0,
+            mass_times_time: 0.0,
+            energy: 0.0,
+        };
+        Self { sides: vec![none; 2 * D] }
+    }
+}
+
+impl<const D: usize> Departures<D> {
+    /// Particles that have left.
+    #[must_use]
+    pub fn particles(&self) -> u64 {
+        self.sides.iter().map(|side| side.particles).sum()
+    }
+}

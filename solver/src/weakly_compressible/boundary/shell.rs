@@ -1,0 +1,142 @@
+//! A shell: a wall of facets of any shape, at rest or moved along by a table of times.
+
+use super::facet::Facet;
+use super::wall::Surface;
+use crate::vector::Vector;
+
+/// On which side of a polyline the flow is, seen along its points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// To the left.
+    Left,
+    /// To the right.
+    Right,
+}
+
+/// One dummy particle behind a shell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BackingParticle<const D: usize> {
+    /// Position at the start `[m]`.
+    pub position: Vector<D>,
+    /// Normal of its facet into the flow `[-]`.
+    pub normal: Vector<D>,
+    /// Depth behind the plane of its facet `[m]`.
+    pub depth: f64,
+    /// Its share of the space behind the shell `[m^D]`.
+    pub volume: f64,
+}
+
+/// Displacements of a wall over time, linear between the times and constant beyond them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Motion<const D: usize> {
+    /// Times `[s]`, rising.
+    pub times: Vec<f64>,
+    /// Displacements `[m]` at these times, as many.
+    pub displacements: Vec<Vector<D>>,
+}
+
+impl<const D: usize> Motion<D> {
+    /// Whether it ever moves.
+    #[must_use]
+    pub fn is_rest(&self) -> bool {
+        self.times.len() < 2
+    }
+
+    /// Displacement at a time `[m]`.
+    #[must_use]
+    pub fn displacement(&self, time: f64) -> Vector<D> {
+        let after = self.times.partition_point(|&t| t <= time);
+        let zero = Vector::zeros();
+        match after {
+            0 => self.displacements.first().copied().unwrap_or(zero),
+            k if k == self.times.len() => self.displacements.last().copied().unwrap_or(zero),
+            k => {
+                let part = (time - self.times[k - 1]) / (self.times[k] - self.times[k - 1]);
+                self.displacements[k - 1] + (self.displacements[k] - self.displacements[k - 1]) * part
+            }
+        }
+    }
+
+    /// Velocity right after a time `[m/s]`.
+    #[must_use]
+    pub fn velocity(&self, time: f64) -> Vector<D> {
+        let after = self.times.partition_point(|&t| t <= time);
+        if after == 0 || after == self.times.len() { Vector::zeros() } else { self.slope(after) }
+    }
+
+    fn slope(&self, k: usize) -> Vector<D> {
+        (self.displacements[k] - self.displacements[k - 1]) / (self.times[k] - self.times[k - 1])
+    }
+
+    /// The largest speed that it ever has `[m/s]`.
+    #[must_use]
+    pub fn largest_speed(&self) -> f64 {
+        (1..self.times.len()).map(|k| self.slope(k).norm()).fold(0.0, f64::max)
+    }
+
+    /// Whether times rise and all is finite.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let finite = self.times.iter().all(|t| t.is_finite()) && self.displacements.iter().all(|d| d.sum().is_finite());
+        finite && self.times.len() == self.displacements.len() && self.times.windows(2).all(|pair| pair[1] > pair[0])
+    }
+}
+
+/// A wall of facets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shell<const D: usize> {
+    /// What it is called in messages and results.
+    pub name: String,
+    /// Its facets at the start, with the flow on the side of their normals.
+    pub facets: Vec<Facet<D>>,
+    /// Rough or smooth.
+    pub roughness: Surface,
+    /// How it moves.
+    pub motion: Motion<D>,
+    /// Its dummy particles at the start, see [`super::backing::lay`].
+    pub backing: Vec<BackingParticle<D>>,
+}
+
+impl Shell<2> {
+    /// The wall along a polyline `[m]`, at rest, rough and without dummy particles; points that repeat are left out.
+    #[must_use]
+    pub fn polyline(name: &str, points: &[Vector<2>], flow: Side) -> Self {
+        let ends = points.windows(2);
+        let facets = match flow {
+            Side::Left => ends.filter_map(|ends| Facet::segment(ends[0], ends[1])).collect(),
+            Side::Right => ends.rev().filter_map(|ends| Facet::segment(ends[1], ends[0])).collect(),
+        };
+        let (roughness, motion) = (Surface::Rough, Motion::default());
+        Self { name: name.to_owned(), facets, roughness, motion, backing: Vec::new() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_of_times_moves_between_its_rows_and_rests_beyond_them() {
+        let up = |y: f64| Vector::<2>::new(0.0, y);
+        let motion = Motion { times: vec![0.1, 0.2, 0.4], displacements: vec![up(0.0), up(0.3), up(0.3)] };
+        assert!(motion.is_sound() && !motion.is_rest());
+        for (time, place, speed) in [(0.0, 0.0, 0.0), (0.15, 0.15, 3.0), (0.3, 0.3, 0.0), (9.0, 0.3, 0.0)] {
+            assert!((motion.displacement(time) - up(place)).norm() < 1e-15, "{time}");
+            assert!((motion.velocity(time) - up(speed)).norm() < 1e-14, "{time}");
+        }
+        assert!((motion.largest_speed() - 3.0).abs() < 1e-14);
+        let backwards = Motion { times: vec![0.2, 0.1], displacements: vec![up(0.0); 2] };
+        assert!(!backwards.is_sound() && Motion::<2>::default().is_rest());
+    }
+
+    #[test]
+    fn the_flow_is_on_the_side_that_was_named() {
+        let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0]].map(Vector::<2>::from);
+        let left = Shell::polyline("corner", &points, Side::Left);
+        assert_eq!(left.facets.len(), 2);
+        assert!(left.facets[0].normal == Vector::<2>::new(0.0, 1.0));
+        let right = Shell::polyline("corner", &points, Side::Right);
+        assert!(right.facets[1].normal == Vector::<2>::new(0.0, -1.0));
+        assert!(right.facets[0].corners == [points[3], points[1]]);
+    }
+}

@@ -1,0 +1,174 @@
+//! Contact with shells: a particle within half a spacing may not approach further, wherever it is on the wall. What is
+//! found behind one has passed it.
+
+use super::facet::{Facet, Standing, standing};
+use super::shell::Shell;
+use super::wall::Surface;
+use crate::vector::Vector;
+
+/// Sweeps over the facets that are touched; in the plane a corner needs no more, and one that does brings to a stop.
+const SWEEPS: usize = 4;
+/// How much of its speed a particle may still approach with after a sweep `[-]`: rounding.
+const ROUNDING: f64 = 1e-12;
+/// How much farther than the nearest a rim may be to be touched `[-]`.
+const TIE: f64 = 1e-9;
+
+/// Shells where they stand in a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Touch<'a, const D: usize> {
+    pub(crate) shells: &'a [Shell<D>],
+    /// How far each has moved since the start `[m]`.
+    pub(crate) displacements: &'a [Vector<D>],
+    /// Mean velocity of each in the step `[m/s]`.
+    pub(crate) velocities: &'a [Vector<D>],
+    /// Distance within which a particle is touched `[m]`.
+    pub(crate) range: f64,
+    /// Friction of rough ones `[-]`.
+    pub(crate) friction: f64,
+}
+
+/// A particle behind a shell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Passed {
+    /// Which shell.
+    pub(crate) shell: usize,
+    /// Distance, negative `[m]`.
+    pub(crate) distance: f64,
+}
+
+/// A facet that is touched.
+struct Contact<const D: usize> {
+    shell: usize,
+    /// From the wall to the particle `[-]`.
+    normal: Vector<D>,
+}
+
+impl<'a, const D: usize> Touch<'a, D> {
+    /// Facets whose boxes hold a place, with their shell and the place as the shell sees it.
+    fn near(self, position: Vector<D>) -> impl Iterator<Item = (usize, &'a Facet<D>, Vector<D>)> + Clone {
+        self.shells.iter().enumerate().flat_map(move |(k, shell)| {
+            let place = position - self.displacements[k];
+            let near = move |facet: &&Facet<D>| facet.may_reach(&place, self.range);
+            shell.facets.iter().filter(near).map(move |facet| (k, facet, place))
+        })
+    }
+
+    /// Stops the approach of a particle to all shells and rubs it, as plane walls do. `book` gets the change of velocity
+    /// `[m/s]` that each shell causes. Returns the whole change.
+    ///
+    /// # Errors
+    /// The shell that the particle is behind of.
+    pub(crate) fn respond(
+        self,
+        position: &Vector<D>,
+        velocity: &Vector<D>,
+        mut book: impl FnMut(usize, Vector<D>),
+    ) -> Result<Vector<D>, Passed> {
+        let mut change = Vector::zeros();
+        let near = self.near(*position);
+        let Some(Standing { distance, facet }) = standing(near.clone().map(|(_, facet, place)| (facet, place))) else {
+            return Ok(change);
+        };
+        if distance < 0.0 && -distance < self.range {
+            let shell = near.clone().nth(facet).map_or(0, |(shell, ..)| shell);
+            return Err(Passed { shell, distance });
+        }
+        if distance.abs() >= self.range {
+            return Ok(change);
+        }
+        for sweep in 0..=SWEEPS {
+            let mut approached = false;
+            for (shell, facet, place) in near.clone() {
+                let Some(contact) = self.contact(shell, facet, &place, distance) else { continue };
+                let relative = velocity + change - self.velocities[shell];
+                let approach = relative.dot(&contact.normal);
+                if approach < 0.0 && (sweep == 0 || -approach > ROUNDING * velocity.norm()) {
+                    approached = true;
+                    // the last sweep: a corner too narrow to slide in
+                    let push = if sweep == SWEEPS { -relative } else { self.push(&contact, &relative, -approach) };
+                    change += push;
+                    book(shell, push);
+                }
+            }
+            if !approached {
+                break;
+            }
+        }
+        Ok(change)
+    }
+
+    /// The contact with a facet: on its face along its normal, at its rim only where nothing is nearer.
+    fn contact(self, shell: usize, facet: &Facet<D>, place: &Vector<D>, least: f64) -> Option<Contact<D>> {
+        let way = place - facet.nearest(place);
+        let (distance, height) = (way.norm(), facet.height(place));
+        if distance >= self.range {
+            return None;
+        }
+        let on_its_face = height.abs() >= (1.0 - TIE) * distance;
+        if on_its_face {
+            return (height >= 0.0).then_some(Contact { shell, normal: facet.normal });
+        }
+        (distance <= least * (1.0 + TIE)).then(|| Contact { shell, normal: way / distance })
+    }
+
+    /// Change of velocity that ends an approach `[m/s]` and rubs along the wall.
+    fn push(self, contact: &Contact<D>, relative: &Vector<D>, approach: f64) -> Vector<D> {
+        let rough = self.shells[contact.shell].roughness == Surface::Rough;
+        let friction = if rough { self.friction } else { 0.0 };
+        let tangential = relative + contact.normal * approach;
+        let speed = tangential.norm();
+        let rubbed =
+            if speed > 0.0 { tangential * ((friction * approach).min(speed) / speed) } else { Vector::zeros() };
+        contact.normal * approach - rubbed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::weakly_compressible::boundary::shell::Side;
+
+    fn shells(points: &[[f64; 2]]) -> Vec<Shell<2>> {
+        let points: Vec<_> = points.iter().map(|&point| point.into()).collect();
+        vec![Shell::polyline("wall", &points, Side::Left)]
+    }
+
+    fn after(shells: &[Shell<2>], place: [f64; 2], velocity: [f64; 2]) -> Result<Vector<2>, Passed> {
+        let rest = vec![Vector::zeros(); shells.len()];
+        let touch = Touch { shells, displacements: &rest, velocities: &rest, range: 0.5, friction: 0.4 };
+        let mut booked = Vector::<2>::zeros();
+        let velocity = Vector::from(velocity);
+        let change = touch.respond(&place.into(), &velocity, |_, push| booked += push)?;
+        assert!((booked - change).norm() < 1e-12);
+        Ok(velocity + change)
+    }
+
+    #[test]
+    fn a_straight_wall_of_segments_stops_and_rubs_as_a_plane_one() {
+        let bed = shells(&[[-3.0, 0.0], [-0.2, 0.0], [0.1, 0.0], [3.0, 0.0]]);
+        for x in [-1.0, -0.25, -0.2, 0.0, 0.1, 0.3] {
+            let found = after(&bed, [x, 0.3], [2.0, -1.0]).expect("in front");
+            assert!((found - Vector::<2>::new(1.6, 0.0)).norm() < 1e-15, "{found} at {x}");
+            assert!(after(&bed, [x, 0.3], [2.0, 1.0]).expect("in front") == Vector::<2>::new(2.0, 1.0));
+            assert!(after(&bed, [x, 0.6], [2.0, -1.0]).expect("in front") == Vector::<2>::new(2.0, -1.0));
+        }
+        let passed = after(&bed, [0.4, -0.1], [0.0, 1.0]).expect_err("behind");
+        assert!((passed.distance + 0.1).abs() < 1e-15 && passed.shell == 0);
+    }
+
+    #[test]
+    fn nothing_moves_on_into_a_narrow_corner_or_a_sharp_edge() {
+        let (cos, sin) = (15_f64.to_radians().cos(), 15_f64.to_radians().sin());
+        let trough = [[-9.0 * cos, -9.0 * sin], [0.0, 0.0], [-9.0 * cos, 9.0 * sin]];
+        for (y, velocity) in [(0.0, [10.0, 0.0]), (0.05, [10.0, 3.0]), (-0.1, [7.0, -7.0])] {
+            let found = after(&shells(&trough), [-0.8, y], velocity).expect("between the walls");
+            for normal in [[-sin, cos], [-sin, -cos]].map(Vector::<2>::from) {
+                assert!(found.dot(&normal) > -1e-9, "{found} from {velocity:?}");
+            }
+        }
+        let edge: Vec<_> = trough.iter().rev().copied().collect();
+        let found = after(&shells(&edge), [0.3, 0.0], [-10.0, 0.0]).expect("before the edge");
+        assert!(found.norm() < 1e-12, "{found}");
+        assert!(after(&shells(&edge), [-0.3, 0.0], [0.0, 0.0]).is_err());
+    }
+}
