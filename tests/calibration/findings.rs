@@ -2,6 +2,7 @@
 
 use super::coverage::normal;
 use bagnold_validation::calibration::{CalibrationFolder, Outcome, Plan, Watch, calibrate};
+use bagnold_validation::case::Limits;
 use bagnold_validation::cases::REGISTRY;
 use bagnold_validation::reference::{HerschelBulkleyFilm, Incline};
 use bagnold_validation::store::{Store, StorePolicy};
@@ -52,7 +53,7 @@ impl Watch for Unseen {
 fn outcome(folder: &Path, text: &str) -> Outcome {
     let file = folder.join("plan.toml");
     std::fs::write(&file, text).expect("a folder to write in");
-    let plan = Plan::read(&file, REGISTRY).unwrap_or_else(|error| panic!("{error}"));
+    let plan = Plan::read(&file, REGISTRY, Limits::default()).unwrap_or_else(|error| panic!("{error}"));
     let kept = CalibrationFolder::begin(&folder.join("out"), &file, false).unwrap_or_else(|error| panic!("{error}"));
     calibrate(&plan, &kept, REGISTRY, &Store::open(StorePolicy::Use), &Unseen).unwrap_or_else(|error| panic!("{error}"))
 }

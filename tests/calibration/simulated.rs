@@ -2,7 +2,7 @@
 //! which suspensions sink, to which it comes through the drag.
 
 use super::coverage::{Problem, Tally, normal, usual};
-use bagnold_validation::case::{Silent, Tier};
+use bagnold_validation::case::{Limits, Silent, Tier};
 use bagnold_validation::cases::REGISTRY;
 use bagnold_validation::evaluation::{CaseRequest, Record, evaluate};
 use bagnold_validation::inference::{Budget, Plan};
@@ -46,7 +46,8 @@ impl Simulated {
     fn simulated(&self, u: f64) -> Option<Vec<f64>> {
         let with = toml::from_str(self.with).expect("parameters of the case");
         let request = CaseRequest { case: self.case.to_owned(), name: None, tier: Tier::Quick, with };
-        let prepared = request.prepare(REGISTRY, Path::new("simulated.rs"), &[(self.setting)(u)]).ok()?;
+        let prepared =
+            request.prepare(REGISTRY, Path::new("simulated.rs"), &[(self.setting)(u)], Limits::default()).ok()?;
         let record = evaluate(prepared, &Store::open(StorePolicy::Use), &Silent).expect("threads to run it");
         record.failure.is_none().then(|| (self.predict)(&record)).filter(|values| values.len() == self.data)
     }

@@ -41,7 +41,7 @@ pub(super) fn publish(folder: &Path, staging: &Path) -> io::Result<()> {
     };
     if let (true, Some(beside)) = (exchanged, beside) {
         folder.parent().map_or(Ok(()), settle)?;
-        return remove(&beside);
+        return remove_marked(&beside);
     }
     finish_committed(&folder)?;
     unlink_others(&folder, &staging, &entries)?;
@@ -68,7 +68,7 @@ pub(super) fn tidy(folder: &Path) -> io::Result<()> {
     let is_ours = |path: &Path| path.join(MARKER).is_file() || is_empty(path);
     let outside = outside.into_iter().filter(|(path, _)| is_ours(path));
     for (path, _) in inside.into_iter().chain(outside).filter(|(_, process)| ended(process)) {
-        if let Err(error) = remove(&path) {
+        if let Err(error) = remove_marked(&path) {
             tracing::warn!("cannot remove {}: {error}", path.display());
         }
     }
@@ -76,19 +76,14 @@ pub(super) fn tidy(folder: &Path) -> io::Result<()> {
 }
 
 /// Removes a folder, its marker last, so that one whose removal is interrupted is still known to be Bagnold's.
-fn remove(folder: &Path) -> io::Result<()> {
+fn remove_marked(folder: &Path) -> io::Result<()> {
     for entry in std::fs::read_dir(folder)? {
         let entry = entry?;
-        if entry.file_name() == MARKER {
-            continue;
+        if entry.file_name() != MARKER {
+            remove(&entry.path())?;
         }
-        let is_folder = entry.file_type()?.is_dir();
-        if is_folder { std::fs::remove_dir_all(entry.path())? } else { std::fs::remove_file(entry.path())? }
     }
-    let marker = folder.join(MARKER);
-    if marker.exists() {
-        std::fs::remove_file(marker)?;
-    }
+    remove(&folder.join(MARKER))?;
     std::fs::remove_dir(folder)
 }
 

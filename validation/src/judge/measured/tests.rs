@@ -33,6 +33,7 @@ fn result() -> CaseResult {
         tables: Vec::new(),
         runs: Vec::new(),
         frames: Vec::new(),
+        first_bad: Vec::new(),
         state_hash: String::new(),
     }
 }

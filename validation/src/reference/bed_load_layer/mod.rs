@@ -112,7 +112,7 @@ pub struct Approach {
 }
 
 /// Largest number of time steps; a few hundred are usual.
-pub const LARGEST_STEPS: usize = 4000;
+pub const LARGEST_STEPS: usize = 12_000;
 
 /// Change of a step, of velocities over u_* and of fractions, below which a state is steady `[-]`.
 pub const STEADY: f64 = 1e-11;
@@ -126,6 +126,9 @@ const TOWARDS_SECANT: (f64, f64) = (0.3, 1.0);
 
 /// The step from which on it is sure.
 const SURE_FROM: usize = 1000;
+
+/// The step from which on the time step is short, for layers that still swing, and its length over the usual one.
+const SHORT: (usize, f64) = (3000, 0.125);
 
 impl BedLoadLayer {
     /// The steady state.
@@ -147,12 +150,13 @@ impl BedLoadLayer {
     pub fn approach(&self, start: Start) -> Result<Approach, ReferenceError> {
         self.check()?;
         let shear_velocity = self.stream.shear_velocity();
-        let time_step = TIME_STEP * self.stream.flow_depth / shear_velocity;
+        let usual_step = TIME_STEP * self.stream.flow_depth / shear_velocity;
         let mut column = Column::new(self, start);
         let mut steps = 0;
         loop {
             let last_good = column.clone();
             let towards_secant = if steps < SURE_FROM { TOWARDS_SECANT.0 } else { TOWARDS_SECANT.1 };
+            let time_step = if steps < SHORT.0 { usual_step } else { SHORT.1 * usual_step };
             let change = column.step(Stride { time_step, towards_secant });
             steps += 1;
             let (velocity_change, fraction_change) = (change.velocity / shear_velocity, change.fraction);
