@@ -16,5 +16,6 @@ mod permission;
 mod program;
 mod published;
 mod restart;
+mod scene;
 mod sweep;
 mod vanished;

@@ -4,6 +4,7 @@
 
 mod known_failures;
 mod perturbation;
+mod scenes;
 mod verdict;
 
 use bagnold_validation::cases::REGISTRY;

@@ -18,6 +18,7 @@ pub mod incline_collapse;
 pub mod layer;
 mod printed_laws;
 mod rules;
+pub mod scene;
 pub mod settling;
 pub mod still_water;
 mod transport_panel;
@@ -60,6 +61,7 @@ registry!($
     settling::Settling,
     bed_load_1d::BedLoad1d,
     bed_load::BedLoad,
+    scene::UserScene,
 );
 
 #[cfg(test)]

@@ -1,0 +1,152 @@
+//! Bodies of material: boxes, polygons and discs, and the places in them that particles start from.
+
+use super::Place;
+use crate::case::ParameterError;
+use bagnold_solver::parameter::{filled, positive};
+use bagnold_solver::vector::Vector;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A piece of the material at the start.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "shape", rename_all = "kebab-case")]
+pub enum Body {
+    /// A rectangle along the axes.
+    Box {
+        /// Lower left corner x, y `[m]`.
+        lower: Place,
+        /// Upper right corner x, y `[m]`.
+        upper: Place,
+        /// Velocity at the start, x, y `[m/s]`.
+        #[serde(default)]
+        velocity: Place,
+    },
+    /// A disc.
+    Disc {
+        /// Its middle x, y `[m]`.
+        centre: Place,
+        /// Its radius `[m]`.
+        #[schemars(transform = positive("give it in metres"))]
+        radius: f64,
+        /// Velocity at the start, x, y `[m/s]`.
+        #[serde(default)]
+        velocity: Place,
+    },
+    /// What a closed polyline encloses.
+    Polygon {
+        /// Its corners x, y `[m]`, the last of which is joined to the first.
+        #[schemars(transform = filled("at least one corner", "give three corners or more"))]
+        points: Vec<Place>,
+        /// Velocity at the start, x, y `[m/s]`.
+        #[serde(default)]
+        velocity: Place,
+    },
+}
+
+impl Body {
+    /// Velocity at the start `[m/s]`.
+    pub(super) fn velocity(&self) -> Vector<2> {
+        let (Self::Box { velocity, .. } | Self::Disc { velocity, .. } | Self::Polygon { velocity, .. }) = self;
+        Vector::<2>::new(velocity.0, velocity.1)
+    }
+
+    /// Lower and upper corner of its box `[m]`.
+    pub(super) fn extent(&self) -> (Vector<2>, Vector<2>) {
+        match self {
+            Self::Box { lower, upper, .. } => (vector(lower), vector(upper)),
+            Self::Disc { centre, radius, .. } => {
+                (vector(centre) - Vector::repeat(*radius), vector(centre) + Vector::repeat(*radius))
+            }
+            Self::Polygon { points, .. } => extent(points),
+        }
+    }
+
+    /// Whether it holds a place.
+    pub(super) fn holds(&self, place: &Vector<2>) -> bool {
+        match self {
+            Self::Box { lower, upper, .. } => {
+                let (lower, upper) = (vector(lower), vector(upper));
+                (0..2).all(|axis| place[axis] >= lower[axis] && place[axis] < upper[axis])
+            }
+            Self::Disc { centre, radius, .. } => (place - vector(centre)).norm_squared() <= radius * radius,
+            Self::Polygon { points, .. } => {
+                // a ray to the right crosses its sides an odd number of times
+                let ends = (0..points.len()).map(|k| (vector(&points[k]), vector(&points[(k + 1) % points.len()])));
+                let crossed = ends.filter(|(a, b)| {
+                    let across = (a[1] > place[1]) != (b[1] > place[1]);
+                    across && place[0] < a[0] + (b[0] - a[0]) * (place[1] - a[1]) / (b[1] - a[1])
+                });
+                crossed.count() % 2 == 1
+            }
+        }
+    }
+
+    /// Refuses a body without an inside.
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
+        let refused = |field, value: String, rule, remedy| Err(ParameterError::field(field, value, rule, remedy));
+        match self {
+            Self::Box { lower, upper, .. } if lower.0 >= upper.0 || lower.1 >= upper.1 => {
+                let rule = "above and to the right of `lower`";
+                refused("upper", format!("({}, {})", upper.0, upper.1), rule, "give the upper right corner")
+            }
+            Self::Polygon { points, .. } if points.len() < 3 => {
+                refused("points", format!("{} of them", points.len()), "three corners or more", "add the missing ones")
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Whether any body holds a place, and the first that does.
+pub(super) fn holder<'a>(bodies: &'a [Body], place: &Vector<2>) -> Option<&'a Body> {
+    bodies.iter().find(|body| body.holds(place))
+}
+
+/// Depth of a place below the surface of the material, against the direction `up`: as far as bodies reach `[m]`.
+pub(super) fn depth(bodies: &[Body], place: &Vector<2>, up: &Vector<2>, spacing: f64) -> f64 {
+    let step = 0.125 * spacing;
+    let mut steps = 0.0;
+    while holder(bodies, &(place + up * ((steps + 0.5) * step))).is_some() {
+        steps += 1.0;
+    }
+    steps * step
+}
+
+/// A place as a vector `[m]`.
+pub(super) fn vector(place: &Place) -> Vector<2> {
+    Vector::<2>::new(place.0, place.1)
+}
+
+/// Lower and upper corner of the box around some places `[m]`.
+pub(super) fn extent(points: &[Place]) -> (Vector<2>, Vector<2>) {
+    let none = (Vector::repeat(f64::INFINITY), Vector::repeat(f64::NEG_INFINITY));
+    points.iter().map(vector).fold(none, |(lower, upper), place| (lower.inf(&place), upper.sup(&place)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bodies_hold_what_is_inside() {
+        let velocity = (0.0, 0.0);
+        let triangle = Body::Polygon { points: vec![(0.0, 0.0), (2.0, 0.0), (0.0, 2.0)], velocity };
+        let disc = Body::Disc { centre: (1.0, 1.0), radius: 0.5, velocity };
+        let square = Body::Box { lower: (-1.0, -1.0), upper: (0.0, 0.0), velocity };
+        for (body, inside, outside) in
+            [(&triangle, [0.5, 0.5], [1.5, 1.5]), (&disc, [1.3, 1.3], [1.4, 1.4]), (&square, [-0.5, -0.5], [0.1, -0.5])]
+        {
+            assert!(body.holds(&inside.into()) && !body.holds(&outside.into()), "{body:?}");
+            assert!(body.check().is_ok());
+        }
+        let bodies = [square, triangle];
+        let up = Vector::<2>::new(0.0, 1.0);
+        assert!((depth(&bodies, &[-0.5, -0.75].into(), &up, 0.1) - 0.75).abs() < 0.02);
+        assert!((depth(&bodies, &[0.5, 0.5].into(), &up, 0.1) - 1.0).abs() < 0.02);
+        let flat = Body::Box { lower: (0.0, 0.0), upper: (1.0, 0.0), velocity };
+        assert_eq!(
+            flat.check().expect_err("flat").to_string(),
+            "`upper` is (1, 0), but must be above and to the right of `lower`; give the upper right corner"
+        );
+    }
+}

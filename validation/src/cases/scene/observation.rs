@@ -1,0 +1,86 @@
+//! What a scene leaves behind: the gauges' series, and its balances.
+
+use crate::observation::EnergyBook;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::energy::EnergyAccount;
+use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use serde::{Deserialize, Serialize};
+
+/// What left by one side.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Left {
+    /// Particles.
+    pub particles: u64,
+    /// Their mass `[kg/m]`.
+    pub mass: f64,
+}
+
+/// Series and balances; every series has the shape `[samples]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct SceneObservation {
+    /// Times `[s]`.
+    pub time: Vec<f64>,
+    /// Mass in the scene `[kg/m]`.
+    pub mass: Vec<f64>,
+    /// The gauges' values, shape `[columns][samples]`.
+    pub gauges: Vec<Vec<f64>>,
+    /// The energy ledger, with what has left still counted.
+    pub energy: EnergyBook,
+    /// What left by the left, right, lower and upper side up to the last sample.
+    pub left: Vec<Left>,
+    /// Largest difference of the mass inside and outside from that of the start `[kg/m]`.
+    pub missing_mass: f64,
+    /// Largest impulse that has no cause among gravity, walls and sides `[kg m/s]` per metre of depth.
+    pub missing_impulse: f64,
+    /// Largest difference between what the walls have given, wall by wall, and what the particles have got from them, mirrors
+    /// included `[kg m/s]` per metre of depth.
+    pub unassigned_impulse: f64,
+    /// Impulse of gravity up to the last sample, its size `[kg m/s]` per metre of depth.
+    pub gravity_impulse: f64,
+    /// Momentum at the start `[kg m/s]` per metre of depth.
+    pub momentum_at_start: [f64; 2],
+    /// Particles that are behind a wall at the end.
+    pub behind: u64,
+}
+
+impl SceneObservation {
+    /// Enters a sample.
+    pub(super) fn enter(
+        &mut self,
+        simulation: &Simulation<2>,
+        snapshot: &Snapshot<2>,
+        gravity: &Vector<2>,
+        gauges: Vec<f64>,
+    ) {
+        let sides = &simulation.departures().sides;
+        let inside: f64 = snapshot.mass.iter().sum();
+        let outside: f64 = sides.iter().map(|side| side.mass).sum();
+        let held: Vector<2> = snapshot.velocity.iter().zip(&snapshot.mass).map(|(v, m)| v * *m).sum();
+        let gone: Vector<2> = sides.iter().map(|side| side.momentum).sum();
+        let supports: Vector<2> = snapshot.support_impulse.iter().sum::<Vector<2>>()
+            + sides.iter().map(|side| side.support).sum::<Vector<2>>();
+        let walls: Vector<2> = simulation.shell_impulses().iter().sum();
+        let worked: f64 = sides.iter().map(|side| side.mass_times_time).sum();
+        let given = gravity * (inside * snapshot.time + worked);
+        if self.time.is_empty() {
+            self.momentum_at_start = held.into();
+            self.gauges = vec![Vec::new(); gauges.len()];
+        }
+        let missing = held + gone - Vector::<2>::from(self.momentum_at_start) - supports - given;
+        self.time.push(snapshot.time);
+        self.mass.push(inside);
+        for (series, value) in self.gauges.iter_mut().zip(gauges) {
+            series.push(value);
+        }
+        self.left = sides.iter().map(|side| Left { particles: side.particles, mass: side.mass }).collect();
+        self.missing_mass = self.missing_mass.max((inside + outside - self.mass[0]).abs());
+        self.missing_impulse = self.missing_impulse.max(missing.norm());
+        self.unassigned_impulse = self.unassigned_impulse.max((supports - walls).norm());
+        self.gravity_impulse = given.norm();
+        if let Some(account) = &snapshot.energy {
+            let kept: f64 = sides.iter().map(|side| side.energy).sum();
+            self.energy.enter(&EnergyAccount { kinetic: account.kinetic + kept, ..*account });
+        }
+    }
+}
