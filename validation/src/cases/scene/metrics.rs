@@ -1,5 +1,6 @@
 //! How a scene is judged: by its balances, and its gauges by what was measured.
 
+use super::body::vector;
 use super::{Gauge, Record, SceneObservation, SceneParameters, SceneRun};
 use crate::case::Run;
 use crate::cases::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};
@@ -20,6 +21,9 @@ quantities! {
     MASS_CROSSED: accounted("mass_crossed", "kg/m", "mass that has crossed a gauge's line up to the end"),
     GAUGE_ERROR: validated("gauge_error", "%", "root mean square of a gauge's relative error at the measured times"),
 }
+
+/// Share of the weight times the scene's height that energies are compared with at least `[-]`.
+const AT_REST: f64 = 0.1;
 
 pub(super) fn all(parameters: &SceneParameters, records: &[Record]) -> Vec<Metric> {
     records.iter().flat_map(|record| of_run(parameters, record)).collect()
@@ -97,11 +101,14 @@ fn energy(run: &SceneRun, data: &SceneObservation) -> Vec<Metric> {
     if book.total.is_empty() {
         return Vec::new();
     }
-    let share = |value: f64| 100.0 * value / book.gravity.abs();
+    // what stands still is judged by what it could do
+    let weight = data.mass.first().copied().unwrap_or(f64::NAN) * vector(&run.scene.gravity).norm();
+    let scale = book.gravity.abs().max(AT_REST * weight * run.scene.height());
+    let share = |value: f64| 100.0 * value / scale;
     vec![
         ENERGY_RESIDUAL
             .of(&variant, share(book.residual()))
-            .exactly(0.0, "every term of the scheme books its work; in per cent of the work of gravity")
+            .exactly(0.0, "every term of the scheme books its work; in per cent of the work of gravity, or of a tenth of the weight times the scene's height where that is more")
             .gated(Limit::AtMost(1.0), "what is left is the length of a step")
             .with_snapshot_tolerance(0.2, 1e-2),
         ENERGY_RISE.of(&variant, share(book.rise())).with_snapshot_tolerance(0.5, 0.1),
