@@ -17,5 +17,6 @@ mod program;
 mod published;
 mod restart;
 mod scene;
+mod states;
 mod sweep;
 mod vanished;

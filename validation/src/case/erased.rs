@@ -8,7 +8,9 @@ use super::foreign::ForeignResult;
 use super::guard::{Guard, with_changed};
 use super::notes::notes;
 use super::result::{CaseResult, RunSummary, microseconds_each};
-use super::{Case, CaseFile, Estimate, Form, Given, Parameters, Progress, RecordOf, Run, RunOf, Tier, schema};
+use super::{
+    Case, CaseFile, Estimate, Form, Given, Parameters, Progress, RecordOf, Run, RunOf, StateOutput, Tier, schema,
+};
 use crate::checkpoint::{Checkpoints, is_interrupted};
 use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
@@ -133,6 +135,10 @@ impl Progress for Kept<'_> {
     fn checkpoints(&self) -> Option<&Checkpoints> {
         self.checkpoints.as_ref()
     }
+
+    fn output(&self) -> Option<&dyn StateOutput> {
+        self.progress.output()
+    }
 }
 
 /// A run and, once it is done, its record and whether that came from the store.
@@ -183,11 +189,13 @@ impl<C: Case> Prepared for Plan<C> {
             return Err(ParameterError::Interrupted);
         }
         let key = store.key(self.name(), description);
-        if let Some(record) = key.as_ref().and_then(|key| store.fetch(key)) {
+        // states on the way are nowhere but in the run itself, from its start
+        let anew = progress.output().is_some();
+        if let Some(record) = key.as_ref().filter(|_| !anew).and_then(|key| store.fetch(key)) {
             slot.get_or_init(|| (record, true));
             return Ok(());
         }
-        let checkpoints = key.as_ref().map(|key| store.checkpoints(key));
+        let checkpoints = key.as_ref().filter(|_| !anew).map(|key| store.checkpoints(key));
         let simulated = description.simulate(&Kept { progress, checkpoints });
         let record = match simulated {
             // what was cut short may look like something that is refused

@@ -1,7 +1,7 @@
 //! A case as a TOML file: `case` and `tier` on top, the parameters below.
 
-use super::Tier;
 use super::error::ParameterError;
+use super::{OutputPlan, Tier};
 use crate::input::{WRITTEN_BY_HAND, nearest, position, read_text};
 use crate::output::FileError;
 use bagnold_solver::parameter::shortened;
@@ -20,6 +20,8 @@ pub struct CaseFile {
     pub tier: Option<Tier>,
     /// Files with measurements to be drawn into its figures; beside the file, unless they say otherwise.
     pub overlay: Vec<PathBuf>,
+    /// States of its runs to be written on their way.
+    pub output: Option<OutputPlan>,
     /// Everything else.
     pub fields: Table,
 }
@@ -66,7 +68,8 @@ impl CaseFile {
         };
         let beside = path.parent().unwrap_or(Path::new(""));
         let overlay = overlay.into_iter().map(|file| beside.join(file)).collect();
-        Ok(Self { path: path.to_owned(), case, tier, overlay, fields })
+        let output = OutputPlan::taken(&mut fields, path)?;
+        Ok(Self { path: path.to_owned(), case, tier, overlay, output, fields })
     }
 
     /// The text of a complete file: the parameters in the order of their struct, each with its note.

@@ -12,6 +12,7 @@ mod finite;
 mod foreign;
 mod guard;
 mod notes;
+mod output;
 #[cfg(test)]
 pub(crate) mod pendulum;
 pub mod recording;
@@ -27,6 +28,7 @@ pub use error::{ParameterError, SettingError};
 pub use estimate::{Estimate, Limits};
 pub use file::CaseFile;
 pub use foreign::{Columns, Foreign, ForeignResult, Form, Given, Item, Picture};
+pub use output::{OUTPUT_FIELDS, OutputPlan, StateOutput};
 pub use registry::Registry;
 pub use request::{Request, Requested};
 pub use result::{CaseResult, RunSummary};
@@ -124,6 +126,10 @@ pub trait Progress: Sync {
     fn advance(&self, simulated: f64, total: f64, particle_steps: f64);
     /// Where the run keeps its checkpoints; none where nothing is kept.
     fn checkpoints(&self) -> Option<&Checkpoints> {
+        None
+    }
+    /// What takes states of the run on its way; none where nobody wants any.
+    fn output(&self) -> Option<&dyn StateOutput> {
         None
     }
 }

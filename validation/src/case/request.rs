@@ -1,7 +1,7 @@
 //! What a user asks to be run: a case by its name or from a file, with changes, all of its runs or some.
 
 use super::error::ParameterError;
-use super::{AnyCase, CaseFile, Changes, Limits, Prepared, Registry, Tier};
+use super::{AnyCase, CaseFile, Changes, Limits, OutputPlan, Prepared, Registry, Tier};
 use crate::metric::Variant;
 use std::path::{Path, PathBuf};
 
@@ -28,6 +28,8 @@ pub struct Requested {
     pub tier: Tier,
     /// Files with measurements that its file names.
     pub overlay: Vec<PathBuf>,
+    /// States of the runs that its file wants on their way.
+    pub output: Option<OutputPlan>,
     /// Whether anything may be other than as the case comes.
     pub changed: bool,
 }
@@ -53,7 +55,8 @@ impl Request<'_> {
         };
         let changed = file.is_some() || !self.settings.is_empty() || !self.only.is_empty();
         let prepared = only(case.prepare(tier, &changes)?, self.only)?;
-        Ok(Requested { prepared, tier, overlay: file.map(|file| file.overlay).unwrap_or_default(), changed })
+        let (overlay, output) = file.map(|file| (file.overlay, file.output)).unwrap_or_default();
+        Ok(Requested { prepared, tier, overlay, output, changed })
     }
 }
 

@@ -4,7 +4,7 @@
 //! of its own loop may pick up a whole other run, which would delay its own and spoil its timing.
 
 use super::error::ParameterError;
-use super::{CaseResult, Prepared, Progress};
+use super::{CaseResult, Prepared, Progress, StateOutput};
 use crate::checkpoint::is_interrupted;
 use crate::store::Store;
 use std::sync::{Mutex, PoisonError};
@@ -17,6 +17,10 @@ pub trait Monitor: Sync {
     fn advanced(&self, run: usize, simulated: f64, total: f64, particle_steps: f64);
     /// The run is done, or was taken from the store.
     fn finished(&self, run: usize);
+    /// What takes states of the run on its way: such a run is never taken from the store.
+    fn output(&self, _run: usize) -> Option<&dyn StateOutput> {
+        None
+    }
 }
 
 /// A monitor that does nothing.
@@ -42,6 +46,10 @@ struct RunProgress<'a> {
 impl Progress for RunProgress<'_> {
     fn advance(&self, simulated: f64, total: f64, particle_steps: f64) {
         self.monitor.advanced(self.run, simulated, total, particle_steps);
+    }
+
+    fn output(&self) -> Option<&dyn StateOutput> {
+        self.monitor.output(self.run)
     }
 }
 

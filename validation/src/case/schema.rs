@@ -1,6 +1,6 @@
 //! The JSON Schema of a case file, for editors.
 
-use super::Tier;
+use super::{OUTPUT_FIELDS, Tier};
 use bagnold_solver::parameter::{Shape, schema_of};
 use serde_json::{Map, Value as Schema, json};
 use toml::{Table, Value};
@@ -21,6 +21,17 @@ pub(super) fn of_file(case: &str, summary: &str, tier: Tier, parameters: &Schema
     let overlay = "CSV files with measurements to be drawn into the case's figures; their paths begin at this file.";
     let files = json!({ "type": "array", "items": { "type": "string" }, "default": [], "description": overlay });
     fields.insert("overlay".to_owned(), files);
+    let states = json!({
+        "type": "object",
+        "description": "States of every run to be written on its way, for ParaView.",
+        "properties": {
+            "every": { "not": { "type": ["string", "boolean", "array", "object", "null"] }, "description": "Time between two states [s], positive." },
+            "fields": { "type": "array", "items": { "enum": OUTPUT_FIELDS }, "description": "Quantities of the particles; all where none are named." },
+        },
+        "required": ["every"],
+        "additionalProperties": false,
+    });
+    fields.insert("output".to_owned(), states);
     let mut parameters = parameters.clone();
     fill(&mut parameters, &Value::Table(defaults.clone()));
     if let Some(Schema::Object(properties)) = parameters.get_mut("properties").map(Schema::take) {

@@ -37,6 +37,7 @@ const RUN_EXAMPLES: &str = "Examples:
   bagnold run column-planar --only material=sand,aspect_ratio=3
   bagnold run film --json > metrics.json
   bagnold run film --overlay mine.csv
+  bagnold run column-planar --only material=sand,aspect_ratio=3 --output-every 0.01
 
 A file names its case with `case = \"film\"` and takes from the tier what it leaves out; `bagnold show film`
 prints a complete one. Values of --set are TOML; fields inside tables are reached by dots.
@@ -48,7 +49,9 @@ Measurements for --overlay are a table of three columns, named as the axes of a 
   y/h [-],u [cm/s],uncertainty [cm/s]
   0.3,8.6,0.3
 
-`# figure:`, `# panel:` and `# curve:` say which is meant where there are several. The folder receives index.html, case.toml, metrics.json, provenance.json, tables/*.csv, reference/*.csv, figures/ and
+`# figure:`, `# panel:` and `# curve:` say which is meant where there are several. --output-every, or in a file
+[output] with every and fields, writes states/RUN.pvd and states/RUN-walls.pvd; such runs are simulated from their start.
+The folder receives index.html, case.toml, metrics.json, provenance.json, tables/*.csv, reference/*.csv, figures/ and
 snapshots/*.pvd for ParaView.
 
 Exit codes: 0 all gates hold, 1 a gate fails, 2 bad input, 3 a run diverged.";
@@ -165,6 +168,12 @@ pub struct Run {
     /// Draw measurements into the case's figure with their axes, and say how far the case is from them; may be repeated.
     #[arg(long, value_name = "FILE.csv")]
     pub overlay: Vec<PathBuf>,
+    /// Write the particles of every run at this interval of simulated time, for ParaView: states/*.pvd.
+    #[arg(long, value_name = "SECONDS")]
+    pub output_every: Option<f64>,
+    /// What of the particles is written, such as id,velocity,shear_rate,inertial_number [default: all].
+    #[arg(long, value_name = "FIELD,…", value_delimiter = ',', requires = "output_every")]
+    pub output_fields: Vec<String>,
     /// Folder to write [default: reports/runs/CASE-TIER].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

@@ -4,11 +4,14 @@ use super::arguments::Run;
 use super::error::ProgramError;
 use super::progress::Progress;
 use super::{Exit, places, say, summary};
-use crate::case::{CaseResult, Estimate, ParameterError, Prepared, Registry, Request, Requested, execute};
+use crate::case::{
+    CaseResult, Estimate, Monitor, OutputPlan, ParameterError, Prepared, Registry, Request, Requested, StateOutput,
+    execute,
+};
 use crate::judge::{self, Measurements};
 use crate::output::{FileError, OutputFolder};
 use crate::report::{self, Baseline, History, Provenance, Report};
-use crate::result::{MetricsDocument, write_case};
+use crate::result::{MetricsDocument, States, write_case};
 use crate::store::Store;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -28,7 +31,11 @@ pub(super) fn run(
         only: &command.only,
         limits: command.allowance.limits(),
     };
-    let Requested { prepared, tier, overlay, changed } = request.prepare(registry)?;
+    let Requested { prepared, tier, overlay, output: wanted, changed } = request.prepare(registry)?;
+    let wanted = match command.output_every {
+        Some(every) => Some(OutputPlan::new(every, command.output_fields.clone()).map_err(ParameterError::from)?),
+        None => wanted,
+    };
     let overlay: Vec<Measurements> =
         overlay.iter().chain(&command.overlay).map(|file| Measurements::read(file)).collect::<Result<_, _>>()?;
     let folder =
@@ -42,9 +49,15 @@ pub(super) fn run(
     // accepted values are those of the case as it comes
     let baseline = if changed { Baseline::default() } else { places::accepted(prepared.name(), tier)? };
     let started = Instant::now();
-    let mut results = simulate(vec![prepared], &command.work.open_store(), quiet)?;
+    let states = wanted.as_ref().map(|plan| States::of(prepared.as_ref(), plan, &claimed.staging().join("states")));
+    let mut results = simulate_showing(vec![prepared], &command.work.open_store(), quiet, states.as_ref())?;
+    states.map_or(Ok(()), States::finish).map_err(|error| FileError::unwritable(&folder, &error))?;
     for result in &mut results {
         judge::draw_measured(result, &overlay)?;
+        if let Some(plan) = &wanted {
+            result.parameters_toml += &format!("\n{}", plan.text());
+            "bagnold run case.toml".clone_into(&mut result.command);
+        }
     }
 
     let threads = rayon::current_num_threads();
@@ -101,8 +114,42 @@ pub(super) fn simulate(
     store: &Store,
     quiet: bool,
 ) -> Result<Vec<CaseResult>, ParameterError> {
-    let progress = Progress::new(&cases, quiet);
-    let results = execute(cases, store, &progress);
-    progress.clear();
+    simulate_showing(cases, store, quiet, None)
+}
+
+/// Simulates with a progress bar, and shows states on the way.
+fn simulate_showing(
+    cases: Vec<Box<dyn Prepared>>,
+    store: &Store,
+    quiet: bool,
+    states: Option<&States>,
+) -> Result<Vec<CaseResult>, ParameterError> {
+    let showing = Showing { progress: Progress::new(&cases, quiet), states };
+    let results = execute(cases, store, &showing);
+    showing.progress.clear();
     results
+}
+
+/// A progress bar, and who takes the states of the runs.
+struct Showing<'a> {
+    progress: Progress,
+    states: Option<&'a States>,
+}
+
+impl Monitor for Showing<'_> {
+    fn started(&self, run: usize) {
+        self.progress.started(run);
+    }
+
+    fn advanced(&self, run: usize, simulated: f64, total: f64, particle_steps: f64) {
+        self.progress.advanced(run, simulated, total, particle_steps);
+    }
+
+    fn finished(&self, run: usize) {
+        self.progress.finished(run);
+    }
+
+    fn output(&self, run: usize) -> Option<&dyn StateOutput> {
+        self.states?.run(run)
+    }
 }

@@ -3,12 +3,14 @@
 mod base64;
 mod document;
 mod snapshots;
+mod states;
 
 pub use document::{MetricEntry, MetricsDocument, Provenance};
 
 use crate::case::CaseResult;
 pub(crate) use document::pretty;
 pub(crate) use snapshots::write as write_snapshots;
+pub use states::States;
 use std::io;
 use std::path::Path;
 

@@ -16,16 +16,23 @@ const VERTEX: u8 = 1;
 /// Files that cannot be written.
 pub(crate) fn write(folder: &Path, name: &str, frames: &[Frame]) -> io::Result<()> {
     std::fs::create_dir_all(folder.join(name))?;
-    let mut collection = String::new();
+    let mut written = Vec::new();
     for (number, frame) in frames.iter().enumerate() {
         let file = format!("{name}/frame_{number:04}.vtu");
         std::fs::write(folder.join(&file), vtu(frame))?;
-        collection.push_str(&format!("    <DataSet timestep=\"{}\" file=\"{}\"/>\n", frame.time, escape(&file)));
+        written.push((frame.time, file));
     }
-    let text = format!(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n{collection}  </Collection>\n</VTKFile>\n"
-    );
-    std::fs::write(folder.join(format!("{name}.pvd")), text)
+    std::fs::write(folder.join(format!("{name}.pvd")), collection(&written))
+}
+
+/// The file that joins states, each with its time and its path.
+pub(super) fn collection(states: &[(f64, String)]) -> String {
+    let entry =
+        |(time, file): &(f64, String)| format!("    <DataSet timestep=\"{time}\" file=\"{}\"/>\n", escape(file));
+    let entries: String = states.iter().map(entry).collect();
+    format!(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n{entries}  </Collection>\n</VTKFile>\n"
+    )
 }
 
 /// A run's variant as a file name: `slope_angle=24,start=rest` is one, but empty is not.
@@ -34,7 +41,7 @@ pub(super) fn file_name(variant: &Variant) -> String {
     if variant.is_empty() { "run".to_owned() } else { variant.to_string().chars().map(safe).collect() }
 }
 
-fn vtu(frame: &Frame) -> String {
+pub(super) fn vtu(frame: &Frame) -> String {
     let count = frame.position.len();
     let mut text = String::from(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n",

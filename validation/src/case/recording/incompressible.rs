@@ -1,6 +1,6 @@
 //! Records of incompressible simulations.
 
-use super::{Recordable, Restartable, State};
+use super::{Recordable, Restartable, State, picture};
 use crate::observation::Frame;
 use bagnold_solver::incompressible::{
     IncompressibleScene, IncompressibleSimulation, IncompressibleSnapshot, PhaseSnapshot, SavedIncompressible,
@@ -23,6 +23,14 @@ impl<const D: usize> Recordable for IncompressibleSimulation<D> {
 
     fn state(&self) -> IncompressibleSnapshot<D> {
         self.snapshot()
+    }
+
+    fn picture(&self) -> Frame {
+        picture::of_phases(self)
+    }
+
+    fn walls(&self) -> Option<Frame> {
+        picture::of_floor(self)
     }
 
     fn particles(&self) -> usize {

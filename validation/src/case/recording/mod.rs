@@ -5,6 +5,7 @@
 //! continued by another program, with what they have observed.
 
 mod incompressible;
+mod picture;
 mod restart;
 mod weakly_compressible;
 
@@ -34,6 +35,10 @@ pub trait Recordable {
     type State: State;
     /// A copy of the present state.
     fn state(&self) -> Self::State;
+    /// The present state as other programs want to see it.
+    fn picture(&self) -> Frame;
+    /// The particles of its walls; none where there are none.
+    fn walls(&self) -> Option<Frame>;
     /// Particles that move.
     fn particles(&self) -> usize;
     /// Steps taken.

@@ -2,7 +2,7 @@
 //! its observations, and what its observer keeps are one checkpoint.
 
 use super::Recordable;
-use crate::case::{ParameterError, Progress};
+use crate::case::{ParameterError, Progress, StateOutput};
 use crate::checkpoint::{Checkpoints, count_stopped, is_interrupted};
 use bagnold_solver::run::{ContinueError, Course, Observer, SceneError, StopReason};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -146,19 +146,24 @@ where
             (simulation, Course::new(end, interval), kept, now)
         }
     };
-    let mut watching = Watching { checkpoints, context, started, kept, observe, simulation: PhantomData };
+    let output = progress.output();
+    let mut watching = Watching { checkpoints, output, context, started, kept, observe, simulation: PhantomData };
     let stop = match simulation.follow(&mut course, &mut watching) {
         StopReason::Finished => Stop::Finished,
         StopReason::Stopped => Stop::Stopped,
         StopReason::Diverged(divergence) => Stop::Diverged(divergence.to_string()),
         StopReason::Interrupted => return Err(ParameterError::Interrupted),
     };
+    if let Some(output) = output {
+        output.take(simulation.picture(), simulation.walls());
+    }
     Ok(Followed { simulation, stop, kept: watching.kept, started })
 }
 
-/// Shows a simulation to the observer of a case, and keeps checkpoints.
+/// Shows a simulation to the observer of a case and to who wants states on its way, and keeps checkpoints.
 struct Watching<'a, const D: usize, S, O, C, F> {
     checkpoints: Option<&'a Checkpoints>,
+    output: Option<&'a dyn StateOutput>,
     context: &'a C,
     started: Instant,
     kept: O,
@@ -178,6 +183,9 @@ where
     }
 
     fn pause(&mut self, simulation: &S, course: &Course) -> ControlFlow<()> {
+        if let Some(output) = self.output.filter(|output| output.is_due(simulation.time())) {
+            output.take(simulation.picture(), simulation.walls());
+        }
         let interrupted = is_interrupted();
         let wanted = self.checkpoints.filter(|checkpoints| interrupted || checkpoints.is_due());
         let is_kept = wanted.is_some_and(|checkpoints| {

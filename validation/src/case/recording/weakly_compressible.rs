@@ -1,6 +1,6 @@
 //! Records of weakly compressible simulations.
 
-use super::{Recordable, Restartable, State};
+use super::{Recordable, Restartable, State, picture};
 use crate::observation::Frame;
 use bagnold_solver::run::{ContinueError, Course, Observer, SceneError, StopReason};
 use bagnold_solver::vector::{Vector, equivalent_shear_stress, shear_rate};
@@ -24,6 +24,14 @@ impl<const D: usize> Recordable for Simulation<D> {
 
     fn state(&self) -> Snapshot<D> {
         self.snapshot()
+    }
+
+    fn picture(&self) -> Frame {
+        picture::of_flow(self)
+    }
+
+    fn walls(&self) -> Option<Frame> {
+        picture::of_walls(self)
     }
 
     fn particles(&self) -> usize {

@@ -80,7 +80,7 @@ pub(super) fn observe(run: &BedLoadRun, given: &Given) -> Result<Foreign<BedLoad
     }
     let layer = match &run.formulation {
         Formulation::Continuum(own) => Some(own.layer(run.stream()).map_err(|error| {
-            FieldError::new("runs", &error.to_string(), "a run whose 1-D layer can be computed", "leave the run out")
+            FieldError::new("runs", error.to_string(), "a run whose 1-D layer can be computed", "leave the run out")
         })?),
         _ => None,
     };

@@ -68,7 +68,7 @@ fn column(heading: &str, values: Vec<f64>) -> Result<Column, FieldError> {
     else {
         unreachable!("a text is a heading")
     };
-    if let Some(row) = values.iter().position(|value| !(value.abs() <= LARGEST)) {
+    if let Some(row) = values.iter().position(|value| !value.is_finite() || value.abs() > LARGEST) {
         let value = format!("{} in row {}", values[row], row + 1);
         return Err(FieldError::new(heading, value, "finite numbers up to 1e30", "leave the row out or mend it"));
     }

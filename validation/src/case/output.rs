@@ -1,0 +1,157 @@
+//! States that a run shows on its way, for other programs to look at: `[output]` in a case file.
+
+use crate::input::{FieldError, did_you_mean, nearest};
+use crate::observation::Frame;
+use std::path::Path;
+
+/// What can be written of a state, of both models; a case without a quantity leaves it out.
+pub const OUTPUT_FIELDS: [&str; 12] = [
+    "id",
+    "mass",
+    "density",
+    "pressure",
+    "velocity",
+    "shear_stress",
+    "shear_rate",
+    "inertial_number",
+    "stress_ratio",
+    "mobilised",
+    "concentration",
+    "phase",
+];
+
+/// Which states are wanted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutputPlan {
+    /// Time between two of them `[s]`.
+    pub every: f64,
+    /// Quantities of the particles; all where none are named.
+    pub fields: Vec<String>,
+}
+
+/// Takes states of one run on its way.
+pub trait StateOutput: Sync {
+    /// Whether one is wanted at a time `[s]`.
+    fn is_due(&self, time: f64) -> bool;
+    /// Takes one: what flows, and the walls if they have particles.
+    fn take(&self, flow: Frame, walls: Option<Frame>);
+}
+
+impl OutputPlan {
+    /// The table `[output]` of a case file.
+    ///
+    /// # Errors
+    /// An interval that is no positive number, quantities that are unknown, other keys.
+    pub fn of(table: &toml::Table) -> Result<Self, FieldError> {
+        if let Some(key) = table.keys().find(|key| !["every", "fields"].contains(&key.as_str())) {
+            let guess = did_you_mean(&nearest(key, ["every", "fields"]));
+            let remedy = format!("{guess}every = 0.01 is a hundredth of a second");
+            return Err(FieldError::new(&format!("output.{key}"), "given", "`every` or `fields`", &remedy));
+        }
+        let every = table.get("every").map(|value| value.as_float().or(value.as_integer().map(|whole| whole as f64)));
+        let texts = |list: &toml::Value| {
+            list.as_array()?.iter().map(|item| item.as_str().map(str::to_owned)).collect::<Option<Vec<String>>>()
+        };
+        let fields = match table.get("fields") {
+            None => Vec::new(),
+            Some(list) => texts(list).ok_or_else(|| {
+                let rule = format!("a list of {}", OUTPUT_FIELDS.join(", "));
+                FieldError::new("output.fields", list, &rule, "leave it out for all")
+            })?,
+        };
+        Self::new(every.flatten().unwrap_or(f64::NAN), fields)
+    }
+
+    /// A plan of checked values.
+    ///
+    /// # Errors
+    /// An interval that is no positive number, quantities that are unknown.
+    pub fn new(every: f64, fields: Vec<String>) -> Result<Self, FieldError> {
+        if !(every > 0.0 && every.is_finite()) {
+            let remedy = "give the time between two states in seconds, such as every = 0.01";
+            return Err(FieldError::new("output.every", every, "a positive number", remedy));
+        }
+        if let Some(unknown) = fields.iter().find(|field| !OUTPUT_FIELDS.contains(&field.as_str())) {
+            let guess = did_you_mean(&nearest(unknown, OUTPUT_FIELDS));
+            let rule = format!("one of {}", OUTPUT_FIELDS.join(", "));
+            return Err(FieldError::new(
+                "output.fields",
+                format!("\"{unknown}\""),
+                &rule,
+                &format!("{guess}leave them out for all"),
+            ));
+        }
+        Ok(Self { every, fields })
+    }
+
+    /// The same as the table of a case file.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let fields = if self.fields.is_empty() { String::new() } else { format!("fields = {:?}\n", self.fields) };
+        format!("[output]\nevery = {:?}\n{fields}", self.every)
+    }
+
+    /// Takes the table out of the fields of a case file.
+    ///
+    /// # Errors
+    /// What [`OutputPlan::of`] refuses; something else than a table.
+    pub(super) fn taken(fields: &mut toml::Table, path: &Path) -> Result<Option<Self>, FieldError> {
+        match fields.remove("output") {
+            None => Ok(None),
+            Some(toml::Value::Table(table)) => Self::of(&table).map(Some).map_err(|error| error.in_file(path)),
+            Some(other) => {
+                let remedy = "such as output = { every = 0.01 }";
+                Err(FieldError::new("output", other, "a table with `every` and `fields`", remedy).in_file(path))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn taken(text: &str) -> Result<Option<OutputPlan>, String> {
+        let mut fields: toml::Table = toml::from_str(text).expect("TOML");
+        OutputPlan::taken(&mut fields, Path::new("case.toml")).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_plan_is_read_back_from_its_text() {
+        assert_eq!(taken("depth = 1.0"), Ok(None));
+        let plan = OutputPlan::new(0.01, vec!["id".to_owned(), "velocity".to_owned()]).expect("a plan");
+        assert_eq!(taken(&plan.text()), Ok(Some(plan)));
+        let all = OutputPlan { every: 2.0, fields: Vec::new() };
+        assert_eq!(taken("output = { every = 2 }"), Ok(Some(all)));
+    }
+
+    #[test]
+    fn what_is_no_plan_is_refused() {
+        for (text, expected) in [
+            (
+                "output = 3",
+                "case.toml: `output` is 3, but must be a table with `every` and `fields`; such as output = { every = 0.01 }",
+            ),
+            (
+                "output = { every = -1 }",
+                "case.toml: `output.every` is -1, but must be a positive number; give the time between two states in seconds, such as every = 0.01",
+            ),
+            (
+                "output = { }",
+                "case.toml: `output.every` is NaN, but must be a positive number; give the time between two states in seconds, such as every = 0.01",
+            ),
+            (
+                "output = { evry = 1 }",
+                "case.toml: `output.evry` is given, but must be `every` or `fields`; did you mean `every`? every = 0.01 is a hundredth of a second",
+            ),
+        ] {
+            assert_eq!(taken(text), Err(expected.to_owned()));
+        }
+        let message = taken("output = { every = 1, fields = [\"presure\"] }").expect_err("unknown");
+        assert!(
+            message.starts_with("case.toml: `output.fields` is \"presure\", but must be one of id, mass,"),
+            "{message}"
+        );
+        assert!(message.ends_with("did you mean `pressure`? leave them out for all"), "{message}");
+    }
+}

@@ -1,0 +1,87 @@
+//! What other programs want to see of a state: the flow with what its law makes of it, and the walls.
+
+use crate::observation::Frame;
+use bagnold_solver::incompressible::IncompressibleSimulation;
+use bagnold_solver::vector::{Vector, equivalent_shear_stress, shear_rate};
+use bagnold_solver::weakly_compressible::simulation::Simulation;
+
+fn flat<const D: usize>(v: &Vector<D>) -> [f64; 3] {
+    [v[0], v[1], if D == 3 { v[2] } else { 0.0 }]
+}
+
+/// The place of every particle in the scene.
+fn identities(count: usize) -> (String, String, Vec<f64>) {
+    ("id".to_owned(), "-".to_owned(), (0..count).map(|id| id as f64).collect())
+}
+
+/// Particles of a weakly compressible flow: besides pressure, density and velocity the shear rate |γ̇|, the stress
+/// ratio τ/p (0 without pressure), whether the yield stress is reached (1; 0 below it), and for grains I = |γ̇| D/√(p/ρ_s).
+pub(super) fn of_flow<const D: usize>(simulation: &Simulation<D>) -> Frame {
+    let snapshot = simulation.snapshot();
+    let law = simulation.rheology();
+    let rates: Vec<f64> = snapshot.velocity_gradient.iter().map(shear_rate).collect();
+    let stresses: Vec<f64> = snapshot.stress.iter().map(equivalent_shear_stress).collect();
+    let under_load = |value: f64, pressure: f64| if pressure > 0.0 { value } else { 0.0 };
+    let pressed = |values: &[f64], of: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
+        values
+            .iter()
+            .zip(&snapshot.pressure)
+            .map(|(value, pressure)| under_load(of(*value, *pressure), *pressure))
+            .collect()
+    };
+    let mobilised = stresses
+        .iter()
+        .zip(&snapshot.pressure)
+        .map(|(stress, pressure)| if law.elasticity(*stress, pressure.max(0.0)) > 0.0 { 0.0 } else { 1.0 })
+        .collect();
+    let named = |name: &str, unit: &str, values: Vec<f64>| (name.to_owned(), unit.to_owned(), values);
+    let mut frame = Frame::of_flow(&snapshot);
+    // what cannot be told of a body at rest, and is no field of the solver
+    frame.scalars.retain(|(name, ..)| name != "viscosity");
+    frame.scalars.insert(0, identities(snapshot.mass.len()));
+    frame.scalars.push(named("stress_ratio", "-", pressed(&stresses, &|stress, pressure| stress / pressure)));
+    frame.scalars.push(named("mobilised", "-", mobilised));
+    if let (Some(diameter), Some(density)) = (law.grain_diameter(), law.grain_density()) {
+        let inertia = |rate: f64, pressure: f64| rate * diameter / (pressure / density).sqrt();
+        frame.scalars.push(named("inertial_number", "-", pressed(&rates, &inertia)));
+    }
+    frame.scalars.push(named("shear_rate", "1/s", rates));
+    frame
+}
+
+/// The particles of its walls, with what the flow has given them.
+pub(super) fn of_walls<const D: usize>(simulation: &Simulation<D>) -> Option<Frame> {
+    let particles = simulation.particles();
+    let walls = particles.flow_count()..particles.flow_count() + particles.wall_count();
+    if walls.is_empty() {
+        return None;
+    }
+    Some(Frame {
+        time: simulation.time(),
+        position: particles.position[walls.clone()].iter().map(flat).collect(),
+        scalars: vec![("pressure".to_owned(), "Pa".to_owned(), particles.pressure[walls.clone()].to_vec())],
+        vectors: vec![("velocity".to_owned(), "m/s".to_owned(), particles.velocity[walls].iter().map(flat).collect())],
+    })
+}
+
+/// Both phases of an incompressible flow.
+pub(super) fn of_phases<const D: usize>(simulation: &IncompressibleSimulation<D>) -> Frame {
+    let snapshot = simulation.snapshot();
+    let mut frame = Frame::of_phases(&snapshot);
+    let masses = snapshot.fluid.mass.iter().chain(&snapshot.sediment.mass).copied().collect();
+    frame.scalars.insert(0, identities(frame.position.len()));
+    frame.scalars.push(("mass".to_owned(), "kg".to_owned(), masses));
+    frame
+}
+
+/// The particles of the floor under the fluid, which do not move.
+pub(super) fn of_floor<const D: usize>(simulation: &IncompressibleSimulation<D>) -> Option<Frame> {
+    let wall = &simulation.scene().fluid.wall;
+    let position: Vec<[f64; 3]> = wall.iter().map(flat).collect();
+    (!position.is_empty()).then(|| Frame {
+        time: simulation.time(),
+        position,
+        scalars: Vec::new(),
+        vectors: Vec::new(),
+    })
+}
