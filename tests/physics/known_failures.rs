@@ -27,14 +27,16 @@ pub(crate) fn owing_tier(entry: &KnownFailure) -> Option<Tier> {
     })
 }
 
-/// The key that is of the metric and not of its runs.
+/// The key that says what of many runs a metric is about.
 const QUANTITY: &str = "quantity";
+/// The keys that are of the metric and not of its runs.
+const OF_METRIC: [&str; 3] = [QUANTITY, "time", "station"];
 
 /// The runs behind a metric: a metric may join several, as in `resolution=10_20_40`, and may say which `quantity` of
 /// them it is about.
 fn runs_of(variant: &Variant) -> Vec<Variant> {
     let mut runs = vec![Variant::default()];
-    for (key, value) in variant.parts().filter(|(key, _)| *key != QUANTITY) {
+    for (key, value) in variant.parts().filter(|(key, _)| !OF_METRIC.contains(key)) {
         let with = |run: &Variant| -> Vec<Variant> {
             value.joined().iter().map(|one| run.clone().and(key, one.clone())).collect()
         };

@@ -3,14 +3,12 @@
 mod examples;
 mod foreign;
 mod sweep;
-mod upkeep;
+pub(super) mod upkeep;
 mod work;
 
 pub(super) use examples::Examples;
 pub(super) use foreign::{Compare, Export, Judge};
 pub(super) use sweep::{Cluster, Engine, Sweep, SweepAction};
-#[cfg(feature = "planted-errors")]
-pub(super) use upkeep::MutateAction;
 pub(super) use upkeep::{Mutate, Store, StoreAction, Verify};
 pub(super) use work::{Allowance, Work};
 

@@ -1,6 +1,7 @@
 //! `bagnold mutate`: plants the solver's errors one at a time, each in a program of its own, and says who noticed.
 
-use super::arguments::{Mutate, MutateAction};
+use super::arguments::Mutate;
+use super::arguments::upkeep::MutateAction;
 use super::count::Count;
 use super::error::ProgramError;
 use super::{Exit, say, summary};

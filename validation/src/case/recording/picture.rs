@@ -45,7 +45,6 @@ pub(super) fn of_flow<const D: usize>(simulation: &Simulation<D>) -> Frame {
         let inertia = |rate: f64, pressure: f64| rate * diameter / (pressure / density).sqrt();
         frame.scalars.push(named("inertial_number", "-", pressed(&rates, &inertia)));
     }
-    frame.scalars.push(named("shear_rate", "1/s", rates));
     frame
 }
 
