@@ -42,6 +42,17 @@ where
     for argument in changes.settings {
         add_setting(case, &defaults, &mut settings, argument)?;
     }
+    let file = changes.file.as_ref().map(|(file, fields)| (Some(*file), fields));
+    for (file, fields) in file.into_iter().chain([(None, &settings)]) {
+        if let Some((path, angle)) = impossible_angle(fields, "") {
+            let remedy = "give the angle at which grains stop in degrees, such as 20.9 for glass beads";
+            let error = ParameterError::field(&path, angle, "between 0 and 90 degrees, ends excluded", remedy);
+            return Err(match file {
+                Some(file) => error.in_file(file),
+                None => error,
+            });
+        }
+    }
     // Together, so that a law and its parameters may come in any order.
     overlay(schema, &mut table, &settings);
     let value = Value::Table(table);
@@ -168,10 +179,27 @@ fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
     }
 }
 
+/// What a friction angle is called.
+const ANGLE: &str = "friction_angle";
+
+/// The first friction angle `[°]` that has no tangent to stand for, with its path.
+fn impossible_angle(fields: &Table, above: &str) -> Option<(String, f64)> {
+    fields.iter().find_map(|(key, value)| {
+        let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
+        match value {
+            Value::Table(inner) => impossible_angle(inner, &path),
+            _ if key == ANGLE => {
+                let angle = value.as_float().or(value.as_integer().map(|angle| angle as f64))?;
+                (!(angle > 0.0 && angle < 90.0)).then_some((path, angle))
+            }
+            _ => None,
+        }
+    })
+}
+
 /// The changes with the coefficient of friction in place of a friction angle `[°]`, where the law has the one and knows
 /// nothing of the other: sand is as often told by its angle.
 fn with_friction(law: Option<&Schema>, changes: &Table) -> Option<Table> {
-    const ANGLE: &str = "friction_angle";
     const COEFFICIENT: &str = "static_friction";
     let properties = law?.get("properties")?.as_object()?;
     let takes = properties.contains_key(COEFFICIENT) && !properties.contains_key(ANGLE);
