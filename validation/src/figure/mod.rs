@@ -6,6 +6,7 @@ mod canvas;
 mod clip;
 mod construct;
 mod curves;
+mod discs;
 mod error;
 mod field;
 mod font;

@@ -3,6 +3,7 @@
 use super::Figure;
 use super::axes::Sizes;
 use super::canvas::{Canvas, Rectangle, polish};
+use super::discs::gathered;
 use super::error::FigureError;
 use super::panel::{Margins, Prepared};
 
@@ -60,7 +61,7 @@ pub(super) fn draw(figure: &Figure) -> Result<String, FigureError> {
         panel.draw(&mut canvas, &room)?;
     }
     canvas.finish()?;
-    Ok(polish(&text, WIDTH, height.ceil()))
+    Ok(gathered(&polish(&text, WIDTH, height.ceil())))
 }
 
 /// One row of panels: plots of one height on one base line.

@@ -87,18 +87,25 @@ fn field_panel(count: usize) -> Panel {
     Panel { field: Some(field), ..panel(Vec::new()) }
 }
 
+/// Centres and radii of the dots of a path of a round pen.
+fn dots(line: &str) -> Option<Vec<(f64, f64, f64)>> {
+    let (steps, pen) = line.strip_prefix("<path d=\"")?.split_once('"')?;
+    let width: f64 = pen.split_once("stroke-width=\"")?.1.split_once('"')?.0.parse().ok()?;
+    let mut at = (0.0, 0.0);
+    let mut found = Vec::new();
+    for step in steps.split("h0").filter(|step| !step.is_empty()) {
+        let second = 2 + step[2..].find([' ', '-'])?;
+        let (right, down): (f64, f64) = (step[1..second].parse().ok()?, step[second..].trim().parse().ok()?);
+        at = if step.starts_with('M') { (right, down) } else { (at.0 + right, at.1 + down) };
+        found.push((at.0, at.1, 0.5 * width));
+    }
+    Some(found)
+}
+
 #[test]
 fn particles_are_circles_of_their_true_diameter_that_touch() {
     let drawn = render::svg(&figure(vec![field_panel(20)])).expect("SVG");
-    let attribute = |line: &str, name: &str| -> Option<f64> {
-        let rest = line.split(&format!(" {name}=\"")).nth(1)?;
-        rest.split('"').next()?.parse().ok()
-    };
-    let circles: Vec<(f64, f64, f64)> = drawn
-        .lines()
-        .filter(|line| line.starts_with("<circle"))
-        .filter_map(|line| Some((attribute(line, "cx")?, attribute(line, "cy")?, attribute(line, "r")?)))
-        .collect();
+    let circles: Vec<(f64, f64, f64)> = drawn.lines().filter_map(dots).flatten().collect();
     assert_eq!(circles.len(), 200);
     let horizontal = circles[1].0 - circles[0].0;
     let vertical = circles[0].1 - circles[20].1;
