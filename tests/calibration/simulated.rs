@@ -81,7 +81,12 @@ fn columns() -> Simulated {
                sensitivity = { aspect_ratios = [] }\nregularised = { aspect_ratios = [] }\n",
         setting: |u| format!("sand.law.static_friction={}", 0.4 + 0.4 * u),
         predict: |record| {
-            let run_outs = record.metrics.iter().filter(|metric| metric.name == "run_out");
+            // the front's; other measures of the run-out say which they are
+            let is_front = |variant: &str| !variant.contains("quantity=");
+            let run_outs = record
+                .metrics
+                .iter()
+                .filter(|metric| metric.name == "run_out" && is_front(&metric.variant.to_string()));
             run_outs.map(|metric| metric.value).collect()
         },
         data: 3,
@@ -121,8 +126,8 @@ fn suspensions() -> Simulated {
 #[test]
 #[ignore = "the full study: columns are simulated for a quarter of an hour"]
 fn regions_of_columns_hold_the_friction() {
-    let tally = columns().study("column run-out, μ_s", 100..112);
-    assert!(tally.joint >= 10 && tally.single[0] >= 10, "{tally:?}");
+    let tally = columns().study("column run-out, μ_s", 100..140);
+    assert!(tally.joint >= 34 && tally.single[0] >= 34, "{tally:?}");
 }
 
 #[test]

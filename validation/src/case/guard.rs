@@ -35,11 +35,17 @@ impl<'a, P: Parameters> Guard<'a, P> {
         self.parameters.check().map_err(|error| self.placed(self.named(error)))?;
         let runs = self.parameters.runs();
         if runs.is_empty() {
-            return Err(ParameterError::NothingToRun { case: self.case.to_owned() });
+            return Err(ParameterError::NothingToRun { case: self.case.to_owned(), empty: self.emptied() });
         }
         self.told_apart(&runs).map_err(|error| self.placed(error))?;
         self.affordable(&runs).map_err(|error| self.placed(error))?;
         Ok(runs)
+    }
+
+    /// Lists that the user has emptied.
+    fn emptied(&self) -> Vec<String> {
+        let is_empty = |path: &String| find(&self.asked, path).and_then(Value::as_array).is_some_and(Vec::is_empty);
+        self.changed().into_iter().map(|(path, _)| path).filter(is_empty).take(LISTED).collect()
     }
 
     /// Fields that differ from the tier's, with their values.
@@ -214,7 +220,7 @@ mod tests {
 
     #[test]
     fn an_error_without_a_changed_field_gets_those_that_were_changed() {
-        let unnamed = || ParameterError::NothingToRun { case: "pendulum".to_owned() };
+        let unnamed = || ParameterError::NothingToRun { case: "pendulum".to_owned(), empty: Vec::new() };
         let changed = [("grain.damping".to_owned(), "2.0".to_owned())];
         let message = with_changed(unnamed(), &changed).to_string();
         assert!(message.ends_with("; what differs from the tier's parameters: `grain.damping` is 2.0"), "{message}");
