@@ -11,7 +11,15 @@ import pytest
 LONG = {"slope_angles": [24.0], "runaway_slope_angles": [], "resolution": 60}
 
 
-def test_other_threads_go_on_and_an_interrupted_run_goes_on_later():
+@pytest.fixture
+def heard():
+    """Ctrl-C is heard, also where the tests were started in the background with SIGINT ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_other_threads_go_on_and_an_interrupted_run_goes_on_later(heard):
     counted = 0
     done = threading.Event()
 
