@@ -70,7 +70,7 @@ fn regions_of_the_layer_hold_the_truth() {
 }
 
 #[test]
-#[ignore = "the full study: some minutes"]
+#[ignore = "the full study: a quarter of an hour"]
 fn regions_of_forty_layers_hold_the_truth() {
     let one = Tally::of(100..140, &[0.3], |seed| layer(seed, 1));
     one.print("bed-load-1d, μ_2");

@@ -124,7 +124,7 @@ fn suspensions() -> Simulated {
 }
 
 #[test]
-#[ignore = "the full study: columns are simulated for a quarter of an hour"]
+#[ignore = "the full study: columns are simulated for more than half an hour"]
 fn regions_of_columns_hold_the_friction() {
     let tally = columns().study("column run-out, μ_s", 100..140);
     assert!(tally.joint >= 34 && tally.single[0] >= 34, "{tally:?}");
