@@ -2,7 +2,7 @@
 
 use bagnold_validation::inference::diagnosis::{outliers, serial_correlation};
 use bagnold_validation::inference::{
-    Answer, Budget, Evaluate, Evaluated, Method, Plan, Stopped, UNLIKELY, chi_squared, solve,
+    Answer, Budget, Evaluate, Evaluated, Method, Plan, Runs, Stopped, UNLIKELY, chi_squared, solve,
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -33,6 +33,7 @@ pub(crate) fn usual(start: Vec<f64>) -> Plan {
         design: Vec::new(),
         budget: Budget { starts: 2 * dimensions + 2, ..Budget::default() },
         region_evaluations: 16 * dimensions,
+        runs: Runs::Smooth,
     }
 }
 
@@ -94,7 +95,7 @@ impl Tally {
         self.raised += usize::from(
             unlikely
                 || !explored.is_settled()
-                || answer.search.stopped != Stopped::Converged
+                || !matches!(answer.search.stopped, Stopped::Converged | Stopped::AtRest)
                 || !answer.search.every_start
                 || !outliers(&residuals, problem.truth.len()).is_empty()
                 || serial_correlation(&residuals, 1).is_some(),

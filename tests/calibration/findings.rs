@@ -9,7 +9,7 @@ use bagnold_validation::store::{Store, StorePolicy};
 use std::fmt::Write;
 use std::path::Path;
 
-const VISCOSITY: &str = r#"
+pub(crate) const VISCOSITY: &str = r#"
 [[parameters]]
 path = "newtonian.viscosity"
 name = "viscosity"
@@ -50,7 +50,7 @@ impl Watch for Unseen {
 }
 
 /// What a plan in a folder comes to.
-fn outcome(folder: &Path, text: &str) -> Outcome {
+pub(crate) fn outcome(folder: &Path, text: &str) -> Outcome {
     let file = folder.join("plan.toml");
     std::fs::write(&file, text).expect("a folder to write in");
     let plan = Plan::read(&file, REGISTRY, Limits::default()).unwrap_or_else(|error| panic!("{error}"));

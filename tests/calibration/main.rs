@@ -8,4 +8,5 @@ mod film;
 mod findings;
 mod layer;
 mod minima;
+mod scattering;
 mod simulated;

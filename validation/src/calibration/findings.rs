@@ -162,6 +162,7 @@ mod tests {
             model: 1.0 + 0.1 * residual,
             unit: "m/s".to_owned(),
             residual: *residual,
+            scatter: 0.0,
             predicted: None,
             source: "a test".to_owned(),
         };

@@ -20,6 +20,7 @@ mod objective;
 mod page;
 mod plan;
 mod prediction;
+mod repeats;
 mod result;
 mod screening;
 mod target;
@@ -32,12 +33,13 @@ pub use folder::CalibrationFolder;
 pub use objective::Watch;
 pub use page::write;
 pub use plan::{Block, Choice, Parameter, Plan};
+use repeats::Repeated;
+pub use repeats::Repeats;
 pub use result::{Compared, Evaluation, Found, FoundMinimum, Outcome, Place, Sensitivity, weighted_error};
 pub use trials::Trial;
 
 use crate::case::Registry;
-use crate::evaluation::Record;
-use crate::inference::{self, Answer, Evaluate, Method, SearchError, chi_squared};
+use crate::inference::{self, Answer, Evaluate, Method, Runs, SearchError, chi_squared};
 use crate::sampling::design;
 use crate::store::Store;
 use objective::Objective;
@@ -63,6 +65,7 @@ pub fn calibrate(
         watch,
         data: Vec::new(),
         failure: Mutex::default(),
+        variances: Vec::new(),
     };
     objective.read_data()?;
     if !plan.choices.is_empty() {
@@ -76,21 +79,7 @@ pub fn calibrate(
             tracing::warn!("at the first point: {reason}");
         }
     }
-    let steps = inference::Plan {
-        start,
-        method: plan.method,
-        design: if plan.levels.is_empty() { Vec::new() } else { design::full_grid(&plan.levels) },
-        budget: plan.budget,
-        region_evaluations: plan.region_evaluations,
-    };
-    let answer = inference::solve(&mut objective, &steps).map_err(|error| match error {
-        SearchError::Model(error) => error,
-        other => {
-            let cause =
-                objective.last_failure().map_or_else(String::new, |reason| format!("; the last said: {reason}"));
-            CalibrationError::Search { file: plan.file.clone(), reason: format!("{other}{cause}") }
-        }
-    })?;
+    let answer = answer(&mut objective, start)?;
     let truth_inside = truth_inside(plan, &mut objective, &answer)?;
     let sensitivity = screening::screen(&mut objective, plan.trajectories)?;
     let values = plan.values(&answer.search.best);
@@ -109,11 +98,49 @@ pub fn calibrate(
     Ok(result::assemble(plan, &answer, sensitivity, (fit, hold_out), calibrated, truth_inside, asked))
 }
 
-/// Whether the joint 95 % region holds the truth of synthetic data, as the model itself says, which made them there.
+/// The search and its region; where evaluations are repeated, once more with the scatter that was seen about the minimum.
+fn answer(objective: &mut Objective<'_>, start: Vec<f64>) -> Result<Answer, CalibrationError> {
+    let plan = objective.plan;
+    let runs = if plan.repeats.count > 1 { Runs::Scattering } else { Runs::Smooth };
+    let mut steps = inference::Plan {
+        start,
+        method: plan.method,
+        design: if plan.levels.is_empty() { Vec::new() } else { design::full_grid(&plan.levels) },
+        budget: plan.budget,
+        region_evaluations: plan.region_evaluations,
+        runs,
+    };
+    if runs == Runs::Scattering {
+        objective.variances = objective.first_variances()?;
+        let first = inference::solve(objective, &steps).map_err(|error| unsolved(error, objective))?;
+        objective.variances = objective.variances_about(&first)?;
+        steps.start = first.search.best;
+    }
+    inference::solve(objective, &steps).map_err(|error| unsolved(error, objective))
+}
+
+/// Why a search found nothing, with what the model said last.
+fn unsolved(error: SearchError<CalibrationError>, objective: &Objective<'_>) -> CalibrationError {
+    match error {
+        SearchError::Model(error) => error,
+        other => {
+            let cause =
+                objective.last_failure().map_or_else(String::new, |reason| format!("; the last said: {reason}"));
+            CalibrationError::Search { file: objective.plan.file.clone(), reason: format!("{other}{cause}") }
+        }
+    }
+}
+
+/// Whether the joint 95 % region holds the truth of synthetic data, as the model itself says, which made them there; where its
+/// runs scatter, as the region is drawn.
 fn truth_inside(plan: &Plan, objective: &mut Objective<'_>, answer: &Answer) -> Result<Option<bool>, CalibrationError> {
     let truth: Option<Vec<f64>> =
         plan.parameters.iter().map(|p| p.truth.map(|truth| p.bounds.coordinate(truth))).collect();
     let Some((truth, explored)) = truth.zip(answer.explored.as_ref()) else { return Ok(None) };
+    if plan.repeats.count > 1 {
+        // one more evaluation there would scatter
+        return Ok(Some(explored.region.contains(&truth)));
+    }
     let residuals = objective.residuals(std::slice::from_ref(&truth))?.pop().flatten();
     let rise = residuals.map(|residuals| chi_squared(&residuals) - answer.search.chi_squared);
     Ok(rise.map(|rise| rise <= explored.region.threshold))
@@ -128,10 +155,10 @@ fn compare_at(
     let blocks: Vec<usize> =
         (0..objective.plan.blocks.len()).filter(|&k| objective.plan.blocks[k].held_out == held_out).collect();
     let questions: Vec<_> = blocks.iter().map(|&block| objective.question(block, values)).collect();
-    let records: Vec<Record> = objective.ask(&questions)?;
-    if let Some(reason) = records.iter().find_map(|record| record.failure.clone()) {
-        return Ok(Err(reason));
+    let answers = objective.ask(&questions)?;
+    if let Some(reason) = answers.iter().find_map(Repeated::failure) {
+        return Ok(Err(reason.to_owned()));
     }
-    let record = |block: usize| blocks.iter().position(|&k| k == block).map(|place| &records[place]);
-    compared(objective, held_out, record, Clone::clone).map(Ok)
+    let answer = |block: usize| blocks.iter().position(|&k| k == block).map(|place| &answers[place]);
+    compared(objective, held_out, answer, Clone::clone).map(Ok)
 }

@@ -3,6 +3,7 @@
 use super::data::{Group, Synthetic};
 use super::error::CalibrationError;
 use super::plan::{Block, Plan};
+use super::repeats::Repeated;
 use super::target::{Datum, Target, Uncertainty};
 use crate::case::{Prepared, Registry, Silent, share_out};
 use crate::evaluation::{self, Record};
@@ -23,6 +24,7 @@ pub trait Watch: Sync {
 }
 
 /// A question to the model: a block's case with some settings.
+#[derive(Debug, Clone)]
 pub(super) struct Question {
     /// Place of the block in the plan.
     pub(super) block: usize,
@@ -45,11 +47,21 @@ pub(super) struct Objective<'a> {
     pub(super) data: Vec<Datum>,
     /// Why the last failing record failed.
     pub(super) failure: Mutex<Option<String>>,
+    /// Variance of every fitted prediction over that of its datum `[-]`; empty where runs do not scatter.
+    pub(super) variances: Vec<f64>,
 }
 
 impl Objective<'_> {
+    /// The answers to questions, in their order, each with every seed where evaluations are repeated.
+    pub(super) fn ask(&self, questions: &[Question]) -> Result<Vec<Repeated>, CalibrationError> {
+        let repeated: Vec<Vec<Question>> =
+            questions.iter().map(|question| self.plan.repeats.of(self.plan, question)).collect();
+        let mut records = self.ask_each(&repeated.concat())?.into_iter();
+        Ok(repeated.iter().map(|seeds| Repeated::new(records.by_ref().take(seeds.len()).collect())).collect())
+    }
+
     /// Records of questions, in their order; what has a file is read, the rest simulated on the current pool's threads.
-    pub(super) fn ask(&self, questions: &[Question]) -> Result<Vec<Record>, CalibrationError> {
+    fn ask_each(&self, questions: &[Question]) -> Result<Vec<Record>, CalibrationError> {
         let mut answers: Vec<Option<Record>> = Vec::with_capacity(questions.len());
         let mut waiting: Vec<(usize, String, Box<dyn Prepared>)> = Vec::new();
         for (place, question) in questions.iter().enumerate() {
@@ -102,6 +114,16 @@ impl Objective<'_> {
         Ok(answers)
     }
 
+    /// What a fitted datum's residual counts where its prediction has a variance of its own.
+    pub(super) fn weight(&self, datum: usize) -> f64 {
+        1.0 / (1.0 + self.scatter(datum) * self.scatter(datum)).sqrt()
+    }
+
+    /// Standard deviation of a fitted prediction over that of its datum `[-]`.
+    pub(super) fn scatter(&self, datum: usize) -> f64 {
+        self.variances.get(datum).map_or(0.0, |variance| variance.sqrt())
+    }
+
     /// Why the last failing record failed.
     pub(super) fn last_failure(&self) -> Option<String> {
         self.failure.lock().unwrap_or_else(PoisonError::into_inner).clone()
@@ -125,16 +147,16 @@ impl Objective<'_> {
     pub(super) fn predict<'d>(
         &self,
         data: impl Iterator<Item = &'d Datum>,
-        record: impl Fn(usize) -> Option<&'d Record>,
+        answer: impl Fn(usize) -> Option<&'d Repeated>,
     ) -> Result<Vec<f64>, CalibrationError> {
         data.map(|datum| {
             let block = &self.plan.blocks[datum.block];
             let wrong = |reason: String| self.counterpart(block, reason);
-            let record = record(datum.block).ok_or_else(|| wrong("no record".to_owned()))?;
-            if let Some(failure) = &record.failure {
+            let answer = answer(datum.block).ok_or_else(|| wrong("no record".to_owned()))?;
+            if let Some(failure) = answer.failure() {
                 return Err(wrong(format!("no numbers: {failure}")));
             }
-            let (value, unit) = datum.target.predicted(record).map_err(wrong)?;
+            let (value, unit) = answer.predicted(&datum.target).map_err(wrong)?;
             if unit != datum.unit {
                 let label = datum.target.label();
                 return Err(wrong(format!(
@@ -163,7 +185,7 @@ impl Objective<'_> {
             }
         }
         let mut noise = Random::new(self.plan.budget.seed);
-        let mut truths: Vec<Option<Record>> = vec![None; self.plan.blocks.len()];
+        let mut truths: Vec<Option<Repeated>> = vec![None; self.plan.blocks.len()];
         if groups.iter().any(|group| matches!(group, Group::Synthetic(_))) {
             let values = self.plan.parameters.iter().map(|parameter| parameter.truth).collect::<Option<Vec<f64>>>();
             let values = values.ok_or_else(|| {
@@ -174,8 +196,8 @@ impl Objective<'_> {
                 .filter(|&block| groups.iter().any(|group| matches!(group, Group::Synthetic(s) if s.block == block)))
                 .collect();
             let questions: Vec<Question> = wanted.iter().map(|&block| self.question(block, &values)).collect();
-            for (block, record) in wanted.into_iter().zip(self.ask(&questions)?) {
-                truths[block] = Some(record);
+            for (block, answer) in wanted.into_iter().zip(self.ask(&questions)?) {
+                truths[block] = Some(answer);
             }
         }
         for group in groups {
@@ -183,10 +205,10 @@ impl Objective<'_> {
                 Group::Given(data) => self.data.extend(data),
                 Group::Synthetic(synthetic) => {
                     let block = &self.plan.blocks[synthetic.block];
-                    let record = truths[synthetic.block].as_ref();
-                    let made = record
+                    let made = truths[synthetic.block]
+                        .as_ref()
                         .ok_or_else(|| "no truth".to_owned())
-                        .and_then(|record| synthetic.make(record, &mut noise))
+                        .and_then(|truth| synthetic.make(truth, &mut noise))
                         .map_err(|reason| self.counterpart(block, reason))?;
                     self.data.extend(made);
                 }
@@ -204,30 +226,32 @@ impl Evaluate for Objective<'_> {
         let values: Vec<Vec<f64>> = points.iter().map(|point| self.plan.values(point)).collect();
         let questions: Vec<Question> =
             values.iter().flat_map(|values| fitted.iter().map(|&block| self.question(block, values))).collect();
-        let records = self.ask(&questions)?;
-        let of_point = |records: &[Record]| {
-            let record = |block: usize| fitted.iter().position(|&k| k == block).map(|place| &records[place]);
-            let residual = |datum: &Datum| {
-                let record = record(datum.block).filter(|record| record.failure.is_none())?;
-                let (value, _) = datum.target.predicted(record).ok()?;
-                Some(self.plan.loss.root(datum.residual(value))).filter(|residual| residual.is_finite())
+        let answers = self.ask(&questions)?;
+        let of_point = |answers: &[Repeated]| {
+            let answer = |block: usize| fitted.iter().position(|&k| k == block).map(|place| &answers[place]);
+            let residual = |(place, datum): (usize, &Datum)| {
+                let answer = answer(datum.block).filter(|answer| answer.failure().is_none())?;
+                let (value, _) = answer.predicted(&datum.target).ok()?;
+                let residual = datum.residual(value) * self.weight(place);
+                Some(self.plan.loss.root(residual)).filter(|residual| residual.is_finite())
             };
-            self.data_of(false).map(residual).collect::<Option<Vec<f64>>>()
+            self.data_of(false).enumerate().map(residual).collect::<Option<Vec<f64>>>()
         };
-        Ok(records.chunks(fitted.len()).map(of_point).collect())
+        Ok(answers.chunks(fitted.len()).map(of_point).collect())
     }
 }
 
 impl Synthetic {
-    /// Data from the truth's record: equidistant abscissas over the table, or a metric, with noise.
-    fn make(&self, record: &Record, noise: &mut Random) -> Result<Vec<Datum>, String> {
-        if let Some(failure) = &record.failure {
+    /// Data from the truth's answer: equidistant abscissas over the table of the first seed, or a metric, with noise.
+    fn make(&self, truth: &Repeated, noise: &mut Random) -> Result<Vec<Datum>, String> {
+        if let Some(failure) = truth.failure() {
             return Err(format!("no numbers for the truth: {failure}"));
         }
         let places: Vec<Target> = match &self.target {
             Target::Metric { .. } => vec![self.target.clone()],
             Target::Profile { table, x, .. } => {
-                let range = record.tables.iter().find(|other| other.name == *table).and_then(|found| {
+                let tables = truth.with_seed(0).map_or(&[][..], |record| &record.tables);
+                let range = tables.iter().find(|other| other.name == *table).and_then(|found| {
                     let column = found.columns.iter().position(|column| column == x)?;
                     Some((found.rows.first()?[column], found.rows.last()?[column]))
                 });
@@ -240,7 +264,7 @@ impl Synthetic {
         places
             .into_iter()
             .map(|target| {
-                let (value, unit) = target.predicted(record)?;
+                let (value, unit) = truth.predicted(&target)?;
                 let sigma = self.noise * value.abs();
                 if sigma == 0.0 {
                     return Err(format!("zero for `{}`, so a relative noise means nothing", target.label()));

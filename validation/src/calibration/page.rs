@@ -103,13 +103,14 @@ fn data(outcome: &Outcome) -> io::Result<Vec<u8>> {
         "upper",
         "model",
         "residual [-]",
+        "scatter [-]",
         "predicted lower",
         "predicted upper",
         "source",
     ])?;
     for (name, datum) in all_data(outcome) {
-        let numbers =
-            [datum.datum, datum.band.0, datum.band.1, datum.model, datum.residual].map(|value| value.to_string());
+        let numbers = [datum.datum, datum.band.0, datum.band.1, datum.model, datum.residual, datum.scatter]
+            .map(|value| value.to_string());
         let predicted =
             datum.predicted.map_or_else(Default::default, |(low, high)| [low.to_string(), high.to_string()]);
         let head = [name, datum.block.clone(), datum.label.clone(), datum.unit.clone()];
@@ -143,6 +144,14 @@ fn summary(outcome: &Outcome) -> Vec<String> {
              failed; {}.",
             outcome.searched, outcome.method, outcome.stopped
         ));
+        let scatter = outcome.fit.iter().map(|datum| datum.scatter).fold(0.0, f64::max);
+        if scatter > 0.0 {
+            lines.push(format!(
+                "Runs scatter: the mean of an evaluation's seeds by up to {} of a datum's standard uncertainty, which counts in \
+                 χ² and in the intervals.",
+                four_digits(scatter)
+            ));
+        }
         if outcome.minima.len() > 1 {
             let minimum = |minimum: &FoundMinimum| {
                 let values: Vec<String> = minimum.values.iter().map(|value| four_digits(*value)).collect();

@@ -3,6 +3,7 @@
 use super::conditions::{self, Conditions, Known};
 use super::data::DatumText;
 use super::error::CalibrationError;
+use super::repeats::Repeats;
 use super::text::Text;
 use crate::case::{Limits, Registry};
 use crate::evaluation::{CaseRequest, PlanError, read_plan};
@@ -71,6 +72,8 @@ pub struct Plan {
     pub loss: Loss,
     /// How much one point may ask for.
     pub limits: Limits,
+    /// How often evaluations are repeated with other seeds.
+    pub repeats: Repeats,
     /// Evaluations beyond the search that may map the region of agreement.
     pub region_evaluations: usize,
     /// Trajectories of the screening; 0 for none.
@@ -115,6 +118,14 @@ impl Plan {
     #[must_use]
     pub fn values(&self, point: &[f64]) -> Vec<f64> {
         self.parameters.iter().zip(point).map(|(parameter, &u)| parameter.bounds.value(u)).collect()
+    }
+
+    /// The method in words, with what every evaluation is the mean of.
+    pub(super) fn method_name(&self) -> String {
+        match self.repeats.count {
+            1 => self.method.name().to_owned(),
+            count => format!("{}, every evaluation the mean of {count} seeds", self.method.name()),
+        }
     }
 
     /// The start in the unit cube.
@@ -187,8 +198,13 @@ impl Plan {
             for choice in &self.choices {
                 prepare(&choice.in_case(&block.request.case))?;
             }
-            let first = self.choices.first().map_or(settings, |choice| choice.in_case(&block.request.case));
-            let prepared = prepare(&first)?;
+            let mut first = self.choices.first().map_or(settings, |choice| choice.in_case(&block.request.case));
+            let mut prepared = prepare(&first)?;
+            if let Some(path) = self.repeats.path_in(&block.request.case) {
+                first.push(format!("{path}=1"));
+                prepared = prepare(&first)
+                    .map_err(|_| self.repeats.seedless(&block.request.case, path).in_file(&self.file))?;
+            }
             for run in 0..prepared.run_count() {
                 let Some(identity) = prepared.identity(run, &store) else { continue };
                 if !block.held_out {

@@ -5,8 +5,8 @@
 
 use super::error::CalibrationError;
 use super::objective::{Objective, Question};
+use super::repeats::Repeated;
 use super::result::{Compared, compared};
-use crate::evaluation::Record;
 use crate::inference::posterior::sample;
 use crate::inference::posterior::{Posterior, predictive};
 use crate::inference::{Answer, Emulator, Evaluated, Explored};
@@ -20,8 +20,8 @@ pub(super) fn posterior(objective: &Objective<'_>, answer: &Answer) -> Option<Po
 pub(super) fn of_fit(objective: &Objective<'_>, explored: &Explored, posterior: &Posterior, fit: &mut [Compared]) {
     let bands = predictive(&explored.emulator, posterior);
     let loss = objective.plan.loss;
-    for ((datum, band), known) in fit.iter_mut().zip(bands).zip(objective.data_of(false)) {
-        let [low, high] = band.map(|root| known.of_residual(loss.residual(root)));
+    for (place, ((datum, band), known)) in fit.iter_mut().zip(bands).zip(objective.data_of(false)).enumerate() {
+        let [low, high] = band.map(|root| known.of_residual(loss.residual(root) / objective.weight(place)));
         datum.predicted = Some((low, high));
     }
 }
@@ -45,14 +45,14 @@ pub(super) fn of_hold_out(
             blocks.iter().map(move |&block| objective.question(block, &values)).collect::<Vec<_>>()
         })
         .collect();
-    let records = objective.ask(&questions)?;
-    let evaluated = |(point, records): (&Vec<f64>, &[Record])| {
-        let record = |block: usize| blocks.iter().position(|&other| other == block).map(|place| &records[place]);
-        let data = compared(objective, true, record, Clone::clone).ok();
+    let answers = objective.ask(&questions)?;
+    let evaluated = |(point, answers): (&Vec<f64>, &[Repeated])| {
+        let answer = |block: usize| blocks.iter().position(|&other| other == block).map(|place| &answers[place]);
+        let data = compared(objective, true, answer, Clone::clone).ok();
         let residuals = data.map(|data| data.iter().map(|datum| datum.residual).collect());
         Evaluated::new(point.clone(), residuals)
     };
-    let history: Vec<Evaluated> = points.iter().zip(records.chunks(blocks.len())).map(evaluated).collect();
+    let history: Vec<Evaluated> = points.iter().zip(answers.chunks(blocks.len())).map(evaluated).collect();
     // without points enough there is no band
     let Some(emulator) = Emulator::fit(&history, plan.budget.difference) else { return Ok(()) };
     for ((datum, band), known) in hold_out.iter_mut().zip(predictive(&emulator, posterior)).zip(objective.data_of(true))

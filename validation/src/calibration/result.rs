@@ -4,9 +4,9 @@ use super::error::CalibrationError;
 use super::findings;
 use super::objective::Objective;
 use super::plan::{Parameter, Plan};
+use super::repeats::Repeated;
 use super::target::{Datum, Target};
 use super::trials::Trial;
-use crate::evaluation::Record;
 use crate::inference::posterior::Posterior;
 use crate::inference::{Answer, Evaluated, LocalMinimum};
 use crate::sampling::Spacing;
@@ -45,8 +45,10 @@ pub struct Compared {
     pub model: f64,
     /// Unit.
     pub unit: String,
-    /// (model − datum)/σ, or the same of logarithms `[-]`.
+    /// (model − datum)/σ, or of logarithms `[-]`; σ of fitted data holds the model's scatter too.
     pub residual: f64,
+    /// Standard deviation of the model's mean over its seeds, over that of the datum `[-]`; 0 without repeats.
+    pub scatter: f64,
     /// What 95 % of the posterior give; none of a bake-off.
     pub predicted: Option<(f64, f64)>,
     /// Where the datum comes from.
@@ -174,18 +176,18 @@ pub(super) fn relative_error(data: &[Compared]) -> Option<f64> {
     Some((sum / data.len() as f64).sqrt()).filter(|error| error.is_finite())
 }
 
-/// The data of one kind beside the records of their blocks.
+/// The data of one kind beside the answers of their blocks.
 pub(super) fn compared<'r>(
     objective: &Objective<'_>,
     held_out: bool,
-    record: impl Fn(usize) -> Option<&'r Record>,
+    answer: impl Fn(usize) -> Option<&'r Repeated>,
     named: impl Fn(&Target) -> Target,
 ) -> Result<Vec<Compared>, CalibrationError> {
     let data: Vec<Datum> =
         objective.data_of(held_out).map(|datum| Datum { target: named(&datum.target), ..datum.clone() }).collect();
-    let owned: Vec<Option<Record>> = (0..objective.plan.blocks.len()).map(|k| record(k).cloned()).collect();
+    let owned: Vec<Option<Repeated>> = (0..objective.plan.blocks.len()).map(|k| answer(k).cloned()).collect();
     let predicted = objective.predict(data.iter(), |block| owned[block].as_ref())?;
-    let one = |(datum, model): (Datum, f64)| Compared {
+    let one = |(place, (datum, model)): (usize, (Datum, f64))| Compared {
         block: objective.plan.blocks[datum.block].field.clone(),
         label: datum.target.label(),
         at: datum.target.place(),
@@ -193,11 +195,12 @@ pub(super) fn compared<'r>(
         band: datum.band(),
         model,
         unit: datum.unit.clone(),
-        residual: datum.residual(model),
+        residual: datum.residual(model) * if held_out { 1.0 } else { objective.weight(place) },
+        scatter: if held_out { 0.0 } else { objective.scatter(place) },
         predicted: None,
         source: datum.source,
     };
-    Ok(data.into_iter().zip(predicted).map(one).collect())
+    Ok(data.into_iter().zip(predicted).enumerate().map(one).collect())
 }
 
 /// The fitted cases as complete files, each once.
@@ -242,7 +245,7 @@ pub(super) fn assemble(
     Outcome {
         title: plan.title.clone(),
         note: plan.note.clone(),
-        method: plan.method.name().to_owned(),
+        method: plan.method_name(),
         stopped: search.stopped.to_string(),
         searched: answer.searched,
         evaluations: search.history.iter().map(evaluation).collect(),

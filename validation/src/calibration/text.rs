@@ -3,6 +3,7 @@
 use super::conditions::Conditions;
 use super::data::DatumText;
 use super::plan::{Block, Choice, Parameter, Plan};
+use super::repeats::Repeats;
 use crate::case::{Limits, Tier};
 use crate::evaluation::CaseRequest;
 use crate::inference::{Budget, Loss, Method};
@@ -68,6 +69,8 @@ pub(super) struct Text {
     starts: Option<usize>,
     #[serde(default)]
     loss: Loss,
+    repeats: Option<usize>,
+    seed_path: Option<Paths>,
     #[serde(default)]
     parameters: Vec<ParameterText>,
     #[serde(default)]
@@ -89,6 +92,7 @@ impl Text {
         let parameters = self.parameters()?;
         let levels = self.levels()?;
         let mut budget = self.budget()?;
+        let repeats = Repeats::checked(self.repeats, self.seed_path.clone(), &self.choices)?;
         let method = match (self.method, levels.is_empty()) {
             (Some(method), false) if method != Method::Design => {
                 let remedy = "leave out the method or the levels";
@@ -111,6 +115,7 @@ impl Text {
             budget,
             loss: self.loss,
             limits,
+            repeats,
             trajectories: self.trajectories,
             region_evaluations: self.region_evaluations.unwrap_or(usual),
             parameters,

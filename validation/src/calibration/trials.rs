@@ -52,12 +52,12 @@ pub(super) fn try_all(objective: &Objective<'_>) -> Result<Outcome, CalibrationE
         .iter()
         .flat_map(|choice| (0..blocks).map(move |block| Question { block, settings: setting(choice, block) }))
         .collect();
-    let records = objective.ask(&questions)?;
+    let answers = objective.ask(&questions)?;
     let mut trials: Vec<Trial> = Vec::new();
     let mut first_error = None;
-    for (choice, records) in plan.choices.iter().zip(records.chunks(blocks)) {
+    for (choice, answers) in plan.choices.iter().zip(answers.chunks(blocks)) {
         let named = |target: &Target| target.with_variant(|variant| variant.replace("{choice}", &choice.name));
-        let both = |held_out: bool| compared(objective, held_out, |block| records.get(block), named);
+        let both = |held_out: bool| compared(objective, held_out, |block| answers.get(block), named);
         match both(false) {
             // what is held out must not decide who is ranked
             Ok(fit) => trials.push(match both(true) {

@@ -15,7 +15,7 @@ use nalgebra::SymmetricEigen;
 const MOST_ROUNDS: usize = 40;
 
 /// Points whose χ² rises by more than this many times the threshold say little about the region.
-const FAR: f64 = 25.0;
+pub(super) const FAR: f64 = 25.0;
 
 /// Shares of the threshold at which the joint region is checked, inside and outside.
 const EDGE: [f64; 2] = [0.8, 1.25];
@@ -207,7 +207,7 @@ fn edge(region: &Region, check: &Check) -> Vec<f64> {
 }
 
 /// Largest distance of an end of an interval from the minimum.
-fn extent(region: &Region) -> f64 {
+pub(super) fn extent(region: &Region) -> f64 {
     let ends = region.profiles.iter().flat_map(|profile| &profile.ends);
     ends.map(|end| distance(end, &region.minimum.point)).fold(0.0, f64::max)
 }

@@ -18,6 +18,7 @@ mod loss;
 pub mod posterior;
 mod profile;
 pub mod region;
+mod scatter;
 pub mod scores;
 pub mod search;
 pub mod sensitivity;
@@ -32,6 +33,7 @@ pub use identifiability::{Parameter, assess};
 pub use loss::Loss;
 pub use profile::{Profile, ProfilePoint};
 pub use region::{Region, Uncertainties, chi_squared_quantile, chi_squared_tail};
+pub use scatter::Runs;
 pub use search::{
     Budget, Evaluated, LocalMinimum, Method, Search, SearchError, Stopped, continue_search, search, search_design,
 };

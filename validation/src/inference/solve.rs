@@ -1,8 +1,10 @@
 //! A search, the region about its best point, and the search again from any lower point that turns up on the way.
 
 use super::emulator::Minimum;
+use super::ends::TOLERANCE;
 use super::explore::{Explored, explore};
 use super::region::{Uncertainties, chi_squared_tail};
+use super::scatter::{Runs, averaged};
 use super::search::{
     Budget, LocalMinimum, Method, Search, SearchError, Stopped, continue_search, search, search_design,
 };
@@ -28,6 +30,8 @@ pub struct Plan {
     pub budget: Budget,
     /// What the exploration of the region may spend, each time.
     pub region_evaluations: usize,
+    /// Whether runs scatter.
+    pub runs: Runs,
 }
 
 /// The minimum and its region.
@@ -48,35 +52,53 @@ pub struct Answer {
 /// # Errors
 /// What [`search`](super::search()) returns.
 pub fn solve<M: Evaluate>(model: &mut M, plan: &Plan) -> Result<Answer, SearchError<M::Error>> {
+    let usual = plan.runs.budget(plan.budget);
     let mut found = if plan.design.is_empty() {
-        search(model, &plan.start, plan.method, plan.budget)?
+        search(model, &plan.start, plan.method, usual)?
     } else {
-        let budget = Budget { evaluations: plan.design.len() + 1, ..plan.budget };
+        let budget = Budget { evaluations: plan.design.len() + 1, ..usual };
         search_design(model, &plan.design, budget)?
     };
     let searched = found.history.len();
     let (mut restarts, mut continued) = (0, false);
     loop {
-        let budget = Budget { evaluations: plan.region_evaluations, ..plan.budget };
+        let budget = Budget { evaluations: plan.region_evaluations, ..usual };
         let uncertainties = uncertainties(&found);
         let explored = explore(model, found.history.clone(), uncertainties, &budget).map_err(SearchError::Model)?;
         let Some(explored) = explored else { return Ok(Answer { search: found, searched, explored: None, restarts }) };
         let lowest = explored.region.minimum.clone();
         if explored.lower && restarts < MOST_RESTARTS {
             restarts += 1;
-            found = again(model, found, explored.history, &lowest, plan.budget)?;
+            found = again(model, found, explored.history, &lowest, usual)?;
             continue;
         }
         // what the region has left over is for a search that was cut short: the region's points may have brought it home
         let left = (found.history.len() + plan.region_evaluations).saturating_sub(explored.history.len());
         if found.stopped == Stopped::BudgetSpent && left > 0 && !continued {
             continued = true;
-            found = again(model, found, explored.history, &lowest, Budget { evaluations: left, ..plan.budget })?;
+            found = again(model, found, explored.history, &lowest, Budget { evaluations: left, ..usual })?;
             continue;
         }
         let search =
             Search { best: lowest.point, chi_squared: lowest.chi_squared, history: explored.history.clone(), ..found };
-        return Ok(Answer { search, searched, explored: Some(explored), restarts });
+        let (search, explored) = match plan.runs {
+            Runs::Smooth => (search, explored),
+            Runs::Scattering => {
+                averaged(model, search, explored, uncertainties, &budget).map_err(SearchError::Model)?
+            }
+        };
+        let stopped = judged(search.stopped, &explored);
+        return Ok(Answer { search: Search { stopped, ..search }, searched, explored: Some(explored), restarts });
+    }
+}
+
+/// A search that stalled on the roughness of runs has come to rest all the same, where the region is settled and nothing in it
+/// promises what its ends would notice.
+fn judged(stopped: Stopped, explored: &Explored) -> Stopped {
+    let promised = explored.region.minimum.chi_squared - explored.emulator.minimum().chi_squared;
+    match stopped {
+        Stopped::Stalled if explored.is_settled() && promised <= TOLERANCE * explored.region.limit => Stopped::AtRest,
+        other => other,
     }
 }
 
@@ -131,6 +153,7 @@ mod tests {
             design: Vec::new(),
             budget: Budget::default(),
             region_evaluations: 20,
+            runs: Runs::Smooth,
         };
         let answer = solve(&mut Wells, &plan).expect("it works");
         assert!(answer.restarts == 1 && (answer.search.best[0] - 0.9).abs() < 0.02, "{:?}", answer.search.best);

@@ -123,6 +123,17 @@ impl Emulator {
         Self { degree, centre, scale, correction, coefficients, compact, points, leave_one_out }
     }
 
+    /// The polynomials alone: where runs scatter, what they miss at a point is luck.
+    #[must_use]
+    pub fn polynomials(mut self) -> Self {
+        let known = self.degree.coefficients(self.dimensions());
+        self.coefficients = self.coefficients.columns(0, known).into_owned();
+        let many = self.coefficients.nrows() > known;
+        self.compact = if many { self.coefficients.clone().qr().r() } else { self.coefficients.clone() };
+        self.correction = None;
+        self
+    }
+
     /// The degree of the polynomials.
     #[must_use]
     pub fn degree(&self) -> Degree {

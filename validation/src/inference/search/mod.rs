@@ -105,6 +105,8 @@ pub enum Stopped {
     BudgetSpent,
     /// Steps became too short to tell from noise, but χ² should still fall.
     Stalled,
+    /// Runs are too rough for shorter steps, but nothing in the region promises a χ² lower by what its ends would notice.
+    AtRest,
     /// The points of the design are evaluated.
     DesignDone,
 }
@@ -114,7 +116,10 @@ impl fmt::Display for Stopped {
         formatter.write_str(match self {
             Self::Converged => "converged: no step would change χ² by more than the tolerance",
             Self::BudgetSpent => "budget spent: the best point so far need not be the minimum; allow more evaluations",
-            Self::Stalled => "stalled: χ² no longer falls although its slope says it should; the model may be noisy",
+            Self::Stalled => "stalled: χ² no longer falls although its slope says it should; the model may be noisy: `repeats = 3` takes means over seeds",
+            Self::AtRest => {
+                "at rest: runs are too rough for shorter steps, but nothing about promises a notably lower χ²"
+            }
             Self::DesignDone => "done: all points of the design and the minimum of their polynomial are evaluated",
         })
     }
