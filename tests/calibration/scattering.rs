@@ -93,9 +93,9 @@ fn a_film_of_displaced_particles_is_judged_by_means_over_seeds() {
 }
 
 #[test]
-#[ignore = "the full study: some minutes"]
+#[ignore = "the full study: a quarter of an hour"]
 fn regions_of_films_of_displaced_particles_hold_the_viscosity() {
-    assert_sound(&study("a film of displaced particles", 1..=40, 3, &format!("{VISCOSITY}{FILM}")));
+    assert_sound(&study("a film of displaced particles", 1..=80, 3, &format!("{VISCOSITY}{FILM}")));
 }
 
 #[test]

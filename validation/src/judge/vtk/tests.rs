@@ -1,0 +1,137 @@
+//! Files as VTK writes them, and files that something has damaged.
+
+use super::*;
+use proptest::collection::vec;
+use proptest::prelude::{Strategy, any, prop_oneof, proptest};
+use proptest::prop_assert;
+use proptest::sample::select;
+
+/// Two points with masses, as text and in base 64.
+const TEXT: &str = "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\
+    <UnstructuredGrid><Piece NumberOfPoints=\"2\" NumberOfCells=\"2\"><PointData><DataArray type=\"Float64\" Name=\"mass\" \
+    NumberOfComponents=\"1\" format=\"ascii\">0.5 0.25</DataArray></PointData><Points><DataArray type=\"Float32\" \
+    NumberOfComponents=\"3\" format=\"ascii\">0 1 0 2 3 0</DataArray></Points><Cells><DataArray type=\"Int64\" \
+    Name=\"connectivity\" format=\"ascii\">0 1</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">1 2\
+    </DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">1 1</DataArray></Cells></Piece></UnstructuredGrid>\
+    </VTKFile>";
+const BINARY: [(&str, &str); 2] = [
+    ("\"ascii\">0.5 0.25<", "\"binary\">EAAAAAAAAAAAAAAAAADgPwAAAAAAANA/<"),
+    ("\"ascii\">0 1 0 2 3 0<", "\"binary\">GAAAAAAAAAAAAAAAAACAPwAAAAAAAABAAABAQAAAAAA=<"),
+];
+
+fn binary() -> String {
+    BINARY.iter().fold(TEXT.to_owned(), |text, (ascii, binary)| text.replace(ascii, binary))
+}
+
+const LEGACY: &str = "# vtk DataFile Version 3.0\nparticles\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 2 float\n0 1 0\n2 3 0\n\
+    CELLS 2 4\n1 0\n1 1\nCELL_TYPES 2\n1\n1\nPOINT_DATA 2\nSCALARS mass float 1\nLOOKUP_TABLE default\n0.5 0.25\n\
+    VECTORS velocity float\n1 0 0\n0 1 0\n";
+
+#[test]
+fn a_legacy_file_gives_its_arrays() {
+    let points = Points::parse(LEGACY.as_bytes(), Path::new("a.vtk")).expect("a grid");
+    assert_eq!(points.arrays["Points:1"], [1.0, 3.0]);
+    assert_eq!(points.arrays["mass"], [0.5, 0.25]);
+    assert_eq!(points.arrays["velocity:1"], [0.0, 1.0]);
+}
+
+#[test]
+fn what_is_no_file_of_vtk_is_refused_without_a_panic() {
+    for text in
+        ["", "x,y\n1,2\n", "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece/></UnstructuredGrid></VTKFile>"]
+    {
+        for name in ["a.vtu", "a.vtk"] {
+            let message = Points::parse(text.as_bytes(), Path::new(name)).expect_err("no grid").to_string();
+            assert!(message.starts_with(&format!("{name}: `file` is ")), "{message}");
+        }
+    }
+}
+
+#[test]
+fn a_collection_names_files_beside_itself() {
+    let text =
+        "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0.5\" file=\"a/1.vtu\"/></Collection></VTKFile>";
+    let sets = collection(text, Path::new("out/all.pvd")).expect("a collection");
+    assert_eq!(sets, [(0.5, PathBuf::from("out/a/1.vtu"))]);
+    assert!(collection("<VTKFile/>", Path::new("all.pvd")).is_err());
+    assert!(collection("no", Path::new("all.pvd")).is_err());
+}
+
+#[test]
+fn text_and_base_64_give_the_same_points() {
+    let points = Points::parse(TEXT.as_bytes(), Path::new("a.vtu")).expect("a grid");
+    assert_eq!(points.arrays["Points:1"], [1.0, 3.0]);
+    assert_eq!(points.arrays["mass"], [0.5, 0.25]);
+    assert_eq!(Points::parse(binary().as_bytes(), Path::new("a.vtu")).expect("a grid"), points);
+}
+
+/// What damages a file.
+#[derive(Debug, Clone)]
+enum Damage {
+    /// Another byte at a place.
+    Byte(usize, u8),
+    /// Another number in place of one.
+    Number(usize, &'static str),
+    /// Nothing after a place.
+    End(usize),
+    /// A piece twice.
+    Twice(usize, usize),
+}
+
+/// Numbers that ask for memory, for time, or for an end that is not there.
+const NUMBERS: [&str; 10] =
+    ["0", "-1", "7", "65536", "2147483647", "4294967295", "99999999999", "18446744073709551615", "1e308", "nan"];
+
+impl Damage {
+    fn strategy() -> impl Strategy<Value = Self> {
+        let place = 0..2000_usize;
+        prop_oneof![
+            (place.clone(), any::<u8>()).prop_map(|(place, byte)| Self::Byte(place, byte)),
+            (place.clone(), select(&NUMBERS[..])).prop_map(|(place, number)| Self::Number(place, number)),
+            place.clone().prop_map(Self::End),
+            (place, 1..60_usize).prop_map(|(place, length)| Self::Twice(place, length)),
+        ]
+    }
+
+    fn to(&self, bytes: &mut Vec<u8>) {
+        let length = bytes.len().max(1);
+        match *self {
+            Self::Byte(place, byte) => {
+                if let Some(old) = bytes.get_mut(place % length) {
+                    *old = byte;
+                }
+            }
+            Self::Number(place, number) => {
+                let digit = |byte: &u8| byte.is_ascii_digit();
+                let Some(from) = bytes.iter().skip(place % length).position(digit) else { return };
+                let from = from + place % length;
+                let count = bytes[from..].iter().take_while(|byte| digit(byte)).count();
+                bytes.splice(from..from + count, number.bytes());
+            }
+            Self::End(place) => bytes.truncate(place % length),
+            Self::Twice(place, count) => {
+                let from = place % length;
+                let piece = bytes[from..(from + count).min(bytes.len())].to_vec();
+                bytes.splice(from..from, piece);
+            }
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn a_damaged_file_is_read_or_refused(damages in vec(Damage::strategy(), 1..4), kind in 0..3_usize) {
+        let (mut bytes, name) = match kind {
+            0 => (LEGACY.as_bytes().to_vec(), "a.vtk"),
+            1 => (TEXT.as_bytes().to_vec(), "a.vtu"),
+            _ => (binary().into_bytes(), "a.vtu"),
+        };
+        for damage in &damages {
+            damage.to(&mut bytes);
+        }
+        if let Ok(points) = Points::parse(&bytes, Path::new(name)) {
+            let count = points.arrays["Points:0"].len();
+            prop_assert!(points.arrays.values().all(|values| values.len() == count));
+        }
+    }
+}
