@@ -17,6 +17,16 @@ fn zero_and_one_json_document_when_all_gates_hold() {
 }
 
 #[test]
+fn a_profile_goes_to_standard_error_and_leaves_the_document_alone() {
+    let place = Place::new();
+    let finished = place.run(&[CHEAP, &["--json", "--profile"]].concat()).code(0);
+    assert_eq!(document(&finished).case, "film");
+    let text = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
+    assert!(text.starts_with("profile: ") && text.contains("cores busy"), "{text}");
+    assert_eq!(text.matches(" µs a particle and step  film ").count(), 1, "one run: {text}");
+}
+
+#[test]
 fn one_when_a_gate_fails() {
     let place = Place::new();
     // a twentieth of the time that the film needs to reach its steady profile

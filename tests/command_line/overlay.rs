@@ -52,6 +52,7 @@ fn measurements_that_cannot_be_read_are_refused_before_anything_is_simulated() {
     let place = Place::new();
     for (text, message) in [
         ("y/h [-],u [m/s],uncertainty [s]\n0.5,1,1\n", "must be a unit of the same kind as [m/s], which is that of u"),
+        ("y/h [-],u [knots],uncertainty [m/s]\n0.5,1,1\n", "`u` is [knots], but must be a unit that is known"),
         ("y/h [-],u [m/s],uncertainty [m/s]\n0.5,inf,1\n", "`u [m/s]` is inf in row 1, but must be finite numbers"),
         ("y/h [-],u [m/s]\n0.5,1\n", "must be three: what was varied, what was measured, and its standard uncertainty"),
         ("# limit: -1\ny/h [-],u [m/s],uncertainty [m/s]\n0.5,1,1\n", "`# limit` is -1, but must be a positive number"),

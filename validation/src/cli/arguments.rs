@@ -181,6 +181,9 @@ pub struct Run {
     /// Write the verdicts as JUnit's XML as well, for CI systems: one test a gate.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
+    /// Say on standard error where the time went: stages, the longest runs, memory.
+    #[arg(long)]
+    pub profile: bool,
     /// How much it may ask for.
     #[command(flatten)]
     pub allowance: Allowance,
@@ -239,6 +242,9 @@ pub struct Report {
     /// Write the verdicts as JUnit's XML as well, for CI systems: one test a gate.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
+    /// Say on standard error where the time went: stages, the longest runs, memory.
+    #[arg(long)]
+    pub profile: bool,
     /// How much it may ask for.
     #[command(flatten)]
     pub allowance: Allowance,

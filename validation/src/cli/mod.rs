@@ -14,6 +14,7 @@ mod logging;
 #[cfg(feature = "planted-errors")]
 mod mutate;
 mod places;
+mod profile;
 mod progress;
 mod report;
 mod run;

@@ -2,6 +2,7 @@
 
 use super::arguments::{Denied, Report as Arguments};
 use super::error::ProgramError;
+use super::profile::Profile;
 use super::run::{announce, simulate};
 use super::{Exit, places, say, summary};
 use crate::case::{CaseResult, Changes, ParameterError, Prepared, Registry, Tier};
@@ -27,7 +28,9 @@ pub(super) fn report(
     let history = History::read(&places::history_file(), command.tier)?;
     announce(&cases, quiet);
     let started = Instant::now();
+    let mut profile = Profile::begin();
     let results = simulate(cases, &command.work.open_store(), quiet)?;
+    profile.over("runs and their figures");
     if command.accept {
         baseline = Baseline::default();
         let commit = provenance::commit();
@@ -53,6 +56,7 @@ pub(super) fn report(
     };
     report::write(&page, claimed.staging())?;
     claimed.publish()?;
+    profile.over("pages");
     if let Some(path) = &command.junit {
         report::write_junit(&page, path)?;
     }
@@ -66,6 +70,9 @@ pub(super) fn report(
     let exit = Exit::of(&results, |result, metric| is_known(&known, result, metric));
     let drifted = drifted(&page);
     say(output, &drifted);
+    if command.profile {
+        eprint!("{}", profile.in_words(&results, rayon::current_num_threads()));
+    }
     let denied = command.deny == Some(Denied::Drift) && !drifted.is_empty();
     Ok(if denied && exit == Exit::Held { Exit::GateFailed } else { exit })
 }

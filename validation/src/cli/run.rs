@@ -2,6 +2,7 @@
 
 use super::arguments::Run;
 use super::error::ProgramError;
+use super::profile::Profile;
 use super::progress::Progress;
 use super::{Exit, places, say, summary};
 use crate::case::{
@@ -49,9 +50,11 @@ pub(super) fn run(
     // accepted values are those of the case as it comes
     let baseline = if changed { Baseline::default() } else { places::accepted(prepared.name(), tier)? };
     let started = Instant::now();
+    let mut profile = Profile::begin();
     let states = wanted.as_ref().map(|plan| States::of(prepared.as_ref(), plan, &claimed.staging().join("states")));
     let mut results = simulate_showing(vec![prepared], &command.work.open_store(), quiet, states.as_ref())?;
     states.map_or(Ok(()), States::finish).map_err(|error| FileError::unwritable(&folder, &error))?;
+    profile.over("runs and their figures");
     for result in &mut results {
         judge::draw_measured(result, &overlay)?;
         if let Some(plan) = &wanted {
@@ -83,6 +86,7 @@ pub(super) fn run(
     };
     report::write_alone(&page, claimed.staging())?;
     claimed.publish()?;
+    profile.over("page");
     if let Some(path) = &command.junit {
         report::write_junit(&page, path)?;
     }
@@ -96,6 +100,9 @@ pub(super) fn run(
             say(output, &format!("{}: {states}\n", folder.join("snapshots").display()));
         }
         say(output, &format!("written to {}\n", folder.join("index.html").display()));
+    }
+    if command.profile {
+        eprint!("{}", profile.in_words(&results, threads));
     }
     Ok(Exit::of(&results, |result, metric| super::report::is_known(&known, result, metric)))
 }

@@ -33,6 +33,11 @@ pub(super) fn factor(from: &str, to: &str) -> Option<f64> {
     (from.dimension == to.dimension).then_some(from.factor / to.factor)
 }
 
+/// Whether a unit can be converted at all.
+pub(super) fn is_known(unit: &str) -> bool {
+    parse(unit).is_some()
+}
+
 fn parse(text: &str) -> Option<Unit> {
     let text = text.trim();
     if text.is_empty() {

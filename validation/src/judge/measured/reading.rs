@@ -45,6 +45,10 @@ fn parse(path: &Path, text: &str) -> Result<Measurements, FieldError> {
         unreachable!("there are three columns")
     };
     let factor = same_kind(&uncertainty.unit, &measured.unit).ok_or_else(|| {
+        if let Some(unknown) = [&measured, &uncertainty].into_iter().find(|own| !unit::is_known(&own.unit)) {
+            let (value, rule) = (format!("[{}]", unknown.unit), "a unit that is known, such as [cm/s] or [kPa]");
+            return FieldError::new(&unknown.name, value, rule, "mend the heading");
+        }
         let rule = format!("a unit of the same kind as [{}], which is that of {}", measured.unit, measured.name);
         FieldError::new(&uncertainty.name, format!("[{}]", uncertainty.unit), &rule, "mend the heading")
     })?;

@@ -1,0 +1,122 @@
+//! `--profile`: what a command took of the machine, stage by stage and run by run.
+
+use crate::case::CaseResult;
+use rustix::time::{ClockId, clock_gettime};
+use std::fmt::Write;
+use std::time::Instant;
+
+/// Runs that are listed one by one.
+const LISTED: usize = 20;
+
+/// Takes the times of a command's stages.
+pub(super) struct Profile {
+    begun: Instant,
+    last: Instant,
+    processor: f64,
+    /// Name, wall and processor time `[s]` of each stage that is over.
+    stages: Vec<(&'static str, f64, f64)>,
+}
+
+impl Profile {
+    pub(super) fn begin() -> Self {
+        let now = Instant::now();
+        Self { begun: now, last: now, processor: processor_seconds(), stages: Vec::new() }
+    }
+
+    /// A stage is over.
+    pub(super) fn over(&mut self, stage: &'static str) {
+        let (now, processor) = (Instant::now(), processor_seconds());
+        self.stages.push((stage, (now - self.last).as_secs_f64(), processor - self.processor));
+        (self.last, self.processor) = (now, processor);
+    }
+
+    /// The stages, and the runs that took longest.
+    pub(super) fn in_words(&self, results: &[CaseResult], threads: usize) -> String {
+        let wall = self.begun.elapsed().as_secs_f64();
+        let mut text = format!("profile: {wall:.1} s of wall time, {threads} threads");
+        // writing to a string cannot fail
+        let _ = match peak_memory() {
+            Some(megabytes) => writeln!(text, ", at most {megabytes:.0} MiB of memory"),
+            None => writeln!(text),
+        };
+        for (stage, wall, processor) in &self.stages {
+            let share = if *wall > 0.0 { processor / wall } else { 0.0 };
+            let _ = writeln!(
+                text,
+                "  {stage:<24}  {wall:8.2} s of wall time  {processor:8.2} s of processor  {share:5.2} cores busy"
+            );
+        }
+        text + &runs(results)
+    }
+}
+
+/// A line for each of the runs that took longest; what came from the store took no time.
+fn runs(results: &[CaseResult]) -> String {
+    let mut rows: Vec<(f64, String)> = Vec::new();
+    let mut stored = 0;
+    for result in results {
+        for run in &result.runs {
+            if run.from_store {
+                stored += 1;
+                continue;
+            }
+            let cost = run.microseconds_per_particle_step.map_or_else(|| "–".to_owned(), |cost| format!("{cost:.3}"));
+            let line = format!(
+                "  {:8.2} s  {:>8} particles  {:>9} steps  {cost:>7} µs a particle and step  {} {}",
+                run.wall_seconds, run.particles, run.steps, result.name, run.variant
+            );
+            rows.push((run.wall_seconds, line.trim_end().to_owned()));
+        }
+    }
+    rows.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut text = String::new();
+    for (_, line) in rows.iter().take(LISTED) {
+        text.push_str(line);
+        text.push('\n');
+    }
+    let others: f64 = rows.iter().skip(LISTED).map(|row| row.0).sum();
+    // writing to a string cannot fail
+    if rows.len() > LISTED {
+        let _ = writeln!(text, "  {others:8.2} s  in {} other runs", rows.len() - LISTED);
+    }
+    if stored > 0 {
+        let _ = writeln!(text, "  {stored} runs came from the store");
+    }
+    text
+}
+
+/// Time that the processors have worked for this program `[s]`.
+fn processor_seconds() -> f64 {
+    let time = clock_gettime(ClockId::ProcessCPUTime);
+    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+}
+
+/// The most memory that the program has held at a time `[MiB]`, where the system says it.
+fn peak_memory() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<f64>().ok().map(|kibibytes| kibibytes / 1024.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stages_and_memory_are_told() {
+        let mut profile = Profile::begin();
+        let mut sum = 0.0_f64;
+        while processor_seconds() - profile.processor < 0.02 {
+            sum += (0..1000).map(f64::from).map(f64::sin).sum::<f64>();
+        }
+        assert!(sum.is_finite());
+        profile.over("simulating");
+        let (_, wall, processor) = profile.stages[0];
+        assert!(processor >= 0.02 && wall > 0.0, "{wall} {processor}");
+        let text = profile.in_words(&[], 2);
+        assert!(text.starts_with("profile: ") && text.contains("simulating"), "{text}");
+        if cfg!(target_os = "linux") {
+            assert!(peak_memory().is_some_and(|megabytes| megabytes > 1.0));
+        }
+    }
+}
