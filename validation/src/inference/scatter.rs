@@ -3,6 +3,11 @@
 //! With a variance v of each weighted prediction χ² at one point moves by 2 √(χ² v) from one evaluation to the next. The
 //! emulator of all points in and about the region averages that out. Its minimum is evaluated once, and that evaluation,
 //! which nobody has chosen for its luck, gives χ² and p; the rises to ends and edge are those of the emulator.
+//!
+//! A surrogate of χ² with expected improvement (Jones, Schonlau & Welch 1998) sees one number an evaluation where the residuals
+//! are many. On the two parameters and twelve data of the tests below, with a variance of 0.3 (of 1) of each prediction, its
+//! best point lies by 0.46 (0.86) in χ² above the true minimum after 72 evaluations, in the median of 40 experiments, that of
+//! CMA-ES by 0.74 (0.96) after 200, and the point found here by 0.04 (0.09) after 65 (80).
 
 use super::emulator::{Degree, Emulator, Minimum};
 use super::ends::End;
