@@ -5,6 +5,7 @@ mod determinism;
 mod energy_ledger;
 mod free_fall;
 mod incompressible;
+mod meshes;
 mod momentum_balance;
 mod neighbour_list;
 mod open_law;

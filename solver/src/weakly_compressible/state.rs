@@ -59,7 +59,7 @@ impl<const D: usize> State<D> {
             images: Images::new(),
             wall_displacements: vec![Vector::zeros(); scene.walls.len()],
             walls: scene.walls,
-            surroundings: Surroundings::new(scene.enclosure),
+            surroundings: Surroundings::new(scene.enclosure, scene.spacing),
             model: Model {
                 list: VerletList::default(),
                 kernel: Kernel::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing),

@@ -4,6 +4,7 @@ use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::Enclosure;
 use crate::weakly_compressible::boundary::enclosure::{Departures, Exits};
+use crate::weakly_compressible::boundary::facet_grid::FacetGrid;
 use crate::weakly_compressible::boundary::shell::Shell;
 use crate::weakly_compressible::boundary::shell_contact::{Passed, Touch};
 use crate::weakly_compressible::divergence::Quantity;
@@ -22,6 +23,10 @@ pub(crate) const NO_SHELL: u32 = u32::MAX;
 #[derive(Debug)]
 pub(crate) struct Surroundings<const D: usize> {
     shells: Vec<Shell<D>>,
+    /// Which facets of each are near a place, where they are at the start.
+    grids: Vec<FacetGrid<D>>,
+    /// Distance from a shell within which a particle is touched `[m]`.
+    range: f64,
     exits: Exits<D>,
     /// How far each shell has moved since the start `[m]`, and in the last step.
     displacements: Vec<Vector<D>>,
@@ -45,11 +50,15 @@ pub(crate) struct Books<const D: usize> {
 }
 
 impl<const D: usize> Surroundings<D> {
-    pub(crate) fn new(enclosure: Enclosure<D>) -> Self {
+    /// Those of an enclosure of a flow with a particle spacing `[m]`.
+    pub(crate) fn new(enclosure: Enclosure<D>, spacing: f64) -> Self {
         let Enclosure { shells, exits } = enclosure;
+        let range = 0.5 * spacing;
         let none = vec![Vector::zeros(); shells.len()];
         let displacements = shells.iter().map(|shell| shell.motion.displacement(0.0)).collect();
         Self {
+            grids: shells.iter().map(|shell| FacetGrid::new(&shell.facets, range)).collect(),
+            range,
             exits,
             displacements,
             last: none.clone(),
@@ -166,14 +175,14 @@ impl<const D: usize> State<D> {
     /// A particle that has passed one.
     pub(crate) fn touch_shells(&mut self, time_step: f64, friction: f64) -> Result<(), Divergence<D>> {
         let surroundings = &mut self.surroundings;
-        let Surroundings { shells, displacements, velocities, blocks, .. } = surroundings;
+        let Surroundings { shells, grids, range, displacements, velocities, blocks, .. } = surroundings;
         if shells.is_empty() || self.model.numerics.contact == Contact::None {
             return Ok(());
         }
         for ((velocity, shell), place) in velocities.iter_mut().zip(&*shells).zip(&*displacements) {
             *velocity = (shell.motion.displacement(self.time + time_step) - place) / time_step;
         }
-        let touch = Touch { shells, displacements, velocities, range: 0.5 * self.model.spacing, friction };
+        let touch = Touch { shells, grids, displacements, velocities, range: *range, friction };
         let (particles, energy) = (&mut self.particles, &mut self.pairs.energy);
         let found = shell_impulse::by_contacts(&self.model, particles, energy, touch, time_step, blocks);
         self.surroundings.close_impulses();

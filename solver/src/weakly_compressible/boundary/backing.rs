@@ -8,8 +8,9 @@
 //! space behind the wall is covered once whatever the angle. (A kernel integral over each half plane, the semi-analytic
 //! way, would take a rule of its own for every corner, and other sums than those of the plane wall.)
 
-use super::facet::{Facet, standing};
+use super::facet::Facet;
 use super::shell::{BackingParticle, Shell};
+use super::standing::standing;
 use crate::domain::{AxisBoundary, Domain};
 use crate::vector::Vector;
 
@@ -24,10 +25,7 @@ const STRAIGHT: f64 = 1e-9;
 /// spacing behind the surface. Shells at rest share their corners; each that moves stands alone. Nothing is laid beyond
 /// periods and mirrors, and a polyline that ends on one goes on behind it.
 pub fn lay(shells: &mut [Shell<2>], domain: &Domain<2>, spacing: f64, rows: usize) {
-    let rest: Vec<usize> = (0..shells.len()).filter(|&k| shells[k].motion.is_rest()).collect();
-    let moving = (0..shells.len()).filter(|&k| !shells[k].motion.is_rest()).map(|k| vec![k]);
-    let groups: Vec<Vec<usize>> = std::iter::once(rest).chain(moving).collect();
-    for group in groups {
+    for group in together(shells) {
         let parts: Vec<Part> = group.iter().flat_map(|&shell| straight_parts(shell, &shells[shell])).collect();
         let reach = rows as f64 * spacing;
         let lines: Vec<Facet<2>> = parts.iter().map(|part| part.drawn_out(domain, reach)).collect();
@@ -37,6 +35,13 @@ pub fn lay(shells: &mut [Shell<2>], domain: &Domain<2>, spacing: f64, rows: usiz
             shells[part.shell].backing.extend(particles);
         }
     }
+}
+
+/// Shells that share their corners, by their places: all at rest, and each that moves alone.
+pub(super) fn together<const D: usize>(shells: &[Shell<D>]) -> Vec<Vec<usize>> {
+    let rest: Vec<usize> = (0..shells.len()).filter(|&k| shells[k].motion.is_rest()).collect();
+    let moving = (0..shells.len()).filter(|&k| !shells[k].motion.is_rest()).map(|k| vec![k]);
+    std::iter::once(rest).chain(moving).collect()
 }
 
 /// A straight part of a shell.
@@ -87,7 +92,7 @@ impl Part {
 }
 
 /// Lower and upper plane of the domain along an axis.
-fn planes(boundary: &AxisBoundary) -> [Option<f64>; 2] {
+pub(super) fn planes(boundary: &AxisBoundary) -> [Option<f64>; 2] {
     match *boundary {
         AxisBoundary::Open => [None; 2],
         AxisBoundary::Periodic { lower, upper } => [Some(lower), Some(upper)],

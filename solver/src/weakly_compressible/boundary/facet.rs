@@ -1,12 +1,11 @@
 //! A facet: a segment of a wall in the plane, a triangle in space, with the flow on one side of it.
-//!
-//! Where a place stands is told by the facet nearest to it. At a corner several are equally near; the sign then is that
-//! of the sum of their normals, which is right for corners into the flow and out of it (Bærentzen & Aanæs 2005).
 
 use crate::vector::Vector;
 
-/// How much farther than the nearest a facet may be to count as equally near `[-]`.
-const TIE: f64 = 1e-9;
+/// Height of a triangle over its longest edge below which it has no side `[-]`.
+const THINNEST: f64 = 1e-6;
+/// Distance from a corner or an edge over the facet's size that counts as none `[-]`.
+const ROUNDING: f64 = 1e-9;
 
 /// A segment between two corners, or a triangle of three.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +24,19 @@ impl Facet<2> {
         let length = along.norm();
         let normal = Vector::<2>::new(-along[1], along[0]) / length;
         (length > 0.0 && length.is_finite()).then_some(Self { corners: [from, to], normal })
+    }
+}
+
+impl Facet<3> {
+    /// The triangle of three corners `[m]` that are seen from the flow against the clock; none where it is thinner than a
+    /// millionth of its longest edge, or not finite.
+    #[must_use]
+    pub fn triangle(corners: [Vector<3>; 3]) -> Option<Self> {
+        let [a, b, c] = corners;
+        let across = (b - a).cross(&(c - a));
+        let longest = [b - a, c - b, a - c].map(|edge| edge.norm_squared()).into_iter().fold(0.0, f64::max);
+        let area = across.norm();
+        (area > THINNEST * longest && area.is_finite()).then(|| Self { corners, normal: across / area })
     }
 }
 
@@ -56,6 +68,36 @@ impl<const D: usize> Facet<D> {
     #[must_use]
     pub fn nearest(&self, place: &Vector<D>) -> Vector<D> {
         nearest(&self.corners, place)
+    }
+
+    /// Directions of its edges at a point of its rim `[-]`: at a corner of a triangle to the other two, on an edge both ways
+    /// along it. A segment has none.
+    #[must_use]
+    pub(super) fn rays(&self, point: &Vector<D>) -> [Vector<D>; 2] {
+        let [a, b, c] = &self.corners[..] else { return [Vector::zeros(); 2] };
+        let edges = [[a, b, c], [b, c, a], [c, a, b]];
+        let size = (b - a).norm().max((c - a).norm());
+        for [corner, next, last] in edges {
+            if (point - corner).norm() <= ROUNDING * size {
+                return [(next - corner).normalize(), (last - corner).normalize()];
+            }
+        }
+        let from = |edge: &[&Vector<D>; 3]| (point - nearest(&[*edge[0], *edge[1]], point)).norm_squared();
+        let closest = edges.into_iter().min_by(|one, other| from(one).total_cmp(&from(other)));
+        closest.map_or([Vector::zeros(); 2], |[start, end, _]| {
+            let along = (end - start).normalize();
+            [along, -along]
+        })
+    }
+
+    /// Angle that it fills around a point of its rim `[rad]`; 1 for a segment, whose ends are all alike.
+    #[must_use]
+    pub(super) fn angle(&self, point: &Vector<D>) -> f64 {
+        if D < 3 {
+            return 1.0;
+        }
+        let [one, other] = self.rays(point);
+        libm::acos(one.dot(&other).clamp(-1.0, 1.0))
     }
 }
 
@@ -91,100 +133,9 @@ fn nearest<const D: usize>(corners: &[Vector<D>], place: &Vector<D>) -> Vector<D
     }
 }
 
-/// Where a place stands with regard to some facets.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Standing {
-    /// Distance from the nearest facet `[m]`, negative behind it. Beyond a rim where the facets end it is positive.
-    pub distance: f64,
-    /// The nearest facet, by its place among them: where several are equally near, the one that the place is behind of by
-    /// the least, or else the first.
-    pub facet: usize,
-}
-
-/// Where a place stands; none without facets. `facets` yields them with the place as each of them sees it.
-pub fn standing<'a, const D: usize>(
-    facets: impl Iterator<Item = (&'a Facet<D>, Vector<D>)> + Clone,
-) -> Option<Standing> {
-    let ways = facets.clone().map(|(facet, place)| (place - facet.nearest(&place)).norm());
-    let least = ways.fold(f64::INFINITY, f64::min);
-    if least == f64::INFINITY {
-        return None;
-    }
-    let mut tied = 0;
-    let (mut sum, mut way) = (Vector::<D>::zeros(), Vector::<D>::zeros());
-    let (mut beyond_a_rim, mut behind_one) = (false, false);
-    let (mut first, mut owner, mut depth) = (0, None, f64::INFINITY);
-    for (index, (facet, place)) in facets.enumerate() {
-        let from = place - facet.nearest(&place);
-        if from.norm() > least * (1.0 + TIE) {
-            continue;
-        }
-        let height = facet.height(&place);
-        if tied == 0 {
-            (first, way) = (index, from);
-            beyond_a_rim = height.abs() < (1.0 - TIE) * least;
-        }
-        tied += 1;
-        sum += facet.normal;
-        behind_one |= from.dot(&facet.normal) < 0.0;
-        if height < 0.0 && -height < depth {
-            (owner, depth) = (Some(index), -height);
-        }
-    }
-    let cancel = sum.norm() < TIE;
-    let behind = if cancel { behind_one } else { way.dot(&sum) < 0.0 };
-    let behind = behind && !(tied == 1 && beyond_a_rim);
-    Some(Standing { distance: if behind { -least } else { least }, facet: owner.unwrap_or(first) })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn line(points: &[[f64; 2]]) -> Vec<Facet<2>> {
-        points.windows(2).filter_map(|ends| Facet::segment(ends[0].into(), ends[1].into())).collect()
-    }
-
-    fn stands(facets: &[Facet<2>], x: f64, y: f64) -> Standing {
-        let place = Vector::<2>::new(x, y);
-        standing(facets.iter().map(|facet| (facet, place))).expect("facets")
-    }
-
-    #[test]
-    fn a_place_is_behind_a_step_or_in_front_of_it() {
-        // the flow is above: a bed, a face that falls, a lower bed
-        let step = line(&[[-2.0, 1.0], [0.0, 1.0], [0.0, 0.0], [2.0, 0.0]]);
-        for (x, y, distance, facet) in [
-            (-0.5, 1.25, 0.25, 0),
-            (-0.5, 0.9, -0.1, 0),
-            (0.3, 1.4, 0.5, 0),
-            (0.3, 0.5, 0.3, 1),
-            (-0.3, 0.5, -0.3, 1),
-            (0.2, 0.1, 0.1, 2),
-            (-0.3, -0.4, -0.5, 1),
-            (0.3, -0.4, -0.4, 2),
-        ] {
-            let found = stands(&step, x, y);
-            assert!((found.distance - distance).abs() < 1e-15 && found.facet == facet, "{found:?} at {x}, {y}");
-        }
-        assert!((stands(&step, -2.3, 0.6).distance - 0.5).abs() < 1e-15, "beyond the rim there is no wall");
-    }
-
-    #[test]
-    fn acute_corners_are_told_from_either_side() {
-        let (tan, wedge) = (0.267_949_192_431_122_7, [[-1.0, 0.267_949_192_431_122_7], [0.0, 0.0]]);
-        // the flow between two walls that meet in 30°, open to the left
-        let tip = line(&[[0.0, 0.0], wedge[0]]);
-        let mut trough = line(&[[-1.0, -tan], [0.0, 0.0]]);
-        trough.extend(&tip);
-        assert!(stands(&trough, -0.5, 0.0).distance > 0.0);
-        assert!((stands(&trough, 0.5, 0.0).distance + 0.5).abs() < 1e-15);
-        assert!(stands(&trough, -0.5, 0.2).distance < 0.0 && stands(&trough, -0.5, -0.2).distance < 0.0);
-        // the same lines the other way round: a solid wedge in the flow
-        let solid: Vec<_> = trough.iter().rev().filter_map(|f| Facet::segment(f.corners[1], f.corners[0])).collect();
-        assert!(stands(&solid, -0.5, 0.0).distance < 0.0);
-        assert!((stands(&solid, 0.5, 0.0).distance - 0.5).abs() < 1e-15);
-    }
 
     #[test]
     fn the_nearest_point_of_a_triangle_lies_on_its_face_an_edge_or_a_corner() {
@@ -198,6 +149,18 @@ mod tests {
         ] {
             let error = facet.nearest(&place.into()) - Vector::<3>::from(expected);
             assert!(error.norm() < 1e-15, "{place:?}");
+        }
+    }
+    #[test]
+    fn a_triangle_faces_those_who_see_its_corners_against_the_clock() {
+        let corners = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Vector::<3>::from);
+        let facet = Facet::triangle(corners).expect("a triangle");
+        assert!(facet.normal == Vector::<3>::new(0.0, 0.0, 1.0));
+        assert!((facet.angle(&corners[0]) - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+        assert!((facet.angle(&corners[1]) - 0.5_f64.atan()).abs() < 1e-15);
+        assert!((facet.angle(&Vector::<3>::new(1.0, 0.0, 0.0)) - std::f64::consts::PI).abs() < 1e-15);
+        for thin in [[2.0, 0.0, 0.0], [1.0, 1e-7, 0.0], [f64::NAN, 1.0, 0.0], [f64::INFINITY, 1.0, 0.0]] {
+            assert!(Facet::triangle([corners[0], corners[1], thin.into()]).is_none(), "{thin:?}");
         }
     }
 }

@@ -1,12 +1,15 @@
 //! Contact with shells: a particle within half a spacing may not approach further, wherever it is on the wall. What is
 //! found behind one has passed it.
 
-use super::facet::{Facet, Standing, standing};
+use super::facet::Facet;
+use super::facet_grid::FacetGrid;
 use super::shell::Shell;
+use super::standing::{Standing, standing};
 use super::wall::Surface;
 use crate::vector::Vector;
 
-/// Sweeps over the facets that are touched; in the plane a corner needs no more, and one that does brings to a stop.
+/// Sweeps over the facets that are touched; a corner of two or three walls seldom needs more, and one that does
+/// brings to a stop.
 const SWEEPS: usize = 4;
 /// How much of its speed a particle may still approach with after a sweep `[-]`: rounding.
 const ROUNDING: f64 = 1e-12;
@@ -17,6 +20,8 @@ const TIE: f64 = 1e-9;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Touch<'a, const D: usize> {
     pub(crate) shells: &'a [Shell<D>],
+    /// Which of their facets are near a place, shell by shell.
+    pub(crate) grids: &'a [FacetGrid<D>],
     /// How far each has moved since the start `[m]`.
     pub(crate) displacements: &'a [Vector<D>],
     /// Mean velocity of each in the step `[m/s]`.
@@ -49,7 +54,8 @@ impl<'a, const D: usize> Touch<'a, D> {
         self.shells.iter().enumerate().flat_map(move |(k, shell)| {
             let place = position - self.displacements[k];
             let near = move |facet: &&Facet<D>| facet.may_reach(&place, self.range);
-            shell.facets.iter().filter(near).map(move |facet| (k, facet, place))
+            let listed = self.grids[k].near(&place).iter().map(|&index| &shell.facets[index as usize]);
+            listed.filter(near).map(move |facet| (k, facet, place))
         })
     }
 
@@ -135,7 +141,8 @@ mod tests {
 
     fn after(shells: &[Shell<2>], place: [f64; 2], velocity: [f64; 2]) -> Result<Vector<2>, Passed> {
         let rest = vec![Vector::zeros(); shells.len()];
-        let touch = Touch { shells, displacements: &rest, velocities: &rest, range: 0.5, friction: 0.4 };
+        let grids: Vec<_> = shells.iter().map(|shell| FacetGrid::new(&shell.facets, 0.5)).collect();
+        let touch = Touch { shells, grids: &grids, displacements: &rest, velocities: &rest, range: 0.5, friction: 0.4 };
         let mut booked = Vector::<2>::zeros();
         let velocity = Vector::from(velocity);
         let change = touch.respond(&place.into(), &velocity, |_, push| booked += push)?;

@@ -13,7 +13,7 @@ use bagnold_solver::domain::Domain;
 use bagnold_solver::material::equation_of_state::EquationOfState;
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::facet::standing;
+use bagnold_solver::weakly_compressible::boundary::standing::standing;
 use bagnold_solver::weakly_compressible::boundary::{Enclosure, backing};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;

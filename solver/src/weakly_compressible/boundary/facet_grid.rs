@@ -1,0 +1,197 @@
+//! A uniform grid over facets: which of them can be nearer to a place than a range, without a look at the others.
+
+use super::facet::Facet;
+use super::standing::{Standing, standing};
+use crate::vector::Vector;
+
+/// Cells that a grid has for every facet at most, and cells in all: memory.
+const CELLS_PER_FACET: usize = 32;
+const MOST_CELLS: f64 = 262_144.0;
+
+/// Lists of facets, cell by cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FacetGrid<const D: usize> {
+    /// Distance up to which the facets around a place are found `[m]`.
+    range: f64,
+    lower: Vector<D>,
+    /// Edge of a cell `[m]`.
+    edge: f64,
+    counts: [usize; D],
+    /// Where each cell's list begins; one more than there are cells.
+    starts: Vec<u32>,
+    facets: Vec<u32>,
+}
+
+impl<const D: usize> FacetGrid<D> {
+    /// The grid by which facets nearer than `range` `[m]` are found.
+    #[must_use]
+    pub fn new(facets: &[Facet<D>], range: f64) -> Self {
+        let none = (Vector::<D>::repeat(f64::INFINITY), Vector::<D>::repeat(f64::NEG_INFINITY));
+        let boxes: Vec<_> = facets.iter().map(|facet| around(facet, range)).collect();
+        let (lower, upper) = boxes.iter().fold(none, |(l, u), (low, high)| (l.inf(low), u.sup(high)));
+        let mut grid = Self { range, lower, edge: range, counts: [0; D], starts: vec![0], facets: Vec::new() };
+        let size = upper - lower;
+        if facets.is_empty() || !size.iter().all(|length| length.is_finite()) || range <= 0.0 {
+            return grid;
+        }
+        let most = MOST_CELLS.min((CELLS_PER_FACET * (facets.len() + CELLS_PER_FACET)) as f64);
+        let cells = |edge: f64| size.iter().map(|length| (length / edge).floor() + 1.0).product::<f64>();
+        while cells(grid.edge) > most {
+            grid.edge *= 1.25;
+        }
+        grid.counts = std::array::from_fn(|axis| (size[axis] / grid.edge) as usize + 1);
+        grid.fill(facets, &boxes);
+        grid
+    }
+
+    /// Counts what each cell lists, and lists it in the order of the facets.
+    fn fill(&mut self, facets: &[Facet<D>], boxes: &[(Vector<D>, Vector<D>)]) {
+        let cells = self.counts.iter().product();
+        let mut ends = vec![0_u32; cells + 1];
+        for (facet, corners) in facets.iter().zip(boxes) {
+            self.visit(facet, corners, |cell| ends[cell + 1] += 1);
+        }
+        for cell in 0..cells {
+            ends[cell + 1] += ends[cell];
+        }
+        self.facets = vec![0; ends[cells] as usize];
+        self.starts.clone_from(&ends);
+        let mut entries = std::mem::take(&mut self.facets);
+        for (index, (facet, corners)) in facets.iter().zip(boxes).enumerate() {
+            self.visit(facet, corners, |cell| {
+                entries[ends[cell] as usize] = index as u32;
+                ends[cell] += 1;
+            });
+        }
+        self.facets = entries;
+    }
+
+    /// Shows the cells that a facet can be near to.
+    fn visit(&self, facet: &Facet<D>, corners: &(Vector<D>, Vector<D>), mut show: impl FnMut(usize)) {
+        let cell_of = |axis: usize, place: f64| {
+            (((place - self.lower[axis]) / self.edge).max(0.0) as usize).min(self.counts[axis] - 1)
+        };
+        let first: [usize; D] = std::array::from_fn(|axis| cell_of(axis, corners.0[axis]));
+        let last: [usize; D] = std::array::from_fn(|axis| cell_of(axis, corners.1[axis]));
+        // a cell's corners are so far from its middle; a little more for rounding
+        let reach = self.range + 0.51 * self.edge * (D as f64).sqrt();
+        let mut cell = first;
+        loop {
+            if facet.height(&self.middle(&cell)).abs() <= reach {
+                show(self.index(&cell));
+            }
+            let mut axis = 0;
+            while axis < D {
+                cell[axis] += 1;
+                if cell[axis] <= last[axis] {
+                    break;
+                }
+                cell[axis] = first[axis];
+                axis += 1;
+            }
+            if axis == D {
+                return;
+            }
+        }
+    }
+
+    fn middle(&self, cell: &[usize; D]) -> Vector<D> {
+        Vector::<D>::from_fn(|axis, _| self.lower[axis] + (cell[axis] as f64 + 0.5) * self.edge)
+    }
+
+    fn index(&self, cell: &[usize; D]) -> usize {
+        (0..D).rev().fold(0, |index, axis| index * self.counts[axis] + cell[axis])
+    }
+
+    /// The facets that can be nearer to a place than the range, in their order; some that are farther may be among them.
+    #[inline(always)]
+    #[must_use]
+    pub fn near(&self, place: &Vector<D>) -> &[u32] {
+        let mut cell = [0; D];
+        for axis in 0..D {
+            let offset = (place[axis] - self.lower[axis]) / self.edge;
+            if !(offset >= 0.0 && offset < self.counts[axis] as f64) {
+                return &[];
+            }
+            cell[axis] = offset as usize;
+        }
+        let index = self.index(&cell);
+        &self.facets[self.starts[index] as usize..self.starts[index + 1] as usize]
+    }
+
+    /// Where a place stands with regard to the facets that the grid was made of; none where all are farther than the range.
+    #[must_use]
+    pub fn standing(&self, facets: &[Facet<D>], place: &Vector<D>) -> Option<Standing> {
+        let near = self.near(place);
+        let found = standing(near.iter().map(|&index| (&facets[index as usize], *place)))?;
+        (found.distance.abs() < self.range).then(|| Standing { facet: near[found.facet] as usize, ..found })
+    }
+
+    /// Lower and upper corners of the cells that list any facet `[m]`, in their order. They do not overlap.
+    pub(super) fn occupied(&self) -> impl Iterator<Item = (Vector<D>, Vector<D>)> {
+        let occupied = (0..self.starts.len() - 1).filter(|&index| self.starts[index] < self.starts[index + 1]);
+        occupied.map(|index| {
+            let mut rest = index;
+            let cell: [usize; D] = std::array::from_fn(|axis| {
+                let at = rest % self.counts[axis];
+                rest /= self.counts[axis];
+                at
+            });
+            let corner = |beyond: usize| {
+                Vector::<D>::from_fn(|axis, _| self.lower[axis] + (cell[axis] + beyond) as f64 * self.edge)
+            };
+            (corner(0), corner(1))
+        })
+    }
+}
+
+/// Corners of a facet's box, `range` farther out `[m]`.
+fn around<const D: usize>(facet: &Facet<D>, range: f64) -> (Vector<D>, Vector<D>) {
+    let none = (Vector::<D>::repeat(f64::INFINITY), Vector::<D>::repeat(f64::NEG_INFINITY));
+    let (lower, upper) = facet.corners.iter().fold(none, |(l, u), corner| (l.inf(corner), u.sup(corner)));
+    (lower.map(|place| place - range), upper.map(|place| place + range))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+
+    fn agrees<const D: usize>(facets: &[Facet<D>], range: f64, seed: u64) {
+        let grid = FacetGrid::new(facets, range);
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(seed);
+        let mut found = 0;
+        for _ in 0..2000 {
+            let place = Vector::<D>::from_fn(|_, _| 2.0 * random.random::<f64>() - 0.5);
+            let all = standing(facets.iter().map(|facet| (facet, place)));
+            let expected = all.filter(|standing| standing.distance.abs() < range);
+            assert_eq!(grid.standing(facets, &place), expected, "{place}");
+            found += usize::from(expected.is_some());
+        }
+        assert!(found > 50, "{found}");
+    }
+
+    #[test]
+    fn it_finds_what_a_look_at_all_facets_finds() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(3);
+        for size in [0.05, 0.3, 2.0] {
+            let mut corner = |middle: f64| middle + size * (random.random::<f64>() - 0.5);
+            let segments: Vec<_> = (0..40)
+                .filter_map(|k| {
+                    let (x, y) = (f64::from(k % 7) / 7.0, f64::from(k) / 40.0);
+                    Facet::segment([corner(x), corner(y)].into(), [corner(x), corner(y)].into())
+                })
+                .collect();
+            let triangles: Vec<_> = (0..200)
+                .filter_map(|k| {
+                    let at = [f64::from(k % 7) / 7.0, f64::from(k % 11) / 11.0, f64::from(k) / 200.0];
+                    Facet::triangle([(); 3].map(|()| Vector::<3>::from(at.map(&mut corner))))
+                })
+                .collect();
+            agrees(&segments, 0.1, 1);
+            agrees(&triangles, 0.07, 2);
+        }
+        let none = FacetGrid::<2>::new(&[], 0.1);
+        assert!(none.near(&Vector::zeros()).is_empty() && none.occupied().next().is_none());
+    }
+}

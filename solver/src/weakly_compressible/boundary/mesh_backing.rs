@@ -1,0 +1,310 @@
+//! Dummy particles behind meshes in space: what [`super::backing`] does in the plane.
+//!
+//! Every flat part of a mesh is backed by the lattice of a plane wall, aligned with its longest edge, the first layer half
+//! a spacing deep. A site belongs to the part that is nearest to it; where the cell of a site is shared, the part has what
+//! its samples say, at their centroid. Parts narrower than a site, of which a curved surface is made, are backed together
+//! by one lattice along the axes of the scene, whose particles have the distance to the surface as their depth and the
+//! way there as their normal. So the space behind a mesh is covered once, whatever its shape.
+
+use super::backing::{planes, together};
+use super::facet::Facet;
+use super::facet_grid::FacetGrid;
+use super::mesh::{Frame, flat_parts};
+use super::shell::{BackingParticle, Shell};
+use super::standing::standing;
+use crate::domain::{AxisBoundary, Domain};
+use crate::vector::Vector;
+use rayon::prelude::*;
+
+/// Samples of a spacing along each direction, by which it is found what belongs to a part.
+const SAMPLES: usize = 4;
+/// Corners of a cell.
+const CORNERS: usize = 1 << 3;
+/// Share of a cell below which a piece is left out `[-]`.
+const SMALLEST: f64 = 0.02;
+/// Mean breadth in spacings below which a part is backed together with the others that are as narrow `[-]`.
+const NARROW: f64 = 1.5;
+/// Depth of a particle in spacings at least, where triangles fold so that its centroid is less deep `[-]`.
+const LEAST_DEPTH: f64 = 0.05;
+/// How far beyond a cell's corners facets are looked for, over that distance `[-]`: rounding.
+const BEYOND: f64 = 1.0 + 1e-6;
+
+/// Fills the space behind the shells with `rows` of dummy particles at the flow's `spacing` `[m]`, the first half a spacing
+/// behind the surface. Shells at rest share their edges; each that moves stands alone. Nothing is laid beyond periods and
+/// mirrors.
+pub fn lay(shells: &mut [Shell<3>], domain: &Domain<3>, spacing: f64, rows: usize) {
+    for group in together(shells) {
+        let laying = Laying::of(shells, &group, domain, spacing, rows);
+        let parts = (0..laying.parts.len()).into_par_iter().filter(|&part| !laying.parts[part].narrow);
+        let mut particles: Vec<Vec<(usize, BackingParticle<3>)>> = parts.map(|part| laying.behind_part(part)).collect();
+        particles.push(laying.behind_narrow_parts());
+        for (shell, particle) in particles.into_iter().flatten() {
+            shells[shell].backing.push(particle);
+        }
+    }
+}
+
+/// A flat part, or its image in a mirror or a period.
+#[derive(Clone)]
+struct Part {
+    shell: usize,
+    facets: Vec<usize>,
+    narrow: bool,
+}
+
+/// What particles are laid among.
+struct Laying<'a> {
+    facets: Vec<Facet<3>>,
+    /// The part of every facet.
+    part_of: Vec<usize>,
+    parts: Vec<Part>,
+    grid: FacetGrid<3>,
+    domain: &'a Domain<3>,
+    spacing: f64,
+    rows: usize,
+}
+
+/// A cell by its middle and its edges `[m]`.
+struct Cell {
+    middle: Vector<3>,
+    edges: [Vector<3>; 3],
+}
+
+impl Cell {
+    /// A place in it, by whole numbers below [`SAMPLES`] along the edges.
+    fn sample(&self, at: [usize; 3]) -> Vector<3> {
+        let offset = |k: usize| (at[k] as f64 + 0.5) / SAMPLES as f64 - 0.5;
+        self.middle + self.edges[0] * offset(0) + self.edges[1] * offset(1) + self.edges[2] * offset(2)
+    }
+
+    fn volume(&self) -> f64 {
+        self.edges[0].cross(&self.edges[1]).dot(&self.edges[2]).abs()
+    }
+
+    /// Distance of its corners from its middle `[m]`.
+    fn radius(&self) -> f64 {
+        0.5 * self.edges.iter().map(Vector::norm_squared).sum::<f64>().sqrt()
+    }
+}
+
+/// What somebody has of a cell.
+struct Piece {
+    /// Its centroid `[m]`.
+    place: Vector<3>,
+    /// `[m³]`.
+    volume: f64,
+    /// Whether it is the whole cell.
+    whole: bool,
+}
+
+impl<'a> Laying<'a> {
+    fn of(shells: &[Shell<3>], group: &[usize], domain: &'a Domain<3>, spacing: f64, rows: usize) -> Self {
+        let (mut facets, mut part_of, mut parts) = (Vec::new(), Vec::new(), Vec::new());
+        for &shell in group {
+            let first = facets.len();
+            facets.extend_from_slice(&shells[shell].facets);
+            part_of.resize(facets.len(), 0);
+            for own in flat_parts(&shells[shell].facets) {
+                let of_part: Vec<_> = own.iter().map(|&k| shells[shell].facets[k]).collect();
+                let narrow = Frame::of(&of_part).is_none_or(|frame| frame.breadth() < NARROW * spacing);
+                for &k in &own {
+                    part_of[first + k] = parts.len();
+                }
+                parts.push(Part { shell, facets: own.iter().map(|k| first + k).collect(), narrow });
+            }
+        }
+        let grid = FacetGrid::new(&[], spacing);
+        let mut laying = Self { facets, part_of, parts, grid, domain, spacing, rows };
+        laying.add_images();
+        laying.grid = FacetGrid::new(&laying.facets, laying.reach() + 2.0 * spacing);
+        laying
+    }
+
+    fn reach(&self) -> f64 {
+        self.rows as f64 * self.spacing
+    }
+
+    /// Adds what mirrors and periods show of the parts near them, so that a wall does not end there.
+    fn add_images(&mut self) {
+        let near = 2.0 * self.reach();
+        for axis in 0..3 {
+            match self.domain.axes[axis] {
+                AxisBoundary::Open => {}
+                AxisBoundary::Periodic { lower, upper } => {
+                    let shift = upper - lower;
+                    let count = self.parts.len();
+                    self.add_image(axis, count, |place| place < lower + near, |place| place + shift, false);
+                    self.add_image(axis, count, |place| place > upper - near, |place| place - shift, false);
+                }
+                AxisBoundary::Mirror { lower, upper } => {
+                    let count = self.parts.len();
+                    for plane in [lower, upper].into_iter().flatten() {
+                        let is_near = |place: f64| (place - plane).abs() < near;
+                        self.add_image(axis, count, is_near, |place| 2.0 * plane - place, true);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the images of those among the first `count` parts that have a corner near.
+    fn add_image(
+        &mut self,
+        axis: usize,
+        count: usize,
+        is_near: impl Fn(f64) -> bool,
+        image: impl Fn(f64) -> f64,
+        reflected: bool,
+    ) {
+        for part in 0..count {
+            let Part { shell, facets, narrow } = self.parts[part].clone();
+            let own: Vec<&Facet<3>> = facets.iter().map(|&k| &self.facets[k]).collect();
+            if !own.iter().any(|facet| facet.corners.iter().any(|corner| is_near(corner[axis]))) {
+                continue;
+            }
+            let images: Vec<Facet<3>> = own
+                .into_iter()
+                .map(|facet| {
+                    let mut facet = *facet;
+                    for corner in &mut facet.corners {
+                        corner[axis] = image(corner[axis]);
+                    }
+                    if reflected {
+                        facet.normal[axis] = -facet.normal[axis];
+                    }
+                    facet
+                })
+                .collect();
+            let first = self.facets.len();
+            self.part_of.resize(first + images.len(), self.parts.len());
+            self.parts.push(Part { shell, facets: (first..first + images.len()).collect(), narrow });
+            self.facets.extend(images);
+        }
+    }
+
+    /// The particles behind a part that is broad enough for a lattice of its own.
+    fn behind_part(&self, part: usize) -> Vec<(usize, BackingParticle<3>)> {
+        let Part { shell, ref facets, .. } = self.parts[part];
+        let of_part: Vec<_> = facets.iter().map(|&k| self.facets[k]).collect();
+        let Some(frame) = Frame::of(&of_part) else { return Vec::new() };
+        let counts = frame.lengths.map(|length| (length / self.spacing).round().max(1.0));
+        let steps = [0, 1].map(|k| frame.along[k] * (frame.lengths[k] / counts[k]));
+        let rows = self.rows as i64;
+        let mut particles = Vec::new();
+        for row in 0..rows {
+            let depth = (row as f64 + 0.5) * self.spacing;
+            for j in -rows..counts[1] as i64 + rows {
+                for i in -rows..counts[0] as i64 + rows {
+                    let site = steps[0] * (i as f64 + 0.5) + steps[1] * (j as f64 + 0.5);
+                    let middle = frame.origin + site - frame.normal * depth;
+                    let cell = Cell { middle, edges: [steps[0], steps[1], frame.normal * self.spacing] };
+                    let Some(piece) = self.piece(&cell, |facet| self.part_of[facet] == part) else { continue };
+                    let height = frame.normal.dot(&(piece.place - frame.origin));
+                    let depth = if piece.whole { depth } else { (-height).max(LEAST_DEPTH * self.spacing) };
+                    let Piece { place: position, volume, .. } = piece;
+                    particles.push((shell, BackingParticle { position, normal: frame.normal, depth, volume }));
+                }
+            }
+        }
+        particles
+    }
+
+    /// The particles behind all parts that are narrower than a site, on one lattice.
+    fn behind_narrow_parts(&self) -> Vec<(usize, BackingParticle<3>)> {
+        let is_narrow = |facet: usize| self.parts[self.part_of[facet]].narrow;
+        let narrow: Vec<Facet<3>> =
+            (0..self.facets.len()).filter(|&facet| is_narrow(facet)).map(|facet| self.facets[facet]).collect();
+        let cells: Vec<_> = FacetGrid::new(&narrow, self.reach() + 2.0 * self.spacing).occupied().collect();
+        let edges = [0, 1, 2].map(|axis| Vector::<3>::ith(axis, self.spacing));
+        let laid = cells.par_iter().map(|(lower, upper)| {
+            let mut particles = Vec::new();
+            // every site whose middle is in the cell
+            let range = |axis: usize| {
+                let site = |place: f64| (place / self.spacing - 0.5).ceil() as i64;
+                site(lower[axis])..site(upper[axis])
+            };
+            for (z, y) in range(2).flat_map(|z| range(1).map(move |y| (z, y))) {
+                for x in range(0) {
+                    let middle = Vector::<3>::from([x, y, z].map(|k| (k as f64 + 0.5) * self.spacing));
+                    let cell = Cell { middle, edges };
+                    let piece = self.piece(&cell, is_narrow);
+                    particles.extend(piece.and_then(|piece| self.behind_curve(&piece)));
+                }
+            }
+            particles
+        });
+        laid.collect::<Vec<_>>().into_iter().flatten().collect()
+    }
+
+    /// The particle of a piece behind a curved surface.
+    fn behind_curve(&self, piece: &Piece) -> Option<(usize, BackingParticle<3>)> {
+        let position = piece.place;
+        let facet = self.grid.standing(&self.facets, &position)?.facet;
+        let way = self.facets[facet].nearest(&position) - position;
+        let depth = way.norm();
+        let clear = depth > LEAST_DEPTH * self.spacing;
+        let normal = if clear { way / depth } else { self.facets[facet].normal };
+        let depth = depth.max(LEAST_DEPTH * self.spacing);
+        Some((self.parts[self.part_of[facet]].shell, BackingParticle { position, normal, depth, volume: piece.volume }))
+    }
+
+    /// What belongs to facets of a kind of a cell: behind them, no farther than the rows reach, inside the domain, and
+    /// nearer to none of the others.
+    fn piece(&self, cell: &Cell, is_own: impl Fn(usize) -> bool) -> Option<Piece> {
+        let radius = cell.radius();
+        let candidates = self.candidates(&cell.middle, radius)?;
+        let owned = |place: &Vector<3>| self.owner(&candidates, place).is_some_and(&is_own);
+        let last = SAMPLES - 1;
+        let outer =
+            (0..CORNERS).filter(|k| owned(&cell.sample([0, 1, 2].map(|axis| last * ((k >> axis) & 1))))).count();
+        let volume = cell.volume();
+        if outer == CORNERS {
+            return Some(Piece { place: cell.middle, volume, whole: true });
+        }
+        if outer == 0 && !owned(&cell.middle) {
+            return None;
+        }
+        let (mut count, mut sum) = (0.0, Vector::<3>::zeros());
+        for k in 0..SAMPLES.pow(3) {
+            let place = cell.sample([k % SAMPLES, k / SAMPLES % SAMPLES, k / (SAMPLES * SAMPLES)]);
+            if owned(&place) {
+                count += 1.0;
+                sum += place - cell.middle;
+            }
+        }
+        let share = count / SAMPLES.pow(3) as f64;
+        let place = cell.middle + sum / f64::max(count, 1.0);
+        (share >= SMALLEST).then(|| Piece { place, volume: share * volume, whole: false })
+    }
+
+    /// The facets that can be nearest to a place within `radius` `[m]` of another; none where all are farther than the rows
+    /// reach.
+    fn candidates(&self, middle: &Vector<3>, radius: f64) -> Option<Vec<usize>> {
+        let mut least = (self.reach() + radius) * BEYOND;
+        let near = self.grid.near(middle);
+        let mut found = false;
+        for &facet in near {
+            let facet = &self.facets[facet as usize];
+            if facet.may_reach(middle, least) {
+                let distance = (middle - facet.nearest(middle)).norm();
+                found |= distance < least;
+                least = least.min(distance);
+            }
+        }
+        // a place in the cell is nearer to that one than this
+        let range = (least + 2.0 * radius) * BEYOND;
+        let reach = |facet: &usize| self.facets[*facet].may_reach(middle, range);
+        found.then(|| near.iter().map(|&facet| facet as usize).filter(reach).collect())
+    }
+
+    /// The facet that a place behind the shells belongs to.
+    fn owner(&self, candidates: &[usize], place: &Vector<3>) -> Option<usize> {
+        let inside = (0..3).all(|axis| {
+            let [lower, upper] = planes(&self.domain.axes[axis]);
+            lower.is_none_or(|plane| place[axis] > plane) && upper.is_none_or(|plane| place[axis] < plane)
+        });
+        let found = || standing(candidates.iter().map(|&facet| (&self.facets[facet], *place)));
+        let found = inside.then(found).flatten()?;
+        (found.distance < 0.0 && -found.distance < self.reach()).then(|| candidates[found.facet])
+    }
+}

@@ -1,0 +1,179 @@
+//! Where a place stands with regard to facets: in front of a wall, or behind it.
+//!
+//! That is told by the facet nearest to it. At a corner several are equally near; the sign then is that of the sum of
+//! their normals, in space each times the angle that its triangle fills there, which is right for corners into the flow
+//! and out of it (Bærentzen & Aanæs 2005). Beyond a rim, where facets end, there is no wall.
+
+use super::facet::Facet;
+use crate::vector::Vector;
+
+/// How much farther than the nearest a facet may be to count as equally near `[-]`.
+const TIE: f64 = 1e-9;
+/// How far the cosine between two edges that are one may be from 1 `[-]`.
+const ALONG: f64 = 1e-6;
+
+/// Where a place stands with regard to some facets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Standing {
+    /// Distance from the nearest facet `[m]`, negative behind it. Beyond a rim where the facets end it is positive.
+    pub distance: f64,
+    /// The nearest facet, by its place among them: where several are equally near, the one that the place is behind of by
+    /// the least, or else the first.
+    pub facet: usize,
+}
+
+/// Where a place stands; none without facets. `facets` yields them with the place as each of them sees it.
+pub fn standing<'a, const D: usize>(
+    facets: impl Iterator<Item = (&'a Facet<D>, Vector<D>)> + Clone,
+) -> Option<Standing> {
+    let ways = facets.clone().map(|(facet, place)| (place - facet.nearest(&place)).norm());
+    let least = ways.fold(f64::INFINITY, f64::min);
+    if least == f64::INFINITY {
+        return None;
+    }
+    let mut tied = 0;
+    let (mut sum, mut way) = (Vector::<D>::zeros(), Vector::<D>::zeros());
+    let (mut beyond_a_rim, mut behind_one, mut on_a_face) = (false, false, false);
+    let (mut first, mut owner, mut depth) = (0, None, f64::INFINITY);
+    for (index, (facet, place)) in facets.clone().enumerate() {
+        let nearest = facet.nearest(&place);
+        let from = place - nearest;
+        if from.norm() > least * (1.0 + TIE) {
+            continue;
+        }
+        let height = facet.height(&place);
+        if tied == 0 {
+            (first, way) = (index, from);
+            beyond_a_rim = height.abs() < (1.0 - TIE) * least;
+        }
+        tied += 1;
+        on_a_face |= height.abs() >= (1.0 - TIE) * least;
+        sum += facet.normal * facet.angle(&nearest);
+        behind_one |= from.dot(&facet.normal) < 0.0;
+        if height < 0.0 && -height < depth {
+            (owner, depth) = (Some(index), -height);
+        }
+    }
+    let cancel = sum.norm() < TIE;
+    let behind = if cancel { behind_one } else { way.dot(&sum) < 0.0 };
+    let beyond = |facets| if D < 3 { tied == 1 && beyond_a_rim } else { !on_a_face && is_open(facets, least) };
+    let behind = behind && !beyond(facets);
+    Some(Standing { distance: if behind { -least } else { least }, facet: owner.unwrap_or(first) })
+}
+
+/// Whether triangles that are equally near by their rims leave a gap around the point that is nearest: an edge there has a
+/// triangle on one side only.
+fn is_open<'a, const D: usize>(facets: impl Iterator<Item = (&'a Facet<D>, Vector<D>)> + Clone, least: f64) -> bool {
+    let tied = facets.filter_map(|(facet, place)| {
+        let nearest = facet.nearest(&place);
+        ((place - nearest).norm() <= least * (1.0 + TIE)).then(|| facet.rays(&nearest))
+    });
+    let joined = |own: usize, ray: &Vector<D>| {
+        tied.clone().enumerate().any(|(k, rays)| k != own && rays.iter().any(|other| other.dot(ray) > 1.0 - ALONG))
+    };
+    tied.clone().enumerate().any(|(own, rays)| !rays.iter().all(|ray| joined(own, ray)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(points: &[[f64; 2]]) -> Vec<Facet<2>> {
+        points.windows(2).filter_map(|ends| Facet::segment(ends[0].into(), ends[1].into())).collect()
+    }
+
+    fn stands(facets: &[Facet<2>], x: f64, y: f64) -> Standing {
+        let place = Vector::<2>::new(x, y);
+        standing(facets.iter().map(|facet| (facet, place))).expect("facets")
+    }
+
+    #[test]
+    fn a_place_is_behind_a_step_or_in_front_of_it() {
+        // the flow is above: a bed, a face that falls, a lower bed
+        let step = line(&[[-2.0, 1.0], [0.0, 1.0], [0.0, 0.0], [2.0, 0.0]]);
+        for (x, y, distance, facet) in [
+            (-0.5, 1.25, 0.25, 0),
+            (-0.5, 0.9, -0.1, 0),
+            (0.3, 1.4, 0.5, 0),
+            (0.3, 0.5, 0.3, 1),
+            (-0.3, 0.5, -0.3, 1),
+            (0.2, 0.1, 0.1, 2),
+            (-0.3, -0.4, -0.5, 1),
+            (0.3, -0.4, -0.4, 2),
+        ] {
+            let found = stands(&step, x, y);
+            assert!((found.distance - distance).abs() < 1e-15 && found.facet == facet, "{found:?} at {x}, {y}");
+        }
+        assert!((stands(&step, -2.3, 0.6).distance - 0.5).abs() < 1e-15, "beyond the rim there is no wall");
+    }
+
+    #[test]
+    fn acute_corners_are_told_from_either_side() {
+        let (tan, wedge) = (0.267_949_192_431_122_7, [[-1.0, 0.267_949_192_431_122_7], [0.0, 0.0]]);
+        // the flow between two walls that meet in 30°, open to the left
+        let tip = line(&[[0.0, 0.0], wedge[0]]);
+        let mut trough = line(&[[-1.0, -tan], [0.0, 0.0]]);
+        trough.extend(&tip);
+        assert!(stands(&trough, -0.5, 0.0).distance > 0.0);
+        assert!((stands(&trough, 0.5, 0.0).distance + 0.5).abs() < 1e-15);
+        assert!(stands(&trough, -0.5, 0.2).distance < 0.0 && stands(&trough, -0.5, -0.2).distance < 0.0);
+        // the same lines the other way round: a solid wedge in the flow
+        let solid: Vec<_> = trough.iter().rev().filter_map(|f| Facet::segment(f.corners[1], f.corners[0])).collect();
+        assert!(stands(&solid, -0.5, 0.0).distance < 0.0);
+        assert!((stands(&solid, 0.5, 0.0).distance - 0.5).abs() < 1e-15);
+    }
+
+    fn triangles(corners: &[[[f64; 3]; 3]]) -> Vec<Facet<3>> {
+        corners.iter().filter_map(|corners| Facet::triangle(corners.map(Vector::<3>::from))).collect()
+    }
+
+    fn distance(facets: &[Facet<3>], place: [f64; 3]) -> f64 {
+        standing(facets.iter().map(|facet| (facet, Vector::<3>::from(place)))).expect("facets").distance
+    }
+
+    #[test]
+    fn there_is_no_wall_beyond_the_rim_of_a_mesh() {
+        let (a, b, c, d) = ([0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]);
+        let floor = triangles(&[[a, b, c], [a, c, d]]);
+        for (place, expected) in [
+            ([0.5, 0.5, -0.2], -0.2),
+            ([0.5, 0.5, 0.2], 0.2),
+            ([1.3, 0.5, -0.4], 0.5),
+            // before the corners: one that two triangles share, and one of a single triangle
+            ([1.3, 1.0 + 1e-3, -0.4], 0.5),
+            ([1.3, -1e-3, -0.4], 0.5),
+        ] {
+            let found = distance(&floor, place);
+            assert!((found - expected).abs() < 1e-5, "{found} at {place:?}");
+        }
+    }
+
+    #[test]
+    fn at_a_corner_of_a_box_the_division_into_triangles_does_not_matter() {
+        // three faces with the flow between them, each in two triangles that are divided in one way or the other; their
+        // edges along the axes are of different lengths
+        let face = |x: [f64; 3], y: [f64; 3], turned: bool| {
+            let add = |a: [f64; 3], b: [f64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+            let (o, xy) = ([0.0; 3], add(x, y));
+            if turned { [[o, x, y], [x, xy, y]] } else { [[o, x, xy], [o, xy, y]] }
+        };
+        for turned in 0..8 {
+            let is = |bit: usize| turned & (1 << bit) != 0;
+            let faces = [
+                face([1.0, 0.0, 0.0], [0.0, 2.0, 0.0], is(0)),
+                face([0.0, 1.5, 0.0], [0.0, 0.0, 1.0], is(1)),
+                face([0.0, 0.0, 0.7], [3.0, 0.0, 0.0], is(2)),
+            ];
+            let flow_inside = triangles(&faces.concat());
+            let behind = distance(&flow_inside, [-0.1, -0.2, -0.2]);
+            assert!((behind + 0.3).abs() < 1e-15, "{behind}, {turned}");
+            assert!((distance(&flow_inside, [0.3, 0.1, 0.2]) - 0.1).abs() < 1e-15);
+            let outside: Vec<_> = flow_inside
+                .iter()
+                .filter_map(|f| Facet::triangle([f.corners[1], f.corners[0], f.corners[2]]))
+                .collect();
+            assert!((distance(&outside, [-0.1, -0.2, -0.2]) - 0.3).abs() < 1e-15);
+            assert!((distance(&outside, [0.3, 0.1, 0.2]) + 0.1).abs() < 1e-15);
+        }
+    }
+}
