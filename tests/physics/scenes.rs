@@ -8,8 +8,14 @@ use std::path::Path;
 
 /// The series of a shipped scene.
 fn series(name: &str) -> Table {
+    changed(name, |_| ())
+}
+
+/// The same with other parameters.
+fn changed(name: &str, change: impl FnOnce(&mut toml::Table)) -> Table {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/scenes").join(name);
-    let CaseFile { case, tier, fields, .. } = CaseFile::read(&path).expect("a scene");
+    let CaseFile { case, tier, mut fields, .. } = CaseFile::read(&path).expect("a scene");
+    change(&mut fields);
     let changes = Changes { file: Some((&path, fields)), ..Changes::default() };
     let prepared = REGISTRY.find(&case).and_then(|case| case.prepare(tier.unwrap_or(Tier::Quick), &changes));
     let prepared = prepared.unwrap_or_else(|error| panic!("{error}"));
@@ -44,4 +50,35 @@ fn hoppers_discharge_steadily_and_as_the_opening_to_the_power_of_three_halves() 
     let exponent = mean(&|p| (p.0 - x) * (p.1 - y)) / mean(&|p| (p.0 - x).powi(2));
     println!("exponent {exponent}");
     assert!((exponent - 1.5).abs() < 0.2, "exponent {exponent}");
+}
+
+#[test]
+fn rough_side_walls_shorten_the_run_out_in_a_channel() {
+    // twelve particles over the height and six across
+    let coarse = |fields: &mut toml::Table| {
+        fields.insert("spacing".to_owned(), (0.1 / 12.0).into());
+        fields.insert("interval".to_owned(), 0.02.into());
+    };
+    let front = |table: &Table| {
+        let column = table.columns.iter().position(|name| name.starts_with("front")).expect("a front gauge");
+        table.rows.last().expect("rows")[column]
+    };
+    let with = changed("channel-collapse.toml", coarse);
+    let without = changed("channel-collapse.toml", |fields| {
+        coarse(fields);
+        let list = |fields: &mut toml::Table, name: &str| fields[name].as_array().cloned().expect("a list");
+        let named = |entry: &toml::Value, name: &str| entry["name"].as_str() == Some(name);
+        let walls: Vec<_> = list(fields, "walls").into_iter().filter(|wall| !named(wall, "sides")).collect();
+        let gauges: Vec<_> = list(fields, "gauges").into_iter().filter(|gauge| !named(gauge, "on-the-sides")).collect();
+        fields.insert("walls".to_owned(), walls.into());
+        fields.insert("gauges".to_owned(), gauges.into());
+        let sides = fields["sides"].as_table_mut().expect("sides");
+        for (side, plane) in [("front", 0.0), ("back", 0.05)] {
+            sides.insert(side.to_owned(), toml::Table::from_iter([("mirror".to_owned(), plane.into())]).into());
+        }
+    });
+    let (with, without) = (front(&with), front(&without));
+    println!("front at {with} m between side walls, at {without} m between mirrors");
+    assert!(with > 0.15 && without < 0.45, "{with} m and {without} m");
+    assert!(with < 0.95 * without, "{with} m with side walls, {without} m without");
 }

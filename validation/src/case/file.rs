@@ -1,7 +1,7 @@
 //! A case as a TOML file: `case` and `tier` on top, the parameters below.
 
 use super::error::ParameterError;
-use super::{OutputPlan, Tier};
+use super::{OutputPlan, Tier, meshes};
 use crate::input::{WRITTEN_BY_HAND, nearest, position, read_text};
 use crate::output::FileError;
 use bagnold_solver::parameter::shortened;
@@ -69,6 +69,7 @@ impl CaseFile {
         let beside = path.parent().unwrap_or(Path::new(""));
         let overlay = overlay.into_iter().map(|file| beside.join(file)).collect();
         let output = OutputPlan::taken(&mut fields, path)?;
+        meshes::read_beside(&mut fields, path)?;
         Ok(Self { path: path.to_owned(), case, tier, overlay, output, fields })
     }
 

@@ -11,6 +11,7 @@ mod file;
 mod finite;
 mod foreign;
 mod guard;
+mod meshes;
 mod notes;
 mod output;
 #[cfg(test)]

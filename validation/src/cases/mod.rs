@@ -10,6 +10,7 @@ pub mod clear_water;
 pub mod collapse;
 pub mod column_planar;
 pub mod column_round;
+pub mod enclosed;
 mod energy_ledger;
 pub mod film;
 pub mod flow_thickness;
@@ -19,6 +20,7 @@ pub mod layer;
 mod printed_laws;
 mod rules;
 pub mod scene;
+pub mod scene_space;
 pub mod settling;
 pub mod still_water;
 mod transport_panel;
@@ -62,6 +64,7 @@ registry!($
     bed_load_1d::BedLoad1d,
     bed_load::BedLoad,
     scene::UserScene,
+    scene_space::SpaceScene,
 );
 
 #[cfg(test)]

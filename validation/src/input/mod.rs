@@ -1,11 +1,13 @@
 //! What a user writes: its fields, the names in it and the places, so that an error can point at them.
 
 mod field;
+mod mesh;
 mod name;
 mod place;
 mod reading;
 
 pub use field::FieldError;
+pub(crate) use mesh::{MOST_TRIANGLES, read_mesh};
 pub use name::nearest;
 pub(crate) use name::{did_you_mean, origin};
 pub(crate) use place::position;

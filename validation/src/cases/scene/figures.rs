@@ -1,13 +1,14 @@
 //! The case's figures: pictures of the material between its walls, and the series of the gauges.
 
-use super::{Record, SceneParameters};
+use super::{Gauge, Record, SceneParameters};
+use crate::cases::enclosed::series;
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
 use bagnold_solver::vector::Vector;
 
 pub(super) fn all(parameters: &SceneParameters, records: &[Record]) -> Vec<Figure> {
     records
         .iter()
-        .flat_map(|record| [Some(pictures(parameters, record)), series(parameters, record)])
+        .flat_map(|record| [Some(pictures(parameters, record)), gauges(parameters, record)])
         .flatten()
         .collect()
 }
@@ -35,26 +36,7 @@ fn pictures(parameters: &SceneParameters, (_, record): &Record) -> Figure {
     Figure::new("pictures", "The material in the colours of its speed, and its walls, dashed.", panels.collect())
 }
 
-/// One panel a gauge with a line a column that shares its axis.
-fn series(parameters: &SceneParameters, (_, record): &Record) -> Option<Figure> {
-    let data = &record.data;
-    let mut next = 0;
-    let mut panels = Vec::new();
-    for gauge in &parameters.gauges {
-        let columns = gauge.columns();
-        let axis = columns.first().map_or("", |column| column.axis);
-        let mut panel = Panel::new(gauge.name(), Axis::linear("t [s]"), Axis::linear(axis));
-        for measured in parameters.measured.iter().filter(|measured| measured.gauge == gauge.name()) {
-            panel.reference("measured", measured.points.iter().copied());
-        }
-        for (slot, column) in columns.iter().enumerate().filter(|(_, column)| column.axis == axis) {
-            let values = data.gauges.get(next + slot).map_or(&[][..], Vec::as_slice);
-            let label =
-                if slot == 0 && columns.get(1).is_none_or(|other| other.axis != axis) { "" } else { &column.heading };
-            panel.line(label, slot, data.time.iter().copied().zip(values.iter().copied()));
-        }
-        next += columns.len();
-        panels.push(panel);
-    }
-    (!panels.is_empty()).then(|| Figure::new("gauges", "What the gauges of the scene measured.", panels).in_columns(2))
+fn gauges(parameters: &SceneParameters, (_, record): &Record) -> Option<Figure> {
+    let columns = parameters.gauges.iter().map(|gauge| (gauge.name(), Gauge::columns(gauge)));
+    series::figure(columns, &parameters.measured, &record.data.time, &record.data.gauges)
 }

@@ -2,14 +2,12 @@
 
 use super::Place;
 use super::body::vector;
+use crate::cases::enclosed::series::{Column, reached, volumes};
 use bagnold_solver::parameter::positive;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// Parts that a particle's volume is spread in over a spacing to either side.
-const PARTS: i32 = 8;
 
 /// What a gauge measures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -54,14 +52,6 @@ pub enum Gauge {
         /// End of the line x, y `[m]`.
         to: Place,
     },
-}
-
-/// One column of a series.
-pub(super) struct Column {
-    /// Name and unit.
-    pub(super) heading: String,
-    /// Label of its axis.
-    pub(super) axis: &'static str,
 }
 
 /// What gauges remember from sample to sample.
@@ -114,7 +104,7 @@ impl Gauge {
         let elapsed = simulation.time() - memory.time;
         match self {
             Self::Front { from, to, thickness, .. } => {
-                vec![front(simulation, &vector(from), &vector(to), *thickness)]
+                vec![reached(simulation, &vector(from), &vector(to), *thickness, |_| true)]
             }
             Self::Depth { at, width, .. } => {
                 let (across, at) = (Vector::<2>::new(-down[1], down[0]), vector(at));
@@ -159,45 +149,6 @@ pub(super) fn read_all(
     memory.impulses = simulation.shell_impulses().iter().map(|impulse| (*impulse).into()).collect();
     memory.time = simulation.time();
     values
-}
-
-/// Volumes `[m²]` of the particles by bins, of which `bin` names that of a place; in the order of the scene.
-fn volumes(simulation: &Simulation<2>, bin: impl Fn(Vector<2>) -> Option<usize>) -> Vec<f64> {
-    let particles = simulation.particles();
-    let mut sums: Vec<f64> = Vec::new();
-    for index in particles.by_identity() {
-        if let Some(bin) = bin(particles.position[index]) {
-            if sums.len() <= bin {
-                sums.resize(bin + 1, 0.0);
-            }
-            sums[bin] += particles.mass[index] / particles.density[index];
-        }
-    }
-    sums
-}
-
-/// The first place along a line, from its start and where material stands on, with less than a thickness `[m]`: volumes are
-/// spread over a spacing to either side.
-fn front(simulation: &Simulation<2>, from: &Vector<2>, to: &Vector<2>, thickness: f64) -> f64 {
-    let spacing = simulation.spacing();
-    let (bin, length) = (0.25 * spacing, (to - from).norm());
-    let along = (to - from) / length;
-    let bins = (length / bin).ceil() as usize;
-    let mut area = vec![0.0; bins];
-    for part in 0..PARTS {
-        let shift = (f64::from(part) - 0.5 * f64::from(PARTS - 1)) * 2.0 / f64::from(PARTS) * spacing;
-        let shares = volumes(simulation, |place| {
-            let place = (place - from).dot(&along) + shift;
-            (place >= 0.0 && place < length).then_some((place / bin) as usize)
-        });
-        for (sum, share) in area.iter_mut().zip(shares) {
-            *sum += share / f64::from(PARTS);
-        }
-    }
-    let stands = |area: &f64| *area >= thickness * bin;
-    let Some(first) = area.iter().position(stands) else { return 0.0 };
-    let gap = area[first..].iter().position(|area| !stands(area));
-    gap.map_or(length, |gap| (first + gap) as f64 * bin)
 }
 
 /// Mass `[kg/m]` that has crossed a line to its left since the places were remembered, less what went back.

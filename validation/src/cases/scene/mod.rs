@@ -5,19 +5,18 @@ mod checks;
 mod figures;
 mod gauge;
 mod metrics;
-mod observation;
 mod parameters;
 mod run;
 mod wall;
 
 pub use body::Body;
 pub use gauge::Gauge;
-pub use observation::{Left, SceneObservation};
-pub use parameters::{Measured, SceneParameters};
+pub use parameters::SceneParameters;
 pub use run::SceneRun;
-pub use wall::{DomainSide, FlowSide, Sides, WallLine};
+pub use wall::{FlowSide, Sides, WallLine};
 
 use crate::case::{Case, RecordOf, Run};
+use crate::cases::enclosed::series;
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
@@ -54,13 +53,9 @@ impl Case for UserScene {
     fn tables(parameters: &SceneParameters, records: &[Record]) -> Vec<Table> {
         let of_run = |(run, record): &Record| {
             let data = &record.data;
-            let headings = parameters.gauges.iter().flat_map(|gauge| {
-                gauge.columns().into_iter().map(|column| format!("{}: {}", gauge.name(), column.heading))
-            });
-            let headings: Vec<String> = headings.collect();
-            let mut columns = vec![("t [s]", &data.time[..]), ("mass in the scene [kg/m]", &data.mass[..])];
-            columns.extend(headings.iter().map(String::as_str).zip(data.gauges.iter().map(Vec::as_slice)));
-            Table::of_columns(format!("gauges-{}", run.variant().file_name()), &columns)
+            let gauges = parameters.gauges.iter().map(|gauge| (gauge.name(), gauge.columns()));
+            let name = format!("gauges-{}", run.variant().file_name());
+            series::table(name, "mass in the scene [kg/m]", gauges, (&data.time, &data.mass, &data.gauges))
         };
         records.iter().map(of_run).collect()
     }

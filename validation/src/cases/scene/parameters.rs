@@ -4,9 +4,10 @@ use super::Place;
 use super::body::{Body, vector};
 use super::gauge::Gauge;
 use super::run::SceneRun;
-use super::wall::{DomainSide, FlowSide, Sides, WallLine, coordinate};
+use super::wall::{FlowSide, Sides, WallLine};
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::Bulk;
+use crate::cases::enclosed::{DomainSide, Measured, sides};
 use bagnold_solver::material::equation_of_state::Tension;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, filled, positive};
@@ -16,23 +17,6 @@ use bagnold_solver::weakly_compressible::boundary::enclosure::Exits;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// A measured series that a gauge is compared with.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Measured {
-    /// Name of the gauge, whose first column it is.
-    pub gauge: String,
-    /// Where the numbers come from.
-    pub source: String,
-    /// Times `[s]` and values in the gauge's unit, positive.
-    #[schemars(transform = filled("at least one row", "give time and value of every point"))]
-    pub points: Vec<(f64, f64)>,
-    /// Largest root mean square of the relative error `[%]`; 0 where it is only observed.
-    #[serde(default)]
-    #[schemars(transform = between(0.0, 100.0, "10 is a tenth"))]
-    pub limit: f64,
-}
 
 /// Parameters of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -171,12 +155,6 @@ impl SceneParameters {
 
     /// The planes of the open sides.
     pub(super) fn exits(&self) -> Exits<2> {
-        let mut exits = Exits::default();
-        for (axis, (lower, upper)) in self.sides.pairs().into_iter().enumerate() {
-            let open = |side| if matches!(side, DomainSide::Open(_)) { coordinate(side) } else { None };
-            exits.lower[axis] = open(lower).unwrap_or(exits.lower[axis]);
-            exits.upper[axis] = open(upper).unwrap_or(exits.upper[axis]);
-        }
-        exits
+        sides::exits(self.sides.pairs())
     }
 }

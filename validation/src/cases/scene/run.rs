@@ -2,11 +2,12 @@
 
 use super::body::{depth, holder, vector};
 use super::gauge::{Memory, read_all};
-use super::observation::SceneObservation;
 use super::parameters::SceneParameters;
-use super::wall::{WallLine, coordinate};
+use super::wall::WallLine;
 use crate::case::recording::{self, Ending, Followed, Stage};
 use crate::case::{ParameterError, Progress, Run, cost};
+use crate::cases::enclosed::SceneObservation;
+use crate::cases::enclosed::sides::coordinate;
 use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
 use bagnold_solver::domain::Domain;
@@ -35,13 +36,13 @@ pub struct SceneRun {
 /// What is kept from sample to sample.
 #[derive(Serialize, Deserialize)]
 struct Watch {
-    observation: SceneObservation,
+    observation: SceneObservation<2>,
     memory: Memory,
     frames: Vec<Frame>,
 }
 
 impl Run for SceneRun {
-    type Observation = SceneObservation;
+    type Observation = SceneObservation<2>;
 
     fn variant(&self) -> Variant {
         Variant::of("scene", self.scene.name.as_str())
@@ -67,7 +68,7 @@ impl Run for SceneRun {
         cost::WEAKLY_COMPRESSIBLE
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SceneObservation>, ParameterError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SceneObservation<2>>, ParameterError> {
         let scene = &self.scene;
         let begun = self.scene().flow.position.len();
         let down = vector(&scene.gravity).normalize();

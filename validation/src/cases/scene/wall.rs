@@ -3,6 +3,7 @@
 use super::Place;
 use super::body::vector;
 use crate::case::ParameterError;
+use crate::cases::enclosed::{DomainSide, sides};
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::Surface;
@@ -106,20 +107,6 @@ impl WallLine {
     }
 }
 
-/// What is at a side of the domain.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum DomainSide {
-    /// Nothing: walls hold the flow, or it goes on without end.
-    None,
-    /// A plane of symmetry at this coordinate `[m]`.
-    Mirror(f64),
-    /// What crosses this coordinate `[m]` has left, and is counted.
-    Open(f64),
-    /// The flow comes in again at the other side, periodic too, at its coordinate `[m]`.
-    Periodic(f64),
-}
-
 /// The sides of the domain.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -142,50 +129,16 @@ impl Sides {
 
     /// The boundary of the solver along each axis.
     pub(super) fn axes(&self) -> [AxisBoundary; 2] {
-        self.pairs().map(|pair| {
-            let mirror = |side| if let DomainSide::Mirror(plane) = side { Some(plane) } else { None };
-            match pair {
-                (DomainSide::Periodic(lower), DomainSide::Periodic(upper)) => AxisBoundary::Periodic { lower, upper },
-                (lower, upper) if mirror(lower).or(mirror(upper)).is_some() => {
-                    AxisBoundary::Mirror { lower: mirror(lower), upper: mirror(upper) }
-                }
-                _ => AxisBoundary::Open,
-            }
-        })
+        self.pairs().map(sides::boundary)
     }
 
     /// Whether a wall of the scene is a plane of symmetry, which has no name.
     pub(super) fn has_mirror(&self) -> bool {
-        self.pairs()
-            .iter()
-            .any(|(lower, upper)| [lower, upper].iter().any(|side| matches!(side, DomainSide::Mirror(_))))
+        sides::has_mirror(&self.pairs())
     }
 
     /// Refuses a period with one end, and ends in the wrong order.
     pub(super) fn check(&self) -> Result<(), ParameterError> {
-        let names = [("sides.left", "sides.right"), ("sides.bottom", "sides.top")];
-        for ((lower, upper), (low, high)) in self.pairs().into_iter().zip(names) {
-            let periodic = |side| matches!(side, DomainSide::Periodic(_));
-            if periodic(lower) != periodic(upper) {
-                let (field, other) = if periodic(lower) { (high, low) } else { (low, high) };
-                let rule = format!("periodic as `{other}` is");
-                return Err(ParameterError::field(field, "not periodic", &rule, "a period has two ends"));
-            }
-            if let (Some(below), Some(above)) = (coordinate(lower), coordinate(upper))
-                && below >= above
-            {
-                let rule = format!("greater than that of `{low}`, {below}");
-                return Err(ParameterError::field(high, above, &rule, "exchange the two"));
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Where a side stands `[m]`.
-pub(super) fn coordinate(side: DomainSide) -> Option<f64> {
-    match side {
-        DomainSide::None => None,
-        DomainSide::Mirror(place) | DomainSide::Open(place) | DomainSide::Periodic(place) => Some(place),
+        sides::check(self.pairs(), [("left", "right"), ("bottom", "top")])
     }
 }

@@ -1,0 +1,143 @@
+//! How scenes are judged: by their balances, and their gauges by what was measured.
+
+use super::SceneObservation;
+use super::series::Measured;
+use crate::cases::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};
+use crate::metric::{Confidence, Limit, Metric, Variant, quantities};
+
+quantities! { shared pub(in crate::cases)
+    MASS_RESIDUAL: accounted("mass_residual", "%", "mass in the scene and beyond its open sides, less that of the start"),
+    MOMENTUM_RESIDUAL:
+        accounted("momentum_residual", "%", "impulse without a cause among gravity, walls and sides, over that of gravity"),
+    FORCE_RESIDUAL:
+        accounted("force_residual", "%", "impulse of all walls, wall by wall, less that of all particles, over that of gravity"),
+    THROUGH_WALLS: accounted("through_walls", "-", "particles that are behind a wall at the end"),
+    MASS_LEFT: accounted("mass_left", "%", "mass that has left by open sides"),
+    FRONT: accounted("front", "m", "how far the material reaches along a gauge's line at the end"),
+    DEPTH: accounted("depth", "m", "thickness of the material at a gauge at the end"),
+    GAUGE_ERROR: validated("gauge_error", "%", "root mean square of a gauge's relative error at the measured times"),
+}
+
+/// Share of the weight times the scene's height that energies are compared with at least `[-]`.
+const AT_REST: f64 = 0.1;
+
+/// The balances of a run in which something can be missing; `has_mirror` tells of planes of symmetry, which are no walls.
+pub(in crate::cases) fn balances<const D: usize>(
+    variant: &Variant,
+    data: &SceneObservation<D>,
+    has_mirror: bool,
+) -> Vec<Metric> {
+    let mass = data.mass.first().copied().unwrap_or(f64::NAN);
+    let closed = "what is booked particle by particle adds up to rounding";
+    let mut metrics = vec![
+        MASS_RESIDUAL
+            .of(variant, 100.0 * data.missing_mass / mass)
+            .exactly(0.0, "no particle is lost: it is inside, or has left by an open side")
+            .gated(Limit::AtMost(1e-9), "rounding of a sum over all particles")
+            .with_snapshot_tolerance(1.0, 1e-9),
+        MOMENTUM_RESIDUAL
+            .of(variant, 100.0 * data.missing_impulse / data.gravity_impulse)
+            .exactly(0.0, "what gravity, walls and sides give is the change of the momentum")
+            .gated(Limit::AtMost(1e-4), closed)
+            .with_snapshot_tolerance(1.0, 1e-7),
+        THROUGH_WALLS
+            .of(variant, data.behind as f64)
+            .exactly(0.0, "walls hold")
+            .gated(Limit::AtMost(0.0), "a particle that has passed a wall is a divergence; none may be left behind one")
+            .with_snapshot_tolerance(0.0, 0.0),
+        MASS_LEFT
+            .of(variant, 100.0 * data.left.iter().map(|side| side.mass).sum::<f64>() / mass)
+            .with_snapshot_tolerance(0.1, 1.0),
+    ];
+    if !has_mirror {
+        metrics.push(
+            FORCE_RESIDUAL
+                .of(variant, 100.0 * data.unassigned_impulse / data.gravity_impulse)
+                .exactly(0.0, "the forces on the walls are all that the particles feel of them")
+                .gated(Limit::AtMost(1e-4), closed)
+                .with_snapshot_tolerance(1.0, 1e-7),
+        );
+    }
+    metrics
+}
+
+/// The energy's balance. What a wall of the scene gives may be meant, so that only what is not booked is judged.
+///
+/// Gravity `[m/s²]` and the height of the scene `[m]` give the scale of what stands still.
+pub(in crate::cases) fn energy<const D: usize>(
+    variant: &Variant,
+    data: &SceneObservation<D>,
+    gravity: f64,
+    height: f64,
+) -> Vec<Metric> {
+    let book = &data.energy;
+    if book.total.is_empty() {
+        return Vec::new();
+    }
+    // what stands still is judged by what it could do
+    let weight = data.mass.first().copied().unwrap_or(f64::NAN) * gravity;
+    let scale = book.gravity.abs().max(AT_REST * weight * height);
+    let share = |value: f64| 100.0 * value / scale;
+    vec![
+        ENERGY_RESIDUAL
+            .of(variant, share(book.residual()))
+            .exactly(0.0, "every term of the scheme books its work; in per cent of the work of gravity, or of a tenth of the weight times the scene's height where that is more")
+            .gated(Limit::AtMost(1.0), "what is left is the length of a step")
+            .with_snapshot_tolerance(0.2, 1e-2),
+        ENERGY_RISE.of(variant, share(book.rise())).with_snapshot_tolerance(0.5, 0.1),
+        WALL_WORK.of(variant, share(book.walls)).with_snapshot_tolerance(0.2, 0.5),
+        CORRECTION_WORK.of(variant, share(book.correction)).with_snapshot_tolerance(0.2, 0.5),
+    ]
+}
+
+/// A gauge's series beside what was measured.
+pub(in crate::cases) fn errors(variant: &Variant, time: &[f64], series: &[f64], measured: &[&Measured]) -> Vec<Metric> {
+    let error = |measured: &&Measured| {
+        let limit = (measured.limit > 0.0).then_some(Limit::AtMost(measured.limit));
+        GAUGE_ERROR
+            .of(variant, 100.0 * error(time, series, &measured.points))
+            .against(Some(0.0), &measured.source, Confidence::Medium)
+            .gated_by(limit, "the limit that the scene's file gives")
+            .with_snapshot_tolerance(0.1, 1.0)
+    };
+    measured.iter().map(error).collect()
+}
+
+/// Mean over all samples but the first, before which nothing has been.
+pub(in crate::cases) fn mean(series: &[f64]) -> f64 {
+    let series = series.get(1..).unwrap_or_default();
+    series.iter().sum::<f64>() / series.len() as f64
+}
+
+pub(in crate::cases) fn largest(series: &[f64]) -> f64 {
+    series.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+}
+
+/// Root mean square of value/measured − 1 at the measured times; NaN where the series does not reach them.
+fn error(time: &[f64], series: &[f64], points: &[(f64, f64)]) -> f64 {
+    let square = |&(at, measured): &(f64, f64)| (interpolated(time, series, at) / measured - 1.0).powi(2);
+    (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt()
+}
+
+/// A series at a time, linear between its samples.
+fn interpolated(time: &[f64], series: &[f64], at: f64) -> f64 {
+    match time.partition_point(|&t| t < at) {
+        0 if time.first() == Some(&at) => series.first().copied().unwrap_or(f64::NAN),
+        0 => f64::NAN,
+        k if k >= series.len() => f64::NAN,
+        k => series[k - 1] + (series[k] - series[k - 1]) * (at - time[k - 1]) / (time[k] - time[k - 1]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_error_is_that_at_the_measured_times() {
+        let (time, series) = ([0.0, 1.0, 2.0], [1.0, 2.0, 4.0]);
+        assert!(error(&time, &series, &[(0.0, 1.0), (0.5, 1.5), (2.0, 4.0)]) < 1e-15);
+        assert!((error(&time, &series, &[(1.5, 2.0)]) - 0.5).abs() < 1e-15);
+        assert!(error(&time, &series, &[(2.5, 4.0)]).is_nan(), "the run ended before");
+    }
+}

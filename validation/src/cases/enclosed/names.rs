@@ -1,0 +1,82 @@
+//! Rules that scenes share: names, times, measured series.
+
+use super::Measured;
+use crate::case::ParameterError;
+use std::collections::BTreeSet;
+
+/// Most rows of a series.
+const MOST_SAMPLES: f64 = 1e5;
+
+/// Names that are unlike each other and may stand in files.
+pub(in crate::cases) fn check<'a>(
+    own: &'a str,
+    walls: impl Iterator<Item = &'a str>,
+    gauges: impl Iterator<Item = &'a str>,
+) -> Result<(), ParameterError> {
+    let fit =
+        |name: &str| !name.is_empty() && name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '-');
+    let mut seen = BTreeSet::new();
+    let walls = walls.enumerate().map(|(k, name)| (format!("walls[{k}].name"), name));
+    let gauges = gauges.enumerate().map(|(k, name)| (format!("gauges[{k}].name"), name));
+    for (field, name) in std::iter::once(("name".to_owned(), own)).chain(walls).chain(gauges) {
+        let kind = field.split('[').next().unwrap_or_default().to_owned();
+        let refused = |rule, remedy| Err(ParameterError::field(&field, format!("\"{name}\""), rule, remedy));
+        if !fit(name) {
+            return refused("letters, digits and hyphens", "files are named after it");
+        }
+        if !seen.insert((kind, name)) {
+            return refused("unlike the others", "name each once");
+        }
+    }
+    Ok(())
+}
+
+/// The wall of a gauge is one of the scene.
+pub(in crate::cases) fn check_wall<'a>(
+    gauge: usize,
+    wall: &str,
+    walls: impl Iterator<Item = &'a str>,
+) -> Result<(), ParameterError> {
+    let names: Vec<&str> = walls.collect();
+    if names.contains(&wall) {
+        return Ok(());
+    }
+    let all = if names.is_empty() { "there is none".to_owned() } else { names.join(", ") };
+    let rule = format!("the name of a wall: {all}");
+    Err(ParameterError::field(&format!("gauges[{gauge}].wall"), format!("\"{wall}\""), &rule, "correct the name"))
+}
+
+/// Measured series have a gauge, times and positive values.
+pub(in crate::cases) fn check_measured(
+    measured: &[Measured],
+    is_gauge: impl Fn(&str) -> bool,
+) -> Result<(), ParameterError> {
+    for (k, measured) in measured.iter().enumerate() {
+        let field = |name: &str| format!("measured[{k}].{name}");
+        if !is_gauge(&measured.gauge) {
+            let value = format!("\"{}\"", measured.gauge);
+            return Err(ParameterError::field(&field("gauge"), value, "the name of a gauge", "correct the name"));
+        }
+        if let Some(row) = measured.points.iter().position(|&(time, value)| !(time >= 0.0 && value > 0.0)) {
+            let (time, value) = measured.points[row];
+            let name = field(&format!("points[{row}]"));
+            let rule = "a time that is not negative and a positive value";
+            return Err(ParameterError::field(&name, format!("({time}, {value})"), rule, "correct the row"));
+        }
+    }
+    Ok(())
+}
+
+/// Rows of the series that are neither too many nor none.
+pub(in crate::cases) fn check_times(interval: f64, duration: f64) -> Result<(), ParameterError> {
+    let remedy = "a hundredth of the duration is usual";
+    if interval > duration {
+        let rule = format!("at most the duration, {duration}");
+        return Err(ParameterError::field("interval", interval, &rule, remedy));
+    }
+    if interval * MOST_SAMPLES < duration {
+        let rule = format!("at least {}, a {MOST_SAMPLES}th of the duration", duration / MOST_SAMPLES);
+        return Err(ParameterError::field("interval", interval, &rule, remedy));
+    }
+    Ok(())
+}

@@ -1,0 +1,127 @@
+//! The case's figures: the material from the side and from above between the edges of its walls, and the gauges' series.
+
+use super::{Gauge, Record, SpaceParameters};
+use crate::cases::enclosed::series;
+use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
+use crate::observation::Frame;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::facet::Facet;
+use bagnold_solver::weakly_compressible::boundary::shell::Shell;
+use std::collections::BTreeMap;
+
+/// Most edges that are drawn of the walls: a fine mesh would cover what it holds.
+const MOST_EDGES: usize = 400;
+/// Cosine of the angle between two triangles from which on their common edge is drawn `[-]`: 20°.
+const SHARP: f64 = 0.94;
+
+pub(super) fn all(parameters: &SpaceParameters, records: &[Record]) -> Vec<Figure> {
+    records
+        .iter()
+        .flat_map(|record| [Some(pictures(parameters, record)), gauges(parameters, record)])
+        .flatten()
+        .collect()
+}
+
+/// From where the scene is seen: the axes to the right and up in the picture, and the one towards the eye with its sign.
+struct View {
+    name: &'static str,
+    right: usize,
+    up: usize,
+    towards: (usize, f64),
+}
+
+const VIEWS: [View; 2] = [
+    View { name: "from the side", right: 0, up: 2, towards: (1, -1.0) },
+    View { name: "from above", right: 0, up: 1, towards: (2, 1.0) },
+];
+
+/// Two panels a picture, the particles in the colours of their speed and the edges of the walls where they stand.
+fn pictures(parameters: &SpaceParameters, (_, record): &Record) -> Figure {
+    let fastest = record.frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
+    let walls: Vec<(Shell<3>, Vec<[Vector<3>; 2]>)> = parameters
+        .walls
+        .iter()
+        .map(|wall| {
+            let shell = wall.shell();
+            let edges = sharp_edges(&shell.facets);
+            (shell, edges)
+        })
+        .collect();
+    let panels = record.frames.iter().flat_map(|frame| VIEWS.iter().map(move |view| (frame, view)));
+    let panels = panels.map(|(frame, view)| {
+        let mut panel = material(parameters, frame, view, fastest);
+        let moved = walls.iter().flat_map(|(shell, edges)| {
+            let moved = shell.motion.displacement(frame.time);
+            edges.iter().map(move |edge| edge.map(|end| end + moved))
+        });
+        for edge in moved.take(MOST_EDGES) {
+            let points = edge.iter().map(|end| (end[view.right], end[view.up])).collect();
+            panel.series.push(Series::new("", Mark::Reference, 0, points));
+        }
+        panel
+    });
+    let caption = "The material in the colours of its speed, from the side and from above, what is nearer before what is \
+                   farther; dashed the edges of the walls.";
+    Figure::new("pictures", caption, panels.collect()).in_columns(2)
+}
+
+/// The particles as one view shows them, those nearest to the eye last.
+fn material(parameters: &SpaceParameters, frame: &Frame, view: &View, fastest: f64) -> Panel {
+    let (lower, upper) = parameters.extent();
+    let margin = 2.0 * parameters.spacing;
+    let axis = |k: usize| {
+        let label = ["x [m]", "y [m]", "z [m]"][k];
+        Axis::linear(label).between(lower[k] - margin, upper[k] + margin)
+    };
+    let title = format!("t = {:.3} s, {}", frame.time, view.name);
+    let mut panel = Panel::new(&title, axis(view.right), axis(view.up));
+    let mut order: Vec<usize> = (0..frame.position.len()).collect();
+    let nearness = |particle: usize| view.towards.1 * frame.position[particle][view.towards.0];
+    order.sort_by(|&one, &other| nearness(one).total_cmp(&nearness(other)));
+    let points: Vec<(f64, f64)> =
+        order.iter().map(|&k| (frame.position[k][view.right], frame.position[k][view.up])).collect();
+    let speeds = frame.speeds();
+    let values: Vec<f64> = order.iter().filter_map(|&k| speeds.get(k).copied()).collect();
+    panel.field = Some(Field::new("|v| [m/s]", parameters.spacing, (0.0, fastest), points, values));
+    panel
+}
+
+/// Edges at which triangles end or fold.
+fn sharp_edges(facets: &[Facet<3>]) -> Vec<[Vector<3>; 2]> {
+    let bits = |corner: &Vector<3>| [0, 1, 2].map(|axis| (corner[axis] as f32 + 0.0).to_bits());
+    let mut edges: BTreeMap<[[u32; 3]; 2], Vec<([Vector<3>; 2], Vector<3>)>> = BTreeMap::new();
+    for facet in facets {
+        let [a, b, c] = facet.corners;
+        for ends in [[a, b], [b, c], [c, a]] {
+            let mut key = ends.each_ref().map(bits);
+            key.sort_unstable();
+            edges.entry(key).or_default().push((ends, facet.normal));
+        }
+    }
+    let sharp = |sides: &Vec<([Vector<3>; 2], Vector<3>)>| match sides.as_slice() {
+        [(_, one), (_, other)] => one.dot(other) < SHARP,
+        _ => true,
+    };
+    edges.into_values().filter(sharp).filter_map(|sides| sides.first().map(|(ends, _)| *ends)).collect()
+}
+
+fn gauges(parameters: &SpaceParameters, (_, record): &Record) -> Option<Figure> {
+    let columns = parameters.gauges.iter().map(|gauge| (gauge.name(), Gauge::columns(gauge)));
+    series::figure(columns, &parameters.measured, &record.data.time, &record.data.gauges)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_diagonals_of_faces_are_not_drawn() {
+        let corner = |x: f64, y: f64, z: f64| Vector::<3>::new(x, y, z);
+        let (a, b, c, d) = (corner(0.0, 0.0, 0.0), corner(1.0, 0.0, 0.0), corner(1.0, 1.0, 0.0), corner(0.0, 1.0, 0.0));
+        let (e, f) = (corner(0.0, 0.0, 1.0), corner(1.0, 0.0, 1.0));
+        let folded: Vec<_> =
+            [[a, b, c], [a, c, d], [b, a, e], [b, e, f]].into_iter().filter_map(Facet::triangle).collect();
+        assert_eq!(sharp_edges(&folded[..2]).len(), 4);
+        assert_eq!(sharp_edges(&folded).len(), 7, "and the fold once");
+    }
+}
