@@ -9,6 +9,7 @@
 use super::backing::{planes, together};
 use super::facet::Facet;
 use super::facet_grid::FacetGrid;
+use super::lattice_cell::{CORNERS, Cell, SAMPLES};
 use super::mesh::{Frame, flat_parts};
 use super::shell::{BackingParticle, Shell};
 use super::standing::standing;
@@ -16,10 +17,6 @@ use crate::domain::{AxisBoundary, Domain};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
-/// Samples of a spacing along each direction, by which it is found what belongs to a part.
-const SAMPLES: usize = 4;
-/// Corners of a cell.
-const CORNERS: usize = 1 << 3;
 /// Share of a cell below which a piece is left out `[-]`.
 const SMALLEST: f64 = 0.02;
 /// Mean breadth in spacings below which a part is backed together with the others that are as narrow `[-]`.
@@ -62,29 +59,6 @@ struct Laying<'a> {
     domain: &'a Domain<3>,
     spacing: f64,
     rows: usize,
-}
-
-/// A cell by its middle and its edges `[m]`.
-struct Cell {
-    middle: Vector<3>,
-    edges: [Vector<3>; 3],
-}
-
-impl Cell {
-    /// A place in it, by whole numbers below [`SAMPLES`] along the edges.
-    fn sample(&self, at: [usize; 3]) -> Vector<3> {
-        let offset = |k: usize| (at[k] as f64 + 0.5) / SAMPLES as f64 - 0.5;
-        self.middle + self.edges[0] * offset(0) + self.edges[1] * offset(1) + self.edges[2] * offset(2)
-    }
-
-    fn volume(&self) -> f64 {
-        self.edges[0].cross(&self.edges[1]).dot(&self.edges[2]).abs()
-    }
-
-    /// Distance of its corners from its middle `[m]`.
-    fn radius(&self) -> f64 {
-        0.5 * self.edges.iter().map(Vector::norm_squared).sum::<f64>().sqrt()
-    }
 }
 
 /// What somebody has of a cell.

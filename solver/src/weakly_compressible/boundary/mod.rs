@@ -8,6 +8,7 @@ pub mod facet;
 pub mod facet_grid;
 pub mod gate;
 mod images;
+mod lattice_cell;
 mod mesh;
 pub mod mesh_backing;
 pub mod shell;
