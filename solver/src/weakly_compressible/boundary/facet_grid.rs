@@ -5,7 +5,7 @@ use super::standing::{Standing, standing};
 use crate::vector::Vector;
 
 /// Cells that a grid has for every facet at most, and cells in all: memory.
-const CELLS_PER_FACET: usize = 32;
+const CELLS_PER_FACET: usize = 8;
 const MOST_CELLS: f64 = 262_144.0;
 
 /// Lists of facets, cell by cell.

@@ -248,7 +248,7 @@ impl<'a> Laying<'a> {
         }
         let share = count / SAMPLES.pow(3) as f64;
         let place = cell.middle + sum / f64::max(count, 1.0);
-        (share >= SMALLEST).then(|| Piece { place, volume: share * volume, whole: false })
+        (share >= SMALLEST).then_some(Piece { place, volume: share * volume, whole: false })
     }
 
     /// The facets that can be nearest to a place within `radius` `[m]` of another; none where all are farther than the rows

@@ -49,14 +49,14 @@ impl SpaceParameters {
                     names::check_wall(k, wall, self.walls.iter().map(|wall| wall.name.as_str()))?;
                 }
                 // a line along gravity has no thickness along it
-                Gauge::Front { from, to, .. } if !(down.cross(&(vector(to) - vector(from))).norm() > self.spacing) => {
+                Gauge::Front { from, to, .. } if down.cross(&(vector(to) - vector(from))).norm() <= self.spacing => {
                     let value = format!("({}, {}, {})", to.0, to.1, to.2);
                     let rule = "farther from `from` than the spacing, across gravity";
                     return Err(ParameterError::field(&format!("gauges[{k}].to"), value, rule, "make the line longer"));
                 }
                 Gauge::Flux { corners: (a, b, c), .. }
-                    if !((vector(b) - vector(a)).cross(&(vector(c) - vector(a))).norm()
-                        > self.spacing * self.spacing) =>
+                    if (vector(b) - vector(a)).cross(&(vector(c) - vector(a))).norm()
+                        <= self.spacing * self.spacing =>
                 {
                     let value = format!("({}, {}, {}), …", a.0, a.1, a.2);
                     let rule = "three corners that are not in line";

@@ -86,23 +86,29 @@ fn material(parameters: &SpaceParameters, frame: &Frame, view: &View, fastest: f
     panel
 }
 
+/// An edge of a triangle.
+struct Edge {
+    ends: [Vector<3>; 2],
+    /// Of the triangle `[-]`.
+    normal: Vector<3>,
+}
+
 /// Edges at which triangles end or fold.
 fn sharp_edges(facets: &[Facet<3>]) -> Vec<[Vector<3>; 2]> {
     let bits = |corner: &Vector<3>| [0, 1, 2].map(|axis| (corner[axis] as f32 + 0.0).to_bits());
-    let mut edges: BTreeMap<[[u32; 3]; 2], Vec<([Vector<3>; 2], Vector<3>)>> = BTreeMap::new();
-    for facet in facets {
-        let [a, b, c] = facet.corners;
+    let mut edges: BTreeMap<[[u32; 3]; 2], Vec<Edge>> = BTreeMap::new();
+    for Facet { corners: [a, b, c], normal } in facets.iter().copied() {
         for ends in [[a, b], [b, c], [c, a]] {
             let mut key = ends.each_ref().map(bits);
             key.sort_unstable();
-            edges.entry(key).or_default().push((ends, facet.normal));
+            edges.entry(key).or_default().push(Edge { ends, normal });
         }
     }
-    let sharp = |sides: &Vec<([Vector<3>; 2], Vector<3>)>| match sides.as_slice() {
-        [(_, one), (_, other)] => one.dot(other) < SHARP,
+    let sharp = |edges: &Vec<Edge>| match edges.as_slice() {
+        [one, other] => one.normal.dot(&other.normal) < SHARP,
         _ => true,
     };
-    edges.into_values().filter(sharp).filter_map(|sides| sides.first().map(|(ends, _)| *ends)).collect()
+    edges.into_values().filter(sharp).filter_map(|edges| edges.first().map(|edge| edge.ends)).collect()
 }
 
 fn gauges(parameters: &SpaceParameters, (_, record): &Record) -> Option<Figure> {
