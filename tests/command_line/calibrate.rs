@@ -229,8 +229,8 @@ fn wrong_data_are_refused_by_name() {
     let data = |from: &'static str, to: &'static str| refusal(str::to_owned, move |text| text.replace(from, to));
     assert_eq!(
         data("u [m/s]", "u [cm/s]"),
-        "error: mine.csv: `u` is in [cm/s], but must be in the simulated quantity's unit, [m/s]; convert the column; \
-         Bagnold does not guess"
+        "error: mine.csv: `u` is in [cm/s], but must be in [m/s], as the plan names the simulated quantity; convert the column, \
+         or correct the unit in the plan: units are not guessed"
     );
     assert_eq!(
         data(",uncertainty [m/s]\n", "\n").split(';').next(),

@@ -274,8 +274,8 @@ fn numbers(
     let unit = unit.unwrap_or_default();
     match expected {
         Some(expected) if expected != unit => {
-            let remedy = "convert the column; Bagnold does not guess";
-            let rule = format!("in the simulated quantity's unit, [{expected}]");
+            let remedy = "convert the column, or correct the unit in the plan: units are not guessed";
+            let rule = format!("in [{expected}], as the plan names the simulated quantity");
             Err(FieldError::new(wanted, format!("in [{unit}]"), &rule, remedy).in_file(path).into())
         }
         _ => Ok((values, unit)),

@@ -157,6 +157,13 @@ impl Plan {
                 return Err(FieldError::new(&field, "given twice", "unlike the others", "vary a path once"));
             }
         }
+        if let Paths::ByCase(paths) = &self.repeats.path {
+            paths.keys().try_for_each(|case| known("seed_path".to_owned(), case))?;
+            if !self.blocks.iter().any(|block| !block.held_out && paths.contains_key(&block.request.case)) {
+                let remedy = "name a case of `fit` with the path of its seed, or leave out `repeats`";
+                return Err(FieldError::new("seed_path", "of no fitted case", "that of one at least", remedy));
+            }
+        }
         for (index, choice) in self.choices.iter().enumerate() {
             let field = format!("choices[{index}]");
             choice.set.keys().try_for_each(|case| known(format!("{field}.set"), case))?;

@@ -22,6 +22,20 @@ pub struct Changes<'a> {
     pub limits: Limits,
 }
 
+impl Changes<'_> {
+    /// The same, with lists empty that a file leaves out.
+    #[must_use]
+    pub(super) fn with_lists(&self, stated: &[&str]) -> Self {
+        let mut changes = self.clone();
+        if let Some((_, fields)) = &mut changes.file {
+            for list in stated {
+                fields.entry(*list).or_insert_with(|| Value::Array(Vec::new()));
+            }
+        }
+        changes
+    }
+}
+
 /// The parameters as a TOML table.
 pub(super) fn table_of<P: Serialize>(parameters: &P) -> Table {
     Table::try_from(parameters).expect("a case's parameters are structs that TOML can hold")

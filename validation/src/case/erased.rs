@@ -101,8 +101,9 @@ impl<C: Case> AnyCase for C {
 
     fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, ParameterError> {
         let defaults = C::Parameters::of_tier(tier);
-        let parameters = resolve(C::NAME, &defaults, changes)?;
-        let guard = Guard::new((C::NAME, tier), changes, (&defaults, &parameters));
+        let changes = changes.with_lists(C::STATED);
+        let parameters = resolve(C::NAME, &defaults, &changes)?;
+        let guard = Guard::new((C::NAME, tier), &changes, (&defaults, &parameters));
         let runs = guard.runs()?;
         let differs = guard.changed();
         let changed = table_of(&parameters) != table_of(&defaults);

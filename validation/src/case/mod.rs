@@ -154,6 +154,8 @@ pub trait Case: Sync + 'static {
     const DESCRIPTION: &'static str = Self::SUMMARY;
     /// The quantities that its metrics are built from, each declared once; empty for a case that does not declare them.
     const QUANTITIES: &'static [Quantity] = &[];
+    /// Lists that a file states whole: one that it leaves out is empty there, and not the tier's.
+    const STATED: &'static [&'static str] = &[];
     /// What another code may give of a run, beside single numbers.
     const FORM: Form = Form::NUMBERS;
     /// Typed parameters.

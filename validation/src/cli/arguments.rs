@@ -167,7 +167,7 @@ pub struct Run {
     #[arg(long, value_name = "FILE.csv")]
     pub overlay: Vec<PathBuf>,
     /// Write the particles of every run at this interval of simulated time, for ParaView: states/*.pvd.
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     pub output_every: Option<f64>,
     /// What of the particles is written, such as id,velocity,shear_rate,inertial_number [default: all].
     #[arg(long, value_name = "FIELD,…", value_delimiter = ',', requires = "output_every")]

@@ -3,13 +3,23 @@
 use super::arguments::Compare;
 use super::error::ProgramError;
 use super::{Exit, say};
+use crate::case::ParameterError;
 use crate::compare::{self, Results};
 use crate::output::OutputFolder;
 use std::io::Write;
+use std::path::{Path, PathBuf};
 
 /// Reads, compares and writes.
 pub(super) fn compare(command: &Compare, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
     let all = Results::read(&command.folders)?;
+    let same = |folder: &&PathBuf| {
+        let whole = |path: &Path| path.canonicalize().ok();
+        whole(folder).is_some_and(|folder| whole(&command.out) == Some(folder))
+    };
+    if let Some(folder) = command.folders.iter().find(same) {
+        let (rule, remedy) = ("another folder than those that are compared", "its contents would be replaced");
+        return Err(ParameterError::field("--out", folder.display(), rule, remedy).into());
+    }
     let claimed = OutputFolder::claim(&command.out)?;
     let moved = compare::write(&all, claimed.staging())?;
     claimed.publish()?;

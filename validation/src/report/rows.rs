@@ -223,7 +223,7 @@ fn confidence(confidence: Confidence) -> &'static str {
         Confidence::Exact => "exact",
         Confidence::High => "high confidence",
         Confidence::Medium => "medium confidence",
-        Confidence::Low => "low confidence: sources conflict",
+        Confidence::Low => "low confidence",
         Confidence::Unverified => "unverified: never gates",
     }
 }

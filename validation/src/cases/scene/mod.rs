@@ -41,6 +41,7 @@ impl Case for UserScene {
         The scene of the tiers is a column of glass beads that collapses onto a step and falls over its edge.";
     type Parameters = SceneParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
+    const STATED: &'static [&'static str] = &["bodies", "walls", "gauges", "measured"];
 
     fn metrics(parameters: &SceneParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(parameters, records)

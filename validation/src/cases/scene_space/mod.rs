@@ -48,6 +48,7 @@ impl Case for SpaceScene {
         over the edge at its end.";
     type Parameters = SpaceParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
+    const STATED: &'static [&'static str] = &["bodies", "walls", "gauges", "measured"];
 
     fn metrics(parameters: &SpaceParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(parameters, records)
