@@ -17,6 +17,8 @@ pub(crate) const MOST_TRIANGLES: usize = 5000;
 /// Bytes of a binary file before its triangles, and of each of them.
 const HEADER: usize = 84;
 const RECORD: usize = 50;
+/// Coordinates smaller than this are rounding: what fields in metres may not hold `[m]`.
+const NOTHING: f64 = 1e-9;
 /// Height of a triangle over its longest edge below which it has no side `[-]`.
 const THINNEST: f64 = 1e-6;
 
@@ -124,9 +126,10 @@ fn prepare(bytes: &mut Vec<u8>) -> Result<(), MeshError> {
     Ok(())
 }
 
-/// The shortest decimal number that single precision tells from its neighbours.
+/// The shortest decimal number that single precision tells from its neighbours; 0 where a program left rounding.
 fn decimal(coordinate: f32) -> f64 {
-    coordinate.to_string().parse().unwrap_or(f64::NAN)
+    let number: f64 = coordinate.to_string().parse().unwrap_or(f64::NAN);
+    if number.abs() < NOTHING { 0.0 } else { number }
 }
 
 fn has_area([a, b, c]: &Triangle) -> bool {
@@ -167,6 +170,8 @@ mod tests {
         assert_eq!(mesh_of(TEXT.replace("solid ramp", "solid").into()).expect("without a name").left_out, 1);
         let mut bytes = binary();
         assert_eq!(mesh_of(bytes.clone()).expect("a mesh").triangles[0], first);
+        let rounded = TEXT.replacen("vertex 0 0 0", "vertex -0 4.4e-17 -1e-12", 1);
+        assert_eq!(mesh_of(rounded.into()).expect("a mesh").triangles[0], first);
         bytes[..5].copy_from_slice(b"solid");
         assert_eq!(mesh_of(bytes).expect("binary all the same").triangles.len(), 2);
     }

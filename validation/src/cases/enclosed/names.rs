@@ -1,4 +1,4 @@
-//! Rules that scenes share: names, times, measured series.
+//! Rules that scenes share: names, lines, times, measured series.
 
 use super::Measured;
 use crate::case::ParameterError;
@@ -6,6 +6,29 @@ use std::collections::BTreeSet;
 
 /// Most rows of a series.
 const MOST_SAMPLES: f64 = 1e5;
+
+/// Longest line of a gauge, in spacings `[-]`: memory.
+const LONGEST_LINE: f64 = 1e5;
+
+/// Refuses a line of a gauge that is shorter than a spacing `[m]`, or longer than anybody counts along.
+pub(in crate::cases) fn check_line(
+    gauge: usize,
+    to: &[f64],
+    length: f64,
+    spacing: f64,
+    across: &str,
+) -> Result<(), ParameterError> {
+    if length > spacing && length <= LONGEST_LINE * spacing {
+        return Ok(());
+    }
+    let shown: Vec<String> = to.iter().map(ToString::to_string).collect();
+    let (rule, remedy) = if length > spacing {
+        (format!("at most {LONGEST_LINE} spacings from `from`"), "make the line shorter")
+    } else {
+        (format!("farther from `from` than the spacing{across}"), "make the line longer")
+    };
+    Err(ParameterError::field(&format!("gauges[{gauge}].to"), format!("({})", shown.join(", ")), &rule, remedy))
+}
 
 /// Names that are unlike each other and may stand in files.
 pub(in crate::cases) fn check<'a>(
@@ -79,4 +102,20 @@ pub(in crate::cases) fn check_times(interval: f64, duration: f64) -> Result<(), 
         return Err(ParameterError::field("interval", interval, &rule, remedy));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_neither_shorter_than_a_spacing_nor_endless() {
+        assert!(check_line(0, &[1.0, 0.0], 1.0, 0.1, "").is_ok());
+        let error = |length| check_line(2, &[1.0, 0.5], length, 0.1, "").expect_err("refused").to_string();
+        assert_eq!(
+            error(0.05),
+            "`gauges[2].to` is (1, 0.5), but must be farther from `from` than the spacing; make the line longer"
+        );
+        assert!(error(1e6).ends_with("must be at most 100000 spacings from `from`; make the line shorter"));
+    }
 }

@@ -50,12 +50,9 @@ impl SceneParameters {
             if let Gauge::Force { wall, .. } = gauge {
                 names::check_wall(k, wall, self.walls.iter().map(|wall| wall.name.as_str()))?;
             }
-            if let Some((from, to)) = gauge.line()
-                && (vector(&to) - vector(&from)).norm() <= self.spacing
-            {
-                let value = format!("({}, {})", to.0, to.1);
-                let rule = "farther from `from` than the spacing";
-                return Err(ParameterError::field(&format!("gauges[{k}].to"), value, rule, "make the line longer"));
+            if let Some((from, to)) = gauge.line() {
+                let length = (vector(&to) - vector(&from)).norm();
+                names::check_line(k, &[to.0, to.1], length, self.spacing, "")?;
             }
         }
         names::check_measured(&self.measured, |name| self.gauges.iter().any(|gauge| gauge.name() == name))

@@ -48,11 +48,11 @@ impl SpaceParameters {
                 Gauge::Force { wall, .. } => {
                     names::check_wall(k, wall, self.walls.iter().map(|wall| wall.name.as_str()))?;
                 }
-                // a line along gravity has no thickness along it
-                Gauge::Front { from, to, .. } if down.cross(&(vector(to) - vector(from))).norm() <= self.spacing => {
-                    let value = format!("({}, {}, {})", to.0, to.1, to.2);
-                    let rule = "farther from `from` than the spacing, across gravity";
-                    return Err(ParameterError::field(&format!("gauges[{k}].to"), value, rule, "make the line longer"));
+                Gauge::Front { from, to, .. } => {
+                    let line = vector(to) - vector(from);
+                    // a line along gravity has no thickness across it
+                    let length = if down.cross(&line).norm() > self.spacing { line.norm() } else { 0.0 };
+                    names::check_line(k, &[to.0, to.1, to.2], length, self.spacing, ", across gravity")?;
                 }
                 Gauge::Flux { corners: (a, b, c), .. }
                     if (vector(b) - vector(a)).cross(&(vector(c) - vector(a))).norm()
