@@ -182,7 +182,7 @@ mod tests {
             refused(&binary()[..150]),
             "is cut short or no STL file: its head announces 2 triangles, and 1 are there"
         );
-        assert_eq!(refused(&TEXT.as_bytes()[..90]), "is no sound STL file (EOF while expecting vertex)");
+        assert_eq!(refused(&TEXT.as_bytes()[..78]), "is no sound STL file (EOF while expecting vertex)");
         assert!(refused(b"").starts_with("is no sound STL file"));
         assert_eq!(refused(b"solid nothing\nendsolid nothing\n"), "has no triangle with an area (0 without)");
         assert_eq!(refused(TEXT.repeat(2).as_bytes()), "holds several solids");
