@@ -116,7 +116,10 @@ impl fmt::Display for Stopped {
         formatter.write_str(match self {
             Self::Converged => "converged: no step would change χ² by more than the tolerance",
             Self::BudgetSpent => "budget spent: the best point so far need not be the minimum; allow more evaluations",
-            Self::Stalled => "stalled: χ² no longer falls although its slope says it should; the model may be noisy: `repeats = 3` takes means over seeds",
+            Self::Stalled => {
+                "stalled: χ² no longer falls although its slope says it should; the model may be noisy: `repeats = 3` takes means \
+                 over seeds"
+            }
             Self::AtRest => {
                 "at rest: runs are too rough for shorter steps, but nothing about promises a notably lower χ²"
             }
