@@ -1,12 +1,13 @@
 //! Frame, grid, ticks and labels of one panel.
 
+use super::Scale;
 use super::canvas::{Canvas, Direction, Ink, Rectangle, TextSpec};
 use super::curves::Plot;
 use super::error::FigureError;
 use super::font::{Weight, width};
 use super::palette::{AXIS, BLACK, GRID};
-use super::range::Mapping;
-use super::ticks::Ticks;
+use super::range::{Mapping, Range};
+use super::ticks::{Ticks, ticks};
 use plotters::style::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -39,6 +40,22 @@ impl Sizes {
 /// A text in the regular weight.
 pub(super) fn text(em: f64, horizontal: HPos, vertical: VPos, colour: RGBColor) -> TextSpec {
     TextSpec { em, weight: Weight::Regular, horizontal, vertical, colour, direction: Direction::Rightwards }
+}
+
+/// Most ticks of a horizontal axis.
+pub(super) const MOST_TICKS: usize = 8;
+
+/// Ticks along a horizontal length `[px]` whose numbers stand clear of each other, at most about `most` of them.
+pub(super) fn uncrowded((range, scale): (Range, Scale), length: f64, em: f64, most: usize) -> Ticks {
+    let mut wanted = (length / (5.0 * em)).clamp(2.0, most as f64) as usize;
+    loop {
+        let found = ticks(range, scale, wanted);
+        let numbers = found.major.iter().filter(|tick| !tick.label.is_empty()).count() as f64;
+        if wanted <= 2 || numbers * (widest_label(&found, em) + 0.8 * em) <= length {
+            return found;
+        }
+        wanted -= 1;
+    }
 }
 
 /// Width of the widest tick number `[px]`.

@@ -1,7 +1,7 @@
 //! Particles coloured by a scalar, and the colour bar.
 
 use super::Field;
-use super::axes::{Sizes, TICK_GAP, text, widest_label};
+use super::axes::{Sizes, TICK_GAP, text, uncrowded, widest_label};
 use super::canvas::{Canvas, Direction, Ink, Rectangle, TextSpec};
 use super::curves::Plot;
 use super::error::FigureError;
@@ -14,6 +14,8 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 /// Thickness of a colour bar `[px]`.
 const BAR: f64 = 26.0;
+/// Most ticks of a bar above a plot.
+const MOST_ABOVE: usize = 5;
 /// Space between plot and colour bar `[px]`.
 const BAR_GAP: f64 = 26.0;
 
@@ -54,7 +56,7 @@ impl ColourScale {
         let range = Range::of_colours(field.limits, &field.values);
         let wanted = match place {
             BarPlace::Beside => 6,
-            BarPlace::Above | BarPlace::AboveLeft | BarPlace::AboveRight => 5,
+            BarPlace::Above | BarPlace::AboveLeft | BarPlace::AboveRight => MOST_ABOVE,
         };
         let map = if place == BarPlace::AboveRight { SECOND } else { FIRST };
         let ticks = ticks(range, Scale::Linear, wanted);
@@ -156,7 +158,8 @@ impl ColourScale {
         canvas.frame(&bar, Ink::solid(AXIS, 2.0))?;
         let mapping = Mapping { range: self.range, scale: Scale::Linear, start: bar.left, end: bar.right };
         let spec = text(sizes.tick, HPos::Center, VPos::Center, AXIS);
-        for tick in &self.ticks.major {
+        let ticks = uncrowded((self.range, Scale::Linear), bar.width(), sizes.tick, MOST_ABOVE);
+        for tick in &ticks.major {
             if let Some(x) = mapping.pixel(tick.value) {
                 canvas.line((x, bar.top), (x, bar.top - 6.0), Ink::solid(AXIS, 2.0))?;
                 canvas.text(&tick.label, (x, bar.top - 6.0 - 0.7 * sizes.tick), spec)?;

@@ -1,6 +1,6 @@
 //! One panel: how much room it wants, and drawing it in the room it gets.
 
-use super::axes::{Sizes, TICK, TICK_GAP, draw_axes, draw_grid, text, widest_label};
+use super::axes::{MOST_TICKS, Sizes, TICK, TICK_GAP, draw_axes, draw_grid, text, uncrowded, widest_label};
 use super::canvas::{Canvas, Rectangle, TextSpec};
 use super::curves::{Plot, draw_bands, draw_series};
 use super::error::FigureError;
@@ -64,7 +64,7 @@ impl<'p> Prepared<'p> {
             Some(_) => (wide.min(high / aspect), high.min(wide * aspect)),
             None => (wide, high),
         };
-        let x_ticks = uncrowded(x, plot_wide, sizes.tick);
+        let x_ticks = uncrowded(x, plot_wide, sizes.tick, MOST_TICKS);
         let y_wanted = (plot_high / (3.0 * sizes.tick)).clamp(2.0, 8.0) as usize;
         Self {
             panel,
@@ -214,19 +214,6 @@ impl<'p> Prepared<'p> {
             y: Mapping { range: self.y.0, scale: self.y.1, start: window.bottom, end: window.top },
             window,
         }
-    }
-}
-
-/// Ticks of a horizontal axis whose numbers stand clear of each other.
-fn uncrowded((range, scale): Span, plot_width: f64, em: f64) -> Ticks {
-    let mut wanted = (plot_width / (5.0 * em)).clamp(2.0, 8.0) as usize;
-    loop {
-        let found = ticks(range, scale, wanted);
-        let numbers = found.major.iter().filter(|tick| !tick.label.is_empty()).count() as f64;
-        if wanted <= 2 || numbers * (widest_label(&found, em) + 0.8 * em) <= plot_width {
-            return found;
-        }
-        wanted -= 1;
     }
 }
 
