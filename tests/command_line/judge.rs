@@ -123,6 +123,10 @@ fn two_runs_are_compared_number_by_number() {
     let wrong = place.bagnold(&["compare", "first", "store", "--out", "none"]).assert().code(2);
     let message = String::from_utf8_lossy(&wrong.get_output().stderr).into_owned();
     assert!(message.contains("holds neither a run's metrics.json nor a report's"), "{message}");
+    let own = place.bagnold(&["compare", "first", "again", "--out", "again"]).assert().code(2);
+    let message = String::from_utf8_lossy(&own.get_output().stderr).into_owned();
+    assert!(message.contains("`--out` is again, but must be another folder than those that are compared"), "{message}");
+    assert!(place.path("again/metrics.json").is_file(), "what is compared stays");
 }
 
 /// A submission of `tests/foreign`.
