@@ -118,6 +118,10 @@ fn two_runs_are_compared_number_by_number() {
     place.bagnold(&["compare", "first", "thicker", "--out", "other", "--deny-differences"]).assert().code(1);
     let lines = read(&place, "other/differences.json");
     assert!(lines[0]["tolerances"].as_f64() > Some(1.0), "{}", lines[0]);
+    let parameters = read(&place, "other/parameters.json");
+    assert_eq!(parameters[0]["path"], "newtonian.viscosity", "{parameters}");
+    assert_eq!((parameters[0]["values"][1].as_str(), parameters.as_array().map(Vec::len)), (Some("1.1"), Some(1)));
+    assert_eq!(read(&place, "same/parameters.json").as_array().map(Vec::len), Some(0));
     let figures = std::fs::read_dir(place.path("other/figures")).expect("figures").count();
     assert!(figures >= 4, "{figures} files of profile and history");
     let wrong = place.bagnold(&["compare", "first", "store", "--out", "none"]).assert().code(2);

@@ -3,8 +3,10 @@
 mod difference;
 mod figures;
 mod page;
+mod parameters;
 mod reading;
 
 pub use difference::{Difference, differences};
 pub use page::write;
+pub use parameters::{Changed, changed};
 pub use reading::{CompareError, Results};

@@ -2,6 +2,7 @@
 
 use super::difference::{Difference, differences};
 use super::figures;
+use super::parameters::{Changed, changed};
 use super::reading::Results;
 use crate::figure::{self, FigureError};
 use crate::metric::Verdict;
@@ -17,6 +18,7 @@ struct Page {
     folders: Vec<Folder>,
     moved: usize,
     same: usize,
+    parameters: Vec<Changed>,
     rows: Vec<Row>,
     pictures: Vec<Picture>,
     style: &'static str,
@@ -69,7 +71,7 @@ struct Line<'a> {
     tolerances: Option<f64>,
 }
 
-/// Writes `index.html`, `differences.json` and `figures/` into a folder; the numbers that differ by more than their tolerance
+/// Writes `index.html`, `differences.json`, `parameters.json` and `figures/` into a folder; the numbers that differ by more than their tolerance
 /// are counted.
 ///
 /// # Errors
@@ -95,8 +97,10 @@ pub fn write(all: &[Results], folder: &Path) -> Result<usize, ReportError> {
     }
     let lines: Vec<Line<'_>> = found.iter().map(line).collect();
     put(folder.join("differences.json"), &pretty(&lines))?;
+    let parameters = changed(all);
+    put(folder.join("parameters.json"), &pretty(&parameters))?;
     let moved = found.iter().filter(|one| is_moved(one)).count();
-    put(folder.join("index.html"), &render(all, &found, moved, pictures)?)?;
+    put(folder.join("index.html"), &render(all, &found, moved, parameters, pictures)?)?;
     Ok(moved)
 }
 
@@ -119,6 +123,7 @@ fn render(
     all: &[Results],
     found: &[Difference],
     moved: usize,
+    parameters: Vec<Changed>,
     pictures: Vec<Picture>,
 ) -> Result<String, minijinja::Error> {
     let page = Page {
@@ -126,6 +131,7 @@ fn render(
         folders: all.iter().map(folder).collect(),
         moved,
         same: found.len() - moved,
+        parameters,
         rows: found.iter().map(row).collect(),
         pictures,
         style: include_str!("../report/template/style.css"),

@@ -44,6 +44,8 @@ pub struct Results {
 pub struct CaseResults {
     /// Its numbers.
     pub document: MetricsDocument,
+    /// Its parameters; none where the folder has no `case.toml`.
+    pub parameters: Option<toml::Table>,
     /// Its profiles and histories, by file name; a report keeps none.
     pub tables: Vec<Table>,
 }
@@ -78,12 +80,14 @@ impl Results {
             for entry in entries.flatten().map(|entry| entry.path()) {
                 let file = entry.join("metrics.json");
                 if file.is_file() {
-                    let case = CaseResults { document: document(&file)?, tables: Vec::new() };
+                    let (document, parameters) = (document(&file)?, parameters(&entry)?);
+                    let case = CaseResults { document, parameters, tables: Vec::new() };
                     cases.insert(case.document.case.clone(), case);
                 }
             }
         } else if alone.is_file() {
-            let case = CaseResults { document: document(&alone)?, tables: tables(&folder.join("tables"))? };
+            let (document, parameters) = (document(&alone)?, parameters(folder)?);
+            let case = CaseResults { document, parameters, tables: tables(&folder.join("tables"))? };
             cases.insert(case.document.case.clone(), case);
         }
         if cases.is_empty() {
@@ -124,6 +128,15 @@ fn damaged(file: &Path, reason: String) -> FileError {
 
 fn document(file: &Path) -> Result<MetricsDocument, FileError> {
     serde_json::from_str(&text(file)?).map_err(|error| damaged(file, error.to_string()))
+}
+
+/// The parameters that a folder's `case.toml` gives; none where there is no such file.
+fn parameters(folder: &Path) -> Result<Option<toml::Table>, FileError> {
+    let file = folder.join("case.toml");
+    if !file.is_file() {
+        return Ok(None);
+    }
+    toml::from_str(&text(&file)?).map(Some).map_err(|error| damaged(&file, error.message().to_owned()))
 }
 
 /// Tables of numbers in a folder, by name; none where there is no such folder.
