@@ -91,6 +91,7 @@ fn a_checkpoint_that_is_damaged_is_refused_and_the_one_before_continued() {
     let (_, said) = what_it_said(RUN_IN_PLANE.start(&place, "damaged", "1"));
     let refusal = "not continued: it is damaged; the one before it is used, or the run begins anew";
     assert!(said.contains(refusal), "{said}");
+    assert!(said.contains("goes on from its checkpoint at t = "), "{said}");
     assert_eq!(RUN_IN_PLANE.states(&place, "damaged"), expected);
 }
 
@@ -106,7 +107,7 @@ fn fresh_begins_anew() {
     process.args(["--out", "out", "--store", "out-store", "--fresh", "-v"]);
     let done = process.output().expect("ended");
     let said = String::from_utf8_lossy(&done.stderr);
-    assert!(!said.contains("goes on at t ="), "{said}");
+    assert!(!said.contains("goes on from its checkpoint at t ="), "{said}");
     assert!(done.status.code().is_some_and(|code| code <= 1), "{said}");
 }
 

@@ -133,6 +133,10 @@ impl Progress for Kept<'_> {
         self.progress.advance(simulated, total, particle_steps);
     }
 
+    fn resumed(&self, simulated: f64) {
+        self.progress.resumed(simulated);
+    }
+
     fn checkpoints(&self) -> Option<&Checkpoints> {
         self.checkpoints.as_ref()
     }

@@ -15,6 +15,8 @@ pub trait Monitor: Sync {
     fn started(&self, run: usize);
     /// `simulated` of `total` seconds of the run are done, with `particle_steps` particle-steps so far.
     fn advanced(&self, run: usize, simulated: f64, total: f64, particle_steps: f64);
+    /// The run goes on from a checkpoint that an earlier program has left, at a simulated time `[s]`.
+    fn resumed(&self, run: usize, simulated: f64);
     /// The run is done, or was taken from the store.
     fn finished(&self, run: usize);
     /// What takes states of the run on its way: such a run is never taken from the store.
@@ -30,12 +32,14 @@ pub struct Silent;
 impl Monitor for Silent {
     fn started(&self, _run: usize) {}
     fn advanced(&self, _run: usize, _simulated: f64, _total: f64, _particle_steps: f64) {}
+    fn resumed(&self, _run: usize, _simulated: f64) {}
     fn finished(&self, _run: usize) {}
 }
 
 /// A simulation that nobody waits for.
 impl Progress for Silent {
     fn advance(&self, _simulated: f64, _total: f64, _particle_steps: f64) {}
+    fn resumed(&self, _simulated: f64) {}
 }
 
 struct RunProgress<'a> {
@@ -46,6 +50,10 @@ struct RunProgress<'a> {
 impl Progress for RunProgress<'_> {
     fn advance(&self, simulated: f64, total: f64, particle_steps: f64) {
         self.monitor.advanced(self.run, simulated, total, particle_steps);
+    }
+
+    fn resumed(&self, simulated: f64) {
+        self.monitor.resumed(self.run, simulated);
     }
 
     fn output(&self) -> Option<&dyn StateOutput> {

@@ -19,6 +19,7 @@ pub(super) struct Display {
     pub(super) bar: ProgressBar,
     pub(super) begin: Instant,
     pub(super) lines: bool,
+    quiet: bool,
     ticker: Mutex<Option<Ticker>>,
 }
 
@@ -33,7 +34,7 @@ impl Display {
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
-        Self { bar, begin: Instant::now(), lines: !quiet && !seen, ticker: Mutex::new(None) }
+        Self { bar, begin: Instant::now(), lines: !quiet && !seen, quiet, ticker: Mutex::new(None) }
     }
 
     /// Shows the text that `text` makes, from now on also while nothing happens.
@@ -45,6 +46,13 @@ impl Display {
             Ticker::every(BAR_INTERVAL, move || bar.set_message(text()))
         };
         *self.ticker.lock().unwrap_or_else(PoisonError::into_inner) = Some(ticker);
+    }
+
+    /// Says something once, above the bar.
+    pub(super) fn say(&self, text: &str) {
+        if !self.quiet {
+            BARS.suspend(|| eprintln!("{text}"));
+        }
     }
 
     /// Takes the bar off the screen and ends the lines.

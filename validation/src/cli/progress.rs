@@ -150,6 +150,11 @@ impl Monitor for Progress {
         }
     }
 
+    fn resumed(&self, run: usize, simulated: f64) {
+        self.display
+            .say(&format!("{}: goes on from its checkpoint at t = {simulated:.4} s", self.state.runs[run].name));
+    }
+
     fn finished(&self, run: usize) {
         self.state.runs[run].done.store(1.0_f64.to_bits(), Ordering::Relaxed);
         self.state.finished.fetch_add(1, Ordering::Relaxed);

@@ -152,6 +152,10 @@ impl Monitor for Showing<'_> {
         self.progress.advanced(run, simulated, total, particle_steps);
     }
 
+    fn resumed(&self, run: usize, simulated: f64) {
+        self.progress.resumed(run, simulated);
+    }
+
     fn finished(&self, run: usize) {
         self.progress.finished(run);
     }

@@ -24,23 +24,33 @@ pub(super) fn store(command: &Arguments, output: &mut (dyn Write + Send)) -> Res
             bytes: size.map(|gibibytes| (gibibytes * BYTES_PER_GIBIBYTE) as u64),
         };
         let pruned = prune(root, keep, now).map_err(|error| FileError::unwritable(root, &error))?;
-        text += &format!("deleted {} entries, {}\n", pruned.entries, size_in_words(pruned.bytes));
+        text += &format!("deleted {} entries and checkpoints, {}\n", pruned.files, size_in_words(pruned.bytes));
     }
     let versions = versions(root).map_err(|error| FileError::unreadable(root, &error))?;
     for version in &versions {
         let days = now.duration_since(version.newest).unwrap_or_default().as_secs_f64() / SECONDS_PER_DAY;
         text += &format!(
-            "{}  {} entries, {}, the newest {days:.1} days old\n",
+            "{}  {}, {}, the newest {days:.1} days old\n",
             version.name,
-            version.entries,
+            counted(version.entries, version.unfinished),
             size_in_words(version.bytes)
         );
     }
-    let (entries, bytes) =
-        versions.iter().fold((0, 0), |(entries, bytes), version| (entries + version.entries, bytes + version.bytes));
-    text += &format!("{}: {entries} entries, {}\n", root.display(), size_in_words(bytes));
+    let entries = versions.iter().map(|version| version.entries).sum();
+    let unfinished = versions.iter().map(|version| version.unfinished).sum();
+    let bytes = versions.iter().map(|version| version.bytes).sum();
+    text += &format!("{}: {}, {}\n", root.display(), counted(entries, unfinished), size_in_words(bytes));
     say(output, &text);
     Ok(Exit::Held)
+}
+
+/// Finished and unfinished runs, these only where there are any.
+fn counted(entries: usize, unfinished: usize) -> String {
+    match unfinished {
+        0 => format!("{entries} entries"),
+        1 => format!("{entries} entries and 1 unfinished run"),
+        _ => format!("{entries} entries and {unfinished} unfinished runs"),
+    }
 }
 
 fn size_in_words(bytes: u64) -> String {

@@ -1,12 +1,14 @@
 //! What lies in a store, and how it is made smaller on request.
 
-use super::is_version;
+use super::{UNFINISHED, is_version};
 use std::io::Result;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 /// Ends the names of entries, and of what a killed process left half written.
 const ENDINGS: [&str; 2] = ["postcard", "partial"];
+/// The same of checkpoints.
+const CHECKPOINTS: [&str; 2] = ["checkpoint", "partial"];
 
 /// One file of the store.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,14 +18,16 @@ struct Stored {
     modified: SystemTime,
 }
 
-/// The entries of one version of the sources.
+/// The entries and checkpoints of one version of the sources.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Version {
     /// Name of its folder.
     pub name: String,
     /// Number of entries.
     pub entries: usize,
-    /// Size of them all.
+    /// Number of runs that have checkpoints and no entry yet.
+    pub unfinished: usize,
+    /// Size of them all `[bytes]`.
     pub bytes: u64,
     /// When the newest was written.
     pub newest: SystemTime,
@@ -41,9 +45,9 @@ pub struct Keep {
 /// What was deleted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Pruned {
-    /// Number of entries.
-    pub entries: usize,
-    /// Size of them all.
+    /// Number of entries and checkpoints.
+    pub files: usize,
+    /// Size of them all `[bytes]`.
     pub bytes: u64,
 }
 
@@ -54,12 +58,14 @@ pub struct Pruned {
 pub fn versions(root: &Path) -> Result<Vec<Version>> {
     let mut versions = Vec::new();
     for folder in folders(root)? {
-        let stored = stored_in(&folder)?;
-        let Some(newest) = stored.iter().map(|entry| entry.modified).max() else { continue };
+        let (stored, unfinished) = (stored_in(&folder, &ENDINGS)?, unfinished_in(&folder)?);
+        let checkpoints = unfinished.iter().flatten();
+        let Some(newest) = stored.iter().chain(checkpoints.clone()).map(|entry| entry.modified).max() else { continue };
         versions.push(Version {
             name: folder.file_name().unwrap_or_default().to_string_lossy().into_owned(),
             entries: stored.len(),
-            bytes: stored.iter().map(|entry| entry.bytes).sum(),
+            unfinished: unfinished.iter().filter(|checkpoints| !checkpoints.is_empty()).count(),
+            bytes: stored.iter().chain(checkpoints).map(|entry| entry.bytes).sum(),
             newest,
         });
     }
@@ -75,7 +81,8 @@ pub fn prune(root: &Path, keep: Keep, now: SystemTime) -> Result<Pruned> {
     let folders = folders(root)?;
     let mut stored = Vec::new();
     for folder in &folders {
-        stored.extend(stored_in(folder)?);
+        stored.extend(stored_in(folder, &ENDINGS)?);
+        stored.extend(unfinished_in(folder)?.into_iter().flatten());
     }
     stored.sort_by(|a, b| b.modified.cmp(&a.modified).then_with(|| a.path.cmp(&b.path)));
     let (mut kept, mut pruned) = (0, Pruned::default());
@@ -87,12 +94,16 @@ pub fn prune(root: &Path, keep: Keep, now: SystemTime) -> Result<Pruned> {
             kept += entry.bytes;
         } else {
             std::fs::remove_file(&entry.path)?;
-            pruned.entries += 1;
+            pruned.files += 1;
             pruned.bytes += entry.bytes;
         }
     }
+    // fails where something is left, which is what is wanted
     for folder in folders {
-        // fails where something is left, which is what is wanted
+        for run in runs_in(&folder)? {
+            let _ = std::fs::remove_dir(run);
+        }
+        let _ = std::fs::remove_dir(folder.join(UNFINISHED));
         let _ = std::fs::remove_dir(folder);
     }
     Ok(pruned)
@@ -114,12 +125,13 @@ fn folders(root: &Path) -> Result<Vec<PathBuf>> {
     Ok(folders)
 }
 
-fn stored_in(folder: &Path) -> Result<Vec<Stored>> {
+/// Files of a folder with such endings.
+fn stored_in(folder: &Path, endings: &[&str]) -> Result<Vec<Stored>> {
     let mut stored = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let entry = entry?;
         let path = entry.path();
-        let is_entry = path.extension().is_some_and(|ending| ENDINGS.iter().any(|own| ending == *own));
+        let is_entry = path.extension().is_some_and(|ending| endings.iter().any(|own| ending == *own));
         // not followed: a link that somebody put here is his
         let metadata = entry.metadata()?;
         if is_entry && metadata.is_file() {
@@ -127,6 +139,27 @@ fn stored_in(folder: &Path) -> Result<Vec<Stored>> {
         }
     }
     Ok(stored)
+}
+
+/// The folders of unfinished runs of a version.
+fn runs_in(folder: &Path) -> Result<Vec<PathBuf>> {
+    let entries = match std::fs::read_dir(folder.join(UNFINISHED)) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries?,
+    };
+    let mut runs = Vec::new();
+    for entry in entries {
+        let entry = entry?;
+        if entry.file_type()?.is_dir() {
+            runs.push(entry.path());
+        }
+    }
+    Ok(runs)
+}
+
+/// The checkpoints of every unfinished run of a version.
+fn unfinished_in(folder: &Path) -> Result<Vec<Vec<Stored>>> {
+    runs_in(folder)?.iter().map(|run| stored_in(run, &CHECKPOINTS)).collect()
 }
 
 #[cfg(test)]
@@ -161,14 +194,38 @@ mod tests {
     }
 
     #[test]
+    fn checkpoints_are_listed_by_run_and_pruned_with_the_rest() {
+        let (root, now) = store();
+        let version = root.path().join(format!("sources-{}", "a".repeat(16)));
+        for (run, age) in [("one", 0), ("other", 400)] {
+            let folder = version.join(UNFINISHED).join(run);
+            std::fs::create_dir_all(&folder).expect("writable");
+            for number in 0..2 {
+                let file = folder.join(format!("{number}.checkpoint"));
+                std::fs::write(&file, [0; 100]).expect("writable");
+                std::fs::File::open(&file).and_then(|file| file.set_modified(now - age * DAY)).expect("settable");
+            }
+        }
+        let listed = versions(root.path()).expect("readable");
+        assert_eq!((listed[0].entries, listed[0].unfinished, listed[0].bytes), (5, 2, 5400));
+        let old = Keep { younger_than: Some(100 * DAY), bytes: None };
+        assert_eq!(prune(root.path(), old, now).expect("writable"), Pruned { files: 2, bytes: 200 });
+        assert_eq!(versions(root.path()).expect("readable")[0].unfinished, 1);
+        assert!(!version.join(UNFINISHED).join("other").exists() && version.join(UNFINISHED).join("one").exists());
+        let nothing = Keep { younger_than: None, bytes: Some(0) };
+        assert_eq!(prune(root.path(), nothing, now).expect("writable").files, 12);
+        assert!(!version.exists());
+    }
+
+    #[test]
     fn what_is_too_old_or_too_much_goes_and_nothing_else() {
         let (root, now) = store();
         let of = |keep| prune(root.path(), keep, now).expect("writable");
         assert_eq!(of(Keep::default()), Pruned::default());
         let young = Keep { younger_than: Some(7 * DAY), bytes: None };
-        assert_eq!(of(young), Pruned { entries: 2, bytes: 2000 });
+        assert_eq!(of(young), Pruned { files: 2, bytes: 2000 });
         let small = Keep { younger_than: None, bytes: Some(3500) };
-        assert_eq!(of(small), Pruned { entries: 5, bytes: 5000 });
+        assert_eq!(of(small), Pruned { files: 5, bytes: 5000 });
         assert_eq!(versions(root.path()).expect("readable").len(), 1);
         assert!(!root.path().join(format!("sources-{}", "b".repeat(16))).exists(), "an empty version is gone");
         assert!(root.path().join("sources-of-mine/thesis.postcard").exists());

@@ -21,6 +21,9 @@ const KEPT_VERSIONS: usize = 3;
 /// Begins the name of every folder that the store may delete.
 const FOLDER_PREFIX: &str = "sources-";
 
+/// Folder of a version in which runs that are not finished keep their checkpoints, a folder each.
+const UNFINISHED: &str = "unfinished";
+
 /// Whether finished runs are taken from the store.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StorePolicy {
@@ -97,7 +100,7 @@ impl Store {
     }
 
     fn checkpoint_folder(&self, key: &Key) -> PathBuf {
-        self.folder.join("unfinished").join(&key.0)
+        self.folder.join(UNFINISHED).join(&key.0)
     }
 
     /// The folder that holds all versions.

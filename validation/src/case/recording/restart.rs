@@ -132,6 +132,7 @@ where
     });
     let (mut simulation, mut course, kept, started) = match left {
         Some((simulation, course, kept, seconds)) => {
+            progress.resumed(simulation.time());
             tracing::info!("goes on at t = {:.6} s, step {}", simulation.time(), simulation.steps());
             let spent = Duration::try_from_secs_f64(seconds).unwrap_or_default();
             (simulation, course, kept, now.checked_sub(spent).unwrap_or(now))
