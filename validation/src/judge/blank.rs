@@ -28,7 +28,7 @@ pub fn blank(case: &'static dyn AnyCase, tier: Tier) -> Result<String, Parameter
         let _ = writeln!(text, "#   \"{variant}\"");
     }
     let _ = writeln!(text, "[[run]]\nvariant = \"{}\"\n", variants.first().map_or("", String::as_str));
-    text.push_str("# Single numbers: metrics of this run by name, in their units.\n[run.numbers]\n");
+    text.push_str("# Single numbers: metrics of this run by name, in their units. Some belong to other runs of the case; a number that a run does\n# not have is refused with those that it has.\n[run.numbers]\n");
     for quantity in case.quantities() {
         let _ = writeln!(text, "# {} = 0.0  # [{}] {}", quantity.name, quantity.unit, quantity.says);
     }

@@ -7,12 +7,17 @@ use crate::figure::{Figure, Mark, Panel, Series};
 pub(super) fn overlay(own: &[Figure], codes: &[(&str, &[Figure])]) -> Vec<Figure> {
     let mut figures = own.to_vec();
     for figure in &mut figures {
+        // a code has its colour in every panel of the figure
+        let colours = figure.panels.iter().flat_map(|panel| &panel.series).map(|series| series.colour + 1).max();
+        let colours = colours.unwrap_or(0);
         for (place, (code, theirs)) in codes.iter().enumerate() {
             let Some(theirs) = theirs.iter().find(|other| other.name == figure.name) else { continue };
             let own_panels = figure.panels.len();
             for (number, panel) in theirs.panels.iter().enumerate() {
                 let twin = twin_of(&figure.panels[..own_panels], panel, number);
-                draw_in(figure, panel, twin, code, place + 1);
+                let stride = codes.len();
+                let colour = |curve: usize| colours + place + curve * stride;
+                draw_in(figure, panel, twin, code, colour);
             }
         }
     }
@@ -28,7 +33,7 @@ fn twin_of(own: &[Panel], panel: &Panel, number: usize) -> Option<usize> {
     Some(number).filter(|&number| own.get(number).is_some_and(is_same)).or_else(|| own.iter().position(is_same))
 }
 
-fn draw_in(figure: &mut Figure, panel: &Panel, twin: Option<usize>, code: &str, slot: usize) {
+fn draw_in(figure: &mut Figure, panel: &Panel, twin: Option<usize>, code: &str, colour: impl Fn(usize) -> usize) {
     let Some(own) = twin.and_then(|twin| figure.panels.get_mut(twin)) else {
         if !panel.series.is_empty() || panel.field.is_some() {
             let title = format!("{code}: {}", panel.title);
@@ -38,12 +43,10 @@ fn draw_in(figure: &mut Figure, panel: &Panel, twin: Option<usize>, code: &str, 
     };
     let is_new = |series: &&Series| series.mark != Mark::Reference && !own.series.contains(series);
     let curves: Vec<Series> = panel.series.iter().filter(is_new).cloned().collect();
-    // a colour of the code's own, as far as there are any
-    let colours = own.series.iter().map(|series| series.colour + 1).max().unwrap_or(0);
     let mark = |mark: Mark| if mark == Mark::Line { Mark::LinePoints } else { mark };
     own.series.extend(curves.into_iter().enumerate().map(|(place, series)| {
         let label = if series.label.is_empty() { code.to_owned() } else { format!("{code}: {}", series.label) };
-        Series { label, mark: mark(series.mark), colour: colours + slot - 1 + place, ..series }
+        Series { label, mark: mark(series.mark), colour: colour(place), ..series }
     }));
 }
 
@@ -82,6 +85,11 @@ mod tests {
         let labels = |panel: usize| panels[panel].series.iter().map(|one| one.label.as_str()).collect::<Vec<_>>();
         assert_eq!(labels(0), ["sand", "law", "MPM: sand"]);
         assert_ne!(panels[0].series[0].colour, panels[0].series[2].colour);
+        let three = overlay(&[figure("a", 1.0)], &[("MPM", &[figure("a", 2.0)]), ("DEM", &[figure("a", 3.0)])]);
+        let of_mpm = |figures: &[Figure]| figures[0].panels[0].series[2].colour;
+        let alone = overlay(&[figure("a", 1.0)], &[("MPM", &[]), ("DEM", &[figure("a", 3.0)])]);
+        assert_ne!(of_mpm(&three), three[0].panels[0].series[3].colour);
+        assert_eq!(three[0].panels[0].series[3].colour, of_mpm(&alone), "a code that gives nothing keeps its colour");
         assert_eq!((panels[1].title.as_str(), labels(1)), ("DEM: b", vec!["sand", "law"]));
     }
 }

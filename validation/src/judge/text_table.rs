@@ -46,15 +46,24 @@ impl TextTable {
                     heading = Some(words.iter().map(|word| (*word).to_owned()).collect());
                     continue;
                 }
+                // blanks also part the words of a heading
+                if let Some(heading) = heading.as_ref().filter(|own| separator.is_some() && own.len() != words.len()) {
+                    let rule = format!("of {} columns, as the heading", heading.len());
+                    return Err(wrong(number, &format!("of {} columns", words.len()), &rule, "mend the file"));
+                }
                 columns = vec![Vec::new(); words.len()];
             }
             if words.len() != columns.len() {
                 let rule = format!("of {} columns, as the lines before", columns.len());
                 return Err(wrong(number, &format!("of {} columns", words.len()), &rule, "mend the file"));
             }
-            for (column, word) in columns.iter_mut().zip(words) {
+            for (place, (column, word)) in columns.iter_mut().zip(words).enumerate() {
                 let value = word.parse::<f64>().map_err(|_| {
-                    wrong(number, &format!("\"{}\"", shortened(word)), "numbers", "write decimals with a point")
+                    let name = heading.as_ref().and_then(|own| own.get(place).cloned());
+                    let name = name.unwrap_or_else(|| (place + 1).to_string());
+                    let value = format!("\"{}\" in column {}", shortened(word), shortened(&name));
+                    let remedy = if is_missing(word) { MISSING } else { "write decimals with a point" };
+                    wrong(number, &value, "a number", remedy)
                 })?;
                 column.push(value);
             }
@@ -81,6 +90,14 @@ impl TextTable {
             FieldError::new(field, format!("\"{heading}\""), &rule, &format!("{guess}headings are taken as they stand"))
         })
     }
+}
+
+/// What to do about a value that was not measured.
+const MISSING: &str = "leave out rows in which a value is missing";
+
+/// Whether a word stands for no value.
+fn is_missing(word: &str) -> bool {
+    ["", "-", "--", "na", "n/a", "null", "none"].contains(&word.to_ascii_lowercase().as_str())
 }
 
 fn is_comment(line: &str) -> bool {
@@ -145,7 +162,15 @@ mod tests {
         );
         assert_eq!(
             message("x,y\n1,2\n3,b\n"),
-            "a.csv: `line 3` is \"b\", but must be numbers; write decimals with a point"
+            "a.csv: `line 3` is \"b\" in column y, but must be a number; write decimals with a point"
+        );
+        assert_eq!(
+            message("x,y\n1,\n3,2\n"),
+            "a.csv: `line 2` is \"\" in column y, but must be a number; leave out rows in which a value is missing"
+        );
+        assert_eq!(
+            message("x,y,z\n1,2\n"),
+            "a.csv: `line 2` is of 2 columns, but must be of 3 columns, as the heading; mend the file"
         );
         let table = parse("x,velocity\n1,2\n").expect("a table");
         assert_eq!(

@@ -4,6 +4,7 @@ use super::submission::ForeignRun;
 use crate::case::ForeignResult;
 use crate::input::{FieldError, did_you_mean, nearest};
 use crate::metric::{Kind, Metric, Variant, Verdict};
+use std::collections::BTreeSet;
 
 /// A metric of ours with another code's value, if it gave one.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,7 +65,9 @@ fn place_of(own: &[Metric], variant: &Variant, name: &str, field: &str) -> Resul
     place.ok_or_else(|| {
         let names: Vec<&str> = own.iter().filter(|metric| of_run(metric)).map(|metric| metric.name.as_str()).collect();
         let guess = did_you_mean(&nearest(name, names.iter().copied()));
-        let remedy = format!("{guess}`bagnold judge --template` lists them");
+        let listed: BTreeSet<&str> = names.iter().copied().collect();
+        let listed: Vec<&str> = listed.into_iter().collect();
+        let remedy = format!("{guess}this run has {}", listed.join(", "));
         FieldError::new(&format!("{field}.numbers.{name}"), "given", "a metric of this run", &remedy)
     })
 }
@@ -113,7 +116,7 @@ mod tests {
         assert_eq!((compared[0].verdict(), compared[0].own.value), (Some(Verdict::Pass), 0.5));
         assert_eq!(
             of(&run("frnt")).expect_err("no such metric").to_string(),
-            "`run 1.numbers.frnt` is given, but must be a metric of this run; did you mean `front`? `bagnold judge --template` lists them"
+            "`run 1.numbers.frnt` is given, but must be a metric of this run; did you mean `front`? this run has front"
         );
     }
 

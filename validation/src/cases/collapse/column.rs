@@ -19,7 +19,7 @@ use serde::Serialize;
 use std::ops::ControlFlow;
 
 /// Time over √(h_0/g) before which no column has fallen `[-]`.
-const EARLIEST_REST: f64 = 2.0;
+pub(super) const EARLIEST_REST: f64 = 2.0;
 /// Points of the time series over √(h_0/g).
 const POINTS: f64 = 40.0;
 /// Pictures over the collapse, at these times over √(h_0/g) `[-]`; the deposit follows.

@@ -201,10 +201,14 @@ fn front_of(thickness: &[(f64, f64)], least: f64) -> f64 {
 }
 
 impl Collapse {
-    /// (x_f − r_0)/r_0 of the deposit `[-]`.
+    /// (x_f − r_0)/r_0 of the deposit `[-]`; of the last front where nothing else is known of it.
     #[must_use]
     pub fn run_out(&self) -> f64 {
-        front(&self.deposit) - 1.0
+        if self.deposit.is_empty() {
+            self.front.last().copied().unwrap_or(f64::NAN) - 1.0
+        } else {
+            front(&self.deposit) - 1.0
+        }
     }
 
     /// The same with the front at 0.05 r_0, a thickness that one row of particles has from 20 over r_0 on `[-]`.

@@ -1,6 +1,6 @@
 //! A column as another code gives it: the same measurements, taken by the same surveyor.
 
-use super::column::{ColumnRun, Geometry};
+use super::column::{ColumnRun, EARLIEST_REST, Geometry};
 use super::deposit::Collapse;
 use crate::case::{Foreign, Form, Given, Item, Picture};
 use crate::input::FieldError;
@@ -39,11 +39,12 @@ pub(in crate::cases) const FORM: Form = Form {
         Item::new("x", "m", "distance from the symmetry plane, rising"),
         Item::new("thickness", "m", "thickness of the deposit there: volume per area of the bed"),
     ],
-    says: "Only half of a planar column and a quarter of a round one is given, with x (and z) positive; the last picture is the deposit. \
+    says: "Only half of a planar column and a quarter of a round one is given, with x (and z) positive; the last picture is the \
+        deposit, if it is not earlier than 2 √(h_0/g). \
         The bed is divided into bins (rings) of 0.1 r_0 from the symmetry plane; each particle's volume is spread evenly over a \
         spacing to either side, and a bin's thickness is the volume in it over its area. The front is where the thickness, \
         followed outwards from the symmetry plane, first falls below 0.02 r_0, linear between the centres of bins; run_out is \
-        its distance less r_0, over r_0. final_height is the innermost bin's thickness over r_0. stopping_time is when the front \
+        its distance less r_0, over r_0; without particles or profile that of the last row of the series. final_height is the innermost bin's thickness over r_0. stopping_time is when the front \
         at 0.05 r_0 has covered 99 % of its way, over √(h_0/g). deposit_slope_angle is that of a line through the thickness over \
         20 to 80 % of the front's distance.",
 };
@@ -68,10 +69,17 @@ fn of<const D: usize>(run: &ColumnRun, given: &Given) -> Result<Foreign<Collapse
     };
     let mut measured = Vec::new();
     let mut collapse = unmeasured;
+    let has_fallen = |time: f64| time >= EARLIEST_REST * run.time_scale();
     let room = Room {
         spacing: run.spacing(),
         reach: REACH * run.half_width * (1.0 + run.aspect_ratio),
         density: run.bulk_density,
+        size: match run.geometry {
+            Geometry::Planar => 1.0,
+            Geometry::Round => std::f64::consts::FRAC_PI_4 * run.half_width,
+        } * run.half_width
+            * run.half_width
+            * run.initial_height(),
         kind: "column",
         origin: ORIGIN,
     };
@@ -86,8 +94,11 @@ fn of<const D: usize>(run: &ColumnRun, given: &Given) -> Result<Foreign<Collapse
             collapse = surveyor.finish(last);
         }
         collapse.momentum_residual = f64::NAN;
-        measured.extend(OF_DEPOSIT);
-        measured.extend(["height_by_top", "particles_lost"]);
+        if has_fallen(end.time) {
+            measured.extend(OF_DEPOSIT);
+            measured.push("height_by_top");
+        }
+        measured.push("particles_lost");
         let moves = ["vx", "vy"].iter().all(|name| !end.column(name).is_empty());
         if moves && given.pictures.len() > 1 {
             measured.push("rest_time");
@@ -114,6 +125,12 @@ fn of<const D: usize>(run: &ColumnRun, given: &Given) -> Result<Foreign<Collapse
         // energies belong to the pictures' times
         (collapse.kinetic_energy, collapse.potential_energy) = (unknown(), unknown());
         collapse.time = time.to_vec();
+        if collapse.deposit.is_empty()
+            && !given.series("front").is_empty()
+            && time.last().is_some_and(|end| has_fallen(*end))
+        {
+            measured.push("run_out");
+        }
         measured.retain(|name| !["rest_time", "stopping_time"].contains(name));
         if !given.series("front_of_rows").is_empty() {
             measured.push("stopping_time");
@@ -129,6 +146,10 @@ const REACH: f64 = 50.0;
 /// Pictures from which on the time of stopping is told from them: four over √(h_0/g), five times as long.
 const PICTURES_OF_A_HISTORY: usize = 20;
 
+/// Largest factor by which material may become more or less, in volume `[-]`: grains dilate and codes lose some, but twice as
+/// much is another unit, or the whole of a column of which half is asked.
+const BULKING: f64 = 1.6;
+
 const ORIGIN: &str = "check the unit and the origin: it lies on the bed in the symmetry plane, and only the half (quarter) beyond it is given";
 
 /// Where particles of a heap may be, and what they weigh.
@@ -139,6 +160,8 @@ pub(super) struct Room {
     pub(super) reach: f64,
     /// Density in bulk `[kg/m³]`.
     pub(super) density: f64,
+    /// Area of all at the start, in space the volume `[m²]` or `[m³]`.
+    pub(super) size: f64,
     /// What collapses, in words.
     pub(super) kind: &'static str,
     /// What to do about places that are out of reach.
@@ -174,6 +197,15 @@ pub(super) fn snapshot<const D: usize>(room: &Room, picture: &Picture) -> Result
         let mass = picture.column(size).iter().map(|size| size * bulk_density).collect();
         (mass, vec![bulk_density; count])
     };
+    let sum: f64 = mass.iter().zip(&density).map(|(mass, density)| mass / density).sum();
+    if !(sum > room.size / BULKING && sum < room.size * BULKING) {
+        let unit = if D == 2 { "m^2" } else { "m^3" };
+        let value = format!("{sum:.4e} {unit} over all particles at {} s", picture.time);
+        let rule =
+            format!("within a factor {BULKING} of what the {} has at the start, {:.4e} {unit}", room.kind, room.size);
+        let remedy = "check the unit, and which part of it is given";
+        return Err(FieldError::new(&format!("particles.columns.{size}"), value, &rule, remedy));
+    }
     let of = |columns: &[&[f64]], particle: usize| {
         Vector::<D>::from_fn(|axis, _| columns[axis].get(particle).copied().unwrap_or(f64::NAN))
     };
@@ -193,8 +225,10 @@ mod tests {
     use crate::case::{Columns, Parameters, Tier};
     use crate::cases::column_planar::ColumnPlanarParameters;
 
+    /// A column higher than half of it is wide.
     fn run() -> ColumnRun {
-        ColumnPlanarParameters::of_tier(Tier::Quick).runs().remove(0)
+        let runs = ColumnPlanarParameters::of_tier(Tier::Quick).runs();
+        runs.into_iter().find(|run| (run.aspect_ratio - 1.5).abs() < 0.5).expect("a column")
     }
 
     /// A wedge of thickness (1 − x/3) r_0 as columns of cells, of which the middle cell of a column is as thick as needed.
@@ -228,6 +262,33 @@ mod tests {
         let seen = observe(&run, &Given { profile, ..Given::default() }).expect("complete");
         assert!((seen.observation.run_out() - 1.94).abs() < 1e-9, "{}", seen.observation.run_out());
         assert!(seen.observation.centroid.is_nan() && !seen.measured.contains(&"height_by_top"));
+    }
+
+    #[test]
+    fn another_unit_of_the_size_is_refused_and_no_column_has_fallen_at_its_start() {
+        let run = run();
+        let mut picture = wedge(&run);
+        picture.columns.get_mut("area").expect("declared").iter_mut().for_each(|area| *area *= 1e4);
+        let message =
+            observe(&run, &Given { pictures: vec![picture], ..Given::default() }).expect_err("cm²").to_string();
+        assert!(message.starts_with("`particles.columns.area` is ") && message.contains(" m^2 over all particles at 1 s, but must be within a factor 1.6 of what the column has at the start"), "{message}");
+        let early = Picture { time: 0.0, ..wedge(&run) };
+        let seen = observe(&run, &Given { pictures: vec![early], ..Given::default() }).expect("complete");
+        assert_eq!(seen.measured, ["particles_lost"]);
+    }
+
+    #[test]
+    fn a_series_that_goes_on_to_the_end_gives_the_run_out() {
+        let run = run();
+        let series = |end: f64| -> Columns {
+            let (time, front) = (vec![0.0, end], vec![run.half_width, 2.5 * run.half_width]);
+            [("time".to_owned(), time), ("front".to_owned(), front)].into()
+        };
+        let of = |end| observe(&run, &Given { series: series(end), ..Given::default() }).expect("complete");
+        let seen = of(5.0 * run.time_scale());
+        assert_eq!(seen.measured, ["run_out"]);
+        assert!((seen.observation.run_out() - 1.5).abs() < 1e-12);
+        assert!(of(run.time_scale()).measured.is_empty());
     }
 
     #[test]

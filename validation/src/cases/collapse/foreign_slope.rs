@@ -2,7 +2,7 @@
 
 use super::deposit::Collapse;
 use super::foreign::{Room, snapshot};
-use super::slope::{SlopeCollapse, SlopeRun};
+use super::slope::{EARLIEST_REST, SlopeCollapse, SlopeRun};
 use crate::case::{Foreign, Form, Given, Item};
 use crate::input::FieldError;
 
@@ -30,7 +30,8 @@ pub(in crate::cases) const FORM: Form = Form {
         The front is where the thickness, followed down the slope, first falls below 0.02 r_0, linear between the centres of \
         bins; front_displacement is the last front's distance from the gate, front its place at a time over r_0, of the first \
         time given that is not earlier. deposit_slope_angle is that of a line through the thickness over 20 to 80 % of the front's \
-        distance, from the bed. The last picture, or the profile, is the deposit at rest.",
+        distance, from the bed. The last picture, or the profile, is the deposit at rest; a picture \
+        before 0.4 s is none.",
 };
 
 /// How far from the origin a particle may be, over the length of the channel.
@@ -46,6 +47,7 @@ pub(in crate::cases) fn observe(run: &SlopeRun, given: &Given) -> Result<Foreign
         spacing: run.spacing(),
         reach: REACH * run.reservoir.channel_length,
         density: run.bulk_density,
+        size: r * run.reservoir.initial_height,
         kind: "reservoir",
         origin: "check the unit and the origin: it lies on the bed at the back of the reservoir, x points down the slope",
     };
@@ -63,7 +65,10 @@ pub(in crate::cases) fn observe(run: &SlopeRun, given: &Given) -> Result<Foreign
         if let Some(last) = snapshots.last() {
             collapse = Collapse { momentum_residual: f64::NAN, ..surveyor.finish(last) };
         }
-        measured.extend(["front_displacement", "deposit_slope_angle", "particles_lost", "front"]);
+        if end.time >= EARLIEST_REST {
+            measured.extend(["front_displacement", "deposit_slope_angle"]);
+        }
+        measured.extend(["particles_lost", "front"]);
         let moves = ["vx", "vy"].iter().all(|name| !end.column(name).is_empty());
         if moves && given.pictures.len() > 1 {
             measured.push("rest_time");

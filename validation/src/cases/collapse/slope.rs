@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
 /// Time before which no reservoir has emptied `[s]`.
-const EARLIEST_REST: f64 = 0.4;
+pub(super) const EARLIEST_REST: f64 = 0.4;
 /// Interval of the time series `[s]`.
 const INTERVAL: f64 = 0.02;
 /// Times of the pictures `[s]`; the last state follows.

@@ -114,7 +114,13 @@ impl Measurements {
         let variant = Variant::of("overlay", name.as_str());
         let variant =
             if one_of_several { variant.and("curve", text_of_variant(&curve.label).as_str()) } else { variant };
-        let source = self.said.source.clone().unwrap_or_else(|| self.path.display().to_string());
+        let mut source = self.said.source.clone().unwrap_or_else(|| self.path.display().to_string());
+        let all = self.measured.values.len();
+        if curve.compared < all {
+            let beyond = format!("{} of {all} measurements, the others lie beyond the curve's ends", curve.compared);
+            tracing::warn!("{}: {} is compared with {beyond}", self.path.display(), curve.label);
+            source += &format!("; {beyond}");
+        }
         let confidence = self.said.confidence.unwrap_or(Confidence::Low);
         let metric = Metric::observed("overlay_residual", &variant, curve.residual, "-")
             .against(Some(0.0), &source, confidence)

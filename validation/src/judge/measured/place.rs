@@ -26,6 +26,8 @@ pub(super) struct Curve {
     pub(super) label: String,
     /// Root mean square of (curve − measurement)/uncertainty where the curve has a value `[-]`.
     pub(super) residual: f64,
+    /// Measurements at which it has one.
+    pub(super) compared: usize,
 }
 
 impl Place {
@@ -79,7 +81,8 @@ impl Place {
             return Err(error.in_file(&measurements.path));
         }
         let residual = |series: &&Series| {
-            Some(Curve { label: series.label.clone(), residual: self.residual(measurements, &series.points)? })
+            let (residual, compared) = self.residual(measurements, &series.points)?;
+            Some(Curve { label: series.label.clone(), residual, compared })
         };
         let curves: Vec<Curve> = series.iter().filter_map(residual).collect();
         if curves.is_empty() {
@@ -92,8 +95,8 @@ impl Place {
         Ok(curves)
     }
 
-    /// None where the curve has no value at any measurement.
-    fn residual(&self, measurements: &Measurements, points: &[(f64, f64)]) -> Option<f64> {
+    /// The residual, and at how many measurements; none where the curve has no value at any.
+    fn residual(&self, measurements: &Measurements, points: &[(f64, f64)]) -> Option<(f64, usize)> {
         let mut curve: Vec<(f64, f64)> = points.iter().map(|point| self.turned(*point)).collect();
         curve.retain(|(x, y)| x.is_finite() && y.is_finite());
         curve.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -106,7 +109,8 @@ impl Place {
                 Some(residual * residual)
             })
             .collect();
-        (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+        let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+        (!squares.is_empty()).then_some((mean.sqrt(), squares.len()))
     }
 }
 
