@@ -13,7 +13,7 @@ const CAUSES: [(&str, &str); 9] = [
     (
         "density",
         "particles that meet (lower `jitter`, keep `numerics.hourglass` above 0.2), or too few rows for the flow (raise \
-         `resolution`)",
+         `resolution`, in a scene lower `spacing`)",
     ),
     (
         "number of neighbours",

@@ -58,9 +58,7 @@ where
     }
     let file = changes.file.as_ref().map(|(file, fields)| (Some(*file), fields));
     for (file, fields) in file.into_iter().chain([(None, &settings)]) {
-        if let Some((path, angle)) = impossible_angle(fields, "") {
-            let remedy = "give the angle at which grains stop in degrees, such as 20.9 for glass beads";
-            let error = ParameterError::field(&path, angle, "between 0 and 90 degrees, ends excluded", remedy);
+        if let Some(error) = wrong_angle(fields, "") {
             return Err(match file {
                 Some(file) => error.in_file(file),
                 None => error,
@@ -196,15 +194,31 @@ fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
 /// What a friction angle is called.
 const ANGLE: &str = "friction_angle";
 
-/// The first friction angle `[°]` that has no tangent to stand for, with its path.
-fn impossible_angle(fields: &Table, above: &str) -> Option<(String, f64)> {
+/// What it stands for.
+const COEFFICIENT: &str = "static_friction";
+
+/// The first friction angle `[°]` that has no tangent to stand for, or stands beside what it stands for.
+fn wrong_angle(fields: &Table, above: &str) -> Option<ParameterError> {
     fields.iter().find_map(|(key, value)| {
         let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
         match value {
-            Value::Table(inner) => impossible_angle(inner, &path),
+            Value::Table(inner) => wrong_angle(inner, &path),
             _ if key == ANGLE => {
                 let angle = value.as_float().or(value.as_integer().map(|angle| angle as f64))?;
-                (!(angle > 0.0 && angle < 90.0)).then_some((path, angle))
+                if !(angle > 0.0 && angle < 90.0) {
+                    let remedy = "give the angle at which grains stop in degrees, such as 20.9 for glass beads";
+                    return Some(ParameterError::field(
+                        &path,
+                        angle,
+                        "between 0 and 90 degrees, ends excluded",
+                        remedy,
+                    ));
+                }
+                let coefficient = fields.get(COEFFICIENT)?;
+                let rule = format!(
+                    "alone: it is the angle whose tangent is `{COEFFICIENT}`, which is given too, as {coefficient}"
+                );
+                Some(ParameterError::field(&path, angle, &rule, "leave one of the two out"))
             }
             _ => None,
         }
@@ -214,7 +228,6 @@ fn impossible_angle(fields: &Table, above: &str) -> Option<(String, f64)> {
 /// The changes with the coefficient of friction in place of a friction angle `[°]`, where the law has the one and knows
 /// nothing of the other: sand is as often told by its angle.
 fn with_friction(law: Option<&Schema>, changes: &Table) -> Option<Table> {
-    const COEFFICIENT: &str = "static_friction";
     let properties = law?.get("properties")?.as_object()?;
     let takes = properties.contains_key(COEFFICIENT) && !properties.contains_key(ANGLE);
     let angle =

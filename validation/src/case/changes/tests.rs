@@ -184,7 +184,7 @@ fn a_friction_angle_stands_for_its_tangent_where_the_law_has_one() {
     assert_eq!(resolved("", &[&format!("material.friction_angle={angle:?}")]).as_ref(), Ok(&steeper));
     assert_eq!(
         message("material = { friction_angle = 20, static_friction = 0.4 }", &[]),
-        "layer.toml: unknown field `material.friction_angle`; did you mean `material.limiting_friction`? `bagnold show layer` prints all fields"
+        "layer.toml: `material.friction_angle` is 20, but must be alone: it is the angle whose tangent is `static_friction`, which is given too, as 0.4; leave one of the two out"
     );
     assert_eq!(
         message("material = { law = \"newtonian\", viscosity = 1, friction_angle = 20 }", &[]),
