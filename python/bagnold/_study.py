@@ -42,6 +42,14 @@ class Judgement:
         keys = ["name", "version", "holding", "failing", "not_given"]
         return pd.DataFrame([{key: code[key] for key in keys} for code in self.document["codes"]])
 
+    def __repr__(self) -> str:
+        verdicts = [
+            f"{code['name']} {code['version']}".strip()
+            + f" {code['holding']} gates hold, {code['failing']} fail, {code['not_given']} not given"
+            for code in self.document["codes"]
+        ]
+        return f"<{self.case}: {'; '.join(verdicts)}>"
+
 
 class Calibration:
     """Parameters that agree best with data, and what the data leave open."""
@@ -73,6 +81,15 @@ class Calibration:
     def hold_out(self) -> pd.DataFrame:
         """A row a datum that was held out, beside the prediction."""
         return pd.DataFrame(self.document["hold_out"])
+
+    def __repr__(self) -> str:
+        found = []
+        for parameter in self.document["parameters"]:
+            interval = parameter["interval"]
+            ends = f" [{interval[0]:.4g}, {interval[1]:.4g}]" if interval else ""
+            found.append(f"{parameter['name']} {parameter['best']:.4g}{ends} {parameter['unit']}")
+        left_open = f"; {len(self.findings)} findings" if self.findings else ""
+        return f"<{', '.join(found)}{left_open}>"
 
 
 def judge(

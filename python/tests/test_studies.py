@@ -56,6 +56,7 @@ def test_another_code_is_judged(folder):
     given = metrics[metrics["name"] == "velocity_l2"].iloc[0]
     assert (given["code"], given["value"], given["verdict"]) == ("by hand 1", 0.2, "pass")
     assert "not_given" in set(metrics["verdict"])
+    assert repr(judgement).startswith("<water-film: by hand 1 1 gates hold, 0 fail, ")
     assert (folder / "judged" / "index.html").is_file()
     with pytest.raises(bagnold.Refused, match="nothing.toml"):
         bagnold.judge("nothing.toml")
@@ -67,6 +68,7 @@ def test_a_calibration_gives_parameters_with_intervals(folder):
     found = bagnold.calibrate("plan.toml", out="found")
     (viscosity,) = found.parameters.to_dict("records")
     assert viscosity["unit"] == "Pa·s" and viscosity["lower"] < viscosity["best"] < viscosity["upper"]
+    assert repr(found).startswith(f"<{viscosity['name']} {viscosity['best']:.4g} [") and "Pa·s" in repr(found)
     written = json.loads((folder / "found" / "result.json").read_text(encoding="utf-8"))
     assert viscosity["best"] == written["parameters"][0]["best"]
     assert isinstance(found.fit, pd.DataFrame) and len(found.fit) == 3 and found.hold_out.empty

@@ -14,3 +14,5 @@ def test_the_tutorial_runs_from_top_to_bottom(capsys):
     printed = capsys.readouterr().out
     assert "velocity_l2" in printed and "must be" in printed
     assert 0.004 < names["depth"] < 0.1
+    assert all("newtonian" in variant for variant in names["r"].runs["variant"])
+    assert (names["residuals"]["value"] > 0).all() and len(names["residuals"]) == len(names["r"].runs) > 0
