@@ -5,7 +5,7 @@ use crate::patches::{
     Disorder, EQUATION_OF_STATE, GRAINS, SPACING, SYRUP, advance, bed, block, open_scene, simulation,
 };
 use bagnold_solver::domain::AxisBoundary;
-use bagnold_solver::material::rheology::Rheology;
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::shell::{Motion, Shell, Side};
 use bagnold_solver::weakly_compressible::boundary::{Surface, Wall, backing, wall};
@@ -157,6 +157,26 @@ fn what_is_at_rest_in_a_box_rests_in_one_that_is_turned() {
         // the pressure of grains between walls that carry a part of them is not unique
         let (_, fastest) = rested(turned_box(degrees), GRAINS, 2000);
         assert!(fastest < 1.5 * grains.1 && fastest < 2e-4, "{degrees}°: grains creep with {fastest} m/s");
+    }
+}
+
+/// It is no answer to a force, since ten times the viscosity leaves it as it is: the density that the coupling moves among
+/// particles out of order makes them creep.
+#[test]
+fn a_liquid_at_rest_creeps_by_less_than_a_quarter_per_cent_of_its_fall() {
+    let fall = (GRAVITY * 12.0 * SPACING).sqrt();
+    let thick = Rheology::Newtonian(Newtonian { viscosity: 200.0 });
+    for (law, smoothing_ratio, steps, most) in
+        [(SYRUP, 1.5, 4000, 2.5e-3), (thick, 1.5, 4000, 2.5e-3), (SYRUP, 1.3, 9000, 1e-3)]
+    {
+        let mut scene = plane_box();
+        scene.numerics.smoothing_ratio = smoothing_ratio;
+        let (_, fastest) = rested(scene, law, steps);
+        assert!(fastest < most * fall, "{smoothing_ratio}: {fastest} m/s");
+        assert!(
+            fastest > 1e-4 * fall,
+            "{smoothing_ratio}: {fastest} m/s: it has come to rest, which the documents deny"
+        );
     }
 }
 

@@ -24,7 +24,7 @@ const EXAMPLES: &str = "Examples:
   bagnold run my.toml --out results            run the edited file
   bagnold report                               all cases, judged on one page: reports/index.html
   bagnold judge mine.toml                      another code's results under the same gates
-  bagnold examples --out examples              calibrations and sweeps to begin with
+  bagnold examples --out examples              calibrations, scenes, sweeps to begin with
 
 Exit codes: 0 all gates hold, 1 a gate fails, 2 bad input, 3 a run diverged.";
 
@@ -119,7 +119,7 @@ pub enum Command {
     Export(Export),
     /// Put results that were written earlier beside each other.
     Compare(Compare),
-    /// Write the calibrations and sweeps that ship with bagnold, to run or to edit.
+    /// Write the calibrations, scenes and sweeps that ship with bagnold, to run or to edit.
     Examples(Examples),
     /// Print a shell's completions, or the manual page.
     Completions(Completions),
