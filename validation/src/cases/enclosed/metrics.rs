@@ -1,11 +1,12 @@
 //! How scenes are judged: by their balances, and their gauges by what was measured.
 
-use super::SceneObservation;
-use super::series::Measured;
+use super::series;
+use super::setting::{Setting, Sides, vector};
+use super::{Measure, Measured, Record, SceneObservation, SceneParameters};
 use crate::cases::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};
-use crate::metric::{Confidence, Limit, Metric, Variant, quantities};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 
-quantities! { shared pub(in crate::cases)
+quantities! { shared
     MASS_RESIDUAL: accounted("mass_residual", "%", "mass in the scene and beyond its open sides, less that of the start"),
     MOMENTUM_RESIDUAL:
         accounted("momentum_residual", "%", "impulse without a cause among gravity, walls and sides, over that of gravity"),
@@ -21,12 +22,63 @@ quantities! { shared pub(in crate::cases)
 /// Share of the weight times the scene's height that energies are compared with at least `[-]`.
 const AT_REST: f64 = 0.1;
 
-/// The balances of a run in which something can be missing; `has_mirror` tells of planes of symmetry, which are no walls.
-pub(in crate::cases) fn balances<const D: usize>(
-    variant: &Variant,
-    data: &SceneObservation<D>,
-    has_mirror: bool,
+/// All quantities of a case of scenes, of which two have units of its own: [`Setting::MEAN_FORCE`] and
+/// [`Setting::MASS_CROSSED`].
+pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> [Quantity; 14] {
+    [
+        ENERGY_RESIDUAL,
+        ENERGY_RISE,
+        WALL_WORK,
+        CORRECTION_WORK,
+        MASS_RESIDUAL,
+        MOMENTUM_RESIDUAL,
+        FORCE_RESIDUAL,
+        THROUGH_WALLS,
+        MASS_LEFT,
+        FRONT,
+        DEPTH,
+        GAUGE_ERROR,
+        S::MEAN_FORCE,
+        S::MASS_CROSSED,
+    ]
+}
+
+/// The metrics of all runs.
+pub(in crate::cases) fn all<S: Setting<D>, const D: usize>(
+    parameters: &SceneParameters<S, D>,
+    records: &[Record<S, D>],
 ) -> Vec<Metric> {
+    records.iter().flat_map(|record| of_run(parameters, record)).collect()
+}
+
+fn of_run<S: Setting<D>, const D: usize>(
+    parameters: &SceneParameters<S, D>,
+    (run, record): &Record<S, D>,
+) -> Vec<Metric> {
+    let (variant, data) = (run.named(), &record.data);
+    let mut metrics = balances(&variant, data, parameters.sides.has_mirror());
+    metrics.extend(energy(&variant, data, vector(&parameters.gravity).norm(), parameters.height()));
+    for series in series::of_run(parameters, data) {
+        let own = variant.clone().and("gauge", series.gauge);
+        let first = series.values.first().map_or(&[][..], Vec::as_slice);
+        let last = first.last().copied().unwrap_or(f64::NAN);
+        let metric = match series.measure {
+            Measure::Front(_) => FRONT.of(&own, last),
+            Measure::Depth(_) => DEPTH.of(&own, last),
+            Measure::Force { .. } => {
+                let means: Vec<f64> = series.values.iter().map(|component| mean(component)).collect();
+                S::MEAN_FORCE.of(&own, size(&means))
+            }
+            Measure::Flux(_) => S::MASS_CROSSED.of(&own, last),
+        };
+        metrics.push(metric.with_snapshot_tolerance(0.1, 0.1 * largest(first)));
+        metrics.extend(errors(&own, &data.time, first, &series.measured));
+    }
+    metrics
+}
+
+/// The balances of a run in which something can be missing; `has_mirror` tells of planes of symmetry, which are no walls.
+fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_mirror: bool) -> Vec<Metric> {
     let mass = data.mass.first().copied().unwrap_or(f64::NAN);
     let closed = "what is booked particle by particle adds up to rounding";
     let mut metrics = vec![
@@ -64,12 +116,7 @@ pub(in crate::cases) fn balances<const D: usize>(
 /// The energy's balance. What a wall of the scene gives may be meant, so that only what is not booked is judged.
 ///
 /// Gravity `[m/s²]` and the height of the scene `[m]` give the scale of what stands still.
-pub(in crate::cases) fn energy<const D: usize>(
-    variant: &Variant,
-    data: &SceneObservation<D>,
-    gravity: f64,
-    height: f64,
-) -> Vec<Metric> {
+fn energy<const D: usize>(variant: &Variant, data: &SceneObservation<D>, gravity: f64, height: f64) -> Vec<Metric> {
     let book = &data.energy;
     if book.total.is_empty() {
         return Vec::new();
@@ -91,7 +138,7 @@ pub(in crate::cases) fn energy<const D: usize>(
 }
 
 /// A gauge's series beside what was measured.
-pub(in crate::cases) fn errors(variant: &Variant, time: &[f64], series: &[f64], measured: &[&Measured]) -> Vec<Metric> {
+fn errors(variant: &Variant, time: &[f64], series: &[f64], measured: &[&Measured]) -> Vec<Metric> {
     let error = |measured: &&Measured| {
         let limit = (measured.limit > 0.0).then_some(Limit::AtMost(measured.limit));
         GAUGE_ERROR
@@ -103,13 +150,21 @@ pub(in crate::cases) fn errors(variant: &Variant, time: &[f64], series: &[f64], 
     measured.iter().map(error).collect()
 }
 
+/// Size of a vector of some components; of two, as `hypot` rounds it.
+fn size(components: &[f64]) -> f64 {
+    match *components {
+        [one, other] => libm::hypot(one, other),
+        _ => components.iter().map(|component| component * component).sum::<f64>().sqrt(),
+    }
+}
+
 /// Mean over all samples but the first, before which nothing has been.
-pub(in crate::cases) fn mean(series: &[f64]) -> f64 {
+fn mean(series: &[f64]) -> f64 {
     let series = series.get(1..).unwrap_or_default();
     series.iter().sum::<f64>() / series.len() as f64
 }
 
-pub(in crate::cases) fn largest(series: &[f64]) -> f64 {
+fn largest(series: &[f64]) -> f64 {
     series.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 

@@ -1,11 +1,31 @@
-//! What scenes of a user's own share, in the plane and in space: sides of the domain, series of gauges, balances.
+//! Scenes of a user's own, whatever the number of axes: what the cases `scene` and `scene-space` share. What the plane and
+//! space give in a way of their own (bodies, walls, gauges, sides, pictures, the tiers' scene) stands in the folders of these
+//! cases, behind [`setting::Setting`].
 
+mod checks;
+pub(super) mod figures;
+pub(super) mod filling;
+pub(super) mod gauges;
+pub(super) mod measure;
 pub(super) mod metrics;
 pub(super) mod names;
 mod observation;
+mod parameters;
+mod run;
 pub(super) mod series;
-pub(super) mod sides;
+pub mod setting;
+pub(super) mod shapes;
+pub mod sides;
+mod surfaces;
 
+pub use measure::{Depth, Line, Measure, Opening};
 pub use observation::{Left, SceneObservation};
+pub use parameters::SceneParameters;
+pub use run::SceneRun;
 pub use series::Measured;
 pub use sides::DomainSide;
+
+use crate::observation::Recorded;
+
+/// A run of a scene with what it left behind.
+type Record<S, const D: usize> = (SceneRun<S, D>, Recorded<SceneObservation<D>>);

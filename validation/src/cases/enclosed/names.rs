@@ -1,7 +1,9 @@
 //! Rules that scenes share: names, lines, times, measured series.
 
 use super::Measured;
+use super::setting::shown;
 use crate::case::ParameterError;
+use bagnold_solver::vector::Vector;
 use std::collections::BTreeSet;
 
 /// Most rows of a series.
@@ -10,10 +12,9 @@ const MOST_SAMPLES: f64 = 1e5;
 /// Longest line of a gauge, in spacings `[-]`: memory.
 const LONGEST_LINE: f64 = 1e5;
 
-/// Refuses a line of a gauge that is shorter than a spacing `[m]`, or longer than anybody counts along.
-pub(in crate::cases) fn check_line(
-    gauge: usize,
-    to: &[f64],
+/// Refuses a gauge's line to a place that is shorter than a spacing `[m]`, or longer than anybody counts along.
+pub(in crate::cases) fn check_line<const D: usize>(
+    to: &Vector<D>,
     length: f64,
     spacing: f64,
     across: &str,
@@ -21,17 +22,16 @@ pub(in crate::cases) fn check_line(
     if length > spacing && length <= LONGEST_LINE * spacing {
         return Ok(());
     }
-    let shown: Vec<String> = to.iter().map(ToString::to_string).collect();
     let (rule, remedy) = if length > spacing {
         (format!("at most {LONGEST_LINE} spacings from `from`"), "make the line shorter")
     } else {
         (format!("farther from `from` than the spacing{across}"), "make the line longer")
     };
-    Err(ParameterError::field(&format!("gauges[{gauge}].to"), format!("({})", shown.join(", ")), &rule, remedy))
+    Err(ParameterError::field("to", shown(to), &rule, remedy))
 }
 
 /// Names that are unlike each other and may stand in files.
-pub(in crate::cases) fn check<'a>(
+pub(super) fn check<'a>(
     own: &'a str,
     walls: impl Iterator<Item = &'a str>,
     gauges: impl Iterator<Item = &'a str>,
@@ -55,7 +55,7 @@ pub(in crate::cases) fn check<'a>(
 }
 
 /// The wall of a gauge is one of the scene.
-pub(in crate::cases) fn check_wall<'a>(
+pub(super) fn check_wall<'a>(
     gauge: usize,
     wall: &str,
     walls: impl Iterator<Item = &'a str>,
@@ -70,10 +70,7 @@ pub(in crate::cases) fn check_wall<'a>(
 }
 
 /// Measured series have a gauge, times and positive values.
-pub(in crate::cases) fn check_measured(
-    measured: &[Measured],
-    is_gauge: impl Fn(&str) -> bool,
-) -> Result<(), ParameterError> {
+pub(super) fn check_measured(measured: &[Measured], is_gauge: impl Fn(&str) -> bool) -> Result<(), ParameterError> {
     for (k, measured) in measured.iter().enumerate() {
         let field = |name: &str| format!("measured[{k}].{name}");
         if !is_gauge(&measured.gauge) {
@@ -91,7 +88,7 @@ pub(in crate::cases) fn check_measured(
 }
 
 /// Rows of the series that are neither too many nor none.
-pub(in crate::cases) fn check_times(interval: f64, duration: f64) -> Result<(), ParameterError> {
+pub(super) fn check_times(interval: f64, duration: f64) -> Result<(), ParameterError> {
     let remedy = "a hundredth of the duration is usual";
     if interval > duration {
         let rule = format!("at most the duration, {duration}");
@@ -110,8 +107,9 @@ mod tests {
 
     #[test]
     fn lines_are_neither_shorter_than_a_spacing_nor_endless() {
-        assert!(check_line(0, &[1.0, 0.0], 1.0, 0.1, "").is_ok());
-        let error = |length| check_line(2, &[1.0, 0.5], length, 0.1, "").expect_err("refused").to_string();
+        let to = Vector::<2>::new(1.0, 0.5);
+        assert!(check_line(&to, 1.0, 0.1, "").is_ok());
+        let error = |length| check_line(&to, length, 0.1, "").expect_err("refused").within("gauges[2]").to_string();
         assert_eq!(
             error(0.05),
             "`gauges[2].to` is (1, 0.5), but must be farther from `from` than the spacing; make the line longer"

@@ -64,7 +64,7 @@ impl<const D: usize> Default for SceneObservation<D> {
 
 impl<const D: usize> SceneObservation<D> {
     /// Enters a sample.
-    pub(in crate::cases) fn enter(
+    pub(super) fn enter(
         &mut self,
         simulation: &Simulation<D>,
         snapshot: &Snapshot<D>,

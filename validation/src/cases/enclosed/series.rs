@@ -1,15 +1,11 @@
-//! Series of gauges: what they count, and how they are written and drawn.
+//! Series of gauges: their columns, what they are compared with, and how they are written.
 
-use crate::figure::{Axis, Figure, Panel};
+use super::setting::{Gauge, Setting};
+use super::{Measure, Record, SceneObservation, SceneParameters};
 use crate::output::Table;
 use bagnold_solver::parameter::{between, filled};
-use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::simulation::Simulation;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// Parts that a particle's volume is spread in over a spacing to either side.
-const PARTS: i32 = 8;
 
 /// A measured series that a gauge is compared with.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -29,102 +25,77 @@ pub struct Measured {
 }
 
 /// One column of a series.
-pub(in crate::cases) struct Column {
+pub(super) struct Column {
     /// Name and unit.
-    pub(in crate::cases) heading: String,
+    pub(super) heading: String,
     /// Label of its axis.
-    pub(in crate::cases) axis: &'static str,
+    pub(super) axis: String,
 }
 
-/// Volumes `[m^D]` of the particles by bins, of which `bin` names that of a place; in the order of the scene.
-pub(in crate::cases) fn volumes<const D: usize>(
-    simulation: &Simulation<D>,
-    bin: impl Fn(Vector<D>) -> Option<usize>,
-) -> Vec<f64> {
-    let particles = simulation.particles();
-    let mut sums: Vec<f64> = Vec::new();
-    for index in particles.by_identity() {
-        if let Some(bin) = bin(particles.position[index]) {
-            if sums.len() <= bin {
-                sums.resize(bin + 1, 0.0);
-            }
-            sums[bin] += particles.mass[index] / particles.density[index];
-        }
-    }
-    sums
+/// What a gauge has measured in a run.
+pub(super) struct Series<'a, const D: usize> {
+    /// Name of the gauge.
+    pub(super) gauge: &'a str,
+    /// What it measures.
+    pub(super) measure: Measure<'a, D>,
+    /// Its columns.
+    pub(super) columns: Vec<Column>,
+    /// Their values, shape `[columns][samples]`.
+    pub(super) values: &'a [Vec<f64>],
+    /// What its first column is compared with.
+    pub(super) measured: Vec<&'a Measured>,
 }
 
-/// The first place along a line, from its start and where material stands on, with a section of less than `[m^(D-1)]`
-/// among what `counts`: volumes are spread over a spacing to either side.
-pub(in crate::cases) fn reached<const D: usize>(
-    simulation: &Simulation<D>,
-    from: &Vector<D>,
-    to: &Vector<D>,
-    section: f64,
-    counts: impl Fn(&Vector<D>) -> bool,
-) -> f64 {
-    let spacing = simulation.spacing();
-    let (bin, length) = (0.25 * spacing, (to - from).norm());
-    let along = (to - from) / length;
-    let bins = (length / bin).ceil() as usize;
-    let mut area = vec![0.0; bins];
-    for part in 0..PARTS {
-        let shift = (f64::from(part) - 0.5 * f64::from(PARTS - 1)) * 2.0 / f64::from(PARTS) * spacing;
-        let shares = volumes(simulation, |place| {
-            if !counts(&place) {
-                return None;
-            }
-            let place = (place - from).dot(&along) + shift;
-            (place >= 0.0 && place < length).then_some((place / bin) as usize)
-        });
-        for (sum, share) in area.iter_mut().zip(shares) {
-            *sum += share / f64::from(PARTS);
-        }
-    }
-    let stands = |area: &f64| *area >= section * bin;
-    let Some(first) = area.iter().position(stands) else { return 0.0 };
-    let gap = area[first..].iter().position(|area| !stands(area));
-    gap.map_or(length, |gap| (first + gap) as f64 * bin)
-}
-
-/// The series of a run as a table: time, mass, and a column a gauge's column.
-pub(in crate::cases) fn table<'a>(
-    name: String,
-    mass: &str,
-    gauges: impl Iterator<Item = (&'a str, Vec<Column>)>,
-    (time, masses, series): (&[f64], &[f64], &[Vec<f64>]),
-) -> Table {
-    let headings = gauges
-        .flat_map(|(gauge, columns)| columns.into_iter().map(move |column| format!("{gauge}: {}", column.heading)));
-    let headings: Vec<String> = headings.collect();
-    let mut columns = vec![("t [s]", time), (mass, masses)];
-    columns.extend(headings.iter().map(String::as_str).zip(series.iter().map(Vec::as_slice)));
-    Table::of_columns(name, &columns)
-}
-
-/// One panel a gauge with a line a column that shares its axis.
-pub(in crate::cases) fn figure<'a>(
-    gauges: impl Iterator<Item = (&'a str, Vec<Column>)>,
-    measured: &[Measured],
-    time: &[f64],
-    series: &[Vec<f64>],
-) -> Option<Figure> {
+/// The series of all gauges in a run, gauge by gauge.
+pub(super) fn of_run<'a, S: Setting<D>, const D: usize>(
+    parameters: &'a SceneParameters<S, D>,
+    data: &'a SceneObservation<D>,
+) -> Vec<Series<'a, D>> {
     let mut next = 0;
-    let mut panels = Vec::new();
-    for (name, columns) in gauges {
-        let axis = columns.first().map_or("", |column| column.axis);
-        let mut panel = Panel::new(name, Axis::linear("t [s]"), Axis::linear(axis));
-        for measured in measured.iter().filter(|measured| measured.gauge == name) {
-            panel.reference("measured", measured.points.iter().copied());
-        }
-        for (slot, column) in columns.iter().enumerate().filter(|(_, column)| column.axis == axis) {
-            let values = series.get(next + slot).map_or(&[][..], Vec::as_slice);
-            let label =
-                if slot == 0 && columns.get(1).is_none_or(|other| other.axis != axis) { "" } else { &column.heading };
-            panel.line(label, slot, time.iter().copied().zip(values.iter().copied()));
-        }
+    let with_values = |(gauge, measure): (&'a S::Gauge, Measure<'a, D>)| {
+        let (gauge, columns) = (gauge.name(), columns::<S, D>(&measure));
+        let values = data.gauges.get(next..next + columns.len()).unwrap_or_default();
         next += columns.len();
-        panels.push(panel);
+        let measured = parameters.measured.iter().filter(|measured| measured.gauge == gauge).collect();
+        Series { gauge, measure, columns, values, measured }
+    };
+    parameters.gauges.iter().zip(parameters.measures()).map(with_values).collect()
+}
+
+/// The columns of a gauge's series.
+fn columns<S: Setting<D>, const D: usize>(measure: &Measure<'_, D>) -> Vec<Column> {
+    let (force, mass, flux) = (S::MEAN_FORCE.unit, S::MASS_CROSSED.unit, S::FLUX_UNIT);
+    let column = |what: &str, axis: &str, unit: &str| Column {
+        heading: format!("{what} [{unit}]"),
+        axis: format!("{axis} [{unit}]"),
+    };
+    match measure {
+        Measure::Front(_) => vec![column("front", "front", "m")],
+        Measure::Depth(_) => vec![column("depth", "depth", "m")],
+        Measure::Force { .. } => {
+            let along = |axis: &&str| column(&format!("force along {axis}"), "force", force);
+            ["x", "y", "z"].iter().take(D).map(along).collect()
+        }
+        Measure::Flux(_) => {
+            vec![column("mass that has crossed", "mass", mass), column("mean flux since the last row", "flux", flux)]
+        }
     }
-    (!panels.is_empty()).then(|| Figure::new("gauges", "What the gauges of the scene measured.", panels).in_columns(2))
+}
+
+/// The series of each run as a table: time, mass, and a column a gauge's column.
+pub(in crate::cases) fn tables<S: Setting<D>, const D: usize>(
+    parameters: &SceneParameters<S, D>,
+    records: &[Record<S, D>],
+) -> Vec<Table> {
+    let mass = format!("mass in the scene [{}]", S::MASS_CROSSED.unit);
+    let of_run = |(run, record): &Record<S, D>| {
+        let (data, series) = (&record.data, of_run(parameters, &record.data));
+        let heading = |gauge: &str, column: &Column| format!("{gauge}: {}", column.heading);
+        let headings: Vec<String> =
+            series.iter().flat_map(|one| one.columns.iter().map(|column| heading(one.gauge, column))).collect();
+        let mut columns = vec![("t [s]", &data.time[..]), (&mass, &data.mass)];
+        columns.extend(headings.iter().map(String::as_str).zip(data.gauges.iter().map(Vec::as_slice)));
+        Table::of_columns(format!("gauges-{}", run.named().file_name()), &columns)
+    };
+    records.iter().map(of_run).collect()
 }

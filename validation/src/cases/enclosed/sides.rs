@@ -1,7 +1,9 @@
 //! Sides of a scene's domain.
 
+use super::setting::Given;
 use crate::case::ParameterError;
 use bagnold_solver::domain::AxisBoundary;
+use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::enclosure::Exits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -20,64 +22,94 @@ pub enum DomainSide {
     Periodic(f64),
 }
 
+impl DomainSide {
+    /// Where it stands `[m]`.
+    fn coordinate(self) -> Option<f64> {
+        match self {
+            Self::None => None,
+            Self::Mirror(place) | Self::Open(place) | Self::Periodic(place) => Some(place),
+        }
+    }
+
+    /// Where it is a plane of symmetry `[m]`.
+    fn mirror(self) -> Option<f64> {
+        if let Self::Mirror(plane) = self { Some(plane) } else { None }
+    }
+
+    /// Where the flow leaves by it `[m]`.
+    fn open(self) -> Option<f64> {
+        if let Self::Open(plane) = self { Some(plane) } else { None }
+    }
+
+    fn is_periodic(self) -> bool {
+        matches!(self, Self::Periodic(_))
+    }
+}
+
 /// The lower and the upper side along an axis.
-pub(in crate::cases) type Pair = (DomainSide, DomainSide);
+pub type Pair = (DomainSide, DomainSide);
 
-/// The boundary of the solver along an axis.
-pub(in crate::cases) fn boundary(pair: Pair) -> AxisBoundary {
-    let mirror = |side| if let DomainSide::Mirror(plane) = side { Some(plane) } else { None };
-    match pair {
-        (DomainSide::Periodic(lower), DomainSide::Periodic(upper)) => AxisBoundary::Periodic { lower, upper },
-        (lower, upper) if mirror(lower).or(mirror(upper)).is_some() => {
-            AxisBoundary::Mirror { lower: mirror(lower), upper: mirror(upper) }
-        }
-        _ => AxisBoundary::Open,
+/// All sides of a domain.
+pub trait Sides<const D: usize>: Given {
+    /// Names of the lower and the upper side along each axis.
+    const NAMES: [(&'static str, &'static str); D];
+
+    /// The lower and the upper side along each axis.
+    fn pairs(&self) -> [Pair; D];
+
+    /// The boundary of the solver along each axis.
+    fn axes(&self) -> [AxisBoundary; D] {
+        self.pairs().map(|(lower, upper)| match (lower, upper) {
+            (DomainSide::Periodic(lower), DomainSide::Periodic(upper)) => AxisBoundary::Periodic { lower, upper },
+            _ if lower.mirror().or(upper.mirror()).is_some() => {
+                AxisBoundary::Mirror { lower: lower.mirror(), upper: upper.mirror() }
+            }
+            _ => AxisBoundary::Open,
+        })
     }
-}
 
-/// The planes of the open sides.
-pub(in crate::cases) fn exits<const D: usize>(pairs: [Pair; D]) -> Exits<D> {
-    let mut exits = Exits::default();
-    for (axis, (lower, upper)) in pairs.into_iter().enumerate() {
-        let open = |side| if matches!(side, DomainSide::Open(_)) { coordinate(side) } else { None };
-        exits.lower[axis] = open(lower).unwrap_or(exits.lower[axis]);
-        exits.upper[axis] = open(upper).unwrap_or(exits.upper[axis]);
-    }
-    exits
-}
-
-/// Whether any side is a plane of symmetry.
-pub(in crate::cases) fn has_mirror(pairs: &[Pair]) -> bool {
-    pairs.iter().any(|(lower, upper)| [lower, upper].iter().any(|side| matches!(side, DomainSide::Mirror(_))))
-}
-
-/// Refuses a period with one end, and ends in the wrong order; `names` are the fields' of each axis.
-pub(in crate::cases) fn check<const D: usize>(
-    pairs: [Pair; D],
-    names: [(&str, &str); D],
-) -> Result<(), ParameterError> {
-    for ((lower, upper), (low, high)) in pairs.into_iter().zip(names) {
-        let (low, high) = (format!("sides.{low}"), format!("sides.{high}"));
-        let periodic = |side| matches!(side, DomainSide::Periodic(_));
-        if periodic(lower) != periodic(upper) {
-            let (field, other) = if periodic(lower) { (high, low) } else { (low, high) };
-            let rule = format!("periodic as `{other}` is");
-            return Err(ParameterError::field(&field, "not periodic", &rule, "a period has two ends"));
+    /// The planes of the open sides.
+    fn exits(&self) -> Exits<D> {
+        let mut exits = Exits::default();
+        for (axis, (lower, upper)) in self.pairs().into_iter().enumerate() {
+            exits.lower[axis] = lower.open().unwrap_or(exits.lower[axis]);
+            exits.upper[axis] = upper.open().unwrap_or(exits.upper[axis]);
         }
-        if let (Some(below), Some(above)) = (coordinate(lower), coordinate(upper))
-            && below >= above
-        {
-            let rule = format!("greater than that of `{low}`, {below}");
-            return Err(ParameterError::field(&high, above, &rule, "exchange the two"));
-        }
+        exits
     }
-    Ok(())
-}
 
-/// Where a side stands `[m]`.
-pub(in crate::cases) fn coordinate(side: DomainSide) -> Option<f64> {
-    match side {
-        DomainSide::None => None,
-        DomainSide::Mirror(place) | DomainSide::Open(place) | DomainSide::Periodic(place) => Some(place),
+    /// Whether any side is a plane of symmetry.
+    fn has_mirror(&self) -> bool {
+        self.pairs().into_iter().any(|(lower, upper)| lower.mirror().or(upper.mirror()).is_some())
+    }
+
+    /// Whether a place lies between them.
+    fn hold(&self, place: &Vector<D>) -> bool {
+        self.pairs().into_iter().enumerate().all(|(axis, (lower, upper))| {
+            lower.coordinate().is_none_or(|plane| place[axis] > plane)
+                && upper.coordinate().is_none_or(|plane| place[axis] < plane)
+        })
+    }
+
+    /// Refuses a period with one end, and ends in the wrong order.
+    ///
+    /// # Errors
+    /// The side, as a field of `sides`.
+    fn check(&self) -> Result<(), ParameterError> {
+        for ((lower, upper), (low, high)) in self.pairs().into_iter().zip(Self::NAMES) {
+            let (low, high) = (format!("sides.{low}"), format!("sides.{high}"));
+            if lower.is_periodic() != upper.is_periodic() {
+                let (field, other) = if lower.is_periodic() { (high, low) } else { (low, high) };
+                let rule = format!("periodic as `{other}` is");
+                return Err(ParameterError::field(&field, "not periodic", &rule, "a period has two ends"));
+            }
+            if let (Some(below), Some(above)) = (lower.coordinate(), upper.coordinate())
+                && below >= above
+            {
+                let rule = format!("greater than that of `{low}`, {below}");
+                return Err(ParameterError::field(&high, above, &rule, "exchange the two"));
+            }
+        }
+        Ok(())
     }
 }

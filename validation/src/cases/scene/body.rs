@@ -1,7 +1,9 @@
-//! Bodies of material: boxes, polygons and discs, and the places in them that particles start from.
+//! Bodies of material: boxes, polygons and discs, and the places that they hold.
 
 use super::Place;
 use crate::case::ParameterError;
+use crate::cases::enclosed::setting::{self, shown, vector};
+use crate::cases::enclosed::shapes;
 use bagnold_solver::parameter::{filled, positive};
 use bagnold_solver::vector::Vector;
 use schemars::JsonSchema;
@@ -43,35 +45,28 @@ pub enum Body {
     },
 }
 
-impl Body {
-    /// Velocity at the start `[m/s]`.
-    pub(super) fn velocity(&self) -> Vector<2> {
+impl setting::Body<2> for Body {
+    fn velocity(&self) -> Vector<2> {
         let (Self::Box { velocity, .. } | Self::Disc { velocity, .. } | Self::Polygon { velocity, .. }) = self;
-        Vector::<2>::new(velocity.0, velocity.1)
+        vector(velocity)
     }
 
-    /// Lower and upper corner of its box `[m]`.
-    pub(super) fn extent(&self) -> (Vector<2>, Vector<2>) {
+    fn extent(&self) -> (Vector<2>, Vector<2>) {
         match self {
             Self::Box { lower, upper, .. } => (vector(lower), vector(upper)),
-            Self::Disc { centre, radius, .. } => {
-                (vector(centre) - Vector::repeat(*radius), vector(centre) + Vector::repeat(*radius))
-            }
-            Self::Polygon { points, .. } => extent(points),
+            Self::Disc { centre, radius, .. } => shapes::around_ball(&vector(centre), *radius),
+            Self::Polygon { points, .. } => shapes::around(points.iter().map(vector)),
         }
     }
 
-    /// Whether it holds a place.
-    pub(super) fn holds(&self, place: &Vector<2>) -> bool {
+    fn holds(&self, place: &Vector<2>) -> bool {
         match self {
-            Self::Box { lower, upper, .. } => {
-                let (lower, upper) = (vector(lower), vector(upper));
-                (0..2).all(|axis| place[axis] >= lower[axis] && place[axis] < upper[axis])
-            }
-            Self::Disc { centre, radius, .. } => (place - vector(centre)).norm_squared() <= radius * radius,
+            Self::Box { lower, upper, .. } => shapes::box_holds(&vector(lower), &vector(upper), place),
+            Self::Disc { centre, radius, .. } => shapes::ball_holds(&vector(centre), *radius, place),
             Self::Polygon { points, .. } => {
                 // a ray to the right crosses its sides an odd number of times
-                let ends = (0..points.len()).map(|k| (vector(&points[k]), vector(&points[(k + 1) % points.len()])));
+                let corner = |k: usize| vector::<2>(&points[k % points.len()]);
+                let ends = (0..points.len()).map(|k| (corner(k), corner(k + 1)));
                 let crossed = ends.filter(|(a, b)| {
                     let across = (a[1] > place[1]) != (b[1] > place[1]);
                     across && place[0] < a[0] + (b[0] - a[0]) * (place[1] - a[1]) / (b[1] - a[1])
@@ -81,13 +76,12 @@ impl Body {
         }
     }
 
-    /// Refuses a body without an inside.
-    pub(super) fn check(&self) -> Result<(), ParameterError> {
+    fn check(&self) -> Result<(), ParameterError> {
         let refused = |field, value: String, rule, remedy| Err(ParameterError::field(field, value, rule, remedy));
         match self {
-            Self::Box { lower, upper, .. } if lower.0 >= upper.0 || lower.1 >= upper.1 => {
+            Self::Box { lower, upper, .. } if !shapes::has_inside::<2>(&vector(lower), &vector(upper)) => {
                 let rule = "above and to the right of `lower`";
-                refused("upper", format!("({}, {})", upper.0, upper.1), rule, "give the upper right corner")
+                refused("upper", shown(&[upper.0, upper.1]), rule, "give the upper right corner")
             }
             Self::Polygon { points, .. } if points.len() < 3 => {
                 refused("points", format!("{} of them", points.len()), "three corners or more", "add the missing ones")
@@ -97,35 +91,11 @@ impl Body {
     }
 }
 
-/// Whether any body holds a place, and the first that does.
-pub(super) fn holder<'a>(bodies: &'a [Body], place: &Vector<2>) -> Option<&'a Body> {
-    bodies.iter().find(|body| body.holds(place))
-}
-
-/// Depth of a place below the surface of the material, against the direction `up`: as far as bodies reach `[m]`.
-pub(super) fn depth(bodies: &[Body], place: &Vector<2>, up: &Vector<2>, spacing: f64) -> f64 {
-    let step = 0.125 * spacing;
-    let mut steps = 0.0;
-    while holder(bodies, &(place + up * ((steps + 0.5) * step))).is_some() {
-        steps += 1.0;
-    }
-    steps * step
-}
-
-/// A place as a vector `[m]`.
-pub(super) fn vector(place: &Place) -> Vector<2> {
-    Vector::<2>::new(place.0, place.1)
-}
-
-/// Lower and upper corner of the box around some places `[m]`.
-pub(super) fn extent(points: &[Place]) -> (Vector<2>, Vector<2>) {
-    let none = (Vector::repeat(f64::INFINITY), Vector::repeat(f64::NEG_INFINITY));
-    points.iter().map(vector).fold(none, |(lower, upper), place| (lower.inf(&place), upper.sup(&place)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cases::enclosed::filling::depth;
+    use crate::cases::enclosed::setting::Body as _;
 
     #[test]
     fn bodies_hold_what_is_inside() {

@@ -1,25 +1,18 @@
-//! The case's figures: pictures of the material between its walls, and the series of the gauges.
+//! Pictures of the material between its walls.
 
-use super::{Gauge, Record, SceneParameters};
-use crate::cases::enclosed::series;
+use super::SceneParameters;
+use crate::cases::enclosed::setting::Wall;
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
+use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
 
-pub(super) fn all(parameters: &SceneParameters, records: &[Record]) -> Vec<Figure> {
-    records
-        .iter()
-        .flat_map(|record| [Some(pictures(parameters, record)), gauges(parameters, record)])
-        .flatten()
-        .collect()
-}
-
 /// One panel a picture, the particles in the colours of their speed and the walls where they stand.
-fn pictures(parameters: &SceneParameters, (_, record): &Record) -> Figure {
-    let fastest = record.frames.iter().flat_map(|frame| frame.speeds()).fold(0.0, f64::max);
+pub(super) fn pictures(parameters: &SceneParameters, frames: &[Frame]) -> Figure {
+    let fastest = frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
     let (lower, upper) = parameters.extent();
     let margin = 2.0 * parameters.spacing;
     let axis = |label: &str, k: usize| Axis::linear(label).between(lower[k] - margin, upper[k] + margin);
-    let panels = record.frames.iter().map(|frame| {
+    let panels = frames.iter().map(|frame| {
         let mut panel = Panel::new(&format!("t = {:.3} s", frame.time), axis("x [m]", 0), axis("y [m]", 1));
         let points: Vec<(f64, f64)> = frame.position.iter().map(|place| (place[0], place[1])).collect();
         panel.field = Some(Field::new("|v| [m/s]", parameters.spacing, (0.0, fastest), points, frame.speeds()));
@@ -34,9 +27,4 @@ fn pictures(parameters: &SceneParameters, (_, record): &Record) -> Figure {
         panel
     });
     Figure::new("pictures", "The material in the colours of its speed, and its walls, dashed.", panels.collect())
-}
-
-fn gauges(parameters: &SceneParameters, (_, record): &Record) -> Option<Figure> {
-    let columns = parameters.gauges.iter().map(|gauge| (gauge.name(), Gauge::columns(gauge)));
-    series::figure(columns, &parameters.measured, &record.data.time, &record.data.gauges)
 }

@@ -1,11 +1,12 @@
 //! Gauges: what is measured while a scene runs, as series over time.
 
 use super::Place;
-use super::body::vector;
-use crate::cases::enclosed::series::{Column, reached, volumes};
+use crate::case::ParameterError;
+use crate::cases::enclosed::names::check_line;
+use crate::cases::enclosed::setting::{self, vector};
+use crate::cases::enclosed::{Depth, Line, Measure, Opening};
 use bagnold_solver::parameter::positive;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::simulation::Simulation;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -54,131 +55,51 @@ pub enum Gauge {
     },
 }
 
-/// What gauges remember from sample to sample.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(super) struct Memory {
-    /// Time of the last sample `[s]`.
-    time: f64,
-    /// Places of the particles then `[m]`, by their place in the scene; NaN of those that have left.
-    places: Vec<[f64; 2]>,
-    /// Impulses of the walls then `[kg m/s]` per metre of depth.
-    impulses: Vec<[f64; 2]>,
-    /// Mass that has crossed each gauge's line `[kg/m]`.
-    crossed: Vec<f64>,
-}
-
-impl Gauge {
-    /// Its name.
-    pub(super) fn name(&self) -> &str {
+impl setting::Gauge<2> for Gauge {
+    fn name(&self) -> &str {
         let (Self::Front { name, .. } | Self::Depth { name, .. } | Self::Force { name, .. } | Self::Flux { name, .. }) =
             self;
         name
     }
 
-    /// The line that it needs, if any.
-    pub(super) fn line(&self) -> Option<(Place, Place)> {
-        match self {
-            Self::Front { from, to, .. } | Self::Flux { from, to, .. } => Some((*from, *to)),
-            Self::Depth { .. } | Self::Force { .. } => None,
-        }
-    }
-
-    /// The columns of its series.
-    pub(super) fn columns(&self) -> Vec<Column> {
-        let column = |what: &str, axis: &'static str| Column { heading: what.to_owned(), axis };
-        match self {
-            Self::Front { .. } => vec![column("front [m]", "front [m]")],
-            Self::Depth { .. } => vec![column("depth [m]", "depth [m]")],
-            Self::Force { .. } => {
-                vec![column("force along x [N/m]", "force [N/m]"), column("force along y [N/m]", "force [N/m]")]
-            }
-            Self::Flux { .. } => vec![
-                column("mass that has crossed [kg/m]", "mass [kg/m]"),
-                column("mean flux since the last row [kg/(m s)]", "flux [kg/(m s)]"),
-            ],
-        }
-    }
-
-    /// Its values now, one a column.
-    fn read(&self, index: usize, simulation: &Simulation<2>, memory: &mut Memory, down: &Vector<2>) -> Vec<f64> {
-        let elapsed = simulation.time() - memory.time;
+    fn measure(&self, down: &Vector<2>) -> Measure<'_, 2> {
         match self {
             Self::Front { from, to, thickness, .. } => {
-                vec![reached(simulation, &vector(from), &vector(to), *thickness, |_| true)]
+                Measure::Front(Line { from: vector(from), to: vector(to), section: *thickness, strip: None })
             }
             Self::Depth { at, width, .. } => {
-                let (across, at) = (Vector::<2>::new(-down[1], down[0]), vector(at));
-                let volumes = volumes(simulation, |place| ((place - at).dot(&across).abs() < 0.5 * width).then_some(0));
-                vec![volumes.first().copied().unwrap_or(0.0) / width]
+                Measure::Depth(Depth { at: vector(at), down: *down, width: *width, section: *width })
             }
-            Self::Force { wall, .. } => {
-                let Some(k) = simulation.shells().iter().position(|shell| shell.name == *wall) else {
-                    return vec![0.0; 2];
-                };
-                let before = memory.impulses.get(k).copied().unwrap_or_default();
-                let now = simulation.shell_impulses()[k];
-                // the wall feels the opposite of what it gives
-                let mean = |axis: usize| if elapsed > 0.0 { (before[axis] - now[axis]) / elapsed } else { 0.0 };
-                vec![mean(0), mean(1)]
-            }
+            Self::Force { wall, .. } => Measure::Force { wall },
             Self::Flux { from, to, .. } => {
-                let crossed = crossing(simulation, &memory.places, &vector(from), &vector(to));
-                memory.crossed[index] += crossed;
-                vec![memory.crossed[index], if elapsed > 0.0 { crossed / elapsed } else { 0.0 }]
+                let (corner, to): (Vector<2>, Vector<2>) = (vector(from), vector(to));
+                let along = to - corner;
+                let normal = Vector::<2>::new(-along[1], along[0]);
+                Measure::Flux(Opening { corner, normal, edges: vec![(along, along.norm_squared())] })
             }
         }
     }
-}
 
-/// The values of all gauges now, column by column; remembers the state for the next sample.
-pub(super) fn read_all(
-    gauges: &[Gauge],
-    simulation: &Simulation<2>,
-    begun: usize,
-    memory: &mut Memory,
-    down: &Vector<2>,
-) -> Vec<f64> {
-    memory.crossed.resize(gauges.len(), 0.0);
-    let values = gauges.iter().enumerate().flat_map(|(k, gauge)| gauge.read(k, simulation, memory, down)).collect();
-    let particles = simulation.particles();
-    memory.places.clear();
-    memory.places.resize(begun, [f64::NAN; 2]);
-    for (index, &identity) in particles.identity.iter().enumerate() {
-        memory.places[identity as usize] = particles.position[index].into();
-    }
-    memory.impulses = simulation.shell_impulses().iter().map(|impulse| (*impulse).into()).collect();
-    memory.time = simulation.time();
-    values
-}
-
-/// Mass `[kg/m]` that has crossed a line to its left since the places were remembered, less what went back.
-fn crossing(simulation: &Simulation<2>, before: &[[f64; 2]], from: &Vector<2>, to: &Vector<2>) -> f64 {
-    let along = to - from;
-    let side = |place: &Vector<2>| along.perp(&(place - from));
-    let particles = simulation.particles();
-    let mut sum = 0.0;
-    for index in particles.by_identity() {
-        let Some(&start) = before.get(particles.identity[index] as usize) else { continue };
-        let (start, end) = (Vector::<2>::from(start), particles.position[index]);
-        let (first, last) = (side(&start), side(&end));
-        if (first < 0.0) == (last < 0.0) || first.is_nan() {
-            continue;
-        }
-        let met = start + (end - start) * (first / (first - last));
-        let part = (met - from).dot(&along) / along.norm_squared();
-        if (0.0..=1.0).contains(&part) {
-            sum += particles.mass[index] * if last >= 0.0 { 1.0 } else { -1.0 };
+    fn check(&self, spacing: f64, _: &Vector<2>) -> Result<(), ParameterError> {
+        match self {
+            Self::Front { from, to, .. } | Self::Flux { from, to, .. } => {
+                let to = vector::<2>(to);
+                check_line(&to, (to - vector::<2>(from)).norm(), spacing, "")
+            }
+            Self::Depth { .. } | Self::Force { .. } => Ok(()),
         }
     }
-    sum
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cases::enclosed::gauges::Memory;
+    use crate::cases::enclosed::setting::Gauge as _;
     use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
     use bagnold_solver::material::rheology::{Newtonian, Rheology};
     use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+    use bagnold_solver::weakly_compressible::simulation::Simulation;
 
     /// A block of 20 by 8 particles of 1 cm that flies to the right with 1 m/s.
     fn block() -> Simulation<2> {
@@ -201,13 +122,14 @@ mod tests {
         ];
         let (mut simulation, mut memory) = (block(), Memory::default());
         let down = Vector::<2>::new(0.0, -1.0);
-        let start = read_all(&gauges, &simulation, 160, &mut memory, &down);
+        let measures: Vec<_> = gauges.iter().map(|gauge| gauge.measure(&down)).collect();
+        let start = memory.read_all(&measures, &simulation, 160);
         assert!((start[0] - 0.2).abs() < 0.01 && (start[1] - 0.08).abs() < 1e-12, "{start:?}");
         assert_eq!(start[2..], [0.0; 4], "nothing has moved");
         while simulation.time() < 0.03 {
             simulation.step().expect("no divergence");
         }
-        let end = read_all(&gauges, &simulation, 160, &mut memory, &down);
+        let end = memory.read_all(&measures, &simulation, 160);
         let way = simulation.time();
         assert!((end[0] - start[0] - way).abs() < 0.006, "{} m after {way} m", end[0] - start[0]);
         // three columns of eight particles of 0.1 kg/m

@@ -1,30 +1,65 @@
 //! A scene that a user describes in a file: bodies of material, walls of segments, open sides, gauges.
 
 mod body;
-mod checks;
 mod figures;
 mod gauge;
-mod metrics;
-mod parameters;
-mod run;
+mod tiers;
 mod wall;
 
 pub use body::Body;
 pub use gauge::Gauge;
-pub use parameters::SceneParameters;
-pub use run::SceneRun;
 pub use wall::{FlowSide, Sides, WallLine};
 
-use crate::case::{Case, RecordOf, Run};
-use crate::cases::enclosed::series;
+use super::enclosed::setting::Setting;
+use super::enclosed::{self, metrics, series};
+use crate::case::{Case, RecordOf, Tier};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
+use crate::observation::Frame;
 use crate::output::Table;
+use bagnold_solver::domain::Domain;
+use bagnold_solver::weakly_compressible::boundary::backing;
+use bagnold_solver::weakly_compressible::boundary::shell::Shell;
 
 /// Two coordinates or components along x and y.
 pub type Place = (f64, f64);
 
+/// Parameters of the case.
+pub type SceneParameters = enclosed::SceneParameters<Plane, 2>;
+
 type Record = RecordOf<SceneParameters>;
+
+/// The plane: masses, forces and fluxes are those per metre of depth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane;
+
+impl Setting<2> for Plane {
+    type Place = Place;
+    type Sides = Sides;
+    type Body = Body;
+    type Wall = WallLine;
+    type Gauge = Gauge;
+
+    const ADD_A_BODY: &'static str = "add a box, a disc or a polygon of material";
+    const COST: f64 = 1.0;
+    const MEAN_FORCE: Quantity =
+        Quantity::accounted("mean_force", "N/m", "force of the flow on a gauge's wall, its mean over the run");
+    const MASS_CROSSED: Quantity =
+        Quantity::accounted("mass_crossed", "kg/m", "mass that has crossed a gauge's line up to the end");
+    const FLUX_UNIT: &'static str = "kg/(m s)";
+
+    fn of_tier(tier: Tier) -> SceneParameters {
+        tiers::of_tier(tier)
+    }
+
+    fn lay(shells: &mut [Shell<2>], domain: &Domain<2>, spacing: f64, rows: usize) {
+        backing::lay(shells, domain, spacing, rows);
+    }
+
+    fn pictures(parameters: &SceneParameters, frames: &[Frame]) -> Figure {
+        figures::pictures(parameters, frames)
+    }
+}
 
 /// The case.
 #[derive(Debug)]
@@ -40,7 +75,7 @@ impl Case for UserScene {
         itself gives: a scene is judged by its balances of mass, momentum and energy, and by nothing having passed a wall. \
         The scene of the tiers is a column of glass beads that collapses onto a step and falls over its edge.";
     type Parameters = SceneParameters;
-    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
+    const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Plane, 2>();
     const STATED: &'static [&'static str] = &["bodies", "walls", "gauges", "measured"];
 
     fn metrics(parameters: &SceneParameters, records: &[Record]) -> Vec<Metric> {
@@ -48,16 +83,10 @@ impl Case for UserScene {
     }
 
     fn figures(parameters: &SceneParameters, records: &[Record]) -> Vec<Figure> {
-        figures::all(parameters, records)
+        enclosed::figures::all(parameters, records)
     }
 
     fn tables(parameters: &SceneParameters, records: &[Record]) -> Vec<Table> {
-        let of_run = |(run, record): &Record| {
-            let data = &record.data;
-            let gauges = parameters.gauges.iter().map(|gauge| (gauge.name(), gauge.columns()));
-            let name = format!("gauges-{}", run.variant().file_name());
-            series::table(name, "mass in the scene [kg/m]", gauges, (&data.time, &data.mass, &data.gauges))
-        };
-        records.iter().map(of_run).collect()
+        series::tables(parameters, records)
     }
 }

@@ -1,10 +1,9 @@
 //! Walls of a scene: polylines, rough or smooth, at rest or moved by a table; and the sides of its domain.
 
 use super::Place;
-use super::body::vector;
 use crate::case::ParameterError;
+use crate::cases::enclosed::setting::{self, vector};
 use crate::cases::enclosed::{DomainSide, sides};
-use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::Surface;
 use bagnold_solver::weakly_compressible::boundary::shell::{Motion, Shell, Side};
@@ -36,7 +35,7 @@ pub struct WallLine {
     #[serde(default = "left")]
     pub flow: FlowSide,
     /// Whether the flow sticks to it or slides.
-    #[serde(default = "rough")]
+    #[serde(default = "setting::rough")]
     pub surface: Surface,
     /// How it moves: time `[s]`, displacement along x `[m]` and along y `[m]`, linear between the rows; empty for a wall
     /// at rest.
@@ -48,13 +47,15 @@ fn left() -> FlowSide {
     FlowSide::Left
 }
 
-fn rough() -> Surface {
-    Surface::Rough
-}
+impl setting::Wall<2> for WallLine {
+    const FACETS: &'static str = "segments";
+    const GIVEN_BY: &'static str = "points";
 
-impl WallLine {
-    /// The wall for the solver, without its dummy particles.
-    pub(super) fn shell(&self) -> Shell<2> {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn shell(&self) -> Shell<2> {
         let mut points: Vec<Vector<2>> = self.points.iter().map(vector).collect();
         if self.closed {
             points.extend(points.first().copied());
@@ -72,36 +73,24 @@ impl WallLine {
         shell
     }
 
-    /// Its length `[m]`.
-    pub(super) fn length(&self) -> f64 {
+    fn hull(&self) -> Vec<Vector<2>> {
+        self.points.iter().map(vector).collect()
+    }
+
+    fn measure(&self) -> f64 {
         self.shell().facets.iter().map(|facet| (facet.corners[1] - facet.corners[0]).norm()).sum()
     }
 
-    /// Refuses walls without a length, tables that do not begin at rest, and a spacing that is no finer than the wall.
-    pub(super) fn check(&self, spacing: f64) -> Result<(), ParameterError> {
-        let refused = |field, value: String, rule, remedy| Err(ParameterError::field(field, value, rule, remedy));
+    fn check(&self, spacing: f64) -> Result<(), ParameterError> {
         let least = if self.closed { 3 } else { 2 };
-        if self.points.len() < least || self.length() <= spacing {
+        if self.points.len() < least || self.measure() <= spacing {
             let rule = if self.closed {
                 "three points or more, farther apart than the spacing"
             } else {
                 "two points or more, farther apart than the spacing"
             };
-            return refused(
-                "points",
-                format!("{} points", self.points.len()),
-                rule,
-                "give the wall's corners in their order",
-            );
-        }
-        if let Some(row) = self.motion.first().filter(|row| **row != (0.0, 0.0, 0.0)) {
-            let value = format!("({}, {}, {})", row.0, row.1, row.2);
-            return refused("motion[0]", value, "(0, 0, 0)", "the points are where the wall is at the start");
-        }
-        let shell = self.shell();
-        if self.motion.len() == 1 || !shell.motion.is_sound() {
-            let value = format!("{} rows", self.motion.len());
-            return refused("motion", value, "rows with rising times, two or more", "sort the rows by their times");
+            let value = format!("{} points", self.points.len());
+            return Err(ParameterError::field("points", value, rule, "give the wall's corners in their order"));
         }
         Ok(())
     }
@@ -121,24 +110,10 @@ pub struct Sides {
     pub top: DomainSide,
 }
 
-impl Sides {
-    /// Pairs along each axis: lower and upper.
-    pub(super) fn pairs(&self) -> [(DomainSide, DomainSide); 2] {
+impl sides::Sides<2> for Sides {
+    const NAMES: [(&'static str, &'static str); 2] = [("left", "right"), ("bottom", "top")];
+
+    fn pairs(&self) -> [sides::Pair; 2] {
         [(self.left, self.right), (self.bottom, self.top)]
-    }
-
-    /// The boundary of the solver along each axis.
-    pub(super) fn axes(&self) -> [AxisBoundary; 2] {
-        self.pairs().map(sides::boundary)
-    }
-
-    /// Whether a wall of the scene is a plane of symmetry, which has no name.
-    pub(super) fn has_mirror(&self) -> bool {
-        sides::has_mirror(&self.pairs())
-    }
-
-    /// Refuses a period with one end, and ends in the wrong order.
-    pub(super) fn check(&self) -> Result<(), ParameterError> {
-        sides::check(self.pairs(), [("left", "right"), ("bottom", "top")])
     }
 }

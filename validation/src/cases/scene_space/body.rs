@@ -1,7 +1,9 @@
-//! Bodies of material: boxes, cylinders and balls, and the places in them that particles start from.
+//! Bodies of material: boxes, cylinders and balls, and the places that they hold.
 
-use super::{Place, vector};
+use super::Place;
 use crate::case::ParameterError;
+use crate::cases::enclosed::setting::{self, shown, vector};
+use crate::cases::enclosed::shapes;
 use bagnold_solver::parameter::positive;
 use bagnold_solver::vector::Vector;
 use schemars::JsonSchema;
@@ -47,50 +49,42 @@ pub enum Body {
     },
 }
 
-impl Body {
-    /// Velocity at the start `[m/s]`.
-    pub(super) fn velocity(&self) -> Vector<3> {
+impl setting::Body<3> for Body {
+    fn velocity(&self) -> Vector<3> {
         let (Self::Box { velocity, .. } | Self::Cylinder { velocity, .. } | Self::Sphere { velocity, .. }) = self;
         vector(velocity)
     }
 
-    /// Lower and upper corner of its box `[m]`.
-    pub(super) fn extent(&self) -> (Vector<3>, Vector<3>) {
+    fn extent(&self) -> (Vector<3>, Vector<3>) {
         match self {
             Self::Box { lower, upper, .. } => (vector(lower), vector(upper)),
             Self::Cylinder { from, to, radius, .. } => {
-                let (from, to) = (vector(from), vector(to));
+                let (from, to) = (vector::<3>(from), vector(to));
                 let axis = (to - from).normalize();
                 let beside = axis.map(|part| radius * (1.0 - part * part).max(0.0).sqrt());
                 (from.inf(&to) - beside, from.sup(&to) + beside)
             }
-            Self::Sphere { centre, radius, .. } => {
-                (vector(centre) - Vector::repeat(*radius), vector(centre) + Vector::repeat(*radius))
-            }
+            Self::Sphere { centre, radius, .. } => shapes::around_ball(&vector(centre), *radius),
         }
     }
 
-    /// Whether it holds a place.
-    pub(super) fn holds(&self, place: &Vector<3>) -> bool {
+    fn holds(&self, place: &Vector<3>) -> bool {
         match self {
-            Self::Box { lower, upper, .. } => {
-                let (lower, upper) = (vector(lower), vector(upper));
-                (0..3).all(|axis| place[axis] >= lower[axis] && place[axis] < upper[axis])
-            }
+            Self::Box { lower, upper, .. } => shapes::box_holds(&vector(lower), &vector(upper), place),
             Self::Cylinder { from, to, radius, .. } => {
-                let (axis, from) = (vector(to) - vector(from), vector(from));
+                let from: Vector<3> = vector(from);
+                let axis = vector(to) - from;
                 let part = (place - from).dot(&axis) / axis.norm_squared();
                 (0.0..1.0).contains(&part) && (place - from - axis * part).norm_squared() <= radius * radius
             }
-            Self::Sphere { centre, radius, .. } => (place - vector(centre)).norm_squared() <= radius * radius,
+            Self::Sphere { centre, radius, .. } => shapes::ball_holds(&vector(centre), *radius, place),
         }
     }
 
-    /// Refuses a body without an inside.
-    pub(super) fn check(&self) -> Result<(), ParameterError> {
-        let shown = |place: &Place| format!("({}, {}, {})", place.0, place.1, place.2);
+    fn check(&self) -> Result<(), ParameterError> {
+        let shown = |place: &Place| shown(&vector::<3>(place));
         match self {
-            Self::Box { lower, upper, .. } if !(vector(upper) - vector(lower)).iter().all(|edge| *edge > 0.0) => {
+            Self::Box { lower, upper, .. } if !shapes::has_inside::<3>(&vector(lower), &vector(upper)) => {
                 let rule = "greater than `lower` along x, y and z";
                 Err(ParameterError::field("upper", shown(upper), rule, "give the corner that is opposite to `lower`"))
             }
@@ -102,24 +96,11 @@ impl Body {
     }
 }
 
-/// Whether any body holds a place, and the first that does.
-pub(super) fn holder<'a>(bodies: &'a [Body], place: &Vector<3>) -> Option<&'a Body> {
-    bodies.iter().find(|body| body.holds(place))
-}
-
-/// Depth of a place below the surface of the material, against the direction `up`: as far as bodies reach `[m]`.
-pub(super) fn depth(bodies: &[Body], place: &Vector<3>, up: &Vector<3>, spacing: f64) -> f64 {
-    let step = 0.125 * spacing;
-    let mut steps = 0.0;
-    while holder(bodies, &(place + up * ((steps + 0.5) * step))).is_some() {
-        steps += 1.0;
-    }
-    steps * step
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cases::enclosed::filling::depth;
+    use crate::cases::enclosed::setting::Body as _;
 
     #[test]
     fn bodies_hold_what_is_inside_and_their_boxes_hold_them() {

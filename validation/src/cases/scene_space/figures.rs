@@ -1,7 +1,7 @@
-//! The case's figures: the material from the side and from above between the edges of its walls, and the gauges' series.
+//! Pictures of the material from the side and from above, between the edges of its walls.
 
-use super::{Gauge, Record, SpaceParameters};
-use crate::cases::enclosed::series;
+use super::SpaceParameters;
+use crate::cases::enclosed::setting::Wall;
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
@@ -13,14 +13,6 @@ use std::collections::BTreeMap;
 const MOST_EDGES: usize = 400;
 /// Cosine of the angle between two triangles from which on their common edge is drawn `[-]`: 20°.
 const SHARP: f64 = 0.94;
-
-pub(super) fn all(parameters: &SpaceParameters, records: &[Record]) -> Vec<Figure> {
-    records
-        .iter()
-        .flat_map(|record| [Some(pictures(parameters, record)), gauges(parameters, record)])
-        .flatten()
-        .collect()
-}
 
 /// From where the scene is seen: the axes to the right and up in the picture, and the one towards the eye with its sign.
 struct View {
@@ -36,8 +28,8 @@ const VIEWS: [View; 2] = [
 ];
 
 /// Two panels a picture, the particles in the colours of their speed and the edges of the walls where they stand.
-fn pictures(parameters: &SpaceParameters, (_, record): &Record) -> Figure {
-    let fastest = record.frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
+pub(super) fn pictures(parameters: &SpaceParameters, frames: &[Frame]) -> Figure {
+    let fastest = frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
     let walls: Vec<(Shell<3>, Vec<[Vector<3>; 2]>)> = parameters
         .walls
         .iter()
@@ -47,7 +39,7 @@ fn pictures(parameters: &SpaceParameters, (_, record): &Record) -> Figure {
             (shell, edges)
         })
         .collect();
-    let panels = record.frames.iter().flat_map(|frame| VIEWS.iter().map(move |view| (frame, view)));
+    let panels = frames.iter().flat_map(|frame| VIEWS.iter().map(move |view| (frame, view)));
     let panels = panels.map(|(frame, view)| {
         let mut panel = material(parameters, frame, view, fastest);
         let moved = walls.iter().flat_map(|(shell, edges)| {
@@ -109,11 +101,6 @@ fn sharp_edges(facets: &[Facet<3>]) -> Vec<[Vector<3>; 2]> {
         _ => true,
     };
     edges.into_values().filter(sharp).filter_map(|edges| edges.first().map(|edge| edge.ends)).collect()
-}
-
-fn gauges(parameters: &SpaceParameters, (_, record): &Record) -> Option<Figure> {
-    let columns = parameters.gauges.iter().map(|gauge| (gauge.name(), Gauge::columns(gauge)));
-    series::figure(columns, &parameters.measured, &record.data.time, &record.data.gauges)
 }
 
 #[cfg(test)]

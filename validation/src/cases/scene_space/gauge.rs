@@ -1,10 +1,12 @@
 //! Gauges: what is measured while a scene in space runs, as series over time.
 
-use super::{Place, vector};
-use crate::cases::enclosed::series::{Column, reached, volumes};
+use super::Place;
+use crate::case::ParameterError;
+use crate::cases::enclosed::names::check_line;
+use crate::cases::enclosed::setting::{self, shown, vector};
+use crate::cases::enclosed::{Depth, Line, Measure, Opening};
 use bagnold_solver::parameter::positive;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::simulation::Simulation;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -55,132 +57,72 @@ pub enum Gauge {
     },
 }
 
-/// What gauges remember from sample to sample.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(super) struct Memory {
-    /// Time of the last sample `[s]`.
-    time: f64,
-    /// Places of the particles then `[m]`, by their place in the scene; NaN of those that have left.
-    places: Vec<[f64; 3]>,
-    /// Impulses of the walls then `[kg m/s]`.
-    impulses: Vec<[f64; 3]>,
-    /// Mass that has crossed each gauge's parallelogram `[kg]`.
-    crossed: Vec<f64>,
-}
-
-impl Gauge {
-    /// Its name.
-    pub(super) fn name(&self) -> &str {
+impl setting::Gauge<3> for Gauge {
+    fn name(&self) -> &str {
         let (Self::Front { name, .. } | Self::Depth { name, .. } | Self::Force { name, .. } | Self::Flux { name, .. }) =
             self;
         name
     }
 
-    /// The columns of its series.
-    pub(super) fn columns(&self) -> Vec<Column> {
-        let column = |what: &str, axis: &'static str| Column { heading: what.to_owned(), axis };
-        match self {
-            Self::Front { .. } => vec![column("front [m]", "front [m]")],
-            Self::Depth { .. } => vec![column("depth [m]", "depth [m]")],
-            Self::Force { .. } => {
-                ["x", "y", "z"].map(|axis| column(&format!("force along {axis} [N]"), "force [N]")).into()
-            }
-            Self::Flux { .. } => vec![
-                column("mass that has crossed [kg]", "mass [kg]"),
-                column("mean flux since the last row [kg/s]", "flux [kg/s]"),
-            ],
-        }
-    }
-
-    /// Its values now, one a column.
-    fn read(&self, index: usize, simulation: &Simulation<3>, memory: &mut Memory, down: &Vector<3>) -> Vec<f64> {
-        let elapsed = simulation.time() - memory.time;
+    fn measure(&self, down: &Vector<3>) -> Measure<'_, 3> {
         match self {
             Self::Front { from, to, thickness, width, .. } => {
-                let (from, to) = (vector(from), vector(to));
+                let (from, to): (Vector<3>, Vector<3>) = (vector(from), vector(to));
                 let across = down.cross(&(to - from)).normalize();
-                let counts = |place: &Vector<3>| (place - from).dot(&across).abs() < 0.5 * width;
-                vec![reached(simulation, &from, &to, thickness * width, counts)]
+                Measure::Front(Line { from, to, section: thickness * width, strip: Some((across, 0.5 * width)) })
             }
             Self::Depth { at, width, .. } => {
-                let at = vector(at);
-                let inside = |place: Vector<3>| {
-                    let way = place - at;
-                    ((way - down * way.dot(down)).norm() < 0.5 * width).then_some(0)
-                };
-                let volume = volumes(simulation, inside).first().copied().unwrap_or(0.0);
-                vec![volume / (std::f64::consts::FRAC_PI_4 * width * width)]
+                let section = std::f64::consts::FRAC_PI_4 * width * width;
+                Measure::Depth(Depth { at: vector(at), down: *down, width: *width, section })
             }
-            Self::Force { wall, .. } => {
-                let Some(k) = simulation.shells().iter().position(|shell| shell.name == *wall) else {
-                    return vec![0.0; 3];
-                };
-                let before = memory.impulses.get(k).copied().unwrap_or_default();
-                let now = simulation.shell_impulses()[k];
-                // the wall feels the opposite of what it gives
-                let mean = |axis: usize| if elapsed > 0.0 { (before[axis] - now[axis]) / elapsed } else { 0.0 };
-                (0..3).map(mean).collect()
+            Self::Force { wall, .. } => Measure::Force { wall },
+            Self::Flux { corners: (a, b, c), .. } => {
+                let [corner, one, other] = edges([a, b, c]);
+                let normal = one.cross(&other);
+                let square = normal.norm_squared();
+                let edges = vec![(other.cross(&normal), square), (normal.cross(&one), square)];
+                Measure::Flux(Opening { corner, normal, edges })
+            }
+        }
+    }
+
+    fn check(&self, spacing: f64, down: &Vector<3>) -> Result<(), ParameterError> {
+        match self {
+            Self::Front { from, to, .. } => {
+                let to = vector::<3>(to);
+                let line = to - vector::<3>(from);
+                // a line along gravity has no thickness across it
+                let length = if down.cross(&line).norm() > spacing { line.norm() } else { 0.0 };
+                check_line(&to, length, spacing, ", across gravity")
             }
             Self::Flux { corners: (a, b, c), .. } => {
-                let crossed = crossing(simulation, &memory.places, &[vector(a), vector(b), vector(c)]);
-                memory.crossed[index] += crossed;
-                vec![memory.crossed[index], if elapsed > 0.0 { crossed / elapsed } else { 0.0 }]
+                let [corner, one, other] = edges([a, b, c]);
+                if one.cross(&other).norm() > spacing * spacing {
+                    return Ok(());
+                }
+                let (value, rule) = (format!("{}, …", shown(&corner)), "three corners that are not in line");
+                Err(ParameterError::field("corners", value, rule, "give a corner and the two next to it"))
             }
+            Self::Depth { .. } | Self::Force { .. } => Ok(()),
         }
     }
 }
 
-/// The values of all gauges now, column by column; remembers the state for the next sample.
-pub(super) fn read_all(
-    gauges: &[Gauge],
-    simulation: &Simulation<3>,
-    begun: usize,
-    memory: &mut Memory,
-    down: &Vector<3>,
-) -> Vec<f64> {
-    memory.crossed.resize(gauges.len(), 0.0);
-    let values = gauges.iter().enumerate().flat_map(|(k, gauge)| gauge.read(k, simulation, memory, down)).collect();
-    let particles = simulation.particles();
-    memory.places.clear();
-    memory.places.resize(begun, [f64::NAN; 3]);
-    for (index, &identity) in particles.identity.iter().enumerate() {
-        memory.places[identity as usize] = particles.position[index].into();
-    }
-    memory.impulses = simulation.shell_impulses().iter().map(|impulse| (*impulse).into()).collect();
-    memory.time = simulation.time();
-    values
-}
-
-/// Mass `[kg]` that has crossed a parallelogram along its normal since the places were remembered, less what went back.
-fn crossing(simulation: &Simulation<3>, before: &[[f64; 3]], [corner, next, last]: &[Vector<3>; 3]) -> f64 {
-    let (one, other) = (next - corner, last - corner);
-    let normal = one.cross(&other);
-    let particles = simulation.particles();
-    let mut sum = 0.0;
-    for index in particles.by_identity() {
-        let Some(&start) = before.get(particles.identity[index] as usize) else { continue };
-        let (start, end) = (Vector::<3>::from(start), particles.position[index]);
-        let (first, second) = (normal.dot(&(start - corner)), normal.dot(&(end - corner)));
-        if (first < 0.0) == (second < 0.0) || first.is_nan() {
-            continue;
-        }
-        let met = start + (end - start) * (first / (first - second)) - corner;
-        // its coordinates along the edges
-        let along = met.cross(&other).dot(&normal) / normal.norm_squared();
-        let across = one.cross(&met).dot(&normal) / normal.norm_squared();
-        if (0.0..=1.0).contains(&along) && (0.0..=1.0).contains(&across) {
-            sum += particles.mass[index] * if second >= 0.0 { 1.0 } else { -1.0 };
-        }
-    }
-    sum
+/// A corner of a parallelogram, and its edges to the two next to it `[m]`.
+fn edges(corners: [&Place; 3]) -> [Vector<3>; 3] {
+    let [corner, next, last] = corners.map(vector::<3>);
+    [corner, next - corner, last - corner]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cases::enclosed::gauges::Memory;
+    use crate::cases::enclosed::setting::Gauge as _;
     use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
     use bagnold_solver::material::rheology::{Newtonian, Rheology};
     use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+    use bagnold_solver::weakly_compressible::simulation::Simulation;
 
     /// A block of 20 by 8 by 6 particles of 1 cm that flies along x with 1 m/s.
     fn block() -> Simulation<3> {
@@ -209,7 +151,8 @@ mod tests {
         ];
         let (mut simulation, mut memory) = (block(), Memory::default());
         let down = Vector::<3>::new(0.0, 0.0, -1.0);
-        let start = read_all(&gauges, &simulation, 960, &mut memory, &down);
+        let measures: Vec<_> = gauges.iter().map(|gauge| gauge.measure(&down)).collect();
+        let start = memory.read_all(&measures, &simulation, 960);
         // twelve columns of six particles stand in the circle
         let depth = 12.0 * 6.0 * 1e-6 / (std::f64::consts::FRAC_PI_4 * 0.04 * 0.04);
         assert!((start[0] - 0.2).abs() < 0.01 && (start[1] - depth).abs() < 1e-12, "{start:?}");
@@ -217,7 +160,7 @@ mod tests {
         while simulation.time() < 0.03 {
             simulation.step().expect("no divergence");
         }
-        let end = read_all(&gauges, &simulation, 960, &mut memory, &down);
+        let end = memory.read_all(&measures, &simulation, 960);
         let way = simulation.time();
         assert!((end[0] - start[0] - way).abs() < 0.006, "{} m after {way} m", end[0] - start[0]);
         // three layers of 48 particles of 1 g, and half of them the other way round

@@ -1,35 +1,64 @@
 //! A scene in space that a user describes in a file: bodies of material, walls of triangles, open sides, gauges.
 
 mod body;
-mod checks;
 mod figures;
 mod gauge;
-mod metrics;
-mod parameters;
-mod run;
+mod tiers;
 mod wall;
 
 pub use body::Body;
 pub use gauge::Gauge;
-pub use parameters::SpaceParameters;
-pub use run::SpaceRun;
 pub use wall::{Sides, Wall};
 
-use crate::case::{Case, RecordOf, Run};
-use crate::cases::enclosed::series;
+use super::enclosed::setting::Setting;
+use super::enclosed::{self, metrics, series};
+use crate::case::{Case, RecordOf, Tier};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
+use crate::observation::Frame;
 use crate::output::Table;
-use bagnold_solver::vector::Vector;
+use bagnold_solver::domain::Domain;
+use bagnold_solver::weakly_compressible::boundary::mesh_backing;
+use bagnold_solver::weakly_compressible::boundary::shell::Shell;
 
 /// Three coordinates or components along x, y and z.
 pub type Place = (f64, f64, f64);
 
+/// Parameters of the case.
+pub type SpaceParameters = enclosed::SceneParameters<Space, 3>;
+
 type Record = RecordOf<SpaceParameters>;
 
-/// A place as a vector `[m]`.
-fn vector(place: &Place) -> Vector<3> {
-    Vector::<3>::new(place.0, place.1, place.2)
+/// Space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Space;
+
+impl Setting<3> for Space {
+    type Place = Place;
+    type Sides = Sides;
+    type Body = Body;
+    type Wall = Wall;
+    type Gauge = Gauge;
+
+    const ADD_A_BODY: &'static str = "add a box, a cylinder or a sphere of material";
+    const COST: f64 = 4.0;
+    const MEAN_FORCE: Quantity =
+        Quantity::accounted("mean_force", "N", "force of the flow on a gauge's wall, its mean over the run");
+    const MASS_CROSSED: Quantity =
+        Quantity::accounted("mass_crossed", "kg", "mass that has crossed a gauge's parallelogram up to the end");
+    const FLUX_UNIT: &'static str = "kg/s";
+
+    fn of_tier(tier: Tier) -> SpaceParameters {
+        tiers::of_tier(tier)
+    }
+
+    fn lay(shells: &mut [Shell<3>], domain: &Domain<3>, spacing: f64, rows: usize) {
+        mesh_backing::lay(shells, domain, spacing, rows);
+    }
+
+    fn pictures(parameters: &SpaceParameters, frames: &[Frame]) -> Figure {
+        figures::pictures(parameters, frames)
+    }
 }
 
 /// The case.
@@ -47,7 +76,7 @@ impl Case for SpaceScene {
         wall. The scene of the tiers is half a column of glass beads that collapses in a channel with rough side walls and falls \
         over the edge at its end.";
     type Parameters = SpaceParameters;
-    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
+    const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Space, 3>();
     const STATED: &'static [&'static str] = &["bodies", "walls", "gauges", "measured"];
 
     fn metrics(parameters: &SpaceParameters, records: &[Record]) -> Vec<Metric> {
@@ -55,16 +84,10 @@ impl Case for SpaceScene {
     }
 
     fn figures(parameters: &SpaceParameters, records: &[Record]) -> Vec<Figure> {
-        figures::all(parameters, records)
+        enclosed::figures::all(parameters, records)
     }
 
     fn tables(parameters: &SpaceParameters, records: &[Record]) -> Vec<Table> {
-        let of_run = |(run, record): &Record| {
-            let data = &record.data;
-            let gauges = parameters.gauges.iter().map(|gauge| (gauge.name(), gauge.columns()));
-            let name = format!("gauges-{}", run.variant().file_name());
-            series::table(name, "mass in the scene [kg]", gauges, (&data.time, &data.mass, &data.gauges))
-        };
-        records.iter().map(of_run).collect()
+        series::tables(parameters, records)
     }
 }

@@ -1,9 +1,9 @@
 //! Walls of a scene in space: triangles from a file, quadrilaterals and boxes; and the sides of its domain.
 
-use super::{Place, vector};
+use super::Place;
 use crate::case::ParameterError;
-use crate::cases::enclosed::{DomainSide, sides};
-use bagnold_solver::domain::AxisBoundary;
+use crate::cases::enclosed::setting::{self, shown, vector};
+use crate::cases::enclosed::{DomainSide, shapes, sides};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::Surface;
 use bagnold_solver::weakly_compressible::boundary::shell::{Motion, Shell};
@@ -31,15 +31,11 @@ pub struct Wall {
     #[serde(default)]
     pub boxes: Vec<(Place, Place)>,
     /// Whether the flow sticks to it or slides.
-    #[serde(default = "rough")]
+    #[serde(default = "setting::rough")]
     pub surface: Surface,
     /// How it moves: time `[s]`, displacement along x, y and z `[m]`, linear between the rows; empty for a wall at rest.
     #[serde(default)]
     pub motion: Vec<(f64, f64, f64, f64)>,
-}
-
-fn rough() -> Surface {
-    Surface::Rough
 }
 
 impl Wall {
@@ -63,9 +59,17 @@ impl Wall {
         let boxes = self.boxes.iter().flat_map(|(lower, upper)| faces(&vector(lower), &vector(upper)));
         given.chain(quads.chain(boxes).flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])).collect()
     }
+}
 
-    /// The wall for the solver, without its dummy particles.
-    pub(super) fn shell(&self) -> Shell<3> {
+impl setting::Wall<3> for Wall {
+    const FACETS: &'static str = "triangles";
+    const GIVEN_BY: &'static str = "corners";
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn shell(&self) -> Shell<3> {
         let mut shell = Shell::mesh(&self.name, &self.corners());
         shell.roughness = self.surface;
         shell.motion = Motion {
@@ -75,20 +79,18 @@ impl Wall {
         shell
     }
 
-    /// Its area `[m²]`.
-    pub(super) fn area(&self) -> f64 {
+    /// The corners of its box: a mesh has many.
+    fn hull(&self) -> Vec<Vector<3>> {
+        let (lower, upper) = shapes::around(self.corners().into_iter().flatten());
+        faces(&lower, &upper)[..2].concat()
+    }
+
+    fn measure(&self) -> f64 {
         self.corners().iter().map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm()).sum()
     }
 
-    /// Lower and upper corner of its box `[m]`.
-    pub(super) fn extent(&self) -> (Vector<3>, Vector<3>) {
-        let none = (Vector::repeat(f64::INFINITY), Vector::repeat(f64::NEG_INFINITY));
-        self.corners().iter().flatten().fold(none, |(lower, upper), place| (lower.inf(place), upper.sup(place)))
-    }
-
-    /// Refuses walls without an area, quadrilaterals that are not plane, boxes without an inside and tables that do not
-    /// begin at rest.
-    pub(super) fn check(&self, spacing: f64) -> Result<(), ParameterError> {
+    /// Refuses walls without an area, quadrilaterals that are not plane and boxes without an inside.
+    fn check(&self, spacing: f64) -> Result<(), ParameterError> {
         let refused = |field: &str, value: String, rule: &str, remedy: &str| {
             Err(ParameterError::field(field, value, rule, remedy))
         };
@@ -97,7 +99,7 @@ impl Wall {
             return refused("mesh", format!("\"{}\"", self.mesh), rule, "name it in a case file, or give `triangles`");
         }
         for (k, (a, b, c, d)) in self.quads.iter().enumerate() {
-            let [a, b, c, d] = [a, b, c, d].map(vector);
+            let [a, b, c, d] = [a, b, c, d].map(vector::<3>);
             let across = (c - a).cross(&(d - b));
             let height = across.dot(&(b - a)).abs();
             if height > 1e-6 * across.norm() * (c - a).norm() {
@@ -106,25 +108,17 @@ impl Wall {
             }
         }
         for (k, (lower, upper)) in self.boxes.iter().enumerate() {
-            if !(vector(upper) - vector(lower)).iter().all(|edge| *edge > 0.0) {
-                let value = format!("({}, {}, {})", upper.0, upper.1, upper.2);
+            if !shapes::has_inside::<3>(&vector(lower), &vector(upper)) {
+                let value = shown(&vector::<3>(upper));
                 let rule = "a lower corner, and then one that is greater along x, y and z";
                 return refused(&format!("boxes[{k}]"), value, rule, "exchange what is not");
             }
         }
-        let area = self.area();
+        let area = self.measure();
         if !(area > spacing * spacing && area.is_finite()) {
             let value = format!("{} triangles", self.corners().len());
             let rule = "a surface larger than the square of the spacing";
             return refused("quads", value, rule, "give `mesh`, `triangles`, `quads` or `boxes`, in metres");
-        }
-        if let Some(row) = self.motion.first().filter(|row| **row != (0.0, 0.0, 0.0, 0.0)) {
-            let value = format!("({}, {}, {}, {})", row.0, row.1, row.2, row.3);
-            return refused("motion[0]", value, "(0, 0, 0, 0)", "the corners are where the wall is at the start");
-        }
-        if self.motion.len() == 1 || !self.shell().motion.is_sound() {
-            let value = format!("{} rows", self.motion.len());
-            return refused("motion", value, "rows with rising times, two or more", "sort the rows by their times");
         }
         Ok(())
     }
@@ -165,26 +159,18 @@ pub struct Sides {
     pub top: DomainSide,
 }
 
-impl Sides {
-    /// Pairs along each axis: lower and upper.
-    pub(super) fn pairs(&self) -> [sides::Pair; 3] {
+impl sides::Sides<3> for Sides {
+    const NAMES: [(&'static str, &'static str); 3] = [("left", "right"), ("front", "back"), ("bottom", "top")];
+
+    fn pairs(&self) -> [sides::Pair; 3] {
         [(self.left, self.right), (self.front, self.back), (self.bottom, self.top)]
-    }
-
-    /// The boundary of the solver along each axis.
-    pub(super) fn axes(&self) -> [AxisBoundary; 3] {
-        self.pairs().map(sides::boundary)
-    }
-
-    /// Refuses a period with one end, and ends in the wrong order.
-    pub(super) fn check(&self) -> Result<(), ParameterError> {
-        sides::check(self.pairs(), [("left", "right"), ("front", "back"), ("bottom", "top")])
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cases::enclosed::setting::Wall as _;
 
     #[test]
     fn the_faces_of_a_box_look_outwards_and_close_it() {
@@ -193,7 +179,7 @@ mod tests {
         let shell = wall.shell();
         assert_eq!(shell.facets.len(), 12);
         assert!(shell.facets.iter().all(|facet| facet.height(&middle) < -0.4));
-        assert!((wall.area() - 22.0).abs() < 1e-12 && wall.check(0.1).is_ok());
+        assert!((wall.measure() - 22.0).abs() < 1e-12 && wall.check(0.1).is_ok());
     }
 
     #[test]

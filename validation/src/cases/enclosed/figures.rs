@@ -1,0 +1,39 @@
+//! Figures of scenes: pictures of the material between its walls, and the series of the gauges.
+
+use super::series;
+use super::setting::Setting;
+use super::{Record, SceneObservation, SceneParameters};
+use crate::figure::{Axis, Figure, Panel};
+
+pub(in crate::cases) fn all<S: Setting<D>, const D: usize>(
+    parameters: &SceneParameters<S, D>,
+    records: &[Record<S, D>],
+) -> Vec<Figure> {
+    let of_run =
+        |(_, record): &Record<S, D>| [Some(S::pictures(parameters, &record.frames)), gauges(parameters, &record.data)];
+    records.iter().flat_map(of_run).flatten().collect()
+}
+
+/// One panel a gauge with a line a column that shares its axis.
+fn gauges<S: Setting<D>, const D: usize>(
+    parameters: &SceneParameters<S, D>,
+    data: &SceneObservation<D>,
+) -> Option<Figure> {
+    let panel = |series: series::Series<'_, D>| {
+        let columns = &series.columns;
+        let axis = columns.first().map_or("", |column| &column.axis);
+        let mut panel = Panel::new(series.gauge, Axis::linear("t [s]"), Axis::linear(axis));
+        for measured in series.measured {
+            panel.reference("measured", measured.points.iter().copied());
+        }
+        for (slot, column) in columns.iter().enumerate().filter(|(_, column)| column.axis == axis) {
+            let values = series.values.get(slot).map_or(&[][..], Vec::as_slice);
+            let label =
+                if slot == 0 && columns.get(1).is_none_or(|other| other.axis != axis) { "" } else { &column.heading };
+            panel.line(label, slot, data.time.iter().copied().zip(values.iter().copied()));
+        }
+        panel
+    };
+    let panels: Vec<Panel> = series::of_run(parameters, data).into_iter().map(panel).collect();
+    (!panels.is_empty()).then(|| Figure::new("gauges", "What the gauges of the scene measured.", panels).in_columns(2))
+}

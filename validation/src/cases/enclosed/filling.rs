@@ -1,0 +1,97 @@
+//! Where particles start: on the sites of a lattice that bodies hold, as dense as the material above them makes them.
+
+use super::setting::{Body, Setting, Sides, vector};
+use super::surfaces::Surfaces;
+use super::{SceneParameters, shapes};
+use bagnold_solver::material::equation_of_state::EquationOfState;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::scene::Flow;
+use rand::{RngExt, SeedableRng};
+
+/// Steps by which depths are felt, a spacing `[-]`.
+const STEPS: f64 = 8.0;
+
+impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
+    /// Particles on the sites of a lattice through the origin that bodies hold and that are free of walls, under the
+    /// pressure of the material above them.
+    pub(super) fn fill(&self, walls: &Surfaces<D>, equation_of_state: &EquationOfState) -> Flow<D> {
+        let Self { spacing, jitter, ref bodies, .. } = *self;
+        let gravity = vector(&self.gravity);
+        let (up, weight) = (-gravity.normalize(), equation_of_state.reference_density * gravity.norm());
+        let mut random = rand_pcg::Pcg64::seed_from_u64(self.seed);
+        let mut shift = || jitter * spacing * (2.0 * random.random::<f64>() - 1.0);
+        let (mut sites, mut velocities) = (Vec::new(), Vec::new());
+        let corners = bodies.iter().flat_map(|body| <[Vector<D>; 2]>::from(body.extent()));
+        for site in lattice(shapes::around(corners), spacing) {
+            if let Some(body) = holder(bodies, &site)
+                && self.sides.hold(&site)
+                && walls.are_free(&site, spacing)
+            {
+                sites.push(site);
+                velocities.push(body.velocity());
+            }
+        }
+        let mut flow = Flow::at_rest(sites, equation_of_state.reference_density, spacing);
+        flow.velocity = velocities;
+        for (position, (rho, mass)) in flow.position.iter_mut().zip(flow.density.iter_mut().zip(&mut flow.mass)) {
+            *rho = equation_of_state.density(weight * depth(bodies, position, &up, spacing));
+            *mass = (0..D).fold(*rho, |mass, _| mass * spacing);
+            *position += Vector::<D>::from_fn(|_, _| shift());
+        }
+        flow
+    }
+}
+
+/// Middles of the cells of a lattice through the origin that cover a box `[m]`; the first axis runs fastest.
+fn lattice<const D: usize>((lower, upper): (Vector<D>, Vector<D>), spacing: f64) -> impl Iterator<Item = Vector<D>> {
+    let cell = |coordinate: f64| (coordinate / spacing).floor() as i64;
+    let (first, last) = (<[f64; D]>::from(lower).map(cell), <[f64; D]>::from(upper).map(cell));
+    let is_empty = (0..D).any(|axis| first[axis] > last[axis]);
+    std::iter::successors((!is_empty).then_some(first), move |cells| {
+        let mut next = *cells;
+        for axis in 0..D {
+            if next[axis] < last[axis] {
+                next[axis] += 1;
+                return Some(next);
+            }
+            next[axis] = first[axis];
+        }
+        None
+    })
+    .map(move |cells| Vector::<D>::from(cells.map(|cell| cell as f64 + 0.5)) * spacing)
+}
+
+/// The first body that holds a place, if any does.
+fn holder<'a, B: Body<D>, const D: usize>(bodies: &'a [B], place: &Vector<D>) -> Option<&'a B> {
+    bodies.iter().find(|body| body.holds(place))
+}
+
+/// Depth of a place below the surface of the material, against the direction `up`: as far as bodies reach `[m]`.
+pub(in crate::cases) fn depth<const D: usize>(
+    bodies: &[impl Body<D>],
+    place: &Vector<D>,
+    up: &Vector<D>,
+    spacing: f64,
+) -> f64 {
+    let step = spacing / STEPS;
+    let mut steps = 0.0;
+    while holder(bodies, &(place + up * ((steps + 0.5) * step))).is_some() {
+        steps += 1.0;
+    }
+    steps * step
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sites_of_a_box_run_along_its_first_axis() {
+        let corners = (Vector::<3>::new(-0.1, 0.0, 0.25), Vector::<3>::new(0.15, 0.12, 0.32));
+        let sites: Vec<[f64; 3]> = lattice(corners, 0.1).map(|site| (site * 20.0).map(f64::round).into()).collect();
+        let row = |y, z| [[-1.0, y, z], [1.0, y, z], [3.0, y, z]];
+        assert_eq!(sites, [row(1.0, 5.0), row(3.0, 5.0), row(1.0, 7.0), row(3.0, 7.0)].concat());
+        let none = shapes::around::<2>([]);
+        assert_eq!(lattice(none, 0.1).count(), 0);
+    }
+}

@@ -1,0 +1,65 @@
+//! Reading the gauges of a scene, sample by sample.
+
+use super::Measure;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::simulation::Simulation;
+use serde::{Deserialize, Serialize};
+
+/// What gauges remember from sample to sample; in the plane, masses and impulses are those per metre of depth.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::cases) struct Memory<const D: usize> {
+    /// Time of the last sample `[s]`.
+    time: f64,
+    /// Places of the particles then `[m]`, by their place in the scene; NaN of those that have left.
+    places: Vec<Vector<D>>,
+    /// Impulses of the walls then `[kg m/s]`.
+    impulses: Vec<Vector<D>>,
+    /// Mass that has crossed each gauge's opening `[kg]`.
+    crossed: Vec<f64>,
+}
+
+impl<const D: usize> Memory<D> {
+    /// The values of all gauges now, column by column; remembers the state for the next sample. `begun` particles were there
+    /// at the start.
+    pub(in crate::cases) fn read_all(
+        &mut self,
+        measures: &[Measure<'_, D>],
+        simulation: &Simulation<D>,
+        begun: usize,
+    ) -> Vec<f64> {
+        self.crossed.resize(measures.len(), 0.0);
+        let values = measures.iter().enumerate().flat_map(|(k, measure)| self.read(k, measure, simulation)).collect();
+        let particles = simulation.particles();
+        self.places.clear();
+        self.places.resize(begun, Vector::repeat(f64::NAN));
+        for (index, &identity) in particles.identity.iter().enumerate() {
+            self.places[identity as usize] = particles.position[index];
+        }
+        self.impulses = simulation.shell_impulses().to_vec();
+        self.time = simulation.time();
+        values
+    }
+
+    /// The values of the gauge at this place among all, one a column.
+    fn read(&mut self, gauge: usize, measure: &Measure<'_, D>, simulation: &Simulation<D>) -> Vec<f64> {
+        let elapsed = simulation.time() - self.time;
+        let per_time = |change: f64| if elapsed > 0.0 { change / elapsed } else { 0.0 };
+        match measure {
+            Measure::Front(line) => vec![line.reached(simulation)],
+            Measure::Depth(depth) => vec![depth.thickness(simulation)],
+            Measure::Force { wall } => {
+                let Some(k) = simulation.shells().iter().position(|shell| shell.name == *wall) else {
+                    return vec![0.0; D];
+                };
+                let before = self.impulses.get(k).copied().unwrap_or_else(Vector::zeros);
+                // the wall feels the opposite of what it gives
+                (before - simulation.shell_impulses()[k]).iter().map(|&change| per_time(change)).collect()
+            }
+            Measure::Flux(opening) => {
+                let crossed = opening.crossed(simulation, &self.places);
+                self.crossed[gauge] += crossed;
+                vec![self.crossed[gauge], per_time(crossed)]
+            }
+        }
+    }
+}

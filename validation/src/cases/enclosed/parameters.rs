@@ -1,0 +1,148 @@
+//! Parameters: everything that a scene is.
+
+use super::setting::{Body, Gauge, Setting, Wall, vector};
+use super::{Measure, Measured, SceneRun, shapes};
+use crate::case::{ParameterError, Parameters, Tier};
+use crate::cases::Bulk;
+use bagnold_solver::material::equation_of_state::Tension;
+use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::parameter::{between, filled, positive};
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::numerics::Numerics;
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Parameters of the cases `scene` and `scene-space`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(bound = "")]
+#[schemars(rename = "SceneParameters", bound = "")]
+pub struct SceneParameters<S: Setting<D>, const D: usize> {
+    /// Name of the scene, in figures and files.
+    pub name: String,
+    /// Gravity along each axis `[m/s²]`.
+    pub gravity: S::Place,
+    /// Particle spacing `[m]`.
+    #[schemars(transform = positive("give it in metres: a tenth to a twentieth of the smallest thing that matters"))]
+    pub spacing: f64,
+    /// Simulated time `[s]`.
+    #[schemars(transform = positive("give it in seconds"))]
+    pub duration: f64,
+    /// Time between two rows of the series `[s]`.
+    #[schemars(transform = positive("give it in seconds, such as a hundredth of the duration"))]
+    pub interval: f64,
+    /// Pictures over the duration.
+    pub pictures: usize,
+    /// Bulk modulus over ρ0 g and the height of the scene `[-]`.
+    #[schemars(transform = between(20.0, 1e4, "50 for grains; 200 make sound seven times as fast as a fall"))]
+    pub stiffness: f64,
+    /// What becomes of a negative pressure.
+    pub tension: Tension,
+    /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.3, "0.05 breaks the lattice without overlaps"))]
+    pub jitter: f64,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// Constitutive law of the material.
+    pub material: Rheology,
+    /// Its density.
+    pub bulk: Bulk,
+    /// Sides of the domain.
+    pub sides: S::Sides,
+    /// Where the material is at the start.
+    #[schemars(transform = filled("at least one body", S::ADD_A_BODY))]
+    pub bodies: Vec<S::Body>,
+    /// Walls; what is not held by one falls.
+    pub walls: Vec<S::Wall>,
+    /// What is measured.
+    pub gauges: Vec<S::Gauge>,
+    /// Measured series that gauges are compared with.
+    pub measured: Vec<Measured>,
+    /// Numerics.
+    pub numerics: Numerics,
+}
+
+impl<S: Setting<D>, const D: usize> Parameters for SceneParameters<S, D>
+where
+    Simulation<D>: Compiled<D>,
+{
+    type Run = SceneRun<S, D>;
+
+    fn of_tier(tier: Tier) -> Self {
+        S::of_tier(tier)
+    }
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.checked()
+    }
+
+    fn runs(&self) -> Vec<SceneRun<S, D>> {
+        vec![SceneRun { scene: self.clone() }]
+    }
+}
+
+impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
+    /// A scene without bodies, walls and gauges: glass beads under a gravity `[m/s²]` at a spacing `[m]`, of which the scenes of
+    /// the tiers are made.
+    pub(in crate::cases) fn of_beads(name: &str, gravity: S::Place, spacing: f64, sides: S::Sides) -> Self {
+        let beads = MuI {
+            static_friction: 0.382,
+            limiting_friction: 0.643,
+            reference_inertia: 0.279,
+            grain_diameter: 0.5e-3,
+            grain_density: 2500.0,
+        };
+        Self {
+            name: name.to_owned(),
+            gravity,
+            spacing,
+            duration: 0.4,
+            interval: 0.01,
+            pictures: 4,
+            stiffness: 50.0,
+            tension: Tension::Cut,
+            jitter: 0.05,
+            seed: 1,
+            material: Rheology::MuI(beads),
+            bulk: Bulk::of_grains(0.6),
+            sides,
+            bodies: Vec::new(),
+            walls: Vec::new(),
+            gauges: Vec::new(),
+            measured: Vec::new(),
+            numerics: Numerics::default(),
+        }
+    }
+
+    /// The unit vector along gravity `[-]`.
+    pub(super) fn down(&self) -> Vector<D> {
+        vector(&self.gravity).normalize()
+    }
+
+    /// What the gauges measure, gauge by gauge.
+    pub(super) fn measures(&self) -> Vec<Measure<'_, D>> {
+        let down = self.down();
+        self.gauges.iter().map(|gauge| gauge.measure(&down)).collect()
+    }
+
+    /// Lower and upper corner of all material and walls `[m]`.
+    pub(in crate::cases) fn extent(&self) -> (Vector<D>, Vector<D>) {
+        let bodies = self.bodies.iter().flat_map(|body| <[Vector<D>; 2]>::from(body.extent()));
+        shapes::around(bodies.chain(self.walls.iter().flat_map(Wall::hull)))
+    }
+
+    /// Height of the scene along gravity, from the highest material to the lowest of walls and material `[m]`; bodies count
+    /// by their boxes.
+    pub(super) fn height(&self) -> f64 {
+        let up = -self.down();
+        let ends = |body: &S::Body| {
+            let (lower, upper) = body.extent();
+            let (one, other) = (up.component_mul(&lower), up.component_mul(&upper));
+            (one.inf(&other).sum(), one.sup(&other).sum())
+        };
+        let highest = self.bodies.iter().map(|body| ends(body).1).fold(f64::NEG_INFINITY, f64::max);
+        let of_walls = self.walls.iter().flat_map(Wall::hull).map(|place| up.dot(&place));
+        let lowest = self.bodies.iter().map(|body| ends(body).0).chain(of_walls).fold(f64::INFINITY, f64::min);
+        highest - lowest
+    }
+}

@@ -1,0 +1,139 @@
+//! From the parameters to a scene of the solver, and what is watched while it runs.
+
+use super::gauges::Memory;
+use super::setting::{Body, Setting, Sides, Wall, vector};
+use super::surfaces::{Surfaces, behind};
+use super::{SceneObservation, SceneParameters};
+use crate::case::recording::{self, Ending, Followed, Stage};
+use crate::case::{ParameterError, Progress, Run, cost};
+use crate::metric::Variant;
+use crate::observation::{Frame, Recorded};
+use bagnold_solver::domain::Domain;
+use bagnold_solver::material::equation_of_state::EquationOfState;
+use bagnold_solver::run::SceneError;
+use bagnold_solver::weakly_compressible::boundary::Enclosure;
+use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+
+/// The scene as a run.
+#[derive(Debug, Clone, Serialize)]
+#[serde(bound = "")]
+pub struct SceneRun<S: Setting<D>, const D: usize> {
+    /// All of it.
+    pub scene: SceneParameters<S, D>,
+}
+
+/// What is kept from sample to sample.
+#[derive(Serialize, Deserialize)]
+struct Watch<const D: usize> {
+    observation: SceneObservation<D>,
+    memory: Memory<D>,
+    frames: Vec<Frame>,
+}
+
+impl<S: Setting<D>, const D: usize> Run for SceneRun<S, D>
+where
+    Simulation<D>: Compiled<D>,
+{
+    type Observation = SceneObservation<D>;
+
+    fn variant(&self) -> Variant {
+        self.named()
+    }
+
+    fn particles(&self) -> f64 {
+        let volumes = self.scene.bodies.iter().map(|body| {
+            let (lower, upper) = body.extent();
+            (upper - lower).product()
+        });
+        let walls: f64 = self.scene.walls.iter().map(Wall::measure).sum();
+        let power = |axes: usize| (0..axes).map(|_| self.scene.spacing).product::<f64>();
+        volumes.sum::<f64>() / power(D) + walls / power(D - 1) * self.rows() as f64
+    }
+
+    fn particle_steps(&self) -> f64 {
+        let step = self.scene.numerics.acoustic_courant * self.scene.numerics.smoothing_ratio * self.scene.spacing
+            / self.equation_of_state().sound_speed();
+        self.particles() * self.scene.duration / step
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        S::COST * cost::WEAKLY_COMPRESSIBLE
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SceneObservation<D>>, ParameterError> {
+        let scene = &self.scene;
+        let made = self.scene();
+        let begun = made.flow.position.len();
+        let (gravity, measures) = (vector(&scene.gravity), scene.measures());
+        let stage = Stage { progress, end: scene.duration, interval: scene.interval, context: &() };
+        let begin = |_: &Simulation<D>| Watch {
+            observation: SceneObservation::default(),
+            memory: Memory::default(),
+            frames: Vec::new(),
+        };
+        let Followed { simulation, stop, kept: (last_good, watch), started } = recording::follow(
+            stage,
+            |_| -> Result<Scene<D>, SceneError> { Ok(made.clone()) },
+            |simulation: &Simulation<D>| (simulation.snapshot(), begin(simulation)),
+            |(last_good, watch): &mut (Snapshot<D>, Watch<D>), simulation| {
+                *last_good = simulation.snapshot();
+                let steps = simulation.steps() as f64 * last_good.mass.len() as f64;
+                progress.advance(last_good.time, scene.duration, steps);
+                let values = watch.memory.read_all(&measures, simulation, begun);
+                watch.observation.enter(simulation, last_good, &gravity, values);
+                let due = watch.frames.len() as f64 * scene.duration / scene.pictures as f64;
+                if last_good.time >= due - 0.5 * scene.interval && watch.frames.len() < scene.pictures {
+                    watch.frames.push(Frame::of_flow(last_good));
+                }
+                if last_good.mass.is_empty() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            },
+        )?;
+        let mut ending = Ending::of(stop, last_good, started);
+        "all material has left by open sides".clone_into(&mut ending.criterion);
+        ending.frames = watch.frames;
+        let mut observation = watch.observation;
+        observation.behind = behind(&simulation);
+        Ok(ending.record(&simulation, |_| observation))
+    }
+}
+
+impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
+    /// What it is called among the runs of its case.
+    pub(super) fn named(&self) -> Variant {
+        Variant::of("scene", self.scene.name.as_str())
+    }
+
+    /// Rows of dummy particles.
+    fn rows(&self) -> usize {
+        (2.0 * self.scene.numerics.smoothing_ratio).ceil() as usize + 1
+    }
+
+    fn equation_of_state(&self) -> EquationOfState {
+        let SceneParameters { stiffness, tension, bulk, material, .. } = &self.scene;
+        let reference_density = bulk.density(material);
+        let fastest = self.scene.bodies.iter().map(|body| body.velocity().norm_squared()).fold(0.0, f64::max);
+        let falls = vector(&self.scene.gravity).norm() * self.scene.height();
+        // what moves at the start must be as slow against sound as what falls
+        let bulk_modulus = stiffness * reference_density * falls.max(0.5 * fastest);
+        EquationOfState { reference_density, bulk_modulus, tension: *tension }
+    }
+
+    fn scene(&self) -> Scene<D> {
+        let SceneParameters { spacing, numerics, material, .. } = self.scene;
+        let domain = Domain { axes: self.scene.sides.axes() };
+        let mut shells: Vec<_> = self.scene.walls.iter().map(Wall::shell).collect();
+        S::lay(&mut shells, &domain, spacing, self.rows());
+        let equation_of_state = self.equation_of_state();
+        let surfaces = Surfaces::of(&shells, self.rows() as f64 * spacing);
+        let flow = self.scene.fill(&surfaces, &equation_of_state);
+        let mut scene = Scene::unbounded(flow, spacing, equation_of_state, material);
+        scene.enclosure = Enclosure { shells, exits: self.scene.sides.exits() };
+        (scene.domain, scene.numerics) = (domain, numerics);
+        scene.gravity = vector(&self.scene.gravity);
+        scene
+    }
+}
