@@ -1,6 +1,6 @@
 //! Scenes of a user's own: those that are shipped run, and write what their gauges measured.
 
-use crate::program::Place;
+use crate::program::{Place, document};
 use std::path::{Path, PathBuf};
 
 fn shipped() -> Vec<PathBuf> {
@@ -62,4 +62,22 @@ fn a_scene_is_known_by_the_triangles_of_its_mesh() {
 fn walk(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).expect("readable").flatten();
     entries.flat_map(|entry| if entry.path().is_dir() { walk(&entry.path()) } else { vec![entry.path()] }).collect()
+}
+
+#[test]
+fn what_walls_take_of_the_bodies_is_told() {
+    let place = Place::new();
+    let text = |lower: f64| {
+        format!(
+            "case = \"scene\"\nname = \"cut\"\nspacing = 0.01\nduration = 0.01\ninterval = 0.005\n[[bodies]]\nshape = \"box\"\n\
+             lower = [0.0, {lower}]\nupper = [0.1, 0.1]\n[[walls]]\nname = \"floor\"\npoints = [[-0.1, 0.0], [0.2, 0.0]]\n"
+        )
+    };
+    // rows of ten particles; the dummy particles fill four rows
+    for (lower, taken) in [(0.0, 0.0), (-0.03, 100.0 * 3.0 / 13.0)] {
+        let file = place.file("cut.toml", &text(lower));
+        let metrics = document(&place.run(&[&file, "--json", "--quiet"])).metrics;
+        let cut_off = metrics.iter().find(|metric| metric.name == "cut_off").and_then(|metric| metric.value);
+        assert!((cut_off.expect("a number") - taken).abs() < 1e-9, "{cut_off:?}");
+    }
 }

@@ -13,24 +13,25 @@ const STEPS: f64 = 8.0;
 
 impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     /// Particles on the sites of a lattice through the origin that bodies hold and that are free of walls, under the
-    /// pressure of the material above them.
-    pub(super) fn fill(&self, walls: &Surfaces<D>, equation_of_state: &EquationOfState) -> Flow<D> {
+    /// pressure of the material above them; and the share of the sites of bodies that walls take `[-]`.
+    pub(super) fn fill(&self, walls: &Surfaces<D>, equation_of_state: &EquationOfState) -> (Flow<D>, f64) {
         let Self { spacing, jitter, ref bodies, .. } = *self;
         let gravity = vector(&self.gravity);
         let (up, weight) = (-gravity.normalize(), equation_of_state.reference_density * gravity.norm());
         let mut random = rand_pcg::Pcg64::seed_from_u64(self.seed);
         let mut shift = || jitter * spacing * (2.0 * random.random::<f64>() - 1.0);
-        let (mut sites, mut velocities) = (Vec::new(), Vec::new());
+        let (mut sites, mut velocities, mut taken) = (Vec::new(), Vec::new(), 0_u32);
         let corners = bodies.iter().flat_map(|body| <[Vector<D>; 2]>::from(body.extent()));
         for site in lattice(shapes::around(corners), spacing) {
-            if let Some(body) = holder(bodies, &site)
-                && self.sides.hold(&site)
-                && walls.are_free(&site, spacing)
-            {
+            let Some(body) = holder(bodies, &site).filter(|_| self.sides.hold(&site)) else { continue };
+            if walls.are_free(&site, spacing) {
                 sites.push(site);
                 velocities.push(body.velocity());
+            } else {
+                taken += 1;
             }
         }
+        let share = f64::from(taken) / (f64::from(taken) + sites.len() as f64);
         let mut flow = Flow::at_rest(sites, equation_of_state.reference_density, spacing);
         flow.velocity = velocities;
         for (position, (rho, mass)) in flow.position.iter_mut().zip(flow.density.iter_mut().zip(&mut flow.mass)) {
@@ -38,7 +39,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             *mass = (0..D).fold(*rho, |mass, _| mass * spacing);
             *position += Vector::<D>::from_fn(|_, _| shift());
         }
-        flow
+        (flow, share)
     }
 }
 

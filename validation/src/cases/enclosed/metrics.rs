@@ -14,6 +14,7 @@ quantities! { shared
         accounted("force_residual", "%", "impulse of all walls, wall by wall, less that of all particles, over that of gravity"),
     THROUGH_WALLS: accounted("through_walls", "-", "particles that are behind a wall at the end"),
     MASS_LEFT: accounted("mass_left", "%", "mass that has left by open sides"),
+    CUT_OFF: accounted("cut_off", "%", "material of the bodies that is behind walls or at them, and is left out at the start"),
     FRONT: accounted("front", "m", "how far the material reaches along a gauge's line at the end"),
     DEPTH: accounted("depth", "m", "thickness of the material at a gauge at the end"),
     GAUGE_ERROR: validated("gauge_error", "%", "root mean square of a gauge's relative error at the measured times"),
@@ -24,7 +25,7 @@ const AT_REST: f64 = 0.1;
 
 /// All quantities of a case of scenes, of which two have units of its own: [`Setting::MEAN_FORCE`] and
 /// [`Setting::MASS_CROSSED`].
-pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> [Quantity; 14] {
+pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> [Quantity; 15] {
     [
         ENERGY_RESIDUAL,
         ENERGY_RISE,
@@ -35,6 +36,7 @@ pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> 
         FORCE_RESIDUAL,
         THROUGH_WALLS,
         MASS_LEFT,
+        CUT_OFF,
         FRONT,
         DEPTH,
         GAUGE_ERROR,
@@ -100,6 +102,7 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
         MASS_LEFT
             .of(variant, 100.0 * data.left.iter().map(|side| side.mass).sum::<f64>() / mass)
             .with_snapshot_tolerance(0.1, 1.0),
+        CUT_OFF.of(variant, 100.0 * data.cut_off).with_snapshot_tolerance(0.1, 1.0),
     ];
     if !has_mirror {
         metrics.push(

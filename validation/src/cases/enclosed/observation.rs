@@ -42,6 +42,8 @@ pub struct SceneObservation<const D: usize> {
     pub momentum_at_start: Vector<D>,
     /// Particles that are behind a wall at the end.
     pub behind: u64,
+    /// Share of the sites of bodies that are behind walls or nearer to them than particles start `[-]`.
+    pub cut_off: f64,
 }
 
 impl<const D: usize> Default for SceneObservation<D> {
@@ -58,6 +60,7 @@ impl<const D: usize> Default for SceneObservation<D> {
             gravity_impulse: 0.0,
             momentum_at_start: Vector::zeros(),
             behind: 0,
+            cut_off: 0.0,
         }
     }
 }

@@ -66,7 +66,7 @@ where
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SceneObservation<D>>, ParameterError> {
         let scene = &self.scene;
-        let made = self.scene();
+        let (made, cut_off) = self.scene();
         let begun = made.flow.position.len();
         let (gravity, measures) = (vector(&scene.gravity), scene.measures());
         let stage = Stage { progress, end: scene.duration, interval: scene.interval, context: &() };
@@ -96,7 +96,7 @@ where
         "all material has left by open sides".clone_into(&mut ending.criterion);
         ending.frames = watch.frames;
         let mut observation = watch.observation;
-        observation.behind = behind(&simulation);
+        (observation.behind, observation.cut_off) = (behind(&simulation), cut_off);
         Ok(ending.record(&simulation, |_| observation))
     }
 }
@@ -122,18 +122,19 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
         EquationOfState { reference_density, bulk_modulus, tension: *tension }
     }
 
-    fn scene(&self) -> Scene<D> {
+    /// The scene, and the share of the sites of bodies that walls take `[-]`.
+    fn scene(&self) -> (Scene<D>, f64) {
         let SceneParameters { spacing, numerics, material, .. } = self.scene;
         let domain = Domain { axes: self.scene.sides.axes() };
         let mut shells: Vec<_> = self.scene.walls.iter().map(Wall::shell).collect();
         S::lay(&mut shells, &domain, spacing, self.rows());
         let equation_of_state = self.equation_of_state();
         let surfaces = Surfaces::of(&shells, self.rows() as f64 * spacing);
-        let flow = self.scene.fill(&surfaces, &equation_of_state);
+        let (flow, cut_off) = self.scene.fill(&surfaces, &equation_of_state);
         let mut scene = Scene::unbounded(flow, spacing, equation_of_state, material);
         scene.enclosure = Enclosure { shells, exits: self.scene.sides.exits() };
         (scene.domain, scene.numerics) = (domain, numerics);
         scene.gravity = vector(&self.scene.gravity);
-        scene
+        (scene, cut_off)
     }
 }
