@@ -168,6 +168,22 @@ pub(super) struct Room {
     pub(super) origin: &'static str,
 }
 
+impl Room {
+    /// Refuses a picture whose particles have much more or less area or volume together than there was at the start.
+    fn check(&self, sum: f64, axes: usize, picture: &Picture) -> Result<(), FieldError> {
+        if sum > self.size / BULKING && sum < self.size * BULKING {
+            return Ok(());
+        }
+        let (size, unit) = if axes == 2 { ("area", "m^2") } else { ("volume", "m^3") };
+        let given = if picture.column(size).is_empty() { "mass" } else { size };
+        let value = format!("{sum:.4e} {unit} over all particles at {} s", picture.time);
+        let start = format!("{:.4e} {unit}", self.size);
+        let rule = format!("within a factor {BULKING} of what the {} has at the start, {start}", self.kind);
+        let remedy = "check the unit, and which part of it is given";
+        Err(FieldError::new(&format!("particles.columns.{given}"), value, &rule, remedy))
+    }
+}
+
 pub(super) fn snapshot<const D: usize>(room: &Room, picture: &Picture) -> Result<Snapshot<D>, FieldError> {
     let Room { spacing, reach, density: bulk_density, .. } = *room;
     let least = if D == 2 { [-spacing, -reach, -reach] } else { [-spacing, -reach, -spacing] };
@@ -198,14 +214,7 @@ pub(super) fn snapshot<const D: usize>(room: &Room, picture: &Picture) -> Result
         (mass, vec![bulk_density; count])
     };
     let sum: f64 = mass.iter().zip(&density).map(|(mass, density)| mass / density).sum();
-    if !(sum > room.size / BULKING && sum < room.size * BULKING) {
-        let unit = if D == 2 { "m^2" } else { "m^3" };
-        let value = format!("{sum:.4e} {unit} over all particles at {} s", picture.time);
-        let rule =
-            format!("within a factor {BULKING} of what the {} has at the start, {:.4e} {unit}", room.kind, room.size);
-        let remedy = "check the unit, and which part of it is given";
-        return Err(FieldError::new(&format!("particles.columns.{size}"), value, &rule, remedy));
-    }
+    room.check(sum, D, picture)?;
     let of = |columns: &[&[f64]], particle: usize| {
         Vector::<D>::from_fn(|axis, _| columns[axis].get(particle).copied().unwrap_or(f64::NAN))
     };
