@@ -156,7 +156,7 @@ fn what_is_no_table_of_measurements_is_refused() {
         ),
         (
             "t [s],front [m],uncertainty [m]\n1,1\n",
-            "mine.csv: `columns` is 2 (1, 2), but must be three: what was varied, what was measured, and its standard uncertainty, each with its unit; such as y/h [-],u [m/s],uncertainty [m/s]",
+            "mine.csv: `line 2` is of 2 columns, but must be of 3 columns, as the heading; mend the file",
         ),
     ] {
         assert_eq!(refused(text), message);
