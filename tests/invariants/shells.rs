@@ -160,7 +160,7 @@ fn what_is_at_rest_in_a_box_rests_in_one_that_is_turned() {
     }
 }
 
-/// It is no answer to a force, since ten times the viscosity leaves it as it is: the density that the coupling moves among
+/// It is no answer to a force, which ten times the viscosity would slow ten times: the density that the coupling moves among
 /// particles out of order makes them creep.
 #[test]
 fn a_liquid_at_rest_creeps_by_less_than_a_quarter_per_cent_of_its_fall() {

@@ -17,14 +17,14 @@ fn columns(items: &[Item], size: f64) -> Columns {
     items.iter().map(|item| (item.name.to_owned(), column(item.name))).collect()
 }
 
-/// Area or volume of what collapses in the first run of a case.
-fn size_of(case: &str) -> f64 {
+/// Area or volume of what collapses in a run of a case.
+fn size_of(case: &str, run: usize) -> f64 {
     let (planar, round) = (ColumnPlanarParameters::of_tier(Tier::Quick), ColumnRoundParameters::of_tier(Tier::Quick));
     let section = |run: &ColumnRun| run.half_width * run.half_width * run.initial_height();
     let reservoir = InclineCollapseParameters::of_tier(Tier::Quick).reservoir;
     match case {
-        "column-planar" => section(&planar.runs()[0]),
-        "column-round" => section(&round.runs()[0]) * std::f64::consts::FRAC_PI_4 * round.runs()[0].half_width,
+        "column-planar" => section(&planar.runs()[run]),
+        "column-round" => section(&round.runs()[run]) * std::f64::consts::FRAC_PI_4 * round.runs()[run].half_width,
         _ => reservoir.reservoir_length * reservoir.initial_height,
     }
 }
@@ -50,9 +50,9 @@ fn every_part_alone_gives_numbers_and_none_for_what_is_missing() {
     for case in REGISTRY.iter().filter(|case| *case.form() != Form::NUMBERS) {
         cases += 1;
         let prepared = case.prepare(Tier::Quick, &Changes::default()).expect("a tier");
-        for given in parts(case.form(), case.name() != "column-round", size_of(case.name())) {
-            let mut all = vec![Given::default(); prepared.run_count()];
-            all[0] = given;
+        let of_run = |run| parts(case.form(), case.name() != "column-round", size_of(case.name(), run));
+        for part in 0..of_run(0).len() {
+            let all: Vec<Given> = (0..prepared.run_count()).map(|run| of_run(run).swap_remove(part)).collect();
             let result = prepared.foreign(&all).map_err(|(run, error)| format!("{} run {run}: {error}", case.name()));
             let result = result.expect("complete columns");
             assert!(result.measured.iter().any(|(_, names)| !names.is_empty()), "{}: nothing measured", case.name());

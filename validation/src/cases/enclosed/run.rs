@@ -68,6 +68,12 @@ where
         let scene = &self.scene;
         let (made, cut_off) = self.scene();
         let begun = made.flow.position.len();
+        if begun == 0 {
+            let value = format!("{} of them without room for a particle", scene.bodies.len());
+            let rule = format!("wider than two spacings, {}, somewhere in front of all walls", 2.0 * scene.spacing);
+            let remedy = "make a body wider or the spacing smaller, or give a wall that is seen from its back the other way round";
+            return Err(ParameterError::field("bodies", value, &rule, remedy));
+        }
         let (gravity, measures) = (vector(&scene.gravity), scene.measures());
         let stage = Stage { progress, end: scene.duration, interval: scene.interval, context: &() };
         let begin = |_: &Simulation<D>| Watch {
