@@ -61,6 +61,63 @@ impl IncompressibleSimulation<2> {
     }
 }
 
+/// What takes a loop over particles stands here and not with the reading functions below, so that it is compiled with the solver.
+impl IncompressibleSimulation<2> {
+    /// Force of walls and fixed grains on the fluid and the sediment in the last step `[N]`, per metre of width in 2-D:
+    /// friction and drag, without what the walls' pressure gives.
+    #[must_use]
+    pub fn holding_force(&self) -> Vector<2> {
+        let system = &self.state.system;
+        let mut impulse = Vector::zeros();
+        for ((velocity, sum), inertia) in system.velocity.iter().zip(&system.of_constant).zip(&system.inertia) {
+            impulse -= velocity * (sum - inertia);
+        }
+        let time_step = self.state.last_step;
+        if let Some(columns) = &self.state.columns {
+            // what moves with grains is an exchange; what holds is the held grains
+            for (velocity, hold) in system.velocity.iter().zip(&columns.drag.hold) {
+                impulse[0] += velocity[0] * hold * time_step;
+            }
+            impulse[0] += columns.holding_force(time_step) * time_step;
+        }
+        impulse / time_step
+    }
+
+    /// Force of the fluid on every free sediment particle in the last step `[N]`, per metre of width in 2-D.
+    #[must_use]
+    pub fn drag(&self) -> Vec<Vector<2>> {
+        if let Some(columns) = &self.state.columns {
+            return columns.drag_forces(self.state.last_step).collect();
+        }
+        let system = &self.state.system;
+        let free_fluid = self.state.phases.fluid.len();
+        let rows = free_fluid..system.couplings.len();
+        let of_row = |row: usize| {
+            let from_fluid = system.couplings.row(row).filter(|(partner, _)| (*partner as usize) < free_fluid);
+            let force = |sum, (partner, coefficient): (u32, f64)| {
+                sum + (system.velocity[partner as usize] - system.velocity[row]) * coefficient
+            };
+            from_fluid.fold(Vector::zeros(), force) / self.state.last_step
+        };
+        rows.map(of_row).collect()
+    }
+
+    /// A copy of the state in the order of the scene.
+    #[must_use]
+    pub fn snapshot(&self) -> IncompressibleSnapshot<2> {
+        IncompressibleSnapshot {
+            time: self.state.time,
+            fluid: PhaseSnapshot::of(&self.state.phases.fluid),
+            sediment: match (&self.state.columns, &self.state.phases.sediment) {
+                (Some(columns), _) => PhaseSnapshot::of_grains(&columns.grains),
+                (None, Some(sediment)) => PhaseSnapshot::of(sediment),
+                (None, None) => PhaseSnapshot::default(),
+            },
+            drag: self.drag(),
+        }
+    }
+}
+
 impl Stepping<2> for IncompressibleSimulation<2> {
     fn now(&self) -> f64 {
         self.state.time
@@ -159,60 +216,6 @@ impl<const D: usize> IncompressibleSimulation<D> {
             (Some(columns), _) => &columns.grains.mass,
             (None, Some(sediment)) => &sediment.mass,
             (None, None) => &[],
-        }
-    }
-
-    /// Force of walls and fixed grains on the fluid and the sediment in the last step `[N]`, per metre of width in 2-D:
-    /// friction and drag, without what the walls' pressure gives.
-    #[must_use]
-    pub fn holding_force(&self) -> Vector<D> {
-        let system = &self.state.system;
-        let mut impulse = Vector::zeros();
-        for ((velocity, sum), inertia) in system.velocity.iter().zip(&system.of_constant).zip(&system.inertia) {
-            impulse -= velocity * (sum - inertia);
-        }
-        let time_step = self.state.last_step;
-        if let Some(columns) = &self.state.columns {
-            // what moves with grains is an exchange; what holds is the held grains
-            for (velocity, hold) in system.velocity.iter().zip(&columns.drag.hold) {
-                impulse[0] += velocity[0] * hold * time_step;
-            }
-            impulse[0] += columns.holding_force(time_step) * time_step;
-        }
-        impulse / time_step
-    }
-
-    /// Force of the fluid on every free sediment particle in the last step `[N]`, per metre of width in 2-D.
-    #[must_use]
-    pub fn drag(&self) -> Vec<Vector<D>> {
-        if let Some(columns) = &self.state.columns {
-            return columns.drag_forces(self.state.last_step).collect();
-        }
-        let system = &self.state.system;
-        let free_fluid = self.state.phases.fluid.len();
-        let rows = free_fluid..system.couplings.len();
-        let of_row = |row: usize| {
-            let from_fluid = system.couplings.row(row).filter(|(partner, _)| (*partner as usize) < free_fluid);
-            let force = |sum, (partner, coefficient): (u32, f64)| {
-                sum + (system.velocity[partner as usize] - system.velocity[row]) * coefficient
-            };
-            from_fluid.fold(Vector::zeros(), force) / self.state.last_step
-        };
-        rows.map(of_row).collect()
-    }
-
-    /// A copy of the state in the order of the scene.
-    #[must_use]
-    pub fn snapshot(&self) -> IncompressibleSnapshot<D> {
-        IncompressibleSnapshot {
-            time: self.state.time,
-            fluid: PhaseSnapshot::of(&self.state.phases.fluid),
-            sediment: match (&self.state.columns, &self.state.phases.sediment) {
-                (Some(columns), _) => PhaseSnapshot::of_grains(&columns.grains),
-                (None, Some(sediment)) => PhaseSnapshot::of(sediment),
-                (None, None) => PhaseSnapshot::default(),
-            },
-            drag: self.drag(),
         }
     }
 

@@ -40,6 +40,15 @@ pub trait Compiled<const D: usize>: Sized {
     /// # Errors
     /// The divergence, if the state left its range.
     fn compiled_step(&mut self) -> Result<(), Divergence<D>>;
+
+    /// The bounds of the next step.
+    fn compiled_time_step_bounds(&self) -> TimeStepBounds;
+
+    /// A copy of the state in the order of the scene.
+    fn compiled_snapshot(&self) -> Snapshot<D>;
+
+    /// Energies and where they came from.
+    fn compiled_energy(&self) -> Option<EnergyAccount>;
 }
 
 macro_rules! compiled {
@@ -51,6 +60,18 @@ macro_rules! compiled {
 
             fn compiled_step(&mut self) -> Result<(), Divergence<$dimensions>> {
                 self.take_step()
+            }
+
+            fn compiled_time_step_bounds(&self) -> TimeStepBounds {
+                self.state.time_step_bounds()
+            }
+
+            fn compiled_snapshot(&self) -> Snapshot<$dimensions> {
+                self.copy()
+            }
+
+            fn compiled_energy(&self) -> Option<EnergyAccount> {
+                self.account()
             }
         }
     )+};
@@ -76,6 +97,24 @@ where
     /// The divergence, if the state left its range.
     pub fn step(&mut self) -> Result<(), Divergence<D>> {
         self.compiled_step()
+    }
+
+    /// The bounds of the next step.
+    #[must_use]
+    pub fn time_step_bounds(&self) -> TimeStepBounds {
+        self.compiled_time_step_bounds()
+    }
+
+    /// A copy of the state in the order of the scene.
+    #[must_use]
+    pub fn snapshot(&self) -> Snapshot<D> {
+        self.compiled_snapshot()
+    }
+
+    /// Energies and where they came from; with the single divergence only, whose terms book their work.
+    #[must_use]
+    pub fn energy(&self) -> Option<EnergyAccount> {
+        self.compiled_energy()
     }
 
     /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
@@ -135,13 +174,7 @@ impl<const D: usize> Simulation<D> {
         if self.state.displacement > 0.5 * self.state.model.skin() {
             self.state.search_neighbours()?;
         }
-        self.state.advance(self.time_step_bounds().step())
-    }
-
-    /// The bounds of the next step.
-    #[must_use]
-    pub fn time_step_bounds(&self) -> TimeStepBounds {
-        self.state.time_step_bounds()
+        self.state.advance(self.state.time_step_bounds().step())
     }
 
     /// Expected number of steps for `duration` `[s]` with the largest viscosity that the law can show at the
@@ -233,16 +266,12 @@ impl<const D: usize> Simulation<D> {
         &self.state.model.rheology
     }
 
-    /// A copy of the state in the order of the scene.
-    #[must_use]
-    pub fn snapshot(&self) -> Snapshot<D> {
+    fn copy(&self) -> Snapshot<D> {
         let State { particles, model, .. } = &self.state;
-        Snapshot::new(self.state.time, particles, &model.equation_of_state, self.energy())
+        Snapshot::new(self.state.time, particles, &model.equation_of_state, self.account())
     }
 
-    /// Energies and where they came from; with the single divergence only, whose terms book their work.
-    #[must_use]
-    pub fn energy(&self) -> Option<EnergyAccount> {
+    fn account(&self) -> Option<EnergyAccount> {
         let State { particles, model, energy, .. } = &self.state;
         let shear_modulus = model.rheology.is_plastic().then(|| model.shear_modulus());
         (model.gradient_use() == GradientUse::Stress)

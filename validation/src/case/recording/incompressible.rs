@@ -18,10 +18,10 @@ impl<const D: usize> State for IncompressibleSnapshot<D> {
     }
 }
 
-impl<const D: usize> Recordable for IncompressibleSimulation<D> {
-    type State = IncompressibleSnapshot<D>;
+impl Recordable for IncompressibleSimulation<2> {
+    type State = IncompressibleSnapshot<2>;
 
-    fn state(&self) -> IncompressibleSnapshot<D> {
+    fn state(&self) -> IncompressibleSnapshot<2> {
         self.snapshot()
     }
 

@@ -3,7 +3,7 @@
 use crate::observation::Frame;
 use bagnold_solver::incompressible::IncompressibleSimulation;
 use bagnold_solver::vector::{Vector, equivalent_shear_stress, shear_rate};
-use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
 fn flat<const D: usize>(v: &Vector<D>) -> [f64; 3] {
     [v[0], v[1], if D == 3 { v[2] } else { 0.0 }]
@@ -16,7 +16,10 @@ fn identities(count: usize) -> (String, String, Vec<f64>) {
 
 /// Particles of a weakly compressible flow: besides pressure, density and velocity the shear rate |γ̇|, the stress
 /// ratio τ/p (0 without pressure), whether the yield stress is reached (1; 0 below it), and for grains I = |γ̇| D/√(p/ρ_s).
-pub(super) fn of_flow<const D: usize>(simulation: &Simulation<D>) -> Frame {
+pub(super) fn of_flow<const D: usize>(simulation: &Simulation<D>) -> Frame
+where
+    Simulation<D>: Compiled<D>,
+{
     let snapshot = simulation.snapshot();
     let law = simulation.rheology();
     let rates: Vec<f64> = snapshot.velocity_gradient.iter().map(shear_rate).collect();
@@ -64,7 +67,7 @@ pub(super) fn of_walls<const D: usize>(simulation: &Simulation<D>) -> Option<Fra
 }
 
 /// Both phases of an incompressible flow.
-pub(super) fn of_phases<const D: usize>(simulation: &IncompressibleSimulation<D>) -> Frame {
+pub(super) fn of_phases(simulation: &IncompressibleSimulation<2>) -> Frame {
     let snapshot = simulation.snapshot();
     let mut frame = Frame::of_phases(&snapshot);
     let masses = snapshot.fluid.mass.iter().chain(&snapshot.sediment.mass).copied().collect();

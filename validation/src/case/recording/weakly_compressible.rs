@@ -19,7 +19,10 @@ impl<const D: usize> State for Snapshot<D> {
     }
 }
 
-impl<const D: usize> Recordable for Simulation<D> {
+impl<const D: usize> Recordable for Simulation<D>
+where
+    Self: Compiled<D>,
+{
     type State = Snapshot<D>;
 
     fn state(&self) -> Snapshot<D> {

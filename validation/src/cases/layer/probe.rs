@@ -186,9 +186,13 @@ impl LayerProbe {
             let mut matrix = nalgebra::Matrix3::<f64>::zeros();
             let mut right = nalgebra::Vector3::<f64>::zeros();
             for b in 0..n {
+                let dy = snapshot.position[b][1] - snapshot.position[a][1];
+                // most particles lie higher or lower, and the nearest image is what costs
+                if dy.abs() >= self.reach {
+                    continue;
+                }
                 let mut dx = snapshot.position[b][0] - snapshot.position[a][0];
                 dx -= self.length * (dx / self.length).round();
-                let dy = snapshot.position[b][1] - snapshot.position[a][1];
                 if dx * dx + dy * dy < self.reach * self.reach {
                     let row = nalgebra::Vector3::new(1.0, dx / self.reach, dy / self.reach);
                     matrix += row * row.transpose();

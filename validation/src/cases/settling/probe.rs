@@ -189,6 +189,10 @@ impl Probe {
                     way - self.size[axis] * (way / self.size[axis]).round()
                 });
                 let value = self.kernel.value(way.norm_squared());
+                // most of the fluid is out of reach, and the drag law is what costs
+                if value == 0.0 {
+                    continue;
+                }
                 let pair = u - own;
                 let product = law.drag_times_reynolds(self.grains.reynolds(pair.norm())).unwrap_or(f64::NAN);
                 weight += value;
