@@ -5,12 +5,16 @@ use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+/// Folders of whose code a result may depend.
+const SOURCES: [&str; 5] =
+    ["solver/src", "validation/number/src", "validation/figure/src", "validation/inference/src", "validation/src"];
+
 fn main() {
     let package = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     let workspace = package.parent().map(Path::to_path_buf).unwrap_or_default();
     let mut hash = Sha256::new();
 
-    for name in ["solver/src", "validation/src"] {
+    for name in SOURCES {
         let folder = workspace.join(name);
         println!("cargo::rerun-if-changed={}", folder.display());
         for file in sorted_files(&folder) {

@@ -1,4 +1,4 @@
-//! Cost of an incompressible step, per particle: `cargo bench -p bagnold-solver --bench projection`.
+//! Cost of an incompressible step, per particle: `cargo bench -p bagnold-benches --bench projection`.
 //!
 //! A step bench goes on through a run: clear water over a rough bed, and the same over 80 mm of 5 mm grains with water
 //! between. What the linear solves take is printed after each.

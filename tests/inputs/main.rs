@@ -3,6 +3,7 @@
 //!
 //! `cargo test` tries a few hundred; `tests/inputs/study.sh` tries thousands.
 
+mod bounds;
 mod changes;
 mod files;
 mod judge;

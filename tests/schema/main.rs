@@ -1,19 +1,46 @@
 //! Every case's JSON Schema: it accepts what `bagnold show` prints and refuses what the program refuses.
+//!
+//! Needs a program: `BAGNOLD=target/debug/bagnold cargo test --manifest-path tests/schema/Cargo.toml`. It stands apart from the
+//! other tests, which do without the library that checks schemas; `.ci/run` runs it.
 
-use bagnold_validation::case::{AnyCase, Changes, Tier};
-use bagnold_validation::cases::REGISTRY;
 use jsonschema::Validator;
 use serde_json::{Value, json};
+use std::path::PathBuf;
+use std::process::{Command, Output};
 
-const TIERS: [Tier; 3] = [Tier::Quick, Tier::Paper, Tier::Fine];
+const TIERS: [&str; 3] = ["quick", "paper", "fine"];
 
-fn validator(schema: &Value) -> Validator {
-    jsonschema::draft202012::new(schema).expect("a JSON Schema")
+fn bagnold(arguments: &[&str]) -> Output {
+    let checkout = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let program = std::env::var_os("BAGNOLD").map_or("target/debug/bagnold".into(), PathBuf::from);
+    let output = Command::new(checkout.join(&program)).args(arguments).current_dir(&checkout).output();
+    output.unwrap_or_else(|error| panic!("{}: {error}; set BAGNOLD to the program's path", program.display()))
+}
+
+fn printed(arguments: &[&str]) -> String {
+    let output = bagnold(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+fn cases() -> Vec<String> {
+    let cases: Vec<String> =
+        printed(&["list"]).lines().filter_map(|line| line.split_whitespace().next().map(str::to_owned)).collect();
+    assert!(cases.len() >= 16, "{cases:?}");
+    cases
+}
+
+fn schema(case: &str, tier: &str) -> Value {
+    serde_json::from_str(&printed(&["schema", case, "--tier", tier])).expect("JSON")
 }
 
 /// The shown file as JSON.
-fn shown(case: &dyn AnyCase, tier: Tier) -> Value {
-    toml::from_str(&case.show(tier)).expect("TOML")
+fn shown(case: &str, tier: &str) -> Value {
+    toml::from_str(&printed(&["show", case, "--tier", tier])).expect("TOML")
+}
+
+fn validator(schema: &Value) -> Validator {
+    jsonschema::draft202012::new(schema).expect("a JSON Schema")
 }
 
 /// A number's path, with a value just outside its bounds.
@@ -47,66 +74,61 @@ fn with(mut file: Value, path: &[String], value: Value) -> Value {
 
 #[test]
 fn a_schema_accepts_what_show_prints() {
-    for case in REGISTRY.iter() {
+    for case in cases() {
         for tier in TIERS {
-            let schema = case.schema(tier);
+            let schema = schema(&case, tier);
             jsonschema::draft202012::meta::validate(&schema).expect("valid against the metaschema");
             let errors: Vec<String> = validator(&schema)
-                .iter_errors(&shown(case, tier))
+                .iter_errors(&shown(&case, tier))
                 .map(|error| format!("{}: {error}", error.instance_path()))
                 .collect();
-            assert!(errors.is_empty(), "{} {tier}: {errors:?}", case.name());
+            assert!(errors.is_empty(), "{case} {tier}: {errors:?}");
         }
     }
 }
 
 #[test]
 fn a_schema_needs_nothing_but_the_case() {
-    for case in REGISTRY.iter() {
-        let validator = validator(&case.schema(Tier::Quick));
-        assert!(validator.is_valid(&json!({ "case": case.name() })), "{}", case.name());
+    for case in cases() {
+        let validator = validator(&schema(&case, "quick"));
+        assert!(validator.is_valid(&json!({ "case": case })), "{case}");
         assert!(!validator.is_valid(&json!({ "case": "another" })) && !validator.is_valid(&json!({})));
-        assert!(!validator.is_valid(&json!({ "case": case.name(), "tier": "papre" })));
+        assert!(!validator.is_valid(&json!({ "case": case, "tier": "papre" })));
     }
 }
 
 #[test]
 fn a_schema_refuses_unknown_fields_and_wrong_types() {
-    for case in REGISTRY.iter() {
-        let schema = case.schema(Tier::Quick);
-        let (validator, file) = (validator(&schema), shown(case, Tier::Quick));
+    for case in cases() {
+        let (schema, file) = (schema(&case, "quick"), shown(&case, "quick"));
+        let validator = validator(&schema);
         for (name, field) in schema["properties"].as_object().expect("fields") {
             assert!(!validator.is_valid(&with(file.clone(), &[format!("{name}_")], json!(1))), "{name}_");
             assert!(!validator.is_valid(&with(file.clone(), std::slice::from_ref(name), json!({ "x": 1 }))), "{name}");
-            assert!(field["description"].is_string() || name == "numerics", "{} says nothing of {name}", case.name());
+            assert!(field["description"].is_string() || name == "numerics", "{case} has no description of {name}");
         }
     }
 }
 
 #[test]
 fn schema_and_program_refuse_the_same_values() {
-    for case in REGISTRY.iter() {
-        let schema = case.schema(Tier::Quick);
-        let (validator, file) = (validator(&schema), shown(case, Tier::Quick));
+    for case in cases() {
+        let (schema, file) = (schema(&case, "quick"), shown(&case, "quick"));
+        let validator = validator(&schema);
         let mut outside = Vec::new();
         bounded(&schema, &[], &mut outside);
-        assert!(outside.len() > 10, "{}", case.name());
+        assert!(outside.len() > 10, "{case}");
         for Outside { path, value } in outside {
             let name = path.join(".");
-            let settings = [format!("{name}={value}")];
-            assert!(!validator.is_valid(&with(file.clone(), &path, value)), "{}: {}", case.name(), settings[0]);
-            let refused =
-                case.prepare(Tier::Quick, &Changes { file: None, settings: &settings, ..Changes::default() }).err();
-            let message = refused.map(|error| error.to_string()).unwrap_or_default();
-            assert!(message.contains(&format!("`{name}` is ")), "{}: {}: {message}", case.name(), settings[0]);
+            let setting = format!("{name}={value}");
+            assert!(!validator.is_valid(&with(file.clone(), &path, value)), "{case}: {setting}");
+            // what the program wrongly took would be refused as too long
+            let output = bagnold(&["run", &case, "--set", &setting, "--most-hours", "1e-9"]);
+            let message = String::from_utf8_lossy(&output.stderr);
+            assert!(
+                output.status.code() == Some(2) && message.contains(&format!("`{name}` is ")),
+                "{case}: {setting}: {message}"
+            );
         }
-    }
-}
-
-#[test]
-fn every_number_of_every_case_is_bounded_on_both_sides() {
-    for case in REGISTRY.iter() {
-        let loose = bagnold_solver::parameter::unbounded(&case.schema(Tier::Quick));
-        assert!(loose.is_empty(), "{}: give a unit in the doc comment, or a rule: {loose:?}", case.name());
     }
 }

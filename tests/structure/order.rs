@@ -27,13 +27,17 @@ const SOLVER: &[Floor] = &[
     peers(&["weakly_compressible", "incompressible"]),
 ];
 
-/// `validation/src`, likewise.
+/// `validation/inference/src`, likewise. The packages `number` and `figure` have a single floor, and that none of the three
+/// knows the solver or a case is said by their dependencies.
+const INFERENCE: &[Floor] = &[floor(&["statistics", "sampling"]), floor(&["inference"])];
+
+/// `validation/src`, likewise; what it passes on of other packages stands below it.
 const VALIDATION: &[Floor] = &[
-    floor(&["input", "interruption", "number", "statistics"]),
-    floor(&["sampling", "output", "figure"]),
+    floor(&["input", "interruption"]),
+    floor(&["output"]),
     floor(&["metric", "reference"]),
     floor(&["observation"]),
-    floor(&["store", "checkpoint", "inference"]),
+    floor(&["store", "checkpoint"]),
     floor(&["case"]),
     floor(&["cases", "evaluation", "result", "report"]),
     floor(&["sweep", "calibration", "mutation", "judge", "compare"]),
@@ -113,6 +117,19 @@ fn the_solver_depends_downwards_only() {
 #[test]
 fn the_validation_depends_downwards_only() {
     assert_none(&offences("validation/src", VALIDATION));
+}
+
+#[test]
+fn the_mathematics_of_calibration_depends_downwards_and_on_no_other_package_but_digits() {
+    assert_none(&offences("validation/inference/src", INFERENCE));
+    for package in ["number", "figure", "inference"] {
+        let path = crate::source::workspace().join("validation").join(package).join("Cargo.toml");
+        let manifest: toml::Table = toml::from_str(&std::fs::read_to_string(&path).expect("a manifest")).expect("TOML");
+        let needs =
+            manifest.get("dependencies").and_then(toml::Value::as_table).into_iter().flat_map(toml::Table::keys);
+        let own: Vec<&String> = needs.filter(|name| name.starts_with("bagnold-")).collect();
+        assert!(own.iter().all(|name| *name == "bagnold-number"), "{package} depends on {own:?}");
+    }
 }
 
 #[test]

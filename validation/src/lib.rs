@@ -7,21 +7,20 @@ pub mod checkpoint;
 pub mod cli;
 pub mod compare;
 pub mod evaluation;
-pub mod figure;
-pub mod inference;
 pub mod input;
 pub mod interruption;
 pub mod judge;
 pub mod metric;
 #[cfg(feature = "planted-errors")]
 pub mod mutation;
-pub mod number;
 pub mod observation;
 pub mod output;
 pub mod reference;
 pub mod report;
 pub mod result;
-pub mod sampling;
-pub mod statistics;
 pub mod store;
 pub mod sweep;
+
+pub use bagnold_figure as figure;
+pub use bagnold_inference::{inference, sampling, statistics};
+pub use bagnold_number as number;

@@ -6,10 +6,10 @@ use super::error::CalibrationError;
 use super::repeats::Repeats;
 use super::text::Text;
 use crate::case::{Limits, Registry};
-use crate::evaluation::{CaseRequest, PlanError, read_plan};
+use crate::evaluation::{CaseRequest, Paths, PlanError, read_plan, toml_number};
 use crate::inference::{Budget, Loss, Method};
 use crate::input::{FieldError, nearest};
-use crate::sampling::{Bounds, Paths, float};
+use crate::sampling::Bounds;
 use crate::store::Store;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -110,7 +110,9 @@ impl Plan {
         self.parameters
             .iter()
             .zip(values)
-            .filter_map(|(parameter, &value)| path(&parameter.path).map(|path| format!("{path}={}", float(value))))
+            .filter_map(|(parameter, &value)| {
+                path(&parameter.path).map(|path| format!("{path}={}", toml_number(value)))
+            })
             .collect()
     }
 

@@ -9,10 +9,9 @@ use super::error::CalibrationError;
 use super::objective::{Objective, Question};
 use super::plan::{Choice, Plan};
 use super::target::{Datum, Target};
-use crate::evaluation::Record;
+use crate::evaluation::{Paths, Record};
 use crate::inference::Answer;
 use crate::input::FieldError;
-use crate::sampling::Paths;
 
 /// Points about the minimum whose scatter is averaged: those whose χ² rises by no more than this many times the threshold.
 const ABOUT: f64 = 25.0;

@@ -5,10 +5,10 @@ use super::data::DatumText;
 use super::plan::{Block, Choice, Parameter, Plan};
 use super::repeats::Repeats;
 use crate::case::{Limits, Tier};
-use crate::evaluation::CaseRequest;
+use crate::evaluation::{CaseRequest, Paths};
 use crate::inference::{Budget, Loss, Method};
 use crate::input::FieldError;
-use crate::sampling::{Bounds, Paths, Spacing};
+use crate::sampling::{Bounds, Spacing};
 use serde::Deserialize;
 use std::path::Path;
 
@@ -266,7 +266,7 @@ impl BlockText {
 impl ParameterText {
     fn checked(&self, field: &str) -> Result<Parameter, FieldError> {
         let bounds = Bounds { lower: self.lower, upper: self.upper, spacing: self.scale };
-        bounds.check(field)?;
+        bounds.check().map_err(|error| FieldError::of_bounds(field, &error))?;
         let start = self.start.unwrap_or_else(|| bounds.value(0.5));
         let rule = format!("between {} and {}", self.lower, self.upper);
         if !(start >= self.lower && start <= self.upper) {

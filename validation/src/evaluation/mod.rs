@@ -4,9 +4,11 @@
 //! case, its tier and all its parameters. Whoever finds the file need not simulate.
 
 mod error;
+mod paths;
 mod record;
 
 pub use error::{PlanError, read_plan};
+pub use paths::Paths;
 pub use record::{MetricValue, Record};
 
 use crate::case::{Changes, Limits, Monitor, ParameterError, Prepared, Registry, Tier, execute};
@@ -30,6 +32,12 @@ pub struct CaseRequest {
     /// Parameters, as in a case's file.
     #[serde(default)]
     pub with: toml::Table,
+}
+
+/// A number as TOML writes it, with all its digits: the value of a setting.
+#[must_use]
+pub fn toml_number(value: f64) -> String {
+    toml::Value::Float(value).to_string()
 }
 
 fn quick() -> Tier {

@@ -1,6 +1,7 @@
 //! A field whose value breaks a rule: the error that most input is refused with.
 
 use super::name::origin;
+use crate::sampling::BoundsError;
 use bagnold_solver::parameter::shortened;
 use std::path::{Path, PathBuf};
 
@@ -26,6 +27,12 @@ impl FieldError {
     pub fn new(field: &str, value: impl std::fmt::Display, rule: &str, remedy: &str) -> Self {
         let value = shortened(value.to_string());
         Self { file: None, field: field.to_owned(), value, rule: rule.into(), remedy: remedy.into() }
+    }
+
+    /// The error of a range that stands in a table of a file.
+    #[must_use]
+    pub fn of_bounds(table: &str, error: &BoundsError) -> Self {
+        Self::new(&format!("{table}.{}", error.end), error.value, &error.rule, error.remedy)
     }
 
     /// Says that the field is part of a group of fields.

@@ -1,7 +1,7 @@
 //! Particles from files of VTK: `.vtu`, `.vtp`, legacy `.vtk`, and the times of a `.pvd` collection.
 
 use crate::input::FieldError;
-use resvg::usvg::roxmltree::Document;
+use roxmltree::Document;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -96,7 +96,7 @@ fn escape(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use resvg::usvg::roxmltree::Document;
+    use roxmltree::Document;
 
     fn frame() -> Frame {
         Frame {

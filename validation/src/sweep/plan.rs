@@ -3,9 +3,9 @@
 use super::error::SweepError;
 use super::manifest::{Entry, Manifest};
 use crate::case::{Limits, ParameterError, Prepared, Registry};
-use crate::evaluation::{self, CaseRequest, PlanError, read_plan};
+use crate::evaluation::{self, CaseRequest, Paths, PlanError, read_plan, toml_number};
 use crate::input::FieldError;
-use crate::sampling::{Bounds, Paths, Spacing, design, float};
+use crate::sampling::{Bounds, Spacing, design};
 use crate::store::source_hash;
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -161,7 +161,7 @@ impl SweepPlan {
     fn points(&self) -> Vec<Vec<String>> {
         let parameters = &self.text.parameters;
         let in_cube = |points: Vec<Vec<f64>>| -> Vec<Vec<String>> {
-            let at = |(parameter, &coordinate): (&Varied, &f64)| float(parameter.bounds().value(coordinate));
+            let at = |(parameter, &coordinate): (&Varied, &f64)| toml_number(parameter.bounds().value(coordinate));
             points.iter().map(|point| parameters.iter().zip(point).map(at).collect()).collect()
         };
         match self.text.design {
@@ -271,7 +271,7 @@ impl Varied {
             (Some(values), _) => values.iter().map(Value::to_string).collect(),
             (None, levels) => {
                 let points = design::full_grid(&[levels.unwrap_or(2)]);
-                points.iter().map(|point| float(self.bounds().value(point[0]))).collect()
+                points.iter().map(|point| toml_number(self.bounds().value(point[0]))).collect()
             }
         }
     }
@@ -302,7 +302,7 @@ impl Varied {
                         return Err(FieldError::new(&format!("{field}.{name}"), "missing", "a number", remedy));
                     }
                 }
-                self.bounds().check(field)?;
+                self.bounds().check().map_err(|error| FieldError::of_bounds(field, &error))?;
                 match (self.levels, grid) {
                     (None, false) => Ok(()),
                     (Some(2..), true) => Ok(()),

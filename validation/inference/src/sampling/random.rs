@@ -5,7 +5,7 @@ use rand_pcg::Pcg64Mcg;
 
 /// A seeded source of uniform and normal numbers.
 #[derive(Debug, Clone)]
-pub(crate) struct Random {
+pub struct Random {
     generator: Pcg64Mcg,
     /// The second number of the last normal pair.
     spare: Option<f64>,
@@ -13,22 +13,22 @@ pub(crate) struct Random {
 
 impl Random {
     /// The source that belongs to `seed`.
-    pub(crate) fn new(seed: u64) -> Self {
+    pub fn new(seed: u64) -> Self {
         Self { generator: Pcg64Mcg::seed_from_u64(seed), spare: None }
     }
 
     /// A number in [0, 1).
-    pub(crate) fn uniform(&mut self) -> f64 {
+    pub fn uniform(&mut self) -> f64 {
         self.generator.random::<f64>()
     }
 
     /// One of 0 … `count` − 1.
-    pub(crate) fn index(&mut self, count: usize) -> usize {
+    pub fn index(&mut self, count: usize) -> usize {
         ((self.uniform() * count as f64) as usize).min(count.saturating_sub(1))
     }
 
     /// A number of the standard normal distribution, by Box and Muller's method.
-    pub(crate) fn normal(&mut self) -> f64 {
+    pub fn normal(&mut self) -> f64 {
         if let Some(spare) = self.spare.take() {
             return spare;
         }
@@ -39,7 +39,7 @@ impl Random {
     }
 
     /// Puts a list into random order.
-    pub(crate) fn shuffle<T>(&mut self, list: &mut [T]) {
+    pub fn shuffle<T>(&mut self, list: &mut [T]) {
         for last in (1..list.len()).rev() {
             let other = self.index(last + 1);
             list.swap(last, other);

@@ -4,5 +4,5 @@ pub mod design;
 mod parameter;
 mod random;
 
-pub use parameter::{Bounds, Paths, Spacing, float};
-pub(crate) use random::Random;
+pub use parameter::{Bounds, BoundsError, Spacing};
+pub use random::Random;

@@ -2,10 +2,9 @@
 
 use super::error::FigureError;
 use plotters::style::{FontDesc, FontFamily, FontStyle, register_font};
-use resvg::usvg::fontdb;
-use std::sync::{Arc, LazyLock};
+use std::sync::LazyLock;
 
-/// Family name, as in the font's own name table: plotters and resvg must agree on it.
+/// Family name, as in the font's own name table and as browsers know it.
 pub(super) const FAMILY: &str = "DejaVu Sans";
 
 /// What a browser may take where DejaVu Sans is not installed; Verdana has the same widths.
@@ -13,14 +12,6 @@ pub(super) const FAMILY_WITH_FALLBACK: &str = "DejaVu Sans, Verdana, sans-serif"
 
 /// plotters' text size is a line height, 1.24 times the em that it writes into the SVG.
 pub(super) const LINE_HEIGHT: f64 = 1.24;
-
-static RASTER_FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
-    let mut database = fontdb::Database::new();
-    database.load_font_data(dejavu::sans::regular().to_vec());
-    database.load_font_data(dejavu::sans::bold().to_vec());
-    database.set_sans_serif_family(FAMILY);
-    Arc::new(database)
-});
 
 static REGISTERED: LazyLock<Result<(), &'static str>> = LazyLock::new(|| {
     register_font(FAMILY, FontStyle::Normal, dejavu::sans::regular()).map_err(|_| "regular")?;
@@ -46,11 +37,6 @@ impl Weight {
 /// Makes the font known to plotters; cheap after the first call.
 pub(super) fn register() -> Result<(), FigureError> {
     (*REGISTERED).map_err(|style| FigureError::Font { style })
-}
-
-/// The font for the rasteriser.
-pub(super) fn raster_fonts() -> Arc<fontdb::Database> {
-    Arc::clone(&RASTER_FONTS)
 }
 
 /// Width of `text` set at `em` pixels `[px]`; a rough estimate if the font is missing.

@@ -4,12 +4,12 @@
 use super::animation::Animation;
 use super::error::FigureError;
 use super::palette::FIRST;
-use super::render;
+use super::{raster, render};
 use plotters::style::RGBColor;
 use rayon::prelude::*;
-use resvg::tiny_skia::Pixmap;
 use std::borrow::Cow;
 use std::sync::LazyLock;
+use tiny_skia::Pixmap;
 
 /// Pixels of the animation over those of a figure's sheet: 800 px wide, what a page shows.
 const SCALE: f32 = 0.5;
@@ -46,7 +46,7 @@ pub(super) fn encode(animation: &Animation) -> Result<Vec<u8>, FigureError> {
         .frames
         .par_iter()
         .map(|frame| {
-            let pixels = render::raster(&render::svg(&animation.figure(frame))?, SCALE)?;
+            let pixels = raster::pixels(&render::svg(&animation.figure(frame))?, SCALE)?;
             Ok(Picture::of(&pixels))
         })
         .collect::<Result<_, FigureError>>()?;
@@ -220,7 +220,7 @@ mod tests {
             }
         }
         let last = render::svg(&animation.figure(&animation.frames[2])).expect("SVG");
-        let expected = Picture::of(&render::raster(&last, SCALE).expect("raster"));
+        let expected = Picture::of(&raster::pixels(&last, SCALE).expect("raster"));
         assert!(canvas == expected.indices);
     }
 

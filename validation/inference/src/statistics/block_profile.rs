@@ -1,7 +1,7 @@
 //! Profiles over the height, in bins of one spacing and blocks of time.
 
 use super::{BLOCKS, Estimate, block_jackknife};
-use bagnold_solver::vector::Vector;
+use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -65,7 +65,7 @@ impl BlockProfile {
 
     /// Adds a sample at `share` of the averaging window, 0 … 1: the particles' positions `[m]`, velocities `[m/s]` and
     /// pressures `[Pa]`. What lies outside of the bins is left out.
-    pub fn observe(&mut self, share: f64, position: &[Vector<2>], velocity: &[Vector<2>], pressure: &[f64]) {
+    pub fn observe(&mut self, share: f64, position: &[Vector2<f64>], velocity: &[Vector2<f64>], pressure: &[f64]) {
         let block = Self::block(share);
         self.times += 1;
         for ((x, v), p) in position.iter().zip(velocity).zip(pressure) {
@@ -144,8 +144,8 @@ mod tests {
     /// Two particles in the lower bin and one in the middle; the velocity of the first grows from block to block.
     fn profile() -> BlockProfile {
         let mut profile = BlockProfile::new(1.0, 0.5, 3);
-        let at = |z: f64| Vector::<2>::new(0.0, z);
-        let along = |u: f64| Vector::<2>::new(u, 0.0);
+        let at = |z: f64| Vector2::new(0.0, z);
+        let along = |u: f64| Vector2::new(u, 0.0);
         for sample in 0..320 {
             let share = (f64::from(sample) + 0.5) / 320.0;
             // 0 … 31 in an order without correlation

@@ -1,7 +1,7 @@
 //! Findings in sentences.
 
 use super::{Kind, Parameter};
-use crate::number::short_digits;
+use bagnold_number::short_digits;
 
 /// Writes numbers of the unit cube as a physicist reads them.
 pub(super) struct Writer<'a> {

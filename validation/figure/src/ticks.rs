@@ -2,7 +2,7 @@
 
 use super::Scale;
 use super::range::Range;
-use crate::number::superscript;
+use bagnold_number::superscript;
 
 /// One labelled tick.
 #[derive(Debug, Clone, PartialEq)]

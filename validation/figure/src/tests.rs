@@ -1,7 +1,7 @@
 //! Whole figures: what is in the SVG, whether the PNG shows it, and data that must not break anything.
 
 use super::*;
-use resvg::tiny_skia::Pixmap;
+use tiny_skia::Pixmap;
 
 fn axis(label: &str, scale: Scale) -> Axis {
     Axis { label: label.to_owned(), scale, limits: None }

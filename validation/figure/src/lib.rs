@@ -1,4 +1,4 @@
-//! Figures as plain data: cases describe what to draw, this module draws it.
+//! Figures as plain data: who has something to show describes what to draw, this package draws it.
 
 mod animation;
 mod axes;
@@ -11,10 +11,12 @@ mod error;
 mod field;
 mod font;
 mod gif;
+mod glyphs;
 mod legend;
 mod palette;
 mod panel;
 mod range;
+mod raster;
 pub mod render;
 mod sheet;
 mod size;
@@ -164,7 +166,7 @@ pub fn write(figure: &Figure, folder: &Path) -> Result<Written, FigureError> {
 }
 
 /// Whether `name` is safe as a file or folder name: it can neither leave its folder nor need quoting in a link.
-pub(crate) fn is_file_name(name: &str) -> bool {
+pub fn is_file_name(name: &str) -> bool {
     name.starts_with(|first: char| first.is_ascii_alphanumeric())
         && name.chars().all(|character| character.is_ascii_alphanumeric() || "-_.".contains(character))
 }
