@@ -29,7 +29,8 @@ pub(super) fn report(
     announce(&cases, quiet);
     let started = Instant::now();
     let mut profile = Profile::begin();
-    let results = simulate(cases, &command.work.open_store(), quiet)?;
+    let store = command.work.open_store();
+    let results = simulate(cases, &store, quiet)?;
     profile.over("runs and their figures");
     if command.accept {
         baseline = Baseline::default();
@@ -54,7 +55,7 @@ pub(super) fn report(
         history,
         known_failures: known.clone(),
     };
-    report::write(&page, claimed.staging())?;
+    report::write(&page, claimed.staging(), &store.drawings())?;
     claimed.publish()?;
     profile.over("pages");
     if let Some(path) = &command.junit {

@@ -52,7 +52,8 @@ pub(super) fn run(
     let started = Instant::now();
     let mut profile = Profile::begin();
     let states = wanted.as_ref().map(|plan| States::of(prepared.as_ref(), plan, &claimed.staging().join("states")));
-    let mut results = simulate_showing(vec![prepared], &command.work.open_store(), quiet, states.as_ref())?;
+    let store = command.work.open_store();
+    let mut results = simulate_showing(vec![prepared], &store, quiet, states.as_ref())?;
     states.map_or(Ok(()), States::finish).map_err(|error| FileError::unwritable(&folder, &error))?;
     profile.over("runs and their figures");
     for result in &mut results {
@@ -84,7 +85,7 @@ pub(super) fn run(
         known_failures: known.clone(),
         papers: &[],
     };
-    report::write_alone(&page, claimed.staging())?;
+    report::write_alone(&page, claimed.staging(), &store.drawings())?;
     claimed.publish()?;
     profile.over("page");
     if let Some(path) = &command.junit {

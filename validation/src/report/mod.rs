@@ -2,6 +2,7 @@
 
 pub mod accepted;
 mod case_page;
+mod drawing;
 pub mod drift;
 mod earlier;
 mod error;
@@ -38,7 +39,7 @@ use crate::case::Tier;
 use crate::figure::{self, Animation, Figure, FigureError};
 use crate::metric::Metric;
 use crate::reference::Paper;
-use crate::store::provenance;
+use crate::store::{Drawings, provenance};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -141,11 +142,11 @@ struct Drawn {
 /// together as `metrics.json` and `figures/scatter/QUANTITY.{svg,png}`. Files of the same names are replaced, others are left
 /// alone.
 ///
-/// A figure that cannot be drawn does not spoil the report: the page says so in its place.
+/// What was drawn before is taken from `drawings`. A figure that cannot be drawn does not spoil the report: the page says so in its place.
 ///
 /// # Errors
 /// If a case name is no folder name, or a file cannot be written.
-pub fn write(report: &Report, folder: &Path) -> Result<(), ReportError> {
+pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), ReportError> {
     if let Some(case) = report.cases.iter().find(|case| !figure::is_file_name(&case.name)) {
         return Err(ReportError::Name { name: case.name.clone() });
     }
@@ -153,7 +154,7 @@ pub fn write(report: &Report, folder: &Path) -> Result<(), ReportError> {
     let drawn: Vec<Vec<Drawn>> = report
         .cases
         .par_iter()
-        .map(|case| draw(case, &folder.join("figures").join(&case.name)))
+        .map(|case| draw(case, &folder.join("figures").join(&case.name), drawings))
         .collect::<Result<_, _>>()?;
     let judgement = judge(report);
     for judged in &judgement.cases {
@@ -169,7 +170,8 @@ pub fn write(report: &Report, folder: &Path) -> Result<(), ReportError> {
         put(folder.join("papers.json"), &papers_page::json(report.tier, &judgement.papers))?;
     }
     let quantities = scatter::quantities(report);
-    let compared = draw_figures(&scatter::figures(&quantities), &folder.join("figures").join(scatter::FOLDER))?;
+    let compared =
+        draw_figures(&scatter::figures(&quantities), &folder.join("figures").join(scatter::FOLDER), drawings)?;
     put(folder.join("metrics.json"), &scatter::json(&quantities))?;
     let comparisons = scatter::rows(&quantities, &compared);
     put(folder.join("index.html"), &page::render(report, &judgement, &drawn, comparisons)?)
@@ -180,9 +182,9 @@ pub fn write(report: &Report, folder: &Path) -> Result<(), ReportError> {
 ///
 /// # Errors
 /// If a file cannot be written.
-pub fn write_alone(report: &Report, folder: &Path) -> Result<(), ReportError> {
+pub fn write_alone(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), ReportError> {
     for judged in &judge(report).cases {
-        let drawn = draw(judged.case, &folder.join("figures"))?;
+        let drawn = draw(judged.case, &folder.join("figures"), drawings)?;
         put_case(judged.case, folder)?;
         put(folder.join("index.html"), &case_page::render(report, judged, &drawn, None)?)?;
     }
@@ -224,19 +226,20 @@ fn neighbours(report: &Report, name: &str) -> view::Neighbours {
     }
 }
 
-fn draw(case: &CaseReport, folder: &Path) -> Result<Vec<Drawn>, ReportError> {
-    let mut drawn = draw_figures(&case.figures, folder)?;
+fn draw(case: &CaseReport, folder: &Path, drawings: &Drawings) -> Result<Vec<Drawn>, ReportError> {
+    let mut drawn = draw_figures(&case.figures, folder, drawings)?;
     let animations = case.animations.par_iter().map(|animation| {
-        let written = figure::write_animation(animation, folder);
+        let written = drawing::write_animation(animation, folder, drawings);
         as_drawn(&animation.name, &animation.caption, true, written)
     });
     drawn.extend(animations.collect::<Result<Vec<Drawn>, ReportError>>()?);
     Ok(drawn)
 }
 
-fn draw_figures(figures: &[Figure], folder: &Path) -> Result<Vec<Drawn>, ReportError> {
+fn draw_figures(figures: &[Figure], folder: &Path, drawings: &Drawings) -> Result<Vec<Drawn>, ReportError> {
+    make(folder)?;
     let draw = |figure: &Figure| {
-        let written = figure::write(figure, folder).map(|written| written.png);
+        let written = drawing::write_figure(figure, folder, drawings);
         as_drawn(&figure.name, &figure.caption, false, written)
     };
     figures.par_iter().map(draw).collect()

@@ -3,6 +3,7 @@
 use super::tests::{case, drawing, gated, html, known, report};
 use super::*;
 use crate::metric::Variant;
+use crate::store::Drawings;
 
 /// Every link and picture of every page in a folder leads to a file, and to a place in it that is there; how many there are.
 pub(super) fn links(folder: &Path) -> usize {
@@ -38,7 +39,7 @@ fn a_case_alone_has_the_same_page_beside_its_figures() {
     let mut film = case("film", vec![gated("velocity_l2", 0.5), gated("wall_slip", 0.3)]);
     film.figures = vec![drawing("wall-slip"), drawing("velocity-profile")];
     film.command = "bagnold run bagnold --tier paper".to_owned();
-    write_alone(&report(vec![film]), folder.path()).expect("written");
+    write_alone(&report(vec![film]), folder.path(), &Drawings::default()).expect("written");
     let page = std::fs::read_to_string(folder.path().join("index.html")).expect("a page");
     assert!(page.contains("src=\"figures/velocity-profile.png\"") && !page.contains("../"));
     assert!(page.contains("cargo run -- run bagnold --tier paper"), "as it is typed in a checkout");
@@ -109,7 +110,7 @@ fn labels_captions_and_messages_of_runs_are_text_and_not_markup() {
     let mut report = report(vec![film]);
     report.known_failures = known("film", "velocity_l2", 0.9);
     report.known_failures.failures[0].reason = evil.to_owned();
-    write(&report, folder.path()).expect("written");
+    write(&report, folder.path(), &Drawings::default()).expect("written");
     let mut folders = vec![folder.path().to_owned()];
     let mut read = 0;
     while let Some(here) = folders.pop() {

@@ -4,6 +4,7 @@ use super::super::{Report, judge, papers_page, tests, write};
 use super::*;
 use crate::figure::Figure;
 use crate::metric::{Limit, Variant};
+use crate::store::Drawings;
 
 const ROWS: &str = r#"
 title = "A paper"
@@ -140,7 +141,7 @@ runs = [{ case = "film", variant = "numerics=paper" }]
 fn the_page_has_every_row_and_its_links_land() {
     let report = report(vec![gated(2.0), thickness(6.1)]);
     let folder = tempfile::tempdir().expect("a folder");
-    write(&report, folder.path()).expect("written");
+    write(&report, folder.path(), &Drawings::default()).expect("written");
     let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).expect(name);
     let (page, overview, film) = (read("papers.html"), read("index.html"), read("cases/film/index.html"));
     for element in &report.papers[0].elements {
@@ -169,7 +170,7 @@ fn the_page_has_every_row_and_its_links_land() {
 fn a_report_without_papers_has_no_page_of_them() {
     let report = Report { papers: &[], ..report(vec![gated(0.5)]) };
     let folder = tempfile::tempdir().expect("a folder");
-    write(&report, folder.path()).expect("written");
+    write(&report, folder.path(), &Drawings::default()).expect("written");
     assert!(!folder.path().join("papers.html").exists());
     assert!(papers_page::count(&judge(&report).papers).is_none());
 }

@@ -3,6 +3,7 @@
 use super::*;
 use crate::metric::{Origin, Variant};
 use crate::report::{tests, write};
+use crate::store::Drawings;
 
 fn compared(name: &str, value: f64, reference: f64) -> Metric {
     Metric::observed(name, &Variant::of("value", value), value, "-").of_kind(Kind::Validation).against(
@@ -66,7 +67,7 @@ fn a_known_uncertainty_of_the_reference_gives_a_deviation_and_bands() {
 #[test]
 fn the_page_and_the_numbers_have_it() {
     let folder = tempfile::tempdir().expect("folder");
-    write(&example(), folder.path()).expect("written");
+    write(&example(), folder.path(), &Drawings::default()).expect("written");
     let read = |path: &str| std::fs::read_to_string(folder.path().join(path)).expect(path);
     let numbers: serde_json::Value = serde_json::from_str(&read("metrics.json")).expect("JSON");
     let run_out = &numbers["quantities"][0];

@@ -4,6 +4,7 @@ use super::pages_tests::links;
 use super::*;
 use crate::figure::{AnimationFrame, Axis, Panel, Scale};
 use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
+use crate::store::{Drawings, Store, StorePolicy};
 
 pub(super) fn gated(name: &str, value: f64) -> Metric {
     Metric::observed(name, &Variant::of("resolution", 40), value, "%")
@@ -220,7 +221,7 @@ fn the_folder_is_self_contained_and_reproducible() {
     film.figures = vec![drawing("velocity-profile"), drawing("not a name")];
     film.animations = vec![moving("collapse", 2), moving("without-pictures", 0)];
     let report = report(vec![film]);
-    write(&report, folder.path()).expect("written");
+    write(&report, folder.path(), &Drawings::default()).expect("written");
     let read = |path: &str| std::fs::read_to_string(folder.path().join(path)).expect(path);
     let (overview, page) = (read("index.html"), read("cases/film/index.html"));
     assert_eq!(read("cases/film/metrics.json"), "{}\n");
@@ -237,16 +238,21 @@ fn the_folder_is_self_contained_and_reproducible() {
     assert!(page.contains("could not be drawn"), "a figure that fails is named on the page");
     assert!(!page.contains("http") && !overview.contains("http"), "nothing is loaded from elsewhere");
     assert!(links(folder.path()) > 10);
-    write(&report, folder.path()).expect("written again");
+    let store = tempfile::tempdir().expect("folder");
+    for (made, occasion) in [(4, "an SVG, a PNG and a GIF, and one that fails"), (1, "what fails is tried again")] {
+        let drawings = Store::at(store.path(), StorePolicy::Use).drawings();
+        write(&report, folder.path(), &drawings).expect("written again");
+        assert_eq!(drawings.made(), made, "{occasion}");
+    }
     assert_eq!((overview, page), (read("index.html"), read("cases/film/index.html")));
 }
 
 #[test]
 fn empty_reports_and_escaping_names() {
     let folder = tempfile::tempdir().expect("folder");
-    write(&report(Vec::new()), folder.path()).expect("an empty report is a report");
+    write(&report(Vec::new()), folder.path(), &Drawings::default()).expect("an empty report is a report");
     assert!(links(folder.path()) > 2, "the empty report's own places");
     let page = html(&report(vec![case("film", Vec::new())]));
     assert!(page.contains("Nothing was judged") && page.contains("no metrics"));
-    assert!(matches!(write(&report(vec![case("../film", Vec::new())]), folder.path()), Err(ReportError::Name { .. })));
+    assert!(matches!(write(&report(vec![case("../film", Vec::new())]), folder.path(), &Drawings::default()), Err(ReportError::Name { .. })));
 }

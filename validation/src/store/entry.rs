@@ -28,6 +28,15 @@ const CHECKSUM_BYTES: usize = 32;
 /// # Errors
 /// A file that cannot be read, is a link or no regular file, is damaged, or holds something else than this key's record.
 pub(crate) fn read<R: DeserializeOwned>(path: &Path, key: &str) -> Result<Option<R>> {
+    // Postcard would read almost any bytes as something, hence the checksum.
+    read_bytes(path, key)?.map(|record| postcard::from_bytes(&record).map_err(Error::other)).transpose()
+}
+
+/// The same for a record that is bytes.
+///
+/// # Errors
+/// As for [`read`].
+pub(crate) fn read_bytes(path: &Path, key: &str) -> Result<Option<Vec<u8>>> {
     let bytes = match read_own(path, STORED) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
@@ -43,21 +52,24 @@ pub(crate) fn read<R: DeserializeOwned>(path: &Path, key: &str) -> Result<Option
     let (length, rest) = number(rest).ok_or_else(damaged)?;
     let (own, rest) = rest.split_at_checked(length as usize).ok_or_else(damaged)?;
     let (checksum, record) = rest.split_at_checked(CHECKSUM_BYTES).ok_or_else(damaged)?;
-    // Postcard would read almost any bytes as something, hence the checksum.
     if digest(own, record).as_slice() != checksum {
         return Err(damaged());
     }
     if own != key.as_bytes() {
         return Err(refused("belongs to another run"));
     }
-    postcard::from_bytes(record).map(Some).map_err(Error::other)
+    Ok(Some(record.to_vec()))
 }
 
 /// Writes a key's record so that a reader sees all of it or nothing, also when several processes write it.
 pub(crate) fn write<R: Serialize>(path: &Path, key: &str, record: &R) -> Result<()> {
-    let record = postcard::to_stdvec(record).map_err(Error::other)?;
+    write_bytes(path, key, &postcard::to_stdvec(record).map_err(Error::other)?)
+}
+
+/// The same for a record that is bytes.
+pub(crate) fn write_bytes(path: &Path, key: &str, record: &[u8]) -> Result<()> {
     let mut bytes = header(key.as_bytes());
-    bytes.extend(digest(key.as_bytes(), &record));
+    bytes.extend(digest(key.as_bytes(), record));
     bytes.extend(record);
     write_whole(path, &bytes)
 }

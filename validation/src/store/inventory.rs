@@ -1,6 +1,6 @@
 //! What lies in a store, and how it is made smaller on request.
 
-use super::{UNFINISHED, is_version};
+use super::{DRAWN, UNFINISHED, is_version};
 use std::io::Result;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
@@ -9,6 +9,8 @@ use std::time::{Duration, SystemTime};
 const ENDINGS: [&str; 2] = ["postcard", "partial"];
 /// The same of checkpoints.
 const CHECKPOINTS: [&str; 2] = ["checkpoint", "partial"];
+/// The same of drawings.
+const DRAWINGS: [&str; 4] = ["svg", "png", "gif", "partial"];
 
 /// One file of the store.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -45,7 +47,7 @@ pub struct Keep {
 /// What was deleted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Pruned {
-    /// Number of entries and checkpoints.
+    /// Number of entries, checkpoints and drawings.
     pub files: usize,
     /// Size of them all `[bytes]`.
     pub bytes: u64,
@@ -59,13 +61,14 @@ pub fn versions(root: &Path) -> Result<Vec<Version>> {
     let mut versions = Vec::new();
     for folder in folders(root)? {
         let (stored, unfinished) = (stored_in(&folder, &ENDINGS)?, unfinished_in(&folder)?);
-        let checkpoints = unfinished.iter().flatten();
-        let Some(newest) = stored.iter().chain(checkpoints.clone()).map(|entry| entry.modified).max() else { continue };
+        let drawn = drawn_in(&folder)?;
+        let others = unfinished.iter().flatten().chain(&drawn);
+        let Some(newest) = stored.iter().chain(others.clone()).map(|entry| entry.modified).max() else { continue };
         versions.push(Version {
             name: folder.file_name().unwrap_or_default().to_string_lossy().into_owned(),
             entries: stored.len(),
             unfinished: unfinished.iter().filter(|checkpoints| !checkpoints.is_empty()).count(),
-            bytes: stored.iter().chain(checkpoints).map(|entry| entry.bytes).sum(),
+            bytes: stored.iter().chain(others).map(|entry| entry.bytes).sum(),
             newest,
         });
     }
@@ -83,6 +86,7 @@ pub fn prune(root: &Path, keep: Keep, now: SystemTime) -> Result<Pruned> {
     for folder in &folders {
         stored.extend(stored_in(folder, &ENDINGS)?);
         stored.extend(unfinished_in(folder)?.into_iter().flatten());
+        stored.extend(drawn_in(folder)?);
     }
     stored.sort_by(|a, b| b.modified.cmp(&a.modified).then_with(|| a.path.cmp(&b.path)));
     let (mut kept, mut pruned) = (0, Pruned::default());
@@ -104,6 +108,7 @@ pub fn prune(root: &Path, keep: Keep, now: SystemTime) -> Result<Pruned> {
             let _ = std::fs::remove_dir(run);
         }
         let _ = std::fs::remove_dir(folder.join(UNFINISHED));
+        let _ = std::fs::remove_dir(folder.join(DRAWN));
         let _ = std::fs::remove_dir(folder);
     }
     Ok(pruned)
@@ -139,6 +144,12 @@ fn stored_in(folder: &Path, endings: &[&str]) -> Result<Vec<Stored>> {
         }
     }
     Ok(stored)
+}
+
+/// The drawings of a version.
+fn drawn_in(folder: &Path) -> Result<Vec<Stored>> {
+    let folder = folder.join(DRAWN);
+    if folder.is_dir() { stored_in(&folder, &DRAWINGS) } else { Ok(Vec::new()) }
 }
 
 /// The folders of unfinished runs of a version.

@@ -1,9 +1,11 @@
 //! Finished runs on disk, shared by tests and report: nothing is simulated twice by the same program.
 
+mod drawn;
 pub(crate) mod entry;
 mod inventory;
 pub mod provenance;
 
+pub use drawn::{DrawingKey, Drawings};
 pub use inventory::{Keep, Pruned, Version, prune, versions};
 pub use provenance::{commit, profile, source_hash, target_features, version, workspace};
 
@@ -23,6 +25,9 @@ const FOLDER_PREFIX: &str = "sources-";
 
 /// Folder of a version in which runs that are not finished keep their checkpoints, a folder each.
 const UNFINISHED: &str = "unfinished";
+
+/// Folder of a version in which drawn figures are kept.
+const DRAWN: &str = "drawn";
 
 /// Whether finished runs are taken from the store.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,0 +1,132 @@
+//! Drawn figures on disk: what this program has drawn once from the same data is not drawn again.
+
+use super::{DRAWN, Store, StorePolicy, entry, hexadecimal, source_hash};
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Where drawings are kept, if anywhere, and how many had to be made.
+#[derive(Debug, Default)]
+pub struct Drawings {
+    /// Folder of this version of the sources; none where nothing is kept.
+    folder: Option<PathBuf>,
+    /// What is kept is replaced.
+    anew: bool,
+    made: AtomicUsize,
+}
+
+/// Identifies what is drawn, by all of its data and the program's sources.
+#[derive(Debug, Clone)]
+pub struct DrawingKey(Option<String>);
+
+impl Store {
+    /// The drawings of this version of the sources.
+    #[must_use]
+    pub fn drawings(&self) -> Drawings {
+        let folder = (self.policy != StorePolicy::Bypass).then(|| self.folder.join(DRAWN));
+        Drawings { folder, anew: self.policy == StorePolicy::Refresh, made: AtomicUsize::new(0) }
+    }
+}
+
+impl Drawings {
+    /// The key of what is drawn.
+    #[must_use]
+    pub fn key(&self, data: &impl Serialize) -> DrawingKey {
+        let of = |bytes: Vec<u8>| {
+            let mut hash = Sha256::new();
+            hash.update(source_hash());
+            hash.update(bytes);
+            hexadecimal(&hash.finalize())
+        };
+        DrawingKey(self.folder.as_ref().and_then(|_| postcard::to_stdvec(data).ok()).map(of))
+    }
+
+    /// The kept drawing with an ending such as `svg`, or the one that is made now and kept. A kept one that is damaged is made
+    /// again, and one that cannot be kept costs time only.
+    ///
+    /// # Errors
+    /// That of `draw`.
+    pub fn bytes<E>(
+        &self,
+        key: &DrawingKey,
+        ending: &str,
+        draw: impl FnOnce() -> Result<Vec<u8>, E>,
+    ) -> Result<Vec<u8>, E> {
+        let place = self.folder.as_ref().zip(key.0.as_ref()).map(|(folder, key)| {
+            let name = format!("{key}.{ending}");
+            (folder.join(&name), name)
+        });
+        if let Some((path, name)) = place.as_ref().filter(|_| !self.anew) {
+            match entry::read_bytes(path, name) {
+                Ok(Some(bytes)) => return Ok(bytes),
+                Ok(None) => {}
+                Err(damage) => tracing::warn!("kept drawing {}: {damage}; drawn again", path.display()),
+            }
+        }
+        self.made.fetch_add(1, Ordering::Relaxed);
+        let bytes = draw()?;
+        if let Some((path, name)) = &place
+            && let Err(error) = entry::write_bytes(path, name, &bytes)
+        {
+            tracing::debug!("drawing {}: not kept: {error}", path.display());
+        }
+        Ok(bytes)
+    }
+
+    /// How many drawings had to be made.
+    #[must_use]
+    pub fn made(&self) -> usize {
+        self.made.load(Ordering::Relaxed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::convert::Infallible;
+    use std::path::Path;
+
+    /// What comes back for some data where `fresh` would be drawn, and how many drawings were made for it.
+    fn drawn(folder: &Path, policy: StorePolicy, data: f64, fresh: &str) -> (String, usize) {
+        let drawings = Store::at(folder, policy).drawings();
+        let draw = || Ok::<_, Infallible>(fresh.as_bytes().to_vec());
+        let bytes = drawings.bytes(&drawings.key(&data), "svg", draw).expect("drawn");
+        (String::from_utf8(bytes).expect("text"), drawings.made())
+    }
+
+    #[test]
+    fn a_drawing_is_made_once_and_anew_where_its_data_or_the_policy_ask_for_it() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let at = |policy, data, fresh| drawn(folder.path(), policy, data, fresh);
+        assert_eq!(at(StorePolicy::Use, 1.0, "first"), ("first".to_owned(), 1));
+        assert_eq!(at(StorePolicy::Use, 1.0, "second"), ("first".to_owned(), 0));
+        assert_eq!(at(StorePolicy::Use, 2.0, "second"), ("second".to_owned(), 1), "other data");
+        assert_eq!(at(StorePolicy::Bypass, 1.0, "third"), ("third".to_owned(), 1));
+        assert_eq!(at(StorePolicy::Use, 1.0, "fourth"), ("first".to_owned(), 0), "a bypass keeps nothing");
+        assert_eq!(at(StorePolicy::Refresh, 1.0, "fifth"), ("fifth".to_owned(), 1));
+        assert_eq!(at(StorePolicy::Use, 1.0, "sixth"), ("fifth".to_owned(), 0));
+    }
+
+    #[test]
+    fn a_damaged_drawing_is_made_again() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let at = |fresh| drawn(folder.path(), StorePolicy::Use, 1.0, fresh);
+        at("first");
+        let kept = Store::at(folder.path(), StorePolicy::Use).drawings().folder.expect("a folder");
+        let path = std::fs::read_dir(kept).expect("kept").next().expect("one").expect("readable").path();
+        let mut bytes = std::fs::read(&path).expect("readable");
+        *bytes.last_mut().expect("not empty") ^= 1;
+        std::fs::write(&path, &bytes).expect("writable");
+        assert_eq!(at("second"), ("second".to_owned(), 1));
+        assert_eq!(at("third"), ("second".to_owned(), 0));
+    }
+
+    #[test]
+    fn a_store_that_cannot_be_written_costs_time_only() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let file = folder.path().join("file");
+        std::fs::write(&file, "").expect("writable");
+        assert_eq!(drawn(&file, StorePolicy::Use, 1.0, "first"), ("first".to_owned(), 1));
+    }
+}
