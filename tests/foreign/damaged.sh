@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Damaged files of other programs: tables and files of VTK with bytes, counts and ends changed are read or refused, never
+# Damaged files of other programs: tables and files of VTK (in every encoding of tests/foreign/vtk) with bytes, counts and ends changed are read or refused, never
 # with a panic, without an end, or with more memory than 2 GiB: `bash tests/foreign/damaged.sh [COUNT]`, 100 000 of each
 # kind unless said otherwise, about a minute beyond the build.
 set -euo pipefail

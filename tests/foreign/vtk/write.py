@@ -77,7 +77,7 @@ def legacy(name, data, binary, version):
 
 
 small = grid(vtk.vtkUnstructuredGrid, 7)
-large = grid(vtk.vtkUnstructuredGrid, 48, few=True)
+large = grid(vtk.vtkUnstructuredGrid, 36, few=True)
 polygonal = grid(vtk.vtkPolyData, 7)
 xml("vtk-ascii.vtu", small, "ascii", "None", "UInt32")
 for mode, header in itertools.product(["inline", "raw", "base64"], ["UInt32", "UInt64"]):
@@ -115,9 +115,9 @@ meshio.write(FOLDER / "meshio-default.vtu", mesh)
 meshio.write(FOLDER / "meshio-ascii.vtu", mesh, binary=False)
 meshio.write(FOLDER / "meshio-inline.vtu", mesh, compression=None)
 meshio.write(FOLDER / "meshio-lzma.vtu", mesh, compression="lzma")
-points, values = arrays(48)
+points, values = arrays(36)
 few = {name: values[name] for name in ("u1", "i8", "velocity [m/s]")}
-mesh = meshio.Mesh(points, [("vertex", numpy.arange(48).reshape(-1, 1))], point_data=few)
+mesh = meshio.Mesh(points, [("vertex", numpy.arange(36).reshape(-1, 1))], point_data=few)
 meshio.write(FOLDER / "meshio-blocks.vtu", mesh)
 points, values = arrays(7)
 values["velocity"] = values.pop("velocity [m/s]")

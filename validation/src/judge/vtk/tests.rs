@@ -101,6 +101,26 @@ fn a_count_beyond_the_file_is_refused_before_memory_is_asked_for() {
     }
 }
 
+#[test]
+fn an_empty_appended_section_is_none() {
+    let text = TEXT.replace("</VTKFile>", "<AppendedData encoding=\"raw\"/></VTKFile>");
+    let points = Points::parse(text.as_bytes(), Path::new("a.vtu")).expect("a grid");
+    assert_eq!(points.arrays["mass"], [0.5, 0.25]);
+}
+
+#[test]
+fn appended_arrays_that_share_their_bytes_are_refused() {
+    let array = "<DataArray type=\"Float32\" NumberOfComponents=\"3\" Name=\"NAME\" format=\"appended\" offset=\"0\"/>";
+    let many: String = (0..1000).map(|number| array.replace("NAME", &format!("a{number}"))).collect();
+    let text = format!(
+        "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"1000\"><Points>{array}</Points><PointData>{many}\
+         </PointData></Piece></PolyData><AppendedData encoding=\"raw\">_"
+    );
+    let bytes = [text.as_bytes(), &12_000_u32.to_le_bytes(), &[0; 12_000]].concat();
+    let message = Points::parse(&bytes, Path::new("a.vtp")).expect_err("shared").to_string();
+    assert!(message.contains("arrays share their bytes"), "{message}");
+}
+
 /// What damages a file.
 #[derive(Debug, Clone)]
 enum Damage {

@@ -54,14 +54,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<Points, Refusal> {
 fn parted(bytes: &[u8]) -> Result<(String, Option<&[u8]>), Refusal> {
     let heading = nesting::find(bytes, b"<AppendedData");
     let start = heading.and_then(|place| nesting::tag_end(&bytes[place..]).0.map(|end| place + end + 1));
+    // an empty section ends with its heading
+    let start = start.filter(|start| !bytes[..*start].ends_with(b"/>"));
     let (document, section) = bytes.split_at(start.unwrap_or(bytes.len()));
     let mut text = std::str::from_utf8(document).map_err(|_| "damaged (no text)")?.to_owned();
-    if start.is_none() || document.ends_with(b"/>") {
-        // what stands behind an empty section belongs to the document, which then does not end
-        return Ok((text, None));
+    if start.is_some() {
+        text.push_str("</AppendedData></VTKFile>");
     }
-    text.push_str("</AppendedData></VTKFile>");
-    Ok((text, Some(section)))
+    Ok((text, start.map(|_| section)))
 }
 
 fn appended<'file>(section: &'file [u8], node: Node<'_, '_>) -> Result<Appended<'file>, Refusal> {
