@@ -169,3 +169,24 @@ fn two_codes_that_are_not_ours_are_judged_from_their_files() {
     assert!((of("1") - 2.3081).abs() < 1e-4 && (of("3") - 6.7327).abs() < 1e-4, "{} {}", of("1"), of("3"));
     assert!(code["not_given"].as_u64() > Some(0), "{code}");
 }
+
+/// Elements within elements, which a parser follows by calling itself.
+#[test]
+fn collections_and_grids_nested_too_deep_are_refused() {
+    let nested = format!("{}{}", "<a>".repeat(3000), "</a>".repeat(3000));
+    let submission = |files: &str| {
+        format!(
+            "case = \"column-planar\"\n[code]\nname = \"deep\"\n[[run]]\nvariant = \"material=lagree,aspect_ratio=1\"\n\
+             [run.particles]\n{files}\n[run.particles.columns]\nx = \"Points:0 [m]\"\n"
+        )
+    };
+    for (file, files) in [("deep.pvd", "files = [\"deep.pvd\"]"), ("deep.vtu", "files = [\"deep.vtu\"]\ntimes = [0.0]")]
+    {
+        let place = Place::new();
+        place.file(file, &nested);
+        place.file("mine.toml", &submission(files));
+        let output = place.bagnold(&["judge", "mine.toml", "--quiet"]).assert().code(2).get_output().clone();
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert!(message.contains(file) && message.contains("nested deeper than 64 elements"), "{message}");
+    }
+}

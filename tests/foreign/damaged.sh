@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Damaged files of other programs: tables and files of VTK with bytes, counts and ends changed are read or refused, never
-# with a panic, without an end, or with more memory than 2 GiB: `bash tests/foreign/damaged.sh [COUNT]`, 100 000 of each
-# kind unless said otherwise, about a minute beyond the build.
+# Damaged files of other programs: tables and files of VTK (in every encoding of tests/foreign/vtk) with bytes, counts and
+# ends changed are read or refused, never with a panic, without an end, or with more memory than 2 GiB:
+# `bash tests/foreign/damaged.sh [COUNT]`, 100 000 of each kind unless said otherwise, about a minute beyond the build.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 cargo test --package bagnold-validation --lib --no-run

@@ -254,5 +254,8 @@ fn empty_reports_and_escaping_names() {
     assert!(links(folder.path()) > 2, "the empty report's own places");
     let page = html(&report(vec![case("film", Vec::new())]));
     assert!(page.contains("Nothing was judged") && page.contains("no metrics"));
-    assert!(matches!(write(&report(vec![case("../film", Vec::new())]), folder.path(), &Drawings::default()), Err(ReportError::Name { .. })));
+    assert!(matches!(
+        write(&report(vec![case("../film", Vec::new())]), folder.path(), &Drawings::default()),
+        Err(ReportError::Name { .. })
+    ));
 }

@@ -1,10 +1,13 @@
 //! Files as VTK writes them, and files that something has damaged.
 
+use super::foreign_tests::readable;
 use super::*;
 use proptest::collection::vec;
 use proptest::prelude::{Strategy, any, prop_oneof, proptest};
 use proptest::prop_assert;
 use proptest::sample::select;
+use std::path::PathBuf;
+use std::sync::LazyLock;
 
 /// Two points with masses, as text and in base 64.
 const TEXT: &str = "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\
@@ -65,6 +68,59 @@ fn text_and_base_64_give_the_same_points() {
     assert_eq!(Points::parse(binary().as_bytes(), Path::new("a.vtu")).expect("a grid"), points);
 }
 
+#[test]
+fn documents_nested_too_deep_are_refused_before_they_are_parsed() {
+    let nested = |depth: usize| format!("{}{}", "<a b='>'>".repeat(depth), "</a>".repeat(depth));
+    assert!(nesting::parse(&nested(64)).is_ok());
+    assert_eq!(nesting::parse(&nested(65)).expect_err("too deep"), "nested deeper than 64 elements");
+    let beside = format!("<a>{}</a>", "<b/><!-- <c> --><![CDATA[<c>]]>".repeat(100));
+    assert!(nesting::parse(&beside).is_ok());
+    for text in [nested(100_000), "<a>".repeat(100_000)] {
+        assert!(collection(&text, Path::new("all.pvd")).is_err());
+        assert!(Points::parse(text.as_bytes(), Path::new("a.vtu")).is_err());
+    }
+}
+
+#[test]
+fn a_count_beyond_the_file_is_refused_before_memory_is_asked_for() {
+    let legacy = LEGACY.replace("POINTS 2", "POINTS 999999999999");
+    let binary_legacy = legacy.replace("ASCII", "BINARY");
+    let text = TEXT.replace("NumberOfPoints=\"2\"", "NumberOfPoints=\"999999999999\"");
+    let encoded = binary().replace("NumberOfPoints=\"2\"", "NumberOfPoints=\"999999999999\"");
+    // one block of zlib that claims 16 GB
+    let block = "\"binary\">AQAAAAAAAAAAAAAABAAAAAAAAAAEAAAACAAAAAAAAAB4nAMAAAAAAQ==<";
+    let compressed = TEXT
+        .replace("<VTKFile ", "<VTKFile compressor=\"vtkZLibDataCompressor\" ")
+        .replace("NumberOfPoints=\"2\"", "NumberOfPoints=\"1431655766\"")
+        .replace(BINARY[1].0, block);
+    for (text, name) in
+        [(legacy, "a.vtk"), (binary_legacy, "a.vtk"), (text, "a.vtu"), (encoded, "a.vtu"), (compressed, "a.vtu")]
+    {
+        let message = Points::parse(text.as_bytes(), Path::new(name)).expect_err("no such count").to_string();
+        assert!(message.starts_with(&format!("{name}: `file` is ")), "{message}");
+    }
+}
+
+#[test]
+fn an_empty_appended_section_is_none() {
+    let text = TEXT.replace("</VTKFile>", "<AppendedData encoding=\"raw\"/></VTKFile>");
+    let points = Points::parse(text.as_bytes(), Path::new("a.vtu")).expect("a grid");
+    assert_eq!(points.arrays["mass"], [0.5, 0.25]);
+}
+
+#[test]
+fn appended_arrays_that_share_their_bytes_are_refused() {
+    let array = "<DataArray type=\"Float32\" NumberOfComponents=\"3\" Name=\"NAME\" format=\"appended\" offset=\"0\"/>";
+    let many: String = (0..1000).map(|number| array.replace("NAME", &format!("a{number}"))).collect();
+    let text = format!(
+        "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"1000\"><Points>{array}</Points><PointData>{many}\
+         </PointData></Piece></PolyData><AppendedData encoding=\"raw\">_"
+    );
+    let bytes = [text.as_bytes(), &12_000_u32.to_le_bytes(), &[0; 12_000]].concat();
+    let message = Points::parse(&bytes, Path::new("a.vtp")).expect_err("shared").to_string();
+    assert!(message.contains("arrays share their bytes"), "{message}");
+}
+
 /// What damages a file.
 #[derive(Debug, Clone)]
 enum Damage {
@@ -84,7 +140,7 @@ const NUMBERS: [&str; 10] =
 
 impl Damage {
     fn strategy() -> impl Strategy<Value = Self> {
-        let place = 0..2000_usize;
+        let place = 0..10_000_usize;
         prop_oneof![
             (place.clone(), any::<u8>()).prop_map(|(place, byte)| Self::Byte(place, byte)),
             (place.clone(), select(&NUMBERS[..])).prop_map(|(place, number)| Self::Number(place, number)),
@@ -118,18 +174,22 @@ impl Damage {
     }
 }
 
+/// What VTK and meshio wrote in their encodings.
+static FOREIGN: LazyLock<Vec<(PathBuf, Vec<u8>)>> = LazyLock::new(readable);
+
 proptest! {
     #[test]
-    fn a_damaged_file_is_read_or_refused(damages in vec(Damage::strategy(), 1..4), kind in 0..3_usize) {
-        let (mut bytes, name) = match kind {
-            0 => (LEGACY.as_bytes().to_vec(), "a.vtk"),
-            1 => (TEXT.as_bytes().to_vec(), "a.vtu"),
-            _ => (binary().into_bytes(), "a.vtu"),
+    fn a_damaged_file_is_read_or_refused(damages in vec(Damage::strategy(), 1..4), kind in any::<usize>()) {
+        let (mut bytes, name) = match kind % (3 + FOREIGN.len()) {
+            0 => (LEGACY.as_bytes().to_vec(), Path::new("a.vtk")),
+            1 => (TEXT.as_bytes().to_vec(), Path::new("a.vtu")),
+            2 => (binary().into_bytes(), Path::new("a.vtu")),
+            kind => (FOREIGN[kind - 3].1.clone(), FOREIGN[kind - 3].0.as_path()),
         };
         for damage in &damages {
             damage.to(&mut bytes);
         }
-        if let Ok(points) = Points::parse(&bytes, Path::new(name)) {
+        if let Ok(points) = Points::parse(&bytes, name) {
             let count = points.arrays["Points:0"].len();
             prop_assert!(points.arrays.values().all(|values| values.len() == count));
         }

@@ -1,0 +1,189 @@
+//! Points of the XML formats `.vtu` and `.vtp`.
+
+use super::array::{ByteOrder, Scalar};
+use super::stored::{Encoding, Stored};
+use super::{PLACES, Points, Refusal, nesting};
+use roxmltree::Node;
+
+/// The section behind the document to which arrays point by offsets.
+#[derive(Debug, Clone, Copy)]
+struct Appended<'file> {
+    bytes: &'file [u8],
+    is_raw: bool,
+}
+
+/// What arrays are read from.
+struct Source<'file> {
+    encoding: Encoding,
+    appended: Option<Appended<'file>>,
+    /// Bytes of the file that arrays may still take: arrays that share their bytes would need more memory than the file has.
+    left: usize,
+}
+
+/// Reads the points of all pieces.
+///
+/// # Errors
+/// A document that is no grid of points, is damaged, or is compressed by something else than zlib.
+pub(super) fn read(bytes: &[u8]) -> Result<Points, Refusal> {
+    let (text, section) = parted(bytes)?;
+    let document = nesting::parse(&text)?;
+    let root = document.root_element();
+    if !root.has_tag_name("VTKFile") {
+        return Err("no file of VTK".into());
+    }
+    let kind = root.attribute("type").unwrap_or_default();
+    match kind {
+        "UnstructuredGrid" | "PolyData" => {}
+        "PUnstructuredGrid" | "PPolyData" => return Err("in several files".into()),
+        _ => return Err("a grid of another kind".into()),
+    }
+    let appended = match (section, child(root, "AppendedData")) {
+        (Some(bytes), Some(node)) => Some(appended(bytes, node)?),
+        _ => None,
+    };
+    let mut source = Source { encoding: encoding(root)?, appended, left: bytes.len() };
+    let mut points = Points::default();
+    let grid = child(root, kind).ok_or_else(|| format!("without `{kind}`"))?;
+    for piece in grid.children().filter(|node| node.has_tag_name("Piece")) {
+        source.piece(piece, &mut points)?;
+    }
+    Ok(points)
+}
+
+/// The document, and the bytes behind the heading of its appended section, which need not be text.
+fn parted(bytes: &[u8]) -> Result<(String, Option<&[u8]>), Refusal> {
+    let heading = nesting::find(bytes, b"<AppendedData");
+    let start = heading.and_then(|place| nesting::tag_end(&bytes[place..]).0.map(|end| place + end + 1));
+    // an empty section ends with its heading
+    let start = start.filter(|start| !bytes[..*start].ends_with(b"/>"));
+    let (document, section) = bytes.split_at(start.unwrap_or(bytes.len()));
+    let mut text = std::str::from_utf8(document).map_err(|_| "damaged (no text)")?.to_owned();
+    if start.is_some() {
+        text.push_str("</AppendedData></VTKFile>");
+    }
+    Ok((text, start.map(|_| section)))
+}
+
+fn appended<'file>(section: &'file [u8], node: Node<'_, '_>) -> Result<Appended<'file>, Refusal> {
+    let start = section.trim_ascii_start().strip_prefix(b"_").ok_or("damaged (appended data without `_`)")?;
+    match node.attribute("encoding") {
+        Some("raw") => Ok(Appended { bytes: start, is_raw: true }),
+        Some("base64") => {
+            let end = start.iter().position(|byte| *byte == b'<').unwrap_or(start.len());
+            Ok(Appended { bytes: &start[..end], is_raw: false })
+        }
+        other => Err(format!("with appended data in `{}`", other.unwrap_or_default()).into()),
+    }
+}
+
+fn encoding(root: Node<'_, '_>) -> Result<Encoding, Refusal> {
+    let order = match root.attribute("byte_order") {
+        None | Some("LittleEndian") => ByteOrder::LittleEndian,
+        Some("BigEndian") => ByteOrder::BigEndian,
+        Some(other) => return Err(format!("in the byte order `{other}`").into()),
+    };
+    let header = match root.attribute("header_type") {
+        None | Some("UInt32") => 4,
+        Some("UInt64") => 8,
+        Some(other) => return Err(format!("with headers of type `{other}`").into()),
+    };
+    let is_compressed = match root.attribute("compressor") {
+        None | Some("") => false,
+        Some("vtkZLibDataCompressor") => true,
+        Some(other) => {
+            let remedy = "write it with SetCompressorTypeToZLib() or SetCompressorTypeToNone(), in ParaView with the \
+                          compressor ZLib or None";
+            let rule = "uncompressed or compressed by vtkZLibDataCompressor";
+            return Err(Refusal { value: format!("compressed by {other}"), rule, remedy });
+        }
+    };
+    Ok(Encoding { order, header, is_compressed })
+}
+
+fn child<'node, 'text>(node: Node<'node, 'text>, name: &str) -> Option<Node<'node, 'text>> {
+    node.children().find(|child| child.has_tag_name(name))
+}
+
+fn count(node: Node<'_, '_>, name: &str) -> Result<Option<usize>, Refusal> {
+    let wrong = |text: &str| format!("with {name}=\"{text}\"");
+    node.attribute(name).map(|text| text.trim().parse().map_err(|_| wrong(text).into())).transpose()
+}
+
+impl Source<'_> {
+    fn piece(&mut self, piece: Node<'_, '_>, points: &mut Points) -> Result<(), Refusal> {
+        let number = count(piece, "NumberOfPoints")?.unwrap_or(0);
+        if number == 0 {
+            return Ok(());
+        }
+        let is_array = |node: &Node<'_, '_>| node.has_tag_name("DataArray");
+        let places = child(piece, "Points").and_then(|places| places.children().find(is_array));
+        let places = places.ok_or("without places of its points")?;
+        if count(places, "NumberOfComponents")?.is_some_and(|components| components != 3) {
+            return Err("with places of points that have not 3 components".into());
+        }
+        let values = self.values(places, PLACES, number, 3)?;
+        points.part(PLACES, 3, &values);
+        let data = child(piece, "PointData").into_iter().flat_map(|data| data.children());
+        for array in data.filter(is_array).filter(|array| array.attribute("type") != Some("String")) {
+            let name = array.attribute("Name").ok_or("with an array without a name")?;
+            let components = count(array, "NumberOfComponents")?.unwrap_or(1).max(1);
+            let values = self.values(array, name, number, components)?;
+            points.part(name, components, &values);
+        }
+        Ok(())
+    }
+
+    /// All values of an array.
+    fn values(
+        &mut self,
+        array: Node<'_, '_>,
+        name: &str,
+        tuples: usize,
+        components: usize,
+    ) -> Result<Vec<f64>, Refusal> {
+        let of_array = |reason: String| Refusal::from(format!("{reason} in the array `{name}`"));
+        let scalar = array.attribute("type").unwrap_or_default();
+        let scalar = Scalar::of_xml(scalar).ok_or_else(|| of_array(format!("with values of type `{scalar}`")))?;
+        let endless = || of_array(format!("with {tuples} times {components} values"));
+        let count = tuples.checked_mul(components).ok_or_else(endless)?;
+        let texts = || array.children().filter(|node| node.is_text()).filter_map(|node| node.text());
+        let format = array.attribute("format").unwrap_or("ascii");
+        let inline: String;
+        let stored = match format {
+            "ascii" => {
+                let mut words = texts().flat_map(str::split_ascii_whitespace);
+                let values = scalar.parse(&mut words, count).map_err(of_array)?;
+                return match words.next() {
+                    None => Ok(values),
+                    Some(_) => Err(of_array(format!("with more than {count} values"))),
+                };
+            }
+            "binary" => {
+                inline = texts().collect();
+                Stored::base64(inline.as_bytes())
+            }
+            "appended" => self.appended_at(array)?,
+            other => return Err(of_array(format!("with the format `{other}`"))),
+        };
+        let expected = scalar.bytes_of(count).ok_or_else(endless)?;
+        let bytes = self.bytes(stored, expected).map_err(of_array)?;
+        Ok(scalar.decode(&bytes, count, self.encoding.order))
+    }
+
+    fn bytes(&mut self, mut stored: Stored<'_>, expected: usize) -> Result<Vec<u8>, String> {
+        let before = stored.left();
+        let bytes = stored.array(expected, self.encoding)?;
+        let taken = before - stored.left();
+        self.left = self.left.checked_sub(taken).ok_or("damaged (arrays share their bytes)")?;
+        Ok(bytes)
+    }
+}
+
+impl<'file> Source<'file> {
+    fn appended_at(&self, array: Node<'_, '_>) -> Result<Stored<'file>, Refusal> {
+        let appended = self.appended.ok_or("without the appended data of its arrays")?;
+        let offset = count(array, "offset")?.ok_or("with an appended array without `offset`")?;
+        let bytes = appended.bytes.get(offset..).ok_or("damaged (an array begins behind the end)")?;
+        Ok(if appended.is_raw { Stored::Raw(bytes) } else { Stored::base64(bytes) })
+    }
+}
