@@ -29,7 +29,8 @@ pub struct Provenance {
     pub version: String,
     /// Commit of the workspace, or `unknown`.
     pub commit: String,
-    /// Hash of sources, locked dependencies, profile and instruction set.
+    /// Hash of sources, locked dependencies, compiler, profile and instruction set, and of the program's own file where it has
+    /// laws or cases of another crate.
     pub source_hash: String,
     /// Cargo's profile.
     pub profile: String,
@@ -90,7 +91,7 @@ impl Provenance {
         Self {
             version: store::version().to_owned(),
             commit: store::commit(),
-            source_hash: store::source_hash().to_owned(),
+            source_hash: store::identity_or_unique(result.origin).to_owned(),
             profile: store::profile().to_owned(),
             target_features: store::target_features().to_owned(),
             command: result.command.clone(),
