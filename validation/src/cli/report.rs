@@ -33,11 +33,10 @@ pub(super) fn report(
     profile.over("runs and their figures");
     if command.accept {
         baseline = Baseline::default();
-        let commit = provenance::commit();
         for result in &results {
             let fresh = Baseline::of(&result.name, &result.metrics);
             fresh.write(&places::accepted_folder(), &result.name, command.tier)?;
-            let made_by = (provenance::version(), commit.as_str());
+            let made_by = (provenance::version(), provenance::commit());
             history::append(&places::history_file(), made_by, command.tier, &result.name, &result.metrics)?;
             baseline.extend(fresh);
         }

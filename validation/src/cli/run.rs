@@ -13,7 +13,7 @@ use crate::judge::{self, Measurements};
 use crate::output::{FileError, OutputFolder};
 use crate::report::{self, Baseline, History, Provenance, Report};
 use crate::result::{MetricsDocument, States, write_case};
-use crate::store::Store;
+use crate::store::{Store, provenance};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -109,6 +109,9 @@ pub(super) fn run(
 
 /// Says on standard error what the runs are expected to need.
 pub(super) fn announce(cases: &[Box<dyn Prepared>], quiet: bool) {
+    if let Some(warning) = provenance::unoptimised() {
+        tracing::warn!("{warning}");
+    }
     if !quiet {
         let estimate = cases.iter().map(|case| case.estimate()).fold(Estimate::default(), Estimate::and);
         eprintln!("{}", estimate.in_words(rayon::current_num_threads()));

@@ -89,7 +89,7 @@ impl Provenance {
     pub fn of_this_program(wall: Duration, command: String) -> Self {
         Self {
             version: provenance::version().to_owned(),
-            commit: provenance::commit(),
+            commit: provenance::commit().to_owned(),
             threads: rayon::current_num_threads(),
             wall_seconds: wall.as_secs_f64(),
             command,

@@ -7,7 +7,7 @@ pub mod provenance;
 
 pub use identity::{Origin, identity, identity_or_unique, is_of_this_program};
 pub use inventory::{Keep, Pruned, Version, prune, versions};
-pub use provenance::{commit, profile, source_hash, target_features, version, workspace};
+pub use provenance::{commit, instruction_set, profile, source_hash, target_features, version, workspace};
 
 use crate::checkpoint::Checkpoints;
 use crate::observation::Recorded;
