@@ -13,6 +13,7 @@ mod judge;
 mod logging;
 #[cfg(feature = "planted-errors")]
 mod mutate;
+mod new;
 mod places;
 mod profile;
 mod progress;
@@ -29,6 +30,7 @@ mod verify;
 pub use arguments::{Arguments, Command};
 pub use error::ProgramError;
 pub use exit::Exit;
+pub use new::NewError;
 
 use crate::case::{Limits, ParameterError, Registry};
 use crate::cases::REGISTRY;
@@ -119,6 +121,7 @@ pub fn execute(
         }
         Command::Completions(command) => Ok(completions::completions(command, output)),
         Command::Examples(command) => examples::examples(command, output),
+        Command::New(command) => new::new(command, output),
         Command::Compare(command) => compare::compare(command, output),
         Command::Judge(command) => in_pool(&command.work, || judge::judge(command, registry, arguments.quiet, output)),
         Command::Export(command) => {
