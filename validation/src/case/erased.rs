@@ -57,6 +57,8 @@ pub trait Prepared: Send + Sync {
     fn variant(&self, run: usize) -> Variant;
     /// Expected cost of a run in particle-steps.
     fn particle_steps(&self, run: usize) -> f64;
+    /// Time of a run on one core that follows from its parameters alone `[s]`; limits are counted by it.
+    fn nominal_seconds(&self, run: usize) -> f64;
     /// What all runs are expected to need.
     fn estimate(&self) -> Estimate;
     /// What a run is known by in a store: the same for the same simulation; none where the store is bypassed.
@@ -190,6 +192,10 @@ impl<C: Case> Prepared for Plan<C> {
 
     fn particle_steps(&self, run: usize) -> f64 {
         self.slots[run].0.particle_steps()
+    }
+
+    fn nominal_seconds(&self, run: usize) -> f64 {
+        Estimate::of(&self.slots[run].0).core_seconds
     }
 
     fn estimate(&self) -> Estimate {

@@ -9,8 +9,10 @@ mod display;
 mod error;
 mod examples;
 mod exit;
+mod expectation;
 mod judge;
 mod logging;
+mod machine;
 #[cfg(feature = "planted-errors")]
 mod mutate;
 mod new;

@@ -26,10 +26,11 @@ pub(super) fn report(
     let claimed = OutputFolder::claim(&command.out)?;
     let known = places::known_failures()?;
     let history = History::read(&places::history_file(), command.tier)?;
-    announce(&cases, quiet);
+    let store = command.work.open_store();
+    let expectation = announce("report", &cases, &store, quiet);
     let started = Instant::now();
     let mut profile = Profile::begin();
-    let results = simulate(cases, &command.work.open_store(), quiet)?;
+    let results = simulate(cases, &store, quiet, Some(&expectation))?;
     profile.over("runs and their figures");
     if command.accept {
         baseline = Baseline::default();
@@ -55,6 +56,7 @@ pub(super) fn report(
     };
     report::write(&page, claimed.staging())?;
     claimed.publish()?;
+    expectation.learn(&results, store.root(), rayon::current_num_threads());
     profile.over("pages");
     if let Some(path) = &command.junit {
         report::write_junit(&page, path)?;

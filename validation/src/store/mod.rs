@@ -4,10 +4,12 @@ pub(crate) mod entry;
 mod identity;
 mod inventory;
 pub mod provenance;
+mod speeds;
 
 pub use identity::{Origin, identity, identity_or_unique, is_of_this_program};
 pub use inventory::{Keep, Pruned, Version, prune, versions};
 pub use provenance::{commit, instruction_set, profile, source_hash, target_features, version, workspace};
+pub use speeds::{AllSpeeds, Speeds};
 
 use crate::checkpoint::Checkpoints;
 use crate::observation::Recorded;
