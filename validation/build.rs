@@ -1,20 +1,27 @@
-//! Gives the crate a hash of everything that a stored result depends on, and the texts that an installed program carries:
-//! tables of `reference-data`, accepted values, shipped calibrations, scenes and sweeps.
+//! Gives the crate a hash of everything that a stored result depends on, the commit that it is built from, and the texts that
+//! an installed program carries: tables of `reference-data`, accepted values, shipped calibrations, scenes and sweeps.
+
+#[path = "build/commit.rs"]
+mod commit;
 
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
-/// Folders of whose code a result may depend.
-const SOURCES: [&str; 5] =
+/// Folders of code that results depend on.
+const CODE: [&str; 5] =
     ["solver/src", "validation/number/src", "validation/figure/src", "validation/inference/src", "validation/src"];
+
+/// What else they depend on.
+const REST: [&str; 3] = ["reference-data", "Cargo.lock", "Cargo.toml"];
 
 fn main() {
     let package = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     let workspace = package.parent().map(Path::to_path_buf).unwrap_or_default();
     let mut hash = Sha256::new();
 
-    for name in SOURCES {
+    for name in CODE {
         let folder = workspace.join(name);
         println!("cargo::rerun-if-changed={}", folder.display());
         for file in sorted_files(&folder) {
@@ -34,10 +41,12 @@ fn main() {
         println!("cargo::rerun-if-changed={}", file.display());
         add_file(&mut hash, &workspace, &file);
     }
-    // Another profile or instruction set is another program, even if its results ought to be the same.
-    for variable in ["PROFILE", "OPT_LEVEL", "TARGET", "CARGO_CFG_TARGET_FEATURE", "CARGO_ENCODED_RUSTFLAGS"] {
-        let value = std::env::var(variable).unwrap_or_default();
-        add(&mut hash, variable, value.as_bytes());
+    // Another compiler, profile or instruction set is another program, even if its results ought to be the same.
+    add(&mut hash, "rustc", &compiler());
+    let variables =
+        ["PROFILE", "OPT_LEVEL", SOLVER_OPT_LEVEL, "TARGET", "CARGO_CFG_TARGET_FEATURE", "CARGO_ENCODED_RUSTFLAGS"];
+    for variable in variables {
+        add(&mut hash, variable, self::variable(variable).as_bytes());
     }
 
     let text = hash.finalize().iter().fold(String::new(), |mut text, byte| {
@@ -46,10 +55,34 @@ fn main() {
         text
     });
     println!("cargo::rustc-env=BAGNOLD_SOURCE_HASH={text}");
-    let variable = |name: &str| std::env::var(name).unwrap_or_default();
-    println!("cargo::rustc-env=BAGNOLD_PROFILE={} (opt-level {})", variable("PROFILE"), variable("OPT_LEVEL"));
+    let commit = commit::commit(&workspace, &[&CODE[..], &REST[..]].concat());
+    println!("cargo::rustc-env=BAGNOLD_COMMIT={}", commit.as_deref().unwrap_or("unknown"));
+    println!("cargo::rustc-env=BAGNOLD_PROFILE={}", profile());
+    println!("cargo::rustc-env=BAGNOLD_SOLVER_OPT_LEVEL={}", variable(SOLVER_OPT_LEVEL));
     println!("cargo::rustc-env=BAGNOLD_TARGET_FEATURES={}", variable("CARGO_CFG_TARGET_FEATURE"));
     println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=build");
+}
+
+/// What the solver's build script tells of its package.
+const SOLVER_OPT_LEVEL: &str = "DEP_BAGNOLD_SOLVER_OPT_LEVEL";
+
+fn variable(name: &str) -> String {
+    std::env::var(name).unwrap_or_default()
+}
+
+/// Version, commit and host of the compiler, in its own words.
+fn compiler() -> Vec<u8> {
+    let output = Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())).arg("-vV").output();
+    output.map(|output| output.stdout).unwrap_or_default()
+}
+
+/// Name of the profile's folder: `debug`, `release` or that of a profile of one's own, for which `PROFILE` has what it inherits.
+fn profile() -> String {
+    let out = PathBuf::from(std::env::var_os("OUT_DIR").unwrap_or_default());
+    // PROFILE/build/PACKAGE-HASH/out
+    let name = out.ancestors().nth(3).and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
+    name.unwrap_or_else(|| variable("PROFILE"))
 }
 
 /// Files of some of the package's folders with such endings, by their names: in a single folder, or with the folder where

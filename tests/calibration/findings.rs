@@ -54,7 +54,8 @@ pub(crate) fn outcome(folder: &Path, text: &str) -> Outcome {
     let file = folder.join("plan.toml");
     std::fs::write(&file, text).expect("a folder to write in");
     let plan = Plan::read(&file, REGISTRY, Limits::default()).unwrap_or_else(|error| panic!("{error}"));
-    let kept = CalibrationFolder::begin(&folder.join("out"), &file, false).unwrap_or_else(|error| panic!("{error}"));
+    let kept = CalibrationFolder::begin(&folder.join("out"), &file, REGISTRY.origin(), false)
+        .unwrap_or_else(|error| panic!("{error}"));
     calibrate(&plan, &kept, REGISTRY, &Store::open(StorePolicy::Use), &Unseen).unwrap_or_else(|error| panic!("{error}"))
 }
 

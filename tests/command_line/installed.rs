@@ -80,7 +80,10 @@ fn every_command_works_and_keeps_its_runs_in_the_users_cache() {
     assert!(read(&place, "reports/runs/film-quick/index.html").contains("velocity_l2"));
     assert_eq!(names(place.path("home")), [".cache"]);
     let stored = names(place.path("home/.cache/bagnold"));
-    assert!(matches!(stored.as_slice(), [only] if only.starts_with("sources-")), "{stored:?}");
+    assert!(
+        matches!(stored.as_slice(), [runs, speeds] if runs.starts_with("sources-") && speeds == "speeds.json"),
+        "{stored:?}"
+    );
 
     bagnold(&place, &["export", "water-film", "--out", "exported", "--quiet"]).assert().code(0);
     assert!(read(&place, "exported/definitions.md").contains("velocity_l2"));

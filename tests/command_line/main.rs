@@ -12,6 +12,7 @@ mod judge;
 mod killed;
 mod mutate;
 mod overlay;
+mod own_crate;
 mod permission;
 mod program;
 mod published;

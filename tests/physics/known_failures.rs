@@ -109,6 +109,7 @@ fn result(value: f64, outcome: Outcome) -> CaseResult {
         .with_snapshot_tolerance(0.05, 0.0);
     CaseResult {
         name: "film".to_owned(),
+        origin: REGISTRY.origin(),
         summary: String::new(),
         description: String::new(),
         tier: Tier::Quick,

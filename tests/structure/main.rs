@@ -1,5 +1,6 @@
 //! The structure of the workspace: who imports whom, where numbers stand, and lists that follow from the registry.
 
+mod commit;
 mod dependencies;
 mod documents;
 mod examples;

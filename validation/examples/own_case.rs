@@ -1,5 +1,5 @@
 //! A case of one's own: a shear wave in a viscous liquid, u = U sin ky, that decays with exp(−ν k² t).
-//! `cargo run --example own_case -- report` judges it; with `--fresh` after a change here, which the store does not know.
+//! `cargo run --example own_case -- report` judges it.
 
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};

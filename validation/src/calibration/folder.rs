@@ -3,7 +3,7 @@
 use super::error::CalibrationError;
 use crate::input::{WRITTEN_BY_HAND, read_text};
 use crate::output::{FileError, Owner, claim, is_claimed, owner_of};
-use crate::store::source_hash;
+use crate::store::{Origin, identity_or_unique, is_of_this_program};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ impl Owner for Belongs {
     const MARKER: &'static str = "plan.json";
 
     fn is_foreign(&self) -> bool {
-        self.source_hash != crate::store::source_hash()
+        !is_of_this_program(&self.source_hash)
     }
 }
 
@@ -30,16 +30,16 @@ pub struct CalibrationFolder {
 }
 
 impl CalibrationFolder {
-    /// Makes the folder of a plan's calibration, or continues it.
+    /// Makes the folder of the calibration of a plan with cases of this origin, or continues it.
     ///
     /// # Errors
     /// A folder with another calibration, somebody else's files, or a calibration that is not to be resumed; files that
     /// cannot be read or written.
-    pub fn begin(folder: &Path, plan: &Path, resume: bool) -> Result<Self, CalibrationError> {
+    pub fn begin(folder: &Path, plan: &Path, origin: Origin, resume: bool) -> Result<Self, CalibrationError> {
         let plan = read_text(plan, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(plan, &error))?;
         let begun = Self { folder: folder.to_owned() };
         // what is unfinished goes on by itself; the result is written last
-        let own = Belongs { source_hash: source_hash().to_owned(), plan };
+        let own = Belongs { source_hash: identity_or_unique(origin).to_owned(), plan };
         let unfinished = !folder.join("result.json").exists()
             && is_claimed::<Belongs>(folder)
             && owner_of::<Belongs>(folder).is_ok_and(|other| other == own);

@@ -15,7 +15,7 @@ use crate::checkpoint::{Checkpoints, is_interrupted};
 use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
 use crate::observation::Recorded;
-use crate::store::Store;
+use crate::store::{Origin, Store};
 use bagnold_solver::parameter::schema_of;
 use sha2::{Digest, Sha256};
 use std::sync::OnceLock;
@@ -28,6 +28,8 @@ pub trait AnyCase: Sync {
     fn summary(&self) -> &'static str;
     /// What its metrics are built from; empty for a case that does not declare it.
     fn quantities(&self) -> &'static [Quantity];
+    /// Where its code stands.
+    fn origin(&self) -> Origin;
     /// The tier's parameters as a complete, commented file for `bagnold run`.
     fn show(&self, tier: Tier) -> String;
     /// The JSON Schema (2020-12) of a case file, with the tier's parameters as defaults.
@@ -45,6 +47,8 @@ pub trait AnyCase: Sync {
 pub trait Prepared: Send + Sync {
     /// Name of the case.
     fn name(&self) -> &'static str;
+    /// Where the code of the case stands.
+    fn origin(&self) -> Origin;
     /// The parameters: a complete file for `bagnold run`.
     fn parameters_toml(&self) -> &str;
     /// Number of runs.
@@ -53,6 +57,8 @@ pub trait Prepared: Send + Sync {
     fn variant(&self, run: usize) -> Variant;
     /// Expected cost of a run in particle-steps.
     fn particle_steps(&self, run: usize) -> f64;
+    /// Time of a run on one core that follows from its parameters alone `[s]`; limits are counted by it.
+    fn nominal_seconds(&self, run: usize) -> f64;
     /// What all runs are expected to need.
     fn estimate(&self) -> Estimate;
     /// What a run is known by in a store: the same for the same simulation; none where the store is bypassed.
@@ -84,6 +90,10 @@ impl<C: Case> AnyCase for C {
 
     fn quantities(&self) -> &'static [Quantity] {
         C::QUANTITIES
+    }
+
+    fn origin(&self) -> Origin {
+        C::ORIGIN
     }
 
     fn form(&self) -> &'static Form {
@@ -164,6 +174,10 @@ impl<C: Case> Prepared for Plan<C> {
         C::NAME
     }
 
+    fn origin(&self) -> Origin {
+        C::ORIGIN
+    }
+
     fn parameters_toml(&self) -> &str {
         &self.parameters_toml
     }
@@ -180,12 +194,16 @@ impl<C: Case> Prepared for Plan<C> {
         self.slots[run].0.particle_steps()
     }
 
+    fn nominal_seconds(&self, run: usize) -> f64 {
+        Estimate::of(&self.slots[run].0).core_seconds
+    }
+
     fn estimate(&self) -> Estimate {
         self.slots.iter().map(|(run, _)| Estimate::of(run)).fold(Estimate::default(), Estimate::and)
     }
 
     fn identity(&self, run: usize, store: &Store) -> Option<String> {
-        store.key(self.name(), &self.slots[run].0).map(|key| key.to_string())
+        store.key(C::ORIGIN, self.name(), &self.slots[run].0).map(|key| key.to_string())
     }
 
     fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError> {
@@ -193,7 +211,7 @@ impl<C: Case> Prepared for Plan<C> {
         if is_interrupted() {
             return Err(ParameterError::Interrupted);
         }
-        let key = store.key(self.name(), description);
+        let key = store.key(C::ORIGIN, self.name(), description);
         // states on the way are nowhere but in the run itself, from its start
         let anew = progress.output().is_some();
         if let Some(record) = key.as_ref().filter(|_| !anew).and_then(|key| store.fetch(key)) {
@@ -257,6 +275,7 @@ impl<C: Case> Prepared for Plan<C> {
         fail_broken_profiles(&mut summaries, &tables);
         CaseResult {
             name: C::NAME.to_owned(),
+            origin: C::ORIGIN,
             summary: C::SUMMARY.to_owned(),
             description: C::DESCRIPTION.to_owned(),
             tier: plan.tier,

@@ -30,7 +30,8 @@ pub struct Estimate {
     pub all_particles: f64,
     /// Particle-steps of all runs `[-]`.
     pub particle_steps: f64,
-    /// Time of all runs on one core `[s]`.
+    /// Nominal time of all runs on one core `[s]`: from their parameters alone, so that what is refused does not depend on the
+    /// machine or on what it has measured.
     pub core_seconds: f64,
 }
 
@@ -114,11 +115,9 @@ impl Estimate {
 
 /// "9 runs, about 2 min on 2 threads".
 impl Estimate {
-    /// In words, for so many threads.
+    /// In words, for so many threads, on which the runs are expected to take so many `seconds`.
     #[must_use]
-    pub fn in_words(&self, threads: usize) -> String {
-        let parallel = threads.max(1) as f64;
-        let seconds = self.core_seconds / parallel;
+    pub fn in_words(&self, seconds: f64, threads: usize) -> String {
         let runs = if self.runs == 1 { "1 run".to_owned() } else { format!("{} runs", self.runs) };
         let threads = if threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") };
         format!("{runs}, about {} on {threads} of this machine if nothing is stored", Duration(seconds))
@@ -230,9 +229,12 @@ mod tests {
 
     #[test]
     fn an_estimate_is_said_in_the_unit_that_suits_it() {
-        assert_eq!(of(1.0, 30.0).in_words(1), "1 run, about 30 s on 1 thread of this machine if nothing is stored");
+        assert_eq!(
+            of(1.0, 1.0).in_words(30.0, 1),
+            "1 run, about 30 s on 1 thread of this machine if nothing is stored"
+        );
         let two = of(1.0, 600.0).and(of(1.0, 600.0));
-        assert_eq!(two.in_words(2), "2 runs, about 10 min on 2 threads of this machine if nothing is stored");
-        assert!(of(1.0, 36_000.0).in_words(1).contains("about 10 h"));
+        assert_eq!(two.in_words(600.0, 2), "2 runs, about 10 min on 2 threads of this machine if nothing is stored");
+        assert!(of(1.0, 1.0).in_words(36_000.0, 1).contains("about 10 h"));
     }
 }

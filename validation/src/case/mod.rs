@@ -6,6 +6,7 @@ pub mod cost;
 mod erased;
 mod error;
 mod estimate;
+mod expectation;
 mod fault;
 mod file;
 mod finite;
@@ -27,6 +28,7 @@ pub use changes::Changes;
 pub use erased::{AnyCase, Prepared};
 pub use error::{ParameterError, SettingError};
 pub use estimate::{Estimate, Limits};
+pub use expectation::{speed_up, wall_time};
 pub use file::CaseFile;
 pub use foreign::{Columns, Foreign, ForeignResult, Form, Given, Item, Picture};
 pub use output::{OUTPUT_FIELDS, OutputPlan, StateOutput};
@@ -40,6 +42,7 @@ use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity, Variant};
 use crate::observation::Recorded;
+use crate::store::Origin;
 use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -156,6 +159,9 @@ pub trait Case: Sync + 'static {
     const DESCRIPTION: &'static str = Self::SUMMARY;
     /// The quantities that its metrics are built from, each declared once; empty for a case that does not declare them.
     const QUANTITIES: &'static [Quantity] = &[];
+    /// Where its code stands. Leave it as it is: no hash of sources covers a case of another crate, so its results are known
+    /// by the program that computed them.
+    const ORIGIN: Origin = Origin::ELSEWHERE;
     /// Lists that a file states whole: one that it leaves out is empty there, and not the tier's.
     const STATED: &'static [&'static str] = &[];
     /// What another code may give of a run, beside single numbers.

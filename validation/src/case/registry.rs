@@ -3,6 +3,7 @@
 use super::AnyCase;
 use super::error::ParameterError;
 use crate::input::nearest;
+use crate::store::Origin;
 
 /// A list of cases with unique names.
 #[derive(Clone, Copy)]
@@ -18,6 +19,12 @@ impl Registry {
     /// All cases.
     pub fn iter(self) -> impl Iterator<Item = &'static dyn AnyCase> {
         self.0.iter().copied()
+    }
+
+    /// Where the code of the cases stands: elsewhere, if that of any of them does.
+    #[must_use]
+    pub fn origin(self) -> Origin {
+        self.iter().map(AnyCase::origin).fold(Origin::PACKAGE, Origin::and)
     }
 
     /// The case of that name.

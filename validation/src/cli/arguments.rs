@@ -2,12 +2,16 @@
 
 mod examples;
 mod foreign;
+mod new;
 mod sweep;
 pub(super) mod upkeep;
 mod work;
 
 pub(super) use examples::Examples;
 pub(super) use foreign::{Compare, Export, Judge};
+#[cfg(test)]
+pub(super) use new::Named;
+pub(super) use new::{New, NewCrate};
 pub(super) use sweep::{Cluster, Engine, Sweep, SweepAction};
 pub(super) use upkeep::{Mutate, Store, StoreAction, Verify};
 pub(super) use work::{Allowance, Work};
@@ -121,6 +125,8 @@ pub enum Command {
     Compare(Compare),
     /// Write the calibrations, scenes and sweeps that ship with bagnold, to run or to edit.
     Examples(Examples),
+    /// Write a crate with a law or a case of your own, ready to build.
+    New(New),
     /// Print a shell's completions, or the manual page.
     Completions(Completions),
     /// Simulate many cases and write one page about them.

@@ -25,7 +25,7 @@ pub(super) fn run(
     if command.out.is_none() {
         OutputFolder::adopt(Path::new("reports"))?;
     }
-    let kept = CalibrationFolder::begin(&folder, &command.file, command.resume)?;
+    let kept = CalibrationFolder::begin(&folder, &command.file, registry.origin(), command.resume)?;
     let bar = Bar(Count::new("evaluations", 0, 0, quiet));
     let outcome = calibrate(&plan, &kept, registry, &command.work.open_store(), &bar);
     bar.0.clear();

@@ -1,5 +1,6 @@
 //! Why the program ends with exit code 2.
 
+use super::new::NewError;
 use crate::calibration::CalibrationError;
 use crate::case::ParameterError;
 use crate::compare::CompareError;
@@ -32,6 +33,9 @@ pub enum ProgramError {
     /// Results that cannot be compared.
     #[error(transparent)]
     Compare(#[from] CompareError),
+    /// A crate that is not made.
+    #[error(transparent)]
+    New(#[from] NewError),
     /// A program without errors to plant.
     #[error(
         "failed to plant errors: this program was built without any; build one that has them with \

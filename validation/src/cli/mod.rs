@@ -9,10 +9,13 @@ mod display;
 mod error;
 mod examples;
 mod exit;
+mod expectation;
 mod judge;
 mod logging;
+mod machine;
 #[cfg(feature = "planted-errors")]
 mod mutate;
+mod new;
 mod places;
 mod profile;
 mod progress;
@@ -29,6 +32,7 @@ mod verify;
 pub use arguments::{Arguments, Command};
 pub use error::ProgramError;
 pub use exit::Exit;
+pub use new::NewError;
 
 use crate::case::{Limits, ParameterError, Registry};
 use crate::cases::REGISTRY;
@@ -119,6 +123,7 @@ pub fn execute(
         }
         Command::Completions(command) => Ok(completions::completions(command, output)),
         Command::Examples(command) => examples::examples(command, output),
+        Command::New(command) => new::new(command, output),
         Command::Compare(command) => compare::compare(command, output),
         Command::Judge(command) => in_pool(&command.work, || judge::judge(command, registry, arguments.quiet, output)),
         Command::Export(command) => {

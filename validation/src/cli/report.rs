@@ -26,19 +26,18 @@ pub(super) fn report(
     let claimed = OutputFolder::claim(&command.out)?;
     let known = places::known_failures()?;
     let history = History::read(&places::history_file(), command.tier)?;
-    announce(&cases, quiet);
+    let store = command.work.open_store();
+    let expectation = announce("report", &cases, &store, quiet);
     let started = Instant::now();
     let mut profile = Profile::begin();
-    let store = command.work.open_store();
-    let results = simulate(cases, &store, quiet)?;
+    let results = simulate(cases, &store, quiet, Some(&expectation))?;
     profile.over("runs and their figures");
     if command.accept {
         baseline = Baseline::default();
-        let commit = provenance::commit();
         for result in &results {
             let fresh = Baseline::of(&result.name, &result.metrics);
             fresh.write(&places::accepted_folder(), &result.name, command.tier)?;
-            let made_by = (provenance::version(), commit.as_str());
+            let made_by = (provenance::version(), provenance::commit());
             history::append(&places::history_file(), made_by, command.tier, &result.name, &result.metrics)?;
             baseline.extend(fresh);
         }
@@ -57,6 +56,7 @@ pub(super) fn report(
     };
     report::write(&page, claimed.staging(), &store.drawings())?;
     claimed.publish()?;
+    expectation.learn(&results, store.root(), rayon::current_num_threads());
     profile.over("pages");
     if let Some(path) = &command.junit {
         report::write_junit(&page, path)?;

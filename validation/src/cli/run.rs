@@ -2,6 +2,7 @@
 
 use super::arguments::Run;
 use super::error::ProgramError;
+use super::expectation::Expectation;
 use super::profile::Profile;
 use super::progress::Progress;
 use super::{Exit, places, say, summary};
@@ -13,7 +14,7 @@ use crate::judge::{self, Measurements};
 use crate::output::{FileError, OutputFolder};
 use crate::report::{self, Baseline, History, Provenance, Report};
 use crate::result::{MetricsDocument, States, write_case};
-use crate::store::Store;
+use crate::store::{Store, provenance};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -45,15 +46,15 @@ pub(super) fn run(
         OutputFolder::adopt(Path::new("reports"))?;
     }
     let claimed = OutputFolder::claim(&folder)?;
-    announce(std::slice::from_ref(&prepared), quiet || command.json);
+    let store = command.work.open_store();
+    let expectation = announce("run", std::slice::from_ref(&prepared), &store, quiet || command.json);
     let known = places::known_failures()?;
     // accepted values are those of the case as it comes
     let baseline = if changed { Baseline::default() } else { places::accepted(prepared.name(), tier)? };
     let started = Instant::now();
     let mut profile = Profile::begin();
     let states = wanted.as_ref().map(|plan| States::of(prepared.as_ref(), plan, &claimed.staging().join("states")));
-    let store = command.work.open_store();
-    let mut results = simulate_showing(vec![prepared], &store, quiet, states.as_ref())?;
+    let mut results = simulate_showing(vec![prepared], &store, quiet, states.as_ref(), Some(&expectation))?;
     states.map_or(Ok(()), States::finish).map_err(|error| FileError::unwritable(&folder, &error))?;
     profile.over("runs and their figures");
     for result in &mut results {
@@ -87,6 +88,10 @@ pub(super) fn run(
     };
     report::write_alone(&page, claimed.staging(), &store.drawings())?;
     claimed.publish()?;
+    // states on the way take a time of their own
+    if wanted.is_none() {
+        expectation.learn(&results, store.root(), threads);
+    }
     profile.over("page");
     if let Some(path) = &command.junit {
         report::write_junit(&page, path)?;
@@ -108,12 +113,17 @@ pub(super) fn run(
     Ok(Exit::of(&results, |result, metric| super::report::is_known(&known, result, metric)))
 }
 
-/// Says on standard error what the runs are expected to need.
-pub(super) fn announce(cases: &[Box<dyn Prepared>], quiet: bool) {
+/// Says on standard error what the runs of a command are expected to need.
+pub(super) fn announce(command: &'static str, cases: &[Box<dyn Prepared>], store: &Store, quiet: bool) -> Expectation {
+    if let Some(warning) = provenance::unoptimised() {
+        tracing::warn!("{warning}");
+    }
+    let expectation = Expectation::of(command, cases);
     if !quiet {
         let estimate = cases.iter().map(|case| case.estimate()).fold(Estimate::default(), Estimate::and);
-        eprintln!("{}", estimate.in_words(rayon::current_num_threads()));
+        eprintln!("{}", expectation.in_words(&estimate, store.root(), rayon::current_num_threads()));
     }
+    expectation
 }
 
 /// Simulates with a progress bar.
@@ -121,8 +131,9 @@ pub(super) fn simulate(
     cases: Vec<Box<dyn Prepared>>,
     store: &Store,
     quiet: bool,
+    expectation: Option<&Expectation>,
 ) -> Result<Vec<CaseResult>, ParameterError> {
-    simulate_showing(cases, store, quiet, None)
+    simulate_showing(cases, store, quiet, None, expectation)
 }
 
 /// Simulates with a progress bar, and shows states on the way.
@@ -131,22 +142,27 @@ fn simulate_showing(
     store: &Store,
     quiet: bool,
     states: Option<&States>,
+    expectation: Option<&Expectation>,
 ) -> Result<Vec<CaseResult>, ParameterError> {
-    let showing = Showing { progress: Progress::new(&cases, quiet), states };
+    let showing = Showing { progress: Progress::new(&cases, quiet), states, expectation };
     let results = execute(cases, store, &showing);
     showing.progress.clear();
     results
 }
 
-/// A progress bar, and who takes the states of the runs.
+/// A progress bar, who takes the states of the runs, and who takes their times.
 struct Showing<'a> {
     progress: Progress,
     states: Option<&'a States>,
+    expectation: Option<&'a Expectation>,
 }
 
 impl Monitor for Showing<'_> {
     fn started(&self, run: usize) {
         self.progress.started(run);
+        if let Some(expectation) = self.expectation {
+            expectation.started(run);
+        }
     }
 
     fn advanced(&self, run: usize, simulated: f64, total: f64, particle_steps: f64) {
@@ -159,6 +175,9 @@ impl Monitor for Showing<'_> {
 
     fn finished(&self, run: usize) {
         self.progress.finished(run);
+        if let Some(expectation) = self.expectation {
+            expectation.finished(run);
+        }
     }
 
     fn output(&self, run: usize) -> Option<&dyn StateOutput> {

@@ -9,6 +9,7 @@ use crate::metric::Verdict;
 use crate::number::{four_digits, two_digits};
 use crate::report::{ReportError, template_value};
 use crate::result::{MetricEntry, pretty};
+use crate::store::provenance::short_commit;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -147,7 +148,7 @@ fn folder(results: &Results) -> Folder {
         label: results.label.clone(),
         path: results.folder.display().to_string(),
         tier: first.map(|document| document.tier.to_string()).unwrap_or_default(),
-        commit: first.map(|document| document.provenance.commit.chars().take(12).collect()).unwrap_or_default(),
+        commit: first.map(|document| short_commit(&document.provenance.commit)).unwrap_or_default(),
         hash: first.map(|document| document.provenance.source_hash.chars().take(12).collect()).unwrap_or_default(),
     }
 }

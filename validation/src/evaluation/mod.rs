@@ -1,6 +1,6 @@
 //! One case with some of its parameters changed, simulated and judged: what sweeps and calibrations are made of.
 //!
-//! An evaluation is a file, written whole or not at all, and known by its [`key`]: the hash of the program's sources, the
+//! An evaluation is a file, written whole or not at all, and known by its [`key`]: what the program computes with, the
 //! case, its tier and all its parameters. Whoever finds the file need not simulate.
 
 mod error;
@@ -12,7 +12,7 @@ pub use paths::Paths;
 pub use record::{MetricValue, Record};
 
 use crate::case::{Changes, Limits, Monitor, ParameterError, Prepared, Registry, Tier, execute};
-use crate::store::{Store, hexadecimal, source_hash};
+use crate::store::{Store, hexadecimal, identity_or_unique};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::panic::AssertUnwindSafe;
@@ -71,7 +71,7 @@ impl CaseRequest {
 #[must_use]
 pub fn key(prepared: &dyn Prepared) -> String {
     let mut hash = Sha256::new();
-    for part in [source_hash(), prepared.name(), prepared.parameters_toml()] {
+    for part in [identity_or_unique(prepared.origin()), prepared.name(), prepared.parameters_toml()] {
         hash.update((part.len() as u64).to_le_bytes());
         hash.update(part);
     }

@@ -90,7 +90,7 @@ impl Provenance {
     pub fn of_this_program(wall: Duration, command: String) -> Self {
         Self {
             version: provenance::version().to_owned(),
-            commit: provenance::commit(),
+            commit: provenance::commit().to_owned(),
             threads: rayon::current_num_threads(),
             wall_seconds: wall.as_secs_f64(),
             command,
@@ -228,6 +228,9 @@ fn neighbours(report: &Report, name: &str) -> view::Neighbours {
 
 fn draw(case: &CaseReport, folder: &Path, drawings: &Drawings) -> Result<Vec<Drawn>, ReportError> {
     let mut drawn = draw_figures(&case.figures, folder, drawings)?;
+    if !case.animations.is_empty() {
+        make(folder)?;
+    }
     let animations = case.animations.par_iter().map(|animation| {
         let written = drawing::write_animation(animation, folder, drawings);
         as_drawn(&animation.name, &animation.caption, true, written)
@@ -237,7 +240,9 @@ fn draw(case: &CaseReport, folder: &Path, drawings: &Drawings) -> Result<Vec<Dra
 }
 
 fn draw_figures(figures: &[Figure], folder: &Path, drawings: &Drawings) -> Result<Vec<Drawn>, ReportError> {
-    make(folder)?;
+    if !figures.is_empty() {
+        make(folder)?;
+    }
     let draw = |figure: &Figure| {
         let written = drawing::write_figure(figure, folder, drawings);
         as_drawn(&figure.name, &figure.caption, false, written)

@@ -10,6 +10,7 @@ use super::rows::{note, statement, worst_mark};
 use super::template::fill;
 use super::view::{Banner, BannerItem, Count, Mark, Overview, anchor, typed};
 use super::{CaseReport, Drawn, Provenance, Report, drift, scatter};
+use crate::store::provenance::short_commit;
 
 /// Fills the template; `drawn` holds the figures of the report's cases in the report's order.
 pub(super) fn render(
@@ -198,7 +199,7 @@ fn counts(judgement: &Judgement<'_>) -> Vec<Count> {
 pub(super) fn provenance(provenance: &Provenance) -> Vec<(&'static str, String)> {
     let commit = match provenance.commit.as_str() {
         "" => "unknown".to_owned(),
-        commit => commit.chars().take(12).collect(),
+        commit => short_commit(commit),
     };
     vec![
         ("version", provenance.version.clone()),

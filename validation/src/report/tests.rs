@@ -239,10 +239,14 @@ fn the_folder_is_self_contained_and_reproducible() {
     assert!(!page.contains("http") && !overview.contains("http"), "nothing is loaded from elsewhere");
     assert!(links(folder.path()) > 10);
     let store = tempfile::tempdir().expect("folder");
+    let names = ["velocity-profile.svg", "velocity-profile.png", "collapse.gif"];
+    let bytes = || names.map(|name| std::fs::read(folder.path().join("figures/film").join(name)).expect(name));
+    let drawn = bytes();
     for (made, occasion) in [(4, "an SVG, a PNG and a GIF, and one that fails"), (1, "what fails is tried again")] {
         let drawings = Store::at(store.path(), StorePolicy::Use).drawings();
         write(&report, folder.path(), &drawings).expect("written again");
         assert_eq!(drawings.made(), made, "{occasion}");
+        assert!(bytes() == drawn, "{occasion}");
     }
     assert_eq!((overview, page), (read("index.html"), read("cases/film/index.html")));
 }

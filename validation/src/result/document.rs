@@ -27,13 +27,17 @@ pub struct MetricsDocument {
 pub struct Provenance {
     /// Version of Bagnold.
     pub version: String,
-    /// Commit of the workspace, or `unknown`.
+    /// Commit that the program was built from, with `+changes` if its sources differ from it, or `unknown`.
     pub commit: String,
-    /// Hash of sources, locked dependencies, profile and instruction set.
+    /// Hash of sources, locked dependencies, compiler, profile and instruction set, and of the program's own file where it has
+    /// laws or cases of another crate.
     pub source_hash: String,
-    /// Cargo's profile.
+    /// Cargo's profile, and how the solver is optimised in it.
     pub profile: String,
-    /// Instruction set extensions that the compiler could count on.
+    /// Instruction set that the loops over particles run with, chosen at run time; empty in results of earlier versions.
+    #[serde(default)]
+    pub instruction_set: String,
+    /// Instruction set extensions that the compiler could count on everywhere else.
     pub target_features: String,
     /// Command that repeats the case.
     pub command: String,
@@ -89,9 +93,10 @@ impl Provenance {
     pub fn of(result: &CaseResult, threads: usize) -> Self {
         Self {
             version: store::version().to_owned(),
-            commit: store::commit(),
-            source_hash: store::source_hash().to_owned(),
+            commit: store::commit().to_owned(),
+            source_hash: store::identity_or_unique(result.origin).to_owned(),
             profile: store::profile().to_owned(),
+            instruction_set: store::instruction_set().to_owned(),
             target_features: store::target_features().to_owned(),
             command: result.command.clone(),
             threads,

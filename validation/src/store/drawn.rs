@@ -39,7 +39,11 @@ impl Drawings {
             hash.update(bytes);
             hexadecimal(&hash.finalize())
         };
-        DrawingKey(self.folder.as_ref().and_then(|_| postcard::to_stdvec(data).ok()).map(of))
+        let serialised = || {
+            postcard::to_stdvec(data)
+                .inspect_err(|error| tracing::warn!("a drawing cannot be kept, its data do not serialise: {error}"))
+        };
+        DrawingKey(self.folder.as_ref().and_then(|_| serialised().ok()).map(of))
     }
 
     /// The kept drawing with an ending such as `svg`, or the one that is made now and kept. A kept one that is damaged is made

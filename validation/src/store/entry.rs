@@ -56,7 +56,7 @@ pub(crate) fn read_bytes(path: &Path, key: &str) -> Result<Option<Vec<u8>>> {
         return Err(damaged());
     }
     if own != key.as_bytes() {
-        return Err(refused("belongs to another run"));
+        return Err(refused("belongs to another run or drawing"));
     }
     Ok(Some(record.to_vec()))
 }
@@ -108,7 +108,7 @@ mod tests {
         write(&path, "a", &"record").expect("writable");
         assert_eq!(read(&path, "a").expect("readable"), Some("record".to_owned()));
         std::fs::rename(&path, &moved).expect("movable");
-        assert_eq!(refused(&moved, "b"), "belongs to another run");
+        assert_eq!(refused(&moved, "b"), "belongs to another run or drawing");
         let whole = std::fs::read(&moved).expect("readable");
         for bit in 0..8 * whole.len() {
             let mut flipped = whole.clone();

@@ -2,12 +2,16 @@
 
 mod drawn;
 pub(crate) mod entry;
+mod identity;
 mod inventory;
 pub mod provenance;
+mod speeds;
 
 pub use drawn::{DrawingKey, Drawings};
+pub use identity::{Origin, identity, identity_or_unique, is_of_this_program};
 pub use inventory::{Keep, Pruned, Version, prune, versions};
-pub use provenance::{commit, profile, source_hash, target_features, version, workspace};
+pub use provenance::{commit, instruction_set, profile, source_hash, target_features, version, workspace};
+pub use speeds::{AllSpeeds, Speeds};
 
 use crate::checkpoint::Checkpoints;
 use crate::observation::Recorded;
@@ -114,19 +118,21 @@ impl Store {
         self.folder.parent().unwrap_or(&self.folder)
     }
 
-    /// The key of a run, or `None` if there is nothing to look up or keep.
+    /// The key of a run of a case, or `None` if there is nothing to look up or keep: the store is bypassed, or nobody can
+    /// tell which program this is.
     #[must_use]
-    pub fn key<R: Serialize>(&self, case: &str, run: &R) -> Option<Key> {
+    pub fn key<R: Serialize>(&self, origin: Origin, case: &str, run: &R) -> Option<Key> {
         if self.policy == StorePolicy::Bypass {
             return None;
         }
+        let program = identity(origin)?;
         let description = postcard::to_stdvec(run)
             .inspect_err(|error| {
                 tracing::warn!("{case}: a run cannot be stored, its description does not serialise: {error}")
             })
             .ok()?;
         let mut hash = Sha256::new();
-        for part in [source_hash().as_bytes(), case.as_bytes(), &description] {
+        for part in [program.as_bytes(), case.as_bytes(), &description] {
             hash.update((part.len() as u64).to_le_bytes());
             hash.update(part);
         }
@@ -227,7 +233,7 @@ mod tests {
     }
 
     fn key(store: &Store, run: u32) -> Key {
-        store.key("test", &run).expect("a number serialises")
+        store.key(Origin::ELSEWHERE, "test", &run).expect("a number serialises")
     }
 
     #[test]
@@ -238,7 +244,7 @@ mod tests {
         store.keep(&key(&store, 1), &kept);
         assert_eq!(store.fetch(&key(&store, 1)), Some(kept));
         assert_eq!(store.fetch::<f64>(&key(&store, 2)), None);
-        assert_ne!(store.key("test", &1), store.key("other", &1));
+        assert_ne!(store.key(Origin::ELSEWHERE, "test", &1), store.key(Origin::ELSEWHERE, "other", &1));
     }
 
     #[test]
@@ -263,7 +269,7 @@ mod tests {
     fn bypass_touches_nothing_and_refresh_replaces() {
         let folder = tempfile::tempdir().expect("temporary folder");
         let bypass = Store::at(folder.path(), StorePolicy::Bypass);
-        assert_eq!(bypass.key("test", &1), None);
+        assert_eq!(bypass.key(Origin::ELSEWHERE, "test", &1), None);
         let refresh = Store::at(folder.path(), StorePolicy::Refresh);
         let key = key(&refresh, 1);
         refresh.keep(&key, &record(1.0));

@@ -1,6 +1,7 @@
 //! What this program was built from.
 
-use std::path::{Path, PathBuf};
+use bagnold_solver::lanes::InstructionSet;
+use std::path::Path;
 
 /// Version of the package.
 #[must_use]
@@ -8,19 +9,40 @@ pub fn version() -> &'static str {
     env!("CARGO_PKG_VERSION")
 }
 
-/// SHA-256 of everything that a result depends on: sources, locked dependencies, profile, instruction set.
+/// SHA-256 of everything that a result depends on: sources, locked dependencies, compiler, profile, instruction set. Laws and
+/// cases of another crate are no part of it; see [`identity`](super::identity).
 #[must_use]
 pub fn source_hash() -> &'static str {
     env!("BAGNOLD_SOURCE_HASH")
 }
 
-/// Cargo's profile and the optimisation level.
+/// Cargo's profile, and how the solver is optimised in it: what drives and judges it is built faster.
 #[must_use]
 pub fn profile() -> &'static str {
-    env!("BAGNOLD_PROFILE")
+    concat!(env!("BAGNOLD_PROFILE"), ", solver at opt-level ", env!("BAGNOLD_SOLVER_OPT_LEVEL"))
 }
 
-/// Instruction set extensions that the compiler could count on.
+/// What to say of a program whose solver is not optimised; nothing of any other.
+#[must_use]
+pub fn unoptimised() -> Option<String> {
+    unoptimised_at(env!("BAGNOLD_SOLVER_OPT_LEVEL"))
+}
+
+fn unoptimised_at(level: &str) -> Option<String> {
+    (level == "0").then(|| {
+        "the solver of this program is not optimised (opt-level 0) and takes many times longer, to the same bits; set \
+         `opt-level = 3` for the package `bagnold-solver` in the profile that it is built with"
+            .to_owned()
+    })
+}
+
+/// The instruction set that the loops over particles run with on this processor, chosen as the program runs.
+#[must_use]
+pub fn instruction_set() -> &'static str {
+    InstructionSet::best().name()
+}
+
+/// Instruction set extensions that the compiler could count on everywhere else.
 #[must_use]
 pub fn target_features() -> &'static str {
     env!("BAGNOLD_TARGET_FEATURES")
@@ -39,49 +61,24 @@ fn is_worked_in(root: &Path, current: &Path) -> bool {
     root.join("Cargo.lock").is_file() && root.canonicalize().is_ok_and(|root| current.starts_with(root))
 }
 
-/// Commit checked out in the workspace that one works in, or `unknown`. Read when asked for, since a build script that
-/// watched it would rebuild the crate on every commit.
+/// Commit that this program was built from, with `+changes` after it if what it was built from differs from that commit;
+/// `unknown` for a program built from no repository. That of the build, whichever folder one works in: what is committed
+/// later without a change of the sources makes no other program.
 #[must_use]
-pub fn commit() -> String {
-    workspace().and_then(|root| head(&git_folder(root)?)).unwrap_or_else(|| "unknown".to_owned())
+pub fn commit() -> &'static str {
+    env!("BAGNOLD_COMMIT")
 }
 
-/// `.git` itself, or where it points to in a linked worktree.
-fn git_folder(root: &Path) -> Option<PathBuf> {
-    let git = root.join(".git");
-    if git.is_dir() {
-        return Some(git);
-    }
-    let text = std::fs::read_to_string(git).ok()?;
-    Some(root.join(text.strip_prefix("gitdir:")?.trim()))
-}
-
-fn head(git: &Path) -> Option<String> {
-    let text = std::fs::read_to_string(git.join("HEAD")).ok()?;
-    let Some(reference) = text.trim().strip_prefix("ref: ") else {
-        return commit_id(&text);
-    };
-    // A linked worktree has its own HEAD, but shares the branches.
-    let shared = std::fs::read_to_string(git.join("commondir"))
-        .map_or_else(|_| git.to_path_buf(), |folder| git.join(folder.trim()));
-    let loose = [git, &shared].iter().find_map(|folder| std::fs::read_to_string(folder.join(reference)).ok());
-    if let Some(text) = loose {
-        return commit_id(&text);
-    }
-    let packed = std::fs::read_to_string(shared.join("packed-refs")).ok()?;
-    packed.lines().find_map(|line| commit_id(line.strip_suffix(reference)?))
-}
-
-fn commit_id(text: &str) -> Option<String> {
-    let id = text.trim();
-    (id.len() >= 40 && id.bytes().all(|byte| byte.is_ascii_hexdigit())).then(|| id.to_owned())
+/// The first digits of a commit, as many as a page needs, with what stands after it.
+#[must_use]
+pub fn short_commit(commit: &str) -> String {
+    let (id, rest) = commit.split_once('+').map_or((commit, String::new()), |(id, rest)| (id, format!("+{rest}")));
+    id.chars().take(12).collect::<String>() + &rest
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const ID: &str = "0123456789abcdef0123456789abcdef01234567";
 
     #[test]
     fn a_workspace_counts_where_one_works_in_it() {
@@ -95,20 +92,24 @@ mod tests {
     }
 
     #[test]
-    fn the_commit_is_found_loose_packed_detached_or_not_at_all() {
-        let folder = tempfile::tempdir().expect("temporary folder");
-        let git = folder.path();
-        let write = |name: &str, text: &str| std::fs::write(git.join(name), text).expect("writable");
-        assert_eq!(head(git), None);
-        write("HEAD", "ref: refs/heads/main\n");
-        assert_eq!(head(git), None);
-        write("packed-refs", &format!("# pack-refs\n{ID} refs/heads/main\n"));
-        assert_eq!(head(git).as_deref(), Some(ID));
-        let newer = ID.replace('0', "f");
-        std::fs::create_dir_all(git.join("refs/heads")).expect("writable");
-        write("refs/heads/main", &format!("{newer}\n"));
-        assert_eq!(head(git), Some(newer));
-        write("HEAD", &format!("{ID}\n"));
-        assert_eq!(head(git).as_deref(), Some(ID));
+    fn the_solvers_optimisation_is_told() {
+        assert!(unoptimised_at("0").is_some_and(|text| text.contains("bagnold-solver")));
+        assert_eq!(unoptimised_at("3"), None);
+        let (_, level) = profile().split_once(", solver at opt-level ").expect("profile and level");
+        assert!(["0", "1", "2", "3", "s", "z"].contains(&level), "{level}");
+    }
+
+    #[test]
+    fn a_commit_is_shortened_and_its_mark_is_kept() {
+        let id = "0123456789abcdef0123456789abcdef01234567";
+        assert_eq!(short_commit(id), "0123456789ab");
+        assert_eq!(short_commit(&format!("{id}+changes")), "0123456789ab+changes");
+        assert_eq!(short_commit("unknown"), "unknown");
+        let (built, mark) = commit().split_once('+').unwrap_or((commit(), "changes"));
+        assert!(
+            built == "unknown" || built.len() >= 40 && built.bytes().all(|byte| byte.is_ascii_hexdigit()),
+            "{built}"
+        );
+        assert_eq!(mark, "changes");
     }
 }

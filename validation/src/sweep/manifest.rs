@@ -34,7 +34,7 @@ pub struct Entry {
 /// All runs of a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// Hash of the sources of the program that made it.
+    /// What the program that made it is known by.
     pub source_hash: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
@@ -62,7 +62,7 @@ impl Owner for Manifest {
     const MARKER: &'static str = "manifest.json";
 
     fn is_foreign(&self) -> bool {
-        self.source_hash != crate::store::source_hash()
+        !crate::store::is_of_this_program(&self.source_hash)
     }
 }
 

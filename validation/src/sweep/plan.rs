@@ -6,7 +6,7 @@ use crate::case::{Limits, ParameterError, Prepared, Registry};
 use crate::evaluation::{self, CaseRequest, Paths, PlanError, read_plan, toml_number};
 use crate::input::FieldError;
 use crate::sampling::{Bounds, Spacing, design};
-use crate::store::source_hash;
+use crate::store::identity_or_unique;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -236,7 +236,7 @@ impl SweepPlan {
         match refusal {
             Some(error) if entries.iter().all(|entry| entry.refusal.is_some()) => Err(error.into()),
             _ => Ok(Manifest {
-                source_hash: source_hash().to_owned(),
+                source_hash: identity_or_unique(registry.origin()).to_owned(),
                 parameters: self.text.parameters.iter().map(Varied::name).collect(),
                 metrics: self.text.metrics.clone(),
                 entries,

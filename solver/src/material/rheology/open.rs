@@ -34,7 +34,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-pub use registry::{Maker, OpenLawError, RegistrationError, register, registered};
+pub use registry::{Maker, OpenLawError, RegistrationError, built_in, register, registered};
 pub use table::Parameters;
 pub(super) use table::Written;
 

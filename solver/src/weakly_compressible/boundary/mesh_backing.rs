@@ -16,6 +16,7 @@ use super::standing::standing;
 use crate::domain::{AxisBoundary, Domain};
 use crate::vector::Vector;
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Share of a cell below which a piece is left out `[-]`.
 const SMALLEST: f64 = 0.02;
@@ -28,8 +29,9 @@ const BEYOND: f64 = 1.0 + 1e-6;
 
 /// Fills the space behind the shells with `rows` of dummy particles at the flow's `spacing` `[m]`, the first half a spacing
 /// behind the surface. Shells at rest share their edges; each that moves stands alone. Nothing is laid beyond periods and
-/// mirrors.
-pub fn lay(shells: &mut [Shell<3>], domain: &Domain<3>, spacing: f64, rows: usize) {
+/// mirrors. Tells how many facets were looked at in all, place by place: what the filling costs.
+pub fn lay(shells: &mut [Shell<3>], domain: &Domain<3>, spacing: f64, rows: usize) -> usize {
+    let mut looked_at = 0;
     for group in together(shells) {
         let laying = Laying::of(shells, &group, domain, spacing, rows);
         let parts = (0..laying.parts.len()).into_par_iter().filter(|&part| !laying.parts[part].narrow);
@@ -38,7 +40,9 @@ pub fn lay(shells: &mut [Shell<3>], domain: &Domain<3>, spacing: f64, rows: usiz
         for (shell, particle) in particles.into_iter().flatten() {
             shells[shell].backing.push(particle);
         }
+        looked_at += laying.looked_at.into_inner();
     }
+    looked_at
 }
 
 /// A flat part, or its image in a mirror or a period.
@@ -59,6 +63,8 @@ struct Laying<'a> {
     domain: &'a Domain<3>,
     spacing: f64,
     rows: usize,
+    /// Facets that were looked at so far, place by place.
+    looked_at: AtomicUsize,
 }
 
 /// What somebody has of a cell.
@@ -88,7 +94,8 @@ impl<'a> Laying<'a> {
             }
         }
         let grid = FacetGrid::new(&[], spacing);
-        let mut laying = Self { facets, part_of, parts, grid, domain, spacing, rows };
+        let looked_at = AtomicUsize::new(0);
+        let mut laying = Self { facets, part_of, parts, grid, domain, spacing, rows, looked_at };
         laying.add_images();
         laying.grid = FacetGrid::new(&laying.facets, laying.reach() + 2.0 * spacing);
         laying
@@ -213,6 +220,7 @@ impl<'a> Laying<'a> {
     /// The particle of a piece behind a curved surface.
     fn behind_curve(&self, piece: &Piece) -> Option<(usize, BackingParticle<3>)> {
         let position = piece.place;
+        self.looked_at.fetch_add(self.grid.near(&position).len(), Ordering::Relaxed);
         let facet = self.grid.standing(&self.facets, &position)?.facet;
         let way = self.facets[facet].nearest(&position) - position;
         let depth = way.norm();
@@ -256,6 +264,7 @@ impl<'a> Laying<'a> {
     fn candidates(&self, middle: &Vector<3>, radius: f64) -> Option<Vec<usize>> {
         let mut least = (self.reach() + radius) * BEYOND;
         let near = self.grid.near(middle);
+        self.looked_at.fetch_add(near.len(), Ordering::Relaxed);
         let mut found = false;
         for &facet in near {
             let facet = &self.facets[facet as usize];

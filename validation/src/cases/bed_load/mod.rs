@@ -26,6 +26,7 @@ use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
+use crate::store::Origin;
 
 /// The case.
 #[derive(Debug)]
@@ -35,6 +36,7 @@ type Record = RecordOf<BedLoadParameters>;
 
 impl Case for BedLoad {
     const NAME: &'static str = "bed-load";
+    const ORIGIN: Origin = Origin::PACKAGE;
     const SUMMARY: &'static str = "water over a bed that moves: profiles, drag and transport, in three formulations";
     const DESCRIPTION: &'static str = "Turbulent water over a bed of 5 mm grains. `stabilised` has one particle a grain, a yield stress that grows with \
         the grains' weight, and two parameters that are fitted on two slopes and judged on the third. `continuum` \

@@ -19,6 +19,7 @@ use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
+use crate::store::Origin;
 
 /// The case.
 #[derive(Debug)]
@@ -29,6 +30,7 @@ type Record = RecordOf<BedLoad1dParameters>;
 
 impl Case for BedLoad1d {
     const NAME: &'static str = "bed-load-1d";
+    const ORIGIN: Origin = Origin::PACKAGE;
     const SUMMARY: &'static str =
         "bed load over the depth, two phases with closures of the literature, without particles";
     const DESCRIPTION: &'static str = "Water flows down a slope over a bed of grains and drags the upper ones along. Both phases are continua over the \

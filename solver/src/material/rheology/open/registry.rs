@@ -59,6 +59,12 @@ pub fn register(name: &'static str, maker: Maker) -> Result<(), RegistrationErro
     Ok(())
 }
 
+/// The names of the laws of this crate, which no other law can have.
+#[must_use]
+pub fn built_in() -> &'static [&'static str] {
+    BUILT_IN_NAMES
+}
+
 /// The names of the registered laws, in the order of their registration.
 #[must_use]
 pub fn registered() -> Vec<&'static str> {

@@ -1,0 +1,66 @@
+//! How long runs will take together, from what each takes on one core: the order in which [`super::execute`] does them.
+
+/// Gain in speed by every thread of a run beyond its first `[-]`. Small runs gain less, large ones more.
+const GAIN: f64 = 0.7;
+
+/// How much faster a run is on so many threads than on one `[-]`.
+#[must_use]
+pub fn speed_up(threads: usize) -> f64 {
+    1.0 + GAIN * (threads.max(1) - 1) as f64
+}
+
+/// Wall time of runs in the order in which they begin, on so many threads, from their times on one core; all in `[s]`. They
+/// are shared out as [`super::share_out`] does it: one thread each while there are more runs than threads, a fair share for the
+/// last few.
+#[must_use]
+pub fn wall_time(core_seconds: &[f64], threads: usize) -> f64 {
+    let threads = threads.max(1);
+    // when each run ends, and the threads that it has until then
+    let mut going: Vec<(f64, usize)> = Vec::new();
+    let (mut now, mut free, mut end) = (0.0_f64, threads, 0.0_f64);
+    for (begun, seconds) in core_seconds.iter().enumerate() {
+        if free == 0 || going.len() >= threads.min(core_seconds.len()) {
+            let first = (0..going.len()).min_by(|&a, &b| going[a].0.total_cmp(&going[b].0));
+            if let Some(first) = first {
+                let (ended, share) = going.swap_remove(first);
+                now = ended;
+                free += share;
+            }
+        }
+        let share = (free / (core_seconds.len() - begun)).max(1);
+        free = free.saturating_sub(share);
+        let ends = now + seconds.max(0.0) / speed_up(share);
+        end = end.max(ends);
+        going.push((ends, share));
+    }
+    end
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_run_has_all_threads_and_many_have_one_each() {
+        assert_eq!(wall_time(&[], 2), 0.0);
+        assert_eq!(wall_time(&[10.0], 1), 10.0);
+        assert_eq!(wall_time(&[17.0], 2), 10.0);
+        assert_eq!(wall_time(&[4.0, 4.0, 4.0, 4.0], 1), 16.0);
+        // the second and third share a thread while the first has the other
+        assert_eq!(wall_time(&[10.0, 4.0, 4.0], 2), 10.0);
+        // two runs of four threads have two each
+        assert_eq!(wall_time(&[17.0, 17.0], 4), 10.0);
+    }
+
+    #[test]
+    fn the_longest_run_bounds_the_time_from_below_and_one_thread_from_above() {
+        let runs = [9.0, 7.0, 5.0, 3.0, 3.0, 1.0, 0.5];
+        let sum: f64 = runs.iter().sum();
+        for threads in 1..12 {
+            let time = wall_time(&runs, threads);
+            assert!(time >= sum / threads as f64 - 1e-12 && time <= sum + 1e-12, "{time} s on {threads} threads");
+            assert!(time >= runs[0] / speed_up(threads) - 1e-12);
+        }
+        assert!(wall_time(&runs, 2) < 0.6 * sum);
+    }
+}

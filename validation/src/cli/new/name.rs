@@ -1,0 +1,92 @@
+//! Names that a crate with a law or a case can have.
+
+use super::super::arguments::NewCrate;
+use crate::cases::REGISTRY;
+use crate::input::FieldError;
+use bagnold_solver::material::rheology::open::built_in;
+
+/// More letters than this make no name of a law.
+const LONGEST: usize = 64;
+
+/// Words of the language, which no crate may be called by.
+const KEYWORDS: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn", "else",
+    "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod",
+    "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super", "trait", "true",
+    "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
+/// Names of crates that the new one uses, and those that Cargo or the compiler keep for themselves.
+const TAKEN: &[&str] = &[
+    "alloc",
+    "bagnold",
+    "bagnold-solver",
+    "bagnold-validation",
+    "build",
+    "core",
+    "deps",
+    "examples",
+    "incremental",
+    "proc-macro",
+    "schemars",
+    "serde",
+    "std",
+    "test",
+];
+
+/// Whether a crate, and the law or case in it, can be called that.
+pub(super) fn check(name: &str, what: &NewCrate) -> Result<(), FieldError> {
+    let refused = |rule: &str, remedy: &str| Err(FieldError::new("NAME", format!("{name:?}"), rule, remedy));
+    let is_plain = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || "-_".contains(letter);
+    let begins = name.starts_with(|first: char| first.is_ascii_lowercase());
+    if !begins || !name.chars().all(is_plain) || name.ends_with(['-', '_']) || name.len() > LONGEST {
+        return refused(
+            "a crate's name of at most 64 lower-case letters, digits and hyphens that begins with a letter",
+            "call it such as my-law",
+        );
+    }
+    let kebab = name.replace('_', "-");
+    if KEYWORDS.contains(&name) || TAKEN.contains(&kebab.as_str()) {
+        return refused("no word of Rust and no crate that it needs itself", "add what kind of law or case it is");
+    }
+    match what {
+        NewCrate::Law(_) if built_in().contains(&name) => {
+            refused("no law that is there already", "give yours another name: both can then be compared")
+        }
+        NewCrate::Case(_) if REGISTRY.iter().any(|case| case.name() == name) => {
+            refused("no case that is there already", "give yours another name; `bagnold list` prints those there are")
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::arguments::Named;
+    use super::*;
+
+    fn refusal(name: &str, what: fn(Named) -> NewCrate) -> Option<String> {
+        let asked = Named { name: name.to_owned(), out: None };
+        check(name, &what(asked)).err().map(|error| error.to_string())
+    }
+
+    #[test]
+    fn names_are_those_of_crates_and_of_nothing_that_is_there() {
+        for name in ["my-law", "power_law_2", "x"] {
+            assert_eq!(refusal(name, NewCrate::Law), None);
+            assert_eq!(refusal(name, NewCrate::Case), None);
+        }
+        let long = "x".repeat(65);
+        for name in ["", "My-law", "2law", "-law", "law-", "my law", "../law", "löß", "a/b", "a\"b", &long] {
+            let refusal = refusal(name, NewCrate::Law).unwrap_or_default();
+            assert!(refusal.contains("but must be a crate's name"), "{name}: {refusal}");
+        }
+        for name in ["fn", "self", "serde", "bagnold_solver", "test", "build"] {
+            let refusal = refusal(name, NewCrate::Case).unwrap_or_default();
+            assert!(refusal.contains("no word of Rust"), "{name}: {refusal}");
+        }
+        assert!(refusal("mu-i", NewCrate::Law).is_some_and(|text| text.contains("no law that is there")));
+        assert!(refusal("film", NewCrate::Case).is_some_and(|text| text.contains("no case that is there")));
+        assert_eq!(refusal("film", NewCrate::Law), None);
+    }
+}
