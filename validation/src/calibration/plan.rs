@@ -8,7 +8,7 @@ use super::text::Text;
 use crate::case::{Limits, Registry};
 use crate::evaluation::{CaseRequest, PlanError, read_plan};
 use crate::inference::{Budget, Loss, Method};
-use crate::input::{FieldError, nearest};
+use crate::input::{FieldError, check_name, check_text, nearest};
 use crate::sampling::{Bounds, Paths, float};
 use crate::store::Store;
 use serde::Deserialize;
@@ -149,6 +149,8 @@ impl Plan {
             Err(FieldError::new(&field, case, "a case that has data", &remedy))
         };
         for (index, parameter) in self.parameters.iter().enumerate() {
+            check_name(&format!("parameters[{index}].name"), &parameter.name)?;
+            check_text(&format!("parameters[{index}].unit"), &parameter.unit)?;
             if let Paths::ByCase(paths) = &parameter.path {
                 paths.keys().try_for_each(|case| known(format!("parameters[{index}].path"), case))?;
             }
@@ -166,6 +168,7 @@ impl Plan {
         }
         for (index, choice) in self.choices.iter().enumerate() {
             let field = format!("choices[{index}]");
+            check_name(&format!("{field}.name"), &choice.name)?;
             choice.set.keys().try_for_each(|case| known(format!("{field}.set"), case))?;
             if let Some(case) = cases.iter().find(|case| choice.in_case(case).is_empty()) {
                 let remedy = format!("say what {} sets there", choice.name);
