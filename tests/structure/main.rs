@@ -1,5 +1,6 @@
 //! The structure of the workspace: who imports whom, where numbers stand, and lists that follow from the registry.
 
+mod advisories;
 mod dependencies;
 mod documents;
 mod examples;
@@ -8,6 +9,7 @@ mod literals;
 mod order;
 mod papers;
 mod planted;
+mod printing;
 mod python;
 mod references;
 mod source;

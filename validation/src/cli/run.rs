@@ -4,7 +4,7 @@ use super::arguments::Run;
 use super::error::ProgramError;
 use super::profile::Profile;
 use super::progress::Progress;
-use super::{Exit, places, say, summary};
+use super::{Exit, places, print, say, summary, tell};
 use crate::case::{
     CaseResult, Estimate, Monitor, OutputPlan, ParameterError, Prepared, Registry, Request, Requested, StateOutput,
     execute,
@@ -70,7 +70,7 @@ pub(super) fn run(
             .and_then(|()| overlay.iter().try_for_each(|own| own.keep(claimed.staging())))
             .map_err(|error| FileError::unwritable(&folder, &error))?;
         if command.json {
-            say(output, &document.text());
+            print(output, &document.text());
         }
     }
     let page = Report {
@@ -102,7 +102,7 @@ pub(super) fn run(
         say(output, &format!("written to {}\n", folder.join("index.html").display()));
     }
     if command.profile {
-        eprint!("{}", profile.in_words(&results, threads));
+        tell(profile.in_words(&results, threads).trim_end_matches('\n'));
     }
     Ok(Exit::of(&results, |result, metric| super::report::is_known(&known, result, metric)))
 }
@@ -111,7 +111,7 @@ pub(super) fn run(
 pub(super) fn announce(cases: &[Box<dyn Prepared>], quiet: bool) {
     if !quiet {
         let estimate = cases.iter().map(|case| case.estimate()).fold(Estimate::default(), Estimate::and);
-        eprintln!("{}", estimate.in_words(rayon::current_num_threads()));
+        tell(&estimate.in_words(rayon::current_num_threads()));
     }
 }
 
