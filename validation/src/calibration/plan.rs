@@ -100,6 +100,7 @@ impl Plan {
         let text: Text = read_plan(file, "calibrate")?;
         let plan = text.checked(file, limits).map_err(|error| error.in_file(file))?;
         plan.check_cases(registry)?;
+        plan.check_data()?;
         Ok(plan)
     }
 
@@ -184,6 +185,12 @@ impl Plan {
             }
         }
         Ok(())
+    }
+
+    /// The data's files are read before the folder of the calibration is touched, so that a bad one leaves nothing behind.
+    fn check_data(&self) -> Result<(), CalibrationError> {
+        let texts = self.data.iter().enumerate().flat_map(|(block, texts)| texts.iter().map(move |text| (block, text)));
+        texts.map(|(block, text)| text.read(block, &self.file).map(drop)).collect()
     }
 
     fn check_cases(&self, registry: Registry) -> Result<(), CalibrationError> {
