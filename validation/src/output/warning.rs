@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Warns once; what follows are details that only a verbose program shows.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct FirstWarning(AtomicBool);
 
 impl FirstWarning {
