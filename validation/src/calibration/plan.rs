@@ -8,7 +8,7 @@ use super::text::Text;
 use crate::case::{Limits, Registry};
 use crate::evaluation::{CaseRequest, PlanError, read_plan};
 use crate::inference::{Budget, Loss, Method};
-use crate::input::{FieldError, check_name, check_text, nearest};
+use crate::input::{FieldError, check_name, nearest};
 use crate::sampling::{Bounds, Paths, float};
 use crate::store::Store;
 use serde::Deserialize;
@@ -150,8 +150,6 @@ impl Plan {
             Err(FieldError::new(&field, case, "a case that has data", &remedy))
         };
         for (index, parameter) in self.parameters.iter().enumerate() {
-            check_name(&format!("parameters[{index}].name"), &parameter.name)?;
-            check_text(&format!("parameters[{index}].unit"), &parameter.unit)?;
             if let Paths::ByCase(paths) = &parameter.path {
                 paths.keys().try_for_each(|case| known(format!("parameters[{index}].path"), case))?;
             }
@@ -189,8 +187,9 @@ impl Plan {
 
     /// The data's files are read before the folder of the calibration is touched, so that a bad one leaves nothing behind.
     fn check_data(&self) -> Result<(), CalibrationError> {
-        let texts = self.data.iter().enumerate().flat_map(|(block, texts)| texts.iter().map(move |text| (block, text)));
-        texts.map(|(block, text)| text.read(block, &self.file).map(drop)).collect()
+        let mut texts =
+            self.data.iter().enumerate().flat_map(|(block, texts)| texts.iter().map(move |text| (block, text)));
+        texts.try_for_each(|(block, text)| text.read(block, &self.file).map(drop))
     }
 
     fn check_cases(&self, registry: Registry) -> Result<(), CalibrationError> {

@@ -110,7 +110,9 @@ impl SweepPlan {
             let field = format!("parameters[{index}]");
             parameter.check(&field, self.text.design == Design::GRID)?;
             let name = parameter.name();
-            check_name(&format!("{field}.name"), &name)?;
+            if let Some(own) = &parameter.name {
+                check_name(&format!("{field}.name"), own)?;
+            }
             if !names.insert(name.clone()) || TAKEN.contains(&name.as_str()) {
                 let remedy = "give each a `name` of its own that is no column of the results";
                 return Err(FieldError::new(&format!("{field}.name"), name, "unlike the others", remedy));
