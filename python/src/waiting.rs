@@ -1,5 +1,6 @@
 //! Work beside Python: the interpreter is free meanwhile, and Ctrl-C ends the work as it ends the program.
 
+use bagnold_validation::input::escaped_lines;
 use bagnold_validation::interruption;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
@@ -53,7 +54,7 @@ pub(crate) fn wait_for<T: Send, E: Display + Send>(
             (_, Some(exception)) => Err(exception),
             // a run on another Python thread, which gets no signals of its own
             (Ok(Err(_)), None) if interrupted => Err(PyKeyboardInterrupt::new_err(())),
-            (Ok(outcome), None) => outcome.map_err(|error| Refused::new_err(error.to_string())),
+            (Ok(outcome), None) => outcome.map_err(|error| Refused::new_err(escaped_lines(&error.to_string()).into_owned())),
             (Err(_), None) => Err(PyRuntimeError::new_err("Bagnold has panicked; this is an error in Bagnold")),
         }
     })

@@ -149,3 +149,53 @@ fn a_report_has_the_verdicts_and_is_self_contained() {
         }
     }
 }
+
+/// A store that cannot be written has one reason, and is warned of once.
+#[test]
+fn a_store_that_cannot_be_written_is_warned_of_once() {
+    let place = Place::new();
+    place.file("file", "");
+    let films = "fluids=[\"newtonian\", \"bingham\"]";
+    let settings = ["--set", films, "--set", "convergence_resolutions=[]", "--set", "comparison_resolution=0"];
+    let arguments = [&["film", "--set", "resolution=10", "--store", "file/store"], &settings[..]].concat();
+    let finished = place.run(&arguments);
+    let said = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
+    let warnings: Vec<&str> = said.lines().filter(|line| line.contains("not kept")).collect();
+    assert!(warnings.len() == 1 && warnings[0].ends_with("; further warnings of this kind are not shown"), "{said}");
+}
+
+#[test]
+fn a_time_or_size_that_is_negative_is_refused_by_its_rule() {
+    let place = Place::new();
+    for (arguments, value, option) in [
+        (&["store", "prune", "--days", "-3"][..], "-3", "--days <DAYS>"),
+        (&["store", "prune", "--size", "-0.5"], "-0.5", "--size <GIB>"),
+        (&["run", "film", "--most-memory", "-1"], "-1", "--most-memory <GIB>"),
+        (&["run", "film", "--most-hours", "-1e3"], "-1e3", "--most-hours <HOURS>"),
+    ] {
+        let refused = place.bagnold(arguments).assert().code(2).stdout("");
+        let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        let begin =
+            format!("error: invalid value '{value}' for '{option}': must be a positive number, such as 30 or 0.5\n");
+        assert!(said.starts_with(&begin), "{said}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_nothing_is_no_output_folder() {
+    let place = Place::new();
+    std::os::unix::fs::symlink("gone/away", place.path("out")).expect("a link");
+    let plan =
+        "design = \"grid\"\n[[cases]]\ncase = \"film\"\n[[parameters]]\npath = \"slope_angle\"\nvalues = [20.0]\n";
+    place.file("plan.toml", plan);
+    for (command, out) in
+        [(&["run", "film"][..], "out"), (&["run", "film"], "out/below"), (&["sweep", "plan.toml"], "out")]
+    {
+        let arguments = [command, &["-q", "--out", out]].concat();
+        place.bagnold(&arguments).assert().code(2).stdout("").stderr(format!(
+            "error: output folder {out}: out is a symbolic link to gone/away, which does not exist; make that folder, remove \
+             the link, or name another folder with --out\n"
+        ));
+    }
+}

@@ -18,6 +18,8 @@ mod program;
 mod published;
 mod restart;
 mod scene;
+mod simultaneous;
 mod states;
 mod sweep;
+mod terminal;
 mod vanished;

@@ -145,11 +145,6 @@ fn a_folder_that_cannot_be_written_or_holds_a_sweep_is_refused() {
         )
     );
     place.bagnold(&["-q", "sweep", &plan, "--out", "out"]).assert().code(3);
-    let again = place.bagnold(&["-q", "sweep", &plan, "--out", "out"]).assert().code(2);
-    assert_eq!(
-        String::from_utf8_lossy(&again.get_output().stderr),
-        "error: out: holds a sweep already; add --resume to go on with it, or name another folder with --out\n"
-    );
     let other = place.file("other.toml", &PLAN.replace("[0.5, 0.7, 1.0, 1.4]", "[0.6]"));
     let mixed = place.bagnold(&["-q", "sweep", &other, "--out", "out", "--resume"]).assert().code(2);
     assert_eq!(
@@ -159,6 +154,34 @@ fn a_folder_that_cannot_be_written_or_holds_a_sweep_is_refused() {
     let none = place.bagnold(&["sweep", "collect", "store"]).assert().code(2);
     let message = String::from_utf8_lossy(&none.get_output().stderr).into_owned();
     assert!(message.contains("holds no sweep (no manifest.json)"), "{message}");
+}
+
+/// Given again, it ends as it did, and says where its results are.
+#[test]
+fn a_sweep_that_is_done_runs_nothing_and_says_so() {
+    let place = Place::new();
+    for (values, code, all) in [("[20.0, 25.0]", 0, "2"), ("[20.0, 25.0, 95.0]", 3, "3")] {
+        let plan = PLAN.replace("[0.5, 0.7, 1.0, 1.4]", "[0.5]").replace("[20.0, 25.0, 95.0]", values);
+        let plan = place.file(&format!("plan-{all}.toml"), &plan);
+        let out = format!("out-{all}");
+        let first = place.bagnold(&["sweep", &plan, "--out", &out]).assert().code(code);
+        let first = String::from_utf8_lossy(&first.get_output().stdout).into_owned();
+        let before =
+            (records(&place.path(&out)), std::fs::read(place.path(&out).join("results.csv")).expect("written"));
+        for more in [&[][..], &["--resume"], &["--fresh"]] {
+            let again =
+                place.bagnold(&[&["sweep", &plan, "--out", &out], more].concat()).assert().code(code).stderr("");
+            assert_eq!(
+                String::from_utf8_lossy(&again.get_output().stdout),
+                format!(
+                    "all {all} runs were done before: nothing was run; to run them again, name another folder with --out\n\
+                     {first}"
+                )
+            );
+        }
+        let after = (records(&place.path(&out)), std::fs::read(place.path(&out).join("results.csv")).expect("written"));
+        assert_eq!(before, after);
+    }
 }
 
 #[test]

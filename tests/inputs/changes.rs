@@ -55,7 +55,12 @@ pub(crate) fn inputs() -> impl Strategy<Value = Input> {
             format!("{}={}", leaf.path, leaf.values[value.index(leaf.values.len())])
         };
         let mut settings = short(case);
-        settings.extend(changes.iter().map(setting));
+        for setting in changes.iter().map(setting) {
+            // a field may be given once
+            let path = |setting: &str| setting.split('=').next().unwrap_or_default().to_owned();
+            settings.retain(|other| path(other) != path(&setting));
+            settings.push(setting);
+        }
         Input { case, settings }
     })
 }

@@ -1,5 +1,6 @@
 //! The structure of the workspace: who imports whom, where numbers stand, and lists that follow from the registry.
 
+mod advisories;
 mod commit;
 mod dependencies;
 mod documents;
@@ -9,6 +10,7 @@ mod literals;
 mod order;
 mod papers;
 mod planted;
+mod printing;
 mod python;
 mod references;
 mod source;

@@ -2,7 +2,7 @@
 
 use crate::case::ParameterError;
 use crate::evaluation::PlanError;
-use crate::input::FieldError;
+use crate::input::{FieldError, shown};
 use crate::output::{FileError, FolderError};
 use crate::reference::ReferenceError;
 use std::path::PathBuf;
@@ -29,7 +29,7 @@ pub enum CalibrationError {
     #[error(transparent)]
     File(#[from] FileError),
     /// A run is fitted and held out.
-    #[error("{}: the run `{run}` is in both `{fit}` and `{hold_out}`; what is predicted must not be fitted, so take it out of one", .file.display())]
+    #[error("{}: the run `{run}` is in both `{fit}` and `{hold_out}`; what is predicted must not be fitted, so take it out of one", shown(.file))]
     InBoth {
         /// The plan.
         file: PathBuf,
@@ -41,7 +41,7 @@ pub enum CalibrationError {
         hold_out: String,
     },
     /// What is held out has the conditions of what is fitted.
-    #[error("{}: `{hold_out}` has the conditions of `{fit}` ({same}: the same within {percent} %); what is predicted must differ in its physics, so hold out other conditions", .file.display())]
+    #[error("{}: `{hold_out}` has the conditions of `{fit}` ({same}: the same within {percent} %); what is predicted must differ in its physics, so hold out other conditions", shown(.file))]
     SameConditions {
         /// The plan.
         file: PathBuf,
@@ -55,7 +55,7 @@ pub enum CalibrationError {
         percent: f64,
     },
     /// Data have no counterpart in what a case computes.
-    #[error("{}: `{field}`: the case gives {reason}", .file.display())]
+    #[error("{}: `{field}`: the case gives {reason}", shown(.file))]
     Counterpart {
         /// The plan.
         file: PathBuf,
@@ -65,7 +65,7 @@ pub enum CalibrationError {
         reason: String,
     },
     /// A search cannot begin or has found nothing.
-    #[error("{}: {reason}", .file.display())]
+    #[error("{}: {reason}", shown(.file))]
     Search {
         /// The plan.
         file: PathBuf,

@@ -2,7 +2,7 @@
 
 use super::error::CalibrationError;
 use crate::input::{WRITTEN_BY_HAND, read_text};
-use crate::output::{FileError, Owner, claim, is_claimed, owner_of};
+use crate::output::{FileError, FolderLock, Owner, claim, is_claimed, owner_of};
 use crate::store::{Origin, identity_or_unique, is_of_this_program};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -23,27 +23,28 @@ impl Owner for Belongs {
     }
 }
 
-/// A calibration on disk.
-#[derive(Debug, Clone)]
+/// A calibration on disk, which nobody else works on meanwhile: every search would do the same.
+#[derive(Debug)]
 pub struct CalibrationFolder {
     folder: PathBuf,
+    _lock: FolderLock,
 }
 
 impl CalibrationFolder {
     /// Makes the folder of the calibration of a plan with cases of this origin, or continues it.
     ///
     /// # Errors
-    /// A folder with another calibration, somebody else's files, or a calibration that is not to be resumed; files that
-    /// cannot be read or written.
+    /// A folder with another calibration, somebody else's files, or a calibration that is not to be resumed or that another
+    /// command works on; files that cannot be read or written.
     pub fn begin(folder: &Path, plan: &Path, origin: Origin, resume: bool) -> Result<Self, CalibrationError> {
         let plan = read_text(plan, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(plan, &error))?;
-        let begun = Self { folder: folder.to_owned() };
         // what is unfinished goes on by itself; the result is written last
         let own = Belongs { source_hash: identity_or_unique(origin).to_owned(), plan };
         let unfinished = !folder.join("result.json").exists()
             && is_claimed::<Belongs>(folder)
             && owner_of::<Belongs>(folder).is_ok_and(|other| other == own);
-        claim(folder, own, resume || unfinished)?;
+        let (_, lock) = claim(folder, own, resume || unfinished)?;
+        let begun = Self { folder: folder.to_owned(), _lock: lock };
         let evaluations = begun.evaluations();
         std::fs::create_dir_all(&evaluations).map_err(|error| FileError::unwritable(&evaluations, &error))?;
         Ok(begun)

@@ -8,7 +8,7 @@ use super::text::Text;
 use crate::case::{Limits, Registry};
 use crate::evaluation::{CaseRequest, Paths, PlanError, read_plan, toml_number};
 use crate::inference::{Budget, Loss, Method};
-use crate::input::{FieldError, nearest};
+use crate::input::{FieldError, check_name, nearest};
 use crate::sampling::Bounds;
 use crate::store::Store;
 use serde::Deserialize;
@@ -100,6 +100,7 @@ impl Plan {
         let text: Text = read_plan(file, "calibrate")?;
         let plan = text.checked(file, limits).map_err(|error| error.in_file(file))?;
         plan.check_cases(registry)?;
+        plan.check_data()?;
         Ok(plan)
     }
 
@@ -168,6 +169,7 @@ impl Plan {
         }
         for (index, choice) in self.choices.iter().enumerate() {
             let field = format!("choices[{index}]");
+            check_name(&format!("{field}.name"), &choice.name)?;
             choice.set.keys().try_for_each(|case| known(format!("{field}.set"), case))?;
             if let Some(case) = cases.iter().find(|case| choice.in_case(case).is_empty()) {
                 let remedy = format!("say what {} sets there", choice.name);
@@ -183,6 +185,13 @@ impl Plan {
             }
         }
         Ok(())
+    }
+
+    /// The data's files are read before the folder of the calibration is touched, so that a bad one leaves nothing behind.
+    fn check_data(&self) -> Result<(), CalibrationError> {
+        let mut texts =
+            self.data.iter().enumerate().flat_map(|(block, texts)| texts.iter().map(move |text| (block, text)));
+        texts.try_for_each(|(block, text)| text.read(block, &self.file).map(drop))
     }
 
     fn check_cases(&self, registry: Registry) -> Result<(), CalibrationError> {

@@ -7,7 +7,7 @@ use super::repeats::Repeats;
 use crate::case::{Limits, Tier};
 use crate::evaluation::{CaseRequest, Paths};
 use crate::inference::{Budget, Loss, Method};
-use crate::input::FieldError;
+use crate::input::{FieldError, check_name, check_text};
 use crate::sampling::{Bounds, Spacing};
 use serde::Deserialize;
 use std::path::Path;
@@ -275,6 +275,10 @@ impl ParameterText {
         if let Some(levels) = self.levels.filter(|&levels| levels < 2) {
             return Err(FieldError::new(&format!("{field}.levels"), levels, "2 or more", "or leave it out"));
         }
+        if let Some(name) = &self.name {
+            check_name(&format!("{field}.name"), name)?;
+        }
+        check_text(&format!("{field}.unit"), &self.unit)?;
         Ok(Parameter {
             name: self.name.clone().unwrap_or_else(|| self.path.name()),
             unit: self.unit.clone(),

@@ -16,7 +16,7 @@ use toml::{Table, Value};
 pub struct Changes<'a> {
     /// A file's fields, without `case` and `tier`, and where it stands.
     pub file: Option<(&'a Path, Table)>,
-    /// `path=value` arguments, applied in order after the file.
+    /// `path=value` arguments, applied after the file; each gives fields of its own.
     pub settings: &'a [String],
     /// How much the runs may ask for.
     pub limits: Limits,
@@ -53,7 +53,8 @@ where
         overlay(schema, &mut table, fields);
     }
     let mut settings = Table::new();
-    for argument in changes.settings {
+    for (index, argument) in changes.settings.iter().enumerate() {
+        refuse_twice(&changes.settings[..index], argument)?;
         add_setting(case, &defaults, &mut settings, argument)?;
     }
     let file = changes.file.as_ref().map(|(file, fields)| (Some(*file), fields));
@@ -250,7 +251,39 @@ fn is_other_choice(shape: &Shape<'_>, table: &Table, changes: &Table) -> bool {
     }
 }
 
-/// Adds one `path=value` to the table of all that are set; later ones win.
+/// Refuses a `path=value` that gives a field which one before it gives: nobody could tell which is meant.
+fn refuse_twice(before: &[String], argument: &str) -> Result<(), SettingError> {
+    let Some((path, value)) = parts(argument) else { return Ok(()) };
+    for earlier in before {
+        let Some((other, first)) = parts(earlier) else { continue };
+        let twice = given_by(path, value).into_iter().find(|field| {
+            given_by(other, first)
+                .iter()
+                .any(|given| given == field || is_below(given, field) || is_below(field, given))
+        });
+        // a path that leads through a value is refused as a path that does not exist
+        if let Some(field) = twice.filter(|_| !is_below(path, other) || value_of(first).is_table()) {
+            let (path, value, earlier) = (path.to_owned(), value.to_owned(), earlier.clone());
+            return Err(SettingError::Twice { path, value, field, earlier });
+        }
+    }
+    Ok(())
+}
+
+/// The fields that a setting gives: its path, or of a table those in it.
+fn given_by(path: &str, value: &str) -> Vec<String> {
+    match value_of(value) {
+        Value::Table(table) => leaves(&table).into_iter().map(|field| format!("{path}.{field}")).collect(),
+        _ => vec![path.to_owned()],
+    }
+}
+
+/// Whether a path leads through another one.
+fn is_below(path: &str, above: &str) -> bool {
+    path.strip_prefix(above).is_some_and(|rest| rest.starts_with('.'))
+}
+
+/// Adds one `path=value` to the table of all that are set.
 fn add_setting(case: &str, defaults: &Table, settings: &mut Table, argument: &str) -> Result<(), ParameterError> {
     let Some((path, text)) = parts(argument).filter(|(path, text)| !path.is_empty() && !text.is_empty()) else {
         let example = paths(defaults)

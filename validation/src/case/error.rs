@@ -1,6 +1,6 @@
 //! Why a case refuses its parameters.
 
-use crate::input::{FieldError, did_you_mean, origin};
+use crate::input::{FieldError, did_you_mean, origin, shown};
 use crate::output::FileError;
 use std::path::{Path, PathBuf};
 
@@ -67,7 +67,7 @@ pub enum ParameterError {
         case: String,
     },
     /// A file is not TOML.
-    #[error("{}: line {line}, column {column}: {message}; correct the TOML syntax there", .file.display())]
+    #[error("{}: line {line}, column {column}: {message}; correct the TOML syntax there", shown(.file))]
     Syntax {
         /// The file.
         file: PathBuf,
@@ -79,7 +79,7 @@ pub enum ParameterError {
         message: String,
     },
     /// A file does not say whose parameters it holds.
-    #[error("{}: `case` is missing, but must name the case that the file describes; add `case = \"…\"` (`bagnold list` prints the names)", .file.display())]
+    #[error("{}: `case` is missing, but must name the case that the file describes; add `case = \"…\"` (`bagnold list` prints the names)", shown(.file))]
     NoCase {
         /// The file.
         file: PathBuf,
@@ -135,6 +135,18 @@ pub enum SettingError {
         nearest: Option<String>,
         /// Whose parameters they are.
         case: String,
+    },
+    /// It gives a field that an earlier one gives.
+    #[error("`--set {path}={value}`: `{field}` is given twice, first by `--set {earlier}`; give each field once")]
+    Twice {
+        /// The dotted path as given.
+        path: String,
+        /// The value as given.
+        value: String,
+        /// The field that both give.
+        field: String,
+        /// The earlier argument.
+        earlier: String,
     },
     /// It gives a value of the wrong type.
     #[error("`--set {path}={value}`: `{path}` is {value}, but must be {rule}; {remedy}")]

@@ -12,7 +12,7 @@ pub struct Request<'a> {
     pub target: &'a str,
     /// Tier; without one the file's, else quick.
     pub tier: Option<Tier>,
-    /// `path=value` changes, applied in order after the file.
+    /// `path=value` changes, applied after the file; each gives fields of its own.
     pub settings: &'a [String],
     /// Keys of the runs that are meant; all runs where there are none.
     pub only: &'a [Variant],

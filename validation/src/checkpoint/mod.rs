@@ -4,6 +4,7 @@
 mod file;
 
 use crate::interruption;
+use crate::output::FirstWarning;
 use file::Refused;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -130,10 +131,13 @@ impl Checkpoints {
             Ok(()) => {
                 tracing::info!("checkpoint in {}, written in {:.0} ms", self.folder.display(), cost.as_secs_f64() * 1e3)
             }
-            Err(error) => tracing::warn!(
-                "checkpoint in {}: not kept ({error}); those before it stay, and the run goes on",
-                self.folder.display()
-            ),
+            Err(error) => {
+                static FULL: FirstWarning = FirstWarning::new();
+                let folder = self.folder.display();
+                FULL.warn(&format!(
+                    "checkpoint in {folder}: not kept ({error}); those before it stay, and the run goes on"
+                ));
+            }
         }
         written.is_ok()
     }

@@ -1,6 +1,6 @@
 //! What a user sees of the work: a bar on a terminal, elsewhere a line every half minute.
 
-use super::logging::BARS;
+use super::terminal::{BARS, tell};
 use super::ticker::Ticker;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
@@ -40,7 +40,7 @@ impl Display {
     /// Shows the text that `text` makes, from now on also while nothing happens.
     pub(super) fn refresh_by(&self, text: impl Fn() -> String + Send + 'static) {
         let ticker = if self.lines {
-            Ticker::every(LINE_INTERVAL, move || eprintln!("{}", text()))
+            Ticker::every(LINE_INTERVAL, move || tell(&text()))
         } else {
             let bar = self.bar.clone();
             Ticker::every(BAR_INTERVAL, move || bar.set_message(text()))
@@ -51,7 +51,7 @@ impl Display {
     /// Says something once, above the bar.
     pub(super) fn say(&self, text: &str) {
         if !self.quiet {
-            BARS.suspend(|| eprintln!("{text}"));
+            tell(text);
         }
     }
 

@@ -5,7 +5,7 @@ use crate::calibration::CalibrationError;
 use crate::case::ParameterError;
 use crate::compare::CompareError;
 use crate::judge::JudgeError;
-use crate::output::{FileError, FolderError};
+use crate::output::{FileError, FolderError, reason};
 use crate::report::{BaselineError, EarlierError, ReportError};
 use crate::sweep::SweepError;
 
@@ -36,6 +36,14 @@ pub enum ProgramError {
     /// A crate that is not made.
     #[error(transparent)]
     New(#[from] NewError),
+    /// Standard output cannot be written.
+    #[error(
+        "standard output: cannot be written ({reason}); free space, or send it elsewhere: what goes into folders was written"
+    )]
+    Output {
+        /// The system's reason.
+        reason: String,
+    },
     /// A program without errors to plant.
     #[error(
         "failed to plant errors: this program was built without any; build one that has them with \
@@ -65,4 +73,11 @@ pub enum ProgramError {
     /// A report cannot be written.
     #[error("failed to {0}; check the folder and its permissions")]
     Report(#[from] ReportError),
+}
+
+impl ProgramError {
+    /// Standard output that cannot be written, with the system's reason.
+    pub(super) fn unprintable(error: &std::io::Error) -> Self {
+        Self::Output { reason: reason(error) }
+    }
 }

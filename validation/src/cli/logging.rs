@@ -1,12 +1,12 @@
 //! Log lines on standard error, above the progress bar.
 
-use indicatif::MultiProgress;
+use super::terminal::tell_raw;
+use crate::input::escaped_lines;
+use std::fmt::Debug;
 use std::io::{self, Write};
-use std::sync::LazyLock;
 use tracing::Level;
-
-/// All progress bars of the program; a log line moves them out of its way.
-pub(super) static BARS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
+use tracing::field::Field;
+use tracing_subscriber::fmt::format::{Writer, debug_fn};
 
 /// Starts logging: warnings, with `verbose` also information and details, with `quiet` errors only.
 pub(super) fn start(verbose: u8, quiet: bool) {
@@ -19,6 +19,7 @@ pub(super) fn start(verbose: u8, quiet: bool) {
     let started = tracing_subscriber::fmt()
         .with_writer(|| AboveBars)
         .with_ansi(io::IsTerminal::is_terminal(&io::stderr()))
+        .fmt_fields(debug_fn(field))
         .with_max_level(level)
         .with_target(false)
         .try_init();
@@ -26,14 +27,23 @@ pub(super) fn start(verbose: u8, quiet: bool) {
     drop(started);
 }
 
+/// A field of a log line; it may quote what stands in a file.
+fn field(writer: &mut Writer<'_>, field: &Field, value: &dyn Debug) -> std::fmt::Result {
+    let text = format!("{value:?}");
+    let text = escaped_lines(&text);
+    if field.name() == "message" { write!(writer, "{text}") } else { write!(writer, " {}={text}", field.name()) }
+}
+
 struct AboveBars;
 
 impl Write for AboveBars {
+    /// Takes everything: a line that nobody reads is no error, and the logger would report one on standard error again.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        BARS.suspend(|| io::stderr().write(bytes))
+        tell_raw(bytes);
+        Ok(bytes.len())
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        io::stderr().flush()
+        Ok(())
     }
 }

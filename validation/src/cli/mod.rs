@@ -24,6 +24,7 @@ mod run;
 mod store;
 mod summary;
 mod sweep;
+mod terminal;
 #[cfg(test)]
 mod tests;
 mod ticker;
@@ -42,8 +43,9 @@ use crate::store::{Store, StorePolicy};
 use arguments::{Allowance, Work};
 use clap::Parser;
 use std::ffi::OsString;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
+use terminal::{Output, print, say, tell};
 
 /// The program: reads its arguments, prints on standard output and error.
 #[must_use]
@@ -54,7 +56,10 @@ pub fn main() -> ExitCode {
 /// The program with the cases of a registry, for crates with cases of their own. The first argument is the program's name.
 #[must_use]
 pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitCode {
-    let arguments = Arguments::parse_from(arguments);
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(answer) => return answered(&answer),
+    };
     logging::start(arguments.verbose, arguments.quiet);
     if let Err(error) = interruption::listen() {
         tracing::warn!("no signal is listened to ({error}): an interruption keeps what the last checkpoints hold");
@@ -63,14 +68,30 @@ pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into
         Ok(exit) => exit.into(),
         Err(error) => match interruption::asked() {
             Some(signal) => {
-                eprintln!("{}", interrupted(signal, &error));
+                tell(&interrupted(signal, &error));
                 ExitCode::from(signal.exit_code())
             }
             None => {
-                eprintln!("error: {error}");
+                tell(&format!("error: {error}"));
                 Exit::BadInput.into()
             }
         },
+    }
+}
+
+/// Prints what the arguments ask for by themselves, such as `--help`, or why they are refused.
+fn answered(answer: &clap::Error) -> ExitCode {
+    if answer.use_stderr() {
+        // in colours on a terminal; arguments are the user's own
+        let _: std::io::Result<()> = answer.print();
+        return Exit::BadInput.into();
+    }
+    match answer.print().and_then(|()| std::io::stdout().flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            tell(&format!("error: {}", ProgramError::unprintable(&error)));
+            Exit::BadInput.into()
+        }
+        _ => Exit::Held.into(),
     }
 }
 
@@ -95,12 +116,18 @@ fn interrupted(signal: Signal, error: &ProgramError) -> String {
 /// Does what the arguments ask for, with the cases of a registry.
 ///
 /// # Errors
-/// Input that is refused; nothing was written then.
+/// Input that is refused; nothing was written then. Output that cannot be written; files then are.
 pub fn execute(
     arguments: &Arguments,
     registry: Registry,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
+    let mut output = Output::new(output);
+    let exit = act(arguments, registry, &mut output)?;
+    output.finish().map(|()| exit)
+}
+
+fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
     match &arguments.command {
         Command::List => {
             let width = registry.iter().map(|case| case.name().len()).max().unwrap_or(0);
@@ -114,7 +141,7 @@ pub fn execute(
             Ok(Exit::Held)
         }
         Command::Schema(show) => {
-            say(output, &format!("{:#}\n", registry.find(&show.case)?.schema(show.tier)));
+            print(output, &format!("{:#}\n", registry.find(&show.case)?.schema(show.tier)));
             Ok(Exit::Held)
         }
         Command::Run(command) => in_pool(&command.work, || run::run(command, registry, arguments.quiet, output)),
@@ -172,12 +199,5 @@ impl Work {
         let policy = if self.fresh { StorePolicy::Refresh } else { StorePolicy::Use };
         let store = self.store.as_ref().map_or_else(|| Store::open(policy), |folder| Store::at(folder, policy));
         store.with_checkpoints_every(self.checkpoint_interval)
-    }
-}
-
-/// Prints. A reader who has gone, such as `head`, is not an error.
-fn say(output: &mut (dyn Write + Send), text: &str) {
-    if let Err(error) = output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
-        tracing::debug!("standard output: {error}");
     }
 }

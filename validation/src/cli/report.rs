@@ -4,7 +4,7 @@ use super::arguments::{Denied, Report as Arguments};
 use super::error::ProgramError;
 use super::profile::Profile;
 use super::run::{announce, simulate};
-use super::{Exit, places, say, summary};
+use super::{Exit, places, say, summary, tell};
 use crate::case::{CaseResult, Changes, ParameterError, Prepared, Registry, Tier};
 use crate::output::OutputFolder;
 use crate::report::{self, Baseline, CaseReport, History, KnownFailures, Provenance, Report, Standing, history};
@@ -72,7 +72,7 @@ pub(super) fn report(
     let drifted = drifted(&page);
     say(output, &drifted);
     if command.profile {
-        eprint!("{}", profile.in_words(&results, rayon::current_num_threads()));
+        tell(profile.in_words(&results, rayon::current_num_threads()).trim_end_matches('\n'));
     }
     let denied = command.deny == Some(Denied::Drift) && !drifted.is_empty();
     Ok(if denied && exit == Exit::Held { Exit::GateFailed } else { exit })
@@ -97,6 +97,12 @@ fn drifted(page: &Report) -> String {
 }
 
 fn prepare(command: &Arguments, registry: Registry) -> Result<Vec<Box<dyn Prepared>>, ParameterError> {
+    for (place, name) in command.cases.iter().enumerate() {
+        if command.cases[..place].iter().any(|other| other.trim() == name.trim()) {
+            let remedy = "name each case once: every case has one page";
+            return Err(ParameterError::field("--cases", name.trim(), "unlike the others", remedy));
+        }
+    }
     let wanted = if command.cases.is_empty() {
         registry.iter().collect()
     } else {

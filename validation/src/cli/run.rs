@@ -5,7 +5,7 @@ use super::error::ProgramError;
 use super::expectation::Expectation;
 use super::profile::Profile;
 use super::progress::Progress;
-use super::{Exit, places, say, summary};
+use super::{Exit, places, print, say, summary, tell};
 use crate::case::{
     CaseResult, Estimate, Monitor, OutputPlan, ParameterError, Prepared, Registry, Request, Requested, StateOutput,
     execute,
@@ -72,7 +72,7 @@ pub(super) fn run(
             .and_then(|()| overlay.iter().try_for_each(|own| own.keep(claimed.staging())))
             .map_err(|error| FileError::unwritable(&folder, &error))?;
         if command.json {
-            say(output, &document.text());
+            print(output, &document.text());
         }
     }
     let page = Report {
@@ -108,7 +108,7 @@ pub(super) fn run(
         say(output, &format!("written to {}\n", folder.join("index.html").display()));
     }
     if command.profile {
-        eprint!("{}", profile.in_words(&results, threads));
+        tell(profile.in_words(&results, threads).trim_end_matches('\n'));
     }
     Ok(Exit::of(&results, |result, metric| super::report::is_known(&known, result, metric)))
 }
@@ -121,7 +121,7 @@ pub(super) fn announce(command: &'static str, cases: &[Box<dyn Prepared>], store
     let expectation = Expectation::of(command, cases);
     if !quiet {
         let estimate = cases.iter().map(|case| case.estimate()).fold(Estimate::default(), Estimate::and);
-        eprintln!("{}", expectation.in_words(&estimate, store.root(), rayon::current_num_threads()));
+        tell(&expectation.in_words(&estimate, store.root(), rayon::current_num_threads()));
     }
     expectation
 }

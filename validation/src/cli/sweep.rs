@@ -35,6 +35,9 @@ pub(super) fn sweep(
     }
 }
 
+/// How a sweep that is done is run again.
+const ANEW: &str = "to run them again, name another folder with --out";
+
 fn begin(
     file: &Path,
     command: &Sweep,
@@ -54,12 +57,17 @@ fn begin(
         slurm::check(&folder, &asked(&command.cluster, command.work.store.clone(), slurm::Request::default()))?;
         slurm::available()?;
     }
-    // what is unfinished goes on by itself
-    let unfinished =
-        SweepFolder::open(&folder).is_ok_and(|sweep| *sweep.manifest() == manifest && !sweep.missing().is_empty());
-    let sweep = SweepFolder::begin(&folder, manifest, command.resume || unfinished)?;
+    // what is there goes on by itself, and what is done is shown again
+    let sweep = SweepFolder::begin(&folder, &manifest)?;
     match command.engine {
         Engine::Local => {
+            if sweep.missing().is_empty() {
+                say(
+                    output,
+                    &format!("all {} runs were done before: nothing was run; {ANEW}\n", manifest.entries.len()),
+                );
+                return finish(&sweep, output);
+            }
             let watch = Bar::new(&sweep, quiet);
             let outcome = run_locally(&sweep, registry, &command.work.open_store(), &watch);
             watch.0.clear();

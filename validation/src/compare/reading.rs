@@ -1,6 +1,6 @@
 //! Reads folders of `bagnold run` and `bagnold report`.
 
-use crate::input::{STORED, read_text};
+use crate::input::{STORED, read_text, shown, text_fault};
 use crate::output::{FileError, Table};
 use crate::result::MetricsDocument;
 use std::collections::BTreeMap;
@@ -10,13 +10,13 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum CompareError {
     /// A folder without results.
-    #[error("{}: holds neither a run's metrics.json nor a report's cases/CASE/metrics.json; name a folder that `bagnold run` or `bagnold report` has written", .folder.display())]
+    #[error("{}: holds neither a run's metrics.json nor a report's cases/CASE/metrics.json; name a folder that `bagnold run` or `bagnold report` has written", shown(.folder))]
     NoResults {
         /// The folder.
         folder: PathBuf,
     },
     /// Folders that have nothing in common.
-    #[error("{} and {} have no case in common; compare runs of the same case", .first.display(), .other.display())]
+    #[error("{} and {} have no case in common; compare runs of the same case", shown(.first), shown(.other))]
     NothingInCommon {
         /// The first.
         first: PathBuf,
@@ -150,6 +150,9 @@ fn tables(folder: &Path) -> Result<Vec<Table>, FileError> {
 
 fn table(file: &Path) -> Result<Table, FileError> {
     let text = text(file)?;
+    if let Some(fault) = text_fault(&text) {
+        return Err(damaged(file, format!("line {}: {}", fault.line, fault.in_words())));
+    }
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let wrong = |error: csv::Error| damaged(file, error.to_string());
     let columns = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();

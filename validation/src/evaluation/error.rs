@@ -1,7 +1,7 @@
 //! Why a plan of many evaluations is refused, whatever they are made for.
 
 use crate::case::{ParameterError, SettingError};
-use crate::input::{FieldError, WRITTEN_BY_HAND, did_you_mean, position, read_text};
+use crate::input::{FieldError, WRITTEN_BY_HAND, did_you_mean, position, read_text, shown};
 use crate::output::FileError;
 use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ pub enum PlanError {
     #[error(transparent)]
     File(#[from] FileError),
     /// It is not TOML, or not one of its command.
-    #[error("{}: line {line}, column {column}: {message}; `bagnold {command} --help` shows a plan", .file.display())]
+    #[error("{}: line {line}, column {column}: {message}; `bagnold {command} --help` shows a plan", shown(.file))]
     Syntax {
         /// The file.
         file: PathBuf,
@@ -30,7 +30,7 @@ pub enum PlanError {
     #[error(transparent)]
     Field(#[from] FieldError),
     /// It names a path that a case's parameters do not have.
-    #[error("{}: `path` is `{path}`, but `{case}` has no such field; {}`bagnold show {case}` prints all fields", .file.display(), did_you_mean(.nearest))]
+    #[error("{}: `path` is `{path}`, but `{case}` has no such field; {}`bagnold show {case}` prints all fields", shown(.file), did_you_mean(.nearest))]
     Path {
         /// The plan.
         file: PathBuf,
@@ -56,6 +56,12 @@ impl PlanError {
             }
             ParameterError::Setting(SettingError::Value { path, value, rule, remedy }) => {
                 Self::Field(FieldError::new(&path, value, &rule, &remedy).in_file(plan))
+            }
+            ParameterError::Setting(SettingError::Twice { path, field, earlier, .. }) => {
+                let first = earlier.split('=').next().unwrap_or_default();
+                let value = format!("\"{path}\", which gives `{field}` as \"{first}\" does");
+                let (rule, remedy) = ("a path that no other one leads through", "vary a field once");
+                Self::Field(FieldError::new("parameters.path", value, rule, remedy).in_file(plan))
             }
             ParameterError::Setting(SettingError::Form { argument, .. }) => {
                 let given = argument.split('=').next().unwrap_or_default();

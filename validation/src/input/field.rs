@@ -1,5 +1,6 @@
 //! A field whose value breaks a rule: the error that most input is refused with.
 
+use super::escape::escaped;
 use super::name::origin;
 use crate::sampling::BoundsError;
 use bagnold_solver::parameter::shortened;
@@ -25,8 +26,8 @@ impl FieldError {
     /// The error of a field whose file is not known yet.
     #[must_use]
     pub fn new(field: &str, value: impl std::fmt::Display, rule: &str, remedy: &str) -> Self {
-        let value = shortened(value.to_string());
-        Self { file: None, field: field.to_owned(), value, rule: rule.into(), remedy: remedy.into() }
+        let value = escaped(&shortened(value.to_string())).into_owned();
+        Self { file: None, field: escaped(field).into_owned(), value, rule: rule.into(), remedy: remedy.into() }
     }
 
     /// The error of a range that stands in a table of a file.

@@ -1,7 +1,7 @@
 //! Why nothing can be judged.
 
 use crate::evaluation::PlanError;
-use crate::input::FieldError;
+use crate::input::{FieldError, shown};
 use crate::output::FolderError;
 use crate::report::ReportError;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ pub enum JudgeError {
     #[error("nothing to judge; name a file, or print one to fill with `bagnold judge --template CASE`")]
     Nothing,
     /// Two submissions mean different runs of ours.
-    #[error("{}: has another case, tier or `with` than {}; judge them apart", .other.display(), .first.display())]
+    #[error("{}: has another case, tier or `with` than {}; judge them apart", shown(.other), shown(.first))]
     Different {
         /// The first.
         first: PathBuf,

@@ -3,7 +3,7 @@
 use super::column::{ColumnText, Source};
 use crate::case::Tier;
 use crate::evaluation::{PlanError, read_plan};
-use crate::input::FieldError;
+use crate::input::{FieldError, check_name};
 use crate::metric::Variant;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -103,6 +103,10 @@ impl Submission {
         if self.code.name.trim().is_empty() || self.code.name.chars().count() > 60 {
             let rule = "a name of 1 to 60 letters";
             return Err(FieldError::new("code.name", format!("\"{}\"", self.code.name), rule, "name the code"));
+        }
+        check_name("code.name", &self.code.name)?;
+        if !self.code.version.is_empty() {
+            check_name("code.version", &self.code.version)?;
         }
         if self.runs.is_empty() {
             let remedy = "add a table [[run]] with what the code gives of it";

@@ -1,6 +1,6 @@
 //! Tables of numbers as programs write them: comma, semicolon, tab or blanks between the columns, comments before.
 
-use crate::input::{FieldError, did_you_mean, nearest};
+use crate::input::{FieldError, did_you_mean, is_comment, nearest, number_remedy, row_remedy, text_fault};
 use std::path::Path;
 
 /// A table that was read.
@@ -20,8 +20,13 @@ impl TextTable {
     /// words as there are columns and no other heading follows.
     ///
     /// # Errors
-    /// No numbers, a line with another number of columns, or a word where a number should be.
+    /// No numbers, a quote that is not closed, a line with another number of columns, or a word where a number should be.
     pub(super) fn parse(text: &str, file: &Path) -> Result<Self, FieldError> {
+        // a byte-order mark, as spreadsheets write it
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        if let Some(fault) = text_fault(text) {
+            return Err(fault.field_error().in_file(file));
+        }
         let wrong = |line: usize, value: &str, rule: &str, remedy: &str| {
             FieldError::new(&format!("line {}", line + 1), value, rule, remedy).in_file(file)
         };
@@ -49,21 +54,30 @@ impl TextTable {
                 // blanks also part the words of a heading
                 if let Some(heading) = heading.as_ref().filter(|own| separator.is_some() && own.len() != words.len()) {
                     let rule = format!("of {} columns, as the heading", heading.len());
-                    return Err(wrong(number, &format!("of {} columns", words.len()), &rule, "mend the file"));
+                    return Err(wrong(
+                        number,
+                        &format!("of {} columns", words.len()),
+                        &rule,
+                        row_remedy(line, words.len(), heading.len()),
+                    ));
                 }
                 columns = vec![Vec::new(); words.len()];
             }
             if words.len() != columns.len() {
                 let rule = format!("of {} columns, as the lines before", columns.len());
-                return Err(wrong(number, &format!("of {} columns", words.len()), &rule, "mend the file"));
+                return Err(wrong(
+                    number,
+                    &format!("of {} columns", words.len()),
+                    &rule,
+                    row_remedy(line, words.len(), columns.len()),
+                ));
             }
             for (place, (column, word)) in columns.iter_mut().zip(words).enumerate() {
                 let value = word.parse::<f64>().map_err(|_| {
                     let name = heading.as_ref().and_then(|own| own.get(place).cloned());
                     let name = name.unwrap_or_else(|| (place + 1).to_string());
                     let value = format!("\"{}\" in column {}", shortened(word), shortened(&name));
-                    let remedy = if is_missing(word) { MISSING } else { "write decimals with a point" };
-                    wrong(number, &value, "a number", remedy)
+                    wrong(number, &value, "a number", number_remedy(word))
                 })?;
                 column.push(value);
             }
@@ -90,18 +104,6 @@ impl TextTable {
             FieldError::new(field, format!("\"{heading}\""), &rule, &format!("{guess}headings are taken as they stand"))
         })
     }
-}
-
-/// What to do about a value that was not measured.
-const MISSING: &str = "leave out rows in which a value is missing";
-
-/// Whether a word stands for no value.
-fn is_missing(word: &str) -> bool {
-    ["", "-", "--", "na", "n/a", "null", "none"].contains(&word.to_ascii_lowercase().as_str())
-}
-
-fn is_comment(line: &str) -> bool {
-    line.trim_start().starts_with(['#', '%'])
 }
 
 fn words(line: &str, separator: Option<char>) -> Vec<&str> {
@@ -158,7 +160,7 @@ mod tests {
         );
         assert_eq!(
             message("x,y\n1,2\n3\n"),
-            "a.csv: `line 3` is of 1 columns, but must be of 2 columns, as the lines before; mend the file"
+            "a.csv: `line 3` is of 1 columns, but must be of 2 columns, as the lines before; complete or shorten the row"
         );
         assert_eq!(
             message("x,y\n1,2\n3,b\n"),
@@ -170,8 +172,17 @@ mod tests {
         );
         assert_eq!(
             message("x,y,z\n1,2\n"),
-            "a.csv: `line 2` is of 2 columns, but must be of 3 columns, as the heading; mend the file"
+            "a.csv: `line 2` is of 2 columns, but must be of 3 columns, as the heading; complete or shorten the row"
         );
+        assert_eq!(
+            message("x,y\n1,2\n\"3,4\n"),
+            "a.csv: `line 3` is with a quote that is not closed, but must be one in which every quote that opens is closed; close the quote, or remove it"
+        );
+        assert!(message("x,y\n1,5,2,5\n").ends_with(
+            "if commas are decimal here, write decimals with a point; otherwise complete or shorten the row"
+        ));
+        assert!(message("x,y\n1,\u{202e}2\n").contains("U+202E"));
+        assert_eq!(parse("\u{feff}x,y\n1,2\n").expect("a table").headings, ["x", "y"]);
         let table = parse("x,velocity\n1,2\n").expect("a table");
         assert_eq!(
             table.column("velocty", "columns.vx", Path::new("a.csv")).expect_err("no such column").to_string(),

@@ -1,6 +1,7 @@
 //! A folder that belongs to one plan: begun once, continued when asked, never mixed with another.
 
 use super::error::{FileError, FolderError};
+use super::lock::FolderLock;
 use super::whole::{is_unused, write_whole};
 use crate::input::{STORED, read_text};
 use serde::Serialize;
@@ -18,34 +19,38 @@ pub trait Owner: Serialize + DeserializeOwned + PartialEq {
     fn is_foreign(&self) -> bool;
 }
 
-/// Makes the folder and marks it, or continues it. The marker comes last, so that a folder with one is whole.
+/// Makes the folder and marks it, or continues it. The marker comes last, so that a folder with one is whole. While the lock
+/// that comes with it is kept, nobody else can claim the folder.
 ///
 /// # Errors
-/// A folder of another plan or program, somebody else's files, or a folder that is not to be resumed; files that cannot
-/// be read or written.
-pub fn claim<O: Owner>(folder: &Path, owner: O, resume: bool) -> Result<O, FolderError> {
-    if is_claimed::<O>(folder) {
-        if !resume {
-            return Err(FolderError::InUse { what: O::WHAT, folder: folder.to_owned() });
-        }
-        let old: O = owner_of(folder)?;
-        if old != owner {
-            return Err(FolderError::OtherPlan {
-                what: O::WHAT,
-                folder: folder.to_owned(),
-                by_program: old.is_foreign(),
-            });
-        }
-        return Ok(old);
-    }
+/// A folder of another plan or program, somebody else's files, one that is locked, or one that is not to be resumed; files
+/// that cannot be read or written.
+pub fn claim<O: Owner>(folder: &Path, owner: O, resume: bool) -> Result<(O, FolderLock), FolderError> {
     let unwritable = |error: std::io::Error| FileError::unwritable(folder, &error);
-    if !is_unused(folder).map_err(unwritable)? {
+    FolderError::refuse_dangling(folder)?;
+    // the second look is for a command that has marked it between the first and the look inside
+    if !is_claimed::<O>(folder) && !is_unused(folder).map_err(unwritable)? && !is_claimed::<O>(folder) {
         return Err(FolderError::Foreign { folder: folder.to_owned() });
     }
-    std::fs::create_dir_all(folder).map_err(unwritable)?;
+    let lock = FolderLock::take(folder, || std::fs::create_dir_all(folder))?;
+    if is_claimed::<O>(folder) {
+        return continued(folder, &owner, resume).map(|old| (old, lock));
+    }
     let text = serde_json::to_string_pretty(&owner).map_err(|error| unwritable(error.into()))?;
     write_whole(&folder.join(O::MARKER), format!("{text}\n").as_bytes()).map_err(unwritable)?;
-    Ok(owner)
+    Ok((owner, lock))
+}
+
+/// The owner of a marked folder, if it is the same.
+fn continued<O: Owner>(folder: &Path, owner: &O, resume: bool) -> Result<O, FolderError> {
+    if !resume {
+        return Err(FolderError::InUse { what: O::WHAT, folder: folder.to_owned() });
+    }
+    let old: O = owner_of(folder)?;
+    if old == *owner {
+        return Ok(old);
+    }
+    Err(FolderError::OtherPlan { what: O::WHAT, folder: folder.to_owned(), by_program: old.is_foreign() })
 }
 
 /// Whether the folder is marked.
@@ -96,10 +101,14 @@ mod tests {
         let root = tempfile::tempdir().expect("temporary folder");
         let folder = root.path().join("new/study");
         assert!(!is_claimed::<Plan>(&folder));
-        assert_eq!(claim(&folder, plan(2, "a"), true).expect("a new folder"), plan(2, "a"));
+        let (begun, lock) = claim(&folder, plan(2, "a"), true).expect("a new folder");
+        assert_eq!(begun, plan(2, "a"));
+        let locked = claim(&folder, plan(2, "a"), true);
+        assert!(matches!(locked, Err(FolderError::Locked { .. })), "{locked:?}");
+        drop(lock);
         assert!(is_claimed::<Plan>(&folder));
         assert!(matches!(claim(&folder, plan(2, "a"), false), Err(FolderError::InUse { what: "study", .. })));
-        assert_eq!(claim(&folder, plan(2, "a"), true).expect("the same plan"), plan(2, "a"));
+        assert_eq!(claim(&folder, plan(2, "a"), true).expect("the same plan").0, plan(2, "a"));
         let other = claim(&folder, plan(2, "b"), true);
         assert!(matches!(other, Err(FolderError::OtherPlan { by_program: false, .. })), "{other:?}");
         std::fs::write(folder.join("study.json"), "{\"version\":1,\"text\":\"a\"}").expect("writable");

@@ -1,12 +1,13 @@
 //! What can go wrong with files and folders.
 
+use crate::input::shown;
 use std::path::{Path, PathBuf};
 
 /// A file that cannot be read, understood or written.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// A file cannot be read.
-    #[error("{}: cannot be read ({reason}); check the path and its permissions", .file.display())]
+    #[error("{}: cannot be read ({reason}); check the path and its permissions", shown(.file))]
     Unreadable {
         /// The file.
         file: PathBuf,
@@ -14,7 +15,7 @@ pub enum FileError {
         reason: String,
     },
     /// Files cannot be written.
-    #[error("{}: cannot be written ({reason}); choose a folder that you may write to with --out", .path.display())]
+    #[error("{}: cannot be written ({reason}); choose a folder that you may write to with --out", shown(.path))]
     Unwritable {
         /// File or folder.
         path: PathBuf,
@@ -22,7 +23,7 @@ pub enum FileError {
         reason: String,
     },
     /// A file of ours cannot be understood.
-    #[error("{}: damaged ({reason}); {remedy}", .file.display())]
+    #[error("{}: damaged ({reason}); {remedy}", shown(.file))]
     Damaged {
         /// The file.
         file: PathBuf,
@@ -51,7 +52,7 @@ impl FileError {
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
     /// A folder holds work that may be continued.
-    #[error("{}: holds a {what} already; add --resume to go on with it, or name another folder with --out", .folder.display())]
+    #[error("{}: holds a {what} already; add --resume to go on with it, or name another folder with --out", shown(.folder))]
     InUse {
         /// A sweep or a calibration.
         what: &'static str,
@@ -59,7 +60,7 @@ pub enum FolderError {
         folder: PathBuf,
     },
     /// A folder holds other work than what is asked for.
-    #[error("{}: holds a {what} {}; name another folder with --out", .folder.display(), if *.by_program { "of another version of bagnold, whose numbers may differ" } else { "of another plan" })]
+    #[error("{}: holds a {what} {}; name another folder with --out", shown(.folder), if *.by_program { "of another version of bagnold, whose numbers may differ" } else { "of another plan" })]
     OtherPlan {
         /// A sweep or a calibration.
         what: &'static str,
@@ -69,18 +70,56 @@ pub enum FolderError {
         by_program: bool,
     },
     /// The output folder holds files that are not Bagnold's.
-    #[error("output folder {}: not empty and not written by bagnold, so nothing was changed; name an empty or new folder with --out", .folder.display())]
+    #[error("output folder {}: not empty and not written by bagnold, so nothing was changed; name an empty or new folder with --out", shown(.folder))]
     Foreign {
         /// The folder.
         folder: PathBuf,
+    },
+    /// Another command is writing the folder.
+    #[error("output folder {}: in use by another bagnold command that is running{by}, so nothing was changed; wait until it has ended, or name another folder with --out", shown(.folder))]
+    Locked {
+        /// The folder.
+        folder: PathBuf,
+        /// Which process, where known: " (process 17)".
+        by: String,
+    },
+    /// The folder, or one above it, is a link to nothing.
+    #[error("output folder {}: {} is a symbolic link to {}, which does not exist; make that folder, remove the link, or name another folder with --out", shown(.folder), shown(.link), shown(.target))]
+    Dangling {
+        /// The folder.
+        folder: PathBuf,
+        /// The link.
+        link: PathBuf,
+        /// Where it points to.
+        target: PathBuf,
     },
     /// Files in it cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
 }
 
+impl FolderError {
+    /// Refuses a folder that is a link to nothing, or lies below one.
+    ///
+    /// # Errors
+    /// That link.
+    pub(super) fn refuse_dangling(folder: &Path) -> Result<(), Self> {
+        // without the slash at the end, which would follow the link
+        let plain: PathBuf = folder.components().collect();
+        let link = plain.ancestors().find_map(|path| {
+            let target = std::fs::read_link(path).ok()?;
+            path.try_exists().is_ok_and(|exists| !exists).then(|| (path.to_owned(), target))
+        });
+        match link {
+            Some((link, target)) => Err(Self::Dangling { folder: folder.to_owned(), link, target }),
+            None => Ok(()),
+        }
+    }
+}
+
 /// The system's words without the error number, which means nothing to a reader: "permission denied".
-fn reason(error: &std::io::Error) -> String {
+#[must_use]
+pub fn reason(error: &std::io::Error) -> String {
     let text = error.to_string();
     let words = text.split(" (os error").next().unwrap_or(&text);
     let mut letters = words.chars();

@@ -1,10 +1,12 @@
 //! The folder that a command writes: claimed before the work, filled in one go after it.
 
 use super::error::{FileError, FolderError};
+use super::lock::FolderLock;
 use super::publication;
 use super::whole::write_whole;
 use crate::input::{DOCUMENT, read_text};
 use std::collections::BTreeSet;
+use std::ffi::OsStr;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
@@ -19,68 +21,75 @@ pub(super) const STAGING_PREFIX: &str = ".bagnold-output-staging-";
 
 const MARKER_TITLE: &str = "Written by bagnold, which replaces these entries the next time:";
 
-/// A folder that is ours to write. What it held stays until [`OutputFolder::publish`]; without that,
-/// dropping it leaves the folder as it was. Entries that Bagnold did not write always stay.
+/// Begins the names of all that Bagnold puts into a folder beside its results: marker, lock, staging, halves of them.
+const OWN_PREFIX: &str = MARKER;
+
+/// A folder that is ours to write, and nobody else's meanwhile. What it held stays until [`OutputFolder::publish`]; without
+/// that, dropping it leaves the folder as it was. Entries that Bagnold did not write always stay.
 #[derive(Debug)]
 pub struct OutputFolder {
     folder: PathBuf,
     staging: PathBuf,
-    /// What the claim itself made, to be taken back if nothing is published.
+    /// What the claim itself made, to be taken back if nothing is published: the marker, and folders from the inside out.
+    marker: Option<PathBuf>,
     made: Vec<PathBuf>,
+    /// Until this is dropped no other command writes the folder.
+    lock: Option<FolderLock>,
 }
 
 impl OutputFolder {
     /// Makes sure that the folder may be written, before any time is spent on what goes into it.
     ///
     /// # Errors
-    /// A folder with somebody else's files, or one that cannot be made or written.
+    /// A folder with somebody else's files, one that another command writes, a link to nothing, or one that cannot be made or
+    /// written.
     pub fn claim(folder: &Path) -> Result<Self, FolderError> {
         let unwritable = |error: io::Error| FileError::unwritable(folder, &error);
+        FolderError::refuse_dangling(folder)?;
+        refuse_foreign(folder)?;
+        let missing = folder.ancestors().filter(|path| !path.as_os_str().is_empty());
+        let made = missing.take_while(|path| !path.exists()).map(Path::to_owned).collect();
         let mut claimed = Self {
             folder: folder.to_owned(),
-            // The process's number keeps two commands apart that write to the same folder.
+            // The process's number tells what a killed one has left.
             staging: folder.join(format!("{STAGING_PREFIX}{}", std::process::id())),
-            made: Vec::new(),
+            marker: None,
+            made,
+            lock: None,
         };
-        match std::fs::read_dir(folder) {
-            Ok(mut entries) => {
-                let is_reports = folder.file_name().is_some_and(|name| name == "reports");
-                let is_committed = |name: &std::ffi::OsStr| is_reports && COMMITTED.iter().any(|kept| name == *kept);
-                let is_foreign = entries.any(|entry| entry.is_ok_and(|entry| !is_committed(&entry.file_name())));
-                if is_foreign && !folder.join(MARKER).is_file() {
-                    return Err(FolderError::Foreign { folder: folder.to_owned() });
+        // another command that makes the folder at this moment is refused, or refuses this one, by the lock
+        match FolderLock::take(folder, || std::fs::create_dir_all(folder)) {
+            Ok(lock) => claimed.lock = Some(lock),
+            Err(error) => {
+                if let FolderError::Locked { .. } = &error {
+                    claimed.made.clear();
                 }
+                return Err(error);
             }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                let missing: Vec<PathBuf> = folder
-                    .ancestors()
-                    .filter(|path| !path.as_os_str().is_empty())
-                    .take_while(|path| !path.exists())
-                    .map(Path::to_owned)
-                    .collect();
-                std::fs::create_dir_all(folder).map_err(unwritable)?;
-                claimed.made = missing;
-            }
-            Err(error) => return Err(unwritable(error).into()),
         }
         let marker = folder.join(MARKER);
         if !marker.exists() {
             // At once, so that what an interrupted run leaves behind is recognised by the next one.
             write_marker(folder, &BTreeSet::new()).map_err(unwritable)?;
-            claimed.made.insert(0, marker);
+            claimed.marker = Some(marker);
         }
         publication::tidy(folder).map_err(unwritable)?;
         std::fs::create_dir_all(&claimed.staging).map_err(unwritable)?;
         Ok(claimed)
     }
 
-    /// Makes a folder ours if it is new or empty, so that folders inside it do not make it somebody else's.
+    /// Makes a folder ours if it is new or empty, so that folders inside it do not make it somebody else's. Any number of
+    /// commands may do so at the same time.
     ///
     /// # Errors
     /// A folder that cannot be made or written.
     pub fn adopt(folder: &Path) -> Result<(), FolderError> {
-        let is_empty = std::fs::read_dir(folder).map_or(true, |mut entries| entries.next().is_none());
-        if is_empty { Self::claim(folder)?.publish() } else { Ok(()) }
+        FolderError::refuse_dangling(folder)?;
+        if std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) {
+            return Ok(());
+        }
+        let marked = std::fs::create_dir_all(folder).and_then(|()| write_marker(folder, &BTreeSet::new()));
+        Ok(marked.map_err(|error| FileError::unwritable(folder, &error))?)
     }
 
     /// Where the new contents are written.
@@ -94,6 +103,7 @@ impl OutputFolder {
     /// # Errors
     /// Files that cannot be moved; what a kill leaves undone is done by the next command that claims the folder.
     pub fn publish(mut self) -> Result<(), FolderError> {
+        self.marker = None;
         self.made.clear();
         publication::publish(&self.folder, &self.staging)
             .map_err(|error| FileError::unwritable(&self.folder, &error).into())
@@ -103,11 +113,35 @@ impl OutputFolder {
 impl Drop for OutputFolder {
     fn drop(&mut self) {
         // Best effort: whatever stays behind is inside a folder that the marker declares ours.
-        let _ = std::fs::remove_dir_all(&self.staging);
-        for path in &self.made {
-            let _ = if path.is_dir() { std::fs::remove_dir(path) } else { std::fs::remove_file(path) };
+        if self.lock.is_some() {
+            let _ = std::fs::remove_dir_all(&self.staging);
+        }
+        if let Some(marker) = &self.marker {
+            let _ = std::fs::remove_file(marker);
+        }
+        // its file lies in the folder; one that another command has locked since is not empty and stays
+        self.lock = None;
+        for folder in &self.made {
+            let _ = std::fs::remove_dir(folder);
         }
     }
+}
+
+/// Refuses a folder that holds anything and is not marked as Bagnold's.
+fn refuse_foreign(folder: &Path) -> Result<(), FolderError> {
+    let mut entries = match std::fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        entries => entries.map_err(|error| FileError::unwritable(folder, &error))?,
+    };
+    let is_reports = folder.file_name().is_some_and(|name| name == "reports");
+    let is_committed = |name: &OsStr| is_reports && COMMITTED.iter().any(|kept| name == *kept);
+    let is_own = |name: &OsStr| name.to_str().is_some_and(|name| name.starts_with(OWN_PREFIX)) || is_committed(name);
+    let has_foreign = entries.any(|entry| entry.is_ok_and(|entry| !is_own(&entry.file_name())));
+    // looked for after the entries were read: another command may have put them there meanwhile, and marks before it does
+    if has_foreign && !folder.join(MARKER).is_file() {
+        return Err(FolderError::Foreign { folder: folder.to_owned() });
+    }
+    Ok(())
 }
 
 pub(super) fn write_marker(folder: &Path, entries: &BTreeSet<String>) -> io::Result<()> {
@@ -186,6 +220,103 @@ mod tests {
             folder.display()
         );
         assert_eq!(message, expected);
+    }
+
+    #[test]
+    fn a_folder_is_one_commands_at_a_time_also_while_it_is_published() {
+        let root = tempfile::tempdir().expect("temporary folder");
+        let folder = root.path().join("out");
+        for others in [false, true] {
+            let claimed = OutputFolder::claim(&folder).expect("claimable");
+            let refused = OutputFolder::claim(&folder).expect_err("in use").to_string();
+            assert!(refused.contains(&format!("running (process {})", std::process::id())), "{refused}");
+            assert!(names(&folder).contains(&super::super::lock::LOCK.to_owned()));
+            std::fs::write(claimed.staging().join("x"), "").expect("writable");
+            if others {
+                std::fs::create_dir(folder.join("mine")).expect("writable");
+            }
+            claimed.publish().expect("publishable");
+        }
+        assert_eq!(names(&folder), [MARKER, "mine", "x"]);
+    }
+
+    #[test]
+    fn the_lock_stays_with_the_folders_name_when_its_contents_are_exchanged() {
+        let root = tempfile::tempdir().expect("temporary folder");
+        let folder = root.path().join("out");
+        let mut claimed = OutputFolder::claim(&folder).expect("claimable");
+        std::fs::write(claimed.staging().join("x"), "").expect("writable");
+        publication::publish(&folder, &claimed.staging).expect("publishable");
+        assert!(matches!(OutputFolder::claim(&folder), Err(FolderError::Locked { .. })));
+        (claimed.marker, claimed.made) = (None, Vec::new());
+        drop(claimed);
+        assert_eq!(names(&folder), [MARKER, "x"]);
+        publish(&folder, &["y"]);
+    }
+
+    #[test]
+    fn of_many_that_begin_a_new_folder_one_has_it_and_none_takes_it_for_foreign() {
+        let root = tempfile::tempdir().expect("temporary folder");
+        for round in 0..20 {
+            let folder = root.path().join(format!("{round}/out"));
+            let start = std::sync::Barrier::new(8);
+            let claim = || {
+                start.wait();
+                OutputFolder::claim(&folder)
+            };
+            let claims: Vec<_> = std::thread::scope(|scope| {
+                let threads: Vec<_> = (0..8).map(|_| scope.spawn(claim)).collect();
+                threads.into_iter().map(|thread| thread.join().expect("no panic")).collect()
+            });
+            assert_eq!(claims.iter().filter(|claim| claim.is_ok()).count(), 1, "{claims:?}");
+            assert!(
+                claims
+                    .iter()
+                    .flat_map(|claim| claim.as_ref().err())
+                    .all(|error| matches!(error, FolderError::Locked { .. }))
+            );
+            drop(claims);
+            assert!(!folder.exists(), "nothing has happened");
+        }
+    }
+
+    #[test]
+    fn many_adopt_a_folder_and_what_lies_in_it_stays() {
+        let root = tempfile::tempdir().expect("temporary folder");
+        let folder = root.path().join("reports");
+        std::thread::scope(|scope| {
+            for k in 0..8 {
+                let folder = &folder;
+                scope.spawn(move || {
+                    OutputFolder::adopt(folder).expect("adoptable");
+                    publish(&folder.join(k.to_string()), &["x"]);
+                });
+            }
+        });
+        assert_eq!(names(&folder), [MARKER, "0", "1", "2", "3", "4", "5", "6", "7"]);
+        publish(&folder, &["index.html"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_to_nothing_is_refused_with_where_it_points() {
+        let root = tempfile::tempdir().expect("temporary folder");
+        let (link, target) = (root.path().join("link"), root.path().join("gone"));
+        std::os::unix::fs::symlink(&target, &link).expect("a link");
+        for folder in [link.clone(), link.join(""), link.join("below/it")] {
+            let expected = format!(
+                "output folder {}: {} is a symbolic link to {}, which does not exist; make that folder, remove the link, or \
+                 name another folder with --out",
+                folder.display(),
+                link.display(),
+                target.display()
+            );
+            assert_eq!(OutputFolder::claim(&folder).expect_err("dangling").to_string(), expected);
+            assert_eq!(OutputFolder::adopt(&folder).expect_err("dangling").to_string(), expected);
+        }
+        std::fs::create_dir(&target).expect("writable");
+        publish(&link, &["x"]);
+        assert_eq!(names(&target), [MARKER, "x"]);
     }
 
     #[test]

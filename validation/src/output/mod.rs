@@ -3,12 +3,16 @@
 mod claim;
 mod error;
 mod folder;
+mod lock;
 mod publication;
 mod table;
+mod warning;
 mod whole;
 
 pub use claim::{Owner, claim, is_claimed, owner_of};
-pub use error::{FileError, FolderError};
+pub use error::{FileError, FolderError, reason};
 pub use folder::OutputFolder;
+pub use lock::FolderLock;
 pub use table::Table;
+pub use warning::FirstWarning;
 pub use whole::write_whole;

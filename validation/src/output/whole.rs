@@ -1,5 +1,6 @@
 //! Files that appear whole or not at all.
 
+use super::lock::LOCK;
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
 use std::io::{self, Write};
@@ -69,6 +70,9 @@ pub(super) fn is_unused(folder: &Path) -> io::Result<bool> {
     };
     for entry in entries {
         let path = entry?.path();
+        if path.file_name().is_some_and(|name| name == LOCK) {
+            continue;
+        }
         let is_partial = path.extension().is_some_and(|ending| ending == "partial");
         if !is_partial && std::fs::read_dir(&path).map_or(true, |mut inside| inside.next().is_some()) {
             return Ok(false);
@@ -88,6 +92,7 @@ mod tests {
         assert!(is_unused(&folder).expect("readable"));
         std::fs::create_dir_all(folder.join("evaluations")).expect("writable");
         std::fs::write(folder.join("plan.17-0-00.partial"), "half").expect("writable");
+        std::fs::write(folder.join(LOCK), "process 17\n").expect("writable");
         assert!(is_unused(&folder).expect("readable"));
         std::fs::write(folder.join("thesis.tex"), "").expect("writable");
         assert!(!is_unused(&folder).expect("readable"));

@@ -16,7 +16,7 @@
 //! holds labels.
 
 use super::ReferenceError;
-use crate::input::{DOCUMENT, read_text};
+use crate::input::{DOCUMENT, read_text, shown};
 use crate::metric::{Confidence, Kind};
 use std::path::Path;
 
@@ -110,7 +110,7 @@ pub struct MeasuredData {
 impl MeasuredData {
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Self, ReferenceError> {
-        let file = path.display().to_string();
+        let file = shown(path);
         let text =
             read_text(path, DOCUMENT).map_err(|source| ReferenceError::Unreadable { file: file.clone(), source })?;
         Self::parse(&file, &text)

@@ -1,6 +1,7 @@
 //! The table of a reference file: CSV text → columns, with the place of everything that is wrong.
 
 use super::{Column, ReferenceError};
+use crate::input::{comma_fault, row_remedy, text_fault};
 
 /// No measured number is larger, in whatever unit; squares of such numbers are still finite.
 const LARGEST: f64 = 1e30;
@@ -15,6 +16,18 @@ pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result
         column,
         rule,
     };
+    // of the whole text, whose lines it counts
+    if let Some(fault) = text_fault(text) {
+        return Err(ReferenceError::Table {
+            file: file.to_owned(),
+            line: fault.line as u64,
+            column: fault.column,
+            rule: fault.in_words(),
+        });
+    }
+    if let Some(fault) = table.lines().next().and_then(|heading| comma_fault(heading, 1)) {
+        return Err(refuse(1, fault.column, fault.in_words()));
+    }
     let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(table.as_bytes());
     let names = reader.headers().map_err(|error| refuse(1, 1, error.to_string()))?.clone();
     if names.is_empty() {
@@ -34,11 +47,10 @@ pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result
             record.map_err(|error| refuse(error.position().map_or(1, csv::Position::line), 1, error.to_string()))?;
         let line = record.position().map_or(1, csv::Position::line);
         if record.len() != columns.len() {
-            let rule = format!(
-                "the row has {} fields, the table {} columns; complete or shorten it",
-                record.len(),
-                columns.len()
-            );
+            let row = table.lines().nth(usize::try_from(line).unwrap_or(1).saturating_sub(1)).unwrap_or_default();
+            let (fields, known) = (record.len(), columns.len());
+            let rule =
+                format!("the row has {fields} fields, the table {known} columns; {}", row_remedy(row, fields, known));
             return Err(refuse(line, record.len().min(columns.len()), rule));
         }
         for (index, (column, text)) in columns.iter_mut().zip(&record).enumerate() {

@@ -15,6 +15,7 @@ pub use speeds::{AllSpeeds, Speeds};
 
 use crate::checkpoint::Checkpoints;
 use crate::observation::Recorded;
+use crate::output::{FirstWarning, reason};
 use etcetera::BaseStrategy;
 use serde::{Serialize, de::DeserializeOwned};
 use sha2::{Digest, Sha256};
@@ -159,7 +160,12 @@ impl Store {
     pub fn keep<O: Serialize>(&self, key: &Key, record: &Recorded<O>) {
         let new = !self.folder.is_dir();
         if let Err(error) = entry::write(&self.path(key), &key.0, record) {
-            tracing::warn!("stored result {}: not kept: {error}", self.path(key).display());
+            static FULL: FirstWarning = FirstWarning::new();
+            let reason = reason(&error);
+            FULL.warn(&format!(
+                "stored result {}: not kept ({reason}); the run is simulated again the next time",
+                self.path(key).display()
+            ));
             return;
         }
         Checkpoints::at(&self.checkpoint_folder(key), &key.0, None).discard();

@@ -2,7 +2,7 @@
 
 use crate::case::ParameterError;
 use crate::evaluation::PlanError;
-use crate::input::FieldError;
+use crate::input::{FieldError, shown};
 use crate::output::{FileError, FolderError};
 use std::path::PathBuf;
 
@@ -19,7 +19,7 @@ pub enum SweepError {
     #[error(transparent)]
     Parameter(#[from] ParameterError),
     /// A folder holds no sweep.
-    #[error("{}: holds no sweep (no manifest.json); name the folder that `bagnold sweep` wrote", .folder.display())]
+    #[error("{}: holds no sweep (no manifest.json); name the folder that `bagnold sweep` wrote", shown(.folder))]
     NoSweep {
         /// The folder.
         folder: PathBuf,

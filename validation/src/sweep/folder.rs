@@ -5,6 +5,10 @@ use super::manifest::{Entry, Manifest};
 use crate::evaluation::Record;
 use crate::output::{FolderError, Owner, claim, is_claimed, owner_of};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// How long one waits for another command that begins the same sweep at this moment.
+const LONGEST_BEGINNING: Duration = Duration::from_secs(30);
 
 /// How far a sweep is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -25,13 +29,23 @@ pub struct SweepFolder {
 }
 
 impl SweepFolder {
-    /// Makes the folder of a sweep, or continues it.
+    /// Makes the folder of a sweep, or continues it. Any number of commands may work in it, of one plan all of them; only the
+    /// manifest is written by one alone.
     ///
     /// # Errors
-    /// A folder with another sweep, somebody else's files, or a sweep that is not to be resumed; files that cannot be
-    /// written.
-    pub fn begin(folder: &Path, manifest: Manifest, resume: bool) -> Result<Self, SweepError> {
-        Ok(Self { folder: folder.to_owned(), manifest: claim(folder, manifest, resume)? })
+    /// A folder with another sweep or somebody else's files; files that cannot be written.
+    pub fn begin(folder: &Path, manifest: &Manifest) -> Result<Self, SweepError> {
+        let begun = Instant::now();
+        loop {
+            match claim(folder, manifest.clone(), true) {
+                // the lock ends here
+                Ok((manifest, _)) => return Ok(Self { folder: folder.to_owned(), manifest }),
+                Err(FolderError::Locked { .. }) if begun.elapsed() < LONGEST_BEGINNING => {
+                    std::thread::sleep(Duration::from_millis(20));
+                }
+                Err(error) => return Err(error.into()),
+            }
+        }
     }
 
     /// Opens the folder of a sweep.

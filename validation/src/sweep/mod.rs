@@ -19,6 +19,7 @@ mod map;
 mod plan;
 pub mod slurm;
 mod slurm_request;
+mod values;
 
 pub use error::SweepError;
 pub use folder::{SweepFolder, Tally};

@@ -2,9 +2,10 @@
 
 use super::error::SweepError;
 use super::manifest::{Entry, Manifest};
+use super::values::{check_levels, check_values};
 use crate::case::{Limits, ParameterError, Prepared, Registry};
 use crate::evaluation::{self, CaseRequest, Paths, PlanError, read_plan, toml_number};
-use crate::input::FieldError;
+use crate::input::{FieldError, check_name};
 use crate::sampling::{Bounds, Spacing, design};
 use crate::store::identity_or_unique;
 use serde::Deserialize;
@@ -109,6 +110,9 @@ impl SweepPlan {
             let field = format!("parameters[{index}]");
             parameter.check(&field, self.text.design == Design::GRID)?;
             let name = parameter.name();
+            if let Some(own) = &parameter.name {
+                check_name(&format!("{field}.name"), own)?;
+            }
             if !names.insert(name.clone()) || TAKEN.contains(&name.as_str()) {
                 let remedy = "give each a `name` of its own that is no column of the results";
                 return Err(FieldError::new(&format!("{field}.name"), name, "unlike the others", remedy));
@@ -125,6 +129,9 @@ impl SweepPlan {
             }
         }
         for (index, request) in self.text.cases.iter().enumerate() {
+            if let Some(name) = &request.name {
+                check_name(&format!("cases[{index}].name"), name)?;
+            }
             if self.text.cases[..index].iter().any(|other| other.label() == request.label()) {
                 let (rule, remedy) = ("unlike the others", "give a case that stands twice a `name` each time");
                 return Err(FieldError::new(&format!("cases[{index}].name"), request.label(), rule, remedy));
@@ -294,7 +301,7 @@ impl Varied {
                 let remedy = "keep either the values or the levels";
                 Err(FieldError::new(&format!("{field}.levels"), "given", "absent beside values", remedy))
             }
-            (Some(_), false) => Ok(()),
+            (Some(values), false) => check_values(values, &format!("{field}.values")),
             (None, _) => {
                 for (name, bound) in [("lower", self.lower), ("upper", self.upper)] {
                     if bound.is_none() {
@@ -305,6 +312,8 @@ impl Varied {
                 self.bounds().check().map_err(|error| FieldError::of_bounds(field, &error))?;
                 match (self.levels, grid) {
                     (None, false) => Ok(()),
+                    (Some(2..=MOST_RUNS), true) => check_levels(&self.grid(), &format!("{field}.levels")),
+                    // the grid as a whole is refused
                     (Some(2..), true) => Ok(()),
                     (levels, _) => {
                         let shown = levels.map_or_else(|| "missing".to_owned(), |levels| levels.to_string());

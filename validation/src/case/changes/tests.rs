@@ -153,6 +153,26 @@ fn settings_of_a_wrong_form_path_or_type_are_refused() {
 }
 
 #[test]
+fn a_field_that_is_set_twice_is_refused_by_its_name() {
+    for (settings, field) in [
+        (["rows=3", "rows=4"], "rows"),
+        (["rows=3", "rows = 3"], "rows"),
+        (["grains.diameter=1e-3", "grains={diameter=2e-3}"], "grains.diameter"),
+        (["grains={diameter=2e-3}", "grains.diameter=1e-3"], "grains.diameter"),
+        (["material={law=\"newtonian\"}", "material.law=newtonian"], "material.law"),
+        (["grains.diameter=1e-3", "grains=3"], "grains"),
+    ] {
+        let expected = format!("`{field}` is given twice, first by `--set {}`; give each field once", settings[0]);
+        let message = message("", &settings);
+        assert!(message.starts_with("`--set ") && message.ends_with(&expected), "{message}");
+    }
+    // fields of one table may be given apart
+    assert!(resolved("", &["material={law=\"newtonian\"}", "material.viscosity=2.0"]).is_ok());
+    // a path through a value stays a path that does not exist
+    assert!(message("", &["depth=1", "depth.x=2"]).contains("unknown field `depth.x`"));
+}
+
+#[test]
 fn a_setting_takes_the_blame_for_its_field_only() {
     let settings = ["grains.diameter=1".to_owned(), "angles=[1]".to_owned()];
     assert!(is_set(&settings, "grains.diameter"));

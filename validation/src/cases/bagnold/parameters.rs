@@ -4,6 +4,7 @@ use super::runs::{self, BagnoldRun};
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::layer::PeriodicLayer;
 use crate::cases::rules;
+use crate::input::check_name;
 use crate::reference::{BagnoldProfile, GLASS_BEADS};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, each, not_negative, positive};
@@ -167,6 +168,7 @@ impl Parameters for BagnoldParameters {
             [("slope_angles", &self.slope_angles), ("regularised_slope_angles", &self.regularised_slope_angles)];
         for (index, other) in self.other_grains.iter().enumerate() {
             let name = |field: &str| format!("other_grains[{index}].{field}");
+            check_name(&name("name"), &other.name)?;
             rules::row_count(&name("resolution"), other.resolution)?;
             rules::material(&name("grains"), &Rheology::MuI(other.grains))?;
             self.steady(&other.grains, &name("slope_angle"), other.slope_angle)?;

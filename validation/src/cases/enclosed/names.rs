@@ -3,6 +3,7 @@
 use super::Measured;
 use super::setting::shown;
 use crate::case::ParameterError;
+use crate::input::{check_name, check_text};
 use bagnold_solver::vector::Vector;
 use std::collections::BTreeSet;
 
@@ -47,6 +48,7 @@ pub(super) fn check<'a>(
         if !fit(name) {
             return refused("letters, digits and hyphens", "files are named after it");
         }
+        check_name(&field, name)?;
         if !seen.insert((kind, name)) {
             return refused("unlike the others", "name each once");
         }
@@ -77,6 +79,7 @@ pub(super) fn check_measured(measured: &[Measured], is_gauge: impl Fn(&str) -> b
             let value = format!("\"{}\"", measured.gauge);
             return Err(ParameterError::field(&field("gauge"), value, "the name of a gauge", "correct the name"));
         }
+        check_text(&field("source"), &measured.source)?;
         if let Some(row) = measured.points.iter().position(|&(time, value)| !(time >= 0.0 && value > 0.0)) {
             let (time, value) = measured.points[row];
             let name = field(&format!("points[{row}]"));

@@ -38,7 +38,7 @@ pub struct Sweep {
     /// Folder of the sweep [default: reports/sweeps/FILE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Open a sweep that is done again; an unfinished one goes on by itself.
+    /// Go on with the sweep in the folder, which also happens without this.
     #[arg(long)]
     pub resume: bool,
     /// What runs it.

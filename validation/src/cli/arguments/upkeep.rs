@@ -48,10 +48,10 @@ pub enum StoreAction {
     #[command(group = clap::ArgGroup::new("limit").required(true).multiple(true))]
     Prune {
         /// Delete what is older.
-        #[arg(long, value_name = "DAYS", value_parser = positive, group = "limit")]
+        #[arg(long, value_name = "DAYS", value_parser = positive, allow_negative_numbers = true, group = "limit")]
         days: Option<f64>,
         /// Delete the oldest until the rest is no larger.
-        #[arg(long, value_name = "GIB", value_parser = positive, group = "limit")]
+        #[arg(long, value_name = "GIB", value_parser = positive, allow_negative_numbers = true, group = "limit")]
         size: Option<f64>,
     },
 }

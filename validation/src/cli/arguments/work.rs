@@ -8,16 +8,16 @@ use std::time::Duration;
 #[derive(Debug, Clone, Copy, Default, Args)]
 pub struct Allowance {
     /// Memory that the runs may ask for [default: $BAGNOLD_MOST_MEMORY, else that of the machine].
-    #[arg(long, value_name = "GIB", value_parser = positive)]
+    #[arg(long, value_name = "GIB", value_parser = positive, allow_negative_numbers = true)]
     pub most_memory: Option<f64>,
     /// Hours of one core that the runs of a case may ask for [default: $BAGNOLD_MOST_HOURS, else 10000].
-    #[arg(long, value_name = "HOURS", value_parser = positive)]
+    #[arg(long, value_name = "HOURS", value_parser = positive, allow_negative_numbers = true)]
     pub most_hours: Option<f64>,
 }
 
 pub(super) fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| *number > 0.0);
-    number.ok_or_else(|| "must be a positive number".to_owned())
+    number.ok_or_else(|| "must be a positive number, such as 30 or 0.5".to_owned())
 }
 
 /// Options of everything that simulates.
@@ -30,7 +30,7 @@ pub struct Work {
     #[arg(long)]
     pub fresh: bool,
     /// Seconds between two checkpoints of a run [default: 60, up to 120 where one costs over 1 %].
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub checkpoint_interval: Option<Duration>,
     /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the checkout
     /// that one works in, else the user's cache].

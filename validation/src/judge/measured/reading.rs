@@ -25,8 +25,7 @@ pub(super) fn read(path: &Path) -> Result<Measurements, PlanError> {
 }
 
 fn parse(path: &Path, text: &str) -> Result<Measurements, FieldError> {
-    // a byte-order mark, as spreadsheets write it
-    let table = TextTable::parse(text.strip_prefix('\u{feff}').unwrap_or(text), path)?;
+    let table = TextTable::parse(text, path)?;
     if table.headings.len() != 3 {
         return Err(FieldError::new(
             "columns",

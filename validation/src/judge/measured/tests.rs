@@ -157,7 +157,7 @@ fn what_is_no_table_of_measurements_is_refused() {
         ),
         (
             "t [s],front [m],uncertainty [m]\n1,1\n",
-            "mine.csv: `line 2` is of 2 columns, but must be of 3 columns, as the heading; mend the file",
+            "mine.csv: `line 2` is of 2 columns, but must be of 3 columns, as the heading; complete or shorten the row",
         ),
     ] {
         assert_eq!(refused(text), message);
