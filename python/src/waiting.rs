@@ -54,7 +54,9 @@ pub(crate) fn wait_for<T: Send, E: Display + Send>(
             (_, Some(exception)) => Err(exception),
             // a run on another Python thread, which gets no signals of its own
             (Ok(Err(_)), None) if interrupted => Err(PyKeyboardInterrupt::new_err(())),
-            (Ok(outcome), None) => outcome.map_err(|error| Refused::new_err(escaped_lines(&error.to_string()).into_owned())),
+            (Ok(outcome), None) => {
+                outcome.map_err(|error| Refused::new_err(escaped_lines(&error.to_string()).into_owned()))
+            }
             (Err(_), None) => Err(PyRuntimeError::new_err("Bagnold has panicked; this is an error in Bagnold")),
         }
     })
