@@ -241,6 +241,27 @@ mod tests {
     }
 
     #[test]
+    fn drawings_count_and_are_pruned_with_the_rest() {
+        let (root, now) = store();
+        let version = root.path().join(format!("sources-{}", "a".repeat(16)));
+        let drawn = version.join(DRAWN);
+        std::fs::create_dir(&drawn).expect("writable");
+        for (name, age) in [("one.svg", 0), ("other.gif", 400), ("notes.txt", 400)] {
+            let file = drawn.join(name);
+            std::fs::write(&file, [0; 100]).expect("writable");
+            std::fs::File::open(&file).and_then(|file| file.set_modified(now - age * DAY)).expect("settable");
+        }
+        let listed = versions(root.path()).expect("readable");
+        assert_eq!((listed[0].entries, listed[0].bytes), (5, 5200));
+        let old = Keep { younger_than: Some(100 * DAY), bytes: None };
+        assert_eq!(prune(root.path(), old, now).expect("writable"), Pruned { files: 1, bytes: 100 });
+        assert!(drawn.join("one.svg").exists() && !drawn.join("other.gif").exists());
+        let nothing = Keep { younger_than: None, bytes: Some(0) };
+        assert_eq!(prune(root.path(), nothing, now).expect("writable").files, 11);
+        assert!(drawn.join("notes.txt").exists(), "what is not the store's stays");
+    }
+
+    #[test]
     fn an_entry_of_the_future_counts_as_older_than_all() {
         let (root, now) = store();
         let file = |name: &str| root.path().join(format!("sources-{}", "a".repeat(16))).join(name);

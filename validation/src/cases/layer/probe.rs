@@ -179,27 +179,32 @@ impl LayerProbe {
     /// Root mean square over all particles of p less the linear fit through the neighbours within 2h, over the
     /// pressure scale ρ0 g cosθ H.
     fn pressure_noise(&self, snapshot: &Snapshot<2>) -> f64 {
-        let n = snapshot.position.len();
+        let place: Vec<[f64; 2]> = snapshot.position.iter().map(|x| [x[0], x[1]]).collect();
+        let n = place.len();
         let mut sum = 0.0;
-        for a in 0..n {
-            // normal equations of p ≈ c0 + c1 x + c2 y around particle a
-            let mut matrix = nalgebra::Matrix3::<f64>::zeros();
-            let mut right = nalgebra::Vector3::<f64>::zeros();
-            for b in 0..n {
-                let dy = snapshot.position[b][1] - snapshot.position[a][1];
+        for (a, centre) in place.iter().enumerate() {
+            // normal equations of p ≈ c0 + c1 x + c2 y around particle a; the matrix is symmetric
+            let (mut weight, mut first, mut second, mut right) = (0.0, [0.0; 2], [0.0; 3], [0.0; 3]);
+            for (b, x) in place.iter().enumerate() {
+                let dy = x[1] - centre[1];
                 // most particles lie higher or lower, and the nearest image is what costs
                 if dy.abs() >= self.reach {
                     continue;
                 }
-                let mut dx = snapshot.position[b][0] - snapshot.position[a][0];
+                let mut dx = x[0] - centre[0];
                 dx -= self.length * (dx / self.length).round();
                 if dx * dx + dy * dy < self.reach * self.reach {
-                    let row = nalgebra::Vector3::new(1.0, dx / self.reach, dy / self.reach);
-                    matrix += row * row.transpose();
-                    right += row * snapshot.pressure[b];
+                    let (dx, dy, pressure) = (dx / self.reach, dy / self.reach, snapshot.pressure[b]);
+                    weight += 1.0;
+                    first = [first[0] + dx, first[1] + dy];
+                    second = [second[0] + dx * dx, second[1] + dx * dy, second[2] + dy * dy];
+                    right = [right[0] + pressure, right[1] + dx * pressure, right[2] + dy * pressure];
                 }
             }
-            let fit = matrix.lu().solve(&right).map_or(snapshot.pressure[a], |c| c[0]);
+            let matrix = nalgebra::Matrix3::new(
+                weight, first[0], first[1], first[0], second[0], second[1], first[1], second[1], second[2],
+            );
+            let fit = matrix.lu().solve(&nalgebra::Vector3::from(right)).map_or(snapshot.pressure[a], |c| c[0]);
             sum += (snapshot.pressure[a] - fit).powi(2);
         }
         (sum / n as f64).sqrt() / self.weight

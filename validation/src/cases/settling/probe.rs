@@ -181,15 +181,24 @@ impl Probe {
         let ((place, fluid), (grain_place, grain)) = (simulation.fluid(), simulation.sediment());
         let mut of_all = Around::default();
         let mut sinking = 0.0;
+        let place: Vec<[f64; 2]> = place.iter().map(|x| [x[0], x[1]]).collect();
+        let (width, height) = (self.size[0], self.size[1]);
+        // with room for rounding: the kernel alone says where it ends
+        let out_of_reach = (1.001 * self.kernel.support()).powi(2);
+        // the nearest image of a distance along an axis
+        let nearest = |way: f64, size: f64| way - size * (way / size).round();
         for (centre, own) in grain_place.iter().zip(grain) {
+            let centre = [centre[0], centre[1]];
             let (mut weight, mut slip, mut square, mut drag) = (0.0, Vector::<2>::zeros(), 0.0, Vector::<2>::zeros());
             for (x, u) in place.iter().zip(fluid) {
-                let way = Vector::<2>::from_fn(|axis, _| {
-                    let way = x[axis] - centre[axis];
-                    way - self.size[axis] * (way / self.size[axis]).round()
-                });
-                let value = self.kernel.value(way.norm_squared());
-                // most of the fluid is out of reach, and the drag law is what costs
+                let dx = nearest(x[0] - centre[0], width);
+                let dy = nearest(x[1] - centre[1], height);
+                let square_of_way = dx * dx + dy * dy;
+                // most of the fluid is out of reach, and kernel and drag law are what costs
+                if square_of_way > out_of_reach {
+                    continue;
+                }
+                let value = self.kernel.value(square_of_way);
                 if value == 0.0 {
                     continue;
                 }
