@@ -10,8 +10,14 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Folders of code that results depend on.
-const CODE: [&str; 5] =
-    ["solver/src", "validation/number/src", "validation/figure/src", "validation/inference/src", "validation/src"];
+const CODE: [&str; 6] = [
+    "solver/src",
+    "validation/number/src",
+    "validation/figure/src",
+    "validation/inference/src",
+    "validation/layer/src",
+    "validation/src",
+];
 
 /// What else they depend on.
 const REST: [&str; 3] = ["reference-data", "Cargo.lock", "Cargo.toml"];

@@ -27,8 +27,8 @@ const SOLVER: &[Floor] = &[
     peers(&["weakly_compressible", "incompressible"]),
 ];
 
-/// `validation/inference/src`, likewise. The packages `number` and `figure` have a single floor, and that none of the three
-/// knows the solver or a case is said by their dependencies.
+/// `validation/inference/src`, likewise. The packages `number`, `figure` and `layer` have a single floor; what each of them knows
+/// is said by its dependencies.
 const INFERENCE: &[Floor] = &[floor(&["statistics", "sampling"]), floor(&["inference"])];
 
 /// `validation/src`, likewise; what it passes on of other packages stands below it.
@@ -120,16 +120,39 @@ fn the_validation_depends_downwards_only() {
 }
 
 #[test]
-fn the_mathematics_of_calibration_depends_downwards_and_on_no_other_package_but_digits() {
+fn packages_beside_the_validation_know_only_what_they_need() {
     assert_none(&offences("validation/inference/src", INFERENCE));
-    for package in ["number", "figure", "inference"] {
+    let known: [(&str, &[&str]); 4] = [
+        ("number", &[]),
+        ("figure", &["bagnold-number"]),
+        ("inference", &["bagnold-number"]),
+        // of the solver laws only: no test of it knows a particle
+        ("layer", &["bagnold-inference", "bagnold-solver"]),
+    ];
+    for (package, known) in known {
         let path = crate::source::workspace().join("validation").join(package).join("Cargo.toml");
         let manifest: toml::Table = toml::from_str(&std::fs::read_to_string(&path).expect("a manifest")).expect("TOML");
         let needs =
             manifest.get("dependencies").and_then(toml::Value::as_table).into_iter().flat_map(toml::Table::keys);
         let own: Vec<&String> = needs.filter(|name| name.starts_with("bagnold-")).collect();
-        assert!(own.iter().all(|name| *name == "bagnold-number"), "{package} depends on {own:?}");
+        assert!(own.iter().all(|name| known.contains(&name.as_str())), "{package} depends on {own:?}");
     }
+}
+
+#[test]
+fn a_layer_without_particles_knows_laws_of_the_solver_only() {
+    let mut found = Vec::new();
+    for source in sources("validation/layer/src") {
+        for (line, text) in source.code.lines().enumerate() {
+            let foreign = text.contains("bagnold_solver::")
+                && !text.contains("bagnold_solver::material::")
+                && !text.contains("bagnold_solver::parameter::");
+            if foreign {
+                found.push(offence(&source, line + 1, "uses more of the solver than laws and the rules of parameters"));
+            }
+        }
+    }
+    assert_none(&found);
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! What can be wrong with a reference: a data file, or parameters that have no reference solution.
 
+use bagnold_layer::LayerError;
+
 /// A reference that cannot be read or computed. Data errors name file, line and column, each counted from 1.
 #[derive(Debug, thiserror::Error)]
 pub enum ReferenceError {
@@ -102,57 +104,7 @@ pub enum ReferenceError {
         /// What may stand there.
         allowed: &'static str,
     },
-    /// A parameter of a reference solution is outside its range.
-    #[error("compute the reference solution: {field} is {value}, but must be {rule}")]
-    Parameter {
-        /// Name of the field.
-        field: &'static str,
-        /// Its value.
-        value: f64,
-        /// The range.
-        rule: &'static str,
-    },
-    /// A time step of the 1-D solver did not converge.
-    #[error(
-        "compute the layer's motion at t = {time} s: the residual stays at {residual} m/s; use a shorter time step"
-    )]
-    NotConverged {
-        /// Time at the start of the step `[s]`.
-        time: f64,
-        /// Largest residual `[m/s]`.
-        residual: f64,
-    },
-    /// Two starts lead to two steady states.
-    #[error(
-        "compute the steady layer: it has two states, q* = {slow:.3e} from rest and {fast:.3e} from a fast start, which \
-         differ by {difference:.1e}; move away from the onset of motion"
-    )]
-    TwoStates {
-        /// Transport from rest `[-]`.
-        slow: f64,
-        /// Transport from the fast start `[-]`.
-        fast: f64,
-        /// Relative difference of the states `[-]`.
-        difference: f64,
-    },
-    /// The bed slides on its base.
-    #[error(
-        "compute the steady layer: slope is {slope}, but must be below {limit:.5}, where the bed slides on its base; {remedy}"
-    )]
-    BedSlides {
-        /// Slope tanθ `[-]`.
-        slope: f64,
-        /// Slope from which on it slides `[-]`.
-        limit: f64,
-        /// What to do.
-        remedy: String,
-    },
-    /// Time steps did not lead to a steady state.
-    #[error("compute the steady layer: {reason} after {steps} time steps; use other cells or milder closures")]
-    NotSteady {
-        /// What stands against it.
-        reason: String,
-        /// Time steps taken.
-        steps: usize,
-    },
+    /// A layer in one dimension has no solution.
+    #[error(transparent)]
+    Layer(#[from] LayerError),
 }

@@ -1,5 +1,5 @@
-//! What results are compared with: exact profiles, a 1-D solver that checks the particles independently, and
-//! published or measured data in CSV files.
+//! What results are compared with: exact profiles, layers in one dimension that check the particles independently (a package
+//! of their own), and published or measured data in CSV files.
 //!
 //! Nothing here uses the particle solver, so that agreement with it means something; of the solver's `material` only
 //! the drag laws and the viscosity of suspensions are used, which have tests against values computed by hand, and the
@@ -8,8 +8,6 @@
 //! Numbers of papers stand in `reference-data/*/*.csv` with their provenance. The program carries these tables, reads each
 //! once, and no number of a paper is written in the code that uses it.
 
-mod bagnold_profile;
-pub mod bed_load_layer;
 mod bed_load_onset;
 mod bed_load_profiles;
 mod bed_load_transport;
@@ -21,7 +19,6 @@ mod film;
 mod grains;
 mod law_film;
 mod layer_statement;
-mod layer_transient;
 mod liquid_column;
 mod measured;
 mod measured_table;
@@ -32,7 +29,9 @@ mod shipped;
 mod slope_laws;
 mod steady_film;
 
-pub use bagnold_profile::BagnoldProfile;
+pub use bagnold_layer::{
+    BagnoldProfile, LayerError, LayerProfile, LayerTransient, TransientHistory, bed_load as bed_load_layer,
+};
 pub use bed_load_onset::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence};
 pub use bed_load_profiles::MeasuredBedLoad;
 pub use bed_load_transport::{HONEST_BAND, TransportFormula};
@@ -44,7 +43,6 @@ pub use film::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
 pub use grains::{FlowRule, GLASS_BEADS, GLASS_BEADS_FLOW_RULE, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};
 pub use law_film::LawFilm;
 pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
-pub use layer_transient::{LayerProfile, LayerTransient, TransientHistory};
 pub use liquid_column::{MeasuredFront, WATER_FRONT};
 pub use measured::{Column, MeasuredData, Metadata, Origin};
 pub use papers::{Element, FigureName, MetricName, PAPERS, Paper, PaperError, Printed, RunName, Settled, TestName};

@@ -6,7 +6,8 @@ use super::parameters::{Continuum, Materials, Stage};
 use super::runs::BedLoadRun;
 use crate::case::ParameterError;
 use crate::cases::channel::{Channel, Lattice};
-use crate::reference::ReferenceError;
+use crate::checkpoint::is_interrupted;
+use crate::reference::LayerError;
 use crate::reference::bed_load_layer::{BedLoadLayer, Grains, LayerState, SolidFraction, SteadyStates, Stream};
 use bagnold_solver::incompressible as solver;
 use bagnold_solver::incompressible::{Bed, PairLaw, ParticleSet, ProjectionNumerics, Sediment, Turbulence};
@@ -73,11 +74,13 @@ impl ContinuumRun {
     pub(super) fn layer(&self, stream: Stream) -> Result<LayerState, ParameterError> {
         let closures = self.continuum.closures;
         let layer = |grains| BedLoadLayer { stream, closures, grains, cell_height: LAYER_CELL };
-        let refused = |error: ReferenceError| {
+        let refused = |error: LayerError| {
             let rule = "such that the 1-D layer has one steady state";
             ParameterError::field("continuum.closures", error.to_string(), rule, "see bed-load-1d")
         };
-        let one_state = |layer: BedLoadLayer| layer.steady_states().and_then(SteadyStates::single).map_err(refused);
+        let one_state = |layer: BedLoadLayer| {
+            layer.steady_states_unless(&is_interrupted).and_then(SteadyStates::single).map_err(refused)
+        };
         let dilating = one_state(layer(Grains::Dilating))?;
         match self.stage {
             Stage::Frozen | Stage::Dilating => Ok(dilating),

@@ -10,7 +10,7 @@ use crate::observation::{Outcome, Recorded, state_hash};
 use crate::reference::bed_load_layer::{
     Approach, BedLoadLayer, Closures, Grains, LayerState, SAME_STATE, STEADY, SolidFraction, Start, Stream,
 };
-use crate::reference::{MeasuredBedLoad, ReferenceError};
+use crate::reference::{LayerError, MeasuredBedLoad};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
@@ -152,8 +152,12 @@ impl Run for BedLoad1dRun {
         };
         let both = self.has_both_starts();
         let layer = self.layer().map_err(refused)?;
-        let approach = layer.approach(start).map_err(refused)?;
-        let fast = if both { Some(layer.approach(layer.fast_start()).map_err(refused)?) } else { None };
+        let approach = layer.approach_unless(start, &is_interrupted).map_err(refused)?;
+        let fast = if both {
+            Some(layer.approach_unless(layer.fast_start(), &is_interrupted).map_err(refused)?)
+        } else {
+            None
+        };
         let mut done = Done::of(&approach, fast.as_ref());
         let scan = if self.purpose == Purpose::Onset { self.scan(&approach, &mut done)? } else { Vec::new() };
         if is_interrupted() {
@@ -230,8 +234,8 @@ impl BedLoad1dRun {
                 continue;
             }
             let layer = BedLoadLayer { stream, ..self.layer().map_err(refused)? };
-            let slow = layer.approach(Start::Rest).map_err(refused)?;
-            let fast = layer.approach(layer.fast_start()).map_err(refused)?;
+            let slow = layer.approach_unless(Start::Rest, &is_interrupted).map_err(refused)?;
+            let fast = layer.approach_unless(layer.fast_start(), &is_interrupted).map_err(refused)?;
             let both = Done::of(&slow, Some(&fast));
             done.steps += both.steps;
             done.difference = done.difference.max(both.difference);
@@ -242,7 +246,7 @@ impl BedLoad1dRun {
     }
 
     /// The layer.
-    fn layer(&self) -> Result<BedLoadLayer, ReferenceError> {
+    fn layer(&self) -> Result<BedLoadLayer, LayerError> {
         let grains = match self.purpose {
             Purpose::FrozenOrder => Grains::Frozen(smooth_bed(&self.stream, self.closures.largest_fraction)?),
             _ => Grains::Dilating,
@@ -252,7 +256,7 @@ impl BedLoad1dRun {
 }
 
 /// A bed whose fraction falls smoothly (with two continuous derivatives) across z = 0.
-fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFraction, ReferenceError> {
+fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFraction, LayerError> {
     let half = TRANSITION * stream.grain_diameter;
     SolidFraction::sampled(-half, half, 4096, |z| {
         let x = (0.5 * (z / half + 1.0)).clamp(0.0, 1.0);
@@ -263,7 +267,7 @@ fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFraction, R
 /// Refuses a layer whose bed slides on its base.
 pub(super) fn check_sliding(field: &str, value: f64, run: &BedLoad1dRun) -> Result<(), ParameterError> {
     match run.layer().and_then(|layer| layer.check()) {
-        Err(ReferenceError::BedSlides { slope, limit, remedy }) => {
+        Err(LayerError::BedSlides { slope, limit, remedy }) => {
             let rule =
                 format!("such that the slope, {slope:.5}, is below {limit:.5}, where the bed slides on its base");
             Err(ParameterError::field(field, value, &rule, &remedy))
@@ -273,9 +277,9 @@ pub(super) fn check_sliding(field: &str, value: f64, run: &BedLoad1dRun) -> Resu
 }
 
 /// What the solver refuses although each parameter is in its range.
-fn refused(error: ReferenceError) -> ParameterError {
+fn refused(error: LayerError) -> ParameterError {
     match error {
-        ReferenceError::Parameter { field, value, rule } => {
+        LayerError::Parameter { field, value, rule } => {
             ParameterError::field(field, value, rule, "`bagnold show bed-load-1d` prints a valid value")
         }
         other => ParameterError::field(

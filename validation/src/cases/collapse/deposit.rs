@@ -149,22 +149,29 @@ impl Surveyor {
         let bins = (self.bed_end / width).ceil() as usize;
         let mut volume = vec![0.0; bins.max(1)];
         let points_along = SUB_POINTS[D - 2];
-        let points = points_along.pow(D as u32 - 1);
+        let offsets: Vec<f64> = (0..points_along)
+            .map(|step| (2.0 * (step as f64 + 0.5) / points_along as f64 - 1.0) * self.spacing)
+            .collect();
+        // plain coordinates: this is done for every particle at every picture
+        let mut add = |distance: f64, share: f64| {
+            if let Some(slot) = volume.get_mut((distance / width) as usize) {
+                *slot += share;
+            }
+        };
         for ((position, mass), density) in snapshot.position.iter().zip(&snapshot.mass).zip(&snapshot.density) {
-            let share = mass / density / points as f64;
-            for point in 0..points {
-                let shifted = |axis: usize, step: usize| {
-                    let offset = 2.0 * (step as f64 + 0.5) / points_along as f64 - 1.0;
-                    (position[axis] + offset * self.spacing).abs()
-                };
-                let mut place = Vector::<D>::zeros();
-                place[0] = shifted(0, point % points_along);
-                if D == 3 {
-                    place[2] = shifted(2, point / points_along);
+            let share = mass / density / points_along.pow(D as u32 - 1) as f64;
+            let coordinates: &[f64] = position.as_slice();
+            if D == 2 {
+                for offset in &offsets {
+                    add((coordinates[0] + offset).abs(), share);
                 }
-                let distance = radius(&place);
-                if let Some(slot) = volume.get_mut((distance / width) as usize) {
-                    *slot += share;
+                continue;
+            }
+            for beside in &offsets {
+                let z = (coordinates[2] + beside).abs();
+                for offset in &offsets {
+                    let x = (coordinates[0] + offset).abs();
+                    add((x * x + z * z).sqrt(), share);
                 }
             }
         }

@@ -1,8 +1,8 @@
 //! Tests of the 1-D layer solver: exact limits, observed orders, tabulated times.
 
 use super::*;
-use crate::reference::bagnold_profile::glass_beads;
-use crate::reference::shipped_table;
+use crate::bagnold_profile::glass_beads;
+use crate::table::{number, rows};
 
 fn from_rest(degrees: f64, cells: usize, time_step: f64, duration: f64) -> (LayerTransient, TransientHistory) {
     let mut layer = LayerTransient::from_rest(glass_beads(degrees), cells, time_step).expect("accepted");
@@ -46,11 +46,10 @@ fn converges_with_first_order_in_the_time_step_and_second_in_the_cell() {
 
 #[test]
 fn reproduces_the_tabulated_transients() {
-    let table = shipped_table("bagnold/transient.csv").expect("readable");
-    let columns = ["slope angle", "value", "uncertainty"].map(|name| table.numbers(name).expect("present"));
-    let quantities = table.labels("quantity").expect("present");
-    for (row, quantity) in quantities.iter().enumerate() {
-        let (slope, expected, uncertainty) = (columns[0][row], columns[1][row], columns[2][row]);
+    for row in rows(include_str!("../reference-data/bagnold/transient.csv")) {
+        let [slope, expected, uncertainty] =
+            ["slope angle [deg]", "value [s or m/s]", "uncertainty [s or m/s]"].map(|column| number(&row, column));
+        let quantity = &row["quantity"];
         let value = match quantity.as_str() {
             "t_99 from rest" => {
                 let steady = glass_beads(slope).depth_mean().expect("steady");

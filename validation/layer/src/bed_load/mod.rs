@@ -47,8 +47,7 @@ pub use solid_fraction::SolidFraction;
 pub use states::{SAME_STATE, SteadyStates, TwoStates};
 pub use stream::Stream;
 
-use super::ReferenceError;
-use crate::interruption;
+use crate::LayerError;
 use column::{Column, Stride};
 
 /// A layer and how it is computed.
@@ -135,11 +134,15 @@ impl BedLoadLayer {
     ///
     /// # Errors
     /// Parameters out of range, or no steady state within [`LARGEST_STEPS`].
-    pub fn steady(&self, start: Start) -> Result<LayerState, ReferenceError> {
-        let approach = self.approach(start)?;
+    pub fn steady(&self, start: Start) -> Result<LayerState, LayerError> {
+        self.steady_unless(start, &|| false)
+    }
+
+    fn steady_unless(&self, start: Start, stopped: &dyn Fn() -> bool) -> Result<LayerState, LayerError> {
+        let approach = self.approach_unless(start, stopped)?;
         match approach.unsteady {
             None => Ok(approach.state),
-            Some(reason) => Err(ReferenceError::NotSteady { reason, steps: approach.steps }),
+            Some(reason) => Err(LayerError::NotSteady { reason, steps: approach.steps }),
         }
     }
 
@@ -147,7 +150,15 @@ impl BedLoadLayer {
     ///
     /// # Errors
     /// Parameters out of range.
-    pub fn approach(&self, start: Start) -> Result<Approach, ReferenceError> {
+    pub fn approach(&self, start: Start) -> Result<Approach, LayerError> {
+        self.approach_unless(start, &|| false)
+    }
+
+    /// [`Self::approach`], unless `stopped` says between two steps that nobody wants the layer any more; it is then unsteady.
+    ///
+    /// # Errors
+    /// Parameters out of range.
+    pub fn approach_unless(&self, start: Start, stopped: &dyn Fn() -> bool) -> Result<Approach, LayerError> {
         self.check()?;
         let shear_velocity = self.stream.shear_velocity();
         let usual_step = TIME_STEP * self.stream.flow_depth / shear_velocity;
@@ -164,9 +175,8 @@ impl BedLoadLayer {
             let unsteady = if !change.velocity.is_finite() {
                 column = last_good;
                 Some("a velocity is no longer a finite number".to_owned())
-            } else if interruption::asked().is_some() {
-                // whoever asked for the layer sees that too, and drops it
-                Some("the program was asked to end".to_owned())
+            } else if stopped() {
+                Some("it was stopped".to_owned())
             } else if change.left_over > 1e-9 * self.stream.bed_stress() && (steady || steps == LARGEST_STEPS) {
                 Some(format!("the grains need {:.2e} Pa of room above the water's surface", change.left_over))
             } else if steps == LARGEST_STEPS {
@@ -197,9 +207,9 @@ impl BedLoadLayer {
     ///
     /// # Errors
     /// The first that is out of its range.
-    pub fn check(&self) -> Result<(), ReferenceError> {
+    pub fn check(&self) -> Result<(), LayerError> {
         let Self { stream, closures, .. } = self;
-        let refuse = |field, value, rule| Err(ReferenceError::Parameter { field, value, rule });
+        let refuse = |field, value, rule| Err(LayerError::Parameter { field, value, rule });
         let positive = [
             ("slope", stream.slope),
             ("flow_depth", stream.flow_depth),

@@ -15,7 +15,7 @@
 //! are the conditions for the minimum of a strictly convex energy with a barrier at |s| = S_2. A tridiagonal Newton
 //! step with a line search converges from any admissible start. First order in Δt, second in Δy.
 
-use super::{BagnoldProfile, ReferenceError};
+use crate::{BagnoldProfile, LayerError};
 
 /// Largest number of Newton steps in one time step; a handful is usual.
 const NEWTON_STEPS: usize = 200;
@@ -60,7 +60,7 @@ impl Face {
 
 impl LayerTransient {
     /// A layer at rest, divided into `cells` cells, advanced with a time step `[s]`.
-    pub fn from_rest(layer: BagnoldProfile, cells: usize, time_step: f64) -> Result<Self, ReferenceError> {
+    pub fn from_rest(layer: BagnoldProfile, cells: usize, time_step: f64) -> Result<Self, LayerError> {
         Self::from_profile(layer, cells, time_step, |_| 0.0)
     }
 
@@ -70,13 +70,13 @@ impl LayerTransient {
         cells: usize,
         time_step: f64,
         velocity: impl Fn(f64) -> f64,
-    ) -> Result<Self, ReferenceError> {
+    ) -> Result<Self, LayerError> {
         layer.check()?;
         if cells < 2 {
-            return Err(ReferenceError::Parameter { field: "cells", value: cells as f64, rule: "at least 2" });
+            return Err(LayerError::Parameter { field: "cells", value: cells as f64, rule: "at least 2" });
         }
         if time_step.is_nan() || time_step <= 0.0 || time_step.is_infinite() {
-            return Err(ReferenceError::Parameter {
+            return Err(LayerError::Parameter {
                 field: "time_step",
                 value: time_step,
                 rule: "finite and greater than 0",
@@ -85,7 +85,7 @@ impl LayerTransient {
         let width = layer.layer_height / cells as f64;
         let velocity: Vec<f64> = (0..cells).map(|i| velocity((i as f64 + 0.5) * width)).collect();
         if let Some(&value) = velocity.iter().find(|u| !u.is_finite()) {
-            return Err(ReferenceError::Parameter { field: "initial velocity", value, rule: "finite at every height" });
+            return Err(LayerError::Parameter { field: "initial velocity", value, rule: "finite at every height" });
         }
         let faces = (0..cells).map(|j| {
             let pressure = layer.pressure(j as f64 * width);
@@ -122,7 +122,7 @@ impl LayerTransient {
 
     /// Advances for a duration `[s]`, recording the depth mean at each step and the profile at the first step not
     /// before each of `profile_times` `[s]`, which must rise.
-    pub fn run(&mut self, duration: f64, profile_times: &[f64]) -> Result<TransientHistory, ReferenceError> {
+    pub fn run(&mut self, duration: f64, profile_times: &[f64]) -> Result<TransientHistory, LayerError> {
         let mut history =
             TransientHistory { times: vec![self.time], depth_means: vec![self.depth_mean()], profiles: Vec::new() };
         let mut wanted = profile_times.iter().copied().peekable();
@@ -143,7 +143,7 @@ impl LayerTransient {
     }
 
     /// Advances by one time step.
-    pub fn step(&mut self) -> Result<(), ReferenceError> {
+    pub fn step(&mut self) -> Result<(), LayerError> {
         let push = self.time_step * self.layer.gravity * libm::sin(self.layer.slope_angle);
         let differences: Vec<f64> = (0..self.faces.len())
             .map(|j| if j == 0 { self.velocity[0] + push } else { self.velocity[j] - self.velocity[j - 1] })
@@ -171,7 +171,7 @@ impl LayerTransient {
                 fraction *= 0.5;
             }
         }
-        Err(ReferenceError::NotConverged { time: self.time, residual: largest(&residual) })
+        Err(LayerError::NotConverged { time: self.time, residual: largest(&residual) })
     }
 
     /// Velocities are the sums of shear from the bed up: exactly at rest below the lowest yielded face.

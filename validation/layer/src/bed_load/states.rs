@@ -2,7 +2,7 @@
 
 use super::profile::LayerState;
 use super::{BedLoadLayer, Start};
-use crate::reference::ReferenceError;
+use crate::LayerError;
 
 /// Difference of two states, relative, below which they are one `[-]`.
 pub const SAME_STATE: f64 = 1e-3;
@@ -79,10 +79,10 @@ impl SteadyStates {
     ///
     /// # Errors
     /// If there are two.
-    pub fn single(self) -> Result<LayerState, ReferenceError> {
+    pub fn single(self) -> Result<LayerState, LayerError> {
         match self {
             Self::One { state, .. } => Ok(state),
-            Self::Two(states) => Err(ReferenceError::TwoStates {
+            Self::Two(states) => Err(LayerError::TwoStates {
                 slow: states.slow.transport(),
                 fast: states.fast.transport(),
                 difference: states.difference,
@@ -96,9 +96,17 @@ impl BedLoadLayer {
     ///
     /// # Errors
     /// Parameters out of range, a bed that slides on its base, or no steady state from one of the starts.
-    pub fn steady_states(&self) -> Result<SteadyStates, ReferenceError> {
-        let slow = self.steady(Start::Rest)?;
-        let fast = self.steady(self.fast_start())?;
+    pub fn steady_states(&self) -> Result<SteadyStates, LayerError> {
+        self.steady_states_unless(&|| false)
+    }
+
+    /// [`Self::steady_states`], unless `stopped` says between two steps that nobody wants them any more.
+    ///
+    /// # Errors
+    /// Those of [`Self::steady_states`]; [`LayerError::NotSteady`] if it was stopped.
+    pub fn steady_states_unless(&self, stopped: &dyn Fn() -> bool) -> Result<SteadyStates, LayerError> {
+        let slow = self.steady_unless(Start::Rest, stopped)?;
+        let fast = self.steady_unless(self.fast_start(), stopped)?;
         Ok(SteadyStates::of(slow, fast))
     }
 }

@@ -1,7 +1,7 @@
 //! A solid fraction over the height that is given and not computed.
 
 use super::profile::LayerState;
-use crate::reference::ReferenceError;
+use crate::LayerError;
 
 /// φ(z) as straight lines between points; two points at one height make a jump. Beyond its ends it goes on unchanged.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,16 +16,16 @@ impl SolidFraction {
     ///
     /// # Errors
     /// No point, heights that fall, fractions outside [0, 1).
-    pub fn new(points: Vec<(f64, f64)>) -> Result<Self, ReferenceError> {
+    pub fn new(points: Vec<(f64, f64)>) -> Result<Self, LayerError> {
         if points.is_empty() {
-            return Err(ReferenceError::Parameter { field: "points of φ(z)", value: 0.0, rule: "at least 1" });
+            return Err(LayerError::Parameter { field: "points of φ(z)", value: 0.0, rule: "at least 1" });
         }
         if let Some(pair) = points.windows(2).find(|pair| pair[1].0.is_nan() || pair[1].0 < pair[0].0) {
             let rule = "not below the height before it";
-            return Err(ReferenceError::Parameter { field: "height of φ(z)", value: pair[1].0, rule });
+            return Err(LayerError::Parameter { field: "height of φ(z)", value: pair[1].0, rule });
         }
         if let Some(&(_, value)) = points.iter().find(|(_, fraction)| !(0.0..1.0).contains(fraction)) {
-            return Err(ReferenceError::Parameter { field: "solid fraction", value, rule: "in [0, 1)" });
+            return Err(LayerError::Parameter { field: "solid fraction", value, rule: "in [0, 1)" });
         }
         let mut integral = vec![0.0; points.len()];
         for k in 1..points.len() {
@@ -39,7 +39,7 @@ impl SolidFraction {
     ///
     /// # Errors
     /// A fraction outside [0, 1).
-    pub fn flat_bed(fraction: f64) -> Result<Self, ReferenceError> {
+    pub fn flat_bed(fraction: f64) -> Result<Self, LayerError> {
         Self::new(vec![(0.0, fraction), (0.0, 0.0)])
     }
 
@@ -47,7 +47,7 @@ impl SolidFraction {
     ///
     /// # Errors
     /// Values outside [0, 1).
-    pub fn sampled(from: f64, to: f64, count: usize, fraction: impl Fn(f64) -> f64) -> Result<Self, ReferenceError> {
+    pub fn sampled(from: f64, to: f64, count: usize, fraction: impl Fn(f64) -> f64) -> Result<Self, LayerError> {
         let height = |k: usize| from + (to - from) * k as f64 / count as f64;
         Self::new((0..=count).map(|k| (height(k), fraction(height(k)))).collect())
     }

@@ -1,7 +1,7 @@
 //! What is read off a layer: transport, depths, scales, slopes, and how well the balances close.
 
 use super::profile::LayerState;
-use crate::statistics::linear_fit;
+use bagnold_inference::statistics::linear_fit;
 
 impl LayerState {
     /// Transport rate q* = ∫ φ u_s dz/√((s − 1) g d³) `[-]`.

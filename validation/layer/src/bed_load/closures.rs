@@ -5,7 +5,7 @@
 //! method needs (a stress with its derivative, a march over the weight, a length that cases choose); tests compare each
 //! with the solver's law, so that a slip in either is seen.
 
-use crate::reference::shipped::read_shipped;
+use crate::table::{number, rows};
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
 use bagnold_solver::material::turbulence::{GrainRoughness, eddy_viscosity};
@@ -81,30 +81,32 @@ pub struct Closures {
 }
 
 static LITERATURE: LazyLock<Closures> = LazyLock::new(|| {
-    read_shipped("bed-load/closures.csv", |table| {
-        let value = |name| table.number_of("closure", name, "value");
-        Ok(Closures {
-            static_friction: value("static friction")?,
-            limiting_friction: value("limiting friction")?,
-            reference_inertia: value("reference inertia")?,
-            regularisation_rate: REGULARISATION_RATE,
-            largest_fraction: value("largest solid fraction")?,
-            dilation: value("dilation")?,
-            drag: DragLaw::DiFelice,
-            mixing_length: MixingLength::Integral,
-            karman: value("Kármán constant")?,
-            turbulent_schmidt: 0.0,
-            grain_roughness: GrainRoughness {
-                origin_depth: value("origin below resting grains")?,
-                joining_room: value("room that replaces the roughness")?,
-            },
-            suspension_viscosity: SuspensionViscosity {
-                intrinsic: value("suspension viscosity coefficient")?,
-                largest_fraction: value("suspension viscosity pole")?,
-                bounded_from: value("suspension viscosity fraction at most")?,
-            },
-        })
-    })
+    let table = rows(include_str!("../../reference-data/bed-load/closures.csv"));
+    let value = |name: &str| {
+        let row = table.iter().find(|row| row.get("closure").is_some_and(|closure| closure == name));
+        number(row.unwrap_or_else(|| panic!("closures.csv: no closure `{name}`")), "value [-]")
+    };
+    Closures {
+        static_friction: value("static friction"),
+        limiting_friction: value("limiting friction"),
+        reference_inertia: value("reference inertia"),
+        regularisation_rate: REGULARISATION_RATE,
+        largest_fraction: value("largest solid fraction"),
+        dilation: value("dilation"),
+        drag: DragLaw::DiFelice,
+        mixing_length: MixingLength::Integral,
+        karman: value("Kármán constant"),
+        turbulent_schmidt: 0.0,
+        grain_roughness: GrainRoughness {
+            origin_depth: value("origin below resting grains"),
+            joining_room: value("room that replaces the roughness"),
+        },
+        suspension_viscosity: SuspensionViscosity {
+            intrinsic: value("suspension viscosity coefficient"),
+            largest_fraction: value("suspension viscosity pole"),
+            bounded_from: value("suspension viscosity fraction at most"),
+        },
+    }
 });
 
 /// Numerical: a fifth of it changes the transport by at most 0.4 % `[1/s]`.

@@ -10,7 +10,7 @@
 //! and creep where those of experiments leap, and near the onset every formula depends on its threshold.
 
 use super::{Closures, Stream};
-use crate::reference::ReferenceError;
+use crate::LayerError;
 use std::ops::RangeInclusive;
 
 /// Grain diameters D* = d ((s − 1) g/ν²)^⅓ `[-]`: 1 to 8 mm of sand in water.
@@ -73,7 +73,7 @@ impl Stream {
     ///
     /// # Errors
     /// If it does, with the depth that would hold.
-    pub(super) fn check_sliding(&self, closures: &Closures) -> Result<(), ReferenceError> {
+    pub(super) fn check_sliding(&self, closures: &Closures) -> Result<(), LayerError> {
         let limit = self.sliding_slope(closures);
         if self.slope < limit {
             return Ok(());
@@ -86,7 +86,7 @@ impl Stream {
         } else {
             "no bed of these grains lies on such a slope: choose a gentler one".to_owned()
         };
-        Err(ReferenceError::BedSlides { slope: self.slope, limit, remedy })
+        Err(LayerError::BedSlides { slope: self.slope, limit, remedy })
     }
 }
 

@@ -5,7 +5,7 @@
 //! from u(0) = 0, (36): u = (2/3)(I/D) √(φ g cosθ) [h^{3/2} − (h − y)^{3/2}]. Its depth mean is (37): Ū = (3/5) u(h).
 //! No steady flow below tanθ = μ_s (arrest) or from tanθ = μ_2 on (unbounded acceleration).
 
-use super::ReferenceError;
+use crate::LayerError;
 use bagnold_solver::material::rheology::MuI;
 
 /// A uniform layer of dry grains on an incline, and its steady flow.
@@ -49,7 +49,7 @@ impl BagnoldProfile {
     }
 
     /// Refuses parameters for which neither the profile nor its transient is defined.
-    pub fn check(&self) -> Result<(), ReferenceError> {
+    pub fn check(&self) -> Result<(), LayerError> {
         let positive = [
             ("layer_height", self.layer_height),
             ("gravity", self.gravity),
@@ -61,7 +61,7 @@ impl BagnoldProfile {
         ];
         for (field, value) in positive {
             if value.is_nan() || value <= 0.0 || value.is_infinite() {
-                return Err(ReferenceError::Parameter { field, value, rule: "finite and greater than 0" });
+                return Err(LayerError::Parameter { field, value, rule: "finite and greater than 0" });
             }
         }
         if self.limiting_friction.is_nan()
@@ -69,10 +69,10 @@ impl BagnoldProfile {
             || self.limiting_friction.is_infinite()
         {
             let rule = "finite and greater than static_friction";
-            return Err(ReferenceError::Parameter { field: "limiting_friction", value: self.limiting_friction, rule });
+            return Err(LayerError::Parameter { field: "limiting_friction", value: self.limiting_friction, rule });
         }
         if self.slope_angle.is_nan() || self.slope_angle.abs() >= std::f64::consts::FRAC_PI_2 {
-            return Err(ReferenceError::Parameter {
+            return Err(LayerError::Parameter {
                 field: "slope_angle",
                 value: self.slope_angle,
                 rule: "within ±π/2 rad",
@@ -148,7 +148,7 @@ impl BagnoldProfile {
 
 /// Glass beads of Table 1, 10 mm deep, at a slope in degrees.
 #[cfg(test)]
-pub(super) fn glass_beads(degrees: f64) -> BagnoldProfile {
+pub(crate) fn glass_beads(degrees: f64) -> BagnoldProfile {
     BagnoldProfile {
         layer_height: 0.01,
         slope_angle: degrees.to_radians(),
@@ -165,7 +165,7 @@ pub(super) fn glass_beads(degrees: f64) -> BagnoldProfile {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reference::shipped_table;
+    use crate::table::{number, rows};
 
     #[test]
     fn momentum_balance_holds_with_a_differentiated_velocity() {
@@ -186,19 +186,18 @@ mod tests {
 
     #[test]
     fn agrees_with_the_tabulated_quadrature() {
-        let table = shipped_table("bagnold/steady.csv").expect("readable");
-        let column = |name: &str| table.numbers(name).expect("present").to_vec();
-        let slopes = column("slope angle");
-        assert_eq!(slopes.len(), 4);
-        for (row, slope) in slopes.iter().enumerate() {
-            let layer = glass_beads(*slope);
+        let table = rows(include_str!("../reference-data/bagnold/steady.csv"));
+        assert_eq!(table.len(), 4);
+        for row in table {
+            let slope = number(&row, "slope angle [deg]");
+            let layer = glass_beads(slope);
             let close = |value: Option<f64>, name: &str| {
-                let expected = column(name)[row];
+                let expected = number(&row, name);
                 assert!((value.expect("steady") / expected - 1.0).abs() < 1e-6, "{name} at {slope}°");
             };
-            close(layer.inertial_number(), "inertial number");
-            close(layer.depth_mean(), "depth-mean velocity");
-            close(layer.surface_velocity(), "surface velocity");
+            close(layer.inertial_number(), "inertial number [-]");
+            close(layer.depth_mean(), "depth-mean velocity [m/s]");
+            close(layer.surface_velocity(), "surface velocity [m/s]");
         }
     }
 
