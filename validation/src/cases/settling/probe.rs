@@ -189,7 +189,7 @@ impl Probe {
         let nearest = |way: f64, size: f64| way - size * (way / size).round();
         for (centre, own) in grain_place.iter().zip(grain) {
             let centre = [centre[0], centre[1]];
-            let (mut weight, mut slip, mut square, mut drag) = (0.0, Vector::<2>::zeros(), 0.0, Vector::<2>::zeros());
+            let (mut weight, mut slip, mut square, mut drag) = (0.0, [0.0; 2], 0.0, [0.0; 2]);
             for (x, u) in place.iter().zip(fluid) {
                 let dx = nearest(x[0] - centre[0], width);
                 let dy = nearest(x[1] - centre[1], height);
@@ -202,17 +202,20 @@ impl Probe {
                 if value == 0.0 {
                     continue;
                 }
-                let pair = u - own;
-                let product = law.drag_times_reynolds(self.grains.reynolds(pair.norm())).unwrap_or(f64::NAN);
+                let pair = [u.x - own.x, u.y - own.y];
+                let pair_square = pair[0] * pair[0] + pair[1] * pair[1];
+                let product = law.drag_times_reynolds(self.grains.reynolds(pair_square.sqrt())).unwrap_or(f64::NAN);
                 weight += value;
-                slip += pair * value;
-                square += pair.norm_squared() * value;
-                drag += pair * (value * product);
+                square += pair_square * value;
+                for axis in 0..2 {
+                    slip[axis] += pair[axis] * value;
+                    drag[axis] += pair[axis] * (value * product);
+                }
             }
             let share = 1.0 / grain.len() as f64;
-            of_all.mean += share * (slip / weight).norm();
+            of_all.mean += share * (Vector::from(slip) / weight).norm();
             of_all.square += share * square / weight;
-            of_all.drag += share * (drag / weight).norm();
+            of_all.drag += share * (Vector::from(drag) / weight).norm();
             sinking -= share * own[1];
         }
         (of_all, sinking)
@@ -245,11 +248,15 @@ fn momentum(simulation: &IncompressibleSimulation<2>) -> (Vector<2>, Force) {
     let grains = (simulation.sediment().1, &material.filling[..], &material.gravity);
     let gradient = simulation.mean_pressure_gradient();
     let of = |(velocity, share, gravity): (&[Vector<2>], &[f64], &Vector<2>), density: f64, spacing: f64| {
-        let (mut momentum, mut volume) = (Vector::<2>::zeros(), 0.0);
+        // plain coordinates: this is done at every step
+        let (mut along, mut across, mut volume) = (0.0, 0.0, 0.0);
         for (velocity, share) in velocity.iter().zip(share) {
-            momentum += velocity * (share * density * spacing * spacing);
+            let mass = share * density * spacing * spacing;
+            along += velocity.x * mass;
+            across += velocity.y * mass;
             volume += share * spacing * spacing;
         }
+        let momentum = Vector::<2>::new(along, across);
         (momentum, gravity * (density * volume), gradient * volume)
     };
     let (of_fluid, fluid_weight, on_fluid) = of(fluid, scene.fluid.density, scene.fluid.spacing);
