@@ -1,5 +1,5 @@
 //! Gives the crate a hash of everything that a stored result depends on, the commit that it is built from, and the texts that
-//! an installed program carries: tables of `reference-data`, accepted values, shipped calibrations, scenes and sweeps.
+//! an installed program carries: tables of `reference-data`, accepted values, shipped calibrations, scenes, studies and sweeps.
 
 #[path = "build/commit.rs"]
 mod commit;
@@ -41,7 +41,7 @@ fn main() {
     embed("reference_data", &tables);
     // what follows is compared with results or makes new ones, but no result depends on it
     embed("accepted_values", &texts(&package, &["snapshots"], &["snap", "toml"]));
-    embed("plans", &texts(&package, &["calibrations", "scenes", "sweeps"], &["toml", "csv", "stl"]));
+    embed("plans", &texts(&package, &["calibrations", "scenes", "studies", "sweeps"], &["toml", "csv", "stl"]));
     for name in ["Cargo.lock", "Cargo.toml"] {
         let file = workspace.join(name);
         println!("cargo::rerun-if-changed={}", file.display());

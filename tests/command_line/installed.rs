@@ -94,7 +94,10 @@ fn every_command_works_and_keeps_its_runs_in_the_users_cache() {
     assert!(String::from_utf8_lossy(&template.get_output().stdout).contains("case = \"water-film\""));
 
     bagnold(&place, &["examples", "--out", "examples"]).assert().code(0);
-    assert_eq!(names(place.path(WORK).join("examples")), [".bagnold-output", "calibrations", "scenes", "sweeps"]);
+    assert_eq!(
+        names(place.path(WORK).join("examples")),
+        [".bagnold-output", "calibrations", "scenes", "studies", "sweeps"]
+    );
     let shipped = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../validation/calibrations"));
     assert_eq!(names(place.path(WORK).join("examples/calibrations")), names(shipped));
     let refused = bagnold(&place, &["calibrate", "examples/calibrations/no.toml"]).assert().code(2);

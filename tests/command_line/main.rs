@@ -20,6 +20,7 @@ mod restart;
 mod scene;
 mod simultaneous;
 mod states;
+mod study;
 mod sweep;
 mod terminal;
 mod vanished;

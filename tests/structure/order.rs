@@ -40,7 +40,7 @@ const VALIDATION: &[Floor] = &[
     floor(&["store", "checkpoint"]),
     floor(&["case"]),
     floor(&["cases", "evaluation", "result", "report"]),
-    floor(&["sweep", "calibration", "mutation", "judge", "compare"]),
+    floor(&["sweep", "calibration", "mutation", "judge", "compare", "study"]),
     floor(&["cli"]),
 ];
 

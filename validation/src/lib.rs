@@ -19,6 +19,7 @@ pub mod reference;
 pub mod report;
 pub mod result;
 pub mod store;
+pub mod study;
 pub mod sweep;
 
 pub use bagnold_figure as figure;

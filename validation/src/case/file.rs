@@ -47,6 +47,11 @@ impl CaseFile {
         let case = match fields.remove("case") {
             Some(Value::String(case)) => shortened(case),
             Some(other) => return Err(wrong("case", &other, "the name of a case", "`bagnold list` prints the names")),
+            None if fields.contains_key("study") => {
+                let (rule, remedy) =
+                    ("absent from the file of a case", "`bagnold run` takes a study; here name its base");
+                return Err(ParameterError::field("study", "given", rule, remedy).in_file(path));
+            }
             None => return Err(ParameterError::NoCase { file: path.to_owned() }),
         };
         let tier = match fields.remove("tier") {
@@ -71,6 +76,21 @@ impl CaseFile {
         let output = OutputPlan::taken(&mut fields, path)?;
         meshes::read_beside(&mut fields, path)?;
         Ok(Self { path: path.to_owned(), case, tier, overlay, output, fields })
+    }
+
+    /// Parameters that stand in a file of another form; files that they name stand beside it.
+    ///
+    /// # Errors
+    /// A file of triangles that cannot be read.
+    pub(crate) fn of_parameters(
+        path: &Path,
+        case: &str,
+        tier: Option<Tier>,
+        mut fields: Table,
+    ) -> Result<Self, ParameterError> {
+        meshes::read_beside(&mut fields, path)?;
+        let case = shortened(case.to_owned());
+        Ok(Self { path: path.to_owned(), case, tier, overlay: Vec::new(), output: None, fields })
     }
 
     /// The text of a complete file: the parameters in the order of their struct, each with its note.
@@ -126,6 +146,7 @@ mod tests {
             message("case = \"film\"\ntier = \"papre\""),
             "case.toml: `tier` is \"papre\", but must be one of `quick`, `paper`, `fine`; did you mean `paper`?"
         );
+        assert!(message("study = \"mine\"").contains("`study` is given, but must be absent from the file of a case"));
         assert!(message("case = \"film\"\ndepth = = 1").starts_with("case.toml: line 2, column 9: "));
     }
 

@@ -40,6 +40,7 @@ const RUN_EXAMPLES: &str = "Examples:
   bagnold run film --json > metrics.json
   bagnold run film --overlay mine.csv
   bagnold run column-planar --only material=sand,aspect_ratio=3 --output-every 0.01
+  bagnold run my-study.toml
 
 A file names its case with `case = \"film\"` and takes from the tier what it leaves out; `bagnold show film`
 prints a complete one. Values of --set are TOML; fields inside tables are reached by dots.
@@ -50,6 +51,19 @@ Measurements for --overlay are a table of three columns, named as the axes of a 
   # limit: 2                       largest root mean square residual; without it nothing is judged
   y/h [-],u [cm/s],uncertainty [cm/s]
   0.3,8.6,0.3
+
+A study, a file with `study = \"NAME\"`, says beside its base what is measured and judged:
+
+  study = \"my-flume\"
+  summary = \"glass beads in my flume\"
+  base = \"flume.toml\"
+  [[checks]]
+  name = \"front_over_time\"
+  table = \"gauges\"                 of the tables/*.csv that the base writes
+  column = \"front: front [m]\"
+  compare = \"mine.csv\"
+  at_most = 2.0
+  reason = \"two standard uncertainties of the camera\"
 
 `# figure:`, `# panel:` and `# curve:` say which is meant where there are several. --output-every, or in a file
 [output] with every and fields, writes states/RUN.pvd and states/RUN-walls.pvd; such runs are simulated from their start.
@@ -62,6 +76,7 @@ const REPORT_EXAMPLES: &str = "Examples:
   bagnold report
   bagnold report --tier paper --cases film,bagnold --out paper-report
   bagnold report --against yesterday --deny drift
+  bagnold report --suite my-flume
 
 The report is one self-contained folder: open its index.html, which leads to a page of every case. What fails comes first.
 
@@ -123,7 +138,7 @@ pub enum Command {
     Export(Export),
     /// Put results that were written earlier beside each other.
     Compare(Compare),
-    /// Write the calibrations, scenes and sweeps that ship with bagnold, to run or to edit.
+    /// Write the calibrations, scenes, studies and sweeps that ship with bagnold, to run or to edit.
     Examples(Examples),
     /// Write a crate with a law or a case of your own, ready to build.
     New(New),
@@ -157,7 +172,7 @@ pub struct Show {
 #[derive(Debug, Args)]
 #[command(after_help = RUN_EXAMPLES)]
 pub struct Run {
-    /// Name of a case, or a TOML file that describes one.
+    /// Name of a case, or a TOML file that describes one or a study.
     #[arg(value_name = "CASE|FILE.toml")]
     pub target: String,
     /// How much the case may cost [default: the file's, else quick].
@@ -226,17 +241,21 @@ pub enum CompletionsOf {
 #[derive(Debug, Args)]
 #[command(after_help = REPORT_EXAMPLES)]
 pub struct Report {
-    /// How much each case may cost.
-    #[arg(long, value_enum, default_value_t = Tier::Quick)]
-    pub tier: Tier,
+    /// How much each case may cost [default: quick, or what a study says].
+    #[arg(long, value_enum)]
+    pub tier: Option<Tier>,
     /// Cases by name, separated by commas [default: all].
     #[arg(long, value_name = "CASE,…", value_delimiter = ',')]
     pub cases: Vec<String>,
-    /// Folder to write.
-    #[arg(long, value_name = "DIR", default_value = "reports")]
-    pub out: PathBuf,
+    /// A folder of studies of your own, in place of the cases.
+    #[arg(long, value_name = "DIR", conflicts_with = "cases")]
+    pub suite: Option<PathBuf>,
+    /// Folder to write [default: reports, or reports/suites/NAME].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
     /// Accept these values: later reports and the drift test are compared with them. They go to tests/snapshots of the
-    /// checkout that one works in, else to snapshots in the current folder, which goes before what bagnold carries.
+    /// checkout that one works in, else to snapshots in the current folder, which goes before what bagnold carries; those of a
+    /// suite to snapshots in its folder.
     #[arg(long)]
     pub accept: bool,
     /// Compare with an earlier report's folder instead of the accepted values.

@@ -4,6 +4,7 @@ use super::new::NewError;
 use crate::calibration::CalibrationError;
 use crate::case::ParameterError;
 use crate::compare::CompareError;
+use crate::evaluation::PlanError;
 use crate::judge::JudgeError;
 use crate::output::{FileError, FolderError, reason};
 use crate::report::{BaselineError, EarlierError, ReportError};
@@ -15,6 +16,9 @@ pub enum ProgramError {
     /// A case does not take its parameters, or its threads cannot be started.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
+    /// A study is refused.
+    #[error(transparent)]
+    Study(#[from] PlanError),
     /// A folder cannot be used.
     #[error(transparent)]
     Folder(#[from] FolderError),

@@ -9,7 +9,7 @@ use std::path::Path;
 
 include!(concat!(env!("OUT_DIR"), "/plans.rs"));
 
-/// Writes the calibrations, scenes and sweeps that the program carries.
+/// Writes the calibrations, scenes, studies and sweeps that the program carries.
 pub(super) fn examples(command: &Examples, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
     let claimed = OutputFolder::claim(&command.out)?;
     for (name, text) in FILES {

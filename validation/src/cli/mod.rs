@@ -22,6 +22,7 @@ mod progress;
 mod report;
 mod run;
 mod store;
+mod study;
 mod summary;
 mod sweep;
 mod terminal;

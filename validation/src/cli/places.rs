@@ -1,5 +1,5 @@
 //! Where committed values lie: in the checkout, if one works in it; elsewhere in the current folder, and what is not there
-//! the program carries.
+//! the program carries. Those of a suite of studies lie in its folder.
 
 use super::error::ProgramError;
 use crate::case::Tier;
@@ -7,32 +7,52 @@ use crate::report::{Baseline, KnownFailures};
 use crate::store::provenance::workspace;
 use std::path::{Path, PathBuf};
 
-/// The folder with accepted values and known failures.
-pub(super) fn accepted_folder() -> PathBuf {
-    workspace().map_or_else(|| PathBuf::from("snapshots"), |root| root.join("tests").join("snapshots"))
+/// Whose committed values are meant.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Places {
+    /// Those of the program's cases.
+    OfCases,
+    /// Those of the studies in a folder.
+    OfSuite(PathBuf),
 }
 
-/// The accepted values of a case; none where nothing has been accepted.
-pub(super) fn accepted(case: &str, tier: Tier) -> Result<Baseline, ProgramError> {
-    let folder = accepted_folder();
-    let own = is_own(&Baseline::path(&folder, case, tier));
-    Ok(if own { Baseline::read(&folder, case, tier)? } else { Baseline::shipped(case, tier)? })
-}
+impl Places {
+    /// The folder with accepted values and known failures.
+    pub(super) fn accepted_folder(&self) -> PathBuf {
+        match self {
+            Self::OfCases => {
+                workspace().map_or_else(|| PathBuf::from("snapshots"), |root| root.join("tests").join("snapshots"))
+            }
+            Self::OfSuite(folder) => folder.join("snapshots"),
+        }
+    }
 
-/// The gates that are known to fail.
-pub(super) fn known_failures() -> Result<KnownFailures, ProgramError> {
-    let path = accepted_folder().join("known_failures.toml");
-    Ok(if is_own(&path) { KnownFailures::read(&path)? } else { KnownFailures::shipped()? })
-}
+    /// The accepted values of a case; none where nothing has been accepted.
+    pub(super) fn accepted(&self, case: &str, tier: Tier) -> Result<Baseline, ProgramError> {
+        let folder = self.accepted_folder();
+        let own = self.is_own(&Baseline::path(&folder, case, tier));
+        Ok(if own { Baseline::read(&folder, case, tier)? } else { Baseline::shipped(case, tier)? })
+    }
 
-/// The gated figures over time; the program carries none.
-pub(super) fn history_file() -> PathBuf {
-    let reports = workspace().map_or_else(|| PathBuf::from("reports"), |root| root.join("reports"));
-    reports.join("history.csv")
-}
+    /// The gates that are known to fail.
+    pub(super) fn known_failures(&self) -> Result<KnownFailures, ProgramError> {
+        let path = self.accepted_folder().join("known_failures.toml");
+        Ok(if self.is_own(&path) { KnownFailures::read(&path)? } else { KnownFailures::shipped()? })
+    }
 
-/// Whether a file goes before what the program carries. In a checkout also one that is missing does: what has been taken
-/// away there is gone.
-fn is_own(path: &Path) -> bool {
-    workspace().is_some() || path.exists()
+    /// The gated figures over time; the program carries none.
+    pub(super) fn history_file(&self) -> PathBuf {
+        match self {
+            Self::OfCases => {
+                workspace().map_or_else(|| PathBuf::from("reports"), |root| root.join("reports")).join("history.csv")
+            }
+            Self::OfSuite(_) => self.accepted_folder().join("history.csv"),
+        }
+    }
+
+    /// Whether a file goes before what the program carries. In a checkout, and of a suite, also one that is missing does: what
+    /// has been taken away there is gone.
+    fn is_own(&self, path: &Path) -> bool {
+        matches!(self, Self::OfSuite(_)) || workspace().is_some() || path.exists()
+    }
 }

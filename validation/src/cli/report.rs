@@ -1,16 +1,19 @@
-//! `bagnold report`: many cases on one page.
+//! `bagnold report`: many cases, or a suite of studies, on one page.
 
 use super::arguments::{Denied, Report as Arguments};
 use super::error::ProgramError;
+use super::places::Places;
 use super::profile::Profile;
 use super::run::{announce, simulate};
-use super::{Exit, places, say, summary, tell};
+use super::{Exit, say, summary, tell};
 use crate::case::{CaseResult, Changes, ParameterError, Prepared, Registry, Tier};
-use crate::output::OutputFolder;
+use crate::output::{FileError, FolderError, OutputFolder};
 use crate::report::{self, Baseline, CaseReport, History, KnownFailures, Provenance, Report, Standing, history};
 use crate::result::MetricsDocument;
 use crate::store::provenance;
+use crate::study::{Study, Suite};
 use std::io::Write;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Simulates and judges the cases, writes the page and prints what fails.
@@ -20,34 +23,37 @@ pub(super) fn report(
     quiet: bool,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
-    let cases = prepare(command, registry)?;
-    let names: Vec<String> = cases.iter().map(|case| case.name().to_owned()).collect();
-    let mut baseline = baseline(command, &names)?;
-    let claimed = OutputFolder::claim(&command.out)?;
-    let known = places::known_failures()?;
-    let history = History::read(&places::history_file(), command.tier)?;
+    let suite = command.suite.as_ref().map(|folder| Suite::read(folder, registry)).transpose()?;
+    let (cases, places) = match (&suite, &command.suite) {
+        (Some(suite), Some(folder)) => {
+            let cases = suite.prepare(registry, command.tier, command.allowance.limits())?;
+            (cases, Places::OfSuite(folder.clone()))
+        }
+        _ => (prepare(command, registry)?, Places::OfCases),
+    };
+    let out = folder(command)?;
+    let claimed = OutputFolder::claim(&out)?;
+    let known = places.known_failures()?;
+    let tiers = suite.iter().flat_map(|suite| suite.studies().iter().map(Study::tier));
+    let tier = command.tier.or_else(|| tiers.min_by_key(|tier| tier.name() != "quick")).unwrap_or(Tier::Quick);
+    let history = History::read(&places.history_file(), tier)?;
     let store = command.work.open_store();
     let expectation = announce("report", &cases, &store, quiet);
     let started = Instant::now();
     let mut profile = Profile::begin();
-    let results = simulate(cases, &store, quiet, Some(&expectation))?;
+    let simulated = simulate(cases, &store, quiet, Some(&expectation))?;
+    let results = match &suite {
+        Some(suite) => suite.judge(simulated)?,
+        None => simulated,
+    };
     profile.over("runs and their figures");
-    if command.accept {
-        baseline = Baseline::default();
-        for result in &results {
-            let fresh = Baseline::of(&result.name, &result.metrics);
-            fresh.write(&places::accepted_folder(), &result.name, command.tier)?;
-            let made_by = (provenance::version(), provenance::commit());
-            history::append(&places::history_file(), made_by, command.tier, &result.name, &result.metrics)?;
-            baseline.extend(fresh);
-        }
-    }
+    let baseline = if command.accept { accept(&places, &results)? } else { baseline(command, &places, &results)? };
     let cases: Vec<CaseReport> = results.iter().map(case_report).collect();
     let page = Report {
-        title: "Bagnold validation report".to_owned(),
-        tier: command.tier,
+        title: command.suite.as_ref().map_or_else(|| "Bagnold validation report".to_owned(), |folder| name_of(folder)),
+        tier,
         generated: Provenance::of_this_program(started.elapsed(), repeated(command)),
-        papers: report::papers::accounted(&cases),
+        papers: if suite.is_none() { report::papers::accounted(&cases) } else { &[] },
         cases,
         baseline,
         against: command.against.as_ref().map(|folder| folder.display().to_string()),
@@ -55,8 +61,16 @@ pub(super) fn report(
         known_failures: known.clone(),
     };
     report::write(&page, claimed.staging(), &store.drawings())?;
+    for (study, result) in suite.iter().flat_map(Suite::studies).zip(&results) {
+        // what its case.toml compares with
+        let folder = claimed.staging().join("cases").join(&result.name);
+        let kept = study.measurements().try_for_each(|measured| measured.keep(&folder));
+        kept.map_err(|error| FileError::unwritable(&folder, &error))?;
+    }
     claimed.publish()?;
-    expectation.learn(&results, store.root(), rayon::current_num_threads());
+    if suite.is_none() {
+        expectation.learn(&results, store.root(), rayon::current_num_threads());
+    }
     profile.over("pages");
     if let Some(path) = &command.junit {
         report::write_junit(&page, path)?;
@@ -67,7 +81,7 @@ pub(super) fn report(
         say(output, &summary::heading(result));
         say(output, &summary::failures(result, is_known));
     }
-    say(output, &format!("written to {}\n", command.out.join("index.html").display()));
+    say(output, &format!("written to {}\n", out.join("index.html").display()));
     let exit = Exit::of(&results, |result, metric| is_known(&known, result, metric));
     let drifted = drifted(&page);
     say(output, &drifted);
@@ -78,14 +92,48 @@ pub(super) fn report(
     Ok(if denied && exit == Exit::Held { Exit::GateFailed } else { exit })
 }
 
+/// The folder to write.
+fn folder(command: &Arguments) -> Result<PathBuf, FolderError> {
+    let by_itself = |folder: &Path| {
+        OutputFolder::adopt(Path::new("reports"))?;
+        Ok(Path::new("reports").join("suites").join(name_of(folder)))
+    };
+    match (&command.out, &command.suite) {
+        (Some(folder), _) => Ok(folder.clone()),
+        (None, Some(suite)) => by_itself(suite),
+        (None, None) => Ok(PathBuf::from("reports")),
+    }
+}
+
+/// The last part of a folder's path, also of `.`.
+fn name_of(folder: &Path) -> String {
+    let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    whole.file_name().map_or_else(|| "suite".to_owned(), |name| name.to_string_lossy().into_owned())
+}
+
+/// Accepts the values of these results.
+fn accept(places: &Places, results: &[CaseResult]) -> Result<Baseline, ProgramError> {
+    let mut baseline = Baseline::default();
+    for result in results {
+        let fresh = Baseline::of(&result.name, &result.metrics);
+        fresh.write(&places.accepted_folder(), &result.name, result.tier)?;
+        let made_by = (provenance::version(), provenance::commit());
+        history::append(&places.history_file(), made_by, result.tier, &result.name, &result.metrics)?;
+        baseline.extend(fresh);
+    }
+    Ok(baseline)
+}
+
 /// What the values are compared with: those of an earlier report, or the accepted ones.
-fn baseline(command: &Arguments, cases: &[String]) -> Result<Baseline, ProgramError> {
+fn baseline(command: &Arguments, places: &Places, results: &[CaseResult]) -> Result<Baseline, ProgramError> {
     if let Some(folder) = &command.against {
-        return Ok(Baseline::of_report(folder, cases, command.tier)?);
+        let names: Vec<String> = results.iter().map(|result| result.name.clone()).collect();
+        let tier = results.first().map_or(Tier::Quick, |result| result.tier);
+        return Ok(Baseline::of_report(folder, &names, tier)?);
     }
     let mut baseline = Baseline::default();
-    for case in cases {
-        baseline.extend(places::accepted(case, command.tier)?);
+    for result in results {
+        baseline.extend(places.accepted(&result.name, result.tier)?);
     }
     Ok(baseline)
 }
@@ -109,14 +157,18 @@ fn prepare(command: &Arguments, registry: Registry) -> Result<Vec<Box<dyn Prepar
         command.cases.iter().map(|name| registry.find(name.trim())).collect::<Result<Vec<_>, _>>()?
     };
     let changes = Changes { limits: command.allowance.limits(), ..Changes::default() };
-    wanted.into_iter().map(|case| case.prepare(command.tier, &changes)).collect()
+    let tier = command.tier.unwrap_or(Tier::Quick);
+    wanted.into_iter().map(|case| case.prepare(tier, &changes)).collect()
 }
 
 /// The command that makes the same report again.
 fn repeated(command: &Arguments) -> String {
     let mut words = "bagnold report".to_owned();
-    if command.tier != Tier::Quick {
-        words += &format!(" --tier {}", command.tier);
+    if let Some(tier) = command.tier.filter(|tier| *tier != Tier::Quick) {
+        words += &format!(" --tier {tier}");
+    }
+    if let Some(folder) = &command.suite {
+        words += &format!(" --suite {}", folder.display());
     }
     if !command.cases.is_empty() {
         words += &format!(" --cases {}", command.cases.join(","));

@@ -92,6 +92,12 @@ impl OutputFolder {
         Ok(marked.map_err(|error| FileError::unwritable(folder, &error))?)
     }
 
+    /// The folder that is claimed.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
     /// Where the new contents are written.
     #[must_use]
     pub fn staging(&self) -> &Path {

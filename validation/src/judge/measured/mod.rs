@@ -95,6 +95,33 @@ impl Measurements {
         self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
     }
 
+    /// Where they come from: what the file says, else the file.
+    pub(crate) fn source(&self) -> String {
+        self.said.source.clone().unwrap_or_else(|| self.path.display().to_string())
+    }
+
+    /// How sure the file is of them.
+    pub(crate) fn confidence(&self) -> Option<Confidence> {
+        self.said.confidence
+    }
+
+    /// Points (abscissa, value, standard uncertainty) in other units of the same kinds.
+    ///
+    /// # Errors
+    /// A unit of another kind.
+    pub(crate) fn in_units(&self, abscissa: &str, measured: &str) -> Result<Vec<[f64; 3]>, FieldError> {
+        let factor = |column: &Column, unit: &str| {
+            reading::same_kind(&column.unit, unit).ok_or_else(|| {
+                let rule = format!("a unit of the same kind as [{unit}]");
+                let error = FieldError::new(&column.name, format!("[{}]", column.unit), &rule, "mend the heading");
+                error.in_file(&self.path)
+            })
+        };
+        let (to_x, to_y) = (factor(&self.abscissa, abscissa)?, factor(&self.measured, measured)?);
+        let points = self.abscissa.values.iter().zip(&self.measured.values).zip(&self.uncertainty);
+        Ok(points.map(|((x, y), u)| [x * to_x, y * to_y, u * to_y]).collect())
+    }
+
     /// Draws them into the figure whose axes are theirs, and adds a metric for each curve that is there: the root mean square of
     /// (curve − measurement)/uncertainty, observed unless the file states a limit.
     ///
@@ -114,7 +141,7 @@ impl Measurements {
         let variant = Variant::of("overlay", name.as_str());
         let variant =
             if one_of_several { variant.and("curve", text_of_variant(&curve.label).as_str()) } else { variant };
-        let mut source = self.said.source.clone().unwrap_or_else(|| self.path.display().to_string());
+        let mut source = self.source();
         let all = self.measured.values.len();
         if curve.compared < all {
             let beyond = format!("{} of {all} measurements, the others lie beyond the curve's ends", curve.compared);

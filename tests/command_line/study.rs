@@ -1,0 +1,209 @@
+//! Studies of a user's own: `run STUDY.toml` and `report --suite`.
+
+use crate::program::{Place, document};
+use assert_cmd::assert::Assert;
+use bagnold_validation::metric::Verdict;
+use bagnold_validation::result::MetricEntry;
+
+/// A block of beads of a few particles that falls apart for a moment.
+const FLUME: &str = "case = \"scene\"\nname = \"flume\"\ngravity = [0.0, -9.81]\nspacing = 0.02\nduration = 0.1\ninterval = 0.01\n\
+    [sides]\nleft = { mirror = 0.0 }\nright = { open = 0.5 }\nbottom = \"none\"\ntop = \"none\"\n\
+    [[bodies]]\nshape = \"box\"\nlower = [0.0, 0.0]\nupper = [0.1, 0.1]\n\
+    [[walls]]\nname = \"bed\"\npoints = [[0.0, 0.0], [0.5, 0.0]]\n\
+    [[gauges]]\nkind = \"front\"\nname = \"front\"\nfrom = [0.0, 0.0]\nto = [0.5, 0.0]\nthickness = 0.02\n";
+
+const STUDY: &str = "study = \"my-flume\"\nsummary = \"beads in my flume\"\nbase = \"flume.toml\"\n\
+    [[vary]]\npath = \"spacing\"\nvalues = [0.02, 0.0125]\n\
+    [[checks]]\nname = \"front_at_the_end\"\ntable = \"gauges\"\ncolumn = \"front: front [m]\"\nvalue = \"last\"\n\
+    within = [0.0, 1.0]\nreason = \"the flume is that long\"\n\
+    [[checks]]\nname = \"front_over_time\"\ntable = \"gauges\"\ncolumn = \"front: front [m]\"\ncompare = \"front.csv\"\n\
+    distance = \"mean\"\nat_most = 0.0\nreason = \"the series lies ahead\"\n";
+
+/// Measurements a metre ahead of anything, in another unit.
+const AHEAD: &str = "# source: far ahead\nt [ms],front [cm],uncertainty [cm]\n20,100,1\n80,100,1\n";
+
+fn place() -> Place {
+    let place = Place::new();
+    place.file("flume.toml", FLUME);
+    place.file("front.csv", AHEAD);
+    place.file("study.toml", STUDY);
+    place
+}
+
+fn of(finished: &Assert, name: &str) -> Vec<MetricEntry> {
+    document(finished).metrics.into_iter().filter(|metric| metric.name == name).collect()
+}
+
+fn refused(place: &Place, text: &str) -> String {
+    place.file("bad.toml", text);
+    let finished = place.bagnold(&["run", "bad.toml", "--out", "out", "--quiet"]).assert().code(2);
+    String::from_utf8_lossy(&finished.get_output().stderr).into_owned()
+}
+
+#[test]
+fn a_study_is_judged_by_what_its_tables_hold() {
+    let place = place();
+    let finished = place.run(&["study.toml", "--json"]).code(0);
+    let fronts = of(&finished, "front_at_the_end");
+    let variants: Vec<String> = fronts.iter().map(|metric| metric.variant.to_string()).collect();
+    assert_eq!(variants, ["spacing=0.02,scene=flume", "spacing=0.0125,scene=flume"]);
+    for (metric, file) in fronts.iter().zip(["spacing-0.02", "spacing-0.0125"]) {
+        let table =
+            std::fs::read_to_string(place.path(&format!("out/tables/gauges-scene-flume-{file}.csv"))).expect("a table");
+        let column =
+            table.lines().next().and_then(|line| line.split(',').position(|heading| heading == "front: front [m]"));
+        let last = table.lines().last().and_then(|line| line.split(',').nth(column.expect("the column")));
+        assert_eq!(metric.value, last.and_then(|word| word.parse().ok()), "{file}");
+        assert_eq!((metric.verdict, metric.unit.as_str()), (Verdict::Pass, "m"));
+    }
+    // a metre is 100 cm, and the front has come some 0.1 m
+    let ahead = of(&finished, "front_over_time");
+    assert!(ahead.iter().all(|metric| metric.value.is_some_and(|value| value > -0.95 && value < -0.8)), "{ahead:?}");
+    // the balances of the case itself stand below
+    let balances = of(&finished, "mass_residual");
+    assert!(balances.len() == 2 && balances.iter().all(|metric| metric.verdict == Verdict::Pass));
+    let page = std::fs::read_to_string(place.path("out/index.html")).expect("a page");
+    assert!(page.contains("the flume is that long") && page.contains("far ahead"));
+    assert!(place.path("out/figures/gauges-front-front-m.svg").is_file());
+
+    // what the folder keeps gives the same again, from the store
+    let again = place.bagnold(&["run", "out/case.toml", "--out", "again", "--json", "--quiet"]).assert().code(0);
+    for name in ["front_at_the_end", "front_over_time"] {
+        let values = |finished: &Assert| of(finished, name).iter().map(|metric| metric.value).collect::<Vec<_>>();
+        assert_eq!(values(&again), values(&finished), "{name}");
+    }
+    assert_eq!(document(&again).state_hash, document(&finished).state_hash);
+}
+
+#[test]
+fn a_gate_of_a_study_fails_and_one_that_cannot_be_measured_too() {
+    let place = place();
+    place.file("study.toml", &STUDY.replace("at_most = 0.0", "at_least = 0.0"));
+    let finished = place.run(&["study.toml", "--json", "--quiet"]).code(1);
+    assert!(of(&finished, "front_over_time").iter().all(|metric| metric.verdict == Verdict::Fail));
+    // a run that ends before the last measured point is not judged by its beginning
+    place.file("study.toml", STUDY);
+    place.file("front.csv", &AHEAD.replace("80,", "800,"));
+    let finished = place.run(&["study.toml", "--json", "--quiet"]).code(1);
+    let late = of(&finished, "front_over_time");
+    assert!(late.iter().all(|metric| metric.verdict == Verdict::Fail && metric.value.is_none()), "{late:?}");
+}
+
+#[test]
+fn variants_and_settings_change_what_is_simulated() {
+    let place = place();
+    let variants =
+        "[[variants]]\nname = \"low\"\nset = { \"gravity\" = [0.0, -1.0] }\n[[variants]]\nname = \"usual\"\n[[checks]]";
+    let text = STUDY.replacen("[[vary]]\npath = \"spacing\"\nvalues = [0.02, 0.0125]\n", "", 1).replacen(
+        "[[checks]]",
+        variants,
+        1,
+    );
+    place.file("study.toml", &text);
+    let finished = place.run(&["study.toml", "--json", "--quiet"]).code(0);
+    let fronts = of(&finished, "front_at_the_end");
+    let [low, usual] = &fronts[..] else { panic!("{fronts:?}") };
+    assert_eq!(low.variant.to_string(), "variant=low,scene=flume");
+    assert!(low.value < usual.value, "beads run slower under a tenth of gravity: {low:?}, {usual:?}");
+    let shorter = place.run(&["study.toml", "--json", "--quiet", "--set", "duration=0.09"]).code(0);
+    assert_ne!(document(&shorter).state_hash, document(&finished).state_hash);
+}
+
+#[test]
+fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
+    let place = place();
+    for (from, to, said) in [
+        ("table = \"gauges\"", "table = \"gaugs\"", "`checks[0].table` is \"gaugs\", but must be a table of scene"),
+        ("front: front [m]", "front [m]", "did you mean \"front: front [m]\"?"),
+        ("path = \"spacing\"", "path = \"spacin\"", "bad.toml: `path` is `spacin`, but `scene` has no such field"),
+        ("0.0125]", "0.02]", "`vary[0].values[1]` is 0.02, but must be unlike the others"),
+        ("0.0125]", "-1.0]", "bad.toml: `spacing` is -1"),
+        ("study = \"my-flume\"", "study = \"film\"", "unlike the name of a case"),
+        ("study = \"my-flume\"", "study = \"../x\"", "a name that a folder can have"),
+        ("study = ", "study == ", "bad.toml: line 1, column 8"),
+        ("base = \"flume.toml\"", "", "`case` is missing"),
+        ("base = \"flume.toml\"", "case = \"scen\"", "unknown case `scen`; did you mean `scene`?"),
+        ("base = \"flume.toml\"", "base = \"no.toml\"", "no.toml: cannot be read"),
+        ("reason = \"the flume is that long\"", "", "`checks[0].reason` is missing"),
+        ("within = [0.0, 1.0]", "within = [1.0, 0.0]", "`checks[0].within` is 1 … 0"),
+        ("within = [0.0, 1.0]", "within = [0.0, 1.0]\nat_most = 1.0", "but must be the only limit"),
+        ("within = [0.0, 1.0]", "within_uncertainties = 2.0", "beside `reference` and `standard_uncertainty`"),
+        ("within = [0.0, 1.0]", "within = [0.0, 1.0]\nreference = 0.1", "`checks[0].source` is missing"),
+        (
+            "within = [0.0, 1.0]",
+            "within = [0.0, 1.0]\nconfidence = \"unverified\"",
+            "`checks[0].confidence` is unverified, but must be more than that beside a limit",
+        ),
+        ("value = \"last\"", "", "exactly one of `metric`, `value`, `compare` and `order_of`"),
+        ("value = \"last\"", "value = \"last\"\norder_in = \"spacing\"", "`checks[0].order_in` is given"),
+        ("value = \"last\"", "value = \"last\"\nonly = \"spacing=3\"", "`checks[0].only` is \"spacing=3\""),
+        ("compare = \"front.csv\"", "compare = \"flume.toml\"", "`checks[1].compare` is \"flume.toml\""),
+        ("\"front_over_time\"", "\"Front over time\"", "a word of lower-case letters"),
+        ("\"front_over_time\"", "\"front_at_the_end\"", "`checks[1].name` is front_at_the_end"),
+    ] {
+        assert!(STUDY.contains(from), "{from}");
+        let message = refused(&place, &STUDY.replacen(from, to, 1));
+        assert!(message.contains(said), "{to}: {message}");
+    }
+    let whole = STUDY.split("[[checks]]").next().expect("a beginning");
+    assert!(refused(&place, whole).contains("`checks` is empty"));
+    let order = "[[checks]]\nname = \"order\"\norder_of = \"front\"\norder_in = \"spacing\"\n";
+    assert!(
+        refused(&place, &format!("{STUDY}{order}"))
+            .contains("`checks[2].order_of` is front, but must be the name of an earlier check")
+    );
+    let only = place.bagnold(&["run", "study.toml", "--only", "spacing=0.02"]).assert().code(2);
+    assert!(String::from_utf8_lossy(&only.get_output().stderr).contains("absent beside a study"));
+}
+
+#[test]
+fn a_suite_is_one_report_with_accepted_values_of_its_own() {
+    let place = place();
+    let metric = "study = \"balances\"\nsummary = \"its balances\"\nbase = \"flume.toml\"\n\
+        [[checks]]\nname = \"energy\"\nmetric = \"energy_residual\"\n";
+    place.file("balances.toml", metric);
+    let report = |more: &[&str]| {
+        let arguments = [&["report", "--suite", ".", "--out", "suite", "--quiet"], more].concat();
+        place.bagnold(&arguments).assert()
+    };
+    report(&[]).code(0);
+    for name in ["my-flume", "balances"] {
+        assert!(place.path(&format!("suite/cases/{name}/index.html")).is_file(), "{name}");
+    }
+    let overview = std::fs::read_to_string(place.path("suite/index.html")).expect("a page");
+    assert!(
+        overview.contains("beads in my flume")
+            && overview.contains("its balances")
+            && !overview.contains("column-planar")
+    );
+    // what a study compares with lies beside its file
+    place.bagnold(&["run", "suite/cases/my-flume/case.toml", "--out", "alone", "--quiet"]).assert().code(0);
+
+    report(&["--accept"]).code(0);
+    report(&["--deny", "drift"]).code(0);
+    let snapshot = place.path("snapshots/quick/balances.snap");
+    let text = std::fs::read_to_string(&snapshot).expect("accepted");
+    let line = text.lines().find(|line| line.starts_with("energy |")).expect("the check").to_owned();
+    let moved: String = line.chars().map(|letter| if letter == '1' { '7' } else { letter }).collect();
+    let moved = if moved == line { line.replace(['2', '3', '4', '5', '6', '8', '9'], "1") } else { moved };
+    std::fs::write(&snapshot, text.replace(&line, &moved)).expect("writable");
+    let finished = report(&["--deny", "drift"]).code(1);
+    assert!(String::from_utf8_lossy(&finished.get_output().stdout).contains("drifted: balances"));
+
+    let empty = Place::new();
+    let finished = empty.bagnold(&["report", "--suite", "."]).assert().code(2);
+    assert!(String::from_utf8_lossy(&finished.get_output().stderr).contains("a folder with at least one study"));
+}
+
+#[test]
+fn the_shipped_study_holds() {
+    let shipped = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/studies/beads-in-a-flume.toml");
+    let finished = Place::new().run(&[&shipped.display().to_string(), "--json", "--quiet"]).code(0);
+    let gated: Vec<String> = document(&finished)
+        .metrics
+        .into_iter()
+        .filter(|metric| metric.verdict == Verdict::Pass && metric.name.starts_with(['f', 'l']))
+        .map(|metric| metric.name)
+        .collect();
+    assert_eq!(gated, ["front_over_time", "load_at_rest", "load_at_rest"]);
+}

@@ -1,0 +1,75 @@
+//! `bagnold run STUDY.toml`: the runs of a user's own study, judged by its checks.
+
+use super::Exit;
+use super::arguments::Run;
+use super::error::ProgramError;
+use super::places::Places;
+use super::profile::Profile;
+use super::run::{Publication, Written, announce, simulate};
+use crate::case::{ParameterError, Registry};
+use crate::output::OutputFolder;
+use crate::report::Baseline;
+use crate::study::{Study, is_study};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// The file of a study, if that is what the target names. A case goes before a file of the same name.
+pub(super) fn file(target: &str, registry: Registry) -> Option<PathBuf> {
+    let path = Path::new(target);
+    (registry.find(target).is_err() && path.is_file() && is_study(path)).then(|| path.to_owned())
+}
+
+/// Simulates, judges, writes and prints a study.
+pub(super) fn run(
+    file: &Path,
+    command: &Run,
+    registry: Registry,
+    quiet: bool,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, ProgramError> {
+    refuse_what_cases_take(command)?;
+    let study = Study::read(file, registry)?;
+    let tier = command.tier.unwrap_or(study.tier());
+    let cases = study.prepare(registry, command.tier, &command.settings, command.allowance.limits())?;
+    let folder = command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/runs/{}-{tier}", study.name())));
+    if command.out.is_none() {
+        OutputFolder::adopt(Path::new("reports"))?;
+    }
+    let claimed = OutputFolder::claim(&folder)?;
+    let store = command.work.open_store();
+    let expectation = announce("run", &cases, &store, quiet || command.json);
+    let places = Places::OfSuite(file.parent().unwrap_or(Path::new("")).to_owned());
+    let known = places.known_failures()?;
+    // accepted values are those of the study as it stands
+    let is_changed = !command.settings.is_empty();
+    let baseline = if is_changed { Baseline::default() } else { places.accepted(study.name(), tier)? };
+    let started = Instant::now();
+    let mut profile = Profile::begin();
+    let results = simulate(cases, &store, quiet, Some(&expectation))?;
+    profile.over("runs and their figures");
+    let result = study.judge(results)?;
+    let written = Written {
+        command,
+        title: study.name().to_owned(),
+        tier,
+        baseline,
+        known,
+        measured: study.measurements().collect(),
+        learns: false,
+    };
+    written.publish(&[result], Publication { claimed, store: &store, expectation, started, profile }, output)
+}
+
+/// Options that mean one case.
+fn refuse_what_cases_take(command: &Run) -> Result<(), ParameterError> {
+    let options = [
+        ("--only", !command.only.is_empty(), "leave out variants of the study"),
+        ("--overlay", !command.overlay.is_empty(), "name the file by `compare` in a check"),
+        ("--output-every", command.output_every.is_some(), "run the case that the study is based on"),
+    ];
+    match options.into_iter().find(|(_, given, _)| *given) {
+        Some((option, _, remedy)) => Err(ParameterError::field(option, "given", "absent beside a study", remedy)),
+        None => Ok(()),
+    }
+}

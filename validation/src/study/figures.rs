@@ -1,0 +1,54 @@
+//! What checks have read, drawn beside what it is compared with.
+
+use super::check::{Check, Read};
+use super::{Reading, probe};
+use crate::figure::{Axis, Figure, Mark, Panel};
+use crate::input::FieldError;
+
+/// Adds the figure of a check's column, or draws its reference into that which an earlier check has made.
+pub(super) fn add(figures: &mut Vec<Figure>, check: &Check, readings: &[Reading]) -> Result<(), FieldError> {
+    let (Read::Value(column, _) | Read::Distance(column, ..)) = &check.read else { return Ok(()) };
+    let Some(first) = readings.iter().find_map(|reading| reading.curve.as_ref()) else { return Ok(()) };
+    let name = name_of(&format!("{}-{}", column.table, column.column));
+    let place = figures.iter().position(|figure| figure.name == name).unwrap_or_else(|| {
+        let mut panel = Panel::new("", Axis::linear(&first.over), Axis::linear(&column.column));
+        for (slot, reading) in readings.iter().enumerate() {
+            let curve = reading.curve.as_ref().map(|curve| curve.points.clone()).unwrap_or_default();
+            let label = reading.variant.to_string();
+            panel.line(if label.is_empty() { "simulated" } else { &label }, slot, curve);
+        }
+        let caption = format!("{} over {}, as simulated", column.column, first.over);
+        figures.push(Figure::new(&name, &caption, vec![panel]));
+        figures.len() - 1
+    });
+    let figure = &mut figures[place];
+    let panel = &mut figure.panels[0];
+    let colour = panel.series.iter().map(|series| series.colour + 1).max().unwrap_or(0);
+    let mut said = String::new();
+    if let Read::Distance(column, measured, _) = &check.read {
+        let points = probe::in_units_of(measured, column, first)?;
+        let cloud = points.iter().map(|point| (point[0], point[1]));
+        let series = panel.draw(&measured.name(), Mark::Points, colour, cloud);
+        series.error = points.iter().map(|point| point[2]).collect();
+        said = format!("points with their standard uncertainty: {}", measured.source());
+    } else if let Some((value, uncertainty)) = check.reference() {
+        let ends = first.points.first().zip(first.points.last()).map_or((0.0, 1.0), |(from, to)| (from.0, to.0));
+        panel.reference(&check.name, [(ends.0, value), (ends.1, value)]);
+        if let Some(uncertainty) = uncertainty {
+            let edges = [ends.0, ends.1].map(|x| (x, value - uncertainty, value + uncertainty));
+            panel.band("", edges);
+        }
+        said = format!("dashed: reference of {}, shaded by its standard uncertainty", check.name);
+    }
+    if !said.is_empty() {
+        figure.caption += &format!("; {said}");
+    }
+    Ok(())
+}
+
+/// A file name: letters, digits and dashes.
+fn name_of(text: &str) -> String {
+    let letters: String = text.chars().map(|letter| if letter.is_alphanumeric() { letter } else { '-' }).collect();
+    let words: Vec<&str> = letters.split('-').filter(|word| !word.is_empty()).collect();
+    words.join("-").to_lowercase()
+}

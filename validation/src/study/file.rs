@@ -1,0 +1,297 @@
+//! A study as a TOML file.
+
+use crate::case::Tier;
+use crate::figure::is_file_name;
+use crate::input::{FieldError, check_name, check_text};
+use crate::metric::{Confidence, Value as VariantValue, Variant};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+use toml::{Table, Value};
+
+/// More runs than this are a slip of the pen.
+const MOST_VARIANTS: usize = 1000;
+
+/// The file, field by field.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StudyText {
+    /// Name of the study, also of its folder and page.
+    pub(super) study: String,
+    /// One line.
+    pub(super) summary: String,
+    /// What is simulated and what it is judged against; paragraphs are separated by empty lines.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) description: String,
+    /// The case that simulates.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) case: Option<String>,
+    /// A case file with the base values, in place of `case`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) base: Option<PathBuf>,
+    /// The tier whose parameters fill what the base values leave out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) tier: Option<Tier>,
+    /// Base values: the case's parameters, as in a case file.
+    #[serde(default, skip_serializing_if = "Table::is_empty")]
+    pub(super) parameters: Table,
+    /// Named changes of the base values.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) variants: Vec<NamedVariant>,
+    /// Parameters that take several values, each with each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) vary: Vec<Varied>,
+    /// What is measured and judged.
+    #[serde(default)]
+    pub(super) checks: Vec<CheckText>,
+}
+
+/// Changes that have a name.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct NamedVariant {
+    pub(super) name: String,
+    /// Values by the dotted paths of parameters.
+    #[serde(default)]
+    pub(super) set: Table,
+}
+
+/// A parameter that takes several values.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Varied {
+    pub(super) path: String,
+    /// What it is called in variants; the last key of the path without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) name: Option<String>,
+    pub(super) values: Vec<Value>,
+}
+
+/// A check: what is measured, and what it is judged by.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CheckText {
+    /// snake_case name of the metric.
+    pub(super) name: String,
+    /// Variants that are meant; all without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) only: Option<Variant>,
+
+    /// A metric of the case itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) metric: Option<String>,
+    /// A table that the case writes, by its name or the beginning of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) table: Option<String>,
+    /// Heading of the column that is measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) column: Option<String>,
+    /// Heading of the column that it is measured over; the first one without.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) over: Option<String>,
+    /// First value of that column that counts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) from: Option<f64>,
+    /// Last value of that column that counts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) to: Option<f64>,
+    /// What is taken of the column.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) value: Option<Reduction>,
+    /// File with a measured series: three columns.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) compare: Option<PathBuf>,
+    /// How the distance from the measured series is taken.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) distance: Option<Distance>,
+    /// Another check, an error that shrinks as a varied parameter does: its order.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) order_of: Option<String>,
+    /// The varied parameter that the order is taken in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) order_in: Option<String>,
+
+    /// The value that is expected, in the unit of what is measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) reference: Option<f64>,
+    /// Its standard uncertainty.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) standard_uncertainty: Option<f64>,
+    /// Where it comes from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) source: Option<String>,
+    /// How sure one is of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) confidence: Option<Confidence>,
+    /// Largest value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) at_most: Option<f64>,
+    /// Smallest value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) at_least: Option<f64>,
+    /// Smallest and largest value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) within: Option<(f64, f64)>,
+    /// Largest distance from the reference in its standard uncertainties.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) within_uncertainties: Option<f64>,
+    /// Why the limit stands where it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) reason: Option<String>,
+}
+
+/// What is taken of a column.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Reduction {
+    /// The first value.
+    First,
+    /// The last value.
+    Last,
+    /// The largest value.
+    Largest,
+    /// The smallest value.
+    Smallest,
+    /// The mean, by the trapezoidal rule over the other column.
+    Mean,
+    /// The value at a place of the other column, linear between its rows.
+    At(f64),
+}
+
+/// How far a column is from a measured series.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Distance {
+    /// Root mean square of the differences in their standard uncertainties `[-]`.
+    Residual,
+    /// Root of the mean square of the differences over that of the measured values `[%]`.
+    RelativeL2,
+    /// Largest difference, in the column's unit.
+    Largest,
+    /// Mean difference, in the column's unit: simulated less measured.
+    Mean,
+}
+
+impl Varied {
+    /// What it is called in variants.
+    pub(super) fn label(&self) -> &str {
+        self.name.as_deref().unwrap_or_else(|| self.path.rsplit('.').next().unwrap_or_default())
+    }
+}
+
+/// One set of changes: the variant and the `path=value` settings that make it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Changed {
+    pub(super) variant: Variant,
+    pub(super) settings: Vec<String>,
+}
+
+impl StudyText {
+    /// Refuses what no case would see.
+    pub(super) fn check(&self) -> Result<(), FieldError> {
+        check_name("study", &self.study)?;
+        if !is_file_name(&self.study) {
+            let rule = "a name that a folder can have: letters, digits, `-` and `_`";
+            return Err(FieldError::new("study", format!("\"{}\"", self.study), rule, "such as \"my-flume\""));
+        }
+        check_text("summary", &self.summary)?;
+        self.description.lines().try_for_each(|line| check_text("description", line))?;
+        match (&self.case, &self.base) {
+            (Some(_), None) | (None, Some(_)) => {}
+            (None, None) => {
+                let remedy = "add case = \"scene\" with [parameters], or base = \"my-case.toml\"";
+                return Err(FieldError::new("case", "missing", "the name of a case, or `base` a case file", remedy));
+            }
+            (Some(case), Some(_)) => {
+                let remedy = "leave one of them out";
+                return Err(FieldError::new("case", format!("\"{case}\" beside `base`"), "given alone", remedy));
+            }
+        }
+        if self.checks.is_empty() {
+            let remedy = "add a [[checks]] table: without one nothing is judged";
+            return Err(FieldError::new("checks", "empty", "at least one table", remedy));
+        }
+        self.check_variants()
+    }
+
+    fn check_variants(&self) -> Result<(), FieldError> {
+        let mut product = self.variants.len().max(1);
+        for (place, named) in self.variants.iter().enumerate() {
+            let field = format!("variants[{place}].name");
+            check_name(&field, &named.name)?;
+            if self.variants[..place].iter().any(|other| other.name == named.name) {
+                return Err(FieldError::new(&field, &named.name, "unlike the others", "give each a name of its own"));
+            }
+        }
+        for (place, varied) in self.vary.iter().enumerate() {
+            let field = format!("vary[{place}]");
+            check_name(&format!("{field}.name"), varied.label())?;
+            if varied.label() == "variant" || self.vary[..place].iter().any(|other| other.label() == varied.label()) {
+                let remedy = "give each a `name` of its own; \"variant\" is that of [[variants]]";
+                return Err(FieldError::new(&format!("{field}.name"), varied.label(), "unlike the others", remedy));
+            }
+            if varied.values.is_empty() {
+                let remedy = "list the values, such as [0.01, 0.005]";
+                return Err(FieldError::new(&format!("{field}.values"), "empty", "at least one value", remedy));
+            }
+            let mut seen: Vec<VariantValue> = Vec::new();
+            for (number, value) in varied.values.iter().enumerate() {
+                let field = format!("{field}.values[{number}]");
+                let named = in_variant(value).ok_or_else(|| {
+                    let remedy = "give tables and lists in [[variants]], where they have names";
+                    FieldError::new(&field, value, "a finite number or a word", remedy)
+                })?;
+                if seen.contains(&named) {
+                    let remedy = "list every value once: equal ones are the same run";
+                    return Err(FieldError::new(&field, value, "unlike the others", remedy));
+                }
+                seen.push(named);
+            }
+            product = product.saturating_mul(varied.values.len());
+        }
+        if product > MOST_VARIANTS {
+            let rule = format!("at most {MOST_VARIANTS} variants");
+            return Err(FieldError::new(
+                "vary",
+                product,
+                &rule,
+                "take fewer values; `bagnold sweep` has no such limit",
+            ));
+        }
+        Ok(())
+    }
+
+    /// All sets of changes, in the file's order.
+    pub(super) fn changes(&self) -> Vec<Changed> {
+        let setting = |path: &str, value: &Value| format!("{path}={value}");
+        let named = |named: &NamedVariant| Changed {
+            variant: Variant::of("variant", named.name.as_str()),
+            settings: named.set.iter().map(|(path, value)| setting(path, value)).collect(),
+        };
+        let mut all = if self.variants.is_empty() {
+            vec![Changed { variant: Variant::default(), settings: Vec::new() }]
+        } else {
+            self.variants.iter().map(named).collect()
+        };
+        for varied in &self.vary {
+            let with = |changed: &Changed, value: &Value| {
+                let mut next = changed.clone();
+                next.settings.push(setting(&varied.path, value));
+                next.variant = next.variant.and(varied.label(), in_variant(value).unwrap_or_else(|| "-".into()));
+                next
+            };
+            all = all.iter().flat_map(|changed| varied.values.iter().map(move |value| with(changed, value))).collect();
+        }
+        all
+    }
+}
+
+/// A value as a variant has it: numbers and words.
+fn in_variant(value: &Value) -> Option<VariantValue> {
+    match value {
+        Value::Float(number) if number.is_finite() => Some((*number).into()),
+        Value::Integer(whole) => Some((*whole as f64).into()),
+        Value::Boolean(is_so) => Some(is_so.to_string().into()),
+        Value::String(word) => Some(word.replace(['=', ',', '_', ' '], "-").into()),
+        _ => None,
+    }
+}

@@ -1,0 +1,430 @@
+//! A user's own study: a file that says what is simulated, what of it is measured, and what that is judged by.
+//!
+//! The simulation is that of any case: a scene of the user's own as well as a layer, a column or a channel. [`Study::read`]
+//! reads the file, [`Study::prepare`] gives the cases to be simulated, one per variant, and [`Study::judge`] makes of their
+//! results a single one, which is written, drawn and shown as that of a case is.
+//!
+//! ```toml
+//! study = "collapse-in-my-flume"
+//! summary = "Glass beads collapse in a flume of 10 cm"
+//! base = "flume.toml"                       # a case file; or case = "scene" and [parameters]
+//!
+//! [[vary]]
+//! path = "spacing"
+//! values = [0.01, 0.005]
+//!
+//! [[checks]]
+//! name = "front_at_rest"
+//! table = "gauges"                          # the tables that the case writes
+//! column = "front: front [m]"
+//! value = "last"
+//! reference = 0.31
+//! standard_uncertainty = 0.01
+//! source = "own flume, May 2026"
+//! within_uncertainties = 2.0
+//! ```
+
+mod check;
+mod figures;
+mod file;
+mod probe;
+mod suite;
+
+pub use suite::Suite;
+
+use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, Prepared, Registry, Tier};
+use crate::evaluation::{PlanError, read_plan};
+use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
+use crate::judge::Measurements;
+use crate::metric::{Metric, Value, Variant};
+use crate::statistics::log_log_slope;
+use check::{Check, Read};
+use file::{Changed, StudyText};
+use probe::Curve;
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+use toml::Table;
+
+/// A study that was read; nothing has been simulated.
+#[derive(Debug, Clone)]
+pub struct Study {
+    file: PathBuf,
+    text: StudyText,
+    base: CaseFile,
+    checks: Vec<Check>,
+    changes: Vec<Changed>,
+}
+
+/// What a check has read of one run.
+struct Reading {
+    /// The run: keys of the study and of the case.
+    variant: Variant,
+    value: f64,
+    unit: String,
+    /// Where it was read from; none for a metric of the case.
+    curve: Option<Curve>,
+}
+
+impl Reading {
+    /// Why its value is not a number.
+    fn why_there_is_none(&self) -> String {
+        let ends = |curve: &Curve| Some((curve.over.clone(), curve.points.first()?.0, curve.points.last()?.0));
+        match self.curve.as_ref().map(ends) {
+            Some(Some((over, from, to))) => {
+                format!("what is asked for lies beyond the run, whose {over} reaches over {from} … {to}")
+            }
+            Some(None) => "the run has no finite value in the window that counts".to_owned(),
+            None => "there is no finite value to take it from".to_owned(),
+        }
+    }
+}
+
+/// Whether a file describes a study: it has the key `study`.
+#[must_use]
+pub fn is_study(path: &Path) -> bool {
+    let text = read_text(path, WRITTEN_BY_HAND).unwrap_or_default();
+    // a file with a slip in its syntax is a study as well, if a line says so
+    match text.parse::<Table>() {
+        Ok(table) => table.contains_key("study"),
+        Err(_) => text.lines().any(|line| line.split_once('=').is_some_and(|(key, _)| key.trim() == "study")),
+    }
+}
+
+impl Study {
+    /// Reads a file and those that it names.
+    ///
+    /// # Errors
+    /// A file that cannot be read or typed, or a field that breaks a rule.
+    pub fn read(file: &Path, registry: Registry) -> Result<Self, PlanError> {
+        let text: StudyText = read_plan(file, "run")?;
+        let in_file = |error: FieldError| error.in_file(file);
+        text.check().map_err(in_file)?;
+        if registry.find(&text.study).is_ok() {
+            let value = format!("\"{}\"", text.study);
+            let remedy = "choose another name: pages and accepted values are kept by it";
+            return Err(in_file(FieldError::new("study", value, "unlike the name of a case", remedy)).into());
+        }
+        let beside = file.parent().unwrap_or(Path::new(""));
+        let base = match (&text.case, &text.base) {
+            (Some(case), _) => CaseFile::of_parameters(file, case, text.tier, text.parameters.clone())?,
+            (None, Some(path)) => {
+                let mut base = CaseFile::read(&beside.join(path))?;
+                lay_over(&mut base.fields, &text.parameters);
+                base.tier = text.tier.or(base.tier);
+                base
+            }
+            (None, None) => unreachable!("checked above"),
+        };
+        let mut checks: Vec<Check> = Vec::new();
+        for (place, own) in text.checks.iter().enumerate() {
+            let within = |error: FieldError| in_file(error.within(&format!("checks[{place}]")));
+            let check = Check::of(own, beside).map_err(within)?;
+            if checks.iter().any(|other| other.name == check.name && other.only == check.only) {
+                let remedy = "give each a name of its own, or other variants by `only`";
+                return Err(within(FieldError::new("name", &check.name, "unlike the others", remedy)).into());
+            }
+            if let Read::Order { of, in_parameter } = &check.read {
+                if !checks.iter().any(|other| other.name == *of) {
+                    let remedy = "name a check that stands above this one";
+                    return Err(within(FieldError::new("order_of", of, "the name of an earlier check", remedy)).into());
+                }
+                let is_varied = |varied: &file::Varied| varied.label() == in_parameter && varied.values.len() > 1;
+                if !text.vary.iter().any(is_varied) {
+                    let rule = "the name of a parameter that [[vary]] gives several values";
+                    return Err(
+                        within(FieldError::new("order_in", in_parameter, rule, "vary it, or name another")).into()
+                    );
+                }
+            }
+            checks.push(check);
+        }
+        let changes = text.changes();
+        Ok(Self { file: file.to_owned(), text, base, checks, changes })
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.text.study
+    }
+
+    /// The tier whose parameters fill what the file leaves out.
+    #[must_use]
+    pub fn tier(&self) -> Tier {
+        self.base.tier.unwrap_or(Tier::Quick)
+    }
+
+    /// The cases to be simulated, one per variant, with settings (`path=value`) of the command line over all of them.
+    ///
+    /// # Errors
+    /// A case that does not exist or refuses a variant's parameters.
+    pub fn prepare(
+        &self,
+        registry: Registry,
+        tier: Option<Tier>,
+        settings: &[String],
+        limits: Limits,
+    ) -> Result<Vec<Box<dyn Prepared>>, PlanError> {
+        let case = registry.find(&self.base.case).map_err(|error| error.in_file(&self.base.path))?;
+        let prepare = |changed: &Changed| {
+            let settings: Vec<String> = changed.settings.iter().chain(settings).cloned().collect();
+            let file = Some((self.base.path.as_path(), self.base.fields.clone()));
+            let changes = Changes { file, settings: &settings, limits };
+            case.prepare(tier.unwrap_or(self.tier()), &changes)
+        };
+        let refused = |error: ParameterError| match settings {
+            [] => PlanError::of(error, &self.file),
+            _ => PlanError::Parameter(error.in_file(&self.file)),
+        };
+        self.changes.iter().map(|changed| prepare(changed).map_err(refused)).collect()
+    }
+
+    /// The files with measurements that its checks compare with.
+    pub fn measurements(&self) -> impl Iterator<Item = &Measurements> {
+        self.checks.iter().filter_map(|check| match &check.read {
+            Read::Distance(_, measured, _) => Some(&**measured),
+            _ => None,
+        })
+    }
+
+    /// One result of all variants' results, in the order of [`Self::prepare`]: the checks first, then what the case says of
+    /// its runs itself.
+    ///
+    /// # Errors
+    /// A check that names a table, column, metric or variant that there is not.
+    pub fn judge(&self, results: Vec<CaseResult>) -> Result<CaseResult, PlanError> {
+        let tier = results.first().map_or(Tier::Quick, |result| result.tier);
+        let mut judged = self.without_runs(tier, &results);
+        for (place, check) in self.checks.iter().enumerate() {
+            let wrong = |error: FieldError| error.within(&format!("checks[{place}]")).in_file(&self.file);
+            let readings = self.readings(check, &results, &judged.metrics).map_err(wrong)?;
+            if readings.is_empty() {
+                let variants: Vec<String> =
+                    self.changes.iter().take(5).map(|changed| format!("\"{}\"", changed.variant)).collect();
+                let rule = format!("keys of a variant, such as {}", variants.join(", "));
+                let remedy = "leave it out to mean all";
+                return Err(wrong(FieldError::new("only", format!("\"{}\"", check.only), &rule, remedy)).into());
+            }
+            for reading in readings.iter().filter(|reading| reading.value.is_nan()) {
+                tracing::warn!(
+                    "{}: {}, {}: {}",
+                    self.text.study,
+                    check.name,
+                    reading.variant,
+                    reading.why_there_is_none()
+                );
+            }
+            let metric = |reading: &Reading| check.metric(&reading.variant, reading.value, &reading.unit);
+            judged.metrics.extend(readings.iter().map(metric));
+            figures::add(&mut judged.figures, check, &readings).map_err(wrong)?;
+        }
+        let mut hash = Sha256::new();
+        for (changed, result) in self.changes.iter().zip(results) {
+            let suffix =
+                if changed.variant.is_empty() { String::new() } else { format!("-{}", changed.variant.file_name()) };
+            let caption = |caption: &str| match changed.variant.is_empty() {
+                true => caption.to_owned(),
+                false => format!("{}: {caption}", changed.variant),
+            };
+            hash.update(result.state_hash.as_bytes());
+            hash.update([0]);
+            let joined = |variant: &Variant| joined(&changed.variant, variant);
+            judged
+                .metrics
+                .extend(result.metrics.into_iter().map(|metric| Metric { variant: joined(&metric.variant), ..metric }));
+            judged.runs.extend(result.runs.into_iter().map(|mut run| {
+                run.variant = joined(&run.variant);
+                run
+            }));
+            judged.tables.extend(result.tables.into_iter().map(|mut table| {
+                table.name += &suffix;
+                table
+            }));
+            judged.figures.extend(result.figures.into_iter().map(|mut figure| {
+                figure.caption = caption(&figure.caption);
+                figure.name += &suffix;
+                figure
+            }));
+            judged.animations.extend(result.animations.into_iter().map(|mut animation| {
+                animation.caption = caption(&animation.caption);
+                animation.name += &suffix;
+                animation
+            }));
+            judged.frames.extend(result.frames);
+            judged.first_bad.extend(result.first_bad);
+        }
+        judged.state_hash = crate::store::hexadecimal(&hash.finalize());
+        Ok(judged)
+    }
+
+    fn without_runs(&self, tier: Tier, results: &[CaseResult]) -> CaseResult {
+        CaseResult {
+            name: self.text.study.clone(),
+            origin: results.first().map_or(crate::store::Origin::PACKAGE, |result| result.origin),
+            summary: self.text.summary.clone(),
+            description: self.text.description.trim().to_owned(),
+            tier,
+            parameters_toml: self.complete(tier),
+            command: "bagnold run case.toml".to_owned(),
+            metrics: Vec::new(),
+            figures: Vec::new(),
+            animations: Vec::new(),
+            tables: Vec::new(),
+            runs: Vec::new(),
+            frames: Vec::new(),
+            first_bad: Vec::new(),
+            state_hash: String::new(),
+        }
+    }
+
+    /// The study as a file that needs no other but the copies of its measurements.
+    fn complete(&self, tier: Tier) -> String {
+        let mut text = StudyText {
+            case: Some(self.base.case.clone()),
+            base: None,
+            tier: Some(tier),
+            parameters: self.base.fields.clone(),
+            ..self.text.clone()
+        };
+        for (own, check) in text.checks.iter_mut().zip(&self.checks) {
+            if let Read::Distance(_, measured, _) = &check.read {
+                own.compare = Some(PathBuf::from(measured.kept()));
+            }
+        }
+        toml::to_string(&text).unwrap_or_else(|error| format!("# the study cannot be written as TOML: {error}\n"))
+    }
+
+    fn readings(&self, check: &Check, results: &[CaseResult], earlier: &[Metric]) -> Result<Vec<Reading>, FieldError> {
+        if let Read::Order { of, in_parameter } = &check.read {
+            return Ok(orders(earlier, of, in_parameter, &check.only));
+        }
+        let mut readings = Vec::new();
+        for (changed, result) in self.changes.iter().zip(results) {
+            let new = |run: &Variant, value: f64, unit: &str, curve: Option<Curve>| Reading {
+                variant: joined(&changed.variant, run),
+                value,
+                unit: unit.to_owned(),
+                curve,
+            };
+            match &check.read {
+                Read::Metric(name) => {
+                    let metrics = probe::metrics(result, name)?;
+                    readings.extend(
+                        metrics.into_iter().map(|metric| new(&metric.variant, metric.value, &metric.unit, None)),
+                    );
+                }
+                Read::Value(column, reduction) => {
+                    for curve in column.curves(result)? {
+                        let value = curve.value(*reduction);
+                        readings.push(new(&curve.run.clone(), value, probe::unit_of(&column.column), Some(curve)));
+                    }
+                }
+                Read::Distance(column, measured, distance) => {
+                    for curve in column.curves(result)? {
+                        let points = probe::in_units_of(measured, column, &curve)?;
+                        let value = curve.distance(&points, column.window, *distance);
+                        let unit = match distance {
+                            file::Distance::Residual => "-",
+                            file::Distance::RelativeL2 => "%",
+                            file::Distance::Largest | file::Distance::Mean => probe::unit_of(&column.column),
+                        };
+                        readings.push(new(&curve.run.clone(), value, unit, Some(curve)));
+                    }
+                }
+                Read::Order { .. } => {}
+            }
+        }
+        readings.retain(|reading| reading.variant.includes(&check.only));
+        Ok(readings)
+    }
+}
+
+/// Slopes of ln |value| of an earlier check over ln of a varied parameter, one for each set of the other keys.
+fn orders(earlier: &[Metric], of: &str, in_parameter: &str, only: &Variant) -> Vec<Reading> {
+    let mut groups: Vec<(Variant, Vec<(f64, f64)>)> = Vec::new();
+    for metric in earlier.iter().filter(|metric| metric.name == of && metric.variant.includes(only)) {
+        let Some(at) = metric.variant.get(in_parameter).and_then(Value::number) else { continue };
+        let others = metric.variant.parts().filter(|(key, _)| *key != in_parameter);
+        let others = others.fold(Variant::default(), |variant, (key, value)| variant.and(key, value.clone()));
+        let point = (at, metric.value.abs());
+        match groups.iter_mut().find(|(variant, _)| *variant == others) {
+            Some((_, points)) => points.push(point),
+            None => groups.push((others, vec![point])),
+        }
+    }
+    let order = |(others, points): (Variant, Vec<(f64, f64)>)| Reading {
+        variant: others.and(in_parameter, Value::list(points.iter().map(|point| point.0))),
+        value: log_log_slope(&points).unwrap_or(f64::NAN),
+        unit: "-".to_owned(),
+        curve: None,
+    };
+    groups.into_iter().map(order).collect()
+}
+
+/// The study's keys before those of the case's run. A key that both have stands once if it says the same.
+fn joined(own: &Variant, run: &Variant) -> Variant {
+    let mut all = own.clone();
+    for (key, value) in run.parts() {
+        match own.get(key) {
+            Some(same) if same == value => {}
+            Some(_) => all = all.and(&format!("run-{key}"), value.clone()),
+            None => all = all.and(key, value.clone()),
+        }
+    }
+    all
+}
+
+/// Lays fields over others: tables field by field, everything else as a whole.
+fn lay_over(base: &mut Table, over: &Table) {
+    for (key, value) in over {
+        match (base.get_mut(key), value) {
+            (Some(toml::Value::Table(below)), toml::Value::Table(above)) => lay_over(below, above),
+            _ => {
+                base.insert(key.clone(), value.clone());
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn metric(name: &str, variant: &str, value: f64) -> Metric {
+        Metric::observed(name, &variant.parse().expect("a variant"), value, "%")
+    }
+
+    #[test]
+    fn an_order_is_the_slope_for_each_set_of_the_other_keys() {
+        let error = |spacing: f64, factor: f64, order: i32| factor * spacing.powi(order);
+        let mut metrics = Vec::new();
+        for (law, order, sign) in [("a", 2, -1.0), ("b", 1, 1.0)] {
+            for spacing in [0.01, 0.02, 0.04] {
+                let variant = format!("law={law},spacing={spacing}");
+                metrics.push(metric("error", &variant, sign * error(spacing, 3.0, order)));
+                metrics.push(metric("another", &variant, 1.0));
+            }
+        }
+        let found = orders(&metrics, "error", "spacing", &Variant::default());
+        let variants: Vec<String> = found.iter().map(|reading| reading.variant.to_string()).collect();
+        assert_eq!(variants, ["law=a,spacing=0.01_0.02_0.04", "law=b,spacing=0.01_0.02_0.04"]);
+        assert!((found[0].value - 2.0).abs() < 1e-12 && (found[1].value - 1.0).abs() < 1e-12);
+        assert_eq!(orders(&metrics, "error", "spacing", &Variant::of("law", "b")).len(), 1);
+    }
+
+    #[test]
+    fn keys_of_study_and_run_stand_once_where_they_say_the_same() {
+        let joined = |own: &str, run: &str| {
+            joined(&own.parse().expect("a variant"), &run.parse().expect("a variant")).to_string()
+        };
+        assert_eq!(joined("resolution=20,law=a", "fluid=x,resolution=20"), "resolution=20,law=a,fluid=x");
+        assert_eq!(joined("resolution=20", "resolution=40"), "resolution=20,run-resolution=40");
+    }
+
+    #[test]
+    fn fields_are_laid_over_others_table_by_table() {
+        let mut base: Table = toml::from_str("a = 1\n[b]\nc = 1\nd = [1]").expect("TOML");
+        lay_over(&mut base, &toml::from_str("e = 2\n[b]\nd = [2, 3]").expect("TOML"));
+        assert_eq!(base, toml::from_str::<Table>("a = 1\ne = 2\n[b]\nc = 1\nd = [2, 3]").expect("TOML"));
+    }
+}
