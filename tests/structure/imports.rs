@@ -32,6 +32,20 @@ pub(crate) fn imports(source: &Source) -> Vec<Import> {
     found
 }
 
+/// Every path of a `use` that begins with neither `crate` nor `super`, below the file's own module: of these, those that begin
+/// with a child are what a folder passes on.
+pub(crate) fn passed_on(source: &Source) -> Vec<Import> {
+    let mut found = Vec::new();
+    for (start, word) in source.code.match_indices("use ") {
+        let rest = source.code[start + word.len()..].trim_start();
+        let begins = source.code[..start].ends_with(['\n', ' ']) || start == 0;
+        if begins && !["crate", "super", "self", "::"].iter().any(|other| rest.starts_with(other)) {
+            Reader { source, at: start + word.len(), found: &mut found }.tree(source.module.clone());
+        }
+    }
+    found
+}
+
 struct Reader<'a> {
     source: &'a Source,
     at: usize,

@@ -1,6 +1,7 @@
 //! The structure of the workspace: who imports whom, where numbers stand, and lists that follow from the registry.
 
 mod advisories;
+mod circles;
 mod commit;
 mod dependencies;
 mod documents;

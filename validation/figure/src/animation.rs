@@ -1,9 +1,7 @@
 //! Moving pictures: particles coloured by a scalar over time on fixed axes, as plain data.
 
-use super::error::FigureError;
-use super::{Axis, Field, Figure, Panel, Series, gif, is_file_name};
+use super::{Axis, Field, Figure, Panel, Series};
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
 
 /// A moving picture. Axes and colours are fixed, so that only what moves moves.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -56,20 +54,4 @@ impl Animation {
         panel.series.clone_from(&frame.lines);
         Figure { name: self.name.clone(), caption: String::new(), panels: vec![panel], columns: 1 }
     }
-}
-
-/// Draws `animation` into `folder` as `NAME.gif`; the folder is made if it is missing.
-///
-/// # Errors
-/// If the name is no file name, there is no picture, drawing fails, or the file cannot be written.
-pub fn write_animation(animation: &Animation, folder: &Path) -> Result<PathBuf, FigureError> {
-    if !is_file_name(&animation.name) {
-        return Err(FigureError::Name { name: animation.name.clone() });
-    }
-    let bytes = gif::encode(animation)?;
-    let write_error = |path: &Path, source| FigureError::Write { path: path.to_owned(), source };
-    std::fs::create_dir_all(folder).map_err(|source| write_error(folder, source))?;
-    let path = folder.join(format!("{}.gif", animation.name));
-    std::fs::write(&path, bytes).map_err(|source| write_error(&path, source))?;
-    Ok(path)
 }

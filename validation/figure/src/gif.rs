@@ -4,10 +4,11 @@
 use super::animation::Animation;
 use super::error::FigureError;
 use super::palette::FIRST;
-use super::{raster, render};
+use super::{is_file_name, raster, render};
 use plotters::style::RGBColor;
 use rayon::prelude::*;
 use std::borrow::Cow;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use tiny_skia::Pixmap;
 
@@ -41,7 +42,7 @@ static NEAREST: LazyLock<Vec<u8>> = LazyLock::new(|| {
 ///
 /// # Errors
 /// No picture, pictures of different sizes, or a picture that cannot be drawn.
-pub(super) fn encode(animation: &Animation) -> Result<Vec<u8>, FigureError> {
+pub fn encode(animation: &Animation) -> Result<Vec<u8>, FigureError> {
     let pictures: Vec<Picture> = animation
         .frames
         .par_iter()
@@ -146,6 +147,22 @@ impl Picture {
             ..gif::Frame::default()
         }
     }
+}
+
+/// Draws `animation` into `folder` as `NAME.gif`; the folder is made if it is missing.
+///
+/// # Errors
+/// If the name is no file name, there is no picture, drawing fails, or the file cannot be written.
+pub fn write_animation(animation: &Animation, folder: &Path) -> Result<PathBuf, FigureError> {
+    if !is_file_name(&animation.name) {
+        return Err(FigureError::Name { name: animation.name.clone() });
+    }
+    let bytes = encode(animation)?;
+    let write_error = |path: &Path, source| FigureError::Write { path: path.to_owned(), source };
+    std::fs::create_dir_all(folder).map_err(|source| write_error(folder, source))?;
+    let path = folder.join(format!("{}.gif", animation.name));
+    std::fs::write(&path, bytes).map_err(|source| write_error(&path, source))?;
+    Ok(path)
 }
 
 /// The palette's colour that is nearest in RGB; the first of equals.

@@ -25,8 +25,9 @@ mod ticks;
 #[cfg(test)]
 mod tests;
 
-pub use animation::{Animation, AnimationFrame, write_animation};
+pub use animation::{Animation, AnimationFrame};
 pub use error::FigureError;
+pub use gif::{encode as encode_gif, write_animation};
 pub use size::size_of;
 
 use serde::{Deserialize, Serialize};

@@ -1,10 +1,10 @@
 //! Figure → SVG → PNG.
 
+use super::Figure;
 use super::error::FigureError;
 use super::font;
 use super::raster::pixels;
 use super::sheet;
-use super::{Animation, Figure};
 
 /// Draws `figure` as SVG; the same data give the same bytes on any machine.
 ///
@@ -21,12 +21,4 @@ pub fn svg(figure: &Figure) -> Result<String, FigureError> {
 /// If the text is no SVG of [`svg`], or too large to rasterise.
 pub fn png(svg: &str) -> Result<Vec<u8>, FigureError> {
     pixels(svg, 1.0)?.encode_png().map_err(|error| FigureError::Raster(error.to_string()))
-}
-
-/// The animation as the bytes of a GIF that repeats for ever; the same data give the same bytes.
-///
-/// # Errors
-/// No picture, pictures of different sizes, or a picture that cannot be drawn.
-pub fn gif(animation: &Animation) -> Result<Vec<u8>, FigureError> {
-    super::gif::encode(animation)
 }

@@ -8,15 +8,6 @@ use super::plan::{Block, Plan};
 use crate::evaluation::PlanError;
 use crate::input::{FieldError, nearest};
 
-/// What makes the conditions of a block that is held out.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Conditions {
-    /// Dotted paths of the case's parameters, numbers or lists of numbers.
-    pub(super) paths: Vec<String>,
-    /// Relative difference up to which two values are the same `[-]`.
-    pub(super) same_within: f64,
-}
-
 /// The parameters of a block's case, all of them.
 pub(super) struct Known<'a> {
     pub(super) block: &'a Block,

@@ -141,7 +141,7 @@ fn of_region(plan: &Plan, explored: &Explored) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::result::Place;
+    use super::super::target::Place;
     use super::*;
     use crate::inference::chi_squared_tail;
     use crate::sampling::Random;

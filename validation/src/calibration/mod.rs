@@ -10,6 +10,7 @@
 //!
 //! The search is deterministic, so one that was killed is begun anew and finds its evaluations done.
 
+mod assembly;
 mod conditions;
 mod data;
 mod error;
@@ -20,6 +21,8 @@ mod objective;
 mod page;
 mod plan;
 mod prediction;
+mod reading;
+mod repeated;
 mod repeats;
 mod result;
 mod screening;
@@ -27,23 +30,21 @@ mod target;
 mod text;
 mod trials;
 
-pub use conditions::Conditions;
 pub use error::CalibrationError;
 pub use folder::CalibrationFolder;
 pub use objective::Watch;
 pub use page::write;
-pub use plan::{Block, Choice, Parameter, Plan};
-use repeats::Repeated;
-pub use repeats::Repeats;
-pub use result::{Compared, Evaluation, Found, FoundMinimum, Outcome, Place, Sensitivity, weighted_error};
-pub use trials::Trial;
+pub use plan::{Block, Choice, Conditions, Parameter, Plan, Repeats};
+pub use result::{Compared, Evaluation, Found, FoundMinimum, Outcome, Sensitivity, Trial, weighted_error};
+pub use target::Place;
 
 use crate::case::Registry;
 use crate::inference::{self, Answer, Evaluate, Method, Runs, SearchError, chi_squared};
 use crate::sampling::design;
 use crate::store::Store;
+use assembly::compared;
 use objective::Objective;
-use result::compared;
+use repeated::Repeated;
 use std::sync::Mutex;
 
 /// Searches, or tries every choice, and judges on what was held out. What `folder` holds is not done again.
@@ -94,8 +95,8 @@ pub fn calibrate(
         }
     }
     let asked = posterior.as_ref().filter(|_| plan.method == Method::Posterior);
-    let calibrated = result::calibrated(&objective, &values)?;
-    Ok(result::assemble(plan, &answer, sensitivity, (fit, hold_out), calibrated, truth_inside, asked))
+    let calibrated = assembly::calibrated(&objective, &values)?;
+    Ok(assembly::assemble(plan, &answer, sensitivity, (fit, hold_out), calibrated, truth_inside, asked))
 }
 
 /// The search and its region; where evaluations are repeated, once more with the scatter that was seen about the minimum.

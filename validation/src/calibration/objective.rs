@@ -3,7 +3,7 @@
 use super::data::{Group, Synthetic};
 use super::error::CalibrationError;
 use super::plan::{Block, Plan};
-use super::repeats::Repeated;
+use super::repeated::Repeated;
 use super::target::{Datum, Target, Uncertainty};
 use crate::case::{Prepared, Registry, Silent, share_out};
 use crate::evaluation::{self, Record};
@@ -54,10 +54,24 @@ pub(super) struct Objective<'a> {
 impl Objective<'_> {
     /// The answers to questions, in their order, each with every seed where evaluations are repeated.
     pub(super) fn ask(&self, questions: &[Question]) -> Result<Vec<Repeated>, CalibrationError> {
-        let repeated: Vec<Vec<Question>> =
-            questions.iter().map(|question| self.plan.repeats.of(self.plan, question)).collect();
+        let repeated: Vec<Vec<Question>> = questions.iter().map(|question| self.with_seeds(question)).collect();
         let mut records = self.ask_each(&repeated.concat())?.into_iter();
         Ok(repeated.iter().map(|seeds| Repeated::new(records.by_ref().take(seeds.len()).collect())).collect())
+    }
+
+    /// The question with every seed; once as it is where there is nothing to repeat.
+    fn with_seeds(&self, question: &Question) -> Vec<Question> {
+        let case = &self.plan.blocks[question.block].request.case;
+        match self.plan.repeats.path_in(case) {
+            None => vec![question.clone()],
+            Some(path) => (1..=self.plan.repeats.count)
+                .map(|seed| {
+                    let mut settings = question.settings.clone();
+                    settings.push(format!("{path}={seed}"));
+                    Question { block: question.block, settings }
+                })
+                .collect(),
+        }
     }
 
     /// Records of questions, in their order; what has a file is read, the rest simulated on the current pool's threads.

@@ -223,7 +223,7 @@ fn render(outcome: &Outcome, pictures: Vec<Picture>) -> Result<String, minijinja
             truth,
         ]
     };
-    let trial = |trial: &super::trials::Trial| {
+    let trial = |trial: &super::result::Trial| {
         let ranks = trial.ranks.map_or_else(
             || "–".to_owned(),
             |(low, high)| {

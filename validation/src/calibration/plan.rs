@@ -1,19 +1,17 @@
-//! A calibration as a TOML file.
+//! A calibration that was read: cases, parameters with ranges, data, and what is held out.
 
-use super::conditions::{self, Conditions, Known};
 use super::data::DatumText;
-use super::error::CalibrationError;
-use super::repeats::Repeats;
-use super::text::Text;
-use crate::case::{Limits, Registry};
-use crate::evaluation::{CaseRequest, Paths, PlanError, read_plan, toml_number};
+use crate::case::Limits;
+use crate::evaluation::{CaseRequest, Paths, toml_number};
 use crate::inference::{Budget, Loss, Method};
 use crate::input::{FieldError, check_name, nearest};
 use crate::sampling::Bounds;
-use crate::store::Store;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+
+/// More repeats than this cost more than they tell.
+const MOST_REPEATS: usize = 100;
 
 /// A parameter with its range.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,6 +38,59 @@ pub struct Choice {
     pub name: String,
     /// `path=value` settings by case.
     pub set: BTreeMap<String, Vec<String>>,
+}
+
+/// What makes the conditions of a block that is held out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conditions {
+    /// Dotted paths of the case's parameters, numbers or lists of numbers.
+    pub(super) paths: Vec<String>,
+    /// Relative difference up to which two values are the same `[-]`.
+    pub(super) same_within: f64,
+}
+
+/// How often every evaluation is repeated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Repeats {
+    /// Seeds: 1, 2, … up to this.
+    pub count: usize,
+    /// Where a case has its seed.
+    pub path: Paths,
+}
+
+impl Repeats {
+    /// What a plan says about it.
+    ///
+    /// # Errors
+    /// A number out of range, repeats beside choices, a path without repeats.
+    pub(super) fn checked(count: Option<usize>, path: Option<Paths>, choices: &[Choice]) -> Result<Self, FieldError> {
+        let count = count.unwrap_or(1);
+        if !(1..=MOST_REPEATS).contains(&count) {
+            let remedy = "3 to 5 seeds tell the scatter of runs";
+            return Err(FieldError::new("repeats", count, &format!("between 1 and {MOST_REPEATS}"), remedy));
+        }
+        if count > 1 && !choices.is_empty() {
+            return Err(FieldError::new("repeats", count, "1 beside `choices`", "choices are tried once"));
+        }
+        if count == 1 && path.is_some() {
+            return Err(FieldError::new("seed_path", "given", "absent without `repeats`", "say `repeats = 3`"));
+        }
+        Ok(Self { count, path: path.unwrap_or_else(|| Paths::Everywhere("seed".to_owned())) })
+    }
+
+    /// Where a case has its seed, if evaluations are repeated.
+    pub(super) fn path_in(&self, case: &str) -> Option<&str> {
+        self.path.in_case(case).filter(|_| self.count > 1)
+    }
+
+    /// The words for a case that has no seed there.
+    pub(super) fn seedless(&self, case: &str, path: &str) -> FieldError {
+        let remedy = format!(
+            "`bagnold show {case}` prints its fields; where only some cases have seeds, say which: \
+             seed_path = {{ column-planar = \"seed\" }}"
+        );
+        FieldError::new("seed_path", path, &format!("the path of a seed in `{case}`"), &remedy)
+    }
 }
 
 /// A case, and whether its data are fitted or only predicted.
@@ -91,19 +142,6 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Reads and checks a file.
-    ///
-    /// # Errors
-    /// A file that cannot be read or typed, ranges that break a rule, a case or a path that does not exist, a run that is
-    /// in both fit and hold-out.
-    pub fn read(file: &Path, registry: Registry, limits: Limits) -> Result<Self, CalibrationError> {
-        let text: Text = read_plan(file, "calibrate")?;
-        let plan = text.checked(file, limits).map_err(|error| error.in_file(file))?;
-        plan.check_cases(registry)?;
-        plan.check_data()?;
-        Ok(plan)
-    }
-
     /// The settings of a block's case at a point of physical values.
     #[must_use]
     pub fn settings(&self, block: &Block, values: &[f64]) -> Vec<String> {
@@ -138,7 +176,7 @@ impl Plan {
     }
 
     /// Every case that a parameter's path or a choice names must be compared with data, and the other way round.
-    fn check_names(&self) -> Result<(), FieldError> {
+    pub(super) fn check_names(&self) -> Result<(), FieldError> {
         let cases: Vec<&str> = self.blocks.iter().map(|block| block.request.case.as_str()).collect();
         let known = |field: String, case: &str| {
             if cases.contains(&case) {
@@ -185,62 +223,6 @@ impl Plan {
             }
         }
         Ok(())
-    }
-
-    /// The data's files are read before the folder of the calibration is touched, so that a bad one leaves nothing behind.
-    fn check_data(&self) -> Result<(), CalibrationError> {
-        let mut texts =
-            self.data.iter().enumerate().flat_map(|(block, texts)| texts.iter().map(move |text| (block, text)));
-        texts.try_for_each(|(block, text)| text.read(block, &self.file).map(drop))
-    }
-
-    fn check_cases(&self, registry: Registry) -> Result<(), CalibrationError> {
-        self.check_names().map_err(|error| error.in_file(&self.file))?;
-        let start: Vec<f64> = self.parameters.iter().map(|parameter| parameter.start).collect();
-        let store = Store::open(crate::store::StorePolicy::Use);
-        let mut fitted: BTreeMap<String, String> = BTreeMap::new();
-        let mut known = Vec::new();
-        for block in &self.blocks {
-            let settings = self.settings(block, &start);
-            if settings.is_empty() && self.choices.is_empty() {
-                let remedy = "let a parameter name a path of the case";
-                let field = format!("{}.case", block.field);
-                return Err(FieldError::new(&field, &block.request.case, "a case with a parameter", remedy)
-                    .in_file(&self.file)
-                    .into());
-            }
-            let prepare = |settings: &[String]| {
-                let prepared = block.request.prepare(registry, &self.file, settings, self.limits);
-                prepared.map_err(|error| PlanError::of(error, &self.file))
-            };
-            for choice in &self.choices {
-                prepare(&choice.in_case(&block.request.case))?;
-            }
-            let mut first = self.choices.first().map_or(settings, |choice| choice.in_case(&block.request.case));
-            let mut prepared = prepare(&first)?;
-            if let Some(path) = self.repeats.path_in(&block.request.case) {
-                first.push(format!("{path}=1"));
-                prepared = prepare(&first)
-                    .map_err(|_| self.repeats.seedless(&block.request.case, path).in_file(&self.file))?;
-            }
-            for run in 0..prepared.run_count() {
-                let Some(identity) = prepared.identity(run, &store) else { continue };
-                if !block.held_out {
-                    fitted.insert(identity, block.field.clone());
-                } else if let Some(field) = fitted.get(&identity) {
-                    return Err(CalibrationError::InBoth {
-                        file: self.file.clone(),
-                        run: format!("{} {}", prepared.name(), prepared.variant(run)).trim_end().to_owned(),
-                        fit: field.clone(),
-                        hold_out: block.field.clone(),
-                    });
-                }
-            }
-            // what the program itself wrote can be read
-            let parameters = toml::from_str(prepared.parameters_toml()).unwrap_or_default();
-            known.push(Known { block, parameters });
-        }
-        conditions::check(self, &known)
     }
 }
 

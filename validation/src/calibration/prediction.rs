@@ -3,10 +3,11 @@
 //! Predictions are those of the emulator at samples of the posterior. For what was held out an emulator of its own rests on
 //! the best point and the ends of the intervals.
 
+use super::assembly::compared;
 use super::error::CalibrationError;
 use super::objective::{Objective, Question};
-use super::repeats::Repeated;
-use super::result::{Compared, compared};
+use super::repeated::Repeated;
+use super::result::Compared;
 use crate::inference::posterior::sample;
 use crate::inference::posterior::{Posterior, predictive};
 use crate::inference::{Answer, Emulator, Evaluated, Explored};

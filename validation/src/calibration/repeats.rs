@@ -7,112 +7,11 @@
 
 use super::error::CalibrationError;
 use super::objective::{Objective, Question};
-use super::plan::{Choice, Plan};
-use super::target::{Datum, Target};
-use crate::evaluation::{Paths, Record};
+use super::target::Datum;
 use crate::inference::Answer;
-use crate::input::FieldError;
 
 /// Points about the minimum whose scatter is averaged: those whose χ² rises by no more than this many times the threshold.
 const ABOUT: f64 = 25.0;
-
-/// More repeats than this cost more than they tell.
-const MOST_REPEATS: usize = 100;
-
-/// How often every evaluation is repeated.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Repeats {
-    /// Seeds: 1, 2, … up to this.
-    pub count: usize,
-    /// Where a case has its seed.
-    pub path: Paths,
-}
-
-impl Repeats {
-    /// What a plan says about it.
-    ///
-    /// # Errors
-    /// A number out of range, repeats beside choices, a path without repeats.
-    pub(super) fn checked(count: Option<usize>, path: Option<Paths>, choices: &[Choice]) -> Result<Self, FieldError> {
-        let count = count.unwrap_or(1);
-        if !(1..=MOST_REPEATS).contains(&count) {
-            let remedy = "3 to 5 seeds tell the scatter of runs";
-            return Err(FieldError::new("repeats", count, &format!("between 1 and {MOST_REPEATS}"), remedy));
-        }
-        if count > 1 && !choices.is_empty() {
-            return Err(FieldError::new("repeats", count, "1 beside `choices`", "choices are tried once"));
-        }
-        if count == 1 && path.is_some() {
-            return Err(FieldError::new("seed_path", "given", "absent without `repeats`", "say `repeats = 3`"));
-        }
-        Ok(Self { count, path: path.unwrap_or_else(|| Paths::Everywhere("seed".to_owned())) })
-    }
-
-    /// Where a case has its seed, if evaluations are repeated.
-    pub(super) fn path_in(&self, case: &str) -> Option<&str> {
-        self.path.in_case(case).filter(|_| self.count > 1)
-    }
-
-    /// The words for a case that has no seed there.
-    pub(super) fn seedless(&self, case: &str, path: &str) -> FieldError {
-        let remedy = format!(
-            "`bagnold show {case}` prints its fields; where only some cases have seeds, say which: \
-             seed_path = {{ column-planar = \"seed\" }}"
-        );
-        FieldError::new("seed_path", path, &format!("the path of a seed in `{case}`"), &remedy)
-    }
-
-    /// The question with every seed; once as it is where there is nothing to repeat.
-    pub(super) fn of(&self, plan: &Plan, question: &Question) -> Vec<Question> {
-        let case = &plan.blocks[question.block].request.case;
-        match self.path_in(case) {
-            None => vec![question.clone()],
-            Some(path) => (1..=self.count)
-                .map(|seed| {
-                    let mut settings = question.settings.clone();
-                    settings.push(format!("{path}={seed}"));
-                    Question { block: question.block, settings }
-                })
-                .collect(),
-        }
-    }
-}
-
-/// What one question was answered with every seed.
-#[derive(Debug, Clone)]
-pub(super) struct Repeated(Vec<Record>);
-
-impl Repeated {
-    /// The answers of all seeds, the first seed's first.
-    pub(super) const fn new(records: Vec<Record>) -> Self {
-        Self(records)
-    }
-
-    /// Why a run failed, if one did.
-    pub(super) fn failure(&self) -> Option<&str> {
-        self.0.iter().find_map(|record| record.failure.as_deref())
-    }
-
-    /// With one seed; a case without seeds gives the same with all.
-    pub(super) fn with_seed(&self, place: usize) -> Option<&Record> {
-        self.0.get(place).or_else(|| self.0.first())
-    }
-
-    /// The mean over the seeds of what their records say, with its unit.
-    ///
-    /// # Errors
-    /// The words for what a record does not have.
-    pub(super) fn predicted(&self, target: &Target) -> Result<(f64, String), String> {
-        let mut sum = 0.0;
-        let mut unit = String::new();
-        for record in &self.0 {
-            let value;
-            (value, unit) = target.predicted(record)?;
-            sum += value;
-        }
-        Ok((sum / self.0.len() as f64, unit))
-    }
-}
 
 impl Objective<'_> {
     /// Variance of every fitted prediction's mean over that of its datum `[-]`, averaged over points of physical values at

@@ -1,8 +1,21 @@
 //! What of a case's record a datum is compared with, and how.
 
-use super::result::Place;
 use crate::evaluation::Record;
 use crate::input::nearest;
+use serde::{Deserialize, Serialize};
+
+/// Where a datum lies in a profile.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// Table of the case.
+    pub table: String,
+    /// Its column of abscissas, with its unit.
+    pub x: String,
+    /// Its column that is compared, with its unit.
+    pub y: String,
+    /// Abscissa.
+    pub at: f64,
+}
 
 /// What of a record a datum is compared with.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,9 +1,7 @@
 //! A calibration as it is written: what its numbers and lists must satisfy before any case is looked at.
 
-use super::conditions::Conditions;
 use super::data::DatumText;
-use super::plan::{Block, Choice, Parameter, Plan};
-use super::repeats::Repeats;
+use super::plan::{Block, Choice, Conditions, Parameter, Plan, Repeats};
 use crate::case::{Limits, Tier};
 use crate::evaluation::{CaseRequest, Paths};
 use crate::inference::{Budget, Loss, Method};

@@ -1,12 +1,12 @@
 //! A bake-off: every choice of a setting is tried, and ranked by how well it explains the same data.
 
+use super::assembly::compared;
 use super::error::CalibrationError;
 use super::objective::{Objective, Question};
 use super::plan::{Choice, Plan};
-use super::result::{Compared, Outcome, compared, weighted_error};
+use super::result::{Compared, Outcome, Trial, weighted_error};
 use super::target::Target;
 use crate::inference::scores::{self, Score};
-use serde::{Deserialize, Serialize};
 
 /// Resamplings of the data for the ranks.
 const REPEATS: usize = 2000;
@@ -16,31 +16,6 @@ const RIVAL: f64 = 0.05;
 
 /// Data below which resampling them says little about ranks.
 const FEW_DATA: usize = 10;
-
-/// One choice of a bake-off.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Trial {
-    /// The choice.
-    pub name: String,
-    /// Fitted data.
-    pub fit: Vec<Compared>,
-    /// Data held out.
-    pub hold_out: Vec<Compared>,
-    /// χ² of the fitted data `[-]`.
-    pub chi_squared: Option<f64>,
-    /// χ² of the data held out `[-]`.
-    pub hold_out_chi_squared: Option<f64>,
-    /// Akaike weight among the choices `[-]`.
-    pub weight: Option<f64>,
-    /// Share of resampled data in which it is first `[-]`.
-    pub first: Option<f64>,
-    /// 95 % interval of its rank.
-    pub ranks: Option<(usize, usize)>,
-    /// Why it has no numbers.
-    pub failure: Option<String>,
-    /// Why it has none for what was held out.
-    pub hold_out_failure: Option<String>,
-}
 
 /// Evaluates and ranks all choices. One that fails stays in the table with its reason.
 pub(super) fn try_all(objective: &Objective<'_>) -> Result<Outcome, CalibrationError> {

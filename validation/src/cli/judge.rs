@@ -2,7 +2,7 @@
 
 use super::arguments::{Export, Judge};
 use super::error::ProgramError;
-use super::{Exit, run, say};
+use super::{Exit, say, simulation};
 use crate::case::{Changes, Registry};
 use crate::judge::{self, Judgement, Trial};
 use crate::output::OutputFolder;
@@ -26,7 +26,7 @@ pub(super) fn judge(
         OutputFolder::adopt(Path::new("reports"))?;
     }
     let claimed = OutputFolder::claim(&folder)?;
-    let results = run::simulate(vec![prepared], &command.work.open_store(), quiet, None)?;
+    let results = simulation::simulate(vec![prepared], &command.work.open_store(), quiet, None)?;
     let exit = Exit::of(&results, |_, _| true);
     let Some(own) = results.into_iter().next() else { return Ok(exit) };
     let judgement = judge::judge(own, &entries)?;
@@ -58,7 +58,7 @@ pub(super) fn export(
     let case = registry.find(&command.case)?;
     let prepared = case.prepare(command.tier, &Changes::default())?;
     let claimed = OutputFolder::claim(&command.out)?;
-    let results = run::simulate(vec![prepared], &command.work.open_store(), quiet, None)?;
+    let results = simulation::simulate(vec![prepared], &command.work.open_store(), quiet, None)?;
     let exit = Exit::of(&results, |_, _| true);
     if let Some(own) = results.first() {
         judge::export(case, own, claimed.staging())?;

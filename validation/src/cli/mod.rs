@@ -19,8 +19,10 @@ mod new;
 mod places;
 mod profile;
 mod progress;
+mod publication;
 mod report;
 mod run;
+mod simulation;
 mod store;
 mod study;
 mod summary;
@@ -145,7 +147,10 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
             print(output, &format!("{:#}\n", registry.find(&show.case)?.schema(show.tier)));
             Ok(Exit::Held)
         }
-        Command::Run(command) => in_pool(&command.work, || run::run(command, registry, arguments.quiet, output)),
+        Command::Run(command) => in_pool(&command.work, || match study::file(&command.target, registry) {
+            Some(file) => study::run(&file, command, registry, arguments.quiet, output),
+            None => run::run(command, registry, arguments.quiet, output),
+        }),
         Command::Calibrate(command) => {
             in_pool(&command.work, || calibrate::run(command, registry, arguments.quiet, output))
         }

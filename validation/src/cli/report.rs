@@ -4,12 +4,12 @@ use super::arguments::{Denied, Report as Arguments};
 use super::error::ProgramError;
 use super::places::Places;
 use super::profile::Profile;
-use super::run::{announce, simulate};
+use super::publication::{case_report, is_known};
+use super::simulation::{announce, simulate};
 use super::{Exit, say, summary, tell};
 use crate::case::{CaseResult, Changes, ParameterError, Prepared, Registry, Tier};
 use crate::output::{FileError, FolderError, OutputFolder};
-use crate::report::{self, Baseline, CaseReport, History, KnownFailures, Provenance, Report, Standing, history};
-use crate::result::MetricsDocument;
+use crate::report::{self, Baseline, CaseReport, History, Provenance, Report, history};
 use crate::store::provenance;
 use crate::study::{Study, Suite};
 use std::io::Write;
@@ -177,25 +177,4 @@ fn repeated(command: &Arguments) -> String {
         words += &format!(" --against {}", folder.display());
     }
     words
-}
-
-/// A finished case as a report shows it.
-pub(super) fn case_report(result: &CaseResult) -> CaseReport {
-    CaseReport {
-        name: result.name.clone(),
-        summary: result.summary.clone(),
-        description: result.description.clone(),
-        parameters_toml: result.parameters_toml.clone(),
-        command: result.command.clone(),
-        metrics: result.metrics.clone(),
-        figures: result.figures.clone(),
-        animations: result.animations.clone(),
-        runs: result.runs.clone(),
-        metrics_json: MetricsDocument::of(result, rayon::current_num_threads()).text(),
-    }
-}
-
-/// Whether a failing gate is listed, and fails as listed.
-pub(super) fn is_known(known: &KnownFailures, result: &CaseResult, metric: &crate::metric::Metric) -> bool {
-    matches!(known.standing(&result.name, metric), Standing::Known(_))
 }

@@ -1,7 +1,6 @@
 //! A field whose value breaks a rule: the error that most input is refused with.
 
-use super::escape::escaped;
-use super::name::origin;
+use super::escape::{escaped, origin};
 use crate::sampling::BoundsError;
 use bagnold_solver::parameter::shortened;
 use std::path::{Path, PathBuf};

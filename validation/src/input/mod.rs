@@ -8,11 +8,12 @@ mod place;
 mod reading;
 mod table;
 
+pub(crate) use escape::origin;
 pub use escape::{escaped, escaped_lines, is_control, shown};
 pub use field::FieldError;
 pub(crate) use mesh::{MOST_TRIANGLES, read_mesh};
 pub use name::nearest;
-pub(crate) use name::{check_name, check_text, did_you_mean, origin};
+pub(crate) use name::{check_name, check_text, did_you_mean};
 pub(crate) use place::position;
 pub(crate) use reading::{DOCUMENT, STORED, WRITTEN_BY_HAND, read_bytes, read_own, read_text};
 pub(crate) use table::{comma_fault, is_comment, number_remedy, row_remedy, text_fault};

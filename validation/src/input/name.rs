@@ -1,8 +1,7 @@
 //! Names that a user gives, and names that he may have meant, in the words of an error.
 
-use super::escape::{is_control, shown};
+use super::escape::is_control;
 use super::field::FieldError;
-use std::path::PathBuf;
 
 /// Longest name `[characters]`: files, columns and legends are named after it, and no file system takes more than 255 bytes.
 pub(crate) const LONGEST_NAME: usize = 100;
@@ -52,11 +51,6 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 /// The question that goes with a suggestion, or nothing.
 pub(crate) fn did_you_mean(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |name| format!("did you mean `{name}`? "))
-}
-
-/// The file before a message, or nothing.
-pub(crate) fn origin(file: &Option<PathBuf>) -> String {
-    file.as_ref().map_or_else(String::new, |file| format!("{}: ", shown(file)))
 }
 
 #[cfg(test)]

@@ -2,24 +2,15 @@
 
 use super::error::{FileError, FolderError};
 use super::lock::FolderLock;
+use super::marker::{MARKER, STAGING_PREFIX, write_marker};
 use super::publication;
-use super::whole::write_whole;
-use crate::input::{DOCUMENT, read_text};
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::io;
-use std::path::{Component, Path, PathBuf};
-
-/// Says that a folder is Bagnold's, and which of its entries are.
-pub(super) const MARKER: &str = ".bagnold-output";
+use std::path::{Path, PathBuf};
 
 /// What a fresh checkout holds in `reports/`, and the store that tests may have filled: they make no folder foreign.
 const COMMITTED: [&str; 4] = ["README.md", "gallery", "history.csv", "store"];
-
-/// Begins the name of the folder in which a process puts the new contents together; its number follows.
-pub(super) const STAGING_PREFIX: &str = ".bagnold-output-staging-";
-
-const MARKER_TITLE: &str = "Written by bagnold, which replaces these entries the next time:";
 
 /// Begins the names of all that Bagnold puts into a folder beside its results: marker, lock, staging, halves of them.
 const OWN_PREFIX: &str = MARKER;
@@ -148,21 +139,6 @@ fn refuse_foreign(folder: &Path) -> Result<(), FolderError> {
         return Err(FolderError::Foreign { folder: folder.to_owned() });
     }
     Ok(())
-}
-
-pub(super) fn write_marker(folder: &Path, entries: &BTreeSet<String>) -> io::Result<()> {
-    let lines: String = entries.iter().map(|name| format!("{name}\n")).collect();
-    write_whole(&folder.join(MARKER), format!("{MARKER_TITLE}\n{lines}").as_bytes())
-}
-
-/// The entries that Bagnold wrote. A name that leads out of the folder was not written by it.
-pub(super) fn read_marker(folder: &Path) -> BTreeSet<String> {
-    let is_plain = |name: &str| {
-        let mut parts = Path::new(name).components();
-        matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None))
-    };
-    let text = read_text(&folder.join(MARKER), DOCUMENT).unwrap_or_default();
-    text.lines().skip(1).filter(|name| is_plain(name)).map(str::to_owned).collect()
 }
 
 #[cfg(test)]

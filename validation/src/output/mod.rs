@@ -4,6 +4,7 @@ mod claim;
 mod error;
 mod folder;
 mod lock;
+mod marker;
 mod publication;
 mod table;
 mod warning;

@@ -5,7 +5,7 @@
 //! not Bagnold's (`reports/` holds the store) or the file system cannot exchange, one rename commits the new contents inside
 //! the folder and the entries are then moved one by one; the next claim of the folder ends what a kill interrupted.
 
-use super::folder::{MARKER, STAGING_PREFIX, read_marker, write_marker};
+use super::marker::{MARKER, STAGING_PREFIX, read_marker, write_marker};
 use super::whole::{settle, settle_all};
 use std::collections::BTreeSet;
 use std::io;

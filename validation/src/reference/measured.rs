@@ -16,6 +16,7 @@
 //! holds labels.
 
 use super::ReferenceError;
+use super::measured_table::{Column, parse_table};
 use crate::input::{DOCUMENT, read_text, shown};
 use crate::metric::{Confidence, Kind};
 use std::path::Path;
@@ -65,37 +66,6 @@ pub struct Metadata {
     pub licence: String,
 }
 
-/// One column of a reference table.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Column {
-    /// Finite numbers in a unit.
-    Numbers {
-        /// Name without the unit.
-        name: String,
-        /// Unit, from the brackets.
-        unit: String,
-        /// One value a row, in that unit.
-        values: Vec<f64>,
-    },
-    /// Text.
-    Labels {
-        /// Name.
-        name: String,
-        /// One label a row.
-        values: Vec<String>,
-    },
-}
-
-impl Column {
-    /// Name without the unit.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        match self {
-            Self::Numbers { name, .. } | Self::Labels { name, .. } => name,
-        }
-    }
-}
-
 /// A reference table with its provenance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredData {
@@ -122,7 +92,7 @@ impl MeasuredData {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let header_lines = text.lines().take_while(|line| line.starts_with('#') || line.trim().is_empty()).count();
         let metadata = parse_metadata(file, text, header_lines)?;
-        let columns = super::measured_table::parse_table(file, text, header_lines)?;
+        let columns = parse_table(file, text, header_lines)?;
         Ok(Self { file: file.to_owned(), metadata, columns })
     }
 

@@ -1,10 +1,41 @@
 //! The table of a reference file: CSV text → columns, with the place of everything that is wrong.
 
-use super::{Column, ReferenceError};
+use super::ReferenceError;
 use crate::input::{comma_fault, row_remedy, text_fault};
 
 /// No measured number is larger, in whatever unit; squares of such numbers are still finite.
 const LARGEST: f64 = 1e30;
+
+/// One column of a reference table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Column {
+    /// Finite numbers in a unit.
+    Numbers {
+        /// Name without the unit.
+        name: String,
+        /// Unit, from the brackets.
+        unit: String,
+        /// One value a row, in that unit.
+        values: Vec<f64>,
+    },
+    /// Text.
+    Labels {
+        /// Name.
+        name: String,
+        /// One label a row.
+        values: Vec<String>,
+    },
+}
+
+impl Column {
+    /// Name without the unit.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Numbers { name, .. } | Self::Labels { name, .. } => name,
+        }
+    }
+}
 
 /// Columns of the table that follows `header_lines` lines of a text.
 pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result<Vec<Column>, ReferenceError> {

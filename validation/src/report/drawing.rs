@@ -1,6 +1,6 @@
 //! Figures and animations of a report as files, drawn or taken from what was drawn before.
 
-use crate::figure::{self, Animation, Figure, FigureError, render};
+use crate::figure::{self, Animation, Figure, FigureError, encode_gif, render};
 use crate::store::Drawings;
 use std::path::{Path, PathBuf};
 
@@ -21,7 +21,7 @@ pub(super) fn write_animation(
     drawings: &Drawings,
 ) -> Result<PathBuf, FigureError> {
     check_name(&animation.name)?;
-    let moving = drawings.bytes(&drawings.key(animation), "gif", || render::gif(animation))?;
+    let moving = drawings.bytes(&drawings.key(animation), "gif", || encode_gif(animation))?;
     put(folder.join(format!("{}.gif", animation.name)), &moving)
 }
 

@@ -84,7 +84,7 @@ impl Curve {
         let values = || self.points.iter().map(|point| point.1);
         let found = match reduction {
             Reduction::First => values().next(),
-            Reduction::Last => values().last(),
+            Reduction::Last => values().next_back(),
             Reduction::Largest => values().reduce(f64::max),
             Reduction::Smallest => values().reduce(f64::min),
             Reduction::Mean => self.mean(),

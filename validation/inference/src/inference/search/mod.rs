@@ -1,5 +1,6 @@
 //! The search for the point of least χ², by one of several methods, within a budget of evaluations.
 
+mod barrier;
 mod design;
 mod differences;
 mod evolution;

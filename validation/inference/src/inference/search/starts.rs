@@ -4,8 +4,8 @@
 //! made; where one ends away from all known minima, the model itself descends from there, and the emulator learns from it.
 //! (Linkage of starts to minima: Rinnooy Kan & Timmer, Mathematical Programming 39 (1987) 27.)
 
+use super::barrier::is_parted;
 use super::{Budget, Evaluated, Halt, LocalMinimum, Recorder, Stopped, trust_region};
-use crate::inference::descent::descend;
 use crate::inference::{Emulator, Evaluate, chi_squared};
 use crate::sampling::design::sobol;
 
@@ -14,12 +14,6 @@ const DESCENTS: usize = 6;
 
 /// Starts that are followed although the emulator promises nothing new, because it misses them.
 const DOUBTFUL: usize = 1;
-
-/// Rise of χ² between two minima below which they are one: no experiment tells them apart.
-const BARRIER: f64 = 1.0;
-
-/// Steps from one to the other.
-const STEPS: usize = 10;
 
 /// Error of the emulator, as a share of the residuals, above which a start is followed whatever it says.
 const MISSED: f64 = 0.2;
@@ -91,29 +85,6 @@ fn next<M: Evaluate>(
     let parted =
         |lead: &LocalMinimum| minima.iter().chain(tried).all(|known| is_parted(&emulator, &lead.point, &known.point));
     leads.into_iter().find(parted)
-}
-
-/// Whether χ² of the emulator rises between two points to where no experiment confuses them.
-pub(super) fn is_parted(emulator: &Emulator, from: &[f64], to: &[f64]) -> bool {
-    barrier(emulator, from, to) > BARRIER
-}
-
-/// How far χ² of the emulator rises above the higher of two points on the way from one to the other: the coordinate in
-/// which they differ most is moved in steps, all others are at their best, as along a valley.
-fn barrier(emulator: &Emulator, from: &[f64], to: &[f64]) -> f64 {
-    let apart = |k: &usize| (from[*k] - to[*k]).abs();
-    let along = (0..from.len()).max_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(0);
-    let mut place = from.to_vec();
-    let mut highest = f64::NEG_INFINITY;
-    for step in 1..STEPS {
-        let value = from[along] + (to[along] - from[along]) * step as f64 / STEPS as f64;
-        let (mut lower, mut upper) = (vec![0.0; from.len()], vec![1.0; from.len()]);
-        (lower[along], upper[along]) = (value, value);
-        let bottom = descend(emulator, &place, &lower, &upper);
-        highest = highest.max(bottom.chi_squared);
-        place = bottom.point;
-    }
-    highest - emulator.chi_squared(from).max(emulator.chi_squared(to))
 }
 
 /// The lowest start that the emulator of all other points misses by more than a fifth: what it promises of the way from there

@@ -12,8 +12,8 @@
 //!
 //! Source: Nocedal & Wright, "Numerical Optimization", 2nd ed. (2006), chapters 4 and 11 (Broyden's update: 11.17).
 
+use super::barrier::is_parted;
 use super::differences::{Place, central_differences, differences};
-use super::starts::is_parted;
 use super::{Budget, Halt, LocalMinimum, Recorder, Stopped};
 use crate::inference::box_least_squares::box_least_squares;
 use crate::inference::{Emulator, Evaluate};

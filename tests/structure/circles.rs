@@ -1,0 +1,134 @@
+//! Files that lead back to themselves: what one takes of another, through whatever its folder passes on.
+
+use crate::imports::{Import, imports, passed_on};
+use crate::source::{Source, sources};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Modules by their paths, each with the items that it passes on of its children: name → where it stands.
+struct Modules {
+    passed_on: BTreeMap<Vec<String>, BTreeMap<String, Vec<String>>>,
+}
+
+impl Modules {
+    fn of(all: &[Source]) -> Self {
+        let known: BTreeSet<Vec<String>> = all.iter().map(|source| source.module.clone()).collect();
+        let items = |source: &Source| {
+            let of_children = passed_on(source).into_iter().filter_map(|Import { path, .. }| {
+                let child = path.get(..=source.module.len())?.to_vec();
+                known.contains(&child).then(|| (path.last().cloned().unwrap_or_default(), path))
+            });
+            of_children.collect()
+        };
+        Self { passed_on: all.iter().map(|source| (source.module.clone(), items(source))).collect() }
+    }
+
+    /// The file in which what a path names stands; none for what is of another crate.
+    fn file(&self, path: &[String]) -> Option<Vec<String>> {
+        let mut path = path.to_vec();
+        // an item may be passed on by folder after folder
+        for _ in 0..8 {
+            let length = (1..=path.len()).rev().find(|length| self.passed_on.contains_key(&path[..*length]))?;
+            let module = path[..length].to_vec();
+            let item = path.get(length);
+            match item.and_then(|item| self.passed_on[&module].get(item)) {
+                Some(there) => path.clone_from(there),
+                None => return Some(module),
+            }
+        }
+        None
+    }
+}
+
+/// Files of which each leads to each other, by the paths of their modules, and the lines by which they do.
+#[derive(Debug, PartialEq)]
+struct Circle {
+    files: BTreeSet<String>,
+    lines: Vec<String>,
+}
+
+/// All circles. A folder's own file (`mod.rs`) passes on what its files hold and is no member.
+fn circles(all: &[Source]) -> Vec<Circle> {
+    let modules = Modules::of(all);
+    let is_file = |source: &&Source| !source.path.ends_with("/mod.rs") && !source.path.ends_with("/lib.rs");
+    let name = |module: &[String]| module.join("::");
+    let files: BTreeMap<String, &Source> =
+        all.iter().filter(is_file).map(|source| (name(&source.module), source)).collect();
+    // the first line by which a file takes something of another
+    let uses: BTreeMap<&String, BTreeMap<String, String>> = files
+        .iter()
+        .map(|(own, source)| {
+            let mut others = BTreeMap::new();
+            for import in imports(source) {
+                let Some(other) = modules.file(&import.path).map(|module| name(&module)) else { continue };
+                if other != *own && files.contains_key(&other) {
+                    let item = import.path.last().map_or("", String::as_str);
+                    others.entry(other).or_insert_with(|| format!("{}:{} takes {item}", source.path, import.line));
+                }
+            }
+            (own, others)
+        })
+        .collect();
+    let reached = |from: &String| {
+        let mut seen = BTreeSet::new();
+        let mut open = vec![from.clone()];
+        while let Some(file) = open.pop() {
+            for next in uses.get(&file).into_iter().flat_map(BTreeMap::keys) {
+                if seen.insert(next.clone()) {
+                    open.push(next.clone());
+                }
+            }
+        }
+        seen
+    };
+    let reach: BTreeMap<&String, BTreeSet<String>> = files.keys().map(|file| (file, reached(file))).collect();
+    let mut found: Vec<Circle> = Vec::new();
+    for (file, there) in &reach {
+        let leads_back = |other: &&String| reach.get(other).is_some_and(|back| back.contains(*file));
+        let files: BTreeSet<String> = there.iter().filter(leads_back).cloned().collect();
+        if files.len() > 1 && !found.iter().any(|circle| circle.files == files) {
+            let inside = files.iter().flat_map(|file| uses.get(file).into_iter().flatten());
+            let lines = inside
+                .filter(|(other, _)| files.contains(*other))
+                .map(|(other, line)| format!("  {line} of {other}"))
+                .collect();
+            found.push(Circle { files, lines });
+        }
+    }
+    found
+}
+
+#[test]
+fn no_file_leads_back_to_itself() {
+    let mut found = Vec::new();
+    for crate_src in
+        ["solver/src", "validation/src", "validation/inference/src", "validation/figure/src", "validation/layer/src"]
+    {
+        found.extend(circles(&sources(crate_src)).into_iter().map(|Circle { files, lines }| {
+            let files: Vec<String> = files.into_iter().collect();
+            format!("{crate_src}: {}\n{}", files.join(" ↔ "), lines.join("\n"))
+        }));
+    }
+    assert!(found.len() <= 14, "{} circles of files:\n{}", found.len(), found.join("\n"));
+}
+
+#[test]
+fn a_circle_through_what_a_folder_passes_on_is_found() {
+    let source = |path: &str, module: &[&str], code: &str| Source {
+        path: format!("src/{path}"),
+        module: module.iter().map(|&part| part.to_owned()).collect(),
+        code: code.to_owned(),
+    };
+    let of = |b: &str| {
+        circles(&[
+            source("lib.rs", &[], ""),
+            source("m/mod.rs", &["m"], "mod a;\nmod b;\npub use a::{A, C};\npub use b::B;\nstruct Own;\n"),
+            source("m/a.rs", &["m", "a"], "use super::B;\nuse super::Own;\n"),
+            source("m/b.rs", &["m", "b"], b),
+        ])
+    };
+    assert!(of("use super::Own;\n").is_empty());
+    let found = of("use crate::m::C;\n");
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].files, BTreeSet::from(["m::a".to_owned(), "m::b".to_owned()]));
+    assert_eq!(found[0].lines, ["  src/m/a.rs:1 takes B of m::b", "  src/m/b.rs:1 takes C of m::a"]);
+}

@@ -1,0 +1,140 @@
+//! From the answer of a search to a result in physical units, with the data beside the model.
+
+use super::error::CalibrationError;
+use super::findings;
+use super::objective::Objective;
+use super::plan::{Parameter, Plan};
+use super::repeated::Repeated;
+use super::result::{Compared, Evaluation, Found, FoundMinimum, Outcome, Sensitivity};
+use super::target::{Datum, Target};
+use crate::inference::posterior::Posterior;
+use crate::inference::{Answer, Evaluated, LocalMinimum};
+use crate::sampling::Spacing;
+
+/// Samples of the posterior that are kept.
+const MOST_SAMPLES: usize = 1000;
+
+/// The data of one kind beside the answers of their blocks.
+pub(super) fn compared<'r>(
+    objective: &Objective<'_>,
+    held_out: bool,
+    answer: impl Fn(usize) -> Option<&'r Repeated>,
+    named: impl Fn(&Target) -> Target,
+) -> Result<Vec<Compared>, CalibrationError> {
+    let data: Vec<Datum> =
+        objective.data_of(held_out).map(|datum| Datum { target: named(&datum.target), ..datum.clone() }).collect();
+    let owned: Vec<Option<Repeated>> = (0..objective.plan.blocks.len()).map(|k| answer(k).cloned()).collect();
+    let predicted = objective.predict(data.iter(), |block| owned[block].as_ref())?;
+    let one = |(place, (datum, model)): (usize, (Datum, f64))| Compared {
+        block: objective.plan.blocks[datum.block].field.clone(),
+        label: datum.target.label(),
+        at: datum.target.place(),
+        datum: datum.value,
+        band: datum.band(),
+        model,
+        unit: datum.unit.clone(),
+        residual: datum.residual(model) * if held_out { 1.0 } else { objective.weight(place) },
+        scatter: if held_out { 0.0 } else { objective.scatter(place) },
+        predicted: None,
+        source: datum.source,
+    };
+    Ok(data.into_iter().zip(predicted).enumerate().map(one).collect())
+}
+
+/// The fitted cases as complete files, each once.
+pub(super) fn calibrated(objective: &Objective<'_>, values: &[f64]) -> Result<Vec<String>, CalibrationError> {
+    let plan = objective.plan;
+    let fitted = plan.blocks.iter().filter(|block| !block.held_out);
+    fitted
+        .map(|block| {
+            let prepared =
+                block.request.prepare(objective.registry, &plan.file, &plan.settings(block, values), plan.limits)?;
+            Ok(prepared.parameters_toml().to_owned())
+        })
+        .collect()
+}
+
+/// Everything about a search, in physical units; with samples of the posterior if they were asked for.
+pub(super) fn assemble(
+    plan: &Plan,
+    answer: &Answer,
+    sensitivity: Vec<Sensitivity>,
+    (fit, hold_out): (Vec<Compared>, Result<Vec<Compared>, String>),
+    calibrated: Vec<String>,
+    truth_inside: Option<bool>,
+    posterior: Option<&Posterior>,
+) -> Outcome {
+    let search = &answer.search;
+    let region = answer.explored.as_ref().map(|explored| &explored.region);
+    let mut findings = findings::of(plan, answer, &fit);
+    let hold_out = hold_out.unwrap_or_else(|reason| {
+        findings.push(format!("what was held out failed at the best parameters: {reason}"));
+        Vec::new()
+    });
+    let correlation = region.map_or_else(Vec::new, |region| {
+        region.correlation.row_iter().map(|row| row.iter().copied().collect()).collect()
+    });
+    let evaluation = |evaluated: &Evaluated| Evaluation {
+        values: plan.values(&evaluated.point),
+        chi_squared: evaluated.chi_squared,
+    };
+    let minimum =
+        |minimum: &LocalMinimum| FoundMinimum { values: plan.values(&minimum.point), chi_squared: minimum.chi_squared };
+    Outcome {
+        title: plan.title.clone(),
+        note: plan.note.clone(),
+        method: plan.method_name(),
+        stopped: search.stopped.to_string(),
+        searched: answer.searched,
+        evaluations: search.history.iter().map(evaluation).collect(),
+        parameters: found(plan, answer, posterior),
+        samples: posterior.map_or_else(Vec::new, |posterior| {
+            let every = (posterior.samples.len() / MOST_SAMPLES).max(1);
+            posterior.samples.iter().step_by(every).map(|sample| plan.values(sample)).collect()
+        }),
+        minima: search.minima.iter().map(minimum).collect(),
+        chi_squared: Some(search.chi_squared),
+        reduced_chi_squared: region.and_then(|region| region.reduced_chi_squared),
+        p_value: region.and_then(|region| region.p_value),
+        inflation: region.map_or(1.0, |region| region.inflation),
+        correlation,
+        truth_inside,
+        findings,
+        sensitivity,
+        fit,
+        hold_out,
+        trials: Vec::new(),
+        calibrated,
+    }
+}
+
+/// What was found of every parameter.
+fn found(plan: &Plan, answer: &Answer, posterior: Option<&Posterior>) -> Vec<Found> {
+    let best = plan.values(&answer.search.best);
+    let found = |(k, parameter): (usize, &Parameter)| {
+        let physical = |u: f64| parameter.bounds.value(u);
+        let profile = answer.explored.as_ref().map(|explored| &explored.region.profiles[k]);
+        let ends = answer.explored.as_ref().map(|explored| &explored.ends[k]);
+        Found {
+            name: parameter.name.clone(),
+            unit: parameter.unit.clone(),
+            bounds: (parameter.bounds.lower, parameter.bounds.upper),
+            logarithmic: parameter.bounds.spacing == Spacing::Log,
+            start: parameter.start,
+            best: best[k],
+            interval: profile.map(|profile| (physical(profile.interval[0]), physical(profile.interval[1]))),
+            open: ends.map_or((false, false), |[below, above]| (below.open, above.open)),
+            settled: ends.map_or((false, false), |[below, above]| (below.settled, above.settled)),
+            rise: ends.map_or((None, None), |[below, above]| (below.rise, above.rise)),
+            credible: posterior.map(|posterior| {
+                let [low, high] = posterior.intervals[k].map(physical);
+                (low, high)
+            }),
+            profile: profile.map_or_else(Vec::new, |profile| {
+                profile.curve.iter().map(|point| (physical(point.point[k]), point.rise)).collect()
+            }),
+            truth: parameter.truth,
+        }
+    };
+    plan.parameters.iter().enumerate().map(found).collect()
+}

@@ -1,0 +1,83 @@
+//! Reading a calibration: its text, then its cases and data.
+
+use super::conditions::{self, Known};
+use super::error::CalibrationError;
+use super::plan::Plan;
+use super::text::Text;
+use crate::case::{Limits, Registry};
+use crate::evaluation::{PlanError, read_plan};
+use crate::input::FieldError;
+use crate::store::Store;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+impl Plan {
+    /// Reads and checks a file.
+    ///
+    /// # Errors
+    /// A file that cannot be read or typed, ranges that break a rule, a case or a path that does not exist, a run that is
+    /// in both fit and hold-out.
+    pub fn read(file: &Path, registry: Registry, limits: Limits) -> Result<Self, CalibrationError> {
+        let text: Text = read_plan(file, "calibrate")?;
+        let plan = text.checked(file, limits).map_err(|error| error.in_file(file))?;
+        plan.check_cases(registry)?;
+        plan.check_data()?;
+        Ok(plan)
+    }
+
+    /// The data's files are read before the folder of the calibration is touched, so that a bad one leaves nothing behind.
+    fn check_data(&self) -> Result<(), CalibrationError> {
+        let mut texts =
+            self.data.iter().enumerate().flat_map(|(block, texts)| texts.iter().map(move |text| (block, text)));
+        texts.try_for_each(|(block, text)| text.read(block, &self.file).map(drop))
+    }
+
+    fn check_cases(&self, registry: Registry) -> Result<(), CalibrationError> {
+        self.check_names().map_err(|error| error.in_file(&self.file))?;
+        let start: Vec<f64> = self.parameters.iter().map(|parameter| parameter.start).collect();
+        let store = Store::open(crate::store::StorePolicy::Use);
+        let mut fitted: BTreeMap<String, String> = BTreeMap::new();
+        let mut known = Vec::new();
+        for block in &self.blocks {
+            let settings = self.settings(block, &start);
+            if settings.is_empty() && self.choices.is_empty() {
+                let remedy = "let a parameter name a path of the case";
+                let field = format!("{}.case", block.field);
+                return Err(FieldError::new(&field, &block.request.case, "a case with a parameter", remedy)
+                    .in_file(&self.file)
+                    .into());
+            }
+            let prepare = |settings: &[String]| {
+                let prepared = block.request.prepare(registry, &self.file, settings, self.limits);
+                prepared.map_err(|error| PlanError::of(error, &self.file))
+            };
+            for choice in &self.choices {
+                prepare(&choice.in_case(&block.request.case))?;
+            }
+            let mut first = self.choices.first().map_or(settings, |choice| choice.in_case(&block.request.case));
+            let mut prepared = prepare(&first)?;
+            if let Some(path) = self.repeats.path_in(&block.request.case) {
+                first.push(format!("{path}=1"));
+                prepared = prepare(&first)
+                    .map_err(|_| self.repeats.seedless(&block.request.case, path).in_file(&self.file))?;
+            }
+            for run in 0..prepared.run_count() {
+                let Some(identity) = prepared.identity(run, &store) else { continue };
+                if !block.held_out {
+                    fitted.insert(identity, block.field.clone());
+                } else if let Some(field) = fitted.get(&identity) {
+                    return Err(CalibrationError::InBoth {
+                        file: self.file.clone(),
+                        run: format!("{} {}", prepared.name(), prepared.variant(run)).trim_end().to_owned(),
+                        fit: field.clone(),
+                        hold_out: block.field.clone(),
+                    });
+                }
+            }
+            // what the program itself wrote can be read
+            let parameters = toml::from_str(prepared.parameters_toml()).unwrap_or_default();
+            known.push(Known { block, parameters });
+        }
+        conditions::check(self, &known)
+    }
+}

@@ -1,0 +1,40 @@
+//! The answers to one question with several seeds.
+
+use super::target::Target;
+use crate::evaluation::Record;
+
+/// What one question was answered with every seed.
+#[derive(Debug, Clone)]
+pub(super) struct Repeated(Vec<Record>);
+
+impl Repeated {
+    /// The answers of all seeds, the first seed's first.
+    pub(super) const fn new(records: Vec<Record>) -> Self {
+        Self(records)
+    }
+
+    /// Why a run failed, if one did.
+    pub(super) fn failure(&self) -> Option<&str> {
+        self.0.iter().find_map(|record| record.failure.as_deref())
+    }
+
+    /// With one seed; a case without seeds gives the same with all.
+    pub(super) fn with_seed(&self, place: usize) -> Option<&Record> {
+        self.0.get(place).or_else(|| self.0.first())
+    }
+
+    /// The mean over the seeds of what their records say, with its unit.
+    ///
+    /// # Errors
+    /// The words for what a record does not have.
+    pub(super) fn predicted(&self, target: &Target) -> Result<(f64, String), String> {
+        let mut sum = 0.0;
+        let mut unit = String::new();
+        for record in &self.0 {
+            let value;
+            (value, unit) = target.predicted(record)?;
+            sum += value;
+        }
+        Ok((sum / self.0.len() as f64, unit))
+    }
+}

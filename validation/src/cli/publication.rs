@@ -1,0 +1,116 @@
+//! What `bagnold run` writes and prints of finished cases and studies, and how a report shows them.
+
+use super::arguments::Run;
+use super::error::ProgramError;
+use super::expectation::Expectation;
+use super::profile::Profile;
+use super::{Exit, print, say, summary, tell};
+use crate::case::{CaseResult, Tier};
+use crate::judge::Measurements;
+use crate::output::{FileError, OutputFolder};
+use crate::report::{self, Baseline, CaseReport, History, KnownFailures, Provenance, Report, Standing};
+use crate::result::{MetricsDocument, write_case};
+use crate::store::Store;
+use std::io::Write;
+use std::time::Instant;
+
+/// What a command writes of its results.
+pub(super) struct Written<'a> {
+    pub(super) command: &'a Run,
+    pub(super) title: String,
+    pub(super) tier: Tier,
+    pub(super) baseline: Baseline,
+    pub(super) known: KnownFailures,
+    /// Measurements of which the folder receives copies.
+    pub(super) measured: Vec<&'a Measurements>,
+    /// Whether the times of these runs tell how long others will take.
+    pub(super) learns: bool,
+}
+
+/// Where it goes, and what its making has taken.
+pub(super) struct Publication<'a> {
+    pub(super) claimed: OutputFolder,
+    pub(super) store: &'a Store,
+    pub(super) expectation: Expectation,
+    pub(super) started: Instant,
+    pub(super) profile: Profile,
+}
+
+impl Written<'_> {
+    /// Writes numbers, tables, states and the page, and prints the verdicts.
+    pub(super) fn publish(
+        self,
+        results: &[CaseResult],
+        publication: Publication<'_>,
+        output: &mut (dyn Write + Send),
+    ) -> Result<Exit, ProgramError> {
+        let Self { command, known, .. } = self;
+        let Publication { claimed, store, expectation, started, mut profile } = publication;
+        let folder = claimed.folder().to_owned();
+        let threads = rayon::current_num_threads();
+        for result in results {
+            let document = MetricsDocument::of(result, threads);
+            write_case(claimed.staging(), result, &document)
+                .and_then(|()| self.measured.iter().try_for_each(|own| own.keep(claimed.staging())))
+                .map_err(|error| FileError::unwritable(&folder, &error))?;
+            if command.json {
+                print(output, &document.text());
+            }
+        }
+        let page = Report {
+            title: self.title,
+            tier: self.tier,
+            generated: Provenance::of_this_program(started.elapsed(), String::new()),
+            cases: results.iter().map(case_report).collect(),
+            baseline: self.baseline,
+            against: None,
+            history: History::default(),
+            known_failures: known.clone(),
+            papers: &[],
+        };
+        report::write_alone(&page, claimed.staging(), &store.drawings())?;
+        claimed.publish()?;
+        if self.learns {
+            expectation.learn(results, store.root(), threads);
+        }
+        profile.over("page");
+        if let Some(path) = &command.junit {
+            report::write_junit(&page, path)?;
+        }
+        if !command.json {
+            for result in results {
+                say(output, &summary::of_case(result, |metric| is_known(&known, result, metric)));
+            }
+            if results.iter().any(|result| result.unexpected_divergences().next().is_some()) {
+                let states = "of a run that diverged, NAME.pvd ends with the last good state, NAME-first-bad.pvd is the one after";
+                say(output, &format!("{}: {states}\n", folder.join("snapshots").display()));
+            }
+            say(output, &format!("written to {}\n", folder.join("index.html").display()));
+        }
+        if command.profile {
+            tell(profile.in_words(results, threads).trim_end_matches('\n'));
+        }
+        Ok(Exit::of(results, |result, metric| is_known(&known, result, metric)))
+    }
+}
+
+/// A finished case as a report shows it.
+pub(super) fn case_report(result: &CaseResult) -> CaseReport {
+    CaseReport {
+        name: result.name.clone(),
+        summary: result.summary.clone(),
+        description: result.description.clone(),
+        parameters_toml: result.parameters_toml.clone(),
+        command: result.command.clone(),
+        metrics: result.metrics.clone(),
+        figures: result.figures.clone(),
+        animations: result.animations.clone(),
+        runs: result.runs.clone(),
+        metrics_json: MetricsDocument::of(result, rayon::current_num_threads()).text(),
+    }
+}
+
+/// Whether a failing gate is listed, and fails as listed.
+pub(super) fn is_known(known: &KnownFailures, result: &CaseResult, metric: &crate::metric::Metric) -> bool {
+    matches!(known.standing(&result.name, metric), Standing::Known(_))
+}

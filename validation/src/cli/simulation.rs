@@ -1,0 +1,80 @@
+//! Simulating under the eyes of a user: what it is expected to take, and how far it has come.
+
+use super::expectation::Expectation;
+use super::progress::Progress;
+use super::tell;
+use crate::case::{CaseResult, Estimate, Monitor, ParameterError, Prepared, StateOutput, execute};
+use crate::result::States;
+use crate::store::{Store, provenance};
+
+/// Says on standard error what the runs of a command are expected to need.
+pub(super) fn announce(command: &'static str, cases: &[Box<dyn Prepared>], store: &Store, quiet: bool) -> Expectation {
+    if let Some(warning) = provenance::unoptimised() {
+        tracing::warn!("{warning}");
+    }
+    let expectation = Expectation::of(command, cases);
+    if !quiet {
+        let estimate = cases.iter().map(|case| case.estimate()).fold(Estimate::default(), Estimate::and);
+        tell(&expectation.in_words(&estimate, store.root(), rayon::current_num_threads()));
+    }
+    expectation
+}
+
+/// Simulates with a progress bar.
+pub(super) fn simulate(
+    cases: Vec<Box<dyn Prepared>>,
+    store: &Store,
+    quiet: bool,
+    expectation: Option<&Expectation>,
+) -> Result<Vec<CaseResult>, ParameterError> {
+    simulate_showing(cases, store, quiet, None, expectation)
+}
+
+/// Simulates with a progress bar, and shows states on the way.
+pub(super) fn simulate_showing(
+    cases: Vec<Box<dyn Prepared>>,
+    store: &Store,
+    quiet: bool,
+    states: Option<&States>,
+    expectation: Option<&Expectation>,
+) -> Result<Vec<CaseResult>, ParameterError> {
+    let showing = Showing { progress: Progress::new(&cases, quiet), states, expectation };
+    let results = execute(cases, store, &showing);
+    showing.progress.clear();
+    results
+}
+
+/// A progress bar, who takes the states of the runs, and who takes their times.
+struct Showing<'a> {
+    progress: Progress,
+    states: Option<&'a States>,
+    expectation: Option<&'a Expectation>,
+}
+
+impl Monitor for Showing<'_> {
+    fn started(&self, run: usize) {
+        self.progress.started(run);
+        if let Some(expectation) = self.expectation {
+            expectation.started(run);
+        }
+    }
+
+    fn advanced(&self, run: usize, simulated: f64, total: f64, particle_steps: f64) {
+        self.progress.advanced(run, simulated, total, particle_steps);
+    }
+
+    fn resumed(&self, run: usize, simulated: f64) {
+        self.progress.resumed(run, simulated);
+    }
+
+    fn finished(&self, run: usize) {
+        self.progress.finished(run);
+        if let Some(expectation) = self.expectation {
+            expectation.finished(run);
+        }
+    }
+
+    fn output(&self, run: usize) -> Option<&dyn StateOutput> {
+        self.states?.run(run)
+    }
+}
