@@ -2,7 +2,7 @@
 
 use super::error::{FileError, FolderError};
 use super::lock::FolderLock;
-use super::marker::{MARKER, STAGING_PREFIX, write_marker};
+use super::marker::{self, MARKER, STAGING_PREFIX, write_marker};
 use super::publication;
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -53,7 +53,10 @@ impl OutputFolder {
             Ok(lock) => claimed.lock = Some(lock),
             Err(error) => {
                 if let FolderError::Locked { .. } = &error {
-                    claimed.made.clear();
+                    let made = std::mem::take(&mut claimed.made).len();
+                    if made > 0 {
+                        marker::hand_over(folder, made);
+                    }
                 }
                 return Err(error);
             }
@@ -102,6 +105,7 @@ impl OutputFolder {
     pub fn publish(mut self) -> Result<(), FolderError> {
         self.marker = None;
         self.made.clear();
+        marker::handed_over(&self.folder);
         publication::publish(&self.folder, &self.staging)
             .map_err(|error| FileError::unwritable(&self.folder, &error).into())
     }
@@ -116,6 +120,9 @@ impl Drop for OutputFolder {
         if let Some(marker) = &self.marker {
             let _ = std::fs::remove_file(marker);
         }
+        let made = if self.lock.is_some() { marker::handed_over(&self.folder) } else { 0 };
+        let made_by_others = self.folder.ancestors().take(made).skip(self.made.len()).map(Path::to_owned);
+        self.made.extend(made_by_others.collect::<Vec<_>>());
         // its file lies in the folder; one that another command has locked since is not empty and stays
         self.lock = None;
         for folder in &self.made {
