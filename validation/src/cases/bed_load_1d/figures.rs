@@ -1,8 +1,9 @@
 //! The case's figures.
 
 use super::Record;
-use super::metrics::{difference, literature, log_law, of};
-use super::runs::{BedLoad1dRun, Purpose};
+use super::metrics::{difference, log_law};
+use super::records::{literature, of};
+use super::run::{BedLoad1dRun, Purpose, percent};
 use crate::cases::transport_panel;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::bed_load_layer::LayerState;
@@ -20,11 +21,6 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     figures.extend(super::others::figure(records));
     figures.extend(super::sensitivities::figure(records, &layers));
     figures
-}
-
-/// Name of a slope.
-pub(super) fn percent(run: &BedLoad1dRun) -> String {
-    format!("{} %", (1e4 * run.stream.slope).round() / 100.0)
 }
 
 fn profiles(layers: &[Layer<'_>]) -> Figure {

@@ -1,11 +1,7 @@
 //! Layers whose lengths are counted in grains, so that only their Shields number and their grains differ: one that sweeps
 //! vary, and those whose onset of motion is sought.
 
-use super::parameters::BedLoad1dParameters;
-use super::runs::{BedLoad1dRun, Purpose};
 use crate::case::ParameterError;
-use crate::reference::bed_load_layer::{Closures, Stream};
-use crate::reference::critical_shields_number;
 use bagnold_solver::parameter::{between, each, positive, up_to};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,19 +21,7 @@ pub struct GrainUnits {
 }
 
 impl GrainUnits {
-    /// A stream of a Shields number over grains of a diameter `[m]`, with the materials of the case.
-    fn stream(&self, parameters: &BedLoad1dParameters, shields_number: f64, diameter: f64) -> Stream {
-        let excess = parameters.grains.density / parameters.water.density - 1.0;
-        Stream {
-            flow_depth: self.relative_depth * diameter,
-            bed_depth: self.relative_bed_depth * diameter,
-            held_depth: 0.0,
-            grain_diameter: diameter,
-            ..parameters.stream(shields_number * excess / self.relative_depth)
-        }
-    }
-
-    fn check(&self, group: &str) -> Result<(), ParameterError> {
+    pub(super) fn check(&self, group: &str) -> Result<(), ParameterError> {
         let depths = [("relative_depth", self.relative_depth), ("relative_bed_depth", self.relative_bed_depth)];
         for (name, depth) in depths {
             let cells = depth * self.cells_per_diameter;
@@ -98,38 +82,4 @@ impl Similar {
         diameter: 2e-3,
         lengths: GrainUnits { relative_depth: 20.0, relative_bed_depth: 6.0, cells_per_diameter: 12.0 },
     };
-}
-
-/// The runs of both.
-pub(super) fn runs(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
-    let BedLoad1dParameters { similar, onset, closures, .. } = parameters;
-    let of = |lengths: &GrainUnits, purpose, shields_number, diameter, closures| BedLoad1dRun {
-        purpose,
-        stream: lengths.stream(parameters, shields_number, diameter),
-        closures,
-        cell_height: diameter / lengths.cells_per_diameter,
-    };
-    let mut runs = Vec::new();
-    if similar.shields_number > 0.0 {
-        runs.push(of(&similar.lengths, Purpose::Similar, similar.shields_number, similar.diameter, *closures));
-    }
-    let closures = Closures { regularisation_rate: onset.regularisation_rate, ..*closures };
-    for &diameter in &onset.diameters {
-        let shields_number =
-            critical_shields_number(onset.lengths.stream(parameters, 1.0, diameter).dimensionless_diameter());
-        runs.push(of(&onset.lengths, Purpose::Onset, shields_number, diameter, closures));
-    }
-    runs
-}
-
-/// Checks both.
-pub(super) fn check(parameters: &BedLoad1dParameters) -> Result<(), ParameterError> {
-    parameters.similar.lengths.check("similar")?;
-    parameters.onset.lengths.check("onset")?;
-    for run in runs(parameters) {
-        if run.purpose == Purpose::Similar {
-            super::runs::check_sliding("similar.shields_number", parameters.similar.shields_number, &run)?;
-        }
-    }
-    Ok(())
 }

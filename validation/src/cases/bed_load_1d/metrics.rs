@@ -2,11 +2,11 @@
 
 use super::Record;
 use super::others;
-use super::runs::{BedLoad1dRun, Purpose};
+use super::records::{literature, of};
+use super::run::{BedLoad1dRun, Purpose};
 use crate::case::Run;
 use crate::cases::printed_laws;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
-use crate::observation::Outcome;
 use crate::reference::bed_load_layer::{LayerState, SAME_STATE};
 use crate::reference::{HONEST_BAND, ORIGIN_DEPTH, TransportFormula, roughness_ratio};
 
@@ -59,22 +59,6 @@ const LOGARITHMIC_RANGES: [(f64, f64); 4] = [(0.5, 3.0), (3.0, 8.0), (8.0, 18.0)
 const STUDIED_ABOVE: f64 = -0.01;
 
 const MODEL: &str = "the layer's own equations";
-
-/// Layers from rest with the case's closures, that became steady.
-pub(super) fn literature(records: &[Record]) -> impl Iterator<Item = (&BedLoad1dRun, &LayerState)> {
-    of(records, |purpose| *purpose == Purpose::Literature)
-}
-
-/// Steady layers of a purpose.
-pub(super) fn of(
-    records: &[Record],
-    wanted: impl Fn(&Purpose) -> bool,
-) -> impl Iterator<Item = (&BedLoad1dRun, &LayerState)> {
-    records
-        .iter()
-        .filter(move |(run, record)| wanted(&run.purpose) && !matches!(record.outcome, Outcome::Diverged { .. }))
-        .map(|(run, record)| (run, &record.data.state))
-}
 
 pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();

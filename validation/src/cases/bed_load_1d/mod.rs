@@ -7,13 +7,17 @@ mod metrics;
 mod onset;
 mod others;
 mod parameters;
-mod runs;
+mod records;
+mod replacements;
+mod run;
 mod sensitivities;
+mod similar;
+mod tiers;
 
 pub use grain_units::{GrainUnits, Onset, Similar};
 pub use parameters::{BedLoad1dParameters, Grain, Water};
-pub use runs::{BedLoad1dRun, LayerObservation, Purpose};
-pub use sensitivities::Sensitivities;
+pub use replacements::Sensitivities;
+pub use run::{BedLoad1dRun, LayerObservation, Purpose};
 
 use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;

@@ -7,15 +7,12 @@
 //! three known; the two others are observed, and at q* = 10⁻³ grains of a millimetre and less miss the curve's scatter.
 
 use super::Record;
-use super::runs::{BedLoad1dRun, Purpose};
+use super::run::{BedLoad1dRun, Purpose};
 use crate::case::Run;
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
 use crate::metric::{Limit, Metric, Quantity};
-use crate::reference::bed_load_layer::{SAME_STATE, Stream};
+use crate::reference::bed_load_layer::SAME_STATE;
 use crate::reference::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence};
-
-/// Shields numbers at which a layer is computed, over that of the curve `[-]`.
-pub(super) const SCANNED: [f64; 6] = [0.55, 0.75, 1.0, 1.3, 1.7, 2.3];
 
 /// A transport that counts as motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,11 +55,6 @@ impl Criterion {
         });
         crossing.unwrap_or(f64::NAN)
     }
-}
-
-/// Layers over the scanned Shields numbers: the slope follows.
-pub(super) fn scanned(stream: &Stream) -> impl Iterator<Item = Stream> {
-    SCANNED.into_iter().map(|factor| Stream { slope: factor * stream.slope, ..*stream })
 }
 
 fn expected(run: &BedLoad1dRun) -> f64 {

@@ -1,7 +1,7 @@
 //! The layer beside bed load that others have simulated grain by grain or measured.
 
 use super::Record;
-use super::runs::{BedLoad1dRun, Purpose};
+use super::run::{BedLoad1dRun, Purpose};
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::metric::{Confidence, Limit, Metric, Quantity, quantities};

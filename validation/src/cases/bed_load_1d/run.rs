@@ -1,8 +1,6 @@
-//! The runs: layers and what each of them is computed for.
+//! One run: a layer and what it is computed for.
 
-use super::parameters::BedLoad1dParameters;
-use super::sensitivities::Replaced;
-use super::{grain_units, onset, others};
+use super::replacements::Replaced;
 use crate::case::{ParameterError, Progress, Run};
 use crate::checkpoint::is_interrupted;
 use crate::metric::Variant;
@@ -19,6 +17,9 @@ const TRANSITION: f64 = 1.2;
 
 /// Steps that a layer takes, for estimates.
 const USUAL_STEPS: f64 = 350.0;
+
+/// Shields numbers at which a layer is computed, over that of the curve `[-]`.
+pub(super) const SCANNED: [f64; 6] = [0.55, 0.75, 1.0, 1.3, 1.7, 2.3];
 
 /// What a layer is computed for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -79,32 +80,6 @@ pub struct LayerObservation {
     pub scan: Vec<(f64, f64)>,
 }
 
-pub(super) fn all(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
-    let mut runs = Vec::new();
-    for &slope in &parameters.slopes {
-        let new = |purpose, closures, cell_height| BedLoad1dRun {
-            purpose,
-            stream: parameters.stream(slope),
-            closures,
-            cell_height,
-        };
-        let own = parameters.closures;
-        runs.push(new(Purpose::Literature, own, parameters.cell_height));
-        if parameters.fast_start > 0.0 {
-            runs.push(new(Purpose::FastStart(parameters.fast_start), own, parameters.cell_height));
-        }
-        runs.extend(parameters.dilating_cell_heights.iter().map(|&height| new(Purpose::DilatingOrder, own, height)));
-        runs.extend(parameters.frozen_cell_heights.iter().map(|&height| new(Purpose::FrozenOrder, own, height)));
-        runs.extend(parameters.sensitivities.all().into_iter().map(|replaced| {
-            let (closures, cell_height) = replaced.apply(own, parameters.cell_height);
-            new(Purpose::Sensitivity(replaced), closures, cell_height)
-        }));
-    }
-    runs.extend(grain_units::runs(parameters));
-    runs.extend(others::runs(&parameters.measured, parameters.closures));
-    runs
-}
-
 impl Run for BedLoad1dRun {
     type Observation = LayerObservation;
 
@@ -137,7 +112,7 @@ impl Run for BedLoad1dRun {
 
     fn particle_steps(&self) -> f64 {
         let layers = match self.purpose {
-            Purpose::Onset => 2.0 * onset::SCANNED.len() as f64,
+            Purpose::Onset => 2.0 * SCANNED.len() as f64,
             _ if self.has_both_starts() => 2.0,
             _ => 1.0,
         };
@@ -228,7 +203,7 @@ impl BedLoad1dRun {
     /// Shields numbers and transports about the onset, from both starts; that of the run itself is known.
     fn scan(&self, own: &Approach, done: &mut Done) -> Result<Vec<(f64, f64)>, ParameterError> {
         let mut scan = Vec::new();
-        for stream in onset::scanned(&self.stream) {
+        for stream in scanned(&self.stream) {
             if stream == self.stream {
                 scan.push((stream.shields_number(), own.state.transport()));
                 continue;
@@ -289,4 +264,14 @@ fn refused(error: LayerError) -> ParameterError {
             "change them",
         ),
     }
+}
+
+/// Layers over the scanned Shields numbers: the slope follows.
+pub(super) fn scanned(stream: &Stream) -> impl Iterator<Item = Stream> {
+    SCANNED.into_iter().map(|factor| Stream { slope: factor * stream.slope, ..*stream })
+}
+
+/// Name of a slope.
+pub(super) fn percent(run: &BedLoad1dRun) -> String {
+    format!("{} %", (1e4 * run.stream.slope).round() / 100.0)
 }
