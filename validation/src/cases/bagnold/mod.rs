@@ -5,6 +5,7 @@ mod figures;
 mod metrics;
 mod parameters;
 mod runs;
+mod tiers;
 
 pub use parameters::{BagnoldParameters, OtherGrains, Start};
 pub use runs::{BagnoldRun, Purpose};

@@ -3,39 +3,23 @@
 //! Its law of friction is that of the layer, which knows no other: it is part of the closures and cannot be chosen.
 
 use super::parameters::{Continuum, Materials, Stage};
-use super::runs::BedLoadRun;
+use super::run::{BedLoadRun, ContinuumRun};
 use crate::case::ParameterError;
 use crate::cases::channel::{Channel, Lattice};
 use crate::checkpoint::is_interrupted;
 use crate::reference::LayerError;
 use crate::reference::bed_load_layer::{BedLoadLayer, Grains, LayerState, SolidFraction, SteadyStates, Stream};
 use bagnold_solver::incompressible as solver;
-use bagnold_solver::incompressible::{Bed, PairLaw, ParticleSet, ProjectionNumerics, Sediment, Turbulence};
+use bagnold_solver::incompressible::{Bed, ParticleSet, ProjectionNumerics, Sediment, Turbulence};
 use bagnold_solver::material::dilatancy::Dilatancy;
 use bagnold_solver::material::rheology::{Rheology, RootMuI};
 use bagnold_solver::vector::Vector;
-use serde::Serialize;
 
 /// Height of a cell of the 1-D layer `[m]`.
 pub(super) const LAYER_CELL: f64 = 2.5e-4;
 
 /// Rows of held grains below the water's floor, as many as a kernel reaches.
 const WALL_ROWS: usize = 3;
-
-/// What is special to one run.
-#[derive(Debug, Clone, Serialize)]
-pub struct ContinuumRun {
-    /// The formulation's parameters, without its list of runs.
-    pub continuum: Continuum,
-    /// Stage.
-    pub stage: Stage,
-    /// Pair law; none of grains that dilate.
-    pub pair_law: Option<PairLaw>,
-    /// Velocities at the start over those of the 1-D layer `[-]`.
-    pub start: f64,
-    /// Spacing `[m]`.
-    pub spacing: f64,
-}
 
 /// The row of a lattice that a height `[m]` lies in.
 fn row_of(height: f64, lattice: Lattice) -> usize {
@@ -231,7 +215,8 @@ impl ContinuumRun {
 #[cfg(test)]
 mod tests {
     use super::super::parameters::{BedLoadParameters, StageRuns};
-    use super::super::runs::{Formulation, runs};
+    use super::super::run::Formulation;
+    use super::super::runs::runs;
     use super::*;
     use crate::case::{Parameters, Tier};
     use bagnold_solver::incompressible::DrivenGrains;

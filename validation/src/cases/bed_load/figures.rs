@@ -1,10 +1,11 @@
 //! The case's figures; 7 to 13 of the paper, redrawn, and the check against the 1-D layer.
 
 use super::Record;
-use super::continuum::ContinuumRun;
 use super::fit::held_out;
 use super::parameters::Stage;
-use super::runs::{BedLoadRun, Formulation, pair_law_name};
+use super::run::ContinuumRun;
+use super::run::{BedLoadRun, Formulation};
+use super::runs::pair_law_name;
 use crate::cases::transport_panel;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::TransportFormula;

@@ -1,7 +1,7 @@
 //! The fits of `stabilised`: yield stress and viscosity from the transport on two slopes, judged on the third.
 
 use super::Record;
-use super::runs::Formulation;
+use super::run::Formulation;
 use crate::metric::Variant;
 use crate::reference::TransportFormula;
 

@@ -1,7 +1,7 @@
 //! Bed load as another code gives it: profiles of water and grains, and the history of the transport.
 
 use super::observation::{BedLoadObservation, Carried};
-use super::runs::{BedLoadRun, Formulation};
+use super::run::{BedLoadRun, Formulation};
 use crate::case::{Foreign, Form, Given, Item};
 use crate::cases::channel::{self, BlockProfile, ProfilePoint};
 use crate::input::FieldError;
@@ -98,7 +98,7 @@ pub(super) fn observe(run: &BedLoadRun, given: &Given) -> Result<Foreign<BedLoad
 
 #[cfg(test)]
 mod tests {
-    use super::super::metrics;
+    use super::super::judgement;
     use super::super::parameters::BedLoadParameters;
     use super::super::runs::runs;
     use super::*;
@@ -140,7 +140,7 @@ mod tests {
         let given = Given { profile, series, ..Given::default() };
         let seen = observe(&run, &given).expect("complete");
         let record = given.record(seen.observation);
-        let found = metrics::all(&[(run, record)]);
+        let found = judgement::all(&[(run, record)]);
         let value = |name: &str| found.iter().find(|metric| metric.name == name).unwrap_or_else(|| panic!("{name}"));
         assert!((value("transport_ratio").value - 1.0).abs() < 1e-12);
         assert!(value("fluid_velocity_rms").value < 1e-12 && value("grain_velocity_rms").value < 1e-12);

@@ -1,19 +1,15 @@
-//! How the runs are judged.
+//! What is measured of a run, and how that is judged.
 
-use super::Record;
-use super::continuum::ContinuumRun;
-use super::fit::{self, held_out};
 use super::observation::BedLoadObservation;
 use super::parameters::Stage;
 use super::profiles;
 use super::quantities::{
-    DECAY_LENGTH, DRAG_PEAK_HEIGHT, END_TIME, FIT_AT_BORDER, FIT_MISFIT, FITTED_VISCOSITY, FITTED_YIELD_STRESS,
-    FLUID_VELOCITY_MEAN, FLUID_VELOCITY_RMS, GRAIN_CURVATURE_ABOVE, GRAIN_CURVATURE_BELOW, GRAIN_VELOCITY_RMS,
-    HELD_OUT_TRANSPORT_RATIO, HIGHEST_PARTICLE, LAST_TRANSPORT, MOVES_ABOVE, PREDICTED_TRANSPORT, STREAM_VELOCITY,
-    TRANSPORT, TRANSPORT_RATIO,
+    DECAY_LENGTH, DRAG_PEAK_HEIGHT, END_TIME, FLUID_VELOCITY_MEAN, FLUID_VELOCITY_RMS, GRAIN_CURVATURE_ABOVE,
+    GRAIN_CURVATURE_BELOW, GRAIN_VELOCITY_RMS, HIGHEST_PARTICLE, LAST_TRANSPORT, MOVES_ABOVE, PREDICTED_TRANSPORT,
+    STREAM_VELOCITY, TRANSPORT, TRANSPORT_RATIO,
 };
-use super::runs::{BedLoadRun, Formulation};
-use super::statements;
+use super::run::BedLoadRun;
+use super::run::ContinuumRun;
 use crate::case::Run;
 use crate::cases::channel;
 use crate::metric::{Confidence, Limit, Metric};
@@ -30,44 +26,7 @@ const STEADY: f64 = 0.02;
 /// Spacing below which the transport of dilating grains is judged more closely `[m]`.
 const FINE: f64 = 6e-4;
 
-pub(super) fn all(records: &[Record]) -> Vec<Metric> {
-    let mut metrics = Vec::new();
-    for (run, record) in records {
-        match &run.formulation {
-            Formulation::Paper(_) => printed(&mut metrics, run, record),
-            Formulation::Stabilised(grains) => statements::stabilised(&mut metrics, run, record, grains),
-            Formulation::Fit { .. } => metrics.push(transport(run, record)),
-            Formulation::Continuum(own) => continuum(&mut metrics, run, record, own),
-        }
-    }
-    statements::say_what_is_missing(records);
-    statements::growth(&mut metrics, records);
-    for held in held_out(records) {
-        let variant = fit::variant(&held);
-        metrics.push(
-            HELD_OUT_TRANSPORT_RATIO
-                .of(&variant, held.ratio)
-                .against(Some(1.0), TransportFormula::WongParker.name(), TransportFormula::WongParker.confidence())
-                .gated(
-                    Limit::Within(HONEST_BAND.0, HONEST_BAND.1),
-                    "yield stress and viscosity are those that fit the two other slopes",
-                )
-                .with_snapshot_tolerance(0.05, 0.0),
-        );
-        let values = [
-            (FITTED_YIELD_STRESS, held.yield_stress),
-            (FITTED_VISCOSITY, held.viscosity),
-            (FIT_MISFIT, held.misfit),
-            (FIT_AT_BORDER, f64::from(u8::from(held.at_border))),
-        ];
-        for (quantity, value) in values {
-            metrics.push(quantity.of(&variant, value).with_snapshot_tolerance(0.1, 0.05));
-        }
-    }
-    metrics
-}
-
-fn transport(run: &BedLoadRun, record: &Recorded<BedLoadObservation>) -> Metric {
+pub(super) fn transport(run: &BedLoadRun, record: &Recorded<BedLoadObservation>) -> Metric {
     let formula = TransportFormula::WongParker;
     channel::observed(TRANSPORT, &run.variant(), record.data.channel.average(&record.data.transport), 1.0).against(
         Some(formula.transport(run.stream().shields_number())),
@@ -104,7 +63,7 @@ fn drift(run: &BedLoadRun, data: &BedLoadObservation) -> f64 {
 }
 
 /// The printed set-up: no gate, what it does is the result.
-fn printed(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>) {
+pub(super) fn printed(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>) {
     let variant = run.variant();
     let data = &record.data;
     metrics.push(END_TIME.of(&variant, record.simulated_time).with_snapshot_tolerance(0.05, 0.0));
@@ -165,7 +124,12 @@ pub(super) fn grains(metrics: &mut Vec<Metric>, run: &BedLoadRun, data: &BedLoad
     metrics.push(DRAG_PEAK_HEIGHT.of(&variant, 1e3 * peak.0).with_snapshot_tolerance(0.1, 1.0));
 }
 
-fn continuum(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>, own: &ContinuumRun) {
+pub(super) fn continuum(
+    metrics: &mut Vec<Metric>,
+    run: &BedLoadRun,
+    record: &Recorded<BedLoadObservation>,
+    own: &ContinuumRun,
+) {
     let stage = own.stage;
     let variant = run.variant();
     let data = &record.data;

@@ -5,20 +5,21 @@ mod continuum;
 mod figures;
 mod fit;
 mod foreign;
+mod judgement;
 mod metrics;
 mod observation;
 mod parameters;
 mod profiles;
 mod quantities;
+mod run;
 mod runs;
 mod scenes;
 mod statements;
 mod tiers;
 
-pub use continuum::ContinuumRun;
 pub use observation::BedLoadObservation;
 pub use parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns};
-pub use runs::{BedLoadRun, Formulation};
+pub use run::{BedLoadRun, ContinuumRun, Formulation};
 
 use crate::case::{Case, Foreign, Form, Given, RecordOf, Run};
 use crate::cases::channel;
@@ -49,7 +50,7 @@ impl Case for BedLoad {
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
     fn metrics(_: &BedLoadParameters, records: &[Record]) -> Vec<Metric> {
-        metrics::all(records)
+        judgement::all(records)
     }
 
     fn figures(_: &BedLoadParameters, records: &[Record]) -> Vec<Figure> {

@@ -1,6 +1,6 @@
 //! What a run leaves behind.
 
-use super::runs::BedLoadRun;
+use super::run::BedLoadRun;
 use crate::cases::channel::{BlockProfile, Channel, ChannelObservation, ProfilePoint};
 use crate::reference::bed_load_layer::LayerState;
 use crate::statistics::BLOCKS;

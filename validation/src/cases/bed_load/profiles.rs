@@ -1,7 +1,7 @@
 //! What is read off the profiles of water and grains.
 
 use super::observation::BedLoadObservation;
-use super::runs::BedLoadRun;
+use super::run::BedLoadRun;
 use crate::cases::channel::ProfilePoint;
 use crate::metric::Variant;
 use crate::output::Table;

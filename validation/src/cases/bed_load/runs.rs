@@ -1,63 +1,16 @@
 //! The runs: what each depends on, and its scene.
 
-use super::continuum::ContinuumRun;
 use super::observation::{BedLoadObservation, Observer};
-use super::parameters::{BedLoadParameters, Continuum, Grains, Materials};
+use super::parameters::{BedLoadParameters, Continuum, Grains};
+use super::run::{BedLoadRun, ContinuumRun, Formulation};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::cases::channel::Channel;
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::RoughChannel;
-use crate::reference::bed_load_layer::{LayerState, Stream};
+use crate::reference::bed_load_layer::LayerState;
 use bagnold_solver::incompressible::PairLaw;
 use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
-use serde::Serialize;
-
-/// Which formulation a run is of.
-#[derive(Debug, Clone, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Formulation {
-    /// As printed.
-    Paper(Grains),
-    /// By the recipe.
-    Stabilised(Grains),
-    /// By the recipe, one point of the grid of the fits.
-    Fit {
-        /// Its grains, of the law of that point.
-        grains: Grains,
-        /// That law.
-        law: CoulombBingham,
-    },
-    /// Volume fractions.
-    Continuum(ContinuumRun),
-}
-
-impl Formulation {
-    /// The parameters of a formulation with one particle a grain.
-    fn grains(&self) -> Option<&Grains> {
-        match self {
-            Self::Paper(grains) | Self::Stabilised(grains) | Self::Fit { grains, .. } => Some(grains),
-            Self::Continuum(_) => None,
-        }
-    }
-}
-
-/// One simulation.
-#[derive(Debug, Clone, Serialize)]
-pub struct BedLoadRun {
-    /// Formulation.
-    pub formulation: Formulation,
-    /// Slope `[-]`.
-    pub slope: f64,
-    /// Water and grains.
-    pub materials: Materials,
-    /// Simulated time `[s]`.
-    pub duration: f64,
-    /// Averaging window before its end `[s]`.
-    pub averaging_time: f64,
-    pub(super) jitter: f64,
-    pub(super) seed: u64,
-}
 
 /// Offset of the logarithmic law that a layer of grains is set beside `[m]`.
 const LAYER_OFFSET: f64 = 6e-4;
@@ -203,30 +156,6 @@ impl BedLoadRun {
                 observer.observe(simulation, in_window);
             })?;
         Ok(record.map(|channel| observer.finish(channel, layer)))
-    }
-
-    /// The stream of the 1-D layer.
-    #[must_use]
-    pub fn stream(&self) -> Stream {
-        let Materials { depth, gravity, fluid_density, kinematic_viscosity, grain_density, grain_diameter } =
-            self.materials;
-        let (bed_depth, held_depth) = match &self.formulation {
-            Formulation::Paper(grains) | Formulation::Stabilised(grains) | Formulation::Fit { grains, .. } => {
-                (grains.bed_depth, 0.0)
-            }
-            Formulation::Continuum(own) => (own.continuum.bed_depth, own.continuum.held_depth),
-        };
-        Stream {
-            slope: self.slope,
-            flow_depth: depth,
-            bed_depth,
-            held_depth,
-            gravity,
-            fluid_density,
-            kinematic_viscosity,
-            grain_density,
-            grain_diameter,
-        }
     }
 
     /// Clear water over a fixed bed of the same grains.

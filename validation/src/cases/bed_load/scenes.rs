@@ -1,7 +1,7 @@
 //! The channel of the formulations with one particle a grain, and the water of all.
 
 use super::parameters::{Grains, Materials};
-use super::runs::{BedLoadRun, Formulation};
+use super::run::{BedLoadRun, Formulation};
 use crate::cases::channel::{Channel, Lattice, Until};
 use bagnold_solver::incompressible as solver;
 use bagnold_solver::incompressible::{Bed, ParticleSet, Sediment};

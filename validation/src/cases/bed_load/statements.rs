@@ -9,7 +9,7 @@ use super::quantities::{
     LAYER_BORDER, LAYER_SLOPE, LAYER_SLOPE_RATIO, NEAR_BED_DEFICIT, NUMBER_OF_LAYERS, OUTER_DEFICIT, RELATIVE_DEFICIT,
     SEMI_LOG_SLOPE, SHEARED_FROM, SHEARED_THICKNESS_GROWTH, SHEARED_UP_TO, TRANSPORT_GROWTH, TRANSPORT_RATIO,
 };
-use super::runs::{BedLoadRun, Formulation};
+use super::run::{BedLoadRun, Formulation};
 use super::tiers::FITTED;
 use crate::case::Run;
 use crate::cases::channel;

@@ -1,7 +1,8 @@
 //! What each tier runs.
 
 use super::parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns};
-use super::runs::{self, BedLoadRun};
+use super::run::BedLoadRun;
+use super::runs;
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::channel::TurbulenceClosure;
 use crate::reference::bed_load_layer::Closures;

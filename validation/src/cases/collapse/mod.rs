@@ -16,6 +16,7 @@ mod material;
 pub(super) mod metrics;
 pub(super) mod quantities;
 mod release;
+mod reservoir;
 mod scaling;
 mod slope;
 mod stress_updates;
@@ -25,9 +26,10 @@ mod wedge;
 
 pub use column::{ColumnRun, Geometry, Purpose};
 pub use deposit::{BIN_WIDTH, Collapse, FRONT_THICKNESS, front};
-pub use incline::{InclineCollapseParameters, Reservoir};
+pub use incline::InclineCollapseParameters;
 pub use material::{Alteration, Grains, Material};
 pub use release::Release;
+pub use reservoir::Reservoir;
 pub use slope::{SlopeCollapse, SlopeRun};
 
 use crate::case::{ParameterError, Run};

@@ -3,7 +3,7 @@
 use super::block::{Block, STIFFNESS};
 use super::deposit::AT_REST;
 use super::deposit::{Collapse, Surveyor};
-use super::incline::Reservoir;
+use super::reservoir::Reservoir;
 use super::watch::Watch;
 use crate::case::recording::{self, Ending, Stage, Watched};
 use crate::case::{ParameterError, Progress, Run, cost};

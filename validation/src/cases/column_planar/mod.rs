@@ -2,6 +2,7 @@
 
 mod parameters;
 mod runs;
+mod tiers;
 
 pub use parameters::{ColumnPlanarParameters, Columns, Regularised, Sensitivity, Variants};
 

@@ -1,13 +1,10 @@
-//! The case's parameters and their tiers.
+//! The parameters.
 
-use super::runs;
-use crate::case::{ParameterError, Parameters, Tier};
-use crate::cases::collapse::{self, ColumnRun, Grains, Purpose, Release};
+use crate::cases::collapse::{Grains, Release};
 use crate::cases::{Bulk, rules};
-use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};
+use crate::reference::PublishedGrains;
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::parameter::{between, each, positive, within};
-use bagnold_solver::weakly_compressible::numerics::Numerics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -111,112 +108,6 @@ const COARSE: f64 = 5.0;
 pub(super) const SHOWN: [(f64, &[f64]); 3] =
     [(0.9, &[0.07, 0.3]), (2.75, &[0.04, 0.12, 0.34, 0.53]), (4.8, &[0.04, 0.2, 0.4])];
 
-impl Parameters for ColumnPlanarParameters {
-    type Run = ColumnRun;
-
-    fn of_tier(tier: Tier) -> Self {
-        let quick = Self {
-            resolution: 20,
-            tall_resolution: 20,
-            release: Release::with(Numerics::default()),
-            // Table 2; figures 7–10
-            sand: Columns {
-                aspect_ratios: vec![0.7, 0.9, 1.5, 3.0],
-                half_width: collapse::SAND_HALF_WIDTH,
-                tall_half_width: 0.0292,
-                ..Columns::of(&TABLE_2_SAND)
-            },
-            // Table 1; figures 7–9 are captioned glass beads
-            glass: Columns {
-                half_width: collapse::SAND_HALF_WIDTH,
-                tall_half_width: 0.0292,
-                ..Columns::of(&GLASS_BEADS)
-            },
-            lagree: Columns { aspect_ratios: vec![1.0], ..Columns::of(&LAGREE_GRAINS) },
-            sand_inertias: Variants::default(),
-            lagree_diameters: Variants::default(),
-            // the spread over five seeds, which the gates of run-out and height take into account
-            sensitivity: Sensitivity {
-                aspect_ratios: vec![1.0],
-                resolutions: vec![20],
-                seeds: vec![1, 2, 3, 4, 5],
-                ..Sensitivity::default()
-            },
-            regularised: Regularised { aspect_ratios: vec![0.9], rate: 0.01 },
-        };
-        let paper = Self {
-            sand_inertias: Variants {
-                values: vec![GLASS_BEADS.law.reference_inertia],
-                aspect_ratios: vec![5.0, 7.0, 10.0, 14.0, 20.0],
-            },
-            // D/r_0 = 0.01 and 0.04: the source does not say which
-            lagree_diameters: Variants { values: vec![1e-3, 4e-3], aspect_ratios: vec![0.5, 1.0, 2.0, 3.0, 7.0] },
-            sensitivity: Sensitivity {
-                aspect_ratios: vec![1.0, 3.0],
-                resolutions: vec![40, 60, 90],
-                seeds: vec![1, 2, 3, 4, 5],
-                hourglass: vec![0.0, 0.2, 0.5],
-                hourglass_seeds: vec![1, 2, 3],
-                hourglass_resolutions: vec![20, 40],
-            },
-            regularised: Regularised { aspect_ratios: vec![1.0, 3.0], rate: 0.01 },
-            resolution: 40,
-            sand: Columns {
-                aspect_ratios: vec![0.5, 0.7, 0.9, 1.0, 1.5, 2.0, 2.75, 3.0, 4.8, 5.0, 7.0, 10.0, 14.0, 20.0],
-                ..quick.sand.clone()
-            },
-            glass: Columns { aspect_ratios: SHOWN.iter().map(|shown| shown.0).collect(), ..quick.glass.clone() },
-            lagree: Columns { aspect_ratios: vec![0.5, 1.0, 2.0, 3.0, 7.0, 10.0, 14.0, 20.0], ..quick.lagree.clone() },
-            ..quick.clone()
-        };
-        match tier {
-            Tier::Quick => quick,
-            Tier::Paper => paper,
-            Tier::Fine => Self {
-                resolution: 80,
-                tall_resolution: 40,
-                sensitivity: Sensitivity { hourglass_resolutions: vec![20, 40, 80], ..paper.sensitivity.clone() },
-                ..paper
-            },
-        }
-    }
-
-    fn check(&self) -> Result<(), ParameterError> {
-        for (grains, columns) in self.materials() {
-            let name = grains.name();
-            rules::material(&format!("{name}.law"), &columns.law)?;
-            columns.bulk.check(&columns.law).map_err(|error| error.within(name))?;
-        }
-        let altered = [
-            ("sand", &self.sand, "sand_inertias", &self.sand_inertias),
-            ("lagree", &self.lagree, "lagree_diameters", &self.lagree_diameters),
-        ];
-        for (name, columns, list, variants) in altered {
-            if !variants.values.is_empty() && !variants.aspect_ratios.is_empty() {
-                let remedy = format!("`{list}` alters a number of μ(I): choose it, or empty `{list}.values`");
-                rules::only_mu_i(&format!("{name}.law"), &columns.law, &remedy)?;
-            }
-        }
-        if !self.regularised.aspect_ratios.is_empty() {
-            let remedy = "(35) regularises μ(I): choose it, or empty `regularised.aspect_ratios`";
-            rules::only_mu_i("sand.law", &self.sand.law, remedy)?;
-            rules::implicit_runs("numerics", &self.release.numerics, "regularised.aspect_ratios")?;
-        }
-        for (_, columns) in self.materials() {
-            rules::viscous_step("numerics", &self.release.numerics, &columns.law)?;
-        }
-        collapse::check_size(&self.runs(), |run| match run.purpose {
-            Purpose::Convergence => "sensitivity.resolutions".to_owned(),
-            Purpose::Hourglass => "sensitivity.hourglass_resolutions".to_owned(),
-            Purpose::Law | Purpose::Regularised => self.resolution_field(run.aspect_ratio).to_owned(),
-        })
-    }
-
-    fn runs(&self) -> Vec<ColumnRun> {
-        runs::all(self)
-    }
-}
-
 impl ColumnPlanarParameters {
     /// The materials with their names.
     pub(super) fn materials(&self) -> [(Grains, &Columns); 3] {
@@ -236,7 +127,7 @@ impl ColumnPlanarParameters {
 
 impl Columns {
     /// No columns yet, of published grains, 0.1 m to either side.
-    fn of(grains: &PublishedGrains) -> Self {
+    pub(super) fn of(grains: &PublishedGrains) -> Self {
         Self {
             aspect_ratios: Vec::new(),
             half_width: 0.1,

@@ -1,6 +1,6 @@
 //! The case's figures.
 
-use super::grain::Formulation;
+use super::formulation::Formulation;
 use super::probe::{SettlingObservation, SettlingSeries};
 use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;

@@ -1,51 +1,16 @@
 //! A grain alone in a periodic box of fluid.
 
 use super::experiment::Experiment;
+use super::formulation::Formulation;
 use super::parameters::SettlingParameters;
 use super::probe::Drag;
 use crate::reference::{GrainForm, SettlingGrains};
 use bagnold_solver::incompressible::{
-    DragForm, DragSlip, IncompressibleScene, ProjectionNumerics, Sediment, SedimentPressure, SolidFraction,
+    DragForm, DragSlip, IncompressibleScene, Sediment, SedimentPressure, SolidFraction,
 };
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::vector::Vector;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-/// A formulation of the two-phase model that knows single grains.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Formulation {
-    /// The bed-load paper's operators, drag from the slip of each pair.
-    Paper,
-    /// The case's numerics, drag from the slip against the mean of the fluid around.
-    Stabilised,
-}
-
-impl Formulation {
-    /// Its name in parameters and results.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Paper => "paper",
-            Self::Stabilised => "stabilised",
-        }
-    }
-
-    fn numerics(self, of_case: ProjectionNumerics) -> ProjectionNumerics {
-        let ProjectionNumerics { smoothing_ratio, time_step, pressure_tolerance, velocity_tolerance, .. } = of_case;
-        match self {
-            Self::Stabilised => of_case,
-            Self::Paper => ProjectionNumerics {
-                smoothing_ratio,
-                time_step,
-                pressure_tolerance,
-                velocity_tolerance,
-                ..ProjectionNumerics::paper()
-            },
-        }
-    }
-}
+use serde::Serialize;
 
 /// One grain.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -3,32 +3,15 @@
 use super::Record;
 use super::grain::GrainRun;
 use super::probe::{SettlingObservation, SettlingSeries};
+use super::quantities::{
+    MOMENTUM_ERROR, ROOT_MEAN_SQUARE_SLIP_ERROR, SINKING_ERROR, SINKING_OVER_RICHARDSON_ZAKI, SLIP_ERROR,
+    SLIP_OF_MEANS_ERROR, TERMINAL_VELOCITY_ERROR, UNEVENNESS,
+};
 use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;
 use crate::case::Run;
-use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
+use crate::metric::{Limit, Metric, Quantity, Variant};
 use crate::reference::{richardson_zaki_confidence, richardson_zaki_exponent};
-
-quantities! {
-    []
-    TERMINAL_VELOCITY_ERROR:
-        verified("terminal_velocity_error", "%", "slip that the drag is taken from over that of a grain alone, less 1"),
-    SLIP_OF_MEANS_ERROR: verified("slip_of_means_error", "%", "|⟨u_f⟩ − u_s| over the root of the balance, less 1"),
-    ROOT_MEAN_SQUARE_SLIP_ERROR:
-        verified("root_mean_square_slip_error", "%", "√⟨|u_f − u_s|²⟩ over the root of the balance, less 1"),
-    SLIP_ERROR: verified("slip_error", "%", "slip of a suspension over the root, less 1"),
-    SINKING_ERROR: verified("sinking_error", "%", "velocity at which a suspension sinks over the root's, less 1"),
-    SINKING_OVER_RICHARDSON_ZAKI:
-        validated("sinking_over_richardson_zaki", "-", "that velocity over Richardson and Zaki's"),
-    UNEVENNESS: verified("unevenness", "%", "scatter of the grains' velocities over the slip"),
-    DRAG_CURVE_ERROR: validated(
-        "drag_curve_error", "%", "largest deviation of a law's drag of one sphere from the standard drag curve",
-    ),
-    LAW_SLIP_ERROR:
-        verified("law_slip_error", "%", "largest deviation of a law's slip from that of the printed law"),
-    MOMENTUM_ERROR:
-        accounted("momentum_error", "-", "what does not close of a step's momentum, over the grains' weight"),
-}
 
 const ALONE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ½ for the planar form (30)";
 const SPHERE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ¾ for a sphere";

@@ -3,16 +3,20 @@
 mod drag_curves;
 mod experiment;
 mod figures;
+mod formulation;
 mod grain;
 mod laws;
 mod metrics;
 mod parameters;
 mod probe;
+mod quantities;
 mod runs;
 mod suspension;
+mod tiers;
 
 pub use experiment::{Experiment, Vessel};
-pub use grain::{Formulation, GrainRun};
+pub use formulation::Formulation;
+pub use grain::GrainRun;
 pub use parameters::{Grain, SettlingParameters, SuspendedGrains, Water};
 pub use probe::{SettlingObservation, SettlingSeries};
 pub use runs::SettlingRun;
@@ -50,7 +54,7 @@ impl Case for Settling {
         pressure are unstable at short waves. The kernel of the drag, two or three spacings wide, holds them back for \
         the time of a run, not for ever; the unevenness of the grains' velocities is observed.";
     type Parameters = SettlingParameters;
-    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
+    const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
     fn metrics(_: &SettlingParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
