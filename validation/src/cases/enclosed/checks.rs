@@ -1,6 +1,7 @@
 //! Rules between the fields of a scene.
 
-use super::setting::{Body, Gauge, Setting, Wall, shown, vector};
+use super::parameters::Setting;
+use super::setting::{Body, Gauge, Wall, shown, vector};
 use super::{Measure, SceneParameters, names, sides::Sides};
 use crate::case::ParameterError;
 use crate::cases::rules;

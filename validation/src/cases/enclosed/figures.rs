@@ -1,7 +1,7 @@
 //! Figures of scenes: pictures of the material between its walls, and the series of the gauges.
 
+use super::parameters::Setting;
 use super::series;
-use super::setting::Setting;
 use super::{Record, SceneObservation, SceneParameters};
 use crate::figure::{Axis, Figure, Panel};
 

@@ -1,6 +1,8 @@
 //! Where particles start: on the sites of a lattice that bodies hold, as dense as the material above them makes them.
 
-use super::setting::{Body, Setting, Sides, vector};
+use super::parameters::Setting;
+use super::setting::{Body, vector};
+use super::sides::Sides;
 use super::surfaces::Surfaces;
 use super::{SceneParameters, shapes};
 use bagnold_solver::material::equation_of_state::EquationOfState;

@@ -1,7 +1,9 @@
 //! How scenes are judged: by their balances, and their gauges by what was measured.
 
+use super::parameters::Setting;
 use super::series;
-use super::setting::{Setting, Sides, vector};
+use super::setting::vector;
+use super::sides::Sides;
 use super::{Measure, Measured, Record, SceneObservation, SceneParameters};
 use crate::cases::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};

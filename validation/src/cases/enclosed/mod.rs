@@ -1,12 +1,14 @@
 //! Scenes of a user's own, whatever the number of axes: what the cases `scene` and `scene-space` share. What the plane and
 //! space give in a way of their own (bodies, walls, gauges, sides, pictures, the tiers' scene) stands in the folders of these
-//! cases, behind [`setting::Setting`].
+//! cases, behind [`Setting`].
 
 mod checks;
 pub(super) mod figures;
 pub(super) mod filling;
 pub(super) mod gauges;
+mod given;
 pub(super) mod measure;
+mod measured;
 pub(super) mod metrics;
 pub(super) mod names;
 mod observation;
@@ -17,12 +19,14 @@ pub mod setting;
 pub(super) mod shapes;
 pub mod sides;
 mod surfaces;
+mod tiers;
 
+pub use given::Given;
 pub use measure::{Depth, Line, Measure, Opening};
+pub use measured::Measured;
 pub use observation::{Left, SceneObservation};
-pub use parameters::SceneParameters;
+pub use parameters::{SceneParameters, Setting};
 pub use run::SceneRun;
-pub use series::Measured;
 pub use sides::DomainSide;
 
 use crate::observation::Recorded;

@@ -1,17 +1,60 @@
-//! Parameters: everything that a scene is.
+//! Everything that a scene is, and what the plane and space each give of it in their own way: all else is written once, over
+//! [`Setting`].
 
-use super::setting::{Body, Gauge, Setting, Wall, vector};
-use super::{Measure, Measured, SceneRun, shapes};
-use crate::case::{ParameterError, Parameters, Tier};
+use super::given::Given;
+use super::measured::Measured;
+use super::setting::{Body, Gauge, Wall, vector};
+use super::sides::Sides;
+use super::{Measure, shapes};
+use crate::case::Tier;
 use crate::cases::Bulk;
+use crate::figure::Figure;
+use crate::metric::Quantity;
+use crate::observation::Frame;
+use bagnold_solver::domain::Domain;
 use bagnold_solver::material::equation_of_state::Tension;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, filled, positive};
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::shell::Shell;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
-use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::fmt::Debug;
+
+/// The plane (D = 2) or space (D = 3).
+pub trait Setting<const D: usize>: Debug + Clone + Copy + PartialEq + Send + Sync + 'static {
+    /// Coordinates or components along the axes, as a case file gives them.
+    type Place: Given + Copy + Into<[f64; D]>;
+    /// The sides of the domain by their names.
+    type Sides: Sides<D>;
+    /// A piece of material.
+    type Body: Body<D>;
+    /// A wall.
+    type Wall: Wall<D>;
+    /// A gauge.
+    type Gauge: Gauge<D>;
+
+    /// What to do about a scene without bodies.
+    const ADD_A_BODY: &'static str;
+    /// What a step of a particle costs of one in the plane `[-]`: its neighbours.
+    const COST: f64;
+    /// Mean force on a gauge's wall, in the unit that forces have here.
+    const MEAN_FORCE: Quantity;
+    /// Mass that has crossed a gauge's opening, in the unit that masses have here.
+    const MASS_CROSSED: Quantity;
+    /// Unit of a mass per time.
+    const FLUX_UNIT: &'static str;
+
+    /// The scene of a tier.
+    fn of_tier(tier: Tier) -> SceneParameters<Self, D>;
+
+    /// Fills the space behind walls with `rows` of dummy particles at a `spacing` `[m]`.
+    fn lay(shells: &mut [Shell<D>], domain: &Domain<D>, spacing: f64, rows: usize);
+
+    /// Pictures of the material between its walls.
+    fn pictures(parameters: &SceneParameters<Self, D>, frames: &[Frame]) -> Figure;
+}
 
 /// Parameters of the cases `scene` and `scene-space`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -60,25 +103,6 @@ pub struct SceneParameters<S: Setting<D>, const D: usize> {
     pub measured: Vec<Measured>,
     /// Numerics.
     pub numerics: Numerics,
-}
-
-impl<S: Setting<D>, const D: usize> Parameters for SceneParameters<S, D>
-where
-    Simulation<D>: Compiled<D>,
-{
-    type Run = SceneRun<S, D>;
-
-    fn of_tier(tier: Tier) -> Self {
-        S::of_tier(tier)
-    }
-
-    fn check(&self) -> Result<(), ParameterError> {
-        self.checked()
-    }
-
-    fn runs(&self) -> Vec<SceneRun<S, D>> {
-        vec![SceneRun { scene: self.clone() }]
-    }
 }
 
 impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {

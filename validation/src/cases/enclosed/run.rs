@@ -1,7 +1,9 @@
 //! From the parameters to a scene of the solver, and what is watched while it runs.
 
 use super::gauges::Memory;
-use super::setting::{Body, Setting, Sides, Wall, vector};
+use super::parameters::Setting;
+use super::setting::{Body, Wall, vector};
+use super::sides::Sides;
 use super::surfaces::{Surfaces, behind};
 use super::{SceneObservation, SceneParameters};
 use crate::case::recording::{self, Ending, Followed, Stage};

@@ -1,28 +1,10 @@
 //! Series of gauges: their columns, what they are compared with, and how they are written.
 
-use super::setting::{Gauge, Setting};
+use super::measured::Measured;
+use super::parameters::Setting;
+use super::setting::Gauge;
 use super::{Measure, Record, SceneObservation, SceneParameters};
 use crate::output::Table;
-use bagnold_solver::parameter::{between, filled};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-/// A measured series that a gauge is compared with.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Measured {
-    /// Name of the gauge, whose first column it is.
-    pub gauge: String,
-    /// Where the numbers come from.
-    pub source: String,
-    /// Times `[s]` and values in the gauge's unit, positive.
-    #[schemars(transform = filled("at least one row", "give time and value of every point"))]
-    pub points: Vec<(f64, f64)>,
-    /// Largest root mean square of the relative error `[%]`; 0 where it is only observed.
-    #[serde(default)]
-    #[schemars(transform = between(0.0, 100.0, "10 is a tenth"))]
-    pub limit: f64,
-}
 
 /// One column of a series.
 pub(super) struct Column {

@@ -1,58 +1,11 @@
-//! What scenes in the plane and in space each give in their own way. All else about them is written once, over these traits.
+//! Bodies, walls and gauges, which the plane and space each give in their own way.
 
-use super::{Measure, SceneParameters};
-use crate::case::{ParameterError, Tier};
-use crate::figure::Figure;
-use crate::metric::Quantity;
-use crate::observation::Frame;
-use bagnold_solver::domain::Domain;
+use super::Measure;
+use super::given::Given;
+use crate::case::ParameterError;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::Surface;
 use bagnold_solver::weakly_compressible::boundary::shell::Shell;
-use schemars::JsonSchema;
-use serde::{Serialize, de::DeserializeOwned};
-use std::fmt::Debug;
-
-pub use super::sides::Sides;
-
-/// Plain data that a case file gives.
-pub trait Given: Debug + Clone + PartialEq + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static {}
-
-impl<T: Debug + Clone + PartialEq + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static> Given for T {}
-
-/// The plane (D = 2) or space (D = 3).
-pub trait Setting<const D: usize>: Debug + Clone + Copy + PartialEq + Send + Sync + 'static {
-    /// Coordinates or components along the axes, as a case file gives them.
-    type Place: Given + Copy + Into<[f64; D]>;
-    /// The sides of the domain by their names.
-    type Sides: Sides<D>;
-    /// A piece of material.
-    type Body: Body<D>;
-    /// A wall.
-    type Wall: Wall<D>;
-    /// A gauge.
-    type Gauge: Gauge<D>;
-
-    /// What to do about a scene without bodies.
-    const ADD_A_BODY: &'static str;
-    /// What a step of a particle costs of one in the plane `[-]`: its neighbours.
-    const COST: f64;
-    /// Mean force on a gauge's wall, in the unit that forces have here.
-    const MEAN_FORCE: Quantity;
-    /// Mass that has crossed a gauge's opening, in the unit that masses have here.
-    const MASS_CROSSED: Quantity;
-    /// Unit of a mass per time.
-    const FLUX_UNIT: &'static str;
-
-    /// The scene of a tier.
-    fn of_tier(tier: Tier) -> SceneParameters<Self, D>;
-
-    /// Fills the space behind walls with `rows` of dummy particles at a `spacing` `[m]`.
-    fn lay(shells: &mut [Shell<D>], domain: &Domain<D>, spacing: f64, rows: usize);
-
-    /// Pictures of the material between its walls.
-    fn pictures(parameters: &SceneParameters<Self, D>, frames: &[Frame]) -> Figure;
-}
 
 /// A piece of the material at the start.
 pub trait Body<const D: usize>: Given {

@@ -1,6 +1,6 @@
 //! Sides of a scene's domain.
 
-use super::setting::Given;
+use super::given::Given;
 use crate::case::ParameterError;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::vector::Vector;

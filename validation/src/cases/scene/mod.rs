@@ -10,7 +10,7 @@ pub use body::Body;
 pub use gauge::Gauge;
 pub use wall::{FlowSide, Sides, WallLine};
 
-use super::enclosed::setting::Setting;
+use super::enclosed::Setting;
 use super::enclosed::{self, metrics, series};
 use crate::case::{Case, RecordOf, Tier};
 use crate::figure::Figure;

@@ -1,0 +1,10 @@
+//! What a case file can hold.
+
+use schemars::JsonSchema;
+use serde::{Serialize, de::DeserializeOwned};
+use std::fmt::Debug;
+
+/// Plain data that a case file gives.
+pub trait Given: Debug + Clone + PartialEq + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static {}
+
+impl<T: Debug + Clone + PartialEq + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static> Given for T {}

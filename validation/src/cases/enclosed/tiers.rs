@@ -1,0 +1,25 @@
+//! The tiers of a scene, its rules and its run.
+
+use super::SceneRun;
+use super::parameters::{SceneParameters, Setting};
+use crate::case::{ParameterError, Parameters, Tier};
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+
+impl<S: Setting<D>, const D: usize> Parameters for SceneParameters<S, D>
+where
+    Simulation<D>: Compiled<D>,
+{
+    type Run = SceneRun<S, D>;
+
+    fn of_tier(tier: Tier) -> Self {
+        S::of_tier(tier)
+    }
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.checked()
+    }
+
+    fn runs(&self) -> Vec<SceneRun<S, D>> {
+        vec![SceneRun { scene: self.clone() }]
+    }
+}
