@@ -2,10 +2,10 @@
 
 use super::accepted::tier_name;
 use super::judgement::{JudgedCase, Severity};
-use super::page::{provenance, seconds};
+use super::origin::{provenance, seconds};
 use super::rows::{mark, rows, vanished};
 use super::template::fill;
-use super::view::{Case, CasePage, Mark, Neighbours, Picture, Row, Run, typed};
+use super::view::{Case, CasePage, Mark, Neighbours, Row, Run, picture, typed};
 use super::{Drawn, Report};
 use crate::case::RunSummary;
 use crate::metric::{Kind, Verdict};
@@ -99,17 +99,6 @@ pub(super) fn case_statement(judged: &JudgedCase<'_>) -> String {
     let words: Vec<String> =
         parts.iter().filter(|(number, _)| *number > 0).map(|(number, word)| format!("{number} {word}")).collect();
     if words.is_empty() { "no metrics".to_owned() } else { words.join(" · ") }
-}
-
-/// A drawn figure as a page refers to it.
-pub(super) fn picture(drawn: &Drawn) -> Picture {
-    Picture {
-        name: drawn.name.clone(),
-        caption: drawn.caption.clone(),
-        moves: drawn.moves,
-        size: drawn.size,
-        failure: drawn.failure.clone(),
-    }
 }
 
 fn run(run: &RunSummary) -> Run {

@@ -10,10 +10,12 @@ pub mod history;
 pub mod judgement;
 mod junit;
 pub mod known_failures;
+mod origin;
 mod overview;
 mod page;
 pub mod papers;
 mod papers_page;
+
 mod rows;
 pub mod scatter;
 mod shipped;

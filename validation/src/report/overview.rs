@@ -1,8 +1,9 @@
 //! What the first page shows of the cases: the worst margins, a picture each, and every gate in one table.
 
-use super::case_page::{case_statement, picture};
+use super::case_page::case_statement;
 use super::judgement::{Judged, JudgedCase, Judgement, Severity};
 use super::rows::{margin_share, mark, row, statement, whole, worst_mark};
+use super::view::picture;
 use super::view::{CaseLine, Gate, Line, Mark, Thumbnail, anchor};
 use super::{CaseReport, Drawn};
 use crate::metric::Kind;

@@ -3,14 +3,37 @@
 use super::accepted::tier_name;
 use super::judgement::{Judgement, Severity, Tally};
 use super::known_failures::Standing;
+use super::origin::provenance;
 use super::overview;
 use super::papers::{self, Status};
 use super::papers_page;
 use super::rows::{note, statement, worst_mark};
 use super::template::fill;
-use super::view::{Banner, BannerItem, Count, Mark, Overview, anchor, typed};
-use super::{CaseReport, Drawn, Provenance, Report, drift, scatter};
-use crate::store::provenance::short_commit;
+use super::view::{Banner, BannerItem, CaseLine, Count, Gate, Line, Mark, Thumbnail, anchor, typed};
+use super::{CaseReport, Drawn, Report, drift, scatter};
+use serde::Serialize;
+
+/// The first page: what a reader must know, and the way to everything else.
+#[derive(Debug, Serialize)]
+struct Overview {
+    title: String,
+    tier: &'static str,
+    banner: Banner,
+    counts: Vec<Count>,
+    /// Gates that fail, then those that hold by least.
+    worst: Vec<Line>,
+    strip: Vec<Thumbnail>,
+    cases: Vec<CaseLine>,
+    gates: Vec<Gate>,
+    drift: drift::Table,
+    scatter: Vec<scatter::Row>,
+    has_papers: bool,
+    provenance: Vec<(&'static str, String)>,
+    command: String,
+    date: Option<String>,
+    style: &'static str,
+    script: &'static str,
+}
 
 /// Fills the template; `drawn` holds the figures of the report's cases in the report's order.
 pub(super) fn render(
@@ -194,24 +217,6 @@ fn counts(judgement: &Judgement<'_>) -> Vec<Count> {
     ];
     counts.extend(papers_page::count(&judgement.papers));
     counts
-}
-
-pub(super) fn provenance(provenance: &Provenance) -> Vec<(&'static str, String)> {
-    let commit = match provenance.commit.as_str() {
-        "" => "unknown".to_owned(),
-        commit => short_commit(commit),
-    };
-    vec![
-        ("version", provenance.version.clone()),
-        ("commit", commit),
-        ("threads", provenance.threads.to_string()),
-        ("wall time", format!("{}\u{202f}s", seconds(provenance.wall_seconds))),
-    ]
-}
-
-/// Wall times are known to a tenth of a second at best.
-pub(super) fn seconds(seconds: f64) -> String {
-    if seconds.is_finite() { format!("{seconds:.1}") } else { "unknown".to_owned() }
 }
 
 fn plural(number: usize, word: &str) -> String {

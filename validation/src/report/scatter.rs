@@ -151,7 +151,7 @@ pub(super) fn rows(quantities: &[QuantityBias], drawn: &[Drawn]) -> Vec<Row> {
             scatter: percent(found.scatter),
             model,
             experiment,
-            figure: drawn.get(place).map(super::case_page::picture),
+            figure: drawn.get(place).map(super::view::picture),
         }
     };
     quantities.iter().enumerate().map(row).collect()

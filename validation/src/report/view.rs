@@ -1,5 +1,6 @@
 //! What the template sees: nothing but text, made by `page` and `rows`.
 
+use super::Drawn;
 use crate::metric::Variant;
 use serde::Serialize;
 
@@ -29,28 +30,6 @@ pub(super) fn anchor(case: &str, metric: &str, variant: &Variant) -> String {
 /// The command as typed in a checkout, where the program is not installed.
 pub(super) fn typed(command: &str) -> String {
     command.strip_prefix("bagnold ").map_or_else(|| command.to_owned(), |rest| format!("cargo run -- {rest}"))
-}
-
-/// The first page: what a reader must know, and the way to everything else.
-#[derive(Debug, Serialize)]
-pub(super) struct Overview {
-    pub(super) title: String,
-    pub(super) tier: &'static str,
-    pub(super) banner: Banner,
-    pub(super) counts: Vec<Count>,
-    /// Gates that fail, then those that hold by least.
-    pub(super) worst: Vec<Line>,
-    pub(super) strip: Vec<Thumbnail>,
-    pub(super) cases: Vec<CaseLine>,
-    pub(super) gates: Vec<Gate>,
-    pub(super) drift: super::drift::Table,
-    pub(super) scatter: Vec<super::scatter::Row>,
-    pub(super) has_papers: bool,
-    pub(super) provenance: Vec<(&'static str, String)>,
-    pub(super) command: String,
-    pub(super) date: Option<String>,
-    pub(super) style: &'static str,
-    pub(super) script: &'static str,
 }
 
 /// A metric among the worst.
@@ -228,4 +207,15 @@ pub(super) struct Run {
     pub(super) hash: String,
     pub(super) short_hash: String,
     pub(super) from_store: bool,
+}
+
+/// A drawn figure as a page refers to it.
+pub(super) fn picture(drawn: &Drawn) -> Picture {
+    Picture {
+        name: drawn.name.clone(),
+        caption: drawn.caption.clone(),
+        moves: drawn.moves,
+        size: drawn.size,
+        failure: drawn.failure.clone(),
+    }
 }

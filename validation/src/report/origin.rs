@@ -1,0 +1,22 @@
+//! How a report came about, in the words of a page.
+
+use super::Provenance;
+use crate::store::provenance::short_commit;
+
+pub(super) fn provenance(provenance: &Provenance) -> Vec<(&'static str, String)> {
+    let commit = match provenance.commit.as_str() {
+        "" => "unknown".to_owned(),
+        commit => short_commit(commit),
+    };
+    vec![
+        ("version", provenance.version.clone()),
+        ("commit", commit),
+        ("threads", provenance.threads.to_string()),
+        ("wall time", format!("{}\u{202f}s", seconds(provenance.wall_seconds))),
+    ]
+}
+
+/// Wall times are known to a tenth of a second at best.
+pub(super) fn seconds(seconds: f64) -> String {
+    if seconds.is_finite() { format!("{seconds:.1}") } else { "unknown".to_owned() }
+}
