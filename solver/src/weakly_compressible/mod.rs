@@ -5,6 +5,7 @@
 
 pub mod boundary;
 pub mod divergence;
+mod enclosure_step;
 pub mod energy;
 mod model;
 pub mod neighbours;

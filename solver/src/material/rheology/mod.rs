@@ -27,6 +27,7 @@
 
 mod bingham;
 mod coulomb_bingham;
+mod grain_parameters;
 mod herschel_bulkley;
 mod mu_i;
 mod newtonian;

@@ -28,13 +28,15 @@
 //!
 //! From then on `law = "power-law"` finds it wherever a [`Rheology`](super::Rheology) is read.
 
+mod error;
 mod registry;
 mod table;
 
 #[cfg(test)]
 mod tests;
 
-pub use registry::{Maker, OpenLawError, RegistrationError, built_in, register, registered};
+pub use error::{OpenLawError, RegistrationError};
+pub use registry::{Maker, built_in, register, registered};
 pub use table::Parameters;
 pub(super) use table::Written;
 

@@ -4,7 +4,7 @@
 //! At rest η = μ_s p/α_r + (μ_2 − μ_s) p/(ξ √p + α_r): finite, but tens of kPa·s for α_r = 0.01 1/s and p = 1 kPa,
 //! so that an explicit step is hundreds of times shorter than the acoustic one. For p ≤ 0 there is no stress.
 
-use super::mu_i::{law_of_grains, reference_rate};
+use super::grain_parameters::{law_of_grains, reference_rate};
 use super::regularisation::inverse_shear_rate;
 use super::{ViscousLaw, rising_friction};
 use crate::parameter::{ParameterProblem, above};

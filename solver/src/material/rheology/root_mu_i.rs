@@ -6,7 +6,7 @@
 //! exponential and shifts the rate of the other, the whole stress falls by γ̇/√(γ̇² + γ_r²): the two differ by
 //! ½ (γ_r/γ̇)² in flow. For p ≤ 0 there is no stress.
 
-use super::mu_i::{law_of_grains, reference_rate};
+use super::grain_parameters::{law_of_grains, reference_rate};
 use super::regularisation::root_shear_rate;
 use super::{ViscousLaw, rising_friction};
 use crate::parameter::{ParameterProblem, above, positive};

@@ -2,6 +2,7 @@
 //! it needs is then at hand, the new stress of each particle.
 
 use super::PairData;
+use super::layout;
 use super::new_state::{Advance, Extremes, Output, RateSums};
 use super::records::{self, LaneRecord};
 use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, sum_of, zero_tensor};
@@ -15,14 +16,9 @@ use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{continuity, density_coupling, stress_diffusion};
 use rayon::prelude::*;
 
-/// Values of a record: the layout of [`Partner`].
-pub(super) const fn values(dimension: usize) -> usize {
-    3 * dimension + 1
-}
-
 /// Values of a record with the stress that diffuses: [`Partner`], then [`Yielding`].
 const fn long_values(dimension: usize) -> usize {
-    values(dimension) + 1 + records::deviator_values(dimension)
+    layout::continuity(dimension) + 1 + records::deviator_values(dimension)
 }
 
 /// Values of a record if the density alone is updated: position, velocity.
@@ -62,14 +58,17 @@ struct Yielding<V, const D: usize> {
 impl<V: Lanes, const D: usize> Yielding<V, D> {
     #[inline(always)]
     fn of(record: &LaneRecord<V>) -> Self {
-        Self { part: records::scalar(record, values(D)), stress: records::deviator(record, values(D) + 1) }
+        Self {
+            part: records::scalar(record, layout::continuity(D)),
+            stress: records::deviator(record, layout::continuity(D) + 1),
+        }
     }
 }
 
 /// Values and quads of a record of continuity.
 #[inline(always)]
 const fn quads(dimension: usize, diffuses: bool) -> usize {
-    if diffuses { long_values(dimension).div_ceil(4) } else { values(dimension).div_ceil(4) }
+    if diffuses { long_values(dimension).div_ceil(4) } else { layout::continuity(dimension).div_ceil(4) }
 }
 
 /// Advances density, velocity gradient and stress of the flow particles by one time step `[s]`.
@@ -130,7 +129,7 @@ fn fill_records<const D: usize>(
     let (full, diffuses) = (gradient != GradientUse::None, model.stress_diffuses());
     pairs.continuity.set_values(match (full, diffuses) {
         (false, _) => short_values(D),
-        (true, false) => values(D),
+        (true, false) => layout::continuity(D),
         (true, true) => long_values(D),
     });
     pairs.continuity.fill(particles.position.len(), |index, record| {
@@ -219,7 +218,7 @@ fn all_sums<V: Lanes, const D: usize, const DIFFUSES: bool>(
     }
     let wall_share = V::splat(factor(Planted::WallContinuity));
     for (w, weight) in group.wall.zip(wall_weights) {
-        let record = all.load_start::<V>(quads, const { values(D).div_ceil(4) }, &w);
+        let record = all.load_start::<V>(quads, const { layout::continuity(D).div_ceil(4) }, &w);
         let wall = Partner::<V, D>::of(&record);
         let r = difference(&own.position, &wall.position);
         let weight = V::load(weight);

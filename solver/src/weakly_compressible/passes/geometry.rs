@@ -2,6 +2,7 @@
 //! corrections, the corrected pressure gradient, and the stress as the divergence takes it.
 
 use super::PairData;
+use super::layout;
 use super::records;
 use crate::lanes::algebra::{
     accumulate, deviatoric_rate, difference, dot, load, load_tensor, matrix_product, product, store_tensor,
@@ -17,11 +18,6 @@ use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::kernel_correction::corrections;
 use rayon::prelude::*;
 use std::ops::Range;
-
-/// Values of a neighbour's record: position, volume, pressure.
-pub(crate) const fn values(dimension: usize) -> usize {
-    dimension + 2
-}
 
 struct Output<'a, const D: usize> {
     correction: &'a mut [Tensor<D>],
@@ -124,14 +120,14 @@ fn pair_sums<V: Lanes, const D: usize>(
     group: &NeighbourGroup<'_>,
     weights: &mut [[f64; LANES]],
 ) -> GeometrySums<V, D> {
-    let own = records.load::<V>(const { values(D).div_ceil(4) }, &group.own);
+    let own = records.load::<V>(const { layout::geometry(D).div_ceil(4) }, &group.own);
     let place = records::vector::<V, D>(&own, 0);
     let pressure_a = records::scalar(&own, D + 1);
     // M is symmetric: only the upper triangle is summed
     let mut moment = zero_tensor::<V, D>();
     let mut gradient = zero_vector::<V, D>();
     for (b, stored) in group.pairs.zip(weights) {
-        let record = records.load::<V>(const { values(D).div_ceil(4) }, &b);
+        let record = records.load::<V>(const { layout::geometry(D).div_ceil(4) }, &b);
         let position = records::vector::<V, D>(&record, 0);
         let volume = records::scalar(&record, D);
         let pressure = records::scalar(&record, D + 1);

@@ -3,7 +3,9 @@
 //! law.
 
 pub(crate) mod continuity;
+mod flow_partner;
 pub(crate) mod geometry;
+pub(crate) mod layout;
 pub(crate) mod momentum;
 mod new_state;
 mod pair_data;

@@ -2,10 +2,11 @@
 //! hourglass control, each a term of its own, in one loop over flow and wall partners.
 
 use super::PairData;
-use super::records::{self, LaneRecord, Records, Writer};
+use super::flow_partner::{Constants, FlowPartner};
+use super::records::{Records, Writer};
 use super::wall_partner::{WallPair, WallPartner};
 use crate::lanes::algebra::{accumulate, difference, dot, load_tensor, store_vector, zero_vector};
-use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, gather};
+use crate::lanes::{LANES, LanePass, Lanes, gather};
 use crate::vector::Vector;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
@@ -13,41 +14,6 @@ use crate::weakly_compressible::numerics::{HourglassDirection, ViscositySwitch};
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{artificial_viscosity, hourglass, pair_distance, stress_divergence};
 use rayon::prelude::*;
-
-/// Values of a record: the layout of [`FlowPartner`], which is the longer one.
-pub(super) const fn values(dimension: usize) -> usize {
-    2 * dimension + 3 + 2 * dimension * dimension
-}
-
-/// What is read of a flow particle.
-pub(super) struct FlowPartner<V, const D: usize> {
-    pub(super) position: [V; D],
-    pub(super) velocity: [V; D],
-    pub(super) density: V,
-    /// √(p/ρ0) `[m/s]`.
-    pub(super) pressure_speed: V,
-    /// α of (15) `[-]`.
-    alpha: V,
-    /// σE `[Pa]`.
-    pub(super) corrected_stress: [[V; D]; D],
-    pub(super) velocity_gradient: [[V; D]; D],
-}
-
-impl<V: Lanes, const D: usize> FlowPartner<V, D> {
-    #[inline(always)]
-    pub(super) fn load(records: &Records, indices: &LaneIndices<'_>) -> Self {
-        let record: LaneRecord<V> = records.load(const { values(D).div_ceil(4) }, indices);
-        Self {
-            position: records::vector(&record, 0),
-            velocity: records::vector(&record, D),
-            density: records::scalar(&record, 2 * D),
-            pressure_speed: records::scalar(&record, 2 * D + 1),
-            alpha: records::scalar(&record, 2 * D + 2),
-            corrected_stress: records::tensor(&record, 2 * D + 3),
-            velocity_gradient: records::tensor(&record, 2 * D + 3 + D * D),
-        }
-    }
-}
 
 /// Writes a record in the layout of [`FlowPartner`] or, for wall particles, of [`WallPartner`].
 #[inline(always)]
@@ -115,33 +81,6 @@ struct Output<'a, const D: usize> {
     by_walls: &'a mut [Vector<D>],
     by_damping: &'a mut [Vector<D>],
     by_wall_control: &'a mut [Vector<D>],
-}
-
-/// What the loops need of the numerics.
-pub(super) struct Constants {
-    pub(super) smoothing_length: f64,
-    /// h c `[m²/s]`.
-    speed_length: f64,
-    /// k h `[m]` of the hourglass control.
-    pub(super) hourglass_strength: f64,
-    artificial_viscosity: f64,
-    viscosity_switch: ViscositySwitch,
-    pub(super) hourglass_direction: HourglassDirection,
-}
-
-impl Constants {
-    #[inline(always)]
-    pub(super) fn of<const D: usize>(model: &Model<D>) -> Self {
-        let smoothing_length = model.kernel.smoothing_length();
-        Self {
-            smoothing_length,
-            speed_length: smoothing_length * model.equation_of_state.sound_speed(),
-            hourglass_strength: model.numerics.hourglass * smoothing_length,
-            artificial_viscosity: model.numerics.artificial_viscosity,
-            viscosity_switch: model.numerics.viscosity_switch,
-            hourglass_direction: model.numerics.hourglass_direction,
-        }
-    }
 }
 
 /// The pair sums of eight particles with the flow, images included, the part of them that images behind mirrors cause,

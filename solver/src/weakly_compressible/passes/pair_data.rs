@@ -1,7 +1,7 @@
 //! What the passes hand on to each other and reuse from step to step.
 
+use super::layout;
 use super::records::Records;
-use super::{continuity, geometry, momentum};
 use crate::lanes::LANES;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::energy::EnergyLedger;
@@ -31,9 +31,9 @@ impl<const D: usize> PairData<D> {
     pub(crate) fn new() -> Self {
         Self {
             weights: Vec::new(),
-            geometry: Records::new(geometry::values(D)),
-            momentum: Records::new(momentum::values(D)),
-            continuity: Records::new(continuity::values(D)),
+            geometry: Records::new(layout::geometry(D)),
+            momentum: Records::new(layout::momentum(D)),
+            continuity: Records::new(layout::continuity(D)),
             energy: Vec::new(),
             wall_stress: Vec::new(),
             wall_velocity: Vec::new(),

@@ -2,7 +2,7 @@
 //! contacts. Only scenes with shells come here.
 
 use super::PairData;
-use super::momentum::{Constants, FlowPartner};
+use super::flow_partner::{Constants, FlowPartner};
 use super::wall_partner::{WallPair, WallPartner};
 use crate::lanes::algebra::{load, load_tensor, scaled, store_vector};
 use crate::lanes::{LANES, LanePass, Lanes};

@@ -1,7 +1,8 @@
 //! What a wall particle does to a flow particle in the momentum equation: read by the pass of the forces, and by the one
 //! that books them to the shells.
 
-use super::momentum::{Constants, FlowPartner, values};
+use super::flow_partner::{Constants, FlowPartner};
+use super::layout;
 use super::records::{self, LaneRecord, Records};
 use crate::lanes::algebra::{difference, scaled};
 use crate::lanes::{LaneIndices, Lanes};
@@ -27,7 +28,7 @@ pub(super) struct WallPartner<V, const D: usize> {
 impl<V: Lanes, const D: usize> WallPartner<V, D> {
     #[inline(always)]
     pub(super) fn load(records: &Records, indices: &LaneIndices<'_>) -> Self {
-        let record: LaneRecord<V> = records.load(const { values(D).div_ceil(4) }, indices);
+        let record: LaneRecord<V> = records.load(const { layout::momentum(D).div_ceil(4) }, indices);
         Self {
             position: records::vector(&record, 0),
             velocity: records::vector(&record, D),

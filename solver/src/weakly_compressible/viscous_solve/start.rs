@@ -12,7 +12,7 @@ use crate::material::turbulence::dynamic_eddy_viscosity;
 use crate::planted::{Planted, factor};
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::passes::geometry;
+use crate::weakly_compressible::passes::layout;
 use crate::weakly_compressible::passes::records::{self, Records};
 use crate::weakly_compressible::terms::wall_slip;
 use rayon::prelude::*;
@@ -75,7 +75,7 @@ impl<const D: usize> LanePass for CoefficientPass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
         let Self { constants, particles, block, coefficients, pair_vectors, stiffnesses } = self;
-        let places = const { geometry::values(D).div_ceil(4) };
+        let places = const { layout::geometry(D).div_ceil(4) };
         let region_start = block * constants.model.list.region();
         let quads = const { (D * D).div_ceil(4) };
         let smoothing_length = constants.model.kernel.smoothing_length();

@@ -1,36 +1,13 @@
 //! The laws that are known by name. Global, because a file is read without a context: a program registers its laws
 //! before it reads the first.
 
+use super::error::{OpenLawError, RegistrationError};
 use super::{Instance, Kind, OpenLaw, OpenPlastic, OpenViscous, Parameters};
 use crate::material::rheology::{BUILT_IN_NAMES, Rheology};
 use std::sync::{Mutex, PoisonError};
 
 /// Makes a law from its parameters, or says what is wrong with them.
 pub type Maker = fn(&Parameters) -> Result<OpenLaw, OpenLawError>;
-
-/// A name that cannot be given to a law.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("the law `{name}` is there already; give yours another name")]
-pub struct RegistrationError {
-    /// The name.
-    pub name: &'static str,
-}
-
-/// A law that cannot be made.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum OpenLawError {
-    /// No law has this name.
-    #[error("unknown variant `{name}`, expected one of {known}")]
-    Unknown {
-        /// The name.
-        name: String,
-        /// The names of all laws, each in backticks.
-        known: String,
-    },
-    /// A parameter that is missing, unknown, or outside its range.
-    #[error("{0}")]
-    Parameter(String),
-}
 
 struct Entry {
     name: &'static str,

@@ -1,0 +1,25 @@
+//! Why a law of a user's own is not known or not made.
+
+/// A name that cannot be given to a law.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("the law `{name}` is there already; give yours another name")]
+pub struct RegistrationError {
+    /// The name.
+    pub name: &'static str,
+}
+
+/// A law that cannot be made.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum OpenLawError {
+    /// No law has this name.
+    #[error("unknown variant `{name}`, expected one of {known}")]
+    Unknown {
+        /// The name.
+        name: String,
+        /// The names of all laws, each in backticks.
+        known: String,
+    },
+    /// A parameter that is missing, unknown, or outside its range.
+    #[error("{0}")]
+    Parameter(String),
+}
