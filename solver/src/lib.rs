@@ -8,10 +8,6 @@ pub mod domain;
 pub mod kernel;
 pub mod lanes;
 pub mod parameter;
-#[cfg(not(feature = "planted-errors"))]
-mod planted;
-#[cfg(feature = "planted-errors")]
-pub mod planted;
 pub mod vector;
 
 mod linear;

@@ -1,25 +1,39 @@
-//! A program that is used has no errors to plant, and no trace of them.
+//! A program that is used holds no mutation; a checkout has them in a file.
 
 use crate::program::{Place, path};
 
 #[test]
-fn a_program_without_errors_says_how_to_build_one() {
+fn without_sources_there_is_nothing_to_change() {
     let place = Place::new();
     for arguments in [&["mutate"][..], &["mutate", "list"], &["mutate", "trial", "von-karman", "film"]] {
         let finished = place.bagnold(arguments).assert().code(2).stdout("");
         let message = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
-        assert!(message.contains("--features planted-errors"), "{message}");
+        assert!(message.contains("work in a checkout of bagnold"), "{message}");
     }
     assert!(!place.path("reports").exists(), "nothing was written");
 }
 
 #[test]
-fn the_program_holds_no_error() {
+fn a_checkout_lists_its_mutations() {
+    let mut command = assert_cmd::Command::new(path());
+    command.current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).args(["mutate", "list"]);
+    let listed = command.assert().code(0);
+    let text = String::from_utf8_lossy(&listed.get_output().stdout).into_owned();
+    assert!(text.lines().count() >= 60, "{text}");
+    assert!(text.contains("von-karman") && text.contains("κ = 0.45 instead of 0.41; clear-water, bed-load"), "{text}");
+    let mut command = assert_cmd::Command::new(path());
+    command.current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).args(["mutate", "--errors", "von-karmann"]);
+    let refused = command.assert().code(2);
+    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(message.contains("`von-karmann` is not among the mutations"), "{message}");
+}
+
+#[test]
+fn the_program_holds_no_mutation() {
     let program = std::fs::read(path()).expect("the program can be read");
     let holds = |text: &str| program.windows(text.len()).any(|window| window == text.as_bytes());
-    // what such a program would have to hold to name them; the help has `von-karman`
     for name in ["kernel-normalisation", "mirror-tensor-sign", "z_0 = k_s/33 instead of k_s/30"] {
         assert!(!holds(name), "the program names `{name}`");
     }
-    assert!(holds("planted-errors"), "what the help says is found, so that what is not found is not there");
+    assert!(holds("mutations.toml"), "where they stand is found, so that what is not found is not there");
 }

@@ -21,7 +21,7 @@ const fn peers(rooms: &'static [&'static str]) -> Floor {
 
 /// `solver/src`, from the ground up.
 const SOLVER: &[Floor] = &[
-    floor(&["vector", "planted", "lanes", "kernel", "domain", "parameter"]),
+    floor(&["vector", "lanes", "kernel", "domain", "parameter"]),
     floor(&["material", "linear"]),
     floor(&["run"]),
     peers(&["weakly_compressible", "incompressible"]),

@@ -11,7 +11,6 @@ pub mod input;
 pub mod interruption;
 pub mod judge;
 pub mod metric;
-#[cfg(feature = "planted-errors")]
 pub mod mutation;
 pub mod observation;
 pub mod output;

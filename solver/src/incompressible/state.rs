@@ -9,7 +9,6 @@ use super::phase::{Phase, Phases};
 use super::projection::Projection;
 use super::scene::IncompressibleScene;
 use super::velocity_solve::VelocitySystem;
-use crate::planted;
 use crate::run::Divergence;
 use crate::run::SceneError;
 use crate::vector::Vector;
@@ -41,10 +40,6 @@ impl<const D: usize> State<D> {
     /// A scene that breaks a rule.
     pub(super) fn of(mut scene: IncompressibleScene<D>) -> Result<Self, SceneError> {
         scene.check()?;
-        scene.fluid.gravity = planted::gravity(scene.fluid.gravity);
-        if let Some(sediment) = &mut scene.sediment {
-            sediment.gravity = planted::gravity(sediment.gravity);
-        }
         let columns = Columns::of(&mut scene);
         let (water, numerics) = (&scene.fluid, &scene.numerics);
         let fluid = Phase::new(&water.particles, &water.wall, water.spacing, water.density, numerics.smoothing_ratio);

@@ -9,7 +9,6 @@
 
 use crate::material::suspension_viscosity::SuspensionViscosity;
 use crate::material::turbulence::{GrainRoughness, StratifiedMixingLength};
-use crate::planted::{Planted, factor};
 use crate::vector::Vector;
 
 /// φ over equal intervals of height, and what its integrals need.
@@ -129,7 +128,7 @@ impl Stratification {
         for (fraction, (overburden, mixing_length)) in columns.zip(integrals) {
             let mut load = 0.0;
             for (fraction, overburden) in fraction.iter().zip(overburden).rev() {
-                let own = fraction * strata.buoyant_weight * factor(Planted::Overburden) * strata.interval;
+                let own = fraction * strata.buoyant_weight * strata.interval;
                 *overburden = load + 0.5 * own;
                 load += own;
             }

@@ -6,7 +6,6 @@ mod cubic_spline;
 mod wendland;
 
 use crate::lanes::{Lanes, Real};
-use crate::planted::{Planted, factor};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -41,13 +40,13 @@ impl<const D: usize> Kernel<D> {
             KernelShape::CubicSpline => cubic_spline::normalisation(D),
             KernelShape::WendlandC2 => wendland::normalisation(D),
         };
-        let value_scale = normalisation * factor(Planted::KernelNormalisation) / smoothing_length.powi(D as i32);
+        let value_scale = normalisation / smoothing_length.powi(D as i32);
         Self {
             shape,
             smoothing_length,
             inverse_smoothing_length: 1.0 / smoothing_length,
             value_scale,
-            gradient_scale: value_scale * factor(Planted::KernelGradient) / (smoothing_length * smoothing_length),
+            gradient_scale: value_scale / (smoothing_length * smoothing_length),
         }
     }
 

@@ -1,7 +1,5 @@
 //! Dilatancy of sheared grains: φ = φ_max/(1 + B I) with I = γ̇ d √(ρ_s/p) (Maurin et al. 2016 for bed load).
 
-use crate::planted::{Planted, factor};
-
 /// How grains dilate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dilatancy {
@@ -20,7 +18,7 @@ impl Dilatancy {
     #[inline]
     #[must_use]
     pub fn solid_fraction(&self, inertial_number: f64) -> f64 {
-        self.packing / (1.0 + self.dilation * factor(Planted::Dilation) * inertial_number)
+        self.packing / (1.0 + self.dilation * inertial_number)
     }
 
     /// φ `[-]` at a shear rate `[1/s]` under a load `[Pa]`: φ_max at rest, 0 without a load.

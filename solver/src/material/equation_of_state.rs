@@ -3,7 +3,6 @@
 //! Equation (6): p = K (ρ/ρ0 − 1), with sound speed c = √(K/ρ0); (23) is its inverse, ρ = ρ0 (p/K + 1).
 
 use crate::lanes::Real;
-use crate::planted::{Planted, factor};
 use serde::{Deserialize, Serialize};
 
 /// What becomes of a negative pressure.
@@ -35,8 +34,7 @@ impl EquationOfState {
     pub fn pressure<R: Real>(&self, density: R) -> R {
         // (ρ − ρ0)/ρ0 keeps the digits that ρ/ρ0 − 1 loses near ρ0.
         let reference = R::splat(self.reference_density);
-        let pressure =
-            R::splat(self.bulk_modulus * factor(Planted::PressureHalved)) * ((density - reference) / reference);
+        let pressure = R::splat(self.bulk_modulus) * ((density - reference) / reference);
         match self.tension {
             Tension::Cut => pressure.max(R::splat(0.0)),
             Tension::Kept => pressure,
@@ -61,7 +59,7 @@ impl EquationOfState {
     #[inline(always)]
     #[must_use]
     pub fn sound_speed(&self) -> f64 {
-        (self.bulk_modulus / self.reference_density).sqrt() * factor(Planted::SoundSpeed)
+        (self.bulk_modulus / self.reference_density).sqrt()
     }
 }
 

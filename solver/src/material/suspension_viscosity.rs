@@ -5,7 +5,6 @@
 //! away from. Only the law's own grains count; friction between them is a rheology.
 
 use crate::parameter::{ParameterProblem, between, range_problem};
-use crate::planted::{Planted, factor};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -34,8 +33,7 @@ impl SuspensionViscosity {
     #[inline]
     #[must_use]
     pub fn relative(&self, solid_fraction: f64) -> f64 {
-        let intrinsic = self.intrinsic * factor(Planted::IntrinsicViscosity);
-        1.0 + intrinsic * solid_fraction / (1.0 - solid_fraction.min(self.bounded_from) / self.largest_fraction)
+        1.0 + self.intrinsic * solid_fraction / (1.0 - solid_fraction.min(self.bounded_from) / self.largest_fraction)
     }
 
     /// The first parameter outside its range, if any.

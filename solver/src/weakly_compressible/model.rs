@@ -6,7 +6,6 @@ use crate::lanes::{InstructionSet, Lanes};
 use crate::material::equation_of_state::EquationOfState;
 use crate::material::rheology::Rheology;
 use crate::material::turbulence::{Smagorinsky, dynamic_eddy_viscosity};
-use crate::planted::{Planted, factor};
 use crate::vector::Vector;
 use crate::weakly_compressible::neighbours::VerletList;
 use crate::weakly_compressible::numerics::{MomentumOperator, Numerics};
@@ -70,7 +69,6 @@ impl<const D: usize> Model<D> {
     /// swings for ever; a flowing one does not feel it.
     pub(crate) fn elastic_viscosity(&self) -> f64 {
         self.numerics.elastic_damping
-            * factor(Planted::ElasticDamping)
             * self.equation_of_state.reference_density
             * self.equation_of_state.sound_speed()
             * self.numerics.shear_modulus_ratio.sqrt()
@@ -106,10 +104,7 @@ impl<const D: usize> Model<D> {
 
     /// δ c h `[m²/s]`: diffusivity of the stress ratio among yielding particles.
     pub(crate) fn stress_diffusivity(&self) -> f64 {
-        factor(Planted::StressDiffusionSign)
-            * self.numerics.stress_diffusion
-            * self.equation_of_state.sound_speed()
-            * self.kernel.smoothing_length()
+        self.numerics.stress_diffusion * self.equation_of_state.sound_speed() * self.kernel.smoothing_length()
     }
 
     /// Whether the stress ratio diffuses: where a law carries its stress along.

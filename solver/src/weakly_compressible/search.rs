@@ -1,7 +1,6 @@
 //! The neighbour search of a step: particles sorted by cell, images made anew, the list filled.
 
 use crate::domain::Domain;
-use crate::planted::{Planted, planted};
 use crate::weakly_compressible::boundary::Images;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::CellGrid;
@@ -49,7 +48,7 @@ impl<const D: usize> Search<D> {
         images: &mut Images<D>,
         model: &mut Model<D>,
     ) -> Result<(), Crowded> {
-        let radius = model.kernel.support() + if planted(Planted::NeighbourRadius) { 0.0 } else { model.skin() };
+        let radius = model.kernel.support() + model.skin();
         let (flow, real) = (particles.flow_count(), particles.real_count());
         particles.keep_real();
         self.keep_inside(particles);

@@ -2,7 +2,6 @@
 
 use crate::kernel::Kernel;
 use crate::lanes::InstructionSet;
-use crate::planted;
 use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::{Images, Wall};
@@ -66,7 +65,7 @@ impl<const D: usize> State<D> {
                 equation_of_state: scene.equation_of_state,
                 rheology: scene.rheology,
                 numerics,
-                gravity: planted::gravity(scene.gravity),
+                gravity: scene.gravity,
                 spacing: scene.spacing,
                 contact_friction: scene.rheology.contact_friction(),
                 instruction_set: InstructionSet::best(),

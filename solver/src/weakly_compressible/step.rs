@@ -1,6 +1,5 @@
 //! One time step of model A, readable on a page.
 
-use crate::planted::{Planted, factor, planted};
 use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::contact;
@@ -48,7 +47,7 @@ impl<const D: usize> State<D> {
         }
         self.book_shells(time_step);
         self.update_velocity(time_step)?;
-        self.touch_shells(time_step, self.model.contact_friction * factor(Planted::ContactFriction))?;
+        self.touch_shells(time_step, self.model.contact_friction)?;
         self.update_density_and_stress(time_step)?;
         self.update_position(time_step);
         Ok(())
@@ -103,7 +102,7 @@ impl<const D: usize> State<D> {
             Contact::HalfSpacing => 0.5 * self.model.spacing,
             Contact::None => f64::NEG_INFINITY,
         };
-        let (walls, friction) = (&self.walls, self.model.contact_friction * factor(Planted::ContactFriction));
+        let (walls, friction) = (&self.walls, self.model.contact_friction);
         self.pairs.open_ledger(flow);
         let (particles, gravity) = (&mut self.particles, &self.model.gravity);
         let (acceleration, support) = (&particles.acceleration, &particles.support);
@@ -200,11 +199,6 @@ impl<const D: usize> State<D> {
             .into_par_iter()
             .with_min_len(4096)
             .for_each(|(position, velocity): (&mut Vector<D>, &Vector<D>)| *position += velocity * time_step);
-        if planted(Planted::OldVelocityMoves) {
-            for (position, acceleration) in particles.position.iter_mut().zip(&particles.acceleration) {
-                *position -= acceleration * (time_step * time_step);
-            }
-        }
         let fastest_wall = self.move_walls(time_step).max(self.move_shells(time_step));
         self.images.copy_positions(&mut self.particles.position);
         self.displacement += time_step * self.largest_speed.max(fastest_wall);

@@ -6,6 +6,7 @@ use crate::case::ParameterError;
 use crate::compare::CompareError;
 use crate::evaluation::PlanError;
 use crate::judge::JudgeError;
+use crate::mutation::CopyError;
 use crate::output::{FileError, FolderError, reason};
 use crate::report::{BaselineError, EarlierError, ReportError};
 use crate::sweep::SweepError;
@@ -48,14 +49,14 @@ pub enum ProgramError {
         /// The system's reason.
         reason: String,
     },
-    /// A program without errors to plant.
-    #[error(
-        "failed to plant errors: this program was built without any; build one that has them with \
-         `cargo run --package bagnold-validation --features planted-errors -- mutate`"
-    )]
-    NothingToPlant,
-    /// An error that cannot be planted.
-    #[error("`{name}` is not among the errors that can be planted; `bagnold mutate list` names them")]
+    /// Mutations without the sources that they change.
+    #[error("failed to find the sources that mutations change; work in a checkout of bagnold")]
+    NoSources,
+    /// The copy of the program with all mutations.
+    #[error(transparent)]
+    Copy(#[from] CopyError),
+    /// No mutation has this name.
+    #[error("`{name}` is not among the mutations; `bagnold mutate list` names them")]
     UnknownError {
         /// What was asked for.
         name: String,

@@ -13,7 +13,6 @@ mod expectation;
 mod judge;
 mod logging;
 mod machine;
-#[cfg(feature = "planted-errors")]
 mod mutate;
 mod new;
 mod places;
@@ -165,10 +164,7 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
         Command::Verify(command) => verify::verify(command, registry, output),
         Command::Store(command) => store::store(command, output),
         Command::Sweep(command) => in_pool(&command.work, || sweep::sweep(command, registry, arguments.quiet, output)),
-        #[cfg(feature = "planted-errors")]
         Command::Mutate(command) => mutate::mutate(command, registry, arguments.quiet, output),
-        #[cfg(not(feature = "planted-errors"))]
-        Command::Mutate(_) => Err(ProgramError::NothingToPlant),
         Command::Report(command) => {
             in_pool(&command.work, || report::report(command, registry, arguments.quiet, output))
         }

@@ -1,9 +1,8 @@
 //! Who noticed an error: a gate, a divergence, the snapshot, or nobody.
 
-use super::{Scope, Sighting};
+use super::{Mutation, Scope, Sighting};
 use crate::metric::{Limit, Metric, Verdict};
 use crate::report::Baseline;
-use bagnold_solver::planted::Planted;
 
 /// A gate that held and fails now.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +51,7 @@ impl Catch {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// The error.
-    pub error: Planted,
+    pub error: Mutation,
     /// The cases that ran, in order.
     pub cases: Vec<String>,
     /// Who noticed.
@@ -70,7 +69,7 @@ pub type Comparison<'a> = (&'a Scope, &'a Sighting, Result<Sighting, String>);
 
 /// Judges what the cases of an error said, each with what it says without.
 #[must_use]
-pub fn judge(error: Planted, comparisons: &[Comparison<'_>]) -> Finding {
+pub fn judge(error: &Mutation, comparisons: &[Comparison<'_>]) -> Finding {
     let (mut broken, mut stops, mut drifts, mut wall_seconds) = (Vec::new(), Vec::new(), Vec::new(), 0.0);
     for (scope, right, wrong) in comparisons {
         let case = &scope.case;
@@ -98,7 +97,7 @@ pub fn judge(error: Planted, comparisons: &[Comparison<'_>]) -> Finding {
         Catch::Nothing
     };
     Finding {
-        error,
+        error: error.clone(),
         cases: comparisons.iter().map(|(scope, ..)| scope.case.clone()).collect(),
         catch,
         drifted: drifts.len(),
@@ -184,7 +183,9 @@ mod tests {
 
     fn found(right: &Sighting, wrong: Result<Sighting, String>) -> Finding {
         let scope = Scope { case: "film".to_owned(), settings: Vec::new() };
-        judge(Planted::VonKarman, &[(&scope, right, wrong)])
+        let (name, description) = ("von-karman".to_owned(), "κ = 0.45 instead of 0.41".to_owned());
+        let error = Mutation { name, description, cases: Vec::new(), places: Vec::new() };
+        judge(&error, &[(&scope, right, wrong)])
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! Which errors would be noticed: each of the solver's planted errors, one at a time, through the cases that ought to see it.
+//! Which errors would be noticed: a file of mutations (`record`), one at a time in a copy of the program that holds them all
+//! (`copy`), through the cases that ought to see it (`trial`, `judgement`).
 //!
 //! A case with an error is compared with the same case of the same program without one, so that neither accepted values
 //! that are out of date nor gates that fail anyway count. What is asked is who would have noticed:
@@ -9,14 +10,16 @@
 //! A snapshot tells that something changed, not that it is wrong; who accepts it, accepts the error. So the gates are what
 //! counts: [`LEAST_CAUGHT`] and [`LEAST_GATED`] are what a set of gates must reach.
 
-mod declared;
+mod copy;
 mod judgement;
 mod page;
+mod record;
 mod trial;
 
-pub use declared::{scopes, settings_of};
+pub use copy::{CHOICE, CopyError, build};
 pub use judgement::{Broken, Catch, Comparison, Finding, Tally, judge};
 pub use page::{table, write};
+pub use record::{FILE, Mutation, Mutations, Place};
 pub use trial::{Scope, Sighting, run_trial};
 
 /// Share of the errors that something must notice `[-]`.

@@ -49,8 +49,8 @@ fn rule(limit: Limit) -> String {
 
 fn row(finding: &Finding) -> [String; 6] {
     [
-        finding.error.name().to_owned(),
-        finding.error.says().to_owned(),
+        finding.error.name.clone(),
+        finding.error.description.clone(),
         finding.cases.join(", "),
         word(&finding.catch).to_owned(),
         witness(finding),
@@ -81,17 +81,17 @@ fn shares(findings: &[Finding]) -> String {
 #[must_use]
 pub fn table(findings: &[Finding]) -> String {
     let mut text = String::new();
-    let width = findings.iter().map(|finding| finding.error.name().len()).max().unwrap_or(0);
+    let width = findings.iter().map(|finding| finding.error.name.len()).max().unwrap_or(0);
     for finding in findings {
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "{:width$}  {:13}  {}", finding.error.name(), word(&finding.catch), witness(finding));
+        let _ = writeln!(text, "{:width$}  {:13}  {}", finding.error.name, word(&finding.catch), witness(finding));
     }
     text + "\n" + &shares(findings)
 }
 
 /// The same as Markdown, with what is wrong and which cases ran.
 fn markdown(findings: &[Finding]) -> String {
-    let mut text = format!("# Planted errors\n\n{}\n", shares(findings));
+    let mut text = format!("# Mutations\n\n{}\n", shares(findings));
     let mut line = |cells: &[String]| {
         let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
         text += &format!("| {} |\n", cells.join(" | "));

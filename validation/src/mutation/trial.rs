@@ -1,10 +1,9 @@
-//! One case with one error, or with none: what its metrics say.
+//! One case in a program with an error, or with none: what its metrics say.
 
 use crate::case::{CaseResult, Changes, ParameterError, Registry, Silent, Tier, execute};
 use crate::metric::Metric;
 use crate::observation::Outcome;
 use crate::store::{Store, StorePolicy};
-use bagnold_solver::planted::{Planted, plant};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -57,19 +56,12 @@ impl Sighting {
     }
 }
 
-/// Plants an error in this program, for good, and runs a case at the quick tier on the current rayon pool. No stored result
-/// is read or written: what is stored belongs to a program without errors.
+/// Runs a case at the quick tier on the current rayon pool. No stored result is read or written: what is stored belongs to a program
+/// without errors, and this one may have any.
 ///
 /// # Errors
 /// A case or setting that is refused.
-pub fn run_trial(
-    error: Option<Planted>,
-    scope: &Scope,
-    registry: Registry,
-) -> Result<(Vec<CaseResult>, Sighting), ParameterError> {
-    if let Some(error) = error {
-        plant(error);
-    }
+pub fn run_trial(scope: &Scope, registry: Registry) -> Result<(Vec<CaseResult>, Sighting), ParameterError> {
     let changes = Changes { file: None, settings: &scope.settings, ..Changes::default() };
     let prepared = registry.find(&scope.case)?.prepare(Tier::Quick, &changes)?;
     let results = execute(vec![prepared], &Store::open(StorePolicy::Bypass), &Silent)?;

@@ -5,7 +5,6 @@ use super::super::numerics::ProjectionNumerics;
 use super::super::phase::Phase;
 use super::super::scene::{Bed, height_axis};
 use super::super::terms::viscous_pair;
-use crate::planted::{Planted, planted};
 
 /// What the bed holds a fluid particle with, Δt Σ_w k_aw `[kg]`, at a dynamic viscosity of the particle `[Pa·s]`.
 pub(crate) fn friction<const D: usize>(
@@ -24,7 +23,6 @@ pub(crate) fn friction<const D: usize>(
             let height = (fluid.position[a][normal] - level).max(numerics.least_wall_height * fluid.spacing);
             let held = |sum, pair: &Pair<D>| {
                 let depth = (pair.separation[normal] - height).max(0.0);
-                let depth = if planted(Planted::BedMirror) { 0.0 } else { depth };
                 let mirror = (1.0 + depth / height).min(numerics.largest_mirror);
                 let volumes = (fluid.volume[a], fluid.lattice_volume);
                 let moments = 2.0 * fluid.moment[a];

@@ -3,7 +3,6 @@
 use super::super::divergence::Failure;
 use super::super::scene::Sediment;
 use crate::domain::Domain;
-use crate::planted::{Planted, factor};
 use crate::vector::Vector;
 
 /// Free particles of dilating sediment; arrays have the shape `[particles]`.
@@ -19,7 +18,7 @@ pub(crate) struct Grains<const D: usize> {
 
 impl<const D: usize> Grains<D> {
     pub(crate) fn of(sediment: &Sediment<D>) -> Self {
-        let full = sediment.density * sediment.spacing.powi(D as i32) * factor(Planted::GrainFilling);
+        let full = sediment.density * sediment.spacing.powi(D as i32);
         Self {
             position: sediment.particles.position.clone(),
             velocity: sediment.particles.velocity.clone(),

@@ -5,7 +5,6 @@ use super::grains::Grains;
 use super::grid::{ColumnGrid, ramp};
 use crate::material::dilatancy::Dilatancy;
 use crate::material::suspension_viscosity::SuspensionViscosity;
-use crate::planted::{Planted, factor};
 use crate::vector::Vector;
 
 /// Fields of all nodes; arrays have the shape `[columns × nodes]`.
@@ -105,14 +104,13 @@ impl Nodes {
             }
         }
         let density = laws.dilatancy.grain_density;
-        let buoyant_weight = laws.buoyant_weight * factor(Planted::Overburden);
-        self.half_load = 0.5 * grid.cell * buoyant_weight;
+        self.half_load = 0.5 * grid.cell * laws.buoyant_weight;
         for column in 0..grid.row.count {
             let first = grid.of_column(column).start;
             let mut load = 0.0;
             for node in grid.of_column(column).rev() {
                 self.load[node] = load;
-                load += self.mass[node] * buoyant_weight / density;
+                load += self.mass[node] * laws.buoyant_weight / density;
                 self.fraction[node] = self.mass[node] / (density * grid.cell);
             }
             for node in grid.of_column(column) {

@@ -3,7 +3,6 @@
 use crate::domain::{AxisBoundary, Domain};
 use crate::lanes::algebra::dot;
 use crate::lanes::{LANES, LaneIndices, Lanes, Real, gather_vectors};
-use crate::planted::{Planted, factor};
 use crate::vector::Vector;
 
 /// The separation of two particles by the shortest way.
@@ -33,7 +32,7 @@ impl<const D: usize> Periods<D> {
         for axis in 0..D {
             let turns = separation[axis] * V::splat(self.inverse[axis]);
             let whole = one.where_less(V::splat(0.5), turns) - one.where_less(turns, V::splat(-0.5));
-            separation[axis] = separation[axis] - whole * V::splat(self.length[axis] * factor(Planted::PeriodicWrap));
+            separation[axis] = separation[axis] - whole * V::splat(self.length[axis]);
         }
         separation
     }

@@ -7,7 +7,6 @@ use super::super::neighbours::{LEAST_TASK, Periods};
 use super::super::numerics::ProjectionNumerics;
 use super::super::phase::Phase;
 use crate::lanes::{LANES, LanePass, Lanes};
-use crate::planted::{Planted, factor};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
@@ -22,8 +21,7 @@ pub(crate) fn find_shifts<const D: usize>(
     shifts.resize(phase.len(), Vector::zeros());
     shifts.par_chunks_mut(LEAST_TASK).enumerate().for_each(|(task, shifts)| {
         let first = task * LEAST_TASK;
-        let (scale, largest) =
-            (-numerics.shifting * factor(Planted::ShiftingSign) * time_step, numerics.largest_shift * phase.spacing);
+        let (scale, largest) = (-numerics.shifting * time_step, numerics.largest_shift * phase.spacing);
         phase.free_pairs.set().run(Shift { phase, periods, scale, largest, first, shifts });
     });
 }

@@ -11,7 +11,6 @@ use super::neighbours::{Grid, Pairs, Periods, Places, Sources};
 use super::scene::ParticleSet;
 use crate::domain::Domain;
 use crate::kernel::{Kernel, KernelShape};
-use crate::planted::{Planted, planted};
 use crate::vector::{Tensor, Vector};
 
 /// State and measures of one phase; arrays have the shape `[free particles]` unless said otherwise.
@@ -105,7 +104,7 @@ impl<const D: usize> Phase<D> {
 
     /// Finds the candidates of the pairs within the phase.
     pub(crate) fn search(&mut self, domain: &Domain<D>, periods: &Periods<D>, skin: f64) {
-        let radius = self.kernel.support() + if planted(Planted::NeighbourRadius) { 0.0 } else { skin };
+        let radius = self.kernel.support() + skin;
         self.grid.sort(&self.position, domain, radius);
         self.free_pairs.search(&self.position, &self.position, Sources::Same, &self.grid, periods, radius);
         self.grid.sort(&self.wall, domain, radius);

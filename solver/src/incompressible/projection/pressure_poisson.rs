@@ -29,7 +29,6 @@ use crate::lanes::LANES;
 use crate::linear::{
     ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, TASK_ROWS, single,
 };
-use crate::planted::{Planted, factor, planted};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
@@ -96,10 +95,7 @@ impl<const D: usize> PressurePoisson<D> {
                 let mut beside_surface = false;
                 group.row(lane, |links| {
                     for pair in phase.free_pairs.of(a) {
-                        let moment = match planted(Planted::PressureMoments) {
-                            true => 1.0,
-                            false => 2.0 / (phase.moment[a] + phase.moment[pair.source as usize]),
-                        };
+                        let moment = 2.0 / (phase.moment[a] + phase.moment[pair.source as usize]);
                         let weight = pair.gradient * moment;
                         let gradient = (pair.separation * (gradient_scale * weight)).map(single);
                         let laplacian = single(laplacian_scale * weight);
@@ -124,7 +120,7 @@ impl<const D: usize> PressurePoisson<D> {
                 let mirror = if eliminated {
                     f64::from(beside_surface)
                 } else {
-                    factor(Planted::SurfacePressure) * phase.nearness[a] * (4.0 / 3.0 + 2.0 / 3.0 * phase.deficit[a])
+                    phase.nearness[a] * (4.0 / 3.0 + 2.0 / 3.0 * phase.deficit[a])
                 };
                 // what is no unknown has no diagonal
                 let known = eliminated && phase.at_surface[a];
@@ -199,13 +195,10 @@ impl<const D: usize> PressurePoisson<D> {
                 *right = 0.0;
                 return;
             }
-            let strength = numerics.density_correction * factor(Planted::DensityCorrection);
-            let missing = strength * correction.missing(phase, a) / (time_step * time_step);
+            let missing = numerics.density_correction * correction.missing(phase, a) / (time_step * time_step);
             *right = -density
                 * match numerics.pressure_source {
-                    PressureSource::Divergence => {
-                        factor(Planted::PoissonSource) * self.divergence(a, predicted) / time_step + missing
-                    }
+                    PressureSource::Divergence => self.divergence(a, predicted) / time_step + missing,
                     PressureSource::Density => missing,
                 };
         });
@@ -216,7 +209,7 @@ impl<const D: usize> PressurePoisson<D> {
         }
         self.gauge.take_mean_out(&mut right_side);
         let criterion = Criterion { tolerance: numerics.pressure_tolerance, most_iterations: MOST_ITERATIONS };
-        let stabilisation = numerics.stabilisation * factor(Planted::Stabilisation);
+        let stabilisation = numerics.stabilisation;
         let mut solver = std::mem::replace(&mut self.solver, ConjugateGradient::new());
         let mut gradient = std::mem::take(&mut self.gradient);
         let mut deviation = std::mem::take(&mut self.deviation);

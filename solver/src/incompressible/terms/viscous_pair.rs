@@ -1,8 +1,6 @@
 //! Viscous friction of a pair (18): K_ab = −2 V_a V_b (η_a + η_b) F/(M_a + M_b), over the mean of both moments M as in the
 //! pressure Poisson equation.
 
-use crate::planted::{Planted, factor};
-
 /// Δt K_ab `[kg]` from volumes `[m^D]`, the sum of the moments `[-]`, F `[1/m^(D+2)]` and η_a + η_b `[Pa·s]`.
 #[inline(always)]
 pub(crate) fn coefficient(time_step: f64, volumes: (f64, f64), moments: f64, gradient: f64, viscosities: f64) -> f64 {
@@ -16,5 +14,5 @@ pub(crate) fn coefficient(time_step: f64, volumes: (f64, f64), moments: f64, gra
 /// the rate the pairs' viscosities τ π/(4 γ̇ |cosα|) then carry just τ: ⟨|cosα|⟩/⟨cos²α⟩ is 4/π in the plane, 3/2 in space.
 /// Particles in rows have fewer directions (`phase/sliding_rows`): of the stress in such rows this carries 0.92.
 pub(crate) fn mean_rate(dimensions: usize) -> f64 {
-    factor(Planted::PairRate) * if dimensions == 2 { 4.0 / std::f64::consts::PI } else { 3.0 / 2.0 }
+    if dimensions == 2 { 4.0 / std::f64::consts::PI } else { 3.0 / 2.0 }
 }

@@ -15,7 +15,6 @@ use super::pair_law::{self, End};
 use crate::lanes::LANES;
 use crate::linear::{Row as Links, Single, single};
 use crate::material::turbulence::eddy_viscosity;
-use crate::planted::{Planted, factor, planted};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
@@ -109,9 +108,8 @@ impl<const D: usize> VelocityRows<'_, D> {
             }
             _ => {
                 self.fluid_row(index, row);
-                let share = if planted(Planted::WaterShare) { 1.0 } else { self.viscosities.voidage[index] };
-                let inertia = fluid.mass[index] * share;
-                let push = self.columns.map_or(0.0, |drag| drag.push[index] * factor(Planted::DragReaction));
+                let inertia = fluid.mass[index] * self.viscosities.voidage[index];
+                let push = self.columns.map_or(0.0, |drag| drag.push[index]);
                 Begin { inertia, velocity: fluid.velocity[index], gravity: self.scene.fluid.gravity, push }
             }
         }
@@ -133,7 +131,7 @@ impl<const D: usize> VelocityRows<'_, D> {
         }
         let Self { scene, time_step, .. } = *self;
         if let Some(drag) = self.columns {
-            row.hold(time_step * drag.hold[a] * factor(Planted::DragReaction));
+            row.hold(time_step * drag.hold[a]);
         }
         row.hold(boundary::friction(scene.fluid.bed, fluid, a, viscosity[a], &scene.numerics, time_step));
         let (Some(sediment), Some(material)) = (&self.phases.sediment, &scene.sediment) else { return };
@@ -141,7 +139,7 @@ impl<const D: usize> VelocityRows<'_, D> {
             let b = pair.source as usize;
             let own = || sediment.velocity.get(b).copied().unwrap_or_else(Vector::zeros);
             let slip = || (own() - fluid.velocity[a]).norm();
-            let of_pair = self.exchange.factor(b, material, slip, scene) * factor(Planted::DragReaction);
+            let of_pair = self.exchange.factor(b, material, slip, scene);
             let coefficient = drag_pair::coefficient(time_step, fluid.mass[a], pair.value, of_pair);
             if b < sediment.len() {
                 row.couple(fluid.len() + b, coefficient);

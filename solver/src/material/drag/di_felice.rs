@@ -5,7 +5,6 @@
 //! and χ = 3.7; χ is least, 3.05, at R = 10^1.5 = 31.6.
 
 use super::suspension::Suspension;
-use crate::planted::{Planted, factor};
 
 /// C_d R `[-]` at a Reynolds number `[-]`.
 #[inline]
@@ -18,7 +17,7 @@ pub(super) fn drag_times_reynolds(reynolds: f64) -> f64 {
 #[inline]
 fn voidage_exponent(reynolds: f64) -> f64 {
     let distance = 1.5 - libm::log10(reynolds);
-    factor(Planted::DiFeliceExponent) * (3.7 - 0.65 * libm::exp(-0.5 * distance * distance))
+    3.7 - 0.65 * libm::exp(-0.5 * distance * distance)
 }
 
 /// K `[kg/(m³ s)]`.

@@ -5,14 +5,13 @@
 //! 150 φ² μ U/(ε³ d²) + 1.75 φ ρ_f U²/(ε³ d).
 
 use super::suspension::Suspension;
-use crate::planted::{Planted, factor};
 
 /// K `[kg/(m³ s)]`.
 #[inline]
 pub(super) fn exchange_coefficient(suspension: &Suspension) -> f64 {
     let &Suspension { solid_fraction, slip, grain_diameter, fluid_density, .. } = suspension;
     let viscous = 150.0 * solid_fraction * solid_fraction * suspension.viscous_exchange() / suspension.voidage();
-    viscous + 1.75 * factor(Planted::ErgunInertia) * solid_fraction * fluid_density * slip / grain_diameter
+    viscous + 1.75 * solid_fraction * fluid_density * slip / grain_diameter
 }
 
 #[cfg(test)]

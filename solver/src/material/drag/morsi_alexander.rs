@@ -4,8 +4,6 @@
 //! within 0.4 %, at R = 10 000 within 2.3 % only: there the coefficient falls. Beyond the table the last row goes on, as
 //! a number to stop by and not as a drag. R → 0 is Stokes' drag, C_d R = 24 exactly below R = 0.1.
 
-use crate::planted::{Planted, planted};
-
 /// Reynolds number `[-]` at which the table ends.
 pub(super) const LARGEST_REYNOLDS: f64 = 50_000.0;
 
@@ -35,8 +33,7 @@ pub(super) fn drag_times_reynolds(reynolds: f64) -> f64 {
         row += 1;
     }
     let (_, k1, k2, k3) = ROWS[row];
-    let falling = if planted(Planted::MorsiAlexanderExponent) { libm::pow(reynolds, 0.95) } else { reynolds };
-    k1 + k2 / falling + k3 * reynolds
+    k1 + k2 / reynolds + k3 * reynolds
 }
 
 #[cfg(test)]

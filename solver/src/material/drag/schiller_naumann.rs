@@ -2,8 +2,6 @@
 //!
 //! R → 0 is Stokes' drag, C_d R = 24. At R = 1000 the fit gives 0.4383, 0.4 % below the constant.
 
-use crate::planted::{Planted, factor};
-
 /// Reynolds number `[-]` above which the drag coefficient is constant.
 const NEWTON_START: f64 = 1000.0;
 /// The constant drag coefficient `[-]` of Newton's regime.
@@ -12,11 +10,7 @@ const NEWTON: f64 = 0.44;
 /// C_d R `[-]` at a Reynolds number `[-]`: 24 (1 + 0.15 R^0.687).
 #[inline]
 pub(super) fn drag_times_reynolds(reynolds: f64) -> f64 {
-    if reynolds > NEWTON_START {
-        NEWTON * reynolds
-    } else {
-        24.0 * (1.0 + 0.15 * libm::pow(reynolds, 0.687 * factor(Planted::SchillerNaumannExponent)))
-    }
+    if reynolds > NEWTON_START { NEWTON * reynolds } else { 24.0 * (1.0 + 0.15 * libm::pow(reynolds, 0.687)) }
 }
 
 #[cfg(test)]

@@ -5,13 +5,12 @@
 
 use super::schiller_naumann;
 use super::suspension::Suspension;
-use crate::planted::{Planted, factor};
 
 /// K `[kg/(m³ s)]`.
 #[inline]
 pub(super) fn exchange_coefficient(suspension: &Suspension) -> f64 {
     let alone = schiller_naumann::drag_times_reynolds(suspension.superficial_reynolds());
-    suspension.exchange(alone) * libm::pow(suspension.voidage(), -2.65 * factor(Planted::WenYuExponent))
+    suspension.exchange(alone) * libm::pow(suspension.voidage(), -2.65)
 }
 
 #[cfg(test)]

@@ -6,7 +6,6 @@
 use super::ViscousLaw;
 use super::regularisation::inverse_shear_rate;
 use crate::parameter::{above, not_negative};
-use crate::planted::{Planted, factor};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -28,8 +27,7 @@ pub struct Bingham {
 impl ViscousLaw for Bingham {
     #[inline]
     fn viscosity(&self, shear_rate: f64, _pressure: f64) -> f64 {
-        let yield_stress = self.yield_stress * factor(Planted::YieldNorm);
-        self.plastic_viscosity + yield_stress * inverse_shear_rate(shear_rate, self.regularisation_rate)
+        self.plastic_viscosity + self.yield_stress * inverse_shear_rate(shear_rate, self.regularisation_rate)
     }
 
     #[inline]

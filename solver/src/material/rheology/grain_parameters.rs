@@ -1,11 +1,9 @@
 //! The parameters that every form of μ(I) has, and the shear rate that follows from them.
 
-use crate::planted::{Planted, factor};
-
 /// Shear rate γ̇_0 = I_0 √(p/ρ_s)/D `[1/s]` at which the inertial number (32) is the reference I_0 `[-]`.
 #[inline]
 pub(super) fn reference_rate(reference_inertia: f64, grain_diameter: f64, grain_density: f64, pressure: f64) -> f64 {
-    reference_inertia * factor(Planted::ViscousReferenceRate) * (pressure / grain_density).sqrt() / grain_diameter
+    reference_inertia * (pressure / grain_density).sqrt() / grain_diameter
 }
 
 /// Declares a law with the parameters of μ(I), and more after them.

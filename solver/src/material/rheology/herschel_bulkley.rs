@@ -9,7 +9,6 @@
 use super::ViscousLaw;
 use super::regularisation::inverse_shear_rate;
 use crate::parameter::{above, not_negative, up_to};
-use crate::planted::{Planted, factor};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -38,7 +37,7 @@ impl HerschelBulkley {
     /// The bounded consistency part η_K `[Pa·s]` at a shear rate `[1/s]`.
     #[inline]
     fn consistency_viscosity(&self, shear_rate: f64) -> f64 {
-        let exponent = self.flow_index * factor(Planted::FlowIndex) - 1.0;
+        let exponent = self.flow_index - 1.0;
         let rate = if exponent <= 0.0 {
             (shear_rate * shear_rate + self.regularisation_rate * self.regularisation_rate).sqrt()
         } else {

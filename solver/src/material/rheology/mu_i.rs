@@ -20,7 +20,6 @@ use super::grain_parameters::law_of_grains;
 use super::{PlasticLaw, RegularisedMuI, TrialStress, rising_friction};
 use crate::lanes::Real;
 use crate::parameter::{ParameterProblem, above};
-use crate::planted::{Planted, factor, planted};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -81,16 +80,12 @@ impl PlasticLaw for MuI {
     fn admissible_shear_stress<R: Real>(&self, trial: &TrialStress<R>) -> R {
         let TrialStress { shear_stress: trial_shear_stress, shear_modulus, time_step, .. } = *trial;
         let pressure = trial.pressure.max(R::splat(0.0));
-        let mut static_stress = R::splat(self.static_friction) * pressure; // S_0
-        let mut limiting_stress = R::splat(self.limiting_friction) * pressure; // S_2
-        if planted(Planted::FrictionSwapped) {
-            std::mem::swap(&mut static_stress, &mut limiting_stress);
-        }
+        let static_stress = R::splat(self.static_friction) * pressure; // S_0
+        let limiting_stress = R::splat(self.limiting_friction) * pressure; // S_2
         // A = G Δt ξ √p, where ξ √p is the shear rate at which I = I_0
-        let square = pressure / R::splat(self.grain_density * factor(Planted::InertialDensity));
-        let rate = if planted(Planted::InertialRoot) { square } else { square.sqrt() };
-        let reference_inertia = self.reference_inertia * factor(Planted::ReferenceInertia);
-        let relaxation = rate * R::splat(reference_inertia / self.grain_diameter * shear_modulus * time_step);
+        let square = pressure / R::splat(self.grain_density);
+        let rate = R::splat(self.reference_inertia / self.grain_diameter * shear_modulus * time_step);
+        let relaxation = square.sqrt() * rate;
         let sum = limiting_stress + trial_shear_stress + relaxation; // B
         let product = limiting_stress * trial_shear_stress + static_stress * relaxation; // H
         let gap = trial_shear_stress + relaxation - limiting_stress;

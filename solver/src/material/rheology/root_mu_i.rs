@@ -10,7 +10,6 @@ use super::grain_parameters::{law_of_grains, reference_rate};
 use super::regularisation::root_shear_rate;
 use super::{ViscousLaw, rising_friction};
 use crate::parameter::{ParameterProblem, above, positive};
-use crate::planted::{Planted, factor};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -32,7 +31,7 @@ impl ViscousLaw for RootMuI {
         let reference = reference_rate(self.reference_inertia, self.grain_diameter, self.grain_density, pressure);
         let span = self.limiting_friction - self.static_friction;
         let friction = self.static_friction + span * shear_rate / (shear_rate + reference).max(f64::MIN_POSITIVE);
-        factor(Planted::RootFriction) * friction * pressure / root_shear_rate(shear_rate, self.regularisation_rate)
+        friction * pressure / root_shear_rate(shear_rate, self.regularisation_rate)
     }
 
     #[inline]

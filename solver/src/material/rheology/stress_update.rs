@@ -3,7 +3,6 @@
 use super::{PlasticLaw, TrialStress, ViscousLaw};
 use crate::lanes::Real;
 use crate::lanes::algebra::{accumulate, deviatoric_rate, invariant, matrix_product};
-use crate::planted::{Planted, factor};
 use crate::vector::{Tensor, deviator, double_contraction, strain_rate};
 
 /// Deviatoric stress s = 2 η ε′ `[Pa]`, equation (30), of a velocity gradient `[1/s]` at a pressure `[Pa]`.
@@ -14,7 +13,7 @@ pub(super) fn viscous<L: ViscousLaw, const D: usize>(
     pressure: f64,
 ) -> Tensor<D> {
     let rate = deviator(&strain_rate(velocity_gradient));
-    let shear_rate = (2.0 * double_contraction(&rate, &rate)).sqrt() * factor(Planted::ShearRateNorm);
+    let shear_rate = (2.0 * double_contraction(&rate, &rate)).sqrt();
     rate * (2.0 * law.viscosity(shear_rate, pressure))
 }
 
@@ -35,13 +34,12 @@ pub(super) fn plastic<R: Real, L: PlasticLaw, const D: usize>(
     let rate = deviatoric_rate(velocity_gradient);
     let mut trial = *previous;
     for i in 0..D {
-        accumulate(&mut trial[i], R::splat(2.0 * shear_modulus * factor(Planted::TrialModulus) * time_step), &rate[i]);
+        accumulate(&mut trial[i], R::splat(2.0 * shear_modulus * time_step), &rate[i]);
     }
     let mut spin = trial;
     for i in 0..D {
         for j in 0..D {
-            spin[i][j] = R::splat(0.5 * time_step * factor(Planted::SpinSign))
-                * (velocity_gradient[i][j] - velocity_gradient[j][i]);
+            spin[i][j] = R::splat(0.5 * time_step) * (velocity_gradient[i][j] - velocity_gradient[j][i]);
         }
     }
     let (ahead, behind) = (matrix_product(&spin, &trial), matrix_product(&trial, &spin));

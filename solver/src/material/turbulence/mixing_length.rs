@@ -6,9 +6,8 @@
 //!   uniform free-surface flow, ρ u_*² (1 − z′/H), with the parabolic ν_t = κ u_* z′ (1 − z′/H);
 //! - linear: l = κ z′, right near the wall only: under the same stress the profile bends below the logarithm.
 
-use super::{eddy_viscosity, von_karman};
+use super::{VON_KARMAN, eddy_viscosity};
 use crate::parameter::not_negative;
-use crate::planted::{Planted, planted};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -41,11 +40,10 @@ impl MixingLength {
     pub fn length(&self, height: f64, depth: f64) -> f64 {
         let distance = (height + self.origin_offset).max(0.0);
         let damping = match self.shape {
-            _ if planted(Planted::MixingLengthRoot) => 1.0,
             MixingLengthShape::Parabolic => (1.0 - distance / (depth + self.origin_offset)).max(0.0).sqrt(),
             MixingLengthShape::Linear => 1.0,
         };
-        von_karman() * distance * damping
+        VON_KARMAN * distance * damping
     }
 
     /// Kinematic eddy viscosity ν_t = l² |γ̇| `[m²/s]` at a height `[m]`, a depth `[m]` and a shear rate `[1/s]`.

@@ -13,16 +13,9 @@ pub use smagorinsky::Smagorinsky;
 pub use stratified::StratifiedMixingLength;
 
 use crate::lanes::Real;
-use crate::planted::{Planted, factor};
 
 /// Von Kármán's constant κ `[-]`.
 pub const VON_KARMAN: f64 = 0.41;
-
-/// κ as the laws take it `[-]`.
-#[inline(always)]
-fn von_karman() -> f64 {
-    VON_KARMAN * factor(Planted::VonKarman)
-}
 
 /// Prandtl's eddy viscosity ν_t = l² |γ̇| `[m²/s]` of a mixing length `[m]` at a shear rate `[1/s]`.
 #[inline]

@@ -8,9 +8,8 @@
 //! The law begins at z_0, where u = 0 and u_* has no value. Nearer to the wall than e z_0 the stress is therefore taken
 //! with ln = 1, so that it never exceeds ρ (κ u)².
 
-use super::von_karman;
+use super::VON_KARMAN;
 use crate::parameter::positive;
-use crate::planted::{Planted, factor};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -31,21 +30,21 @@ impl RoughWall {
     #[inline]
     #[must_use]
     pub fn roughness_length(&self) -> f64 {
-        self.sand_roughness / 30.0 * factor(Planted::RoughnessLength)
+        self.sand_roughness / 30.0
     }
 
     /// Velocity u `[m/s]` at a distance z′ `[m]` from the origin and a friction velocity u_* `[m/s]`; 0 up to z_0.
     #[inline]
     #[must_use]
     pub fn velocity(&self, distance: f64, friction_velocity: f64) -> f64 {
-        friction_velocity / von_karman() * libm::log(distance.max(self.roughness_length()) / self.roughness_length())
+        friction_velocity / VON_KARMAN * libm::log(distance.max(self.roughness_length()) / self.roughness_length())
     }
 
     /// Friction velocity u_* ≥ 0 `[m/s]` of a velocity along the wall `[m/s]` at a distance z′ `[m]` from the origin.
     #[inline]
     #[must_use]
     pub fn friction_velocity(&self, velocity: f64, distance: f64) -> f64 {
-        von_karman() * velocity.abs() / self.logarithm(distance)
+        VON_KARMAN * velocity.abs() / self.logarithm(distance)
     }
 
     /// Shear stress τ = ρ u_*² `[Pa]` of the flow on the wall, with the sign of the velocity along the wall `[m/s]`, at a
@@ -60,7 +59,7 @@ impl RoughWall {
     #[inline]
     #[must_use]
     pub fn stress_coefficient(&self, velocity: f64, distance: f64, density: f64) -> f64 {
-        let ratio = von_karman() / self.logarithm(distance);
+        let ratio = VON_KARMAN / self.logarithm(distance);
         density * ratio * ratio * velocity.abs()
     }
 

@@ -1,7 +1,6 @@
 //! Smagorinsky's eddy viscosity, equation (5): ν_s = (C_s Δ)² |γ̇| with |γ̇| = √(2 ε:ε).
 
 use crate::parameter::between;
-use crate::planted::{Planted, factor};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +18,7 @@ impl Smagorinsky {
     #[inline]
     #[must_use]
     pub fn mixing_length(&self, spacing: f64) -> f64 {
-        self.coefficient * factor(Planted::Smagorinsky) * spacing
+        self.coefficient * spacing
     }
 
     /// Kinematic eddy viscosity ν_s `[m²/s]` at a particle spacing Δ `[m]` and a shear rate `[1/s]`.

@@ -4,8 +4,7 @@
 //! Fluid Mech. 730); the root makes the logarithmic law exact over a clear bed, where R = z, as for
 //! [`MixingLength`](super::MixingLength).
 
-use super::von_karman;
-use crate::planted::{Planted, planted};
+use super::VON_KARMAN;
 
 /// Mixing in proportion to the room between grains.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,16 +21,15 @@ impl StratifiedMixingLength {
     #[inline]
     #[must_use]
     pub fn room(&self, solid_fraction: f64, thickness: f64) -> f64 {
-        let packing = if planted(Planted::RoomAmongGrains) { 1.0 } else { self.packing };
-        (1.0 - solid_fraction / packing) * thickness
+        (1.0 - solid_fraction / self.packing) * thickness
     }
 
     /// l `[m]` at a height z `[m]` above the bed with the room R `[m]` below; 0 above the surface and without room.
     #[inline]
     #[must_use]
     pub fn length(&self, height: f64, room: f64) -> f64 {
-        let root = if planted(Planted::MixingLengthRoot) { 1.0 } else { (1.0 - height / self.depth).max(0.0).sqrt() };
-        von_karman() * root * room.max(0.0)
+        let root = (1.0 - height / self.depth).max(0.0).sqrt();
+        VON_KARMAN * root * room.max(0.0)
     }
 }
 

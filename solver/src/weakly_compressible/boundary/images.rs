@@ -4,7 +4,6 @@
 //! components of tensors that couple normal and tangent, change their sign.
 
 use crate::domain::{AxisBoundary, Domain};
-use crate::planted::{Planted, factor, planted};
 use crate::vector::{Tensor, Vector};
 use serde::{Deserialize, Serialize};
 
@@ -66,10 +65,10 @@ impl<const D: usize> Images<D> {
                     AxisBoundary::Open => {}
                     AxisBoundary::Periodic { lower, upper } => {
                         if coordinate < lower + reach {
-                            add(1.0, (upper - lower) * factor(Planted::PeriodicShift));
+                            add(1.0, upper - lower);
                         }
                         if coordinate > upper - reach {
-                            add(1.0, (lower - upper) * factor(Planted::PeriodicShift));
+                            add(1.0, lower - upper);
                         }
                     }
                     AxisBoundary::Mirror { lower, upper } => {
@@ -101,9 +100,6 @@ impl<const D: usize> Images<D> {
     }
 
     pub(crate) fn copy_vectors(&self, field: &mut [Vector<D>]) {
-        if planted(Planted::MirrorVectorSign) {
-            return self.copy(field, |value, _| *value);
-        }
         self.copy(field, |value, image| image.sign.component_mul(value));
     }
 
@@ -112,9 +108,6 @@ impl<const D: usize> Images<D> {
     }
 
     pub(crate) fn copy_tensors(&self, field: &mut [Tensor<D>]) {
-        if planted(Planted::MirrorTensorSign) {
-            return self.copy(field, |value, _| *value);
-        }
         self.copy(field, |value, image| {
             let mut copy = *value;
             for i in 0..D {

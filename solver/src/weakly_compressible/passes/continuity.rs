@@ -7,7 +7,6 @@ use super::new_state::{Advance, Extremes, Output, RateSums};
 use super::records::{self, LaneRecord};
 use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, sum_of, zero_tensor};
 use crate::lanes::{LANES, LanePass, Lanes};
-use crate::planted::{Planted, factor};
 use crate::vector::equivalent_shear_stress;
 use crate::weakly_compressible::energy::StressWork;
 use crate::weakly_compressible::model::{GradientUse, Model};
@@ -216,7 +215,6 @@ fn all_sums<V: Lanes, const D: usize, const DIFFUSES: bool>(
         coupling = coupling + weight * density_coupling::bracket(own.pressure - other.pressure, &sum, &r);
         accumulate_outer(&mut gradient, weight, &difference(&other.velocity, &own.velocity), &r);
     }
-    let wall_share = V::splat(factor(Planted::WallContinuity));
     for (w, weight) in group.wall.zip(wall_weights) {
         let record = all.load_start::<V>(quads, const { layout::continuity(D).div_ceil(4) }, &w);
         let wall = Partner::<V, D>::of(&record);
@@ -224,7 +222,7 @@ fn all_sums<V: Lanes, const D: usize, const DIFFUSES: bool>(
         let weight = V::load(weight);
         accumulate_outer(&mut wall_gradient, weight, &difference(&wall.velocity, &own.velocity), &r);
         let sliding = difference(&own.velocity, &wall.pressure_gradient);
-        wall_compression = wall_compression + wall_share * (weight * dot(&sliding, &r));
+        wall_compression = wall_compression + weight * dot(&sliding, &r);
     }
     let compression = continuity::compression(&gradient) + wall_compression;
     for i in 0..D {

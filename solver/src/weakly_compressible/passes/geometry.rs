@@ -9,7 +9,6 @@ use crate::lanes::algebra::{
     store_vector, zero_tensor, zero_vector,
 };
 use crate::lanes::{LANES, LanePass, Lanes};
-use crate::planted::{Planted, planted};
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
@@ -86,9 +85,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             let sums = pair_sums::<V, D>(self.model, self.records, &group, weights);
             let end = (offset + LANES).min(count);
             let (for_gradients, mut for_forces) = corrections(&sums.moment);
-            if self.model.numerics.momentum_operator != MomentumOperator::SingleDivergence
-                || planted(Planted::ForceCorrection)
-            {
+            if self.model.numerics.momentum_operator != MomentumOperator::SingleDivergence {
                 for_forces = identity();
             }
             let stress = self.stress(first..first + end - offset, sums.pressure);

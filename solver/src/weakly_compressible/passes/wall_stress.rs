@@ -4,7 +4,6 @@
 use super::PairData;
 use crate::lanes::algebra::{difference, dot, splat_vector, zero_tensor};
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_tensors, gather_vectors};
-use crate::planted::{Planted, factor};
 use crate::vector::Tensor;
 use crate::weakly_compressible::boundary::WallTreatment;
 use crate::weakly_compressible::model::Model;
@@ -67,7 +66,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             }
             for i in 0..D {
                 for j in 0..D {
-                    let stress = (wet * V::splat(factor(Planted::WallStress)) * stresses[i][j]).to_array();
+                    let stress = (wet * stresses[i][j]).to_array();
                     for (lane, out) in out.iter_mut().enumerate() {
                         out.1[(i, j)] = stress[lane];
                     }

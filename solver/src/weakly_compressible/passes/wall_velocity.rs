@@ -10,7 +10,6 @@ use super::PairData;
 use super::wall_stress::BLOCK;
 use crate::lanes::algebra::{difference, dot, store_vector, zero_vector};
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
-use crate::planted::{Planted, factor};
 use crate::vector::Vector;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::particles::Particles;
@@ -76,8 +75,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                 }
             }
             // a dry wall moves as it is told
-            let slope =
-                V::splat(factor(Planted::WallVelocity)) * (depth / moment.max(smallest)).where_less(smallest, moment);
+            let slope = (depth / moment.max(smallest)).where_less(smallest, moment);
             let wet = terms::wet_inverse(weights);
             let mut mean_slip = means;
             let mut fitted_slip = means;

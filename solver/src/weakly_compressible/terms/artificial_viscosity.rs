@@ -1,7 +1,6 @@
 //! Artificial viscosity (15) for approaching pairs and Morris & Monaghan's switch (16) of its coefficient.
 
 use crate::lanes::{Lanes, Real};
-use crate::planted::{Planted, planted};
 
 /// Smallest coefficient of the switch `[-]`.
 pub const SWITCH_LOWEST: f64 = 0.1;
@@ -22,8 +21,7 @@ pub fn mean_strength<V: Lanes>(alpha_a: V, alpha_b: V, speed_length: f64) -> V {
 #[inline(always)]
 pub fn pair_factor<V: Lanes>(strength: V, approach: V, inverse: V) -> V {
     let none = V::splat(0.0);
-    let met = if planted(Planted::ArtificialViscositySign) { approach.max(none) } else { approach.min(none) };
-    strength * met * inverse
+    strength * approach.min(none) * inverse
 }
 
 /// One explicit step of (16): dα/dt = −(α − α_min)/ς + S, S = max(0, −∇·v), ς = h/(σ c).

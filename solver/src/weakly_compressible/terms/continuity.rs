@@ -3,7 +3,6 @@
 //! The divergence in (7) is not corrected: the trace of the corrected gradient makes the layer shrink or blow up.
 
 use crate::lanes::Real;
-use crate::planted::{Planted, factor};
 
 /// −∇·v `[1/s]`: the trace of the uncorrected gradient Σ V (v_b − v_a) ⊗ ∇W is ∇·v of (7).
 #[inline(always)]
@@ -20,7 +19,5 @@ pub fn compression<R: Real, const D: usize>(gradient: &[[R; D]; D]) -> R {
 #[inline(always)]
 #[must_use]
 pub fn advanced<R: Real>(density: R, compression: R, coupling: R, strength: f64, time_step: f64) -> R {
-    density
-        + R::splat(time_step) * density * compression
-        + R::splat(time_step * time_step * strength * factor(Planted::DensityCouplingSign)) * coupling
+    density + R::splat(time_step) * density * compression + R::splat(time_step * time_step * strength) * coupling
 }

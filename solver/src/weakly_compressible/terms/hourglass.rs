@@ -6,7 +6,6 @@
 
 use crate::lanes::Lanes;
 use crate::lanes::algebra::{difference, dot, product, scaled, sum_of};
-use crate::planted::{Planted, factor, planted};
 
 /// √(p/ρ0) `[m/s]` of a pressure `[Pa]`, from 1/ρ0 `[m³/kg]`.
 #[inline(always)]
@@ -18,7 +17,7 @@ pub fn pressure_speed(pressure: f64, inverse_density: f64) -> f64 {
 /// 2 ν_ab `[m²/s]`: `strength` is k h `[m]`, `speed_sum` √(p_a/ρ0) + √(p_b/ρ0) `[m/s]`.
 #[inline(always)]
 pub fn twice_viscosity<V: Lanes>(strength: f64, speed_sum: V) -> V {
-    speed_sum * V::splat(strength * factor(Planted::HourglassSign))
+    speed_sum * V::splat(strength)
 }
 
 /// The unexplained velocity difference [v_ab − ½(∇v_a + ∇v_b) r_ab] `[m/s]`.
@@ -40,8 +39,7 @@ pub fn unexplained<V: Lanes, const D: usize>(
 /// The part of a vector along r `[unit of the vector]`; `regular` is r² `[m²]`, kept from zero.
 #[inline(always)]
 pub fn along_pair<V: Lanes, const D: usize>(vector: &[V; D], r: &[V; D], regular: V) -> [V; D] {
-    let along = scaled(dot(vector, r) / regular, r);
-    if planted(Planted::HourglassDirection) { difference(vector, &along) } else { along }
+    scaled(dot(vector, r) / regular, r)
 }
 
 /// The same at a wall, whose gradient is that of a: `slip` is β (v_a − v_wall) `[m/s]`. A smooth wall (`smoothness` 1)

@@ -1,7 +1,6 @@
 //! Kernel corrections from the moment matrix M = −Σ V_b F r⊗r, which tends to the identity inside the flow.
 
 use crate::lanes::{LANES, Lanes};
-use crate::planted::{Planted, planted};
 use crate::vector::Tensor;
 
 /// Smallest eigenvalue of M at which gradients use L = M⁻¹ in full `[-]`.
@@ -101,8 +100,7 @@ fn inverse<V: Lanes, const D: usize>(m: &[[V; D]; D]) -> [[V; D]; D] {
         let scale = V::splat(1.0) / (m[0][0] * m[1][1] - m[0][1] * m[1][0]);
         for i in 0..D {
             for j in 0..D {
-                let off_diagonal = if planted(Planted::GradientCorrection) { m[i][j] } else { -m[i][j] };
-                lanes[i][j] = if i == j { m[1 - i][1 - i] * scale } else { off_diagonal * scale };
+                lanes[i][j] = if i == j { m[1 - i][1 - i] * scale } else { -m[i][j] * scale };
             }
         }
         return lanes;

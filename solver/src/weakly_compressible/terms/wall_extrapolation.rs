@@ -3,7 +3,6 @@
 
 use crate::lanes::algebra::{accumulate_outer, dot, matrix_product, zero_tensor};
 use crate::lanes::{Lanes, Real};
-use crate::planted::{Planted, factor};
 
 /// Below this part of a full neighbourhood Σ V W a wall particle counts as dry `[-]`.
 pub const DRY: f64 = 1e-12;
@@ -32,7 +31,7 @@ pub fn spread<V: Lanes>(weights: V, first_moment: V, moment: V, spacing: f64) ->
 #[inline(always)]
 pub fn growth_along_normal<V: Lanes>(pressure: V, density: V, gravity: V, distance: V, full_increment: V) -> V {
     let part = (pressure / full_increment).min(V::splat(1.0)).max(V::splat(0.0));
-    density * gravity * distance * part * V::splat(factor(Planted::WallPressure))
+    density * gravity * distance * part
 }
 
 /// Hydrostatic growth of (22) `[Pa]`, with the sign of growth along gravity.

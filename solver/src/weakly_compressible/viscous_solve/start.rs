@@ -9,7 +9,6 @@ use crate::lanes::algebra::{
 };
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
 use crate::material::turbulence::dynamic_eddy_viscosity;
-use crate::planted::{Planted, factor};
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::layout;
@@ -126,7 +125,7 @@ impl<const D: usize> LanePass for CoefficientPass<'_, D> {
             for i in 0..D {
                 coefficients.correction[i] = store_columns(&correction[i]);
             }
-            coefficients.twice_viscosity = (V::splat(2.0 * factor(Planted::ViscousResponse)) * viscosity).to_array();
+            coefficients.twice_viscosity = (V::splat(2.0) * viscosity).to_array();
             coefficients.mass = [1.0; LANES];
             coefficients.mass[..last - first].copy_from_slice(&particles.mass[first..last]);
             coefficients.impulse_volume = (V::splat(constants.time_step) * volume).to_array();

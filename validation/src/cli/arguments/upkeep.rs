@@ -79,7 +79,7 @@ pub struct Mutate {
 pub enum MutateAction {
     /// List the errors and the cases that ought to see them.
     List,
-    /// Plant one error and run one case at the quick tier; the store is neither read nor written.
+    /// Run one case at the quick tier with one error; the store is neither read nor written.
     Trial {
         /// Name of the error, or `none`.
         error: String,
@@ -89,7 +89,7 @@ pub enum MutateAction {
         #[arg(long = "set", value_name = "path=value")]
         settings: Vec<String>,
         /// File to write what the case said to, as `bagnold mutate` reads it, instead of printing it.
-        #[arg(long, value_name = "FILE")]
+        #[arg(long, value_name = "FILE", hide = true)]
         result: Option<PathBuf>,
         /// Threads to use [default: all cores].
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]

@@ -1,0 +1,44 @@
+//! Errors for the mutation check stand outside of the sources (`validation/mutations.toml`): a reader of an equation sees the
+//! equation.
+
+use crate::source::workspace;
+use bagnold_validation::mutation::Mutations;
+
+#[test]
+fn every_text_of_a_mutation_stands_once_in_its_file() {
+    let mutations = Mutations::read(&workspace()).unwrap_or_else(|error| panic!("{error}"));
+    let mut wrong = Vec::new();
+    let mut places = 0;
+    for mutation in mutations.iter() {
+        assert!(!mutation.places.is_empty(), "{} changes nothing", mutation.name);
+        for place in &mutation.places {
+            places += 1;
+            let path = workspace().join("solver/src").join(&place.file);
+            let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+            let count = text.matches(&place.needle()).count();
+            if count != 1 {
+                wrong.push(format!("{}: `{}` stands {count} times in {}", mutation.name, place.needle(), place.file));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(places >= 75, "{places} places");
+}
+
+#[test]
+fn the_solver_knows_no_mutation() {
+    let mut open = vec![workspace().join("solver/src")];
+    while let Some(folder) = open.pop() {
+        for entry in std::fs::read_dir(&folder).expect("readable").flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                open.push(path);
+                continue;
+            }
+            let text = std::fs::read_to_string(&path).unwrap_or_default().to_lowercase();
+            for word in ["planted", "mutation"] {
+                assert!(!text.contains(word), "{} speaks of `{word}`", path.display());
+            }
+        }
+    }
+}

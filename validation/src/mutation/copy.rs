@@ -1,0 +1,271 @@
+//! A copy of the program that holds all mutations, of which one is chosen as it starts.
+
+use super::record::{FILE, Mutations};
+use crate::evaluation::PlanError;
+use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
+use crate::output::FileError;
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// By which the copy is told the number of the mutation; none or 0 for the program as it is.
+pub const CHOICE: &str = "BAGNOLD_MUTATION";
+
+/// What of a checkout the program is built from.
+const SOURCES: [&str; 7] = ["Cargo.toml", "Cargo.lock", "README.md", "solver", "validation", "tests", "reference-data"];
+
+/// What the copy has beside: how it knows which mutation is chosen.
+const CHOOSER: &str = "//! Which mutation is chosen.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+const UNREAD: usize = usize::MAX;
+
+static CHOSEN: AtomicUsize = AtomicUsize::new(UNREAD);
+
+#[inline(always)]
+pub(crate) fn is(number: usize) -> bool {
+    let chosen = CHOSEN.load(Ordering::Relaxed);
+    (if chosen == UNREAD { read() } else { chosen }) == number
+}
+
+#[cold]
+#[inline(never)]
+fn read() -> usize {
+    let chosen = std::env::var(\"BAGNOLD_MUTATION\").ok().and_then(|text| text.parse().ok()).unwrap_or(0);
+    CHOSEN.store(chosen, Ordering::Relaxed);
+    chosen
+}
+";
+
+/// Why there is no copy.
+#[derive(Debug, thiserror::Error)]
+pub enum CopyError {
+    /// The records, or a text that the sources do not have once.
+    #[error(transparent)]
+    Record(#[from] PlanError),
+    /// A file of the copy.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The compiler refuses it.
+    #[error("failed to build a copy of the program with all mutations in {folder}: {said}")]
+    Build {
+        /// Where it stands.
+        folder: PathBuf,
+        /// The first of what the compiler said.
+        said: String,
+    },
+}
+
+/// Makes or renews the copy below `target/mutations` of a checkout and builds it; returns the program.
+///
+/// # Errors
+/// A text that does not stand once in its file, files that cannot be written, a copy that does not compile.
+pub fn build(workspace: &Path, mutations: &Mutations) -> Result<PathBuf, CopyError> {
+    let below = workspace.join("target").join("mutations");
+    let (tree, target) = (below.join("tree"), below.join("build"));
+    let changed = changed_sources(workspace, mutations)?;
+    let unwritable = |error: io::Error| CopyError::File(FileError::unwritable(&tree, &error));
+    std::fs::create_dir_all(&tree).map_err(unwritable)?;
+    for name in SOURCES {
+        mirror(&workspace.join(name), &tree.join(name), &changed, workspace).map_err(unwritable)?;
+    }
+    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let done = Command::new(program)
+        .args(["build", "--quiet", "--locked", "--bin", "bagnold", "--manifest-path"])
+        .arg(tree.join("Cargo.toml"))
+        .arg("--target-dir")
+        .arg(&target)
+        .stdin(Stdio::null())
+        .output();
+    let failed = |said: String| CopyError::Build { folder: tree.clone(), said };
+    let done = done.map_err(|error| failed(format!("cargo cannot be started ({error})")))?;
+    if !done.status.success() {
+        let said = String::from_utf8_lossy(&done.stderr).lines().take(12).collect::<Vec<_>>().join("\n");
+        return Err(failed(said));
+    }
+    Ok(target.join("debug").join(format!("bagnold{}", std::env::consts::EXE_SUFFIX)))
+}
+
+/// An expression of a source, and what stands instead of it by the number of a mutation.
+struct Choice {
+    start: usize,
+    end: usize,
+    wrong: Vec<(usize, String)>,
+}
+
+impl Choice {
+    /// The expression with its alternatives.
+    fn expression(&self, source: &str) -> String {
+        let wrong =
+            |(number, text): &(usize, String)| format!("if crate::chosen_mutation::is({number}) {{ {text} }} else ");
+        let wrong: String = self.wrong.iter().map(wrong).collect();
+        format!("({wrong}{{ {} }})", &source[self.start..self.end])
+    }
+}
+
+/// The sources of the solver that differ in the copy, by their paths in the checkout.
+fn changed_sources(workspace: &Path, mutations: &Mutations) -> Result<BTreeMap<PathBuf, String>, CopyError> {
+    let root = Path::new("solver").join("src");
+    let read = |path: &Path| {
+        let file = workspace.join(path);
+        read_text(&file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(&file, &error))
+    };
+    let mut sources: BTreeMap<PathBuf, (String, Vec<Choice>)> = BTreeMap::new();
+    for mutation in mutations.iter() {
+        let number = mutations.number(mutation);
+        for place in &mutation.places {
+            let path = root.join(&place.file);
+            if !sources.contains_key(&path) {
+                sources.insert(path.clone(), (read(&path)?, Vec::new()));
+            }
+            let (text, choices) = sources.get_mut(&path).expect("it was just read");
+            let refused = |value: String, rule: &str, remedy: &str| {
+                let error = FieldError::new(&format!("mutation \"{}\"", mutation.name), value, rule, remedy);
+                CopyError::from(PlanError::from(error.in_file(&workspace.join(FILE))))
+            };
+            let needle = place.needle();
+            let found: Vec<usize> = text.match_indices(&needle).map(|(start, _)| start).collect();
+            let [at] = found[..] else {
+                let rule =
+                    format!("of a text that stands once in {}, where it stands {} times", place.file, found.len());
+                return Err(refused(format!("`{needle}`"), &rule, "give the text as it stands there"));
+            };
+            let (start, end) = (at + place.after.len(), at + needle.len());
+            match choices.iter_mut().find(|choice| choice.start < end && start < choice.end) {
+                None => choices.push(Choice { start, end, wrong: vec![(number, place.instead.clone())] }),
+                Some(same) if (same.start, same.end) == (start, end) => {
+                    same.wrong.push((number, place.instead.clone()))
+                }
+                Some(_) => {
+                    let rule = "of a text that overlaps with none of another mutation";
+                    return Err(refused(format!("`{needle}`"), rule, "give the same text as the other one"));
+                }
+            }
+        }
+    }
+    let changed = sources.into_iter().map(|(path, (mut text, mut choices))| {
+        choices.sort_by_key(|choice| choice.start);
+        for choice in choices.iter().rev() {
+            let expression = choice.expression(&text);
+            text.replace_range(choice.start..choice.end, &expression);
+        }
+        (path, text)
+    });
+    let mut changed: BTreeMap<PathBuf, String> = changed.collect();
+    let library = root.join("lib.rs");
+    let text = read(&library)?;
+    changed.insert(library, text + "\nmod chosen_mutation;\n");
+    changed.insert(root.join("chosen_mutation.rs"), CHOOSER.to_owned());
+    Ok(changed)
+}
+
+/// Makes `to` what `from` is, but for changed files; what is the same already is not touched, so that little is built anew.
+fn mirror(from: &Path, to: &Path, changed: &BTreeMap<PathBuf, String>, workspace: &Path) -> io::Result<()> {
+    let kind = std::fs::symlink_metadata(from)?.file_type();
+    if kind.is_symlink() {
+        let target = std::fs::read_link(from)?;
+        if std::fs::read_link(to).ok().as_ref() != Some(&target) {
+            return link(&target, to);
+        }
+        return Ok(());
+    }
+    let path = from.strip_prefix(workspace).unwrap_or(from);
+    if !kind.is_dir() {
+        let contents = match changed.get(path) {
+            Some(text) => text.clone().into_bytes(),
+            None => std::fs::read(from)?,
+        };
+        return write_if_new(to, &contents);
+    }
+    std::fs::create_dir_all(to)?;
+    let added = changed.iter().filter(|(own, _)| own.parent() == Some(path) && !workspace.join(own).exists());
+    let mut kept: Vec<_> = Vec::new();
+    for (own, text) in added {
+        kept.extend(own.file_name().map(ToOwned::to_owned));
+        write_if_new(&to.join(own.file_name().unwrap_or_default()), text.as_bytes())?;
+    }
+    for entry in std::fs::read_dir(from)? {
+        let name = entry?.file_name();
+        // workspaces of their own may have been built in their folders
+        if name != "target" {
+            mirror(&from.join(&name), &to.join(&name), changed, workspace)?;
+            kept.push(name);
+        }
+    }
+    for entry in std::fs::read_dir(to)? {
+        let entry = entry?;
+        if !kept.contains(&entry.file_name()) {
+            let gone = entry.path();
+            if entry.file_type()?.is_dir() { std::fs::remove_dir_all(gone)? } else { std::fs::remove_file(gone)? }
+        }
+    }
+    Ok(())
+}
+
+fn write_if_new(to: &Path, contents: &[u8]) -> io::Result<()> {
+    if std::fs::read(to).is_ok_and(|old| old == contents) { Ok(()) } else { std::fs::write(to, contents) }
+}
+
+#[cfg(unix)]
+fn link(target: &Path, to: &Path) -> io::Result<()> {
+    std::os::unix::fs::symlink(target, to)
+}
+
+#[cfg(not(unix))]
+fn link(_: &Path, to: &Path) -> io::Result<()> {
+    Err(io::Error::new(io::ErrorKind::Unsupported, format!("{}: links need another system", to.display())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_text_stands_once_and_becomes_a_choice() {
+        let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let mutations = Mutations::read(&workspace).expect("a file of mutations");
+        let changed = changed_sources(&workspace, &mutations).expect("every text stands once");
+        let all: String = changed.values().map(String::as_str).collect();
+        for mutation in mutations.iter() {
+            let choices = all.matches(&format!("chosen_mutation::is({})", mutations.number(mutation))).count();
+            assert_eq!(choices, mutation.places.len(), "{}", mutation.name);
+            assert!(mutation.places.iter().all(|place| place.text != place.instead), "{}", mutation.name);
+        }
+        assert!(CHOOSER.contains(CHOICE));
+    }
+
+    #[test]
+    fn a_copy_is_renewed_where_its_source_has_changed() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let (from, to) = (folder.path().join("from/solver/src"), folder.path().join("to"));
+        std::fs::create_dir_all(from.join("deep")).expect("writable");
+        let write = |name: &str, text: &str| std::fs::write(from.join(name), text).expect("writable");
+        write("a.rs", "a");
+        write("deep/b.rs", "b");
+        let workspace = folder.path().join("from");
+        let changed = BTreeMap::from([
+            (PathBuf::from("solver/src/a.rs"), "changed".to_owned()),
+            (PathBuf::from("solver/src/new.rs"), "new".to_owned()),
+        ]);
+        let copy = || mirror(&from, &to, &changed, &workspace).expect("a copy");
+        copy();
+        let text = |name: &str| std::fs::read_to_string(to.join(name)).unwrap_or_default();
+        assert_eq!([text("a.rs"), text("deep/b.rs"), text("new.rs")], ["changed", "b", "new"]);
+        let before = std::fs::metadata(to.join("deep/b.rs")).and_then(|data| data.modified()).expect("a time");
+        std::fs::remove_file(from.join("a.rs")).expect("there");
+        copy();
+        assert_eq!([text("a.rs"), text("new.rs")], ["changed", "new"], "what the copy adds stays");
+        write("c.rs", "c");
+        std::fs::remove_dir_all(from.join("deep")).expect("there");
+        std::fs::create_dir_all(from.join("deep")).expect("writable");
+        write("deep/b.rs", "b");
+        copy();
+        let after = std::fs::metadata(to.join("deep/b.rs")).and_then(|data| data.modified()).expect("a time");
+        assert_eq!((text("c.rs").as_str(), before), ("c", after), "what is the same is not touched");
+        std::fs::remove_file(from.join("c.rs")).expect("there");
+        copy();
+        assert!(!to.join("c.rs").exists());
+    }
+}
