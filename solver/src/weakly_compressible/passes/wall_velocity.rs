@@ -75,7 +75,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                     means[axis] = means[axis] + weight * slip;
                 }
             }
-            // a dry wall moves as it is told
+            // a dry wall moves at the prescribed velocity
             let slope =
                 V::splat(factor(Planted::WallVelocity)) * (depth / moment.max(smallest)).where_less(smallest, moment);
             let wet = terms::wet_inverse(weights);
