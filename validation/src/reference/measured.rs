@@ -74,7 +74,7 @@ pub enum Column {
         name: String,
         /// Unit, from the brackets.
         unit: String,
-        /// One value a row, in that unit.
+        /// One value per row, in that unit.
         values: Vec<f64>,
     },
     /// Text.
