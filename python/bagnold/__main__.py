@@ -13,7 +13,7 @@ def main() -> int:
         print(f"error: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
-        print("interrupted: the same command goes on from the last checkpoints", file=sys.stderr)
+        print("interrupted: the same command resumes from the last checkpoints", file=sys.stderr)
         return 130
     print(text, end="", file=sys.stderr if code == 2 else sys.stdout)
     return code

@@ -169,7 +169,7 @@ def run(
     such as "material=sand,aspect_ratio=3"; ``overlay`` names CSV files with measurements, which are drawn into the figure
     with their axes and give a metric ``overlay_residual``; ``fresh`` simulates what is stored; ``threads`` changes no result.
 
-    Other Python threads go on meanwhile. Ctrl-C raises ``KeyboardInterrupt``; the same call then goes on from the last
+    Other Python threads run meanwhile. Ctrl-C raises ``KeyboardInterrupt``; the same call then resumes from the last
     checkpoint.
 
     Raises ``Refused``, a ``ValueError``, for what the case does not take, with the program's message. Warns of runs that

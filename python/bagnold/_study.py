@@ -114,7 +114,7 @@ def judge(
 def calibrate(plan: str | PathLike[str], *, out: str | PathLike[str], resume: bool = False) -> Calibration:
     """Finds the parameters that agree best with the data of a plan, and judges them on data held out.
 
-    ``out`` is the calibration's folder. Interrupted, the same call goes on; ``resume`` opens one that is done.
+    ``out`` is the calibration's folder. Interrupted, the same call resumes; ``resume`` opens one that is done.
 
     Raises ``Refused`` for plans that cannot be understood, with the program's message.
     """

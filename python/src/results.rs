@@ -1,5 +1,5 @@
 //! Tables, pictures of particles and figures as Python sees them. The numbers of particles move into NumPy's arrays, without
-//! a copy; nobody can write to them.
+//! a copy; they are read-only.
 
 use crate::waiting::Refused;
 use bagnold_validation::figure::{Figure, render};
@@ -32,7 +32,7 @@ pub(crate) fn particles(py: Python<'_>, frame: Frame) -> PyResult<(f64, Bound<'_
     Ok((frame.time, arrays))
 }
 
-/// A row a particle.
+/// A row per particle.
 fn vectors(py: Python<'_>, values: Vec<[f64; 3]>) -> PyResult<Bound<'_, PyAny>> {
     let rows = values.len();
     locked(PyArray1::from_vec(py, values.into_flattened()).reshape([rows, 3])?.into_any())

@@ -1,6 +1,6 @@
 //! Cost of an incompressible step, per particle: `cargo bench -p bagnold-benches --bench projection`.
 //!
-//! A step bench goes on through a run: clear water over a rough bed, and the same over 80 mm of 5 mm grains with water
+//! A step bench advances through a run: clear water over a rough bed, and the same over 80 mm of 5 mm grains with water
 //! between. What the linear solves take is printed after each.
 
 use bagnold_solver::domain::{AxisBoundary, Domain};

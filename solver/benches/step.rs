@@ -1,6 +1,6 @@
 //! Cost of a neighbour search and of a step, per particle: `cargo bench -p bagnold-benches`.
 //!
-//! A step bench goes on through the opening phase of a dam break, at rest at first: a search is rare and is measured
+//! A step bench advances through the opening phase of a dam break, at rest at first: a search is rare and is measured
 //! by `neighbour_list`. A bench is named by law, h/Δ, particles and threads.
 
 mod scenes;

@@ -34,7 +34,7 @@ fn a_signal_keeps_what_there_is_and_says_how_to_go_on() {
         assert_eq!(status.code(), Some(code), "{}: {said}", work.name);
         let first = format!("interrupted by SIG{signal}: what is finished is kept, and a checkpoint of ");
         assert!(said.contains(&first), "{said}");
-        assert!(said.contains("the same command goes on from there"), "{said}");
+        assert!(said.contains("the same command resumes from there"), "{said}");
         assert!(!checkpoints(&place, "asked-store").is_empty());
         let left = std::fs::read_dir(place.path("asked")).into_iter().flatten().flatten();
         let staging = |name: &str| name.contains("staging");
@@ -91,7 +91,7 @@ fn a_checkpoint_that_is_damaged_is_refused_and_the_one_before_continued() {
     let (_, said) = what_it_said(RUN_IN_PLANE.start(&place, "damaged", "1"));
     let refusal = "not continued: it is damaged; the one before it is used, or the run begins anew";
     assert!(said.contains(refusal), "{said}");
-    assert!(said.contains("goes on from its checkpoint at t = "), "{said}");
+    assert!(said.contains("resumes from its checkpoint at t = "), "{said}");
     assert_eq!(RUN_IN_PLANE.states(&place, "damaged"), expected);
 }
 
@@ -107,7 +107,7 @@ fn fresh_begins_anew() {
     process.args(["--out", "out", "--store", "out-store", "--fresh", "-v"]);
     let done = process.output().expect("ended");
     let said = String::from_utf8_lossy(&done.stderr);
-    assert!(!said.contains("goes on from its checkpoint at t ="), "{said}");
+    assert!(!said.contains("resumes from its checkpoint at t ="), "{said}");
     assert!(done.status.code().is_some_and(|code| code <= 1), "{said}");
 }
 
@@ -155,7 +155,7 @@ fn a_full_disk_is_said_and_leaves_the_checkpoint_before() {
     let (status, said) = what_it_said(RUN_IN_PLANE.start(&place, "full", "1"));
     assert!(status.code().is_some_and(|code| code <= 1), "{said}");
     assert!(said.contains("not kept (No space left on device"), "{said}");
-    assert!(said.contains("those before it stay, and the run goes on"), "{said}");
+    assert!(said.contains("those before it stay, and the run continues"), "{said}");
     assert_eq!(RUN_IN_PLANE.states(&place, "full"), expected);
     assert_eq!(checkpoints(&place, "full-store"), before, "what was there is there, and nothing half written");
     std::fs::remove_file(filler).expect("removable");

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A task that hits its time limit goes on when it is submitted again: `tests/slurm/time_limit.sh [PROGRAM [ROWS]]`. The run of
+# A task that hits its time limit resumes when it is submitted again: `tests/slurm/time_limit.sh [PROGRAM [ROWS]]`. The run of
 # so many rows must take longer than the half minute after which Slurm looks at limits; its task sleeps before it.
 
 set -euo pipefail

@@ -30,7 +30,7 @@ pub(crate) fn descend(system: &mut impl Descent, goal: f64, most: usize) -> Resu
     let (mut before, mut iterations) = (0.0, 0);
     loop {
         let square = system.square();
-        // written so that a NaN goes on to the refusal below
+        // written so that a NaN reaches the refusal below
         if square <= goal {
             return Ok(iterations);
         }

@@ -155,7 +155,7 @@ pub(crate) struct VelocityStep<'a, const D: usize> {
     pub(crate) gravity: &'a Vector<D>,
     /// Before the step.
     pub(crate) before: Vector<D>,
-    /// After it, but for the contact.
+    /// After it, without the contact.
     pub(crate) after: Vector<D>,
     /// What a contact changed.
     pub(crate) contact: Vector<D>,

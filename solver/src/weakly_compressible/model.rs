@@ -10,7 +10,7 @@ use crate::vector::Vector;
 use crate::weakly_compressible::neighbours::VerletList;
 use crate::weakly_compressible::numerics::{MomentumOperator, Numerics};
 
-/// What stays the same from step to step, but for the neighbour list, which a search fills anew.
+/// What stays the same from step to step, except the neighbour list, which a search fills anew.
 #[derive(Debug)]
 pub(crate) struct Model<const D: usize> {
     pub(crate) list: VerletList,

@@ -3,7 +3,7 @@
 use super::{Axis, Field, Figure, Panel, Series};
 use serde::{Deserialize, Serialize};
 
-/// A moving picture. Axes and colours are fixed, so that only what moves moves.
+/// An animation. Axes and colours are fixed, so that only what moves moves.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Animation {
     /// File name without ending, kebab-case, unique within the case's figures and animations.

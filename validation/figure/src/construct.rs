@@ -108,7 +108,7 @@ impl Series {
 }
 
 impl Figure {
-    /// Panels, two a row.
+    /// Panels, two per row.
     #[must_use]
     pub fn new(name: &str, caption: &str, panels: Vec<Panel>) -> Self {
         let columns = panels.len().clamp(1, 2);

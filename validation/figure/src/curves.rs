@@ -12,7 +12,7 @@ use plotters::style::{RGBColor, WHITE};
 const CURVE: f64 = 4.0;
 /// Stroke of a reference `[px]`.
 const REFERENCE: f64 = 3.5;
-/// Opacity of a band: two that overlap are still told apart.
+/// Opacity of a band: two that overlap remain distinguishable.
 const BAND_OPACITY: f64 = 0.25;
 
 /// The two axes and the window between them.

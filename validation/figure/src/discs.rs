@@ -23,7 +23,7 @@ impl<'a> Disc<'a> {
     }
 }
 
-/// Every run of opaque discs of one size as one path a colour, in the order in which the colours appear.
+/// Every run of opaque discs of one size as one path per colour, in the order in which the colours appear.
 pub(super) fn gathered(drawn: &str) -> String {
     let mut text = String::with_capacity(drawn.len());
     let mut lines = drawn.lines().map(|line| (line, Disc::of(line))).peekable();

@@ -1,4 +1,4 @@
-//! Animation → GIF: every picture goes the way of a figure (SVG, raster), then to one fixed palette; of each picture
+//! Animation → GIF: every picture is rendered like a figure (SVG, raster), then mapped to one fixed palette; of each picture
 //! after the first only the pixels that change are stored.
 
 use super::animation::Animation;

@@ -52,7 +52,7 @@ pub(super) struct ColourMap(&'static [RGBColor; 10]);
 
 /// Viridis (van der Walt and Smith 2015), the map of all fields that stand alone.
 pub(super) const FIRST: ColourMap = ColourMap(&VIRIDIS);
-/// Inferno (the same authors), for a second field beside it: no hue is in both but for the yellow end.
+/// Inferno (the same authors), for a second field beside it: no hue is in both except the yellow end.
 pub(super) const SECOND: ColourMap = ColourMap(&INFERNO);
 
 const VIRIDIS: [RGBColor; 10] = [

@@ -59,7 +59,7 @@ pub(super) fn drawable(value: f64, scale: Scale) -> bool {
     }
 }
 
-/// Whether two values are one value but for rounding.
+/// Whether two values are one value up to rounding.
 fn same(lower: f64, upper: f64) -> bool {
     (upper - lower).abs() <= 1e-12 * lower.abs().max(upper.abs()).max(f64::MIN_POSITIVE)
 }

@@ -23,7 +23,7 @@ impl Owner for Belongs {
     }
 }
 
-/// A calibration on disk, which nobody else works on meanwhile: every search would do the same.
+/// A calibration on disk, which one process works on at a time: every search would do the same.
 #[derive(Debug)]
 pub struct CalibrationFolder {
     folder: PathBuf,
@@ -34,11 +34,11 @@ impl CalibrationFolder {
     /// Makes the folder of the calibration of a plan with cases of this origin, or continues it.
     ///
     /// # Errors
-    /// A folder with another calibration, somebody else's files, or a calibration that is not to be resumed or that another
+    /// A folder with another calibration, foreign files, or a calibration that is not to be resumed or that another
     /// command works on; files that cannot be read or written.
     pub fn begin(folder: &Path, plan: &Path, origin: Origin, resume: bool) -> Result<Self, CalibrationError> {
         let plan = read_text(plan, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(plan, &error))?;
-        // what is unfinished goes on by itself; the result is written last
+        // what is unfinished is resumed; the result is written last
         let own = Belongs { source_hash: identity_or_unique(origin).to_owned(), plan };
         let unfinished = !folder.join("result.json").exists()
             && is_claimed::<Belongs>(folder)

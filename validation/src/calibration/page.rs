@@ -133,7 +133,7 @@ fn errors(what: &'static str, data: &[Compared]) -> Option<Errors> {
     })
 }
 
-/// The sentences that stand first.
+/// The first sentences of the page.
 fn summary(outcome: &Outcome) -> Vec<String> {
     let mut lines = Vec::new();
     if outcome.trials.is_empty() {

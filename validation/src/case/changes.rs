@@ -251,7 +251,7 @@ fn is_other_choice(shape: &Shape<'_>, table: &Table, changes: &Table) -> bool {
     }
 }
 
-/// Refuses a `path=value` that gives a field which one before it gives: nobody could tell which is meant.
+/// Refuses a `path=value` that gives a field which one before it gives: which is meant would be ambiguous.
 fn refuse_twice(before: &[String], argument: &str) -> Result<(), SettingError> {
     let Some((path, value)) = parts(argument) else { return Ok(()) };
     for earlier in before {

@@ -3,7 +3,7 @@
 use super::Run;
 use std::fmt;
 
-/// Memory of a particle while its run goes on: state, neighbours, pair weights, solves `[bytes]`. A film of 200 000
+/// Memory per particle during its run: state, neighbours, pair weights, solves `[bytes]`. A film of 200 000
 /// particles takes 1.8 kB each, still water of 160 000 some 2.3 kB.
 const BYTES_WHILE_RUNNING: f64 = 3e3;
 
@@ -15,7 +15,7 @@ const USUAL_MEMORY: f64 = 16.0 * GIBIBYTE;
 
 const GIBIBYTE: f64 = 1024.0 * 1024.0 * 1024.0;
 
-/// Hours of one core that the runs of a case may take unless somebody says otherwise: two months of eight cores. The
+/// Hours of one core that the runs of a case may take by default: two months of eight cores. The
 /// longest fine tier takes some tens.
 const USUAL_CORE_HOURS: f64 = 10_000.0;
 
@@ -182,7 +182,7 @@ impl Limits {
     /// Whatever is asked for.
     pub const NONE: Self = Self { memory: f64::INFINITY, core_hours: f64::INFINITY };
 
-    /// Those of the environment or the usual ones, but for those given: gibibytes of memory and hours of one core.
+    /// Those of the environment or the usual ones, except those given: gibibytes of memory and hours of one core.
     #[must_use]
     pub fn of(memory: Option<f64>, core_hours: Option<f64>) -> Self {
         let usual = Self::default();

@@ -190,7 +190,7 @@ impl Picture {
         self.columns.get(name).map_or(&[], Vec::as_slice)
     }
 
-    /// Refuses places that nobody can mean.
+    /// Rejects implausible coordinates.
     ///
     /// # Errors
     /// The first particle that is further away than `reach` `[m]`, or below `least` `[m]` on an axis.

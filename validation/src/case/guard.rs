@@ -1,5 +1,5 @@
 //! What is asked of a case's parameters as a whole, before anything is allocated: the rules between fields, runs that can
-//! be told apart, and a size that this machine can take. Every refusal names a field that the user has changed.
+//! be distinguished, and a size that this machine can take. Every refusal names a field that the user has changed.
 
 use super::changes::{Changes, find, is_set, leaves, table_of};
 use super::error::ParameterError;

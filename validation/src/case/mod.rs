@@ -128,13 +128,13 @@ pub trait Run: Serialize + Clone + Send + Sync {
 pub trait Progress: Sync {
     /// `simulated` of `total` seconds are done, with `particle_steps` particle-steps so far.
     fn advance(&self, simulated: f64, total: f64, particle_steps: f64);
-    /// The run goes on from a checkpoint at a simulated time `[s]`.
+    /// The run resumes from a checkpoint at a simulated time `[s]`.
     fn resumed(&self, simulated: f64);
     /// Where the run keeps its checkpoints; none where nothing is kept.
     fn checkpoints(&self) -> Option<&Checkpoints> {
         None
     }
-    /// What takes states of the run on its way; none where nobody wants any.
+    /// What takes states during the run; none where none are asked for.
     fn output(&self) -> Option<&dyn StateOutput> {
         None
     }

@@ -15,7 +15,7 @@ pub trait Monitor: Sync {
     fn started(&self, run: usize);
     /// `simulated` of `total` seconds of the run are done, with `particle_steps` particle-steps so far.
     fn advanced(&self, run: usize, simulated: f64, total: f64, particle_steps: f64);
-    /// The run goes on from a checkpoint that an earlier program has left, at a simulated time `[s]`.
+    /// The run resumes from a checkpoint that an earlier program has left, at a simulated time `[s]`.
     fn resumed(&self, run: usize, simulated: f64);
     /// The run is done, or was taken from the store.
     fn finished(&self, run: usize);
@@ -36,7 +36,7 @@ impl Monitor for Silent {
     fn finished(&self, _run: usize) {}
 }
 
-/// A simulation that nobody waits for.
+/// No-op monitor.
 impl Progress for Silent {
     fn advance(&self, _simulated: f64, _total: f64, _particle_steps: f64) {}
     fn resumed(&self, _simulated: f64) {}

@@ -9,7 +9,7 @@ quantities! {
     LAW_ERROR: verified("law_error", "%", "value of a law over that of the printed law, less 1"),
 }
 
-/// One metric a law: its value at the place that the table describes, over the table's.
+/// One metric per law: its value at the place that the table describes, over the table's.
 pub(super) fn metrics(table: &str, laws: &[(&str, f64)]) -> Vec<Metric> {
     let printed = |law: &str| shipped_table(table).ok()?.number_of("law", law, "value").ok();
     let metric = |&(law, value): &(&str, f64)| {

@@ -118,7 +118,7 @@ impl Checkpoints {
         Instant::now() >= self.lock().due
     }
 
-    /// Writes a checkpoint and drops all but the last two. One that cannot be written is said, and the run goes on: those
+    /// Writes a checkpoint and drops all but the last two. One that cannot be written is reported, and the run continues: those
     /// before it stay as they are. Whether it was written.
     pub fn keep(&self, encode: impl FnOnce() -> postcard::Result<Vec<u8>>) -> bool {
         let begun = Instant::now();
@@ -135,7 +135,7 @@ impl Checkpoints {
                 static FULL: FirstWarning = FirstWarning::new();
                 let folder = self.folder.display();
                 FULL.warn(&format!(
-                    "checkpoint in {folder}: not kept ({error}); those before it stay, and the run goes on"
+                    "checkpoint in {folder}: not kept ({error}); those before it stay, and the run continues"
                 ));
             }
         }

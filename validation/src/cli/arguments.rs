@@ -154,7 +154,7 @@ pub enum Command {
     Verify(Verify),
     /// List what is stored, or delete what is old or too much of it.
     Store(Store),
-    /// Plant errors in the solver, one at a time, and say which gates notice.
+    /// Put errors into a copy of the solver, one at a time, and say which gates notice.
     Mutate(Mutate),
 }
 
@@ -199,7 +199,7 @@ pub struct Run {
     /// Print metrics.json on standard output, and nothing else there.
     #[arg(long)]
     pub json: bool,
-    /// Write the verdicts as JUnit's XML as well, for CI systems: one test a gate.
+    /// Write the verdicts as JUnit's XML as well, for CI systems: one test per gate.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
     /// Say on standard error where the time went: stages, the longest runs, memory.
@@ -264,7 +264,7 @@ pub struct Report {
     /// End with exit code 1 for this as well.
     #[arg(long, value_enum, value_name = "WHAT", conflicts_with = "accept")]
     pub deny: Option<Denied>,
-    /// Write the verdicts as JUnit's XML as well, for CI systems: one test a gate.
+    /// Write the verdicts as JUnit's XML as well, for CI systems: one test per gate.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
     /// Say on standard error where the time went: stages, the longest runs, memory.
@@ -295,7 +295,7 @@ pub struct Calibrate {
     /// Folder to write [default: reports/calibrations/FILE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Open a calibration that is done again; an unfinished one goes on by itself.
+    /// Open a calibration that is done again; an unfinished one resumes without it.
     #[arg(long)]
     pub resume: bool,
     /// How much the runs of a case may ask for at one point.

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 const LINE_INTERVAL: Duration = Duration::from_secs(30);
 const BAR_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Part of the work that must be done before the time left is told `[-]`.
+/// Part of the work that must be done before the time left is shown `[-]`.
 const LEAST_PART: f64 = 1e-3;
 
 /// A bar and, where it cannot be seen, lines in its place.

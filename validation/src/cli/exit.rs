@@ -7,7 +7,7 @@ use std::process::ExitCode;
 /// Exit code, by what happened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
-    /// All gates hold, but for known failures.
+    /// All gates hold, except known failures.
     Held = 0,
     /// A gate fails that is not a known failure.
     GateFailed = 1,

@@ -37,7 +37,7 @@ fn field(writer: &mut Writer<'_>, field: &Field, value: &dyn Debug) -> std::fmt:
 struct AboveBars;
 
 impl Write for AboveBars {
-    /// Takes everything: a line that nobody reads is no error, and the logger would report one on standard error again.
+    /// Takes everything: an unread line is not an error, and the logger would report one on standard error again.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         tell_raw(bytes);
         Ok(bytes.len())

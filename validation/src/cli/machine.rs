@@ -16,7 +16,7 @@ const STEPS: usize = 4;
 /// Time that may be spent `[s]`.
 const ALLOWED: f64 = 0.04;
 
-/// Time of the processor for a particle-step of a small flow on one thread `[µs]`, the fastest of several: what else goes on at
+/// Time of the processor for a particle-step of a small flow on one thread `[µs]`, the fastest of several: what else runs at
 /// the moment does not count. `None` if nothing could be measured.
 pub(super) fn microseconds_each() -> Option<f64> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().ok()?;
@@ -56,7 +56,7 @@ mod tests {
 
     #[test]
     fn a_machine_is_measured_in_a_moment() {
-        let speed = microseconds_each().expect("a flow that goes on");
+        let speed = microseconds_each().expect("a flow that continues");
         assert!((0.01..1000.0).contains(&speed), "{speed} µs a particle and step");
     }
 }

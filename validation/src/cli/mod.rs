@@ -97,7 +97,7 @@ fn answered(answer: &clap::Error) -> ExitCode {
     }
 }
 
-/// What a signal has left, and how to go on.
+/// What a signal has left, and how to resume.
 fn interrupted(signal: Signal, error: &ProgramError) -> String {
     let Kept { whole, lost } = checkpoint::kept_at_the_end();
     let runs = |count: usize| if count == 1 { "1 run".to_owned() } else { format!("{count} runs") };
@@ -105,7 +105,7 @@ fn interrupted(signal: Signal, error: &ProgramError) -> String {
     if whole > 0 {
         text += &format!(", and a checkpoint of {} in progress", runs(whole));
     }
-    text += "; the same command goes on from there (without --fresh, which begins anew)";
+    text += "; the same command resumes from there (without --fresh, which begins anew)";
     if lost > 0 {
         text += &format!("\n{} could not be kept at this moment and will lose some time", runs(lost));
     }

@@ -152,7 +152,7 @@ impl Monitor for Progress {
 
     fn resumed(&self, run: usize, simulated: f64) {
         self.display
-            .say(&format!("{}: goes on from its checkpoint at t = {simulated:.4} s", self.state.runs[run].name));
+            .say(&format!("{}: resumes from its checkpoint at t = {simulated:.4} s", self.state.runs[run].name));
     }
 
     fn finished(&self, run: usize) {

@@ -6,7 +6,7 @@ use crate::number::aligned_digits;
 use crate::observation::Outcome;
 use std::fmt::Write as _;
 
-/// A case's metrics, one a line, and what went wrong in its runs.
+/// A case's metrics, one per line, and what went wrong in its runs.
 pub(super) fn of_case(result: &CaseResult, is_known: impl Fn(&Metric) -> bool) -> String {
     heading(result) + &table(result.metrics.iter().map(|metric| row(metric, is_known(metric))).collect())
 }

@@ -57,7 +57,7 @@ fn begin(
         slurm::check(&folder, &asked(&command.cluster, command.work.store.clone(), slurm::Request::default()))?;
         slurm::available()?;
     }
-    // what is there goes on by itself, and what is done is shown again
+    // what is there is resumed, and what is done is shown again
     let sweep = SweepFolder::begin(&folder, &manifest)?;
     match command.engine {
         Engine::Local => {

@@ -25,9 +25,9 @@ pub(super) fn tell(text: &str) {
     tell_raw(format!("{}\n", escaped_lines(text)).as_bytes());
 }
 
-/// Writes to standard error as it stands, if somebody takes it.
+/// Writes to standard error unchanged, where it is open.
 pub(super) fn tell_raw(bytes: &[u8]) {
-    // nobody is left who could be told that this fails
+    // there is nowhere left to report that this fails
     let write = || io::stderr().write_all(bytes).and_then(|()| io::stderr().flush());
     let _: io::Result<()> = BARS.suspend(write);
 }
@@ -38,7 +38,7 @@ struct Forgiving(Term);
 
 impl Forgiving {
     fn attempt(&self, act: impl FnOnce(&Term) -> io::Result<()>) -> io::Result<()> {
-        // the bar is lost with its terminal, the work goes on
+        // the bar is lost with its terminal, the work continues
         let _: io::Result<()> = act(&self.0);
         Ok(())
     }

@@ -47,7 +47,7 @@ pub(crate) enum MeshError {
         /// Triangles that the length allows.
         found: usize,
     },
-    /// Text that goes on after its solid.
+    /// Text that continues after its solid.
     #[error("holds several solids")]
     SeveralSolids,
     /// A coordinate that is no number.

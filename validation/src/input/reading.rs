@@ -1,4 +1,4 @@
-//! Files that are read: regular ones, and not larger than what somebody may have written.
+//! Files that are read: regular ones, and not larger than the limit of their kind.
 //!
 //! A pipe would block, a device never ends, and a file of gigabytes is no case: each is refused before its contents are
 //! looked at, with a reason that goes into the error of whoever reads.
@@ -39,7 +39,7 @@ pub(crate) fn read_own(path: &Path, most: u64) -> Result<Vec<u8>> {
 fn open(path: &Path, own: bool) -> Result<File> {
     use rustix::fs::OFlags;
     use std::os::unix::fs::OpenOptionsExt;
-    // without waiting for somebody to write into a pipe
+    // without waiting for a writer of a pipe
     let mut flags = OFlags::NONBLOCK;
     if own {
         flags |= OFlags::NOFOLLOW;

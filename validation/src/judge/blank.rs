@@ -54,7 +54,7 @@ fn files(form: &Form) -> String {
     if !form.particles.is_empty() {
         text.push_str(
             "# [run.particles]\n# files = [\"t0.csv\", \"t1.csv\"]   # .csv, .txt, .vtu, .vtp, .vtk, or one .pvd\n\
-             # times = [0.0, 0.1]             # [s], one a file; a .pvd says them itself\n# [run.particles.columns]\n",
+             # times = [0.0, 0.1]             # [s], one per file; a .pvd says them itself\n# [run.particles.columns]\n",
         );
         text.push_str(&columns(form.particles));
     }

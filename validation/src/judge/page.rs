@@ -200,7 +200,7 @@ fn signed(number: f64) -> String {
     if number > 0.0 { format!("+{}", two_digits(number)) } else { two_digits(number) }
 }
 
-/// δ, σ_M and the number of comparisons of every quantity that anybody compares often enough.
+/// δ, σ_M and the number of comparisons of every quantity with enough comparisons.
 fn quantities(judgement: &Judgement) -> Vec<Quantity> {
     let case = &judgement.own.name;
     let all: Vec<_> = std::iter::once(biases(case, &judgement.own.metrics))

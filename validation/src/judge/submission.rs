@@ -149,7 +149,7 @@ impl ParticleFiles {
         }
         if self.times.len() != self.files.len() {
             let value = format!("of {} numbers for {} files", self.times.len(), self.files.len());
-            return wrong("times", value, "one a file", "give the time of each file [s]");
+            return wrong("times", value, "one per file", "give the time of each file [s]");
         }
         rising(&self.times).map_or(Ok(()), |time| {
             wrong(

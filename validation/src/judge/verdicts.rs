@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn what_was_not_given_is_not_judged_whatever_its_value() {
         let own = [metric("front", 0.5), metric("height", 0.5), metric("noise", 0.5)];
-        // the observation says 0 for what nobody measured
+        // the observation says 0 for what was not measured
         let theirs = foreign(
             vec![metric("front", 2.0), metric("height", f64::NAN), metric("noise", 0.0)],
             vec!["front", "height"],

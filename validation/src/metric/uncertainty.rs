@@ -1,6 +1,6 @@
 //! What a value and its reference are known to: the parts of a gate's width, each with the sentence that it comes from.
 //!
-//! Parts are standard uncertainties of independent causes, so they add as squares. A part that nobody knows is absent: the
+//! Parts are standard uncertainties of independent causes, so they add as squares. An unknown part is absent: the
 //! sum is then that of what is known, and says of how much that is.
 
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! Who noticed an error: a gate, a divergence, the snapshot, or nobody.
+//! What noticed an error: a gate, a divergence, the snapshot, or nothing.
 
 use super::{Mutation, Scope, Sighting};
 use crate::metric::{Limit, Metric, Verdict};
@@ -125,7 +125,7 @@ pub struct Tally {
     pub stop: usize,
     /// By the snapshot alone.
     pub snapshot: usize,
-    /// By nobody.
+    /// By nothing.
     pub nothing: usize,
 }
 
@@ -151,7 +151,7 @@ impl Tally {
         self.gate + self.stop + self.snapshot + self.nothing
     }
 
-    /// Share of the errors that somebody noticed `[-]`.
+    /// Share of the errors that were noticed `[-]`.
     #[must_use]
     pub fn caught(&self) -> f64 {
         (self.all() - self.nothing) as f64 / self.all().max(1) as f64

@@ -77,7 +77,7 @@ fn shares(findings: &[Finding]) -> String {
     )
 }
 
-/// A line for each error, what nobody's gate noticed last, then the shares.
+/// A line per error, those that no gate noticed last, then the shares.
 #[must_use]
 pub fn table(findings: &[Finding]) -> String {
     let mut text = String::new();

@@ -1,4 +1,4 @@
-//! Positions and speeds at many times, in the few bytes that a moving picture needs.
+//! Positions and speeds at many times, in the few bytes that an animation needs.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! How the particles of a heap are shown: moving pictures, and pictures with speed on one side and pressure on the other.
+//! How the particles of a heap are shown: animations, and pictures with speed on one side and pressure on the other.
 
 use super::{Frame, Motion, MotionFrame};
 use crate::figure::{Animation, AnimationFrame, Axis, Field, Figure, Mark, Panel, Series};
@@ -50,7 +50,7 @@ impl View {
     }
 }
 
-/// The moving picture of a run: particles in the colours of their speed, dashed the thickness by volume and the front.
+/// The animation of a run: particles in the colours of their speed, dashed the thickness by volume and the front.
 #[must_use]
 pub fn animation(name: &str, caption: &str, motion: &Motion, view: &View) -> Animation {
     let unit = view.unit_length;

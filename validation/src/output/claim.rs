@@ -20,10 +20,10 @@ pub trait Owner: Serialize + DeserializeOwned + PartialEq {
 }
 
 /// Makes the folder and marks it, or continues it. The marker comes last, so that a folder with one is whole. While the lock
-/// that comes with it is kept, nobody else can claim the folder.
+/// that comes with it is kept, no other process can claim the folder.
 ///
 /// # Errors
-/// A folder of another plan or program, somebody else's files, one that is locked, or one that is not to be resumed; files
+/// A folder of another plan or program, foreign files, one that is locked, or one that is not to be resumed; files
 /// that cannot be read or written.
 pub fn claim<O: Owner>(folder: &Path, owner: O, resume: bool) -> Result<(O, FolderLock), FolderError> {
     let unwritable = |error: std::io::Error| FileError::unwritable(folder, &error);

@@ -52,7 +52,7 @@ impl FileError {
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
     /// A folder holds work that may be continued.
-    #[error("{}: holds a {what} already; add --resume to go on with it, or name another folder with --out", shown(.folder))]
+    #[error("{}: holds a {what} already; add --resume to resume it, or name another folder with --out", shown(.folder))]
     InUse {
         /// A sweep or a calibration.
         what: &'static str,

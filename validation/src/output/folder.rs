@@ -1,4 +1,4 @@
-//! The folder that a command writes: claimed before the work, filled in one go after it.
+//! The folder that a command writes: claimed before the work, filled at once after it.
 
 use super::error::{FileError, FolderError};
 use super::lock::FolderLock;
@@ -15,7 +15,7 @@ const COMMITTED: [&str; 4] = ["README.md", "gallery", "history.csv", "store"];
 /// Begins the names of all that Bagnold puts into a folder beside its results: marker, lock, staging, halves of them.
 const OWN_PREFIX: &str = MARKER;
 
-/// A folder that is ours to write, and nobody else's meanwhile. What it held stays until [`OutputFolder::publish`]; without
+/// A folder that is ours alone to write. What it held stays until [`OutputFolder::publish`]; without
 /// that, dropping it leaves the folder as it was. Entries that Bagnold did not write always stay.
 #[derive(Debug)]
 pub struct OutputFolder {
@@ -32,7 +32,7 @@ impl OutputFolder {
     /// Makes sure that the folder may be written, before any time is spent on what goes into it.
     ///
     /// # Errors
-    /// A folder with somebody else's files, one that another command writes, a link to nothing, or one that cannot be made or
+    /// A folder with foreign files, one that another command writes, a link to nothing, or one that cannot be made or
     /// written.
     pub fn claim(folder: &Path) -> Result<Self, FolderError> {
         let unwritable = |error: io::Error| FileError::unwritable(folder, &error);
@@ -72,7 +72,7 @@ impl OutputFolder {
         Ok(claimed)
     }
 
-    /// Makes a folder ours if it is new or empty, so that folders inside it do not make it somebody else's. Any number of
+    /// Makes a folder ours if it is new or empty, so that folders inside it do not make it foreign. Any number of
     /// commands may do so at the same time.
     ///
     /// # Errors

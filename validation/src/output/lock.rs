@@ -135,7 +135,7 @@ mod tests {
         assert_eq!(refused, expected);
         drop(lock);
         assert_eq!(std::fs::read_dir(&folder).expect("readable").count(), 0);
-        // what a killed process leaves is a file that nobody has locked
+        // what a killed process leaves is a file without a lock
         std::fs::write(folder.join(LOCK), "process 17\n").expect("writable");
         drop(take(&folder).expect("free again"));
     }

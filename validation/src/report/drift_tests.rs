@@ -1,4 +1,4 @@
-//! A planted drift is found, tops the table and is told from noise.
+//! A planted drift is found, tops the table and is distinguished from noise.
 
 use super::*;
 use crate::case::Tier;

@@ -1,4 +1,4 @@
-//! Verdicts as JUnit's XML, which CI systems show as tests: one a gate, and one for every run that should not have diverged.
+//! Verdicts as JUnit's XML, which CI systems show as tests: one per gate, and one for every run that should not have diverged.
 
 use super::Report;
 use super::accepted::tier_name;

@@ -193,7 +193,7 @@ pub fn write_alone(report: &Report, folder: &Path, drawings: &Drawings) -> Resul
     Ok(())
 }
 
-/// Writes the verdicts as JUnit's XML, for programs that show tests: one a gate.
+/// Writes the verdicts as JUnit's XML, for programs that show tests: one per gate.
 ///
 /// # Errors
 /// If the file cannot be written.

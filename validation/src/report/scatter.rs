@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 /// Folder of the figures.
 pub(super) const FOLDER: &str = "scatter";
 
-/// Share of a decade that the plot goes on beyond its points.
+/// Share of a decade by which the plot extends beyond its points.
 const ROOM: f64 = 1.2;
 
 /// All comparisons of one quantity.
@@ -71,7 +71,7 @@ fn comparison(metric: &Metric) -> Option<Comparison> {
     Some(Comparison { predicted: metric.value, measured, uncertainty })
 }
 
-/// A figure of each quantity; two of one name in different units are told apart by a number.
+/// A figure of each quantity; two of one name in different units are distinguished by a number.
 pub(super) fn figures(quantities: &[QuantityBias]) -> Vec<Figure> {
     let mut figures: Vec<Figure> = quantities.iter().map(figure).collect();
     for place in 1..figures.len() {

@@ -1,4 +1,4 @@
-//! Particle snapshots that ParaView opens: a VTU file a frame and a PVD file a run with the times.
+//! Particle snapshots that ParaView opens: a VTU file per frame and a PVD file per run with the times.
 
 use super::base64::encode;
 use crate::metric::Variant;

@@ -18,7 +18,7 @@ use std::path::Path;
 
 const TITLE: &[u8; 16] = b"bagnold record\n\0";
 
-/// Changes with the layout above; what the record holds is told by the sources' hash in its key.
+/// Changes with the layout above; what the record holds is identified by the sources' hash in its key.
 const VERSION: u32 = 1;
 
 const CHECKSUM_BYTES: usize = 32;

@@ -46,7 +46,7 @@ pub fn identity(origin: Origin) -> Option<&'static str> {
     if is_told_by_sources { Some(source_hash()) } else { own_program() }
 }
 
-/// The same, but for a program that cannot be read a name that no other process has: nothing that was computed before is
+/// The same; for a program that cannot be read, a name that no other process has: nothing that was computed before is
 /// taken for its own.
 #[must_use]
 pub fn identity_or_unique(origin: Origin) -> &'static str {

@@ -149,7 +149,7 @@ fn stored_in(folder: &Path, endings: &[&str]) -> Result<Vec<Stored>> {
         let entry = entry?;
         let path = entry.path();
         let is_entry = path.extension().is_some_and(|ending| endings.iter().any(|own| ending == *own));
-        // not followed: a link that somebody put here is his
+        // not followed: a link that a user put here is the user's
         let metadata = entry.metadata()?;
         if is_entry && metadata.is_file() {
             stored.push(Stored { path, bytes: metadata.len(), modified: metadata.modified()? });

@@ -119,7 +119,7 @@ impl Store {
         self.folder.parent().unwrap_or(&self.folder)
     }
 
-    /// The key of a run of a case, or `None` if there is nothing to look up or keep: the store is bypassed, or nobody can
+    /// The key of a run of a case, or `None` if there is nothing to look up or keep: the store is bypassed, or it is impossible to
     /// tell which program this is.
     #[must_use]
     pub fn key<R: Serialize>(&self, origin: Origin, case: &str, run: &R) -> Option<Key> {

@@ -1,4 +1,4 @@
-//! Why a sweep does not begin or go on.
+//! Why a sweep does not begin or resume.
 
 use crate::case::ParameterError;
 use crate::evaluation::PlanError;

@@ -7,7 +7,7 @@ use crate::output::{FolderError, Owner, claim, is_claimed, owner_of};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// How long one waits for another command that begins the same sweep at this moment.
+/// Longest wait for another command that begins the same sweep at this moment.
 const LONGEST_BEGINNING: Duration = Duration::from_secs(30);
 
 /// How far a sweep is.
@@ -33,7 +33,7 @@ impl SweepFolder {
     /// manifest is written by one alone.
     ///
     /// # Errors
-    /// A folder with another sweep or somebody else's files; files that cannot be written.
+    /// A folder with another sweep or foreign files; files that cannot be written.
     pub fn begin(folder: &Path, manifest: &Manifest) -> Result<Self, SweepError> {
         let begun = Instant::now();
         loop {

@@ -59,7 +59,7 @@ fn draw(drawn: &Figure, folder: &Path) -> Result<(), FileError> {
     }
 }
 
-/// One line a metric: run, case, tier, parameters, metric, variant, value, unit, verdict.
+/// One line per metric: run, case, tier, parameters, metric, variant, value, unit, verdict.
 fn results(names: &[String], records: &[(&Entry, Record)]) -> std::io::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let (head, tail) = (["run", "case", "tier"], ["metric", "variant", "value", "unit", "verdict"]);
@@ -83,7 +83,7 @@ fn results(names: &[String], records: &[(&Entry, Record)]) -> std::io::Result<Ve
     writer.into_inner().map_err(|error| std::io::Error::other(error.to_string()))
 }
 
-/// One line a run that failed: run, case, tier, parameters, reason.
+/// One line per run that failed: run, case, tier, parameters, reason.
 fn failures(names: &[String], records: &[(&Entry, Record)]) -> std::io::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let head = ["run", "case", "tier"];
@@ -103,7 +103,7 @@ fn first(entry: &Entry) -> Vec<String> {
     head.into_iter().chain(entry.point.iter().map(plain)).collect()
 }
 
-/// A case's metrics, one a row of panels, over the parameters that are numbers; and as a map where those are two.
+/// A case's metrics, one per row of panels, over the parameters that are numbers; and as a map where those are two.
 fn figures(manifest: &Manifest, records: &[(&Entry, Record)]) -> Vec<Figure> {
     let mut cases: Vec<&str> = Vec::new();
     for (entry, _) in records {

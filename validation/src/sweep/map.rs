@@ -35,7 +35,7 @@ pub(super) struct Surface {
     pub(super) points: Vec<(f64, f64, f64)>,
 }
 
-/// A panel a metric; none without one that has values.
+/// A panel per metric; none without one that has values.
 pub(super) fn figure(case: &str, parameters: [&str; 2], surfaces: &[Surface]) -> Option<Figure> {
     let panels: Vec<Panel> =
         surfaces.iter().filter(|surface| surface.points.len() > 1).map(|surface| panel(parameters, surface)).collect();

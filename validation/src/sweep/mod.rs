@@ -1,13 +1,13 @@
-//! Many evaluations of one plan: a manifest, one folder a run, one table of results.
+//! Many evaluations of one plan: a manifest, one folder per run, one table of results.
 //!
 //! ```text
 //! FOLDER/manifest.json          what is to be run, with the key of every run
 //! FOLDER/runs/0001-film/        case.toml, and when it is done record.postcard, metrics.json or failure.txt
-//! FOLDER/results.csv            one line a metric; failures.csv, figures/
+//! FOLDER/results.csv            one line per metric; failures.csv, figures/
 //! FOLDER/slurm/                 job script, job numbers and logs of the engine `slurm`
 //! ```
 //!
-//! A run is done when its record is there, so a sweep that was killed goes on where it stood, and Slurm's tasks, one an entry,
+//! A run is done when its record is there, so a sweep that was killed resumes where it was, and Slurm's tasks, one per entry,
 //! need nothing but the folder.
 
 mod error;

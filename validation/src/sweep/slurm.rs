@@ -1,4 +1,4 @@
-//! The engine `slurm`: the manifest as job arrays, one task an entry. Slurm schedules; the shared folder tells what is
+//! The engine `slurm`: the manifest as job arrays, one task per entry. Slurm schedules; the shared folder tells what is
 //! done.
 
 use super::error::SweepError;

@@ -60,7 +60,7 @@ impl Nodes {
         let lowest = wall.iter().fold(f64::INFINITY, |low, place| low.min(place[height_axis(D)]));
         for place in wall {
             let height = place[height_axis(D)];
-            // below the lowest row it goes on likewise: no eddy finds room there
+            // below the lowest row it continues likewise: no eddy finds room there
             let goes_on = height < lowest + 0.5 * spacing;
             for (column, weight) in grid.row.weights(place[0]) {
                 for node in 0..grid.nodes {

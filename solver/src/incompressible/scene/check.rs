@@ -76,7 +76,7 @@ impl<const D: usize> IncompressibleScene<D> {
 }
 
 impl<const D: usize> Sediment<D> {
-    /// Checks the sediment, but for what must be positive and finite, which is returned.
+    /// Checks the sediment, except what must be positive and finite, which is returned.
     fn check(&self) -> Result<impl IntoIterator<Item = (&'static str, f64)> + use<D>, SceneError> {
         if self.wall.is_empty() || !self.particles.position.is_empty() {
             check_set(&self.particles)?;

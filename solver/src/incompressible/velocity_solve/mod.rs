@@ -1,7 +1,7 @@
 //! The implicit velocities of both phases: (M + Δt K) u* = M (uⁿ + Δt a).
 //!
 //! K holds the viscous pairs of (18), the friction of the bed and the drag between the phases. Every entry is one
-//! number a pair, the same seen from both sides, so K is symmetric, the axes do not mix, and the exchange of momentum
+//! number per pair, the same seen from both sides, so K is symmetric, the axes do not mix, and the exchange of momentum
 //! is equal and opposite. With the constant velocity deflated the total momentum closes to rounding.
 
 mod pair_law;

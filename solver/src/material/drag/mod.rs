@@ -124,7 +124,7 @@ impl DragLaw {
 
     /// Reynolds numbers `[-]` that the law is given for: a solver stops a run that leaves them.
     ///
-    /// Only Morsi and Alexander's table ends, at 50 000. The others go on as their asymptotes do; that the drag of a
+    /// Only Morsi and Alexander's table ends, at 50 000. The others continue along their asymptotes; that the drag of a
     /// sphere drops near 3·10⁵, where its boundary layer becomes turbulent, is in none of them.
     #[must_use]
     pub fn reynolds_range(self) -> RangeInclusive<f64> {

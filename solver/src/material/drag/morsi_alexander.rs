@@ -1,7 +1,7 @@
 //! Morsi & Alexander (1972), J. Fluid Mech. 55, 193: C_d = K1/R + K2/R² + K3 of a sphere alone, in rows up to R = 50 000.
 //!
 //! The rows are those of the bed-load paper's (29); in the last one K2 is 5.4167e6 (one print has 5.4157e6). They meet
-//! within 0.4 %, at R = 10 000 within 2.3 % only: there the coefficient falls. Beyond the table the last row goes on, as
+//! within 0.4 %, at R = 10 000 within 2.3 % only: there the coefficient falls. Beyond the table the last row continues, as
 //! a number to stop by and not as a drag. R → 0 is Stokes' drag, C_d R = 24 exactly below R = 0.1.
 
 /// Reynolds number `[-]` at which the table ends.

@@ -23,7 +23,7 @@ const STRAIGHT: f64 = 1e-9;
 
 /// Fills the space behind the shells with `rows` of dummy particles at the flow's `spacing` `[m]`, the first half a
 /// spacing behind the surface. Shells at rest share their corners; each that moves stands alone. Nothing is laid beyond
-/// periods and mirrors, and a polyline that ends on one goes on behind it.
+/// periods and mirrors, and a polyline that ends on one continues behind it.
 pub fn lay(shells: &mut [Shell<2>], domain: &Domain<2>, spacing: f64, rows: usize) {
     for group in together(shells) {
         let parts: Vec<Part> = group.iter().flat_map(|&shell| straight_parts(shell, &shells[shell])).collect();

@@ -1,6 +1,6 @@
 //! Where a place stands with regard to facets: in front of a wall, or behind it.
 //!
-//! That is told by the facet nearest to it. At a corner several are equally near; the sign then is that of the sum of
+//! The facet nearest to it decides. At a corner several are equally near; the sign then is that of the sum of
 //! their normals, in space each times the angle that its triangle fills there, which is right for corners into the flow
 //! and out of it (Bærentzen & Aanæs 2005). Beyond a rim, where facets end, there is no wall.
 

@@ -1,4 +1,4 @@
-//! Packed copies of what a pair loop reads of a neighbour, one record a particle.
+//! Packed copies of what a pair loop reads of a neighbour, one record per particle.
 //!
 //! A neighbour's values then lie in one or two cache lines, and eight neighbours are loaded and transposed into
 //! lanes with plain loads, which is faster than gather instructions on every processor tried (some run those from
@@ -47,7 +47,7 @@ impl Records {
         });
     }
 
-    /// Room for one record a particle, of the values that they had, without any in new ones; the sentinel's is zero.
+    /// Room for one record per particle, of the values that they had, without any in new ones; the sentinel's is zero.
     pub(crate) fn resize(&mut self, particles: usize) {
         let needed = particles * self.quads;
         if self.data.capacity() < needed {
@@ -111,7 +111,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The upper triangle of a symmetric tensor without trace, but for the last entry of its diagonal.
+    /// The upper triangle of a symmetric tensor without trace, except the last entry of its diagonal.
     #[inline(always)]
     pub(crate) fn deviator<const D: usize>(&mut self, deviator: &Tensor<D>) {
         for i in 0..D - 1 {
@@ -162,7 +162,7 @@ pub(crate) const fn deviator_values(dimension: usize) -> usize {
     dimension * (dimension + 1) / 2 - 1
 }
 
-/// The symmetric tensor without trace that starts at `place` of a record: its upper triangle but for the last entry of
+/// The symmetric tensor without trace that starts at `place` of a record: its upper triangle except the last entry of
 /// the diagonal, the rest zero.
 #[inline(always)]
 pub(crate) fn deviator<V: Lanes, const D: usize>(record: &LaneRecord<V>, place: usize) -> [[V; D]; D] {

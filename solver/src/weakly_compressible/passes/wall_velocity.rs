@@ -74,7 +74,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                     means[axis] = means[axis] + weight * slip;
                 }
             }
-            // a dry wall moves as it is told
+            // a dry wall moves at the prescribed velocity
             let slope = (depth / moment.max(smallest)).where_less(smallest, moment);
             let wet = terms::wet_inverse(weights);
             let mut mean_slip = means;

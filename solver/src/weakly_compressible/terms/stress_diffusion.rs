@@ -7,7 +7,7 @@
 //! Δs_a = Δt δ c h Σ_b V_b F 4 w_a w_b (s_a p_b − s_b p_a)/(p_a + p_b),
 //!
 //! near to Δt δ c h p ∇²(s/p), with w 1 where a particle yields and 0 where it is elastic or without pressure. It
-//! vanishes for a uniform stress ratio, such as Bagnold's flow, at walls and in a heap at rest; antisymmetric but for V.
+//! vanishes for a uniform stress ratio, such as Bagnold's flow, at walls and in a heap at rest; antisymmetric up to V.
 //! Not in the paper.
 
 use crate::lanes::Real;

@@ -23,7 +23,7 @@ pub struct End {
     pub point: Vec<f64>,
     /// χ² of the model there above the least `[-]`; none where it was not evaluated.
     pub rise: Option<f64>,
-    /// The interval goes on to the bound of the parameter.
+    /// The interval extends to the bound of the parameter.
     pub open: bool,
     /// The model fails beyond.
     pub fails: bool,
@@ -119,7 +119,7 @@ impl Side {
         self.radius = if miss <= FAIR { f64::INFINITY } else { factor * self.outwards(region, point) };
     }
 
-    /// The end as it stands.
+    /// The end as found.
     pub(super) fn judge(&self, region: &Region, history: &[Evaluated]) -> End {
         let bracket = self.bracket(region, history);
         let reached = bracket.inside.map_or(0.0, |(distance, _)| distance);

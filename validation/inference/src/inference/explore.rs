@@ -3,7 +3,7 @@
 //! A search that converges fast leaves its points close to the minimum. If the data determine a parameter badly, the
 //! region lies far beyond them, where their emulator is a guess. The model is then evaluated at the ends of the intervals
 //! that the emulator proposes, and again where it disagrees; then just inside and just outside of the joint region along
-//! its principal axes. Whoever finds a lower point on the way ends the exploration: the search is to go on from there.
+//! its principal axes. Whoever finds a lower point on the way ends the exploration: the search is to resume from there.
 
 use super::emulator::{Degree, Emulator, Minimum};
 use super::ends::{End, Side};

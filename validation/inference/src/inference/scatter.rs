@@ -2,7 +2,7 @@
 //!
 //! With a variance v of each weighted prediction χ² at one point moves by 2 √(χ² v) from one evaluation to the next. The
 //! emulator of all points in and about the region averages that out. Its minimum is evaluated once, and that evaluation,
-//! which nobody has chosen for its luck, gives χ² and p; the rises to ends and edge are those of the emulator.
+//! which was not selected for its luck, gives χ² and p; the rises to ends and edge are those of the emulator.
 //!
 //! A surrogate of χ² with expected improvement (Jones, Schonlau & Welch 1998) sees one number an evaluation where the residuals
 //! are many. On the two parameters and twelve data of the tests below, with a variance of 0.3 (of 1) of each prediction, its

@@ -14,7 +14,7 @@
 //!
 //! The standard error is σ √g, but no more than the blocks scatter: a mean is no worse than one of its samples. Its 95 %
 //! half width is Student's factor of T/(2τ) − 1 degrees of freedom times it, at least of one, so that a window of few
-//! integral times is told with a wide band instead of a wrong one. The blocks are left out one by one (jackknife, Quenouille
+//! integral times is reported with a wide interval instead of a wrong one. The blocks are left out one by one (jackknife, Quenouille
 //! and Tukey): y_k = n θ − (n − 1) θ_(k) of a mean is the block's mean, and serves any other statistic of the samples, such as
 //! a fitted slope.
 
@@ -27,7 +27,7 @@ pub const BLOCKS: usize = 32;
 /// What the half width claims `[-]`.
 const CONFIDENCE: f64 = 0.95;
 
-/// Largest correlation of neighbouring blocks that is told from a drift `[-]`.
+/// Largest correlation of neighbouring blocks that is distinguished from a drift `[-]`.
 const LARGEST_CORRELATION: f64 = 0.999;
 
 /// A statistic of a window, and how well the window knows it.

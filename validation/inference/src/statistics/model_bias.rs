@@ -79,7 +79,7 @@ impl ModelBias {
     }
 
     /// Bounds of the ratio M/E of a further comparison with 95 % confidence `[-]`: Student's factor in place of 2, and the
-    /// uncertainty of the bias with it, so that a few comparisons are told with the width that they deserve.
+    /// uncertainty of the bias with it, so that a few comparisons are reported with an interval of due width.
     #[must_use]
     pub fn next_ratio(&self) -> (f64, f64) {
         let n = self.comparisons as f64;

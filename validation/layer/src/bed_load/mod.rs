@@ -154,7 +154,7 @@ impl BedLoadLayer {
         self.approach_unless(start, &|| false)
     }
 
-    /// [`Self::approach`], unless `stopped` says between two steps that nobody wants the layer any more; it is then unsteady.
+    /// [`Self::approach`], unless `stopped` says between two steps that the layer is no longer wanted; it is then unsteady.
     ///
     /// # Errors
     /// Parameters out of range.

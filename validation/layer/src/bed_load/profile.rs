@@ -3,7 +3,7 @@
 use super::stream::Stream;
 use serde::{Deserialize, Serialize};
 
-/// A layer's state. Cell quantities have one value a cell, face quantities one more, both from the base up.
+/// A layer's state. Cell quantities have one value per cell, face quantities one more, both from the base up.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LayerState {
     /// The stream.

@@ -3,7 +3,7 @@
 use super::profile::LayerState;
 use crate::LayerError;
 
-/// φ(z) as straight lines between points; two points at one height make a jump. Beyond its ends it goes on unchanged.
+/// φ(z) as straight lines between points; two points at one height make a jump. Beyond its ends it is constant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolidFraction {
     points: Vec<(f64, f64)>,

@@ -100,7 +100,7 @@ impl BedLoadLayer {
         self.steady_states_unless(&|| false)
     }
 
-    /// [`Self::steady_states`], unless `stopped` says between two steps that nobody wants them any more.
+    /// [`Self::steady_states`], unless `stopped` says between two steps that they are no longer wanted.
     ///
     /// # Errors
     /// Those of [`Self::steady_states`]; [`LayerError::NotSteady`] if it was stopped.

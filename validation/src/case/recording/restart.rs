@@ -104,7 +104,7 @@ pub fn resumed<C: DeserializeOwned>(progress: &dyn Progress) -> Option<C> {
 }
 
 /// Runs a simulation and shows it to `observe` at the start, at intervals and at the end, until that breaks, together with
-/// what it keeps, which `keep` makes at the start of a new run. An interrupted run goes on where its last checkpoint stands.
+/// what it keeps, which `keep` makes at the start of a new run. An interrupted run resumes at its last checkpoint.
 ///
 /// # Errors
 /// A scene that breaks a rule; an interruption.
@@ -133,7 +133,7 @@ where
     let (mut simulation, mut course, kept, started) = match left {
         Some((simulation, course, kept, seconds)) => {
             progress.resumed(simulation.time());
-            tracing::info!("goes on at t = {:.6} s, step {}", simulation.time(), simulation.steps());
+            tracing::info!("resumed at t = {:.6} s, step {}", simulation.time(), simulation.steps());
             let spent = Duration::try_from_secs_f64(seconds).unwrap_or_default();
             (simulation, course, kept, now.checked_sub(spent).unwrap_or(now))
         }

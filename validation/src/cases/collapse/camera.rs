@@ -1,4 +1,4 @@
-//! Takes the pictures of a moving picture while a run goes on.
+//! Takes the frames of an animation during a run.
 
 use crate::observation::{Motion, MotionFrame};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;

@@ -24,7 +24,7 @@ pub(super) const EARLIEST_REST: f64 = 2.0;
 const POINTS: f64 = 40.0;
 /// Pictures over the collapse, at these times over √(h_0/g) `[-]`; the deposit follows.
 pub(super) const PICTURES: [f64; 4] = [0.0, 0.75, 1.5, 2.5];
-/// Time between the frames of the moving picture over √(h_0/g) `[-]`.
+/// Time between the frames of the animation over √(h_0/g) `[-]`.
 const FRAME_INTERVAL: f64 = 0.1;
 
 /// The column's cross-section.

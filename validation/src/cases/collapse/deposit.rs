@@ -17,7 +17,7 @@ pub(super) const AT_REST: f64 = 5e-7;
 /// Over 20, 40 and 80 (a = 1) and 20, 30 and 45 particles (a = 3) its grid convergence index is 0.6 and 0.8 %, that of the
 /// front at 0.05 r_0 2.6 and 4.3 %: a fixed thickness cuts off a toe that itself becomes thinner with the
 /// resolution. The latter scatters less, by 0.8 instead of 1.8 % with 20 particles, and repeats to four digits when
-/// particles are displaced by 1e-10 of a spacing, so that times of stopping and repetitions are told by it.
+/// particles are displaced by 1e-10 of a spacing, so that stopping times and repetitions are judged by it.
 pub const FRONT_THICKNESS: f64 = 0.02;
 /// A thickness that one row of particles has from 20 over the half width on `[-]`: what lies beyond it is a row or less.
 const ROW_THICKNESS: f64 = 0.05;
@@ -51,7 +51,7 @@ pub struct Collapse {
     pub momentum_residual: f64,
     /// The energy ledger.
     pub energy: EnergyBook,
-    /// Positions and speeds for the moving picture.
+    /// Positions and speeds for the animation.
     pub motion: Motion,
 }
 

@@ -168,7 +168,7 @@ fn view(run: &ColumnRun) -> View {
     }
 }
 
-/// The moving picture of every run.
+/// The animation of every run.
 pub(in crate::cases) fn animations(records: &[Record]) -> Vec<Animation> {
     let moving = |(run, record): &Record| {
         let section =
@@ -199,7 +199,7 @@ fn energy_budget(records: &[&Record]) -> Figure {
         records.iter().map(|(run, record)| (label(run), run.time_scale(), energies(&record.data))).collect();
     energy::figure(
         &of_material("energy-budget", records),
-        "Potential energy released since the start, kinetic energy, and the rest, which friction has dissipated but for \
+        "Potential energy released since the start, kinetic energy, and the rest, which friction has dissipated except for \
          elastic energy of less than a hundredth; all over the potential energy released by the end.",
         &runs,
     )

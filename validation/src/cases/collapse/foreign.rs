@@ -32,7 +32,7 @@ pub(in crate::cases) const FORM: Form = Form {
     series: &[
         Item::new("time", "s", "time since the release"),
         Item::new("front", "m", "distance of the front from the symmetry plane, at a thickness of 0.02 r_0"),
-        Item::new("front_of_rows", "m", "the same at a thickness of 0.05 r_0, by which the time of stopping is told"),
+        Item::new("front_of_rows", "m", "the same at a thickness of 0.05 r_0, from which the stopping time is taken"),
         Item::new("height", "m", "thickness at the symmetry plane"),
     ],
     profile: &[
@@ -143,7 +143,7 @@ fn of<const D: usize>(run: &ColumnRun, given: &Given) -> Result<Foreign<Collapse
 
 /// How far from the origin a particle may be, over the sum of half width and height: further than any column spreads.
 const REACH: f64 = 50.0;
-/// Pictures from which on the time of stopping is told from them: four over √(h_0/g), five times as long.
+/// Least number of pictures from which the stopping time is taken: four over √(h_0/g), five times as long.
 const PICTURES_OF_A_HISTORY: usize = 20;
 
 /// Largest factor by which material may become more or less, in volume `[-]`: grains dilate and codes lose some, but twice as

@@ -66,7 +66,7 @@ pub(super) fn tables((run, record): &Record) -> Vec<Table> {
 /// Particles beyond which a column would take weeks or all memory.
 const MOST_PARTICLES: f64 = 5e6;
 
-/// Refuses columns that nobody can wait for; `field` names the parameter that a run's resolution comes from.
+/// Refuses columns of more than [`MOST_PARTICLES`] particles; `field` names the parameter that a run's resolution comes from.
 pub(super) fn check_size(runs: &[ColumnRun], field: impl Fn(&ColumnRun) -> String) -> Result<(), ParameterError> {
     let Some(run) = runs.iter().find(|run| run.particles() > MOST_PARTICLES) else { return Ok(()) };
     let rule = format!("such that no column has more than {MOST_PARTICLES:.0e} particles");

@@ -24,7 +24,7 @@ pub(super) const EARLIEST_REST: f64 = 0.4;
 const INTERVAL: f64 = 0.02;
 /// Times of the pictures `[s]`; the last state follows.
 const PICTURES: [f64; 5] = [0.0, 0.12, 0.2, 0.4, 0.8];
-/// Time between the frames of the moving picture `[s]`.
+/// Time between the frames of the animation `[s]`.
 const FRAME_INTERVAL: f64 = 0.04;
 /// Rows of particles through the gate: its two sides must not see each other.
 const GATE_ROWS: usize = 4;

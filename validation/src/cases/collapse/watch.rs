@@ -1,4 +1,4 @@
-//! Watches a heap while it spreads: survey, moving picture, pictures at their times, and whether it has come to rest.
+//! Watches a heap while it spreads: survey, animation, pictures at their times, and whether it has come to rest.
 
 use super::camera::Camera;
 use super::deposit::{AT_REST, Collapse, Surveyor, front};
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub(super) struct Watch {
     /// Measures every snapshot.
     surveyor: Surveyor,
-    /// Takes the moving picture.
+    /// Takes the frames of the animation.
     camera: Camera,
     /// Times of the pictures `[s]`, rising.
     times: Vec<f64>,
@@ -24,7 +24,7 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// Has seen nothing; takes a frame of the moving picture every `frame_interval` `[s]`.
+    /// Has seen nothing; takes a frame of the animation every `frame_interval` `[s]`.
     pub(super) fn new(surveyor: Surveyor, frame_interval: f64, times: Vec<f64>, earliest_rest: f64) -> Self {
         let camera = Camera::new(frame_interval, surveyor.spacing);
         Self { surveyor, camera, times, earliest_rest, frames: Vec::new(), passed: 0 }

@@ -12,11 +12,11 @@ const READ: (f64, f64) = (0.1, 0.95);
 /// The undisturbed part of a heap. All particles are taken to have the same volume.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::cases) struct Wedge {
-    /// Way from start to deposit `[m]`, one a particle.
+    /// Way from start to deposit `[m]`, one per particle.
     pub(in crate::cases) displacement: Vec<f64>,
     /// Share of the particles that moved by less than a spacing `[-]`.
     pub(in crate::cases) undisturbed: f64,
-    /// The failure surface as (x, y), one point a row of the start `[m]`.
+    /// The failure surface as (x, y), one point per row of the start `[m]`.
     pub(in crate::cases) boundary: Vec<(f64, f64)>,
     /// x = `line.0` + `line.1` y through the boundary `[m]` and `[-]`; none for fewer than three rows.
     pub(in crate::cases) line: Option<(f64, f64)>,

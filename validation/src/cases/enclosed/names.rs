@@ -13,7 +13,7 @@ const MOST_SAMPLES: f64 = 1e5;
 /// Longest line of a gauge, in spacings `[-]`: memory.
 const LONGEST_LINE: f64 = 1e5;
 
-/// Refuses a gauge's line to a place that is shorter than a spacing `[m]`, or longer than anybody counts along.
+/// Refuses a gauge's line to a place that is shorter than a spacing `[m]`, or longer than [`LONGEST_LINE`] spacings.
 pub(in crate::cases) fn check_line<const D: usize>(
     to: &Vector<D>,
     length: f64,

@@ -18,7 +18,7 @@ pub trait Body<const D: usize>: Given {
     /// Whether it holds a place.
     fn holds(&self, place: &Vector<D>) -> bool;
 
-    /// Refuses a body without an inside.
+    /// Refuses an empty body.
     ///
     /// # Errors
     /// The field that leaves it none.

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DomainSide {
-    /// Nothing: walls hold the flow, or it goes on without end.
+    /// Nothing: walls hold the flow, or it is unbounded.
     None,
     /// A plane of symmetry at this coordinate `[m]`.
     Mirror(f64),

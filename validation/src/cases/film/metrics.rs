@@ -94,7 +94,7 @@ fn flux_error((run, record): &Record) -> f64 {
 }
 
 /// A list with a skin holds more pairs than there are, of which those out of reach weigh nothing: lists that are renewed at
-/// other times give the same flow, but for the order of sums. Pairs that a list lacks, or has too late, make a difference.
+/// other times give the same flow, except for the order of sums. Pairs that a list lacks, or has too late, make a difference.
 fn skin_difference(records: &[Record]) -> Option<Metric> {
     let (run, wide) = records.iter().find(|(run, _)| run.numerics_set == NumericsSet::WideSkin)?;
     let is_twin = |other: &&Record| is_studied(&other.0) && other.0.layer.resolution == run.layer.resolution;
@@ -161,7 +161,7 @@ fn plug_edge((run, record): &Record) -> Option<Metric> {
     Some(error)
 }
 
-/// Relative L2 `[%]` of the bins' velocities against the weakly compressible film; none but for the Newtonian.
+/// Relative L2 `[%]` of the bins' velocities against the weakly compressible film; for the Newtonian only.
 fn compressible_l2((run, record): &Record) -> Option<f64> {
     let exact = |y: f64| run.weakly_compressible_velocity(y).unwrap_or(f64::NAN);
     run.is_newtonian().then(|| 100.0 * record.data.profile.velocity_l2(exact))

@@ -158,7 +158,7 @@ impl Parameters for FilmParameters {
         }
         let (own, common) = (self.eddies.smagorinsky_constant, self.layer.numerics.smagorinsky_constant);
         if self.fluids.contains(&FluidKind::Eddies) && own == common {
-            let remedy = "the liquid with eddies is told apart by it; or leave \"eddies\" out of `fluids`";
+            let remedy = "the liquid with eddies is distinguished by it; or leave \"eddies\" out of `fluids`";
             let rule = "another than `numerics.smagorinsky_constant`";
             return Err(ParameterError::field("eddies.smagorinsky_constant", own, rule, remedy));
         }

@@ -15,7 +15,7 @@ pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> V
     drawn.into_iter().filter(|(present, _)| *present).map(|(_, draw)| draw(&incline, parameters, records)).collect()
 }
 
-/// Thickness at the stations over time, one panel a slope.
+/// Thickness at the stations over time, one panel per slope.
 fn histories(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[Record]) -> Figure {
     let panels = collapses(records).enumerate().map(|(place, (run, data))| {
         let y = Axis::linear("thickness [cm]").between(0.0, 6.0);

@@ -60,7 +60,7 @@ impl Parameters for HydrostaticParameters {
         }
         if self.liquid.name() == self.grains.name() {
             let name = format!("\"{}\"", self.grains.name());
-            let remedy = "the two layers are told apart by their laws";
+            let remedy = "the two layers are distinguished by their laws";
             return Err(ParameterError::field("grains.law", name, "another law than the liquid's", remedy));
         }
         self.bulk.check(&self.grains)

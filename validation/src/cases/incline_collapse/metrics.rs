@@ -30,7 +30,7 @@ const NEAR_SURFACE: f64 = 1.0 / 3.0;
 
 /// What the gate allows beyond the band of the law's two quotations `[-]`.
 const MARGIN: f64 = 0.15;
-/// Times at which the front is told `[s]`.
+/// Times at which the front is reported `[s]`.
 const FRONT_TIMES: [f64; 2] = [0.3, 0.4];
 
 pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {

@@ -89,7 +89,7 @@ impl setting::Wall<3> for Wall {
         self.corners().iter().map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm()).sum()
     }
 
-    /// Refuses walls without an area, quadrilaterals that are not plane and boxes without an inside.
+    /// Refuses walls without an area, quadrilaterals that are not plane and empty boxes.
     fn check(&self, spacing: f64) -> Result<(), ParameterError> {
         let refused = |field: &str, value: String, rule: &str, remedy: &str| {
             Err(ParameterError::field(field, value, rule, remedy))

@@ -21,7 +21,7 @@ A file that varies the viscosity of a film over a grid:
   path = \"newtonian.viscosity\"
   values = [0.5, 1.0, 2.0]         # or lower, upper, levels, scale = \"log\"
 
-The folder receives manifest.json, runs/NNNN-CASE/, results.csv (one line a metric), failures.csv and figures/.
+The folder receives manifest.json, runs/NNNN-CASE/, results.csv (one line per metric), failures.csv and figures/.
 
 Exit codes: 0 every run has numbers, 1 some are missing, 2 bad input, 3 some failed (see failures.csv).";
 
@@ -60,7 +60,7 @@ pub struct Sweep {
 pub enum Engine {
     /// The threads of this machine.
     Local,
-    /// A Slurm cluster that shares the sweep's folder: one task a run.
+    /// A Slurm cluster that shares the sweep's folder: one task per run.
     Slurm,
 }
 

@@ -5,15 +5,16 @@ use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
 const MUTATE_EXAMPLES: &str = "Examples:
-  cargo run --package bagnold-validation --features planted-errors -- mutate
+  bagnold mutate
   bagnold mutate list                                    the errors, and the cases that ought to see them
   bagnold mutate --errors von-karman,gravity-value       some of them
   bagnold mutate trial von-karman clear-water            one case with one error, as `bagnold run` shows it
 
-Needs a program built with the feature planted-errors; one built without has no errors in it. Each error is
-caught by a gate that held without it, by a run that stops, only by the snapshot of accepted values, or by nothing.
+Works in a checkout: a copy of the program, in target/mutations, is built with the errors of
+validation/mutations.toml; this program has none of them. Each error is caught by a gate that
+held without it, by a run that stops, only by the snapshot of accepted values, or by nothing.
 
-Exit codes: 0 enough errors are caught, and by gates; 1 too few; 2 bad input, or a program without errors.";
+Exit codes: 0 enough errors are caught, and by gates; 1 too few; 2 bad input, or no checkout.";
 
 /// `bagnold verify`
 #[derive(Debug, Args)]

@@ -78,7 +78,7 @@ fn column(heading: &str, values: Vec<f64>) -> Result<Column, FieldError> {
     Ok(Column { name, unit, values })
 }
 
-/// The factor from one unit to another `[-]`; of the same text it is 1, also where nobody knows the unit.
+/// The factor from one unit to another `[-]`; of the same text it is 1, also where the unit is unknown.
 pub(super) fn same_kind(from: &str, to: &str) -> Option<f64> {
     if from == to { Some(1.0) } else { unit::factor(from, to) }
 }

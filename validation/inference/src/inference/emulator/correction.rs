@@ -21,7 +21,7 @@ const WORTH: f64 = 0.5;
 /// Points that are used at most, the best; more cost much and say little about the best.
 pub(super) const MOST_POINTS: usize = 100;
 
-/// The random functions of all residuals: one row a point, one column a residual.
+/// The random functions of all residuals: one row per point, one column per residual.
 #[derive(Debug, Clone)]
 pub(super) struct Correction {
     points: Vec<Vec<f64>>,
@@ -32,7 +32,7 @@ pub(super) struct Correction {
 }
 
 impl Correction {
-    /// The correction for what is left over (one row a point, the best first); none where it would not predict a point
+    /// The correction for what is left over (one row per point, the best first); none where it would not predict a point
     /// better than the polynomial alone, whose error is `error`.
     pub(super) fn fit(points: &[&[f64]], left: &DMatrix<f64>, weights: &[f64], error: f64) -> Option<Self> {
         let count = points.len().min(MOST_POINTS);

@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 /// First standard deviation of the points in the unit cube.
 const FIRST_DEVIATION: f64 = 0.2;
 
-/// Standard deviation below which points cannot be told apart.
+/// Standard deviation below which points cannot be distinguished.
 const LEAST_DEVIATION: f64 = 1e-6;
 
 /// The constants of the strategy, all `[-]`.

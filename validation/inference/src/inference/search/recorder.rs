@@ -5,7 +5,7 @@ use crate::inference::Evaluate;
 use crate::sampling::design;
 use std::collections::BTreeMap;
 
-/// Why a method cannot go on.
+/// Why a method cannot continue.
 #[derive(Debug)]
 pub(in crate::inference) enum Halt<E> {
     /// A new point would exceed the budget.
