@@ -5,17 +5,17 @@ use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
 use crate::cases::rules;
 use crate::metric::Variant;
 use crate::observation::{EnergyBook, Recorded};
+use crate::setup::{Lattice, displaced_flow, wall_rows};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::parameter::{between, each, filled, not_negative, positive, unique};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::wall::fill;
-use bagnold_solver::weakly_compressible::boundary::{Enclosure, Surface, Wall};
+use bagnold_solver::weakly_compressible::boundary::{Surface, Wall};
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
-use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
-use rand::{RngExt, SeedableRng};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -211,32 +211,26 @@ impl WaterColumnRun {
         let (spacing, height) = (self.spacing(), self.column.aspect_ratio * self.column.width);
         let bulk_modulus = stiffness * density * gravity * height;
         let equation_of_state = EquationOfState { reference_density: density, bulk_modulus, tension: self.tension };
-        let mut random = rand_pcg::Pcg64::seed_from_u64(self.column.seed);
-        let mut shift = || jitter * spacing * (2.0 * random.random::<f64>() - 1.0);
         let rows = (self.column.aspect_ratio * self.resolution as f64).round() as usize;
-        let site = |k: usize| Vector::<2>::new((k % self.resolution) as f64 + 0.5, (k / self.resolution) as f64 + 0.5);
-        let sites: Vec<Vector<2>> = (0..rows * self.resolution).map(|k| site(k) * spacing).collect();
-        let mut flow = Flow::at_rest(sites, density, spacing);
-        for (position, rho) in flow.position.iter_mut().zip(&mut flow.density) {
-            *rho = equation_of_state.density(density * gravity * (height - position[1]));
-            *position += Vector::<2>::new(shift(), shift());
-        }
+        let lattice = Lattice { spacing, rows, columns: self.resolution, bottom: 0.0 };
+        let flow = displaced_flow(
+            lattice.sites(),
+            (jitter * spacing, self.column.seed),
+            |site| equation_of_state.density(density * gravity * (height - site[1])),
+            |_| density * (spacing * spacing),
+        );
         let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
         let mut bed = Wall::still(1, 0.0, 1.0);
         bed.roughness = if self.surface == BedSurface::Smooth { Surface::Smooth } else { Surface::Rough };
-        let layers = (2.0 * numerics.smoothing_ratio).ceil() as usize + 1;
-        let far = Vector::<2>::new(BED_END * self.column.width, height);
+        let extent = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.column.width, height));
+        let rheology = Rheology::Newtonian(Newtonian { viscosity: self.column.viscosity });
         Scene {
-            flow,
-            wall_particles: fill(&[bed], &domain, (Vector::zeros(), far), spacing, layers),
-            enclosure: Enclosure::default(),
+            wall_particles: fill(&[bed], &domain, extent, spacing, wall_rows(numerics.smoothing_ratio)),
             walls: vec![bed],
             domain,
             gravity: Vector::<2>::new(0.0, -gravity),
-            spacing,
-            equation_of_state,
-            rheology: Rheology::Newtonian(Newtonian { viscosity: self.column.viscosity }),
             numerics,
+            ..Scene::unbounded(flow, spacing, equation_of_state, rheology)
         }
     }
 
