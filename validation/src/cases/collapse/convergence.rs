@@ -1,7 +1,7 @@
 //! How far a column's result depends on the resolution, on the seed and on the hourglass coefficient.
 
 use super::Record;
-use super::bands::{LAGREE, SAME_LAW, SAME_LAW_REASON, band};
+use super::bands::{SAME_LAW, SAME_LAW_REASON, band};
 use super::column::{ColumnRun, Purpose};
 use super::deposit::Collapse;
 use super::material::Material;
@@ -11,7 +11,7 @@ use super::quantities::{
 };
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Confidence, Limit, Metric, Variant};
-use crate::reference::PLANAR_COLLAPSE;
+use crate::reference::{Author, PLANAR_COLLAPSE};
 use crate::statistics::{GridConvergence, Mean, grid_convergence, mean};
 
 /// Name, measure and largest index `[-]` of what must converge.
@@ -129,7 +129,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
 
 /// An ensemble's mean run-out against the law of the same material: one run alone scatters too much to be judged by it.
 fn against_law(study: &Study<'_>, variant: &Variant, mean: &Mean) -> Metric {
-    let law = &PLANAR_COLLAPSE.run_out[LAGREE];
+    let law = Author::Lagree.law(&PLANAR_COLLAPSE.run_out);
     let expected = law.value(study.aspect_ratio);
     let metric = ENSEMBLE_RUN_OUT.of(&variant.clone().and("resolution", mean.resolution), mean.value);
     let limit = expected.map(|expected| band(expected, SAME_LAW, mean.standard_error / mean.value));

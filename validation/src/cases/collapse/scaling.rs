@@ -6,7 +6,7 @@ use super::deposit::Collapse;
 use super::material::{Alteration, Grains, Material};
 use super::quantities::{BREAK_POINT, SCALING_COEFFICIENT, SCALING_CONFIDENCE, SCALING_EXPONENT};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
-use crate::reference::PLANAR_COLLAPSE;
+use crate::reference::{Author, PLANAR_COLLAPSE};
 use crate::statistics::{Exponent, power_law, student_quantile};
 
 /// Fewest tall columns that a power law is fitted to.
@@ -76,7 +76,7 @@ fn break_point(shallow: f64, tall: &Exponent) -> f64 {
 
 /// A break point against the middle of the gap between Lube's branches.
 fn against_lube(metric: Metric) -> Metric {
-    let lube = &PLANAR_COLLAPSE.run_out[0];
+    let lube = Author::Lube.law(&PLANAR_COLLAPSE.run_out);
     let [shallow, tall] = lube.branches.as_slice() else { return metric };
     let source =
         format!("between the branches of Lube et al. 2005, which end at {} and begin at {}", shallow.to, tall.from);
