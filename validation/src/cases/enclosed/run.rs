@@ -91,7 +91,7 @@ where
                 *last_good = simulation.snapshot();
                 let steps = simulation.steps() as f64 * last_good.mass.len() as f64;
                 progress.advance(last_good.time, scene.duration, steps);
-                let values = watch.memory.read_all(&measures, simulation, begun);
+                let values = watch.memory.read_all(&measures, simulation, last_good, begun);
                 watch.observation.enter(simulation, last_good, &gravity, values);
                 let due = watch.frames.len() as f64 * scene.duration / scene.pictures as f64;
                 if last_good.time >= due - 0.5 * scene.interval && watch.frames.len() < scene.pictures {

@@ -2,6 +2,7 @@
 
 use crate::case::recording::{self, Stage, Watched};
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
+use crate::cases::front::Line;
 use crate::cases::rules;
 use crate::metric::Variant;
 use crate::observation::{EnergyBook, Recorded};
@@ -234,20 +235,10 @@ impl WaterColumnRun {
         }
     }
 
-    /// The first place from the symmetry plane outwards where less than [`FRONT_THICKNESS`] of the width stands `[m]`: a
-    /// particle's volume is spread over a spacing to either side, in eighths.
+    /// The first place from the symmetry plane outwards where less than [`FRONT_THICKNESS`] of the width stands `[m]`.
     fn front(&self, snapshot: &Snapshot<2>) -> f64 {
-        let (spacing, bin) = (self.spacing(), 0.25 * self.spacing());
-        let mut area = vec![0.0; (BED_END * self.column.width / bin) as usize];
-        for ((position, mass), density) in snapshot.position.iter().zip(&snapshot.mass).zip(&snapshot.density) {
-            for part in 0..8 {
-                let place = position[0] + (f64::from(part) - 3.5) / 4.0 * spacing;
-                if let Some(area) = area.get_mut((place.abs() / bin) as usize) {
-                    *area += mass / density / 8.0;
-                }
-            }
-        }
-        let least = FRONT_THICKNESS * self.column.width * bin;
-        area.iter().position(|area| *area < least).unwrap_or(area.len()) as f64 * bin
+        let (from, to) = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.column.width, 0.0));
+        let line = Line { from, to, section: FRONT_THICKNESS * self.column.width, strip: None };
+        line.reached(self.spacing(), snapshot)
     }
 }
