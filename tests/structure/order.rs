@@ -39,6 +39,7 @@ const VALIDATION: &[Floor] = &[
     floor(&["observation"]),
     floor(&["store", "checkpoint"]),
     floor(&["case"]),
+    floor(&["setup"]),
     floor(&["cases", "evaluation", "result", "report"]),
     floor(&["sweep", "calibration", "mutation", "judge", "compare", "study"]),
     floor(&["cli"]),

@@ -17,6 +17,7 @@ pub mod output;
 pub mod reference;
 pub mod report;
 pub mod result;
+pub mod setup;
 pub mod store;
 pub mod study;
 pub mod sweep;

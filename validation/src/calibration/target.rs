@@ -2,7 +2,11 @@
 
 use crate::evaluation::Record;
 use crate::input::nearest;
+use crate::statistics::{Beyond, interpolated};
 use serde::{Deserialize, Serialize};
+
+/// A table is read up to half a step beyond its ends, no farther.
+const HALF_A_STEP: (Beyond, Beyond) = (Beyond::Line(0.5), Beyond::Line(0.5));
 
 /// Where a datum lies in a profile.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -118,7 +122,7 @@ impl Target {
                 let mut points: Vec<(f64, f64)> = found.rows.iter().map(|row| (row[x], row[y])).collect();
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
                 let unit = parted(&found.columns[y]).1.to_owned();
-                interpolated(&points, *at).map(|value| (value, unit)).ok_or_else(|| {
+                interpolated(&points, *at, HALF_A_STEP).map(|value| (value, unit)).ok_or_else(|| {
                     let ends = points.first().zip(points.last()).map(|(first, last)| (first.0, last.0));
                     let (first, last) = ends.unwrap_or_default();
                     format!("no value of `{table}` at {at}; it reaches from {first} to {last}")
@@ -169,14 +173,6 @@ impl Target {
             Self::Profile { table, y, at, .. } => format!("{table}: {y} at {at:.4e}"),
         }
     }
-}
-
-/// Linear interpolation in points of rising abscissa; half a step beyond the ends is extrapolated, no more.
-fn interpolated(points: &[(f64, f64)], at: f64) -> Option<f64> {
-    let place = points.windows(2).position(|pair| at <= pair[1].0).unwrap_or(points.len().checked_sub(2)?);
-    let ((x0, y0), (x1, y1)) = (points[place], points[place + 1]);
-    let share = (at - x0) / (x1 - x0);
-    ((-0.5..=1.5).contains(&share) && share.is_finite()).then_some(y0 + share * (y1 - y0))
 }
 
 impl Datum {

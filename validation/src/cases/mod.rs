@@ -14,6 +14,7 @@ pub mod enclosed;
 mod energy_ledger;
 pub mod film;
 pub mod flow_thickness;
+pub mod front;
 pub mod hydrostatic;
 pub mod incline_collapse;
 pub mod layer;

@@ -4,6 +4,7 @@
 use super::bed_load_layer::Stream;
 use super::shipped::read_shipped;
 use super::{MeasuredData, ReferenceError};
+use crate::statistics::{Beyond, interpolated};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -114,10 +115,8 @@ impl MeasuredBedLoad {
 
 /// ∫ φ u dz `[m²/s]` over the heights that both have, by trapezia of φ's heights cut into tenths.
 fn flux(fraction: &Points, velocity: &Points) -> f64 {
-    let line = |points: &Points, height: f64| -> f64 {
-        let above = points.partition_point(|point| point.0 <= height).clamp(1, points.len() - 1);
-        let ((a, low), (b, high)) = (points[above - 1], points[above]);
-        low + ((height - a) / (b - a)).clamp(0.0, 1.0) * (high - low)
+    let line = |points: &Points, height: f64| {
+        interpolated(points, height, (Beyond::EndValue, Beyond::EndValue)).unwrap_or(f64::NAN)
     };
     let carried = |height: f64| line(fraction, height) * line(velocity, height);
     let piece = |(from, to): (f64, f64)| -> f64 {

@@ -4,6 +4,7 @@ mod block_average;
 mod block_profile;
 mod fit;
 mod grid_convergence;
+mod interpolation;
 mod mean;
 mod model_bias;
 mod rank_correlation;
@@ -16,6 +17,7 @@ pub use fit::{
     Estimate, Exponent, LinearFit, Regression, common_slope, linear_fit, linear_regression, log_log_slope, power_law,
 };
 pub use grid_convergence::{GridConvergence, Mean, grid_convergence};
+pub use interpolation::{Beyond, interpolated};
 pub use mean::{mean, relative_l2};
 pub use model_bias::{Comparison, Deviation, ModelBias, model_bias};
 pub use rank_correlation::rank_correlation;

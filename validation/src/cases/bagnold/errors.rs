@@ -6,7 +6,7 @@ use super::runs::{BagnoldRun, Purpose};
 use crate::cases::Arrangement;
 use crate::cases::layer::{DepthProfile, LayerObservation};
 use crate::reference::{BagnoldProfile, LayerTransient, TransientHistory};
-use crate::statistics::linear_fit;
+use crate::statistics::{Beyond, interpolated, linear_fit};
 
 /// A steady run's errors.
 #[derive(Debug, Clone, Copy)]
@@ -108,10 +108,9 @@ pub(super) fn particle_history(data: &LayerObservation) -> TransientHistory {
     TransientHistory { times: series.time.clone(), depth_means: series.mean_velocity.clone(), profiles: Vec::new() }
 }
 
-/// Depth mean at a time `[s]`, interpolated.
+/// Depth mean at a time `[s]`, of a run that ends between two samples on the line of its last ones; not a number where the
+/// history ended before.
 pub(super) fn mean_at(history: &TransientHistory, time: f64) -> f64 {
-    let next = history.times.partition_point(|t| *t < time).clamp(1, history.times.len().max(2) - 1);
-    let (Some(t0), Some(t1)) = (history.times.get(next - 1), history.times.get(next)) else { return f64::NAN };
-    let (u0, u1) = (history.depth_means[next - 1], history.depth_means[next]);
-    u0 + (u1 - u0) * (time - t0) / (t1 - t0)
+    let samples: Vec<(f64, f64)> = history.times.iter().copied().zip(history.depth_means.iter().copied()).collect();
+    interpolated(&samples, time, (Beyond::Nothing, Beyond::Line(1.0))).unwrap_or(f64::NAN)
 }

@@ -5,10 +5,11 @@
 use super::parameters::{Continuum, Materials, Stage};
 use super::run::{BedLoadRun, ContinuumRun};
 use crate::case::ParameterError;
-use crate::cases::channel::{Channel, Lattice};
+use crate::cases::channel::Channel;
 use crate::checkpoint::is_interrupted;
 use crate::reference::LayerError;
 use crate::reference::bed_load_layer::{BedLoadLayer, Grains, LayerState, SolidFraction, SteadyStates, Stream};
+use crate::setup::Lattice;
 use bagnold_solver::incompressible as solver;
 use bagnold_solver::incompressible::{Bed, ParticleSet, ProjectionNumerics, Sediment, Turbulence};
 use bagnold_solver::material::dilatancy::Dilatancy;

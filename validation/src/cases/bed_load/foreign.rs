@@ -1,6 +1,7 @@
 //! Bed load as another code gives it: profiles of water and grains, and the history of the transport.
 
 use super::observation::{BedLoadObservation, Carried};
+use super::quantities as quantity;
 use super::run::{BedLoadRun, Formulation};
 use crate::case::{Foreign, Form, Given, Item};
 use crate::cases::channel::{self, BlockProfile, ProfilePoint};
@@ -30,25 +31,35 @@ pub(super) const FORM: Form = Form {
 
 /// Metrics that the water's profile suffices for.
 const OF_WATER: [&str; 13] = [
-    "fluid_velocity_rms",
-    "fluid_velocity_mean",
-    "semi_log_slope",
-    "layer_slope_ratio",
-    "number_of_layers",
-    "layer_slope",
-    "layer_border",
-    "near_bed_deficit",
-    "outer_deficit",
-    "relative_deficit",
-    "sheared_up_to",
-    "sheared_from",
-    "sheared_thickness_growth",
+    quantity::FLUID_VELOCITY_RMS.name,
+    quantity::FLUID_VELOCITY_MEAN.name,
+    quantity::SEMI_LOG_SLOPE.name,
+    quantity::LAYER_SLOPE_RATIO.name,
+    quantity::NUMBER_OF_LAYERS.name,
+    quantity::LAYER_SLOPE.name,
+    quantity::LAYER_BORDER.name,
+    quantity::NEAR_BED_DEFICIT.name,
+    quantity::OUTER_DEFICIT.name,
+    quantity::RELATIVE_DEFICIT.name,
+    quantity::SHEARED_UP_TO.name,
+    quantity::SHEARED_FROM.name,
+    quantity::SHEARED_THICKNESS_GROWTH.name,
 ];
 /// Metrics that the grains' profile suffices for.
-const OF_GRAINS: [&str; 5] =
-    ["grain_velocity_rms", "decay_length", "moves_above", "grain_curvature_above", "grain_curvature_below"];
+const OF_GRAINS: [&str; 5] = [
+    quantity::GRAIN_VELOCITY_RMS.name,
+    quantity::DECAY_LENGTH.name,
+    quantity::MOVES_ABOVE.name,
+    quantity::GRAIN_CURVATURE_ABOVE.name,
+    quantity::GRAIN_CURVATURE_BELOW.name,
+];
 /// Metrics that the history of the transport suffices for.
-const OF_TRANSPORT: [&str; 4] = ["transport", "predicted_transport", "transport_ratio", "transport_growth"];
+const OF_TRANSPORT: [&str; 4] = [
+    quantity::TRANSPORT.name,
+    quantity::PREDICTED_TRANSPORT.name,
+    quantity::TRANSPORT_RATIO.name,
+    quantity::TRANSPORT_GROWTH.name,
+];
 
 /// The observation from what another code gives.
 ///
@@ -76,7 +87,7 @@ pub(super) fn observe(run: &BedLoadRun, given: &Given) -> Result<Foreign<BedLoad
     }
     let stream_velocity = given.series("mean_velocity");
     if !stream_velocity.is_empty() {
-        measured.extend(["stream_velocity", "velocity_drift"]);
+        measured.extend([quantity::STREAM_VELOCITY.name, channel::VELOCITY_DRIFT.name]);
     }
     let layer = match &run.formulation {
         Formulation::Continuum(own) => Some(own.layer(run.stream()).map_err(|error| {

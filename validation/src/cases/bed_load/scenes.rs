@@ -2,7 +2,8 @@
 
 use super::parameters::{Grains, Materials};
 use super::run::{BedLoadRun, Formulation};
-use crate::cases::channel::{Channel, Lattice, Until};
+use crate::cases::channel::{Channel, Until};
+use crate::setup::Lattice;
 use bagnold_solver::incompressible as solver;
 use bagnold_solver::incompressible::{Bed, ParticleSet, Sediment};
 use bagnold_solver::vector::Vector;

@@ -7,6 +7,7 @@ use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::metric::{Confidence, Limit, Metric, Quantity, quantities};
 use crate::reference::bed_load_layer::Closures;
 use crate::reference::{HONEST_BAND, MeasuredBedLoad};
+use crate::statistics::{Beyond, interpolated};
 
 quantities! {
     shared pub(super)
@@ -55,11 +56,8 @@ fn all(records: &[Record]) -> impl Iterator<Item = (&Record, MeasuredBedLoad)> {
 
 /// Root mean square of the layer's values less theirs, at the heights of their points.
 fn difference(height: &[f64], values: &[f64], theirs: &[(f64, f64)]) -> f64 {
-    let at = |z: f64| {
-        let next = height.partition_point(|own| *own < z).clamp(1, height.len().max(2) - 1);
-        let part = ((z - height[next - 1]) / (height[next] - height[next - 1])).clamp(0.0, 1.0);
-        values[next - 1] + part * (values[next] - values[next - 1])
-    };
+    let ours: Vec<(f64, f64)> = height.iter().copied().zip(values.iter().copied()).collect();
+    let at = |z: f64| interpolated(&ours, z, (Beyond::EndValue, Beyond::EndValue)).unwrap_or(f64::NAN);
     let sum: f64 = theirs.iter().map(|&(z, value)| (at(z) - value).powi(2)).sum();
     (sum / theirs.len() as f64).sqrt()
 }

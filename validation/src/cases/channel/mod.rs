@@ -1,7 +1,6 @@
 //! A fluid over a flat floor, periodic along it, alone or with a sediment: the scene and the probe that the cases of the
 //! incompressible model share.
 //!
-//! - [`Lattice`]: rows and columns of particles, displaced or not; walls are the rows below one.
 //! - [`Water`]: the parameters that the cases without a sediment share.
 //! - [`Channel`]: fluid, floor, body force, start, numerics and how long it runs. [`Channel::scene`] gives the scene,
 //!   [`Channel::run`] the record; [`Channel::run_observed`] also shows the simulation at every sample, for what a case
@@ -31,7 +30,6 @@ pub use closure::TurbulenceClosure;
 pub(super) use metrics::{BED_SHEAR, HEIGHT_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST, PRESSURE_L2, VELOCITY_DRIFT};
 pub use metrics::{bed_shear, height_change, momentum_residual, observed, particles_lost, pressure_l2, velocity_drift};
 pub use probe::{ChannelObservation, ChannelSeries, MomentumBalance};
-pub use scene::Lattice;
 pub use stationarity::Mark;
 pub use tables::{tables, tables_of_runs};
 pub use water::Water;
@@ -39,6 +37,7 @@ pub use water::Water;
 use crate::case::recording::{Ending, Followed, Stage, Stop, follow};
 use crate::case::{ParameterError, Progress};
 use crate::observation::{Frame, Recorded};
+use crate::setup::Lattice;
 use bagnold_solver::incompressible::{
     Bed, IncompressibleSimulation, IncompressibleSnapshot, ProjectionNumerics, Sediment, SolidFraction, Turbulence,
 };

@@ -1,95 +1,23 @@
 //! The scene of a channel.
 
 use super::Channel;
+use crate::setup::wall_rows;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{Fluid, IncompressibleScene, ParticleSet};
 use bagnold_solver::vector::Vector;
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64;
-
-/// Rows and columns of particles, each in the middle of its cell.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lattice {
-    /// Edge of a cell `[m]`.
-    pub spacing: f64,
-    /// Rows above each other.
-    pub rows: usize,
-    /// Columns along the period.
-    pub columns: usize,
-    /// Height of the lower edge `[m]`.
-    pub bottom: f64,
-}
-
-impl Lattice {
-    /// Height `[m]`.
-    #[must_use]
-    pub fn height(&self) -> f64 {
-        self.rows as f64 * self.spacing
-    }
-
-    /// Length of the period `[m]`.
-    #[must_use]
-    pub fn length(&self) -> f64 {
-        self.columns as f64 * self.spacing
-    }
-
-    /// Level of the upper edge `[m]`.
-    #[must_use]
-    pub fn top(&self) -> f64 {
-        self.bottom + self.height()
-    }
-
-    /// As many particles as there are cells.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.rows * self.columns
-    }
-
-    /// Whether there is no particle.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// The rows below it, as walls are made of `[m]`.
-    #[must_use]
-    pub fn below(&self, rows: usize) -> Self {
-        Self { rows, bottom: self.bottom - rows as f64 * self.spacing, ..*self }
-    }
-
-    /// Positions row by row from below `[m]`.
-    pub fn sites(&self) -> impl Iterator<Item = Vector<2>> {
-        let Self { spacing, bottom, columns, .. } = *self;
-        (0..self.len()).map(move |site| {
-            let (row, column) = (site / columns, site % columns);
-            Vector::<2>::new((column as f64 + 0.5) * spacing, bottom + (row as f64 + 0.5) * spacing)
-        })
-    }
-
-    /// Positions `[m]` displaced at random by at most `jitter` spacings along each axis.
-    #[must_use]
-    pub fn displaced(&self, jitter: f64, seed: u64) -> Vec<Vector<2>> {
-        let mut random = Pcg64::seed_from_u64(seed);
-        let reach = jitter * self.spacing;
-        self.sites()
-            .map(|site| site + Vector::<2>::from_fn(|_, _| reach * (2.0 * random.random::<f64>() - 1.0)))
-            .collect()
-    }
-}
 
 impl Channel<'_> {
     /// The scene as the run starts from it.
     #[must_use]
     pub fn scene(&self) -> IncompressibleScene<2> {
         let lattice = &self.fluid;
-        let wall_rows = (2.0 * self.numerics.smoothing_ratio).ceil() as usize + 1;
         // the exact velocity of the displaced place: a start that the flow can keep
         let position = lattice.displaced(self.jitter, self.seed);
         let velocity = position.iter().map(|x| Vector::<2>::new((self.velocity)(x[1]), 0.0)).collect();
         IncompressibleScene {
             fluid: Fluid {
                 particles: ParticleSet { position, velocity },
-                wall: lattice.below(wall_rows).sites().collect(),
+                wall: lattice.below(wall_rows(self.numerics.smoothing_ratio)).sites().collect(),
                 spacing: lattice.spacing,
                 density: self.density,
                 kinematic_viscosity: self.kinematic_viscosity,
@@ -104,32 +32,5 @@ impl Channel<'_> {
             solid_fraction: self.solid_fraction.clone(),
             numerics: self.numerics,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const LATTICE: Lattice = Lattice { spacing: 0.5, rows: 2, columns: 3, bottom: 1.0 };
-
-    #[test]
-    fn sites_fill_their_cells_and_walls_go_on_below() {
-        let sites: Vec<Vector<2>> = LATTICE.sites().collect();
-        assert_eq!(sites.len(), 6);
-        assert_eq!(sites[0], Vector::<2>::new(0.25, 1.25));
-        assert_eq!(sites[5], Vector::<2>::new(1.25, 1.75));
-        assert_eq!((LATTICE.top(), LATTICE.length()), (2.0, 1.5));
-        let wall = LATTICE.below(4);
-        assert_eq!((wall.top(), wall.bottom), (1.0, -1.0));
-    }
-
-    #[test]
-    fn displacements_stay_within_their_bound_and_belong_to_their_seed() {
-        let displaced = LATTICE.displaced(0.2, 7);
-        let shifts: Vec<f64> = displaced.iter().zip(LATTICE.sites()).map(|(x, site)| (x - site).amax()).collect();
-        assert!(shifts.iter().all(|shift| *shift <= 0.1) && shifts.iter().any(|shift| *shift > 0.05), "{shifts:?}");
-        assert_eq!(displaced, LATTICE.displaced(0.2, 7));
-        assert_ne!(displaced, LATTICE.displaced(0.2, 8));
     }
 }

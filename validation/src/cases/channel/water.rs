@@ -1,8 +1,9 @@
 //! Water over a floor, as the cases without a sediment declare it.
 
-use super::{Channel, Lattice};
+use super::Channel;
 use crate::case::ParameterError;
 use crate::cases::rules;
+use crate::setup::Lattice;
 use bagnold_solver::incompressible::ProjectionNumerics;
 use bagnold_solver::parameter::positive;
 use schemars::JsonSchema;

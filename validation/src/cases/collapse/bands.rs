@@ -3,12 +3,7 @@
 use super::column::{ColumnRun, Geometry};
 use super::material::Material;
 use crate::metric::Limit;
-use crate::reference::{CollapseLaw, PLANAR_COLLAPSE};
-
-/// Places of the authors among the laws.
-pub(super) const LUBE: usize = 0;
-pub(super) const LAGREE: usize = 1;
-const LAJEUNESSE: usize = 2;
+use crate::reference::{Author, CollapseLaw, PLANAR_COLLAPSE};
 
 /// The band of a relative `tolerance` around a value, narrowed by twice the ensemble's spread.
 pub(super) fn band(expected: f64, tolerance: f64, spread: f64) -> Limit {
@@ -38,7 +33,8 @@ pub(super) fn run_out(run: &ColumnRun, law: &CollapseLaw, spread: f64) -> Band {
              the seeds",
         )),
         (Geometry::Planar, Material::SAND) if run.resolution >= 20 => {
-            let experiments = [LUBE, LAJEUNESSE].map(|author| PLANAR_COLLAPSE.run_out[author].value(a));
+            let experiments =
+                [Author::Lube, Author::Lajeunesse].map(|author| author.law(&PLANAR_COLLAPSE.run_out).value(a));
             let [Some(one), Some(other)] = experiments else { return None };
             let (short, long) = (one.min(other), one.max(other));
             Some((

@@ -1,15 +1,14 @@
 //! The grains before the collapse: displaced from a lattice on a bed, under hydrostatic pressure, at rest.
 
-use crate::cases::layer::hydrostatic_pressure;
+use crate::setup::{displaced_flow, hydrostatic_pressure, wall_rows};
 use bagnold_solver::domain::Domain;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::Rheology;
-use bagnold_solver::vector::{Tensor, Vector};
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::Wall;
 use bagnold_solver::weakly_compressible::boundary::wall::fill;
-use bagnold_solver::weakly_compressible::boundary::{Enclosure, Wall};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
-use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
-use rand::{RngExt, SeedableRng};
+use bagnold_solver::weakly_compressible::scene::Scene;
 
 /// Bulk modulus over ρ0 g h_0 `[-]`.
 pub(super) const STIFFNESS: f64 = 50.0;
@@ -42,38 +41,23 @@ impl<const D: usize> Block<D> {
         let equation_of_state =
             EquationOfState { reference_density: self.density, bulk_modulus: self.bulk_modulus, tension: Tension::Cut };
         let bed = Wall::still(1, 0.0, 1.0);
-        let layers = (2.0 * self.numerics.smoothing_ratio).ceil() as usize + 1;
+        let rows = wall_rows(self.numerics.smoothing_ratio);
         let mut far = Vector::<D>::repeat(bed_end);
         far[1] = self.height;
+        let pressure = |depth: f64| hydrostatic_pressure(self.bulk_modulus, self.density, -self.gravity[1], depth);
+        let flow = displaced_flow(
+            sites,
+            (self.jitter * self.spacing, self.seed),
+            |site| equation_of_state.density(pressure(self.height - site[1])),
+            |density| density * self.spacing.powi(D as i32),
+        );
         Scene {
-            flow: self.fill(sites, &equation_of_state),
-            wall_particles: fill(&[bed], &domain, (Vector::zeros(), far), self.spacing, layers),
-            enclosure: Enclosure::default(),
+            wall_particles: fill(&[bed], &domain, (Vector::zeros(), far), self.spacing, rows),
             walls: vec![bed],
             domain,
             gravity: self.gravity,
-            spacing: self.spacing,
-            equation_of_state,
-            rheology: self.rheology,
             numerics: self.numerics,
+            ..Scene::unbounded(flow, self.spacing, equation_of_state, self.rheology)
         }
-    }
-
-    /// Fills lattice sites. Density and mass belong to the site, so that the block neither sinks nor swells.
-    fn fill(&self, sites: impl Iterator<Item = Vector<D>>, equation_of_state: &EquationOfState) -> Flow<D> {
-        let mut random = rand_pcg::Pcg64::seed_from_u64(self.seed);
-        let mut flow = Flow::default();
-        for site in sites {
-            let shift = Vector::<D>::from_fn(|_, _| self.jitter * self.spacing * (2.0 * random.random::<f64>() - 1.0));
-            let depth = self.height - site[1];
-            let pressure = hydrostatic_pressure(self.bulk_modulus, self.density, -self.gravity[1], depth);
-            let density = equation_of_state.density(pressure);
-            flow.position.push(site + shift);
-            flow.velocity.push(Vector::zeros());
-            flow.density.push(density);
-            flow.mass.push(density * self.spacing.powi(D as i32));
-            flow.stress.push(Tensor::zeros());
-        }
-        flow
     }
 }

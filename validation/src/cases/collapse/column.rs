@@ -10,6 +10,7 @@ use crate::case::recording::{self, Ending, Stage, Watched};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::Variant;
 use crate::observation::Recorded;
+use crate::setup::acoustic_step;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
@@ -118,8 +119,7 @@ impl Run for ColumnRun {
     }
 
     fn particle_steps(&self) -> f64 {
-        let step = self.release.numerics.acoustic_courant * self.release.numerics.smoothing_ratio * self.spacing()
-            / self.sound_speed();
+        let step = acoustic_step(&self.release.numerics, self.spacing(), self.sound_speed());
         // most columns rest well before their time is up
         let expected = 5.0_f64.min(self.release.duration) * self.time_scale() / step;
         expected * self.particles()

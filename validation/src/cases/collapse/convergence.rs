@@ -1,17 +1,17 @@
 //! How far a column's result depends on the resolution, on the seed and on the hourglass coefficient.
 
 use super::Record;
-use super::bands::{LAGREE, SAME_LAW, SAME_LAW_REASON, band};
+use super::bands::{SAME_LAW, SAME_LAW_REASON, band};
 use super::column::{ColumnRun, Purpose};
 use super::deposit::Collapse;
 use super::material::Material;
 use super::quantities::{
-    ENSEMBLE_MEAN, ENSEMBLE_RUN_OUT, ENSEMBLE_SPREAD, ENSEMBLE_STANDARD_ERROR, GRID_CONVERGENCE_INDEX,
-    HOURGLASS_SPREAD, OBSERVED_ORDER,
+    ENSEMBLE_MEAN, ENSEMBLE_RUN_OUT, ENSEMBLE_SPREAD, ENSEMBLE_STANDARD_ERROR, FINAL_HEIGHT, GRID_CONVERGENCE_INDEX,
+    HOURGLASS_SPREAD, OBSERVED_ORDER, RUN_OUT,
 };
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Confidence, Limit, Metric, Variant};
-use crate::reference::PLANAR_COLLAPSE;
+use crate::reference::{Author, PLANAR_COLLAPSE};
 use crate::statistics::{GridConvergence, Mean, grid_convergence, mean};
 
 /// Name, measure and largest index `[-]` of what must converge.
@@ -22,7 +22,7 @@ const ENSEMBLE: usize = 5;
 
 const MEASURED: [Measured; 3] = [
     ("centroid", |collapse| collapse.centroid, 0.03),
-    ("run_out", Collapse::run_out, 0.08),
+    (RUN_OUT.name, Collapse::run_out, 0.08),
     ("front_at_0.05_r0", Collapse::run_out_of_rows, 0.08),
 ];
 
@@ -105,12 +105,12 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
         for (quantity, measure, largest) in MEASURED {
             let means = study.means(measure);
             let variant = study.name(Variant::of("quantity", quantity));
-            let run_out = means.iter().filter(|mean| quantity == "run_out" && mean.runs >= ENSEMBLE);
+            let run_out = means.iter().filter(|mean| quantity == RUN_OUT.name && mean.runs >= ENSEMBLE);
             metrics.extend(run_out.map(|mean| against_law(&study, &variant, mean)));
             metrics.extend(of_ensembles(variant, &means, largest));
         }
     }
-    let spreads = [("run_out", Collapse::run_out as fn(&_) -> _), ("final_height", Collapse::final_height)];
+    let spreads = [(RUN_OUT.name, Collapse::run_out as fn(&_) -> _), (FINAL_HEIGHT.name, Collapse::final_height)];
     for (quantity, measure) in spreads {
         let spread = relative_spread(records, measure);
         if spread > 0.0 {
@@ -129,7 +129,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
 
 /// An ensemble's mean run-out against the law of the same material: one run alone scatters too much to be judged by it.
 fn against_law(study: &Study<'_>, variant: &Variant, mean: &Mean) -> Metric {
-    let law = &PLANAR_COLLAPSE.run_out[LAGREE];
+    let law = Author::Lagree.law(&PLANAR_COLLAPSE.run_out);
     let expected = law.value(study.aspect_ratio);
     let metric = ENSEMBLE_RUN_OUT.of(&variant.clone().and("resolution", mean.resolution), mean.value);
     let limit = expected.map(|expected| band(expected, SAME_LAW, mean.standard_error / mean.value));

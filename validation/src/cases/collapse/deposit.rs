@@ -1,5 +1,6 @@
 //! What is measured of a spreading heap: thickness, front, heights, centroid and energies.
 
+use crate::cases::front::end_of_profile;
 use crate::observation::{EnergyBook, Motion};
 use crate::statistics::{linear_fit, linear_regression};
 use bagnold_solver::vector::Vector;
@@ -85,7 +86,7 @@ impl Surveyor {
         collapse.momentum_residual = collapse.momentum_residual.max(residual);
         collapse.time.push(snapshot.time);
         collapse.front.push(front(&thickness));
-        collapse.rows_front.push(front_of(&thickness, ROW_THICKNESS));
+        collapse.rows_front.push(end_of_profile(&thickness, ROW_THICKNESS));
         collapse.height.push(thickness.first().map_or(0.0, |bin| bin.1));
         if let Some(account) = &snapshot.energy {
             collapse.energy.enter(account);
@@ -193,18 +194,7 @@ pub(super) fn radius<const D: usize>(position: &Vector<D>) -> f64 {
 /// between the centres of the bins; all over r_0.
 #[must_use]
 pub fn front(thickness: &[(f64, f64)]) -> f64 {
-    front_of(thickness, FRONT_THICKNESS)
-}
-
-/// The same for any thickness over r_0.
-fn front_of(thickness: &[(f64, f64)], least: f64) -> f64 {
-    for pair in thickness.windows(2) {
-        let [(x0, h0), (x1, h1)] = [pair[0], pair[1]];
-        if h0 >= least && h1 < least {
-            return x0 + (x1 - x0) * (h0 - least) / (h0 - h1);
-        }
-    }
-    thickness.last().map_or(0.0, |bin| bin.0)
+    end_of_profile(thickness, FRONT_THICKNESS)
 }
 
 impl Collapse {
@@ -221,7 +211,7 @@ impl Collapse {
     /// The same with the front at 0.05 r_0, a thickness that one row of particles has from 20 over r_0 on `[-]`.
     #[must_use]
     pub fn run_out_of_rows(&self) -> f64 {
-        front_of(&self.deposit, ROW_THICKNESS) - 1.0
+        end_of_profile(&self.deposit, ROW_THICKNESS) - 1.0
     }
 
     /// The deposit's bins up to the last that holds grains.

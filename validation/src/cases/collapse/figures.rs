@@ -11,7 +11,7 @@ use crate::figure::{Animation, Axis, Field, Figure, Panel};
 use crate::observation::energy;
 use crate::observation::pictures::{View, animation, halves};
 use crate::observation::{Frame, Recorded};
-use crate::reference::{CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
+use crate::reference::{Author, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
 pub(in crate::cases) fn all(records: &[Record]) -> Vec<Figure> {
     let laws: Vec<&Record> = records.iter().filter(|(run, _)| run.purpose == Purpose::Law).collect();
@@ -62,8 +62,8 @@ fn scaling_figure(records: &[&Record]) -> Figure {
     let (own, other) =
         if round { (&*ROUND_COLLAPSE, &*PLANAR_COLLAPSE) } else { (&*PLANAR_COLLAPSE, &*ROUND_COLLAPSE) };
     // the laws of the geometry, and Lube's of the other one: the paper compared planar runs with the round law
-    let run_out_laws: Vec<&CollapseLaw> = own.run_out.iter().chain(&other.run_out[..1]).collect();
-    let lube_of_planar = if round { &other.height[..1] } else { &[] };
+    let run_out_laws: Vec<&CollapseLaw> = own.run_out.iter().chain([Author::Lube.law(&other.run_out)]).collect();
+    let lube_of_planar = round.then(|| Author::Lube.law(&other.height));
     let height_laws: Vec<&CollapseLaw> = own.height.iter().chain(lube_of_planar).collect();
     let panel = |label: &str, laws: &[&CollapseLaw], measure: fn(&Collapse) -> f64, legend: bool| {
         let mut panel = Panel::new("", Axis::logarithmic("h0/r0 [-]"), Axis::logarithmic(label));

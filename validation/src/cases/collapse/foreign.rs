@@ -2,6 +2,10 @@
 
 use super::column::{ColumnRun, EARLIEST_REST, Geometry};
 use super::deposit::Collapse;
+use super::quantities::{
+    BREAK_POINT, DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, HEIGHT_BY_TOP, PARTICLES_LOST, REST_TIME, RUN_OUT,
+    SCALING_EXPONENT, STOPPING_TIME,
+};
 use crate::case::{Foreign, Form, Given, Item, Picture};
 use crate::input::FieldError;
 use bagnold_solver::vector::Vector;
@@ -50,7 +54,8 @@ pub(in crate::cases) const FORM: Form = Form {
 };
 
 /// Metrics that a deposit suffices for.
-const OF_DEPOSIT: [&str; 5] = ["run_out", "final_height", "deposit_slope_angle", "scaling_exponent", "break_point"];
+const OF_DEPOSIT: [&str; 5] =
+    [RUN_OUT.name, FINAL_HEIGHT.name, DEPOSIT_SLOPE_ANGLE.name, SCALING_EXPONENT.name, BREAK_POINT.name];
 
 pub(in crate::cases) fn observe(run: &ColumnRun, given: &Given) -> Result<Foreign<Collapse>, FieldError> {
     match run.geometry {
@@ -96,15 +101,15 @@ fn of<const D: usize>(run: &ColumnRun, given: &Given) -> Result<Foreign<Collapse
         collapse.momentum_residual = f64::NAN;
         if has_fallen(end.time) {
             measured.extend(OF_DEPOSIT);
-            measured.push("height_by_top");
+            measured.push(HEIGHT_BY_TOP.name);
         }
-        measured.push("particles_lost");
+        measured.push(PARTICLES_LOST.name);
         let moves = ["vx", "vy"].iter().all(|name| !end.column(name).is_empty());
         if moves && given.pictures.len() > 1 {
-            measured.push("rest_time");
+            measured.push(REST_TIME.name);
         }
         if given.pictures.len() >= PICTURES_OF_A_HISTORY {
-            measured.push("stopping_time");
+            measured.push(STOPPING_TIME.name);
         }
     }
     let r = run.half_width;
@@ -129,11 +134,11 @@ fn of<const D: usize>(run: &ColumnRun, given: &Given) -> Result<Foreign<Collapse
             && !given.series("front").is_empty()
             && time.last().is_some_and(|end| has_fallen(*end))
         {
-            measured.push("run_out");
+            measured.push(RUN_OUT.name);
         }
-        measured.retain(|name| !["rest_time", "stopping_time"].contains(name));
+        measured.retain(|name| ![REST_TIME.name, STOPPING_TIME.name].contains(name));
         if !given.series("front_of_rows").is_empty() {
-            measured.push("stopping_time");
+            measured.push(STOPPING_TIME.name);
         }
     }
     measured.sort_unstable();

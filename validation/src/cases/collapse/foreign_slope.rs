@@ -2,6 +2,7 @@
 
 use super::deposit::Collapse;
 use super::foreign::{Room, snapshot};
+use super::quantities::{DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, PARTICLES_LOST, REST_TIME};
 use super::slope::{EARLIEST_REST, SlopeCollapse, SlopeRun};
 use crate::case::{Foreign, Form, Given, Item};
 use crate::input::FieldError;
@@ -66,18 +67,18 @@ pub(in crate::cases) fn observe(run: &SlopeRun, given: &Given) -> Result<Foreign
             collapse = Collapse { momentum_residual: f64::NAN, ..surveyor.finish(last) };
         }
         if end.time >= EARLIEST_REST {
-            measured.extend(["front_displacement", "deposit_slope_angle"]);
+            measured.extend([FRONT_DISPLACEMENT.name, DEPOSIT_SLOPE_ANGLE.name]);
         }
-        measured.extend(["particles_lost", "front"]);
+        measured.extend([PARTICLES_LOST.name, FRONT.name]);
         let moves = ["vx", "vy"].iter().all(|name| !end.column(name).is_empty());
         if moves && given.pictures.len() > 1 {
-            measured.push("rest_time");
+            measured.push(REST_TIME.name);
         }
     }
     let (x, profile) = (given.profile("x"), given.profile("thickness"));
     if !x.is_empty() && !profile.is_empty() {
         collapse.deposit = x.iter().zip(profile).map(|(x, thickness)| (x / r, thickness / r)).collect();
-        measured.extend(["front_displacement", "deposit_slope_angle"]);
+        measured.extend([FRONT_DISPLACEMENT.name, DEPOSIT_SLOPE_ANGLE.name]);
     }
     let (time, front) = (given.series("time"), given.series("front"));
     if !time.is_empty() && !front.is_empty() {
@@ -87,8 +88,8 @@ pub(in crate::cases) fn observe(run: &SlopeRun, given: &Given) -> Result<Foreign
         // energies and thicknesses belong to the pictures' times
         (collapse.kinetic_energy, collapse.potential_energy) = (unknown(), unknown());
         thickness = vec![Vec::new(); time.len()];
-        measured.retain(|name| *name != "rest_time");
-        measured.push("front");
+        measured.retain(|name| *name != REST_TIME.name);
+        measured.push(FRONT.name);
     }
     measured.sort_unstable();
     measured.dedup();

@@ -1,7 +1,7 @@
 //! How the columns are judged.
 
 use super::Record;
-use super::bands::{self, Band, LAGREE, LUBE};
+use super::bands::{self, Band};
 use super::column::{ColumnRun, Geometry, Purpose};
 use super::convergence::{numerical_uncertainty, relative_spread};
 use super::deposit::Collapse;
@@ -13,7 +13,7 @@ use super::quantities::{
 use crate::case::Run;
 use crate::cases::energy_ledger;
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Variant};
-use crate::reference::{COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
+use crate::reference::{Author, COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 
@@ -51,11 +51,11 @@ pub(in crate::cases) fn all(records: &[Record]) -> Vec<Metric> {
 /// The laws of run-out and height whose geometry a run has, and whose material it has or comes closest to.
 fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static CollapseLaw) {
     let (laws, author) = match run.geometry {
-        Geometry::Planar if run.material.grains == Grains::Lagree => (&*PLANAR_COLLAPSE, LAGREE),
-        Geometry::Planar => (&*PLANAR_COLLAPSE, LUBE),
-        Geometry::Round => (&*ROUND_COLLAPSE, LUBE),
+        Geometry::Planar if run.material.grains == Grains::Lagree => (&*PLANAR_COLLAPSE, Author::Lagree),
+        Geometry::Planar => (&*PLANAR_COLLAPSE, Author::Lube),
+        Geometry::Round => (&*ROUND_COLLAPSE, Author::Lube),
     };
-    (&laws.run_out[author], &laws.height[author])
+    (author.law(&laws.run_out), author.law(&laws.height))
 }
 
 /// Nothing is lost: no particle and, where the numerics keep account of it, no momentum.

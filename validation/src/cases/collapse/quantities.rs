@@ -48,3 +48,10 @@ quantities! {
     SCALING_COEFFICIENT: validated("scaling_coefficient", "-", "coefficient of the power law"),
     BREAK_POINT: validated("break_point", "-", "aspect ratio at which the power law meets the line of shallow columns"),
 }
+
+// of collapses on slopes only
+quantities! {
+    shared pub(in crate::cases)
+    FRONT_DISPLACEMENT: validated("front_displacement", "m", "the front's way from the gate to the end of the deposit"),
+    FRONT: validated("front", "-", "place of the front at a time, over r_0"),
+}

@@ -4,9 +4,11 @@ use super::Record;
 use super::column::{Geometry, Purpose};
 use super::deposit::Collapse;
 use super::material::{Alteration, Grains, Material};
-use super::quantities::{BREAK_POINT, SCALING_COEFFICIENT, SCALING_CONFIDENCE, SCALING_EXPONENT};
+use super::quantities::{
+    BREAK_POINT, FINAL_HEIGHT, RUN_OUT, SCALING_COEFFICIENT, SCALING_CONFIDENCE, SCALING_EXPONENT,
+};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
-use crate::reference::PLANAR_COLLAPSE;
+use crate::reference::{Author, PLANAR_COLLAPSE};
 use crate::statistics::{Exponent, power_law, student_quantile};
 
 /// Fewest tall columns that a power law is fitted to.
@@ -76,7 +78,7 @@ fn break_point(shallow: f64, tall: &Exponent) -> f64 {
 
 /// A break point against the middle of the gap between Lube's branches.
 fn against_lube(metric: Metric) -> Metric {
-    let lube = &PLANAR_COLLAPSE.run_out[0];
+    let lube = Author::Lube.law(&PLANAR_COLLAPSE.run_out);
     let [shallow, tall] = lube.branches.as_slice() else { return metric };
     let source =
         format!("between the branches of Lube et al. 2005, which end at {} and begin at {}", shallow.to, tall.from);
@@ -91,7 +93,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
         let ratios = Value::list(columns.iter().map(|(run, _)| run.aspect_ratio));
         type Measure = (&'static str, fn(&Collapse) -> f64, Option<Limit>);
         let quantities: [Measure; 2] =
-            [("run_out", Collapse::run_out, run_out_gate), ("final_height", Collapse::final_height, height_gate)];
+            [(RUN_OUT.name, Collapse::run_out, run_out_gate), (FINAL_HEIGHT.name, Collapse::final_height, height_gate)];
         for (quantity, measure, gate) in quantities {
             let Some(scaling) = fit(&records, material, measure) else { continue };
             let variant = Variant::of("quantity", quantity)
@@ -109,7 +111,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
                 observed(SCALING_CONFIDENCE, scaling.half_width).against(None, interval, Confidence::Exact),
                 observed(SCALING_COEFFICIENT, scaling.law.coefficient),
             ]);
-            if quantity == "run_out"
+            if quantity == RUN_OUT.name
                 && let Some(shallow) = shallow_coefficient(&records, material)
             {
                 metrics.push(against_lube(observed(BREAK_POINT, break_point(shallow, &scaling.law))));

@@ -10,6 +10,7 @@ use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::{Value, Variant};
 use crate::observation::Recorded;
 use crate::reference::SLOPE_EXPERIMENT;
+use crate::setup::{Lattice, acoustic_step};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::vector::Vector;
@@ -77,8 +78,7 @@ impl Run for SlopeRun {
     }
 
     fn particle_steps(&self) -> f64 {
-        let step = self.reservoir.numerics.acoustic_courant * self.reservoir.numerics.smoothing_ratio * self.spacing()
-            / self.sound_speed();
+        let step = acoustic_step(&self.reservoir.numerics, self.spacing(), self.sound_speed());
         self.reservoir.duration / step * self.particles()
     }
 
@@ -186,12 +186,9 @@ impl SlopeRun {
 
     fn scene(&self) -> Scene<2> {
         let spacing = self.spacing();
-        let height = self.rows() as f64 * spacing;
         let Reservoir { resolution, jitter, seed, numerics, channel_length, .. } = self.reservoir;
-        let site = |cell: usize| {
-            let (column, row) = (cell % resolution, cell / resolution);
-            Vector::<2>::new((column as f64 + 0.5) * spacing, (row as f64 + 0.5) * spacing)
-        };
+        let lattice = Lattice { spacing, rows: self.rows(), columns: resolution, bottom: 0.0 };
+        let height = lattice.height();
         let block = Block {
             spacing,
             height,
@@ -205,7 +202,7 @@ impl SlopeRun {
         };
         // the back of the reservoir is smooth
         let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
-        let mut scene = block.scene((0..self.rows() * resolution).map(site), domain, channel_length);
+        let mut scene = block.scene(lattice.sites(), domain, channel_length);
         if self.gate_speed > 0.0 {
             let gate = Gate {
                 position: self.reservoir.reservoir_length,

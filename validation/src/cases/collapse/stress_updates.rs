@@ -3,7 +3,7 @@
 use super::Record;
 use super::column::{ColumnRun, Purpose};
 use super::deposit::Collapse;
-use super::quantities::{EXPLICIT_STEPS, REGULARISED_DIFFERENCE, RUN_OUT};
+use super::quantities::{EXPLICIT_STEPS, FINAL_HEIGHT, REGULARISED_DIFFERENCE, RUN_OUT};
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Mark, Panel};
 use crate::metric::{Metric, Variant};
@@ -39,9 +39,9 @@ fn of_regularised((run, record): &Record, partner: Option<&Record>) -> Vec<Metri
     if let Some((_, mapped)) = partner {
         let difference = |of: fn(&Collapse) -> f64| 100.0 * (of(&record.data) / of(&mapped.data) - 1.0);
         let values = [
-            ("run_out", difference(Collapse::run_out)),
+            (RUN_OUT.name, difference(Collapse::run_out)),
             ("centroid", difference(|collapse| collapse.centroid)),
-            ("final_height", difference(Collapse::final_height)),
+            (FINAL_HEIGHT.name, difference(Collapse::final_height)),
         ];
         metrics.extend(values.map(|(quantity, value)| {
             let variant = Variant::of("quantity", quantity).followed_by(&variant);

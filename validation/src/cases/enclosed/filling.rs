@@ -5,10 +5,10 @@ use super::setting::{Body, vector};
 use super::sides::Sides;
 use super::surfaces::Surfaces;
 use super::{SceneParameters, shapes};
+use crate::setup::displaced_flow;
 use bagnold_solver::material::equation_of_state::EquationOfState;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::scene::Flow;
-use rand::{RngExt, SeedableRng};
 
 /// Steps by which depths are felt, a spacing `[-]`.
 const STEPS: f64 = 8.0;
@@ -20,8 +20,6 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         let Self { spacing, jitter, ref bodies, .. } = *self;
         let gravity = vector(&self.gravity);
         let (up, weight) = (-gravity.normalize(), equation_of_state.reference_density * gravity.norm());
-        let mut random = rand_pcg::Pcg64::seed_from_u64(self.seed);
-        let mut shift = || jitter * spacing * (2.0 * random.random::<f64>() - 1.0);
         let (mut sites, mut velocities, mut taken) = (Vec::new(), Vec::new(), 0_u32);
         let corners = bodies.iter().flat_map(|body| <[Vector<D>; 2]>::from(body.extent()));
         for site in lattice(shapes::around(corners), spacing) {
@@ -34,14 +32,13 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             }
         }
         let share = f64::from(taken) / (f64::from(taken) + sites.len() as f64);
-        let mut flow = Flow::at_rest(sites, equation_of_state.reference_density, spacing);
-        flow.velocity = velocities;
-        for (position, (rho, mass)) in flow.position.iter_mut().zip(flow.density.iter_mut().zip(&mut flow.mass)) {
-            *rho = equation_of_state.density(weight * depth(bodies, position, &up, spacing));
-            *mass = (0..D).fold(*rho, |mass, _| mass * spacing);
-            *position += Vector::<D>::from_fn(|_, _| shift());
-        }
-        (flow, share)
+        let flow = displaced_flow(
+            sites,
+            (jitter * spacing, self.seed),
+            |site| equation_of_state.density(weight * depth(bodies, site, &up, spacing)),
+            |density| (0..D).fold(density, |mass, _| mass * spacing),
+        );
+        (Flow { velocity: velocities, ..flow }, share)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Measure;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
 
 /// What gauges remember from sample to sample; in the plane, masses and impulses are those per metre of depth.
@@ -19,16 +20,18 @@ pub(in crate::cases) struct Memory<const D: usize> {
 }
 
 impl<const D: usize> Memory<D> {
-    /// The values of all gauges now, column by column; remembers the state for the next sample. `begun` particles were there
-    /// at the start.
+    /// The values of all gauges now, column by column, with the snapshot of the simulation; remembers the state for the next
+    /// sample. `begun` particles were there at the start.
     pub(in crate::cases) fn read_all(
         &mut self,
         measures: &[Measure<'_, D>],
         simulation: &Simulation<D>,
+        snapshot: &Snapshot<D>,
         begun: usize,
     ) -> Vec<f64> {
         self.crossed.resize(measures.len(), 0.0);
-        let values = measures.iter().enumerate().flat_map(|(k, measure)| self.read(k, measure, simulation)).collect();
+        let read = |(k, measure)| self.read(k, measure, simulation, snapshot);
+        let values = measures.iter().enumerate().flat_map(read).collect();
         let particles = simulation.particles();
         self.places.clear();
         self.places.resize(begun, Vector::repeat(f64::NAN));
@@ -41,12 +44,18 @@ impl<const D: usize> Memory<D> {
     }
 
     /// The values of the gauge at this place among all, one a column.
-    fn read(&mut self, gauge: usize, measure: &Measure<'_, D>, simulation: &Simulation<D>) -> Vec<f64> {
+    fn read(
+        &mut self,
+        gauge: usize,
+        measure: &Measure<'_, D>,
+        simulation: &Simulation<D>,
+        snapshot: &Snapshot<D>,
+    ) -> Vec<f64> {
         let elapsed = simulation.time() - self.time;
         let per_time = |change: f64| if elapsed > 0.0 { change / elapsed } else { 0.0 };
         match measure {
-            Measure::Front(line) => vec![line.reached(simulation)],
-            Measure::Depth(depth) => vec![depth.thickness(simulation)],
+            Measure::Front(line) => vec![line.reached(simulation.spacing(), snapshot)],
+            Measure::Depth(depth) => vec![depth.thickness(snapshot)],
             Measure::Force { wall } => {
                 let Some(k) = simulation.shells().iter().position(|shell| shell.name == *wall) else {
                     return vec![0.0; D];

@@ -7,6 +7,7 @@ use super::sides::Sides;
 use super::{Measure, Measured, Record, SceneObservation, SceneParameters};
 use crate::cases::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
+use crate::statistics::{Beyond, interpolated};
 
 quantities! { shared
     MASS_RESIDUAL: accounted("mass_residual", "%", "mass in the scene and beyond its open sides, less that of the start"),
@@ -175,18 +176,10 @@ fn largest(series: &[f64]) -> f64 {
 
 /// Root mean square of value/measured − 1 at the measured times; NaN where the series does not reach them.
 fn error(time: &[f64], series: &[f64], points: &[(f64, f64)]) -> f64 {
-    let square = |&(at, measured): &(f64, f64)| (interpolated(time, series, at) / measured - 1.0).powi(2);
+    let samples: Vec<(f64, f64)> = time.iter().copied().zip(series.iter().copied()).collect();
+    let at = |time: f64| interpolated(&samples, time, (Beyond::Nothing, Beyond::Nothing)).unwrap_or(f64::NAN);
+    let square = |&(time, measured): &(f64, f64)| (at(time) / measured - 1.0).powi(2);
     (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt()
-}
-
-/// A series at a time, linear between its samples.
-fn interpolated(time: &[f64], series: &[f64], at: f64) -> f64 {
-    match time.partition_point(|&t| t < at) {
-        0 if time.first() == Some(&at) => series.first().copied().unwrap_or(f64::NAN),
-        0 => f64::NAN,
-        k if k >= series.len() => f64::NAN,
-        k => series[k - 1] + (series[k] - series[k - 1]) * (at - time[k - 1]) / (time[k] - time[k - 1]),
-    }
 }
 
 #[cfg(test)]

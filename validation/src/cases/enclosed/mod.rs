@@ -22,7 +22,7 @@ mod surfaces;
 mod tiers;
 
 pub use given::Given;
-pub use measure::{Depth, Line, Measure, Opening};
+pub use measure::{Depth, Measure, Opening};
 pub use measured::Measured;
 pub use observation::{Left, SceneObservation};
 pub use parameters::{SceneParameters, Setting};

@@ -10,6 +10,7 @@ use crate::case::recording::{self, Ending, Followed, Stage};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
+use crate::setup::{acoustic_step, wall_rows};
 use bagnold_solver::domain::Domain;
 use bagnold_solver::material::equation_of_state::EquationOfState;
 use bagnold_solver::run::SceneError;
@@ -57,8 +58,7 @@ where
     }
 
     fn particle_steps(&self) -> f64 {
-        let step = self.scene.numerics.acoustic_courant * self.scene.numerics.smoothing_ratio * self.scene.spacing
-            / self.equation_of_state().sound_speed();
+        let step = acoustic_step(&self.scene.numerics, self.scene.spacing, self.equation_of_state().sound_speed());
         self.particles() * self.scene.duration / step
     }
 
@@ -91,7 +91,7 @@ where
                 *last_good = simulation.snapshot();
                 let steps = simulation.steps() as f64 * last_good.mass.len() as f64;
                 progress.advance(last_good.time, scene.duration, steps);
-                let values = watch.memory.read_all(&measures, simulation, begun);
+                let values = watch.memory.read_all(&measures, simulation, last_good, begun);
                 watch.observation.enter(simulation, last_good, &gravity, values);
                 let due = watch.frames.len() as f64 * scene.duration / scene.pictures as f64;
                 if last_good.time >= due - 0.5 * scene.interval && watch.frames.len() < scene.pictures {
@@ -117,7 +117,7 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
 
     /// Rows of dummy particles.
     fn rows(&self) -> usize {
-        (2.0 * self.scene.numerics.smoothing_ratio).ceil() as usize + 1
+        wall_rows(self.scene.numerics.smoothing_ratio)
     }
 
     fn equation_of_state(&self) -> EquationOfState {

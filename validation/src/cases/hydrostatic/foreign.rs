@@ -1,5 +1,6 @@
 //! A layer at rest as another code gives it: its profile and its history.
 
+use super::metrics::{ACOUSTIC_BREATHING, HEIGHT_DRIFT, NORMAL_STRESS_L2, PRESSURE_L2, RMS_SPEED};
 use super::parameters::HydrostaticRun;
 use crate::case::{Foreign, Form, Given, Item};
 use crate::cases::layer::foreign::unmeasured;
@@ -48,7 +49,7 @@ pub(super) fn observe(run: &HydrostaticRun, given: &Given) -> Result<Foreign<Lay
             shear_stress: vec![f64::NAN; count],
             samples: vec![1.0; count],
         };
-        let pairs = [("pressure_l2", pressure), ("normal_stress_l2", normal_stress)];
+        let pairs = [(PRESSURE_L2.name, pressure), (NORMAL_STRESS_L2.name, normal_stress)];
         measured.extend(pairs.into_iter().filter(|(_, column)| !column.is_empty()).map(|(name, _)| name));
     }
     let time = given.series("time");
@@ -66,10 +67,10 @@ pub(super) fn observe(run: &HydrostaticRun, given: &Given) -> Result<Foreign<Lay
             pressure_noise: Vec::new(),
         };
         if !speed.is_empty() {
-            measured.push("rms_speed");
+            measured.push(RMS_SPEED.name);
         }
         if !mean_height.is_empty() {
-            measured.extend(["height_drift", "acoustic_breathing"]);
+            measured.extend([HEIGHT_DRIFT.name, ACOUSTIC_BREATHING.name]);
         }
     }
     Ok(Foreign { observation, measured })

@@ -4,7 +4,9 @@ use super::Record;
 use super::inside::Inside;
 use crate::case::Run;
 use crate::cases::collapse::metrics::{at_rest, conservation};
-use crate::cases::collapse::quantities::{DEPOSIT_SLOPE_ANGLE, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME};
+use crate::cases::collapse::quantities::{
+    DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
+};
 use crate::cases::collapse::{SlopeCollapse, SlopeRun};
 use crate::cases::energy_ledger;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
@@ -12,9 +14,7 @@ use crate::observation::Recorded;
 use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
 
 quantities! {
-    [PARTICLES_LOST, MOMENTUM_RESIDUAL, REST_TIME, DEPOSIT_SLOPE_ANGLE, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
-    FRONT_DISPLACEMENT: validated("front_displacement", "m", "the front's way from the gate to the end of the deposit"),
-    FRONT: validated("front", "-", "place of the front at a time, over r_0"),
+    [PARTICLES_LOST, MOMENTUM_RESIDUAL, REST_TIME, DEPOSIT_SLOPE_ANGLE, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK, FRONT_DISPLACEMENT, FRONT]
     FASTEST_DEPTH: stated("fastest_depth", "-", "mean depth of the fastest twentieth of the grains along the slope, over the local thickness, at a time"),
     VISCOSITY_AND_DEPTH: stated("viscosity_and_depth", "-", "rank correlation of the apparent viscosity and the depth below the surface, at a time"),
     VISCOSITY_LIKE_PRESSURE: stated("viscosity_like_pressure", "-", "rank correlation of the apparent viscosity with the pressure less that with the shear rate, both as sizes, at a time"),

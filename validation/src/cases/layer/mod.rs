@@ -15,17 +15,17 @@ use crate::case::recording::{self, Beginning, Ending, Stage, Watched};
 use crate::case::{ParameterError, Progress, cost};
 use crate::metric::{Limit, Metric, Variant, quantities};
 use crate::observation::{Frame, Recorded};
+use crate::setup::{Lattice, displaced_flow, hydrostatic_pressure, wall_rows};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
+use bagnold_solver::weakly_compressible::boundary::Wall;
 use bagnold_solver::weakly_compressible::boundary::wall::fill;
-use bagnold_solver::weakly_compressible::boundary::{Enclosure, Wall};
 use bagnold_solver::weakly_compressible::numerics::ViscousStep;
-use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
-use rand::{RngExt, SeedableRng};
 use serde::Serialize;
 use std::ops::ControlFlow;
 
@@ -143,49 +143,34 @@ impl Layer<'_> {
     #[must_use]
     pub fn scene(&self) -> Scene<2> {
         let spacing = self.spacing();
-        let length = self.layer.columns as f64 * spacing;
+        let PeriodicLayer { columns, resolution: rows, jitter, seed, numerics, .. } = self.layer;
+        let lattice = Lattice { spacing, rows, columns, bottom: 0.0 };
+        let length = lattice.length();
         let above = match self.top {
             Top::Free => AxisBoundary::Open,
             Top::Mirror => AxisBoundary::Mirror { lower: None, upper: Some(self.layer.layer_height) },
         };
         let domain = Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: length }, above] };
         let bed = Wall::still(1, 0.0, 1.0);
-        let wall_rows = (2.0 * self.layer.numerics.smoothing_ratio).ceil() as usize + 1;
         let extent = (Vector::<2>::zeros(), Vector::<2>::new(length, self.layer.layer_height));
         let equation_of_state = EquationOfState {
             reference_density: self.reference_density,
             bulk_modulus: self.bulk_modulus,
             tension: Tension::Cut,
         };
-        let mut random = rand_pcg::Pcg64::seed_from_u64(self.layer.seed);
-        let mut flow = Flow::default();
-        for row in 0..self.layer.resolution {
-            for column in 0..self.layer.columns {
-                let site = Vector::<2>::new((column as f64 + 0.5) * spacing, (row as f64 + 0.5) * spacing);
-                let shift =
-                    Vector::<2>::from_fn(|_, _| self.layer.jitter * spacing * (2.0 * random.random::<f64>() - 1.0));
-                let position = site + shift;
-                // the density belongs to the site and the mass to the density, so that the layer neither
-                // sinks nor swells when it is released
-                let density = equation_of_state.density(self.hydrostatic_pressure(site[1]));
-                flow.position.push(position);
-                flow.velocity.push(Vector::<2>::zeros());
-                flow.density.push(density);
-                flow.mass.push(density * spacing * spacing);
-                flow.stress.push(Tensor::<2>::zeros());
-            }
-        }
+        let flow = displaced_flow(
+            lattice.sites(),
+            (jitter * spacing, seed),
+            |site| equation_of_state.density(self.hydrostatic_pressure(site[1])),
+            |density| density * spacing * spacing,
+        );
         Scene {
-            flow,
-            wall_particles: fill(&[bed], &domain, extent, spacing, wall_rows),
-            enclosure: Enclosure::default(),
+            wall_particles: fill(&[bed], &domain, extent, spacing, wall_rows(numerics.smoothing_ratio)),
             walls: vec![bed],
             domain,
             gravity: Vector::<2>::new(libm::sin(self.slope_angle), -libm::cos(self.slope_angle)) * self.layer.gravity,
-            spacing,
-            equation_of_state,
-            rheology: self.rheology,
-            numerics: self.layer.numerics,
+            numerics,
+            ..Scene::unbounded(flow, spacing, equation_of_state, self.rheology)
         }
     }
 
@@ -250,12 +235,6 @@ impl Layer<'_> {
         let ending = Ending { criterion, may_diverge: self.may_diverge, frames, ..ending };
         Ok(ending.record(&simulation, |_| probe.finish()))
     }
-}
-
-/// Exact pressure `[Pa]` of a compressible layer at rest at `depth` `[m]` below its surface.
-#[must_use]
-pub fn hydrostatic_pressure(bulk_modulus: f64, reference_density: f64, gravity_across: f64, depth: f64) -> f64 {
-    bulk_modulus * libm::expm1(reference_density * gravity_across * depth.max(0.0) / bulk_modulus)
 }
 
 quantities! {

@@ -2,6 +2,7 @@
 
 use super::{BINS, Layer, PeriodicLayer};
 use crate::observation::EnergyBook;
+use crate::setup::hydrostatic_pressure;
 use crate::statistics::relative_l2;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
@@ -168,7 +169,7 @@ impl LayerProbe {
                 *sum += value;
             }
             let (bulk_modulus, density, gravity) = self.hydrostatic;
-            let exact = super::hydrostatic_pressure(bulk_modulus, density, gravity, self.height - y);
+            let exact = hydrostatic_pressure(bulk_modulus, density, gravity, self.height - y);
             if y < 0.8 * self.height {
                 self.ratio.0 = self.ratio.0.min(pressure / exact);
                 self.ratio.1 = self.ratio.1.max(pressure / exact);

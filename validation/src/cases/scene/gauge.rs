@@ -4,7 +4,8 @@ use super::Place;
 use crate::case::ParameterError;
 use crate::cases::enclosed::names::check_line;
 use crate::cases::enclosed::setting::{self, vector};
-use crate::cases::enclosed::{Depth, Line, Measure, Opening};
+use crate::cases::enclosed::{Depth, Measure, Opening};
+use crate::cases::front::Line;
 use bagnold_solver::parameter::positive;
 use bagnold_solver::vector::Vector;
 use schemars::JsonSchema;
@@ -123,13 +124,13 @@ mod tests {
         let (mut simulation, mut memory) = (block(), Memory::default());
         let down = Vector::<2>::new(0.0, -1.0);
         let measures: Vec<_> = gauges.iter().map(|gauge| gauge.measure(&down)).collect();
-        let start = memory.read_all(&measures, &simulation, 160);
+        let start = memory.read_all(&measures, &simulation, &simulation.snapshot(), 160);
         assert!((start[0] - 0.2).abs() < 0.01 && (start[1] - 0.08).abs() < 1e-12, "{start:?}");
         assert_eq!(start[2..], [0.0; 4], "nothing has moved");
         while simulation.time() < 0.03 {
             simulation.step().expect("no divergence");
         }
-        let end = memory.read_all(&measures, &simulation, 160);
+        let end = memory.read_all(&measures, &simulation, &simulation.snapshot(), 160);
         let way = simulation.time();
         assert!((end[0] - start[0] - way).abs() < 0.006, "{} m after {way} m", end[0] - start[0]);
         // three columns of eight particles of 0.1 kg/m

@@ -4,7 +4,8 @@ use super::Place;
 use crate::case::ParameterError;
 use crate::cases::enclosed::names::check_line;
 use crate::cases::enclosed::setting::{self, shown, vector};
-use crate::cases::enclosed::{Depth, Line, Measure, Opening};
+use crate::cases::enclosed::{Depth, Measure, Opening};
+use crate::cases::front::Line;
 use bagnold_solver::parameter::positive;
 use bagnold_solver::vector::Vector;
 use schemars::JsonSchema;
@@ -152,7 +153,7 @@ mod tests {
         let (mut simulation, mut memory) = (block(), Memory::default());
         let down = Vector::<3>::new(0.0, 0.0, -1.0);
         let measures: Vec<_> = gauges.iter().map(|gauge| gauge.measure(&down)).collect();
-        let start = memory.read_all(&measures, &simulation, 960);
+        let start = memory.read_all(&measures, &simulation, &simulation.snapshot(), 960);
         // twelve columns of six particles stand in the circle
         let depth = 12.0 * 6.0 * 1e-6 / (std::f64::consts::FRAC_PI_4 * 0.04 * 0.04);
         assert!((start[0] - 0.2).abs() < 0.01 && (start[1] - depth).abs() < 1e-12, "{start:?}");
@@ -160,7 +161,7 @@ mod tests {
         while simulation.time() < 0.03 {
             simulation.step().expect("no divergence");
         }
-        let end = memory.read_all(&measures, &simulation, 960);
+        let end = memory.read_all(&measures, &simulation, &simulation.snapshot(), 960);
         let way = simulation.time();
         assert!((end[0] - start[0] - way).abs() < 0.006, "{} m after {way} m", end[0] - start[0]);
         // three layers of 48 particles of 1 g, and half of them the other way round

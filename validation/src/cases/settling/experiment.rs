@@ -1,9 +1,9 @@
 //! What a grain alone and a suspension have in common: grains as large as the particles of a fluid in a periodic box.
 
 use crate::case::ParameterError;
-use crate::cases::channel::Lattice;
 use crate::cases::rules;
 use crate::reference::SettlingGrains;
+use crate::setup::Lattice;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
     Bed, DragForm, Fluid, IncompressibleScene, ParticleSet, ProjectionNumerics, Sediment, SedimentLoad,

@@ -5,6 +5,7 @@ use crate::case::Run;
 use crate::cases::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, Scale, WALL_WORK};
 use crate::metric::{Limit, Metric, Origin, quantities};
 use crate::reference::WATER_FRONT;
+use crate::statistics::{Beyond, interpolated};
 
 quantities! {
     [ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK, CORRECTION_WORK]
@@ -43,10 +44,12 @@ fn of_run((run, record): &Record) -> Vec<Metric> {
     metrics
 }
 
-/// Root mean square of x/x_measured − 1 at the measured times less a delay `[-]`.
+/// Root mean square of x/x_measured − 1 at the measured times less a delay `[-]`; the column stood as it starts before.
 fn error_at(time: &[f64], front: &[f64], delay: f64) -> f64 {
     let points = &WATER_FRONT.points;
-    let square = |&(t, x): &(f64, f64)| (interpolated(time, front, t - delay) / x - 1.0).powi(2);
+    let samples: Vec<(f64, f64)> = time.iter().copied().zip(front.iter().copied()).collect();
+    let at = |time: f64| interpolated(&samples, time, (Beyond::EndValue, Beyond::Nothing)).unwrap_or(f64::NAN);
+    let square = |&(t, x): &(f64, f64)| (at(t - delay) / x - 1.0).powi(2);
     (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt()
 }
 
@@ -54,16 +57,6 @@ fn error_at(time: &[f64], front: &[f64], delay: f64) -> f64 {
 fn best_delay(time: &[f64], front: &[f64]) -> (f64, f64) {
     let tried = (-50..=50).map(|k| f64::from(k) / 100.0).map(|delay| (delay, error_at(time, front, delay)));
     tried.fold((0.0, f64::INFINITY), |best, other| if other.1 < best.1 { other } else { best })
-}
-
-/// The front at a time, linear between the samples; that of the start before it.
-fn interpolated(time: &[f64], front: &[f64], at: f64) -> f64 {
-    let after = time.partition_point(|&t| t < at);
-    match after {
-        0 => front.first().copied().unwrap_or(f64::NAN),
-        k if k == time.len() => f64::NAN,
-        k => front[k - 1] + (front[k] - front[k - 1]) * (at - time[k - 1]) / (time[k] - time[k - 1]),
-    }
 }
 
 #[cfg(test)]

@@ -2,20 +2,21 @@
 
 use crate::case::recording::{self, Stage, Watched};
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
+use crate::cases::front::Line;
 use crate::cases::rules;
 use crate::metric::Variant;
 use crate::observation::{EnergyBook, Recorded};
+use crate::setup::{Lattice, displaced_flow, wall_rows};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::parameter::{between, each, filled, not_negative, positive, unique};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::wall::fill;
-use bagnold_solver::weakly_compressible::boundary::{Enclosure, Surface, Wall};
+use bagnold_solver::weakly_compressible::boundary::{Surface, Wall};
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
-use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
-use rand::{RngExt, SeedableRng};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -211,49 +212,33 @@ impl WaterColumnRun {
         let (spacing, height) = (self.spacing(), self.column.aspect_ratio * self.column.width);
         let bulk_modulus = stiffness * density * gravity * height;
         let equation_of_state = EquationOfState { reference_density: density, bulk_modulus, tension: self.tension };
-        let mut random = rand_pcg::Pcg64::seed_from_u64(self.column.seed);
-        let mut shift = || jitter * spacing * (2.0 * random.random::<f64>() - 1.0);
         let rows = (self.column.aspect_ratio * self.resolution as f64).round() as usize;
-        let site = |k: usize| Vector::<2>::new((k % self.resolution) as f64 + 0.5, (k / self.resolution) as f64 + 0.5);
-        let sites: Vec<Vector<2>> = (0..rows * self.resolution).map(|k| site(k) * spacing).collect();
-        let mut flow = Flow::at_rest(sites, density, spacing);
-        for (position, rho) in flow.position.iter_mut().zip(&mut flow.density) {
-            *rho = equation_of_state.density(density * gravity * (height - position[1]));
-            *position += Vector::<2>::new(shift(), shift());
-        }
+        let lattice = Lattice { spacing, rows, columns: self.resolution, bottom: 0.0 };
+        let flow = displaced_flow(
+            lattice.sites(),
+            (jitter * spacing, self.column.seed),
+            |site| equation_of_state.density(density * gravity * (height - site[1])),
+            |_| density * (spacing * spacing),
+        );
         let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
         let mut bed = Wall::still(1, 0.0, 1.0);
         bed.roughness = if self.surface == BedSurface::Smooth { Surface::Smooth } else { Surface::Rough };
-        let layers = (2.0 * numerics.smoothing_ratio).ceil() as usize + 1;
-        let far = Vector::<2>::new(BED_END * self.column.width, height);
+        let extent = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.column.width, height));
+        let rheology = Rheology::Newtonian(Newtonian { viscosity: self.column.viscosity });
         Scene {
-            flow,
-            wall_particles: fill(&[bed], &domain, (Vector::zeros(), far), spacing, layers),
-            enclosure: Enclosure::default(),
+            wall_particles: fill(&[bed], &domain, extent, spacing, wall_rows(numerics.smoothing_ratio)),
             walls: vec![bed],
             domain,
             gravity: Vector::<2>::new(0.0, -gravity),
-            spacing,
-            equation_of_state,
-            rheology: Rheology::Newtonian(Newtonian { viscosity: self.column.viscosity }),
             numerics,
+            ..Scene::unbounded(flow, spacing, equation_of_state, rheology)
         }
     }
 
-    /// The first place from the symmetry plane outwards where less than [`FRONT_THICKNESS`] of the width stands `[m]`: a
-    /// particle's volume is spread over a spacing to either side, in eighths.
+    /// The first place from the symmetry plane outwards where less than [`FRONT_THICKNESS`] of the width stands `[m]`.
     fn front(&self, snapshot: &Snapshot<2>) -> f64 {
-        let (spacing, bin) = (self.spacing(), 0.25 * self.spacing());
-        let mut area = vec![0.0; (BED_END * self.column.width / bin) as usize];
-        for ((position, mass), density) in snapshot.position.iter().zip(&snapshot.mass).zip(&snapshot.density) {
-            for part in 0..8 {
-                let place = position[0] + (f64::from(part) - 3.5) / 4.0 * spacing;
-                if let Some(area) = area.get_mut((place.abs() / bin) as usize) {
-                    *area += mass / density / 8.0;
-                }
-            }
-        }
-        let least = FRONT_THICKNESS * self.column.width * bin;
-        area.iter().position(|area| *area < least).unwrap_or(area.len()) as f64 * bin
+        let (from, to) = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.column.width, 0.0));
+        let line = Line { from, to, section: FRONT_THICKNESS * self.column.width, strip: None };
+        line.reached(self.spacing(), snapshot)
     }
 }

@@ -4,6 +4,7 @@ use super::reading::same_kind;
 use super::{Column, Measurements};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::input::FieldError;
+use crate::statistics::{Beyond, interpolated};
 use std::collections::BTreeSet;
 
 /// A panel with the axes of the measurements.
@@ -105,24 +106,14 @@ impl Place {
         let squares: Vec<f64> = given
             .zip(&measurements.uncertainty)
             .filter_map(|((x, y), uncertainty)| {
-                let residual = (value_at(&curve, x * to_x)? - y * to_y) / (uncertainty * to_y);
+                let curve = interpolated(&curve, x * to_x, (Beyond::Nothing, Beyond::Nothing))?;
+                let residual = (curve - y * to_y) / (uncertainty * to_y);
                 Some(residual * residual)
             })
             .collect();
         let mean = squares.iter().sum::<f64>() / squares.len() as f64;
         (!squares.is_empty()).then_some((mean.sqrt(), squares.len()))
     }
-}
-
-/// The value of a curve between its points; none beyond its ends.
-fn value_at(curve: &[(f64, f64)], x: f64) -> Option<f64> {
-    let after = curve.partition_point(|point| point.0 < x);
-    let &(right, above) = curve.get(after)?;
-    if right == x {
-        return Some(above);
-    }
-    let &(left, below) = curve.get(after.checked_sub(1)?)?;
-    Some(below + (above - below) * (x - left) / (right - left))
 }
 
 /// What a simulation has drawn.
