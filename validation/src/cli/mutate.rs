@@ -112,6 +112,8 @@ fn all(command: &Mutate, quiet: bool, output: &mut (dyn Write + Send)) -> Result
     }
     let program = Program::new(build(&workspace, &mutations)?, &mutations, claimed.staging())?;
     let findings = findings(&errors, &program, quiet)?;
+    // what the trials left goes before the folder is published
+    drop(program);
     write(&findings, claimed.staging()).map_err(|error| FileError::unwritable(&command.out, &error))?;
     claimed.publish()?;
     say(output, &table(&findings));

@@ -31,6 +31,14 @@ pub(super) fn report(
         }
         _ => (prepare(command, registry)?, Places::OfCases),
     };
+    let named: Vec<(String, Tier)> = match &suite {
+        Some(suite) => {
+            let tier = |study: &Study| command.tier.unwrap_or(study.tier());
+            suite.studies().iter().map(|study| (study.name().to_owned(), tier(study))).collect()
+        }
+        None => cases.iter().map(|case| (case.name().to_owned(), command.tier.unwrap_or(Tier::Quick))).collect(),
+    };
+    let mut baseline = baseline(command, &places, &named)?;
     let out = folder(command)?;
     let claimed = OutputFolder::claim(&out)?;
     let known = places.known_failures()?;
@@ -47,7 +55,9 @@ pub(super) fn report(
         None => simulated,
     };
     profile.over("runs and their figures");
-    let baseline = if command.accept { accept(&places, &results)? } else { baseline(command, &places, &results)? };
+    if command.accept {
+        baseline = accept(&places, &results)?;
+    }
     let cases: Vec<CaseReport> = results.iter().map(case_report).collect();
     let page = Report {
         title: command.suite.as_ref().map_or_else(|| "Bagnold validation report".to_owned(), |folder| name_of(folder)),
@@ -124,16 +134,16 @@ fn accept(places: &Places, results: &[CaseResult]) -> Result<Baseline, ProgramEr
     Ok(baseline)
 }
 
-/// What the values are compared with: those of an earlier report, or the accepted ones.
-fn baseline(command: &Arguments, places: &Places, results: &[CaseResult]) -> Result<Baseline, ProgramError> {
+/// What the values are compared with: those of an earlier report, or the accepted ones. Read before anything is simulated.
+fn baseline(command: &Arguments, places: &Places, named: &[(String, Tier)]) -> Result<Baseline, ProgramError> {
     if let Some(folder) = &command.against {
-        let names: Vec<String> = results.iter().map(|result| result.name.clone()).collect();
-        let tier = results.first().map_or(Tier::Quick, |result| result.tier);
+        let names: Vec<String> = named.iter().map(|(name, _)| name.clone()).collect();
+        let tier = named.first().map_or(Tier::Quick, |(_, tier)| *tier);
         return Ok(Baseline::of_report(folder, &names, tier)?);
     }
     let mut baseline = Baseline::default();
-    for result in results {
-        baseline.extend(places.accepted(&result.name, result.tier)?);
+    for (name, tier) in named {
+        baseline.extend(places.accepted(name, *tier)?);
     }
     Ok(baseline)
 }

@@ -7,6 +7,7 @@ use crate::input::{FieldError, nearest};
 use crate::judge::Measurements;
 use crate::metric::{Metric, Variant};
 use crate::output::Table;
+use crate::statistics::{Beyond, interpolated};
 
 /// A column of the tables that a case writes, and the part of it that counts.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,13 +107,7 @@ impl Curve {
 
     /// The value at a place, linear between points; none beyond the ends.
     fn at(&self, place: f64) -> Option<f64> {
-        let after = self.points.partition_point(|point| point.0 < place);
-        let right = self.points.get(after)?;
-        if right.0 == place {
-            return Some(right.1);
-        }
-        let left = self.points.get(after.checked_sub(1)?)?;
-        Some(left.1 + (right.1 - left.1) * (place - left.0) / (right.0 - left.0))
+        interpolated(&self.points, place, (Beyond::Nothing, Beyond::Nothing))
     }
 
     /// Its distance from measured points (abscissa, value, standard uncertainty) within a window, in the curve's units. It must
