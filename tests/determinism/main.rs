@@ -30,12 +30,18 @@ fn run(settings: &[&[&str]], threads: usize) -> CaseResult {
     result
 }
 
+/// All metrics with all their digits. A run so short has not come to the times of some, which are then not a number and so equal
+/// to nothing, not even to themselves.
+fn digits(result: &CaseResult) -> String {
+    format!("{:?}", result.metrics)
+}
+
 #[test]
 fn one_and_two_threads_end_in_the_same_bits() {
     let [one, two] = [1, 2].map(|threads| run(&[SHORT, WIDE], threads));
     assert_eq!(one.state_hash, two.state_hash);
     assert_eq!(one.runs[0].steps, two.runs[0].steps);
-    assert_eq!(one.metrics, two.metrics);
+    assert_eq!(digits(&one), digits(&two));
     assert_eq!(one.frames, two.frames);
 }
 
@@ -43,7 +49,7 @@ fn one_and_two_threads_end_in_the_same_bits() {
 fn two_runs_in_one_process_end_in_the_same_bits() {
     let [first, second] = [(), ()].map(|()| run(&[SHORT, SMALL], 1));
     assert_eq!(first.state_hash, second.state_hash);
-    assert_eq!(first.metrics, second.metrics);
+    assert_eq!(digits(&first), digits(&second));
     assert_eq!(first.frames, second.frames);
 }
 
