@@ -69,12 +69,12 @@ fn what_walls_take_of_the_bodies_is_told() {
     let place = Place::new();
     let text = |lower: f64| {
         format!(
-            "case = \"scene\"\nname = \"cut\"\nspacing = 0.01\nduration = 0.01\ninterval = 0.005\n[[bodies]]\nshape = \"box\"\n\
-             lower = [0.0, {lower}]\nupper = [0.1, 0.1]\n[[walls]]\nname = \"floor\"\npoints = [[-0.1, 0.0], [0.2, 0.0]]\n"
+            "case = \"scene\"\nname = \"cut\"\nspacing = 0.01\nduration = 0.01\ninterval = 0.005\n\
+             cut_at_most = 0.5\n[[bodies]]\nshape = \"box\"\nlower = [0.0, {lower}]\nupper = [0.1, 0.1]\n[[walls]]\nname = \"floor\"\npoints = [[-0.1, 0.0], [0.2, 0.0]]\n"
         )
     };
-    // rows of ten particles; the dummy particles fill four rows
-    for (lower, taken) in [(0.0, 0.0), (-0.03, 100.0 * 3.0 / 13.0)] {
+    // rows of ten particles; the dummy particles fill four rows, behind which a wall takes what a body has too
+    for (lower, taken) in [(0.0, 0.0), (-0.03, 100.0 * 3.0 / 13.0), (-0.1, 50.0)] {
         let file = place.file("cut.toml", &text(lower));
         let metrics = document(&place.run(&[&file, "--json", "--quiet"])).metrics;
         let cut_off = metrics.iter().find(|metric| metric.name == "cut_off").and_then(|metric| metric.value);

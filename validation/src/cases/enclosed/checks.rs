@@ -1,6 +1,7 @@
 //! Rules between the fields of a scene.
 
 use super::parameters::Setting;
+use super::periods::Periods;
 use super::setting::{Body, Gauge, Wall, shown, vector};
 use super::{Measure, SceneParameters, names, sides::Sides};
 use crate::case::ParameterError;
@@ -51,11 +52,45 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         let down = self.down();
         for (k, gauge) in self.gauges.iter().enumerate() {
             if let Measure::Force { wall } = gauge.measure(&down) {
-                names::check_wall(k, wall, self.walls.iter().map(Wall::name))?;
+                names::check_wall(&format!("gauges[{k}].wall"), wall, self.walls.iter().map(Wall::name))?;
             }
             gauge.check(self.spacing, &down).map_err(|error| error.within(&format!("gauges[{k}]")))?;
+            self.check_direction(k, gauge)?;
         }
         names::check_measured(&self.measured, |name| self.gauges.iter().any(|gauge| gauge.name() == name))
+    }
+
+    /// What a thickness is measured along: one direction, which leaves the material somewhere.
+    fn check_direction(&self, k: usize, gauge: &S::Gauge) -> Result<(), ParameterError> {
+        let within = |error: ParameterError| Err(error.within(&format!("gauges[{k}]")));
+        let (given, wall) = gauge.along();
+        if let Some(wall) = wall {
+            names::check_wall(&format!("gauges[{k}].normal_to"), wall, self.walls.iter().map(Wall::name))?;
+        }
+        if let Some(given) = given {
+            let shown = shown(given.iter());
+            if wall.is_some() {
+                let rule = "absent beside `normal_to`";
+                return within(ParameterError::field("direction", shown, rule, "one of the two says it"));
+            }
+            if !(given.norm() > 0.0 && given.norm().is_finite()) {
+                let rule = "a direction of some length";
+                return within(ParameterError::field(
+                    "direction",
+                    shown,
+                    rule,
+                    "leave it out to measure along gravity",
+                ));
+            }
+        }
+        let direction = self.direction_of(gauge);
+        let is_depth = matches!(gauge.measure(&direction), Measure::Depth(_));
+        if is_depth && !Periods::of(&self.sides.axes()).are_crossed_by(&direction) {
+            let rule = "a direction that crosses the layer between the periodic sides";
+            let remedy = "along periodic sides the material never ends: give another direction, or `normal_to` a wall";
+            return within(ParameterError::field("direction", shown(direction.iter()), rule, remedy));
+        }
+        Ok(())
     }
 
     /// Times and lengths that fit to each other.

@@ -1,10 +1,12 @@
 //! Where particles start: on the sites of a lattice that bodies hold, as dense as the material above them makes them.
 
+use super::behind_walls::{Permissions, Site};
 use super::parameters::Setting;
-use super::setting::{Body, vector};
+use super::setting::{Body, Wall, vector};
 use super::sides::Sides;
-use super::surfaces::Surfaces;
+use super::surfaces::{Surfaces, is_taken};
 use super::{SceneParameters, shapes};
+use crate::case::ParameterError;
 use crate::setup::displaced_flow;
 use bagnold_solver::material::equation_of_state::EquationOfState;
 use bagnold_solver::vector::Vector;
@@ -16,34 +18,52 @@ const STEPS: f64 = 8.0;
 impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     /// Particles on the sites of a lattice through the origin that bodies hold and that are free of walls, under the
     /// pressure of the material above them; and the share of the sites of bodies that walls take `[-]`.
-    pub(super) fn fill(&self, walls: &Surfaces<D>, equation_of_state: &EquationOfState) -> (Flow<D>, f64) {
+    ///
+    /// # Errors
+    /// A body of which walls take more than they may.
+    pub(super) fn fill(
+        &self,
+        walls: &Surfaces<D>,
+        equation_of_state: &EquationOfState,
+    ) -> Result<(Flow<D>, f64), ParameterError> {
         let Self { spacing, jitter, ref bodies, .. } = *self;
         let gravity = vector(&self.gravity);
         let (up, weight) = (-gravity.normalize(), equation_of_state.reference_density * gravity.norm());
-        let (mut sites, mut velocities, mut taken) = (Vec::new(), Vec::new(), 0_u32);
         let corners = bodies.iter().flat_map(|body| <[Vector<D>; 2]>::from(body.extent()));
-        for site in lattice(shapes::around(corners), spacing) {
-            let Some(body) = holder(bodies, &site).filter(|_| self.sides.hold(&site)) else { continue };
-            if walls.are_free(&site, spacing) {
-                sites.push(site);
-                velocities.push(body.velocity());
-            } else {
-                taken += 1;
-            }
-        }
-        let share = f64::from(taken) / (f64::from(taken) + sites.len() as f64);
+        let held = lattice(shapes::around(corners), spacing).filter_map(|(cell, place)| {
+            let body = holder(bodies, &place).filter(|_| self.sides.hold(&place))?;
+            Some(Site { cell, place, body, nearest: walls.nearest(&place) })
+        });
+        let sites: Vec<Site<D>> = held.collect();
+        let permissions = Permissions {
+            walls: self.walls.iter().map(|wall| (wall.name(), wall.may_have_two_sides())).collect(),
+            most: self.cut_at_most,
+            turn: S::Wall::TURN,
+        };
+        let behind = permissions.behind(&sites)?;
+        let is_free = |site: &Site<D>| !site.nearest.is_some_and(|nearest| is_taken(&nearest, spacing));
+        let free: Vec<&Site<D>> = sites
+            .iter()
+            .zip(&behind)
+            .filter(|(site, behind)| !**behind && is_free(site))
+            .map(|(site, _)| site)
+            .collect();
+        let share = (sites.len() - free.len()) as f64 / sites.len() as f64;
         let flow = displaced_flow(
-            sites,
+            free.iter().map(|site| site.place),
             (jitter * spacing, self.seed),
             |site| equation_of_state.density(weight * depth(bodies, site, &up, spacing)),
             |density| (0..D).fold(density, |mass, _| mass * spacing),
         );
-        (Flow { velocity: velocities, ..flow }, share)
+        Ok((Flow { velocity: free.iter().map(|site| bodies[site.body].velocity()).collect(), ..flow }, share))
     }
 }
 
-/// Middles of the cells of a lattice through the origin that cover a box `[m]`; the first axis runs fastest.
-fn lattice<const D: usize>((lower, upper): (Vector<D>, Vector<D>), spacing: f64) -> impl Iterator<Item = Vector<D>> {
+/// Cells of a lattice through the origin that cover a box, and their middles `[m]`; the first axis runs fastest.
+fn lattice<const D: usize>(
+    (lower, upper): (Vector<D>, Vector<D>),
+    spacing: f64,
+) -> impl Iterator<Item = ([i64; D], Vector<D>)> {
     let cell = |coordinate: f64| (coordinate / spacing).floor() as i64;
     let (first, last) = (<[f64; D]>::from(lower).map(cell), <[f64; D]>::from(upper).map(cell));
     let is_empty = (0..D).any(|axis| first[axis] > last[axis]);
@@ -58,12 +78,12 @@ fn lattice<const D: usize>((lower, upper): (Vector<D>, Vector<D>), spacing: f64)
         }
         None
     })
-    .map(move |cells| Vector::<D>::from(cells.map(|cell| cell as f64 + 0.5)) * spacing)
+    .map(move |cells| (cells, Vector::<D>::from(cells.map(|cell| cell as f64 + 0.5)) * spacing))
 }
 
-/// The first body that holds a place, if any does.
-fn holder<'a, B: Body<D>, const D: usize>(bodies: &'a [B], place: &Vector<D>) -> Option<&'a B> {
-    bodies.iter().find(|body| body.holds(place))
+/// The first body that holds a place, if any does, by its place among all.
+fn holder<const D: usize>(bodies: &[impl Body<D>], place: &Vector<D>) -> Option<usize> {
+    bodies.iter().position(|body| body.holds(place))
 }
 
 /// Depth of a place below the surface of the material, against the direction `up`: as far as bodies reach `[m]`.
@@ -88,7 +108,8 @@ mod tests {
     #[test]
     fn the_sites_of_a_box_run_along_its_first_axis() {
         let corners = (Vector::<3>::new(-0.1, 0.0, 0.25), Vector::<3>::new(0.15, 0.12, 0.32));
-        let sites: Vec<[f64; 3]> = lattice(corners, 0.1).map(|site| (site * 20.0).map(f64::round).into()).collect();
+        let sites: Vec<[f64; 3]> =
+            lattice(corners, 0.1).map(|(_, site)| (site * 20.0).map(f64::round).into()).collect();
         let row = |y, z| [[-1.0, y, z], [1.0, y, z], [3.0, y, z]];
         assert_eq!(sites, [row(1.0, 5.0), row(3.0, 5.0), row(1.0, 7.0), row(3.0, 7.0)].concat());
         let none = shapes::around::<2>([]);

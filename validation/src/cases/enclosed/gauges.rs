@@ -1,6 +1,7 @@
 //! Reading the gauges of a scene, sample by sample.
 
 use super::Measure;
+use super::periods::Periods;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
@@ -11,8 +12,8 @@ use serde::{Deserialize, Serialize};
 pub(in crate::cases) struct Memory<const D: usize> {
     /// Time of the last sample `[s]`.
     time: f64,
-    /// Places of the particles then `[m]`, by their place in the scene; NaN of those that have left.
-    places: Vec<Vector<D>>,
+    /// Places `[m]` and velocities `[m/s]` of the particles then, by their place in the scene; NaN of those that have left.
+    places: Vec<(Vector<D>, Vector<D>)>,
     /// Impulses of the walls then `[kg m/s]`.
     impulses: Vec<Vector<D>>,
     /// Mass that has crossed each gauge's opening `[kg]`.
@@ -21,22 +22,22 @@ pub(in crate::cases) struct Memory<const D: usize> {
 
 impl<const D: usize> Memory<D> {
     /// The values of all gauges now, column by column, with the snapshot of the simulation; remembers the state for the next
-    /// sample. `begun` particles were there at the start.
+    /// sample. `begun` particles were there at the start, between sides that repeat themselves by `periods`.
     pub(in crate::cases) fn read_all(
         &mut self,
         measures: &[Measure<'_, D>],
         simulation: &Simulation<D>,
         snapshot: &Snapshot<D>,
-        begun: usize,
+        (begun, periods): (usize, &Periods<D>),
     ) -> Vec<f64> {
         self.crossed.resize(measures.len(), 0.0);
-        let read = |(k, measure)| self.read(k, measure, simulation, snapshot);
+        let read = |(k, measure)| self.read((k, measure), simulation, snapshot, periods);
         let values = measures.iter().enumerate().flat_map(read).collect();
         let particles = simulation.particles();
         self.places.clear();
-        self.places.resize(begun, Vector::repeat(f64::NAN));
+        self.places.resize(begun, (Vector::repeat(f64::NAN), Vector::zeros()));
         for (index, &identity) in particles.identity.iter().enumerate() {
-            self.places[identity as usize] = particles.position[index];
+            self.places[identity as usize] = (particles.position[index], particles.velocity[index]);
         }
         self.impulses = simulation.shell_impulses().to_vec();
         self.time = simulation.time();
@@ -46,16 +47,16 @@ impl<const D: usize> Memory<D> {
     /// The values of the gauge at this place among all, one a column.
     fn read(
         &mut self,
-        gauge: usize,
-        measure: &Measure<'_, D>,
+        (gauge, measure): (usize, &Measure<'_, D>),
         simulation: &Simulation<D>,
         snapshot: &Snapshot<D>,
+        periods: &Periods<D>,
     ) -> Vec<f64> {
         let elapsed = simulation.time() - self.time;
         let per_time = |change: f64| if elapsed > 0.0 { change / elapsed } else { 0.0 };
         match measure {
             Measure::Front(line) => vec![line.reached(simulation.spacing(), snapshot)],
-            Measure::Depth(depth) => vec![depth.thickness(snapshot)],
+            Measure::Depth(depth) => vec![depth.thickness(simulation.spacing(), periods, snapshot)],
             Measure::Force { wall } => {
                 let Some(k) = simulation.shells().iter().position(|shell| shell.name == *wall) else {
                     return vec![0.0; D];
@@ -65,7 +66,7 @@ impl<const D: usize> Memory<D> {
                 (before - simulation.shell_impulses()[k]).iter().map(|&change| per_time(change)).collect()
             }
             Measure::Flux(opening) => {
-                let crossed = opening.crossed(simulation, &self.places);
+                let crossed = opening.crossed(simulation, periods, &self.places, elapsed);
                 self.crossed[gauge] += crossed;
                 vec![self.crossed[gauge], per_time(crossed)]
             }

@@ -2,6 +2,7 @@
 //! space give in a way of their own (bodies, walls, gauges, sides, pictures, the tiers' scene) stands in the folders of these
 //! cases, behind [`Setting`].
 
+mod behind_walls;
 mod checks;
 pub(super) mod figures;
 pub(super) mod filling;
@@ -13,6 +14,7 @@ pub(super) mod metrics;
 pub(super) mod names;
 mod observation;
 mod parameters;
+pub(super) mod periods;
 mod run;
 pub(super) mod series;
 pub mod setting;

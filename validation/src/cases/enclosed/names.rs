@@ -56,9 +56,9 @@ pub(super) fn check<'a>(
     Ok(())
 }
 
-/// The wall of a gauge is one of the scene.
+/// The wall that a field of a gauge names is one of the scene.
 pub(super) fn check_wall<'a>(
-    gauge: usize,
+    field: &str,
     wall: &str,
     walls: impl Iterator<Item = &'a str>,
 ) -> Result<(), ParameterError> {
@@ -68,7 +68,7 @@ pub(super) fn check_wall<'a>(
     }
     let all = if names.is_empty() { "there is none".to_owned() } else { names.join(", ") };
     let rule = format!("the name of a wall: {all}");
-    Err(ParameterError::field(&format!("gauges[{gauge}].wall"), format!("\"{wall}\""), &rule, "correct the name"))
+    Err(ParameterError::field(field, format!("\"{wall}\""), &rule, "correct the name"))
 }
 
 /// Measured series have a gauge, times and positive values.

@@ -16,6 +16,7 @@ use bagnold_solver::material::equation_of_state::Tension;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, filled, positive};
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::facet::Facet;
 use bagnold_solver::weakly_compressible::boundary::shell::Shell;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use schemars::JsonSchema;
@@ -86,6 +87,9 @@ pub struct SceneParameters<S: Setting<D>, const D: usize> {
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
+    /// Largest share of a body that may stand behind walls, where it is left out `[-]`.
+    #[schemars(transform = between(0.0, 1.0, "0.1 allows for what corners and curved walls cut off"))]
+    pub cut_at_most: f64,
     /// Constitutive law of the material.
     pub material: Rheology,
     /// Its density.
@@ -131,6 +135,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             bulk: Bulk::of_grains(0.6),
             sides,
             bodies: Vec::new(),
+            cut_at_most: 0.1,
             walls: Vec::new(),
             gauges: Vec::new(),
             measured: Vec::new(),
@@ -145,8 +150,20 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
 
     /// What the gauges measure, gauge by gauge.
     pub(super) fn measures(&self) -> Vec<Measure<'_, D>> {
-        let down = self.down();
-        self.gauges.iter().map(|gauge| gauge.measure(&down)).collect()
+        self.gauges.iter().map(|gauge| gauge.measure(&self.direction_of(gauge))).collect()
+    }
+
+    /// The unit vector along which a gauge measures a thickness: gravity, unless it says otherwise.
+    pub(super) fn direction_of(&self, gauge: &S::Gauge) -> Vector<D> {
+        let of_wall = |name: &str| {
+            let wall = self.walls.iter().find(|wall| wall.name() == name)?;
+            let Measure::Depth(depth) = gauge.measure(&self.down()) else { return None };
+            let facets = wall.shell().facets;
+            let distance = |facet: &Facet<D>| (facet.nearest(&depth.at) - depth.at).norm();
+            facets.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|facet| facet.normal)
+        };
+        let (given, wall) = gauge.along();
+        given.map(|given| given.normalize()).or(wall.and_then(of_wall)).unwrap_or_else(|| self.down())
     }
 
     /// Lower and upper corner of all material and walls `[m]`.

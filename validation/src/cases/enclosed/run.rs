@@ -2,6 +2,7 @@
 
 use super::gauges::Memory;
 use super::parameters::Setting;
+use super::periods::Periods;
 use super::setting::{Body, Wall, vector};
 use super::sides::Sides;
 use super::surfaces::{Surfaces, behind};
@@ -68,7 +69,7 @@ where
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SceneObservation<D>>, ParameterError> {
         let scene = &self.scene;
-        let (made, cut_off) = self.scene();
+        let (made, cut_off) = self.scene()?;
         let begun = made.flow.position.len();
         if begun == 0 {
             let value = format!("{} of them without room for a particle", scene.bodies.len());
@@ -77,6 +78,7 @@ where
             return Err(ParameterError::field("bodies", value, &rule, remedy));
         }
         let (gravity, measures) = (vector(&scene.gravity), scene.measures());
+        let periods = Periods::of(&scene.sides.axes());
         let stage = Stage { progress, end: scene.duration, interval: scene.interval, context: &() };
         let begin = |_: &Simulation<D>| Watch {
             observation: SceneObservation::default(),
@@ -91,7 +93,7 @@ where
                 *last_good = simulation.snapshot();
                 let steps = simulation.steps() as f64 * last_good.mass.len() as f64;
                 progress.advance(last_good.time, scene.duration, steps);
-                let values = watch.memory.read_all(&measures, simulation, last_good, begun);
+                let values = watch.memory.read_all(&measures, simulation, last_good, (begun, &periods));
                 watch.observation.enter(simulation, last_good, &gravity, values);
                 let due = watch.frames.len() as f64 * scene.duration / scene.pictures as f64;
                 if last_good.time >= due - 0.5 * scene.interval && watch.frames.len() < scene.pictures {
@@ -131,18 +133,21 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
     }
 
     /// The scene, and the share of the sites of bodies that walls take `[-]`.
-    fn scene(&self) -> (Scene<D>, f64) {
+    ///
+    /// # Errors
+    /// A body of which walls take more than they may.
+    fn scene(&self) -> Result<(Scene<D>, f64), ParameterError> {
         let SceneParameters { spacing, numerics, material, .. } = self.scene;
         let domain = Domain { axes: self.scene.sides.axes() };
         let mut shells: Vec<_> = self.scene.walls.iter().map(Wall::shell).collect();
         S::lay(&mut shells, &domain, spacing, self.rows());
         let equation_of_state = self.equation_of_state();
         let surfaces = Surfaces::of(&shells, self.rows() as f64 * spacing);
-        let (flow, cut_off) = self.scene.fill(&surfaces, &equation_of_state);
+        let (flow, cut_off) = self.scene.fill(&surfaces, &equation_of_state)?;
         let mut scene = Scene::unbounded(flow, spacing, equation_of_state, material);
         scene.enclosure = Enclosure { shells, exits: self.scene.sides.exits() };
         (scene.domain, scene.numerics) = (domain, numerics);
         scene.gravity = vector(&self.scene.gravity);
-        (scene, cut_off)
+        Ok((scene, cut_off))
     }
 }

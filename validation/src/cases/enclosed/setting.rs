@@ -31,9 +31,14 @@ pub trait Wall<const D: usize>: Given {
     const FACETS: &'static str;
     /// What it is given by: the places where it is at the start.
     const GIVEN_BY: &'static str;
+    /// How one is turned round that is seen from its back.
+    const TURN: &'static str;
 
     /// Its name, by which gauges and messages call it.
     fn name(&self) -> &str;
+
+    /// Whether material may stand behind it.
+    fn may_have_two_sides(&self) -> bool;
 
     /// The wall for the solver, without its dummy particles.
     fn shell(&self) -> Shell<D>;
@@ -56,7 +61,11 @@ pub trait Gauge<const D: usize>: Given {
     /// Its name.
     fn name(&self) -> &str;
 
-    /// What it measures, where gravity points along the unit vector `down`.
+    /// What a thickness is measured along, unless along gravity: a direction of any length, or the normal of the wall of a name.
+    fn along(&self) -> (Option<Vector<D>>, Option<&str>);
+
+    /// What it measures, where gravity, or what takes its place as the direction of a thickness, points along the unit vector
+    /// `down`.
     fn measure(&self, down: &Vector<D>) -> Measure<'_, D>;
 
     /// Refuses lines and openings without a size, measured by the spacing `[m]`.

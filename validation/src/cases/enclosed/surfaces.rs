@@ -14,17 +14,31 @@ const PASSED: f64 = 0.5;
 /// Facets that stand together, with a grid to find them by.
 struct Surface<const D: usize> {
     facets: Vec<Facet<D>>,
+    /// The wall that each facet is of, by its place among all.
+    walls: Vec<usize>,
     grid: FacetGrid<D>,
 }
 
+/// The wall that is nearest to a place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct NearestWall {
+    /// Its place among all.
+    pub(super) wall: usize,
+    /// Distance from it `[m]`, negative behind.
+    pub(super) distance: f64,
+}
+
 impl<const D: usize> Surface<D> {
-    fn of(facets: Vec<Facet<D>>, range: f64) -> Self {
-        Self { grid: FacetGrid::new(&facets, range), facets }
+    fn of<'a>(shells: impl Iterator<Item = (usize, &'a Shell<D>)>, range: f64) -> Self {
+        let (walls, facets): (Vec<usize>, Vec<Facet<D>>) =
+            shells.flat_map(|(wall, shell)| shell.facets.iter().map(move |facet| (wall, *facet))).unzip();
+        Self { grid: FacetGrid::new(&facets, range), facets, walls }
     }
 
-    /// Distance of a place `[m]`, negative behind; none where it is farther than the range.
-    fn distance(&self, place: &Vector<D>) -> Option<f64> {
-        self.grid.standing(&self.facets, place).map(|found| found.distance)
+    /// The wall nearest to a place; none where all are farther than the range.
+    fn nearest(&self, place: &Vector<D>) -> Option<NearestWall> {
+        let found = self.grid.standing(&self.facets, place)?;
+        Some(NearestWall { wall: self.walls[found.facet], distance: found.distance })
     }
 }
 
@@ -34,26 +48,34 @@ pub(super) struct Surfaces<const D: usize>(Vec<Surface<D>>);
 impl<const D: usize> Surfaces<D> {
     /// The surfaces of some walls, by which places are found up to a distance `[m]`: as far as the walls are thick.
     pub(super) fn of(shells: &[Shell<D>], range: f64) -> Self {
-        let (rest, moving): (Vec<_>, Vec<_>) = shells.iter().partition(|shell| shell.motion.is_rest());
-        let rest = rest.into_iter().flat_map(|shell| shell.facets.clone()).collect();
-        let all = std::iter::once(rest).chain(moving.into_iter().map(|shell| shell.facets.clone()));
-        Self(all.map(|facets| Surface::of(facets, range)).collect())
+        let (rest, moving): (Vec<_>, Vec<_>) = shells.iter().enumerate().partition(|(_, shell)| shell.motion.is_rest());
+        let rest = std::iter::once(Surface::of(rest.into_iter(), range));
+        let moving = moving.into_iter().map(|one| Surface::of(std::iter::once(one), range));
+        Self(rest.chain(moving).collect())
     }
 
-    /// Whether a site of a lattice at a spacing `[m]` is in front of all walls, or farther behind them than they are thick.
-    pub(super) fn are_free(&self, site: &Vector<D>, spacing: f64) -> bool {
-        self.0.iter().all(|surface| surface.distance(site).is_none_or(|distance| distance > FREE * spacing))
+    /// The wall that a site is in front of by the least, or behind of by the most; none where all are farther than they are
+    /// thick.
+    pub(super) fn nearest(&self, site: &Vector<D>) -> Option<NearestWall> {
+        let found = self.0.iter().filter_map(|surface| surface.nearest(site));
+        found.min_by(|a, b| a.distance.total_cmp(&b.distance))
     }
+}
+
+/// Whether a site of a lattice at a spacing `[m]` is too near to its nearest wall for a particle, or behind it.
+pub(super) fn is_taken(nearest: &NearestWall, spacing: f64) -> bool {
+    nearest.distance <= FREE * spacing
 }
 
 /// Particles that are behind a wall by less than half a spacing: they have passed it.
 pub(super) fn behind<const D: usize>(simulation: &Simulation<D>) -> u64 {
     let range = PASSED * simulation.spacing();
-    let surfaces: Vec<_> = simulation.shells().iter().map(|shell| Surface::of(shell.facets.clone(), range)).collect();
+    let shells = simulation.shells().iter().enumerate();
+    let surfaces: Vec<_> = shells.map(|one| Surface::of(std::iter::once(one), range)).collect();
     let particles = simulation.particles();
     let count = particles.position[..particles.flow_count()].iter().filter(|place| {
         let mut shells = surfaces.iter().zip(simulation.shell_displacements());
-        shells.any(|(surface, moved)| surface.distance(&(*place - moved)).is_some_and(|distance| distance < 0.0))
+        shells.any(|(surface, moved)| surface.nearest(&(*place - moved)).is_some_and(|wall| wall.distance < 0.0))
     });
     count.count() as u64
 }

@@ -37,6 +37,9 @@ pub struct WallLine {
     /// Whether the flow sticks to it or slides.
     #[serde(default = "setting::rough")]
     pub surface: Surface,
+    /// Whether material may stand behind it, farther away than it is thick.
+    #[serde(default)]
+    pub both_sides: bool,
     /// How it moves: time `[s]`, displacement along x `[m]` and along y `[m]`, linear between the rows; empty for a wall
     /// at rest.
     #[serde(default)]
@@ -50,9 +53,14 @@ fn left() -> FlowSide {
 impl setting::Wall<2> for WallLine {
     const FACETS: &'static str = "segments";
     const GIVEN_BY: &'static str = "points";
+    const TURN: &'static str = "turn the wall round by `flow`, if it is seen from its back";
 
     fn name(&self) -> &str {
         &self.name
+    }
+
+    fn may_have_two_sides(&self) -> bool {
+        self.both_sides
     }
 
     fn shell(&self) -> Shell<2> {

@@ -31,7 +31,8 @@ pub enum Gauge {
         #[schemars(transform = positive("give it in metres, such as four spacings"))]
         width: f64,
     },
-    /// Thickness of the material along gravity around a place: its volume within a circle, over the circle's area.
+    /// Thickness of the material around a place, along gravity, another direction or the normal of a wall: its volume within
+    /// a circle, over the circle's area.
     Depth {
         /// Its name.
         name: String,
@@ -40,6 +41,12 @@ pub enum Gauge {
         /// Diameter of the circle `[m]`.
         #[schemars(transform = positive("give it in metres, such as four spacings"))]
         width: f64,
+        /// What it is measured along, unless along gravity: x, y, z of any length `[-]`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        direction: Option<Place>,
+        /// Name of the wall along whose normal it is measured, unless along gravity: that of its nearest triangle.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        normal_to: Option<String>,
     },
     /// Force of the flow on a wall, along x, y and z.
     Force {
@@ -65,6 +72,11 @@ impl setting::Gauge<3> for Gauge {
         name
     }
 
+    fn along(&self) -> (Option<Vector<3>>, Option<&str>) {
+        let Self::Depth { direction, normal_to, .. } = self else { return (None, None) };
+        (direction.as_ref().map(vector), normal_to.as_deref())
+    }
+
     fn measure(&self, down: &Vector<3>) -> Measure<'_, 3> {
         match self {
             Self::Front { from, to, thickness, width, .. } => {
@@ -74,7 +86,7 @@ impl setting::Gauge<3> for Gauge {
             }
             Self::Depth { at, width, .. } => {
                 let section = std::f64::consts::FRAC_PI_4 * width * width;
-                Measure::Depth(Depth { at: vector(at), down: *down, width: *width, section })
+                Measure::Depth(Depth { at: vector(at), direction: *down, width: *width, section })
             }
             Self::Force { wall, .. } => Measure::Force { wall },
             Self::Flux { corners: (a, b, c), .. } => {
@@ -119,7 +131,9 @@ fn edges(corners: [&Place; 3]) -> [Vector<3>; 3] {
 mod tests {
     use super::*;
     use crate::cases::enclosed::gauges::Memory;
+    use crate::cases::enclosed::periods::Periods;
     use crate::cases::enclosed::setting::Gauge as _;
+    use bagnold_solver::domain::AxisBoundary;
     use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
     use bagnold_solver::material::rheology::{Newtonian, Rheology};
     use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
@@ -153,15 +167,14 @@ mod tests {
         let (mut simulation, mut memory) = (block(), Memory::default());
         let down = Vector::<3>::new(0.0, 0.0, -1.0);
         let measures: Vec<_> = gauges.iter().map(|gauge| gauge.measure(&down)).collect();
-        let start = memory.read_all(&measures, &simulation, &simulation.snapshot(), 960);
-        // twelve columns of six particles stand in the circle
-        let depth = 12.0 * 6.0 * 1e-6 / (std::f64::consts::FRAC_PI_4 * 0.04 * 0.04);
-        assert!((start[0] - 0.2).abs() < 0.01 && (start[1] - depth).abs() < 1e-12, "{start:?}");
+        let unbounded = Periods::of(&[AxisBoundary::Open; 3]);
+        let start = memory.read_all(&measures, &simulation, &simulation.snapshot(), (960, &unbounded));
+        assert!((start[0] - 0.2).abs() < 0.01 && (start[1] / 0.06 - 1.0).abs() < 0.005, "{start:?}");
         assert_eq!(start[2..], [0.0; 4], "nothing has moved");
         while simulation.time() < 0.03 {
             simulation.step().expect("no divergence");
         }
-        let end = memory.read_all(&measures, &simulation, &simulation.snapshot(), 960);
+        let end = memory.read_all(&measures, &simulation, &simulation.snapshot(), (960, &unbounded));
         let way = simulation.time();
         assert!((end[0] - start[0] - way).abs() < 0.006, "{} m after {way} m", end[0] - start[0]);
         // three layers of 48 particles of 1 g, and half of them the other way round

@@ -32,7 +32,13 @@ pub(super) fn of_tier(tier: Tier) -> SpaceParameters {
                 thickness: spacing,
                 width: 0.06,
             },
-            Gauge::Depth { name: "depth".to_owned(), at: (0.05, 0.02, 0.0), width: 0.04 },
+            Gauge::Depth {
+                name: "depth".to_owned(),
+                at: (0.05, 0.02, 0.0),
+                width: 0.04,
+                direction: None,
+                normal_to: None,
+            },
             Gauge::Force { name: "on-the-side".to_owned(), wall: "side".to_owned() },
             Gauge::Flux {
                 name: "over-the-edge".to_owned(),

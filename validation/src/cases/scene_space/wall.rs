@@ -33,6 +33,9 @@ pub struct Wall {
     /// Whether the flow sticks to it or slides.
     #[serde(default = "setting::rough")]
     pub surface: Surface,
+    /// Whether material may stand behind it, farther away than it is thick.
+    #[serde(default)]
+    pub both_sides: bool,
     /// How it moves: time `[s]`, displacement along x, y and z `[m]`, linear between the rows; empty for a wall at rest.
     #[serde(default)]
     pub motion: Vec<(f64, f64, f64, f64)>,
@@ -48,6 +51,7 @@ impl Wall {
             quads,
             boxes: Vec::new(),
             surface: Surface::Rough,
+            both_sides: false,
             motion: Vec::new(),
         }
     }
@@ -64,9 +68,15 @@ impl Wall {
 impl setting::Wall<3> for Wall {
     const FACETS: &'static str = "triangles";
     const GIVEN_BY: &'static str = "corners";
+    const TURN: &'static str =
+        "give all its corners, or the triangles of its file, in the opposite order, if it is seen from its back";
 
     fn name(&self) -> &str {
         &self.name
+    }
+
+    fn may_have_two_sides(&self) -> bool {
+        self.both_sides
     }
 
     fn shell(&self) -> Shell<3> {

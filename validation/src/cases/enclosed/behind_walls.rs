@@ -1,0 +1,175 @@
+//! What stands behind walls when a scene is filled. A wall has one side, so that material behind it is a mistake of the file, or
+//! what a wall cuts off a body that was drawn too large. Nothing of it is left out in silence.
+
+use super::surfaces::NearestWall;
+use crate::case::ParameterError;
+use bagnold_solver::vector::Vector;
+
+/// A site of the lattice that a body holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Site<const D: usize> {
+    /// Its cell of the lattice along each axis.
+    pub(super) cell: [i64; D],
+    /// Its place `[m]`.
+    pub(super) place: Vector<D>,
+    /// The body that holds it, by its place among all.
+    pub(super) body: usize,
+    /// The wall nearest to it, if one is near.
+    pub(super) nearest: Option<NearestWall>,
+}
+
+/// A body on both sides of a wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct OnBothSides {
+    body: usize,
+    wall: usize,
+}
+
+/// The wall that each site is behind of, if any: a site is behind a wall that it is near to, or where it stands together with
+/// others that are, farther from the wall than that is thick. `may_have_two_sides` says of a wall whether material may stand
+/// behind it: it then is behind where it is near only. Sites are sorted by their cells, the last axis first.
+fn behind<const D: usize>(
+    sites: &[Site<D>],
+    may_have_two_sides: impl Fn(usize) -> bool,
+) -> Result<Vec<Option<usize>>, OnBothSides> {
+    let key = |cell: &[i64; D]| std::array::from_fn::<i64, D, _>(|axis| cell[D - 1 - axis]);
+    let find = |cell: &[i64; D]| sites.binary_search_by_key(&key(cell), |site| key(&site.cell)).ok();
+    let mut behind: Vec<Option<usize>> =
+        sites.iter().map(|site| site.nearest.filter(|wall| wall.distance < 0.0).map(|wall| wall.wall)).collect();
+    let mut reached: Vec<usize> =
+        (0..sites.len()).filter(|&index| behind[index].is_some_and(|wall| !may_have_two_sides(wall))).collect();
+    while let Some(index) = reached.pop() {
+        let site = &sites[index];
+        for (axis, step) in (0..D).flat_map(|axis| [(axis, -1), (axis, 1)]) {
+            let mut cell = site.cell;
+            cell[axis] += step;
+            let Some(next) = find(&cell).filter(|&next| behind[next].is_none()) else { continue };
+            match (sites[next].nearest, site.nearest, behind[index]) {
+                (None, _, wall) => {
+                    behind[next] = wall;
+                    reached.push(next);
+                }
+                // what is far behind a wall goes on to the front of one
+                (Some(_), None, Some(wall)) => return Err(OnBothSides { body: site.body, wall }),
+                _ => {}
+            }
+        }
+    }
+    Ok(behind)
+}
+
+/// Names and permissions by which material behind walls is judged.
+pub(super) struct Permissions<'a> {
+    /// Name of each wall, and whether material may stand on both sides of it.
+    pub(super) walls: Vec<(&'a str, bool)>,
+    /// Largest share of a body that may be behind walls `[-]`.
+    pub(super) most: f64,
+    /// How a wall is turned round.
+    pub(super) turn: &'a str,
+}
+
+impl Permissions<'_> {
+    /// Whether each site is behind a wall.
+    ///
+    /// # Errors
+    /// A body of which more is behind walls than may be, or that stands on both sides of one, with the wall's name.
+    pub(super) fn behind<const D: usize>(&self, sites: &[Site<D>]) -> Result<Vec<bool>, ParameterError> {
+        let behind = behind(sites, |wall| self.walls[wall].1).map_err(|found| self.both_sides(found))?;
+        let bodies = sites.iter().map(|site| site.body + 1).max().unwrap_or(0);
+        let mut counts = vec![(0_usize, vec![0_usize; self.walls.len()]); bodies];
+        for (site, wall) in sites.iter().zip(&behind) {
+            let (all, of_walls) = &mut counts[site.body];
+            *all += 1;
+            if let Some(wall) = wall {
+                of_walls[*wall] += 1;
+            }
+        }
+        for (body, (all, of_walls)) in counts.iter().enumerate() {
+            let share = of_walls.iter().sum::<usize>() as f64 / *all as f64;
+            let worst = (0..of_walls.len()).max_by_key(|&wall| of_walls[wall]);
+            if let Some(wall) = worst.filter(|_| share > self.most) {
+                return Err(self.too_much(body, wall, share));
+            }
+        }
+        Ok(behind.into_iter().map(|wall| wall.is_some()).collect())
+    }
+
+    fn too_much(&self, body: usize, wall: usize, share: f64) -> ParameterError {
+        let name = self.walls[wall].0;
+        let value = format!("{:.1} % behind walls, most of that behind `{name}`", 100.0 * share);
+        let most = 100.0 * self.most;
+        let rule = format!("at most {most:.1} % behind walls (`cut_at_most`), where material is left out");
+        let meant = (100.0 * share).ceil() / 100.0;
+        let remedy = if meant < 1.0 {
+            format!(
+                "{}, make the body end at the wall, or set `cut_at_most = {meant:.2}` if the wall is meant to cut it",
+                self.turn
+            )
+        } else {
+            format!("{}, or put the body in front of it", self.turn)
+        };
+        ParameterError::field(&format!("bodies[{body}]"), value, &rule, &remedy)
+    }
+
+    fn both_sides(&self, OnBothSides { body, wall }: OnBothSides) -> ParameterError {
+        let value = format!("on both sides of the wall `{}`", self.walls[wall].0);
+        let remedy = format!(
+            "{}, make the body end at the wall, or give the wall `both_sides = true` if material behind it is meant",
+            self.turn
+        );
+        ParameterError::field(&format!("bodies[{body}]"), value, "on the side of the flow", &remedy)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sites of 1 m in a row of so many columns and rows around a wall along y at x = 0 that is 2 m thick, with the flow at
+    /// positive x. Where `gap` is given, there is no wall above that row.
+    fn sites(columns: std::ops::Range<i64>, rows: i64, gap: Option<i64>) -> Vec<Site<2>> {
+        let cells = (0..rows).flat_map(|row| columns.clone().map(move |column| [column, row]));
+        cells
+            .map(|cell| {
+                let place = Vector::<2>::new(cell[0] as f64 + 0.5, cell[1] as f64 + 0.5);
+                let is_near = place[0].abs() < 2.0 && gap.is_none_or(|gap| cell[1] < gap);
+                Site { cell, place, body: 0, nearest: is_near.then_some(NearestWall { wall: 0, distance: place[0] }) }
+            })
+            .collect()
+    }
+
+    fn permissions(both_sides: bool, most: f64) -> Permissions<'static> {
+        Permissions { walls: vec![("bed", both_sides)], most, turn: "turn the wall round" }
+    }
+
+    #[test]
+    fn a_body_in_front_of_its_walls_is_whole() {
+        let behind = permissions(false, 0.0).behind(&sites(0..8, 4, None)).expect("nothing is behind");
+        assert_eq!(behind, [false; 32]);
+    }
+
+    #[test]
+    fn what_is_far_behind_a_wall_is_behind_it() {
+        let sites = sites(-8..8, 4, None);
+        let behind = permissions(false, 0.5).behind(&sites).expect("half of it");
+        assert!(sites.iter().zip(&behind).all(|(site, behind)| *behind == (site.place[0] < 0.0)));
+        let error = permissions(false, 0.05).behind(&sites).expect_err("too much").to_string();
+        assert_eq!(
+            error,
+            "`bodies[0]` is 50.0 % behind walls, most of that behind `bed`, but must be at most 5.0 % behind walls \
+             (`cut_at_most`), where material is left out; turn the wall round, make the body end at the wall, or set \
+             `cut_at_most = 0.50` if the wall is meant to cut it"
+        );
+    }
+
+    #[test]
+    fn a_body_around_the_end_of_a_wall_is_on_both_sides() {
+        let around = sites(-8..8, 6, Some(4));
+        let error = permissions(false, 1.0).behind(&around).expect_err("both sides").to_string();
+        assert!(error.starts_with("`bodies[0]` is on both sides of the wall `bed`, but must be"), "{error}");
+        // where that is meant, only what is near to the wall makes room for it
+        let behind = permissions(true, 1.0).behind(&around).expect("meant");
+        let near = |site: &Site<2>| site.nearest.is_some() && site.place[0] < 0.0;
+        assert!(around.iter().zip(&behind).all(|(site, behind)| *behind == near(site)));
+    }
+}
