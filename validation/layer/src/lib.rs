@@ -9,8 +9,10 @@ mod bagnold_profile;
 pub mod bed_load;
 mod error;
 mod layer_transient;
+mod steadiness;
 mod table;
 
 pub use bagnold_profile::BagnoldProfile;
 pub use error::LayerError;
 pub use layer_transient::{LayerProfile, LayerTransient, TransientHistory};
+pub use steadiness::time_to_steadiness;

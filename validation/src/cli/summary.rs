@@ -1,7 +1,7 @@
 //! Results as a compact table for the terminal.
 
 use crate::case::CaseResult;
-use crate::metric::{Limit, Metric, Verdict};
+use crate::metric::{Limit, Metric, Variant, Verdict};
 use crate::number::aligned_digits;
 use crate::observation::Outcome;
 use std::fmt::Write as _;
@@ -51,6 +51,14 @@ pub(super) fn heading(result: &CaseResult) -> String {
             let _ = writeln!(text, "{how}: {} {message}", run.variant);
         }
     }
+    let mut reasons: Vec<(&Variant, &String)> = Vec::new();
+    for metric in &result.metrics {
+        if let Some(reason) = metric.not_steady.as_ref().filter(|reason| !reasons.contains(&(&metric.variant, *reason)))
+        {
+            reasons.push((&metric.variant, reason));
+            let _ = writeln!(text, "{}: {reason}", metric.variant);
+        }
+    }
     text
 }
 
@@ -67,7 +75,7 @@ fn row(metric: &Metric, is_known: bool) -> [String; 7] {
         verdict.to_owned(),
         metric.name.clone(),
         metric.variant.to_string(),
-        aligned_digits(metric.value),
+        if metric.not_steady.is_some() { "not steady".to_owned() } else { aligned_digits(metric.value) },
         metric.unit.clone(),
         limit.map_or_else(String::new, rule),
         limit.map_or_else(String::new, |limit| aligned_digits(limit.margin(metric.value))),

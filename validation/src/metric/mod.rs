@@ -1,11 +1,13 @@
 //! A metric: one number that a case is judged by, with what it is judged against.
 
 mod quantity;
+mod steadiness;
 mod uncertainty;
 pub mod variant;
 
 pub(crate) use quantity::quantities;
 pub use quantity::{Quantity, undeclared};
+pub use steadiness::unsteadiness;
 pub use uncertainty::{Origin, Part, Uncertainty};
 pub use variant::{Value, Variant};
 
@@ -133,6 +135,9 @@ pub struct Metric {
     pub kind: Kind,
     /// The gate, if there is one; a metric without a gate is observed.
     pub gate: Option<Gate>,
+    /// Why it is no value of a steady state, although it should be one: it then has no value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub not_steady: Option<String>,
     /// What value and reference are known to, as far as it is known.
     #[serde(default)]
     pub uncertainty: Uncertainty,
@@ -154,6 +159,7 @@ impl Metric {
             reference: None,
             kind: Kind::Verification,
             gate: None,
+            not_steady: None,
             uncertainty: Uncertainty::default(),
             snapshot_tolerance: 1e-6,
             snapshot_floor: 0.0,
@@ -194,6 +200,15 @@ impl Metric {
     #[must_use]
     pub fn known_to(mut self, origin: Origin, standard: Option<f64>, source: &str) -> Self {
         self.uncertainty.add(origin, standard, source);
+        self
+    }
+
+    /// Takes its value away where there is a reason why it is not that of a steady state: a gate then does not hold.
+    #[must_use]
+    pub fn unless(mut self, not_steady: Option<&String>) -> Self {
+        if let Some(reason) = not_steady {
+            (self.value, self.not_steady) = (f64::NAN, Some(reason.clone()));
+        }
         self
     }
 

@@ -31,6 +31,7 @@ mod steady_film;
 
 pub use bagnold_layer::{
     BagnoldProfile, LayerError, LayerProfile, LayerTransient, TransientHistory, bed_load as bed_load_layer,
+    time_to_steadiness,
 };
 pub use bed_load_onset::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence};
 pub use bed_load_profiles::MeasuredBedLoad;

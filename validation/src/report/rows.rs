@@ -46,7 +46,11 @@ pub(super) fn row(case: &str, judged: &Judged<'_>) -> Row {
         width: width(metric),
         metric: metric.name.clone(),
         variant: metric.variant.parts().map(|(key, value)| format!("{key}={value}")).collect(),
-        value: with_unit(metric.value, &metric.unit),
+        value: if metric.not_steady.is_some() {
+            "not steady".to_owned()
+        } else {
+            with_unit(metric.value, &metric.unit)
+        },
         reference: reference
             .and_then(|reference| reference.value)
             .map(|value| with_unit(value, &metric.unit))
@@ -59,7 +63,7 @@ pub(super) fn row(case: &str, judged: &Judged<'_>) -> Row {
         confidence: reference.map_or("", |reference| confidence(reference.confidence)),
         kind: kind(metric.kind),
         limit: gate.map(|gate| limit(gate.limit, &metric.unit)).unwrap_or_default(),
-        reason: gate.map(|gate| gate.reason.clone()).unwrap_or_default(),
+        reason: metric.not_steady.clone().or_else(|| gate.map(|gate| gate.reason.clone())).unwrap_or_default(),
         reason_repeats: false,
         source_repeats: false,
         margin: gate.map(|gate| margin(metric, gate.limit)).unwrap_or_default(),

@@ -78,6 +78,9 @@ pub struct MetricEntry {
     pub margin: Option<f64>,
     /// The gate's outcome.
     pub verdict: Verdict,
+    /// Why it has no value although it should be one of a steady state; absent where it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub not_steady: Option<String>,
     /// Parts of what value and reference are known to; absent where nothing is known.
     #[serde(default, skip_serializing_if = "Uncertainty::is_empty")]
     pub uncertainty: Uncertainty,
@@ -125,6 +128,7 @@ impl From<&Metric> for MetricEntry {
             reason: gate.map(|gate| gate.reason.clone()),
             margin: gate.and_then(|gate| finite(gate.limit.margin(metric.value))),
             verdict: metric.verdict(),
+            not_steady: metric.not_steady.clone(),
             uncertainty: metric.uncertainty.clone(),
             snapshot_tolerance: metric.snapshot_tolerance,
             snapshot_floor: metric.snapshot_floor,

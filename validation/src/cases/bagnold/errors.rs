@@ -76,7 +76,9 @@ pub(super) fn convergence_errors(
         .filter(|(run, _)| matches!(run.purpose, Purpose::Steady | Purpose::Convergence))
         .filter(|(run, _)| run.slope_angle == angle && run.particles == particles && run.start == start)
         .filter_map(|(run, record)| {
-            Some((run.layer.resolution as f64, SteadyErrors::of(&record.data.profile, &run.profile())?.velocity_l2))
+            let error = SteadyErrors::of(&record.data.profile, &run.profile())?.velocity_l2;
+            let error = if run.unsteadiness(&record.data).is_some() { f64::NAN } else { error };
+            Some((run.layer.resolution as f64, error))
         })
         .collect();
     errors.sort_by(|a, b| a.0.total_cmp(&b.0));

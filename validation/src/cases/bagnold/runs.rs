@@ -7,7 +7,7 @@ use crate::cases::layer::{self, Layer, LayerObservation, PeriodicLayer, bulk_mod
 use crate::input::FieldError;
 use crate::metric::{Value, Variant};
 use crate::observation::Recorded;
-use crate::reference::BagnoldProfile;
+use crate::reference::{BagnoldProfile, time_to_steadiness};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscousStep};
 use serde::Serialize;
@@ -56,6 +56,13 @@ pub struct BagnoldRun {
     regularisation_rate: f64,
 }
 
+/// Share of the steady depth mean that a layer from rest has at the start of its averages, unless the recipe gives it longer.
+const STEADY: f64 = 0.999;
+
+fn profile_of(grains: &MuI, layer: &PeriodicLayer, solid_fraction: f64, angle: f64) -> BagnoldProfile {
+    BagnoldProfile::of(grains, layer.layer_height, solid_fraction, layer.gravity, angle)
+}
+
 /// The paper's operators: (10) with (11), and with (13).
 const PRINTED: [MomentumOperator; 2] = [MomentumOperator::Pairwise, MomentumOperator::PairwiseCorrected];
 
@@ -82,8 +89,13 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
         material: None,
         regularisation_rate: parameters.regularisation_rate,
     };
-    // the recipe's 3.5, 4, 4.5 and 5 s at 22, 23, 24 and 25°
-    let from_rest = |angle: f64| (3.5 + 0.5 * (angle - 22.0)).clamp(3.5, 5.0) * scale;
+    // the recipe's 3.5, 4, 4.5 and 5 s at 22, 23, 24 and 25°, or what the material needs
+    let from_rest = |angle: f64| {
+        let profile = profile_of(&grains, &parameters.layer, parameters.solid_fraction, angle);
+        let steady = time_to_steadiness(&profile, STEADY).map(|time| time + parameters.averaging_time);
+        let recipe = (3.5 + 0.5 * (angle - 22.0)).clamp(3.5, 5.0) * scale;
+        recipe.max(parameters.duration_factor * steady.unwrap_or(0.0))
+    };
     let from_profile = 2.0 * scale;
     let jittered =
         |purpose, angle, start, duration| new(purpose, angle, start, Arrangement::Jittered, own_rows, duration);
@@ -208,8 +220,13 @@ impl BagnoldRun {
         layer::foreign::observe(&self.layer(&nothing, &nothing), given)
     }
 
+    /// Why what it leaves behind is not of a steady flow; none where it is.
+    pub(super) fn unsteadiness(&self, data: &LayerObservation) -> Option<String> {
+        data.unsteadiness(self.averaging_time)
+    }
+
     fn profile_at(&self, angle: f64) -> BagnoldProfile {
-        BagnoldProfile::of(&self.grains, self.layer.layer_height, self.solid_fraction, self.layer.gravity, angle)
+        profile_of(&self.grains, &self.layer, self.solid_fraction, angle)
     }
 
     /// 2ȳ/h `[-]` of the layer with ρ = ρ0 exp(x (1 − y/h)), x = ρ0 g h cosθ/K: a little below 1.

@@ -1,6 +1,7 @@
 //! What a layer leaves behind: time series of depth means, depth profiles averaged over a window, pressure noise.
 
 use super::{BINS, Layer, PeriodicLayer};
+use crate::metric::unsteadiness;
 use crate::observation::EnergyBook;
 use crate::setup::hydrostatic_pressure;
 use crate::statistics::relative_l2;
@@ -85,6 +86,15 @@ pub struct LayerObservation {
     pub energy: EnergyBook,
     /// Particles that ended outside the layer's neighbourhood: below the bed, or above twice the height.
     pub particles_lost: usize,
+}
+
+impl LayerObservation {
+    /// Why the profile over the last `window` `[s]` is not that of a steady flow; none where it is.
+    #[must_use]
+    pub fn unsteadiness(&self, window: f64) -> Option<String> {
+        let mean = self.series.curve(&self.series.mean_velocity);
+        unsteadiness("the depth mean of the velocity", mean, window)
+    }
 }
 
 /// Collects observations during a run.
