@@ -3,7 +3,7 @@
 use super::plan::Plan;
 use super::result::Compared;
 use crate::inference::diagnosis::{outliers, serial_correlation};
-use crate::inference::{Answer, Explored, Parameter as Named, Stopped, UNLIKELY, assess};
+use crate::inference::{Answer, Explored, ParameterLabel, Stopped, UNLIKELY, assess};
 use crate::number::short_digits;
 
 /// Everything that a search and its region leave open, the gravest first.
@@ -113,8 +113,8 @@ fn profiles(fit: &[Compared]) -> Vec<(String, Vec<f64>)> {
 fn of_region(plan: &Plan, explored: &Explored) -> Vec<String> {
     let region = &explored.region;
     let physical = |k: usize, u: f64| plan.parameters[k].bounds.value(u);
-    let names: Vec<Named> =
-        plan.parameters.iter().map(|p| Named { name: p.name.clone(), unit: p.unit.clone() }).collect();
+    let names: Vec<ParameterLabel> =
+        plan.parameters.iter().map(|p| ParameterLabel { name: p.name.clone(), unit: p.unit.clone() }).collect();
     let mut findings: Vec<String> =
         assess(&region.jacobian(), region, &names, &physical).iter().map(ToString::to_string).collect();
     for (parameter, ends) in names.iter().zip(&explored.ends) {

@@ -39,7 +39,7 @@ pub use result::{Compared, Evaluation, Found, FoundMinimum, Outcome, Sensitivity
 pub use target::Place;
 
 use crate::case::Registry;
-use crate::inference::{self, Answer, Evaluate, Method, Runs, SearchError, chi_squared};
+use crate::inference::{self, Answer, Evaluate, Method, Repeatability, SearchError, chi_squared};
 use crate::sampling::design;
 use crate::store::Store;
 use assembly::compared;
@@ -102,8 +102,8 @@ pub fn calibrate(
 /// The search and its region; where evaluations are repeated, once more with the scatter that was seen about the minimum.
 fn answer(objective: &mut Objective<'_>, start: Vec<f64>) -> Result<Answer, CalibrationError> {
     let plan = objective.plan;
-    let runs = if plan.repeats.count > 1 { Runs::Scattering } else { Runs::Smooth };
-    let mut steps = inference::Plan {
+    let runs = if plan.repeats.count > 1 { Repeatability::Scattering } else { Repeatability::Smooth };
+    let mut steps = inference::SolvePlan {
         start,
         method: plan.method,
         design: if plan.levels.is_empty() { Vec::new() } else { design::full_grid(&plan.levels) },
@@ -111,7 +111,7 @@ fn answer(objective: &mut Objective<'_>, start: Vec<f64>) -> Result<Answer, Cali
         region_evaluations: plan.region_evaluations,
         runs,
     };
-    if runs == Runs::Scattering {
+    if runs == Repeatability::Scattering {
         objective.variances = objective.first_variances()?;
         let first = inference::solve(objective, &steps).map_err(|error| unsolved(error, objective))?;
         objective.variances = objective.variances_about(&first)?;

@@ -50,9 +50,9 @@ pub(super) fn try_all(objective: &Objective<'_>) -> Result<Outcome, CalibrationE
     }
     let worked: Vec<&Trial> = trials.iter().filter(|trial| trial.failure.is_none()).collect();
     let residuals = |data: &[Compared]| data.iter().map(|datum| datum.residual).collect::<Vec<f64>>();
-    let choices: Vec<scores::Choice> = worked
+    let choices: Vec<scores::FittedChoice> = worked
         .iter()
-        .map(|trial| scores::Choice { name: trial.name.clone(), residuals: residuals(&trial.fit), parameters: 0 })
+        .map(|trial| scores::FittedChoice { name: trial.name.clone(), residuals: residuals(&trial.fit), parameters: 0 })
         .collect();
     let Some(ranked) = scores::rank(&choices, REPEATS, plan.budget.seed) else {
         let nothing = CalibrationError::Search { file: plan.file.clone(), reason: "no choice gave numbers".to_owned() };

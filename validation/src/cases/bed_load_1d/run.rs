@@ -6,7 +6,8 @@ use crate::checkpoint::is_interrupted;
 use crate::metric::Variant;
 use crate::observation::{Outcome, Recorded, state_hash};
 use crate::reference::bed_load_layer::{
-    Approach, BedLoadLayer, Closures, Grains, LayerState, SAME_STATE, STEADY, SolidFraction, Start, Stream,
+    Approach, BedLoadLayer, Closures, GrainMotion, InitialVelocity, LayerState, SAME_STATE, STEADY,
+    SolidFractionProfile, Stream,
 };
 use crate::reference::{LayerError, MeasuredBedLoad};
 use serde::{Deserialize, Serialize};
@@ -122,8 +123,8 @@ impl Run for BedLoad1dRun {
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         let started = Instant::now();
         let start = match self.purpose {
-            Purpose::FastStart(speed) => Start::Moving(speed),
-            _ => Start::Rest,
+            Purpose::FastStart(speed) => InitialVelocity::Moving(speed),
+            _ => InitialVelocity::Rest,
         };
         let both = self.has_both_starts();
         let layer = self.layer().map_err(refused)?;
@@ -209,7 +210,7 @@ impl BedLoad1dRun {
                 continue;
             }
             let layer = BedLoadLayer { stream, ..self.layer().map_err(refused)? };
-            let slow = layer.approach_unless(Start::Rest, &is_interrupted).map_err(refused)?;
+            let slow = layer.approach_unless(InitialVelocity::Rest, &is_interrupted).map_err(refused)?;
             let fast = layer.approach_unless(layer.fast_start(), &is_interrupted).map_err(refused)?;
             let both = Done::of(&slow, Some(&fast));
             done.steps += both.steps;
@@ -223,17 +224,17 @@ impl BedLoad1dRun {
     /// The layer.
     fn layer(&self) -> Result<BedLoadLayer, LayerError> {
         let grains = match self.purpose {
-            Purpose::FrozenOrder => Grains::Frozen(smooth_bed(&self.stream, self.closures.largest_fraction)?),
-            _ => Grains::Dilating,
+            Purpose::FrozenOrder => GrainMotion::Frozen(smooth_bed(&self.stream, self.closures.largest_fraction)?),
+            _ => GrainMotion::Dilating,
         };
         Ok(BedLoadLayer { stream: self.stream, closures: self.closures, grains, cell_height: self.cell_height })
     }
 }
 
 /// A bed whose fraction falls smoothly (with two continuous derivatives) across z = 0.
-fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFraction, LayerError> {
+fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFractionProfile, LayerError> {
     let half = TRANSITION * stream.grain_diameter;
-    SolidFraction::sampled(-half, half, 4096, |z| {
+    SolidFractionProfile::sampled(-half, half, 4096, |z| {
         let x = (0.5 * (z / half + 1.0)).clamp(0.0, 1.0);
         largest_fraction * (1.0 - x * x * x * (10.0 - x * (15.0 - 6.0 * x)))
     })

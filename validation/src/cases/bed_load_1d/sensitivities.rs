@@ -6,7 +6,7 @@ use super::replacements::Replaced;
 use super::run::{BedLoad1dRun, Purpose, percent};
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
 use crate::reference::TransportFormula;
-use crate::reference::bed_load_layer::{LayerState, MixingLength};
+use crate::reference::bed_load_layer::{LayerState, MixingLengthClosure};
 use bagnold_solver::material::drag::DragLaw;
 
 /// Closures in the order of the figure, with their labels.
@@ -28,10 +28,10 @@ fn place(replaced: Replaced) -> f64 {
             DragLaw::ALL.iter().position(|other| *other == law).map_or(0.0, |place| place as f64 + 1.0)
         }
         Replaced::MixingLength(length) => match length {
-            MixingLength::None => 0.0,
-            MixingLength::Integral => 1.0,
-            MixingLength::Root => 2.0,
-            MixingLength::Linear => 3.0,
+            MixingLengthClosure::None => 0.0,
+            MixingLengthClosure::Integral => 1.0,
+            MixingLengthClosure::Root => 2.0,
+            MixingLengthClosure::Linear => 3.0,
         },
         Replaced::CellHeight(height) => 1e3 * height,
         _ => replaced.value().unwrap_or(f64::NAN),

@@ -6,7 +6,7 @@ use crate::case::Run;
 use crate::cases::Arrangement;
 use crate::cases::channel::{self, ChannelObservation, ProfilePoint, Water};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
-use crate::statistics::{Estimate, log_log_slope};
+use crate::statistics::{FittedValue, log_log_slope};
 
 quantities! {
     [channel::PARTICLES_LOST, channel::MOMENTUM_RESIDUAL, channel::HEIGHT_CHANGE, channel::BED_SHEAR]
@@ -78,7 +78,7 @@ pub(super) fn depth_of(run: &WaterFilmRun, data: &ChannelObservation, depth: Dep
 }
 
 /// Relative L2 of the velocity over the samples of all bins `[-]`.
-fn velocity_l2(run: &WaterFilmRun, data: &ChannelObservation, depth: Depth) -> Estimate {
+fn velocity_l2(run: &WaterFilmRun, data: &ChannelObservation, depth: Depth) -> FittedValue {
     let film = run.exact(depth_of(run, data, depth));
     data.profile.estimate(|points: &[ProfilePoint]| {
         let (error, scale) = points.iter().fold((0.0, 0.0), |(error, scale), point| {
