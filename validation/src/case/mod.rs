@@ -25,12 +25,14 @@ mod schedule;
 mod schema;
 
 pub use changes::Changes;
-pub use erased::{AnyCase, Prepared};
+pub use erased::{AnyCase, PreparedCase};
 pub use error::{ParameterError, SettingError};
 pub use estimate::{Estimate, Limits};
 pub use expectation::{speed_up, wall_time};
 pub use file::CaseFile;
-pub use foreign::{Columns, Foreign, ForeignResult, Form, Given, Item, Picture};
+pub use foreign::{
+    ExternalColumn, ExternalData, ExternalObservation, ExternalResult, ExternalSchema, NamedColumns, ParticleFrame,
+};
 pub use output::{OUTPUT_FIELDS, OutputPlan, StateOutput};
 pub use registry::Registry;
 pub use request::{Request, Requested};
@@ -165,7 +167,7 @@ pub trait Case: Sync + 'static {
     /// Lists that a file states whole: one that it leaves out is empty there, and not the tier's.
     const STATED: &'static [&'static str] = &[];
     /// What another code may give of a run, beside single numbers.
-    const FORM: Form = Form::NUMBERS;
+    const FORM: ExternalSchema = ExternalSchema::NUMBERS;
     /// Typed parameters.
     type Parameters: Parameters;
 
@@ -185,8 +187,8 @@ pub trait Case: Sync + 'static {
     /// Columns that are missing beside others.
     fn foreign(
         _: &RunOf<Self::Parameters>,
-        _: &Given,
-    ) -> Result<Option<Foreign<ObservationOf<Self::Parameters>>>, FieldError> {
+        _: &ExternalData,
+    ) -> Result<Option<ExternalObservation<ObservationOf<Self::Parameters>>>, FieldError> {
         Ok(None)
     }
     /// Tables for `run`'s output folder: profiles and time series.

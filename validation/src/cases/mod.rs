@@ -71,7 +71,7 @@ registry!($
 #[cfg(test)]
 mod tests {
     use super::REGISTRY;
-    use crate::case::{Changes, Prepared, Silent, Tier};
+    use crate::case::{Changes, PreparedCase, Silent, Tier};
     use crate::metric::Variant;
     use crate::store::{Origin, Store, StorePolicy};
     use bagnold_solver::material::rheology::ViscousLaw;
@@ -117,7 +117,7 @@ mod tests {
         }
     }
 
-    fn prepared(case: &str, settings: &[&str]) -> Result<Box<dyn Prepared>, String> {
+    fn prepared(case: &str, settings: &[&str]) -> Result<Box<dyn PreparedCase>, String> {
         let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
         let case = REGISTRY.iter().find(|other| other.name() == case).expect("a case");
         case.prepare(Tier::Quick, &Changes { file: None, settings: &settings, ..Changes::default() })

@@ -4,7 +4,7 @@ use super::arguments::Calibrate;
 use super::count::Count;
 use super::error::ProgramError;
 use super::{Exit, say};
-use crate::calibration::{CalibrationFolder, Outcome, Plan, Watch, calibrate, write};
+use crate::calibration::{CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, calibrate, write};
 use crate::case::Registry;
 use crate::number::aligned_digits;
 use crate::output::OutputFolder;
@@ -18,7 +18,7 @@ pub(super) fn run(
     quiet: bool,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
-    let plan = Plan::read(&command.file, registry, command.allowance.limits())?;
+    let plan = CalibrationPlan::read(&command.file, registry, command.allowance.limits())?;
     let folder = command.out.clone().unwrap_or_else(|| {
         Path::new("reports/calibrations").join(command.file.file_stem().unwrap_or_else(|| "calibration".as_ref()))
     });
@@ -37,7 +37,7 @@ pub(super) fn run(
 }
 
 /// The parameters or choices, a line each, and what the data leave open.
-fn text(outcome: &Outcome) -> String {
+fn text(outcome: &CalibrationResult) -> String {
     let mut text = String::new();
     for found in &outcome.parameters {
         let interval = found.interval.map_or_else(String::new, |(low, high)| {
@@ -65,7 +65,7 @@ fn text(outcome: &Outcome) -> String {
             trial.failure.as_ref().map_or_else(String::new, |reason| format!("; failed: {reason}"))
         );
     }
-    let error = |what: &str, data: &[crate::calibration::Compared]| {
+    let error = |what: &str, data: &[crate::calibration::DatumComparison]| {
         crate::calibration::weighted_error(data)
             .map_or_else(String::new, |error| format!("{what}: {} σ over {} data\n", aligned_digits(error), data.len()))
     };
@@ -80,7 +80,7 @@ fn text(outcome: &Outcome) -> String {
 /// A progress bar that counts evaluations.
 struct Bar(Count);
 
-impl Watch for Bar {
+impl CalibrationMonitor for Bar {
     fn expected(&self, evaluations: usize) {
         self.0.expect(evaluations);
     }

@@ -1,7 +1,7 @@
 //! How long a command will take: from what its runs took on this machine before, else from what they take on another one.
 
 use super::machine;
-use crate::case::{CaseResult, Estimate, Prepared, speed_up, wall_time};
+use crate::case::{CaseResult, Estimate, PreparedCase, speed_up, wall_time};
 use crate::metric::Variant;
 use crate::store::{AllSpeeds, Speeds, instruction_set, profile};
 use bagnold_solver::material::rheology::open::registered;
@@ -32,8 +32,8 @@ pub(super) struct Expectation {
 
 impl Expectation {
     /// Of the runs of some cases, for a command that is called so.
-    pub(super) fn of(command: &'static str, cases: &[Box<dyn Prepared>]) -> Self {
-        let of_case = |case: &dyn Prepared| -> Vec<Run> {
+    pub(super) fn of(command: &'static str, cases: &[Box<dyn PreparedCase>]) -> Self {
+        let of_case = |case: &dyn PreparedCase| -> Vec<Run> {
             let run = |run: usize| Run {
                 case: case.name(),
                 variant: case.variant(run),

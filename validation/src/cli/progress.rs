@@ -1,7 +1,7 @@
 //! How far the runs of cases are, how long still, how fast.
 
 use super::display::{Display, time_left};
-use crate::case::{Monitor, Prepared};
+use crate::case::{Monitor, PreparedCase};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
@@ -77,7 +77,7 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    pub(super) fn new(cases: &[Box<dyn Prepared>], quiet: bool) -> Self {
+    pub(super) fn new(cases: &[Box<dyn PreparedCase>], quiet: bool) -> Self {
         let runs: Vec<(String, f64)> = cases
             .iter()
             .flat_map(|case| {

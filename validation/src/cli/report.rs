@@ -7,7 +7,7 @@ use super::profile::Profile;
 use super::publication::{case_report, is_known};
 use super::simulation::{announce, simulate};
 use super::{Exit, say, summary, tell};
-use crate::case::{CaseResult, Changes, ParameterError, Prepared, Registry, Tier};
+use crate::case::{CaseResult, Changes, ParameterError, PreparedCase, Registry, Tier};
 use crate::output::{FileError, FolderError, OutputFolder};
 use crate::report::{self, Baseline, CaseReport, History, Provenance, Report, history};
 use crate::store::provenance;
@@ -154,7 +154,7 @@ fn drifted(page: &Report) -> String {
     moved.iter().filter(|moved| moved.has_drifted).map(|moved| format!("drifted: {moved}\n")).collect()
 }
 
-fn prepare(command: &Arguments, registry: Registry) -> Result<Vec<Box<dyn Prepared>>, ParameterError> {
+fn prepare(command: &Arguments, registry: Registry) -> Result<Vec<Box<dyn PreparedCase>>, ParameterError> {
     for (place, name) in command.cases.iter().enumerate() {
         if command.cases[..place].iter().any(|other| other.trim() == name.trim()) {
             let remedy = "name each case once: every case has one page";

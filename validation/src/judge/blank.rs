@@ -1,6 +1,6 @@
 //! A submission to be filled in: everything that a case takes, with what it means.
 
-use crate::case::{AnyCase, Changes, Form, Item, ParameterError, Tier};
+use crate::case::{AnyCase, Changes, ExternalColumn, ExternalSchema, ParameterError, Tier};
 use std::fmt::Write as _;
 
 /// A commented submission for a case: one run written out, the others listed.
@@ -37,7 +37,7 @@ pub fn blank(case: &'static dyn AnyCase, tier: Tier) -> Result<String, Parameter
 }
 
 /// The tables of files that a form has.
-fn files(form: &Form) -> String {
+fn files(form: &ExternalSchema) -> String {
     let mut text = String::new();
     if form.particles.is_empty() && form.series.is_empty() && form.profile.is_empty() {
         text.push_str("\n# This case takes single numbers only.\n");
@@ -67,7 +67,7 @@ fn files(form: &Form) -> String {
     text
 }
 
-fn columns(items: &[Item]) -> String {
+fn columns(items: &[ExternalColumn]) -> String {
     items.iter().fold(String::new(), |mut text, item| {
         let _ = writeln!(
             text,

@@ -1,7 +1,7 @@
 //! Which column of a foreign file is what, and in which unit.
 
 use super::unit;
-use crate::case::Item;
+use crate::case::ExternalColumn;
 use crate::input::FieldError;
 
 /// Where a quantity comes from.
@@ -67,7 +67,7 @@ impl Source {
     ///
     /// # Errors
     /// A unit that is unknown or measures something else.
-    pub(super) fn factor(&self, item: &Item, field: &str) -> Result<f64, FieldError> {
+    pub(super) fn factor(&self, item: &ExternalColumn, field: &str) -> Result<f64, FieldError> {
         unit::factor(self.unit(), item.unit).ok_or_else(|| {
             let rule = format!("a unit of the same kind as {}", item.unit);
             let remedy = "such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, Pa, N, J with prefixes";
@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn a_heading_has_its_unit_in_brackets_and_a_constant_beside_it() {
         let heading = parse("\"X position [cm]\"").expect("a heading");
-        let item = Item::new("x", "m", "place");
+        let item = ExternalColumn::new("x", "m", "place");
         assert_eq!(heading.factor(&item, "columns.x"), Ok(1e-2));
         assert!(matches!(heading, Source::Heading { name, .. } if name == "X position"));
         let constant = Source::Constant { value: 2.0, unit: "mm".to_owned() };
@@ -101,7 +101,7 @@ mod tests {
             let message = parse(text).expect_err("no unit").to_string();
             assert!(message.contains("but must be a heading with its unit in brackets"), "{message}");
         }
-        let wrong = parse("\"t [s]\"").expect("a heading").factor(&Item::new("x", "m", "place"), "columns.x");
+        let wrong = parse("\"t [s]\"").expect("a heading").factor(&ExternalColumn::new("x", "m", "place"), "columns.x");
         assert_eq!(
             wrong.expect_err("not a length").to_string(),
             "`columns.x` is [s], but must be a unit of the same kind as m; such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, Pa, N, J with prefixes"

@@ -2,7 +2,7 @@
 
 use super::blank::{blank, wrapped};
 use super::error::JudgeError;
-use crate::case::{AnyCase, CaseResult, Form, Item};
+use crate::case::{AnyCase, CaseResult, ExternalColumn, ExternalSchema};
 use crate::observation::Frame;
 use crate::output::{FileError, Table};
 use crate::reference::shipped_tables;
@@ -95,14 +95,14 @@ fn definitions(case: &'static dyn AnyCase, own: &CaseResult) -> String {
     text
 }
 
-fn items(form: &Form) -> String {
+fn items(form: &ExternalSchema) -> String {
     let mut text = String::new();
     for (name, items) in [("Particles", form.particles), ("Time series", form.series), ("Profile", form.profile)] {
         if items.is_empty() {
             continue;
         }
         let _ = write!(text, "\n## {name}\n\n");
-        for Item { name, unit, says } in items {
+        for ExternalColumn { name, unit, says } in items {
             let _ = writeln!(text, "- `{name}` [{unit}]: {says}");
         }
     }

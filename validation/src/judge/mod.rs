@@ -23,7 +23,7 @@ pub use page::write;
 pub use submission::{Code, ForeignRun, ParticleFiles, Submission, TableFile};
 pub use verdicts::Compared;
 
-use crate::case::{CaseResult, Changes, ForeignResult, Given, Prepared, Registry};
+use crate::case::{CaseResult, Changes, ExternalData, ExternalResult, PreparedCase, Registry};
 use crate::evaluation::PlanError;
 use crate::figure::Figure;
 use crate::input::FieldError;
@@ -33,7 +33,7 @@ use std::path::{Path, PathBuf};
 /// Submissions of one case, with the runs of ours that they are compared with.
 pub struct Trial {
     /// The runs of ours that any code gives something of.
-    pub prepared: Box<dyn Prepared>,
+    pub prepared: Box<dyn PreparedCase>,
     /// What the codes gave.
     pub entries: Vec<Entry>,
 }
@@ -46,7 +46,7 @@ pub struct Entry {
     /// The runs that it gives, in the order of its file.
     variants: Vec<Variant>,
     /// What follows from the files that it gives.
-    result: ForeignResult,
+    result: ExternalResult,
 }
 
 /// A code's verdicts.
@@ -132,11 +132,11 @@ impl Trial {
 fn entry(
     submission: Submission,
     places: &[usize],
-    form: &crate::case::Form,
-    prepared: &dyn Prepared,
+    form: &crate::case::ExternalSchema,
+    prepared: &dyn PreparedCase,
 ) -> Result<Entry, JudgeError> {
     let folder = submission.path.parent().unwrap_or_else(|| Path::new("")).to_owned();
-    let mut given = vec![Given::default(); prepared.run_count()];
+    let mut given = vec![ExternalData::default(); prepared.run_count()];
     for (number, (run, &place)) in submission.runs.iter().zip(places).enumerate() {
         let field = format!("run {}", number + 1);
         given[place] = reading::read(run, form, &field, &folder).map_err(|error| error.in_file(&submission.path))?;
@@ -150,7 +150,7 @@ fn entry(
 }
 
 /// Our run that each of a submission's is: of those that have all its keys the one with the fewest keys.
-fn places(submission: &Submission, prepared: &dyn Prepared) -> Result<Vec<usize>, JudgeError> {
+fn places(submission: &Submission, prepared: &dyn PreparedCase) -> Result<Vec<usize>, JudgeError> {
     let variants: Vec<Variant> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
     let mut places: Vec<usize> = Vec::new();
     for (number, run) in submission.runs.iter().enumerate() {

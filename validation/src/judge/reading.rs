@@ -4,7 +4,7 @@ use super::column::Source;
 use super::submission::{ForeignRun, ParticleFiles, TableFile, rising, sources};
 use super::text_table::TextTable;
 use super::vtk::{self, PLACES, Points};
-use crate::case::{Columns, Form, Given, Item, Picture};
+use crate::case::{ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParticleFrame};
 use crate::evaluation::PlanError;
 use crate::input::{self, FieldError, did_you_mean, nearest};
 use crate::output::FileError;
@@ -17,15 +17,20 @@ const LARGEST_FILE: u64 = 1 << 30;
 const MOST_PICTURES: usize = 10_000;
 
 /// Columns of a part with their meaning, ready to be taken from files.
-type Plan = Vec<(&'static Item, Source, f64, String)>;
+type Plan = Vec<(&'static ExternalColumn, Source, f64, String)>;
 
 /// Reads all that is given of a run; paths are relative to `folder`.
 ///
 /// # Errors
 /// Files that cannot be read, columns that are unknown or missing, units of another kind, numbers that are not finite, times
 /// that do not rise.
-pub(super) fn read(run: &ForeignRun, form: &Form, field: &str, folder: &Path) -> Result<Given, PlanError> {
-    let mut given = Given::default();
+pub(super) fn read(
+    run: &ForeignRun,
+    form: &ExternalSchema,
+    field: &str,
+    folder: &Path,
+) -> Result<ExternalData, PlanError> {
+    let mut given = ExternalData::default();
     if let Some(files) = &run.particles {
         let plan = plan(&files.columns, form.particles, &format!("{field}.particles"))?;
         given.pictures = pictures(files, &plan, folder)?;
@@ -61,7 +66,11 @@ fn in_order(numbers: &[f64], field: &str, file: &Path) -> Result<(), FieldError>
 }
 
 /// What the columns of a part mean, each with its factor to SI and the field that it stands in.
-fn plan(texts: &BTreeMap<String, toml::Value>, items: &'static [Item], field: &str) -> Result<Plan, FieldError> {
+fn plan(
+    texts: &BTreeMap<String, toml::Value>,
+    items: &'static [ExternalColumn],
+    field: &str,
+) -> Result<Plan, FieldError> {
     let sources = sources(texts, field)?;
     if sources.is_empty() {
         return Err(FieldError::new(&format!("{field}.columns"), "empty", "given", "say which column is what"));
@@ -69,7 +78,7 @@ fn plan(texts: &BTreeMap<String, toml::Value>, items: &'static [Item], field: &s
     sources
         .into_iter()
         .map(|(name, source)| {
-            let item = Form::find(items, &format!("{field}.columns"), &name)?;
+            let item = ExternalSchema::find(items, &format!("{field}.columns"), &name)?;
             let field = format!("{field}.columns.{name}");
             let factor = source.factor(item, &field)?;
             Ok((item, source, factor, field))
@@ -77,13 +86,18 @@ fn plan(texts: &BTreeMap<String, toml::Value>, items: &'static [Item], field: &s
         .collect()
 }
 
-fn columns(table: &TableFile, items: &'static [Item], field: &str, folder: &Path) -> Result<Columns, PlanError> {
+fn columns(
+    table: &TableFile,
+    items: &'static [ExternalColumn],
+    field: &str,
+    folder: &Path,
+) -> Result<NamedColumns, PlanError> {
     let plan = plan(&table.columns, items, field)?;
     let file = folder.join(&table.file);
     Ok(of_table(&read_text_table(&file)?, &plan, &file)?)
 }
 
-fn pictures(files: &ParticleFiles, plan: &Plan, folder: &Path) -> Result<Vec<Picture>, PlanError> {
+fn pictures(files: &ParticleFiles, plan: &Plan, folder: &Path) -> Result<Vec<ParticleFrame>, PlanError> {
     let named: Vec<(f64, PathBuf)> = if files.is_collection() {
         let file = folder.join(&files.files[0]);
         let text = String::from_utf8_lossy(&read_bytes(&file)?).into_owned();
@@ -107,7 +121,7 @@ fn pictures(files: &ParticleFiles, plan: &Plan, folder: &Path) -> Result<Vec<Pic
             } else {
                 of_table(&read_text_table(&file)?, plan, &file)?
             };
-            Ok(Picture { time, columns })
+            Ok(ParticleFrame { time, columns })
         })
         .collect()
 }
@@ -121,7 +135,7 @@ fn read_text_table(file: &Path) -> Result<TextTable, PlanError> {
     Ok(TextTable::parse(&String::from_utf8_lossy(&bytes), file)?)
 }
 
-fn of_table(table: &TextTable, plan: &Plan, file: &Path) -> Result<Columns, FieldError> {
+fn of_table(table: &TextTable, plan: &Plan, file: &Path) -> Result<NamedColumns, FieldError> {
     let rows = table.columns.first().map_or(0, Vec::len);
     let column = |source: &Source, field: &str| match source {
         Source::Heading { text, name, .. } => {
@@ -134,7 +148,7 @@ fn of_table(table: &TextTable, plan: &Plan, file: &Path) -> Result<Columns, Fiel
     in_si(plan, file, column)
 }
 
-fn of_points(points: &Points, plan: &Plan, file: &Path) -> Result<Columns, FieldError> {
+fn of_points(points: &Points, plan: &Plan, file: &Path) -> Result<NamedColumns, FieldError> {
     let count = points.arrays.get(&format!("{PLACES}:0")).map_or(0, Vec::len);
     let column = |source: &Source, field: &str| match source {
         Source::Heading { text, name, .. } => {
@@ -163,7 +177,7 @@ fn in_si(
     plan: &Plan,
     file: &Path,
     column: impl Fn(&Source, &str) -> Result<Vec<f64>, FieldError>,
-) -> Result<Columns, FieldError> {
+) -> Result<NamedColumns, FieldError> {
     plan.iter()
         .map(|(item, source, factor, field)| {
             let mut values = column(source, field)?;

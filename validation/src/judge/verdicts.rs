@@ -1,7 +1,7 @@
 //! Another code's numbers under the gates of our own: what was not given is never judged.
 
 use super::submission::ForeignRun;
-use crate::case::ForeignResult;
+use crate::case::ExternalResult;
 use crate::input::{FieldError, did_you_mean, nearest};
 use crate::metric::{Kind, Metric, Variant, Verdict};
 use std::collections::BTreeSet;
@@ -33,7 +33,7 @@ type Numbers<'a> = [(Variant, &'a ForeignRun, String)];
 /// A single number that no metric of its run has.
 pub(super) fn compare(
     own: &[Metric],
-    foreign: &ForeignResult,
+    foreign: &ExternalResult,
     numbers: &Numbers<'_>,
 ) -> Result<Vec<Compared>, FieldError> {
     let mut given = Vec::new();
@@ -82,9 +82,9 @@ mod tests {
             .gated(Limit::AtMost(1.0), "a limit")
     }
 
-    fn foreign(metrics: Vec<Metric>, measured: Vec<&'static str>) -> ForeignResult {
+    fn foreign(metrics: Vec<Metric>, measured: Vec<&'static str>) -> ExternalResult {
         let measured = vec![(Variant::of("a", 1).and("resolution", 20), measured)];
-        ForeignResult { metrics, figures: Vec::new(), tables: Vec::new(), measured }
+        ExternalResult { metrics, figures: Vec::new(), tables: Vec::new(), measured }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! walls of every run.
 
 use super::snapshots::{collection, file_name, vtu};
-use crate::case::{OutputPlan, Prepared, StateOutput};
+use crate::case::{OutputPlan, PreparedCase, StateOutput};
 use crate::observation::Frame;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -43,7 +43,7 @@ struct Written {
 impl States {
     /// Those of the runs of a case, in a folder that is there.
     #[must_use]
-    pub fn of(case: &dyn Prepared, plan: &OutputPlan, folder: &Path) -> Self {
+    pub fn of(case: &dyn PreparedCase, plan: &OutputPlan, folder: &Path) -> Self {
         let run = |run: usize| RunStates {
             folder: folder.to_owned(),
             name: file_name(&case.variant(run)),

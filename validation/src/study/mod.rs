@@ -32,7 +32,7 @@ mod suite;
 
 pub use suite::Suite;
 
-use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, Prepared, Registry, Tier};
+use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier};
 use crate::evaluation::{PlanError, read_plan};
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::judge::Measurements;
@@ -164,7 +164,7 @@ impl Study {
         tier: Option<Tier>,
         settings: &[String],
         limits: Limits,
-    ) -> Result<Vec<Box<dyn Prepared>>, PlanError> {
+    ) -> Result<Vec<Box<dyn PreparedCase>>, PlanError> {
         let case = registry.find(&self.base.case).map_err(|error| error.in_file(&self.base.path))?;
         let prepare = |changed: &Changed| {
             let settings: Vec<String> = changed.settings.iter().chain(settings).cloned().collect();

@@ -3,7 +3,7 @@
 use super::error::SweepError;
 use super::manifest::{Entry, Manifest};
 use super::values::{check_levels, check_values};
-use crate::case::{Limits, ParameterError, Prepared, Registry};
+use crate::case::{Limits, ParameterError, PreparedCase, Registry};
 use crate::evaluation::{self, CaseRequest, Paths, PlanError, read_plan, toml_number};
 use crate::input::{FieldError, check_name};
 use crate::sampling::{Bounds, Spacing, design};
@@ -257,7 +257,7 @@ fn file_name(label: &str) -> String {
     label.chars().map(|letter| if letter.is_alphanumeric() || "-_.".contains(letter) { letter } else { '-' }).collect()
 }
 
-fn cost(prepared: &dyn Prepared) -> f64 {
+fn cost(prepared: &dyn PreparedCase) -> f64 {
     let sum: f64 = (0..prepared.run_count()).map(|run| prepared.particle_steps(run)).sum();
     // JSON has no infinity
     sum.min(f64::MAX)

@@ -10,7 +10,7 @@ mod tiers;
 pub use parameters::{BagnoldParameters, OtherGrains, Start};
 pub use runs::{BagnoldRun, Purpose};
 
-use crate::case::{Case, Foreign, Form, Given, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::cases::layer::{self, LayerObservation};
 use crate::figure::Figure;
 use crate::input::FieldError;
@@ -37,7 +37,7 @@ impl Case for Bagnold {
         Bagnold's flow makes an error of the friction coefficient eight (25°) to twenty (22°) times as large in the \
         velocity (dln I/dln μ), so the implied stress error \
         |μ(I)/tanθ − 1| stands beside the velocity error.";
-    const FORM: Form = layer::foreign::FORM;
+    const FORM: ExternalSchema = layer::foreign::FORM;
     type Parameters = BagnoldParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -49,7 +49,10 @@ impl Case for Bagnold {
         figures::all(parameters, records)
     }
 
-    fn foreign(run: &BagnoldRun, given: &Given) -> Result<Option<Foreign<LayerObservation>>, FieldError> {
+    fn foreign(
+        run: &BagnoldRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<LayerObservation>>, FieldError> {
         run.foreign(given).map(Some)
     }
 

@@ -1,7 +1,7 @@
 //! The simulations that the case asks for.
 
 use super::parameters::{ARREST_DURATION, BagnoldParameters, Start, law};
-use crate::case::{Foreign, Given, ParameterError, Progress, Run, cost};
+use crate::case::{ExternalData, ExternalObservation, ParameterError, Progress, Run, cost};
 use crate::cases::Arrangement;
 use crate::cases::layer::{self, Layer, LayerObservation, PeriodicLayer, bulk_modulus};
 use crate::input::FieldError;
@@ -203,7 +203,7 @@ impl BagnoldRun {
     }
 
     /// Its observation as another code gives it.
-    pub(super) fn foreign(&self, given: &Given) -> Result<Foreign<LayerObservation>, FieldError> {
+    pub(super) fn foreign(&self, given: &ExternalData) -> Result<ExternalObservation<LayerObservation>, FieldError> {
         let nothing = |_: f64| 0.0;
         layer::foreign::observe(&self.layer(&nothing, &nothing), given)
     }

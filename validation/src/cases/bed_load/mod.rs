@@ -21,7 +21,7 @@ pub use observation::BedLoadObservation;
 pub use parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns};
 pub use run::{BedLoadRun, ContinuumRun, Formulation};
 
-use crate::case::{Case, Foreign, Form, Given, RecordOf, Run};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run};
 use crate::cases::channel;
 use crate::figure::Figure;
 use crate::input::FieldError;
@@ -45,7 +45,7 @@ impl Case for BedLoad {
         against the 1-D layer of bed-load-1d in three stages: grains at rest, grains that move at a given fraction, grains \
         that dilate. `paper` is the set-up as printed, which fails in documented ways: its metrics are observations. The \
         quick tier is too short to be stationary and says so: it judges conservation.";
-    const FORM: Form = foreign::FORM;
+    const FORM: ExternalSchema = foreign::FORM;
     type Parameters = BedLoadParameters;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
@@ -57,7 +57,10 @@ impl Case for BedLoad {
         figures::all(records)
     }
 
-    fn foreign(run: &BedLoadRun, given: &Given) -> Result<Option<Foreign<BedLoadObservation>>, FieldError> {
+    fn foreign(
+        run: &BedLoadRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<BedLoadObservation>>, FieldError> {
         foreign::observe(run, given).map(Some)
     }
 

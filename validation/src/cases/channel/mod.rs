@@ -34,7 +34,7 @@ pub use stationarity::Mark;
 pub use tables::{tables, tables_of_runs};
 pub use water::Water;
 
-use crate::case::recording::{Ending, Followed, Stage, Stop, follow};
+use crate::case::recording::{Ending, Followed, SimulationStage, Stop, follow};
 use crate::case::{ParameterError, Progress};
 use crate::observation::{Frame, Recorded};
 use crate::setup::Lattice;
@@ -167,7 +167,7 @@ impl<'a> Channel<'a> {
         let longest = self.longest();
         let frame_interval = longest / (self.frames.max(2) - 1) as f64;
         // the bed's impulse is that of every step, so the probe sees every step
-        let stage = Stage { progress, end: longest, interval: 1e-3 * self.numerics.time_step, context: &() };
+        let stage = SimulationStage { progress, end: longest, interval: 1e-3 * self.numerics.time_step, context: &() };
         let begin = |simulation: &IncompressibleSimulation<2>| Seen {
             probe: ChannelProbe::new(self),
             last_good: simulation.snapshot(),

@@ -8,7 +8,7 @@ mod parameters;
 pub use parameters::{ClearWaterParameters, ClearWaterRun, Flow, Period};
 
 use super::channel;
-use crate::case::{Case, Foreign, Form, Given, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
@@ -31,7 +31,7 @@ impl Case for ClearWater {
         starts 20 % too slow and is averaged once it is stationary: once its depth mean changes by less than 0.5 % over \
         U/(2 g i) three times in a row. The quick tier starts from the law itself, is too short to be stationary and \
         says so: it judges the balance of momentum only, and reports the rest with its drift.";
-    const FORM: Form = channel::foreign::FORM;
+    const FORM: ExternalSchema = channel::foreign::FORM;
     type Parameters = ClearWaterParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -43,7 +43,10 @@ impl Case for ClearWater {
         vec![figures::profiles(records), figures::over_time(records)]
     }
 
-    fn foreign(_: &ClearWaterRun, given: &Given) -> Result<Option<Foreign<channel::ChannelObservation>>, FieldError> {
+    fn foreign(
+        _: &ClearWaterRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<channel::ChannelObservation>>, FieldError> {
         channel::foreign::observe(given).map(Some)
     }
 

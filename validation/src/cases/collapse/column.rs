@@ -6,7 +6,7 @@ use super::deposit::{Collapse, Surveyor, radius};
 use super::material::Material;
 use super::release::Release;
 use super::watch::Watch;
-use crate::case::recording::{self, Ending, Stage, Watched};
+use crate::case::recording::{self, Ending, SimulationStage, Watched};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -286,7 +286,7 @@ impl ColumnRun {
         }
         let begin =
             |_: &_| Watch::new(self.surveyor(), FRAME_INTERVAL * scale, self.picture_times(), EARLIEST_REST * scale);
-        let stage = Stage { progress, end: duration, interval: scale / POINTS, context: &() };
+        let stage = SimulationStage { progress, end: duration, interval: scale / POINTS, context: &() };
         let watched = recording::watch(
             stage,
             |_| Ok(self.scene::<D>()),

@@ -5,7 +5,7 @@ use super::deposit::AT_REST;
 use super::deposit::{Collapse, Surveyor};
 use super::reservoir::Reservoir;
 use super::watch::Watch;
-use crate::case::recording::{self, Ending, Stage, Watched};
+use crate::case::recording::{self, Ending, SimulationStage, Watched};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::{Value, Variant};
 use crate::observation::Recorded;
@@ -86,7 +86,7 @@ impl Run for SlopeRun {
         let Reservoir { reservoir_length, channel_length, duration, .. } = self.reservoir;
         let surveyor = self.surveyor();
         let begin = |_: &_| (Watch::new(surveyor, FRAME_INTERVAL, PICTURES.to_vec(), EARLIEST_REST), Vec::new());
-        let stage = Stage { progress, end: duration, interval: INTERVAL, context: &() };
+        let stage = SimulationStage { progress, end: duration, interval: INTERVAL, context: &() };
         let end_of_channel = channel_length - 0.5 * reservoir_length;
         let watched = recording::watch(
             stage,

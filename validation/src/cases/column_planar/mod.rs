@@ -7,7 +7,7 @@ mod tiers;
 pub use parameters::{ColumnPlanarParameters, Columns, Regularised, Sensitivity, Variants};
 
 use super::collapse::{self, Collapse, ColumnRun, Record};
-use crate::case::{Case, Foreign, Form, Given};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema};
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
@@ -30,7 +30,7 @@ impl Case for ColumnPlanar {
         Table 2; the other grains are those of Lagrée, Staron & Popinet (2011), whose grain diameter the source does \
         not give. The coefficients of the published laws depend on the material, their exponents much less. With another \
         law than μ(I) the published laws are shown and do not gate.";
-    const FORM: Form = collapse::foreign::FORM;
+    const FORM: ExternalSchema = collapse::foreign::FORM;
     type Parameters = ColumnPlanarParameters;
     const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
 
@@ -46,7 +46,7 @@ impl Case for ColumnPlanar {
         collapse::figures::animations(records)
     }
 
-    fn foreign(run: &ColumnRun, given: &Given) -> Result<Option<Foreign<Collapse>>, FieldError> {
+    fn foreign(run: &ColumnRun, given: &ExternalData) -> Result<Option<ExternalObservation<Collapse>>, FieldError> {
         collapse::foreign::observe(run, given).map(Some)
     }
 

@@ -5,7 +5,7 @@ mod parameters;
 pub use parameters::{ColumnRoundParameters, RoundColumn};
 
 use super::collapse::{self, Collapse, ColumnRun, Record};
-use crate::case::{Case, Foreign, Form, Given};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema};
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
@@ -26,7 +26,7 @@ impl Case for ColumnRound {
         bins. The run-out law of Lube et al. (2004) was measured on such columns; the collapse paper compared its \
         planar runs with it. The height law of the same source is unverified and does not gate. With another \
         law than μ(I) the published laws are shown and do not gate.";
-    const FORM: Form = collapse::foreign::FORM;
+    const FORM: ExternalSchema = collapse::foreign::FORM;
     type Parameters = ColumnRoundParameters;
     const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
 
@@ -42,7 +42,7 @@ impl Case for ColumnRound {
         collapse::figures::animations(records)
     }
 
-    fn foreign(run: &ColumnRun, given: &Given) -> Result<Option<Foreign<Collapse>>, FieldError> {
+    fn foreign(run: &ColumnRun, given: &ExternalData) -> Result<Option<ExternalObservation<Collapse>>, FieldError> {
         collapse::foreign::observe(run, given).map(Some)
     }
 

@@ -6,7 +6,7 @@ use super::setting::{Body, Wall, vector};
 use super::sides::Sides;
 use super::surfaces::{Surfaces, behind};
 use super::{SceneObservation, SceneParameters};
-use crate::case::recording::{self, Ending, Followed, Stage};
+use crate::case::recording::{self, Ending, Followed, SimulationStage};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
@@ -77,7 +77,7 @@ where
             return Err(ParameterError::field("bodies", value, &rule, remedy));
         }
         let (gravity, measures) = (vector(&scene.gravity), scene.measures());
-        let stage = Stage { progress, end: scene.duration, interval: scene.interval, context: &() };
+        let stage = SimulationStage { progress, end: scene.duration, interval: scene.interval, context: &() };
         let begin = |_: &Simulation<D>| Watch {
             observation: SceneObservation::default(),
             memory: Memory::default(),

@@ -10,7 +10,7 @@ pub use parameters::{EddyLiquid, FilmParameters, FluidKind};
 pub use runs::FilmRun;
 
 use super::layer;
-use crate::case::{Case, Foreign, Form, Given, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
@@ -34,7 +34,7 @@ impl Case for Film {
         exact solutions of the unregularised laws: the regularisation's creep of the plug is part of the error. The \
         Newtonian film is also run with the collapse paper's operators and walls, which are observed and do not gate. Any other \
         law, under `material`, is compared with its steady film, integrated over the depth, and does not gate.";
-    const FORM: Form = layer::foreign::FORM;
+    const FORM: ExternalSchema = layer::foreign::FORM;
     type Parameters = FilmParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -46,7 +46,10 @@ impl Case for Film {
         figures::all(records)
     }
 
-    fn foreign(run: &FilmRun, given: &Given) -> Result<Option<Foreign<layer::LayerObservation>>, FieldError> {
+    fn foreign(
+        run: &FilmRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<layer::LayerObservation>>, FieldError> {
         run.foreign(given).map(Some)
     }
 

@@ -1,6 +1,6 @@
 //! The slope at which a layer of given thickness stops flowing, bisected.
 
-use crate::case::recording::{Ending, Followed, Stage, follow, resumed};
+use crate::case::recording::{Ending, Followed, SimulationStage, follow, resumed};
 use crate::case::{ParameterError, Progress};
 use crate::cases::layer::{Layer, PeriodicLayer, bulk_modulus};
 use crate::observation::Recorded;
@@ -182,7 +182,7 @@ impl StartStopRun {
         let (h, duration) = (self.layer.layer.layer_height, self.layer.duration);
         let threshold = STOPPED * (self.layer.layer.gravity * h).sqrt();
         let lag = (STEADY_TIME / INTERVAL) as usize;
-        let stage = Stage { progress, end: duration, interval: INTERVAL, context: search };
+        let stage = SimulationStage { progress, end: duration, interval: INTERVAL, context: search };
         let begin = |simulation: &Simulation<2>| Seen {
             means: Vec::new(),
             trial: Trial { slope_angle: angle, fate: Fate::Undecided, time: 0.0, mean_velocity: f64::NAN, lost: 0 },

@@ -10,7 +10,7 @@ mod parameters;
 pub use parameters::{HydrostaticParameters, HydrostaticRun};
 
 use super::layer::{self, LayerObservation};
-use crate::case::{Case, Foreign, Form, Given, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
@@ -33,7 +33,7 @@ impl Case for Hydrostatic {
         measure can fail. Under friction the pressure of a layer at rest is not unique (between the active and the \
         passive state), but the stress across the layer is: p − s_yy is gated and p observed, for whatever law carries its \
         stress along; every other law is judged by p.";
-    const FORM: Form = foreign::FORM;
+    const FORM: ExternalSchema = foreign::FORM;
     type Parameters = HydrostaticParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -48,7 +48,10 @@ impl Case for Hydrostatic {
         figures::all(records)
     }
 
-    fn foreign(run: &HydrostaticRun, given: &Given) -> Result<Option<Foreign<LayerObservation>>, FieldError> {
+    fn foreign(
+        run: &HydrostaticRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<LayerObservation>>, FieldError> {
         foreign::observe(run, given).map(Some)
     }
 

@@ -7,7 +7,7 @@ mod metrics;
 pub use super::collapse::InclineCollapseParameters;
 
 use super::collapse::{self, SlopeCollapse, SlopeRun};
-use crate::case::{Case, Foreign, Form, Given, RecordOf, Run};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run};
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
@@ -33,7 +33,7 @@ impl Case for InclineCollapse {
         thickness (volume per bin of 0.1 r_0, each particle spread over a spacing to either side) first falls below \
         0.02 r_0. With another law of the grains than μ(I), whose contact friction takes the place of μ_s, the fit does not \
         gate.";
-    const FORM: Form = collapse::foreign_slope::FORM;
+    const FORM: ExternalSchema = collapse::foreign_slope::FORM;
     type Parameters = InclineCollapseParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -49,7 +49,7 @@ impl Case for InclineCollapse {
         figures::animations(records)
     }
 
-    fn foreign(run: &SlopeRun, given: &Given) -> Result<Option<Foreign<SlopeCollapse>>, FieldError> {
+    fn foreign(run: &SlopeRun, given: &ExternalData) -> Result<Option<ExternalObservation<SlopeCollapse>>, FieldError> {
         collapse::foreign_slope::observe(run, given).map(Some)
     }
 

@@ -1,6 +1,6 @@
 //! What a settling run leaves behind: slip over time, and how far momentum closes in every step.
 
-use crate::case::recording::{Ending, Followed, Stage, follow};
+use crate::case::recording::{Ending, Followed, SimulationStage, follow};
 use crate::case::{ParameterError, Progress};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -124,7 +124,8 @@ impl Probe {
             interval: duration / SAMPLES,
         };
         // momentum is that of every step
-        let stage = Stage { progress, end: duration, interval: 1e-3 * scene.numerics.time_step, context: &() };
+        let stage =
+            SimulationStage { progress, end: duration, interval: 1e-3 * scene.numerics.time_step, context: &() };
         let begin = |simulation: &IncompressibleSimulation<2>| Seen {
             momentum: Vector::zeros(),
             time: 0.0,

@@ -1,6 +1,6 @@
 //! Parameters, tiers and runs.
 
-use crate::case::recording::{self, Stage, Watched};
+use crate::case::recording::{self, SimulationStage, Watched};
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
 use crate::cases::front::Line;
 use crate::cases::rules;
@@ -177,7 +177,7 @@ impl Run for WaterColumnRun {
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ColumnObservation>, ParameterError> {
         let end = self.column.duration * self.time_scale();
-        let stage = Stage { progress, end, interval: end / SAMPLES, context: &() };
+        let stage = SimulationStage { progress, end, interval: end / SAMPLES, context: &() };
         let begin = |_: &_| ColumnObservation::default();
         let watched = recording::watch(
             stage,

@@ -7,7 +7,7 @@ mod parameters;
 pub use parameters::{Film, WaterFilmParameters, WaterFilmRun};
 
 use super::channel;
-use crate::case::{Case, Foreign, Form, Given, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
@@ -30,7 +30,7 @@ impl Case for WaterFilm {
         0.74, far from water and laminar, so that an exact profile exists. The film starts from it and must keep it for \
         several relaxation times 4h²/(π²ν): what remains is the error of the wall, of the viscous pairs and of the depth \
         that the particles take.";
-    const FORM: Form = channel::foreign::FORM;
+    const FORM: ExternalSchema = channel::foreign::FORM;
     type Parameters = WaterFilmParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -42,7 +42,10 @@ impl Case for WaterFilm {
         figures::all(records)
     }
 
-    fn foreign(_: &WaterFilmRun, given: &Given) -> Result<Option<Foreign<channel::ChannelObservation>>, FieldError> {
+    fn foreign(
+        _: &WaterFilmRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<channel::ChannelObservation>>, FieldError> {
         channel::foreign::observe(given).map(Some)
     }
 
