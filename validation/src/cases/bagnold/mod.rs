@@ -7,8 +7,8 @@ mod parameters;
 mod runs;
 mod tiers;
 
-pub use parameters::{BagnoldParameters, OtherGrains, Start};
-pub use runs::{BagnoldRun, Purpose};
+pub use parameters::{BagnoldParameters, LayerStart, OtherGrains};
+pub use runs::{BagnoldPurpose, BagnoldRun};
 
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::cases::layer::{self, LayerObservation};
@@ -22,7 +22,7 @@ use crate::store::Origin;
 #[derive(Debug)]
 pub struct Bagnold;
 
-type Record = RecordOf<BagnoldParameters>;
+type BagnoldRecord = RecordOf<BagnoldParameters>;
 
 impl Case for Bagnold {
     const NAME: &'static str = "bagnold";
@@ -41,11 +41,11 @@ impl Case for Bagnold {
     type Parameters = BagnoldParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Metric> {
         metrics::all(parameters, records)
     }
 
-    fn figures(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Figure> {
         figures::all(parameters, records)
     }
 
@@ -56,7 +56,7 @@ impl Case for Bagnold {
         run.foreign(given).map(Some)
     }
 
-    fn tables(_: &BagnoldParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Table> {
         layer::tables_of_runs(records)
     }
 }

@@ -1,7 +1,7 @@
 //! What a case file may ask for.
 
 use super::continuum::LAYER_CELL;
-use super::parameters::{BedLoadParameters, Grains, Stage};
+use super::parameters::{BedLoadParameters, GrainParticles, Stage};
 use crate::case::ParameterError;
 use crate::cases::rules;
 use crate::reference::bed_load_layer::{Closures, MixingLengthClosure};
@@ -49,7 +49,7 @@ impl BedLoadParameters {
         Err(ParameterError::field("stabilised.material.law", name, rule, remedy))
     }
 
-    fn check_grains(&self, path: &str, grains: &Grains) -> Result<(), ParameterError> {
+    fn check_grains(&self, path: &str, grains: &GrainParticles) -> Result<(), ParameterError> {
         let field = |name: &str| format!("{path}.{name}");
         rules::material(&field("material"), &grains.material)?;
         if grains.drag == DragLaw::Ergun {

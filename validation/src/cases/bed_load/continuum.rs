@@ -218,7 +218,7 @@ impl ContinuumRun {
 #[cfg(test)]
 mod tests {
     use super::super::parameters::{BedLoadParameters, StageRuns};
-    use super::super::run::Formulation;
+    use super::super::run::BedLoadFormulation;
     use super::super::runs::runs;
     use super::*;
     use crate::case::{Parameters, Tier};
@@ -237,7 +237,7 @@ mod tests {
             averaging_time: 0.5,
         }];
         let run = runs(&parameters).pop().expect("one run");
-        let Formulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
+        let BedLoadFormulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
         let layer = own.layer(run.stream()).expect("a steady layer");
         let water = |z: f64| layer.at(z).fluid_velocity;
         let channel = own.channel(&run, &layer, &water);
@@ -275,7 +275,7 @@ mod tests {
         let mut rows = |sparse: f64| {
             parameters.continuum.sparse_row_fraction = sparse;
             let run = runs(&parameters).pop().expect("one run");
-            let Formulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
+            let BedLoadFormulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
             let layer = own.layer(run.stream()).expect("a steady layer");
             let lattice = Lattice { spacing: 7e-4, rows: 60, columns: 1, bottom: -0.0161 };
             own.rows_of_grains(&SolidFractionProfile::of_cells(&layer), lattice)

@@ -2,7 +2,7 @@
 
 use super::observation::{BedLoadObservation, Carried};
 use super::quantities as quantity;
-use super::run::{BedLoadRun, Formulation};
+use super::run::{BedLoadFormulation, BedLoadRun};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::cases::channel::{self, BlockProfile, ProfilePoint};
 use crate::input::FieldError;
@@ -105,7 +105,7 @@ pub(super) fn observe(
         measured.extend([quantity::STREAM_VELOCITY.name, channel::VELOCITY_DRIFT.name]);
     }
     let layer = match &run.formulation {
-        Formulation::Continuum(own) => Some(own.layer(run.stream()).map_err(|error| {
+        BedLoadFormulation::Continuum(own) => Some(own.layer(run.stream()).map_err(|error| {
             FieldError::new("runs", error.to_string(), "a run whose 1-D layer can be computed", "leave the run out")
         })?),
         _ => None,
@@ -133,7 +133,7 @@ mod tests {
 
     fn dilating() -> BedLoadRun {
         let runs = runs(&BedLoadParameters::of_tier(Tier::Quick));
-        let is_dilating = |run: &BedLoadRun| matches!(&run.formulation, Formulation::Continuum(own) if own.stage.name() == "dilating");
+        let is_dilating = |run: &BedLoadRun| matches!(&run.formulation, BedLoadFormulation::Continuum(own) if own.stage.name() == "dilating");
         runs.into_iter().find(is_dilating).expect("the quick tier has grains that dilate")
     }
 
@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn the_layer_as_given_by_another_code_is_the_layer() {
         let run = dilating();
-        let Formulation::Continuum(own) = &run.formulation else { unreachable!("it is one of a continuum") };
+        let BedLoadFormulation::Continuum(own) = &run.formulation else { unreachable!("it is one of a continuum") };
         let layer = own.layer(run.stream()).expect("a layer");
         let heights: Vec<f64> = (-30..45).map(|k| 1e-3 * (f64::from(k) + 0.5)).collect();
         let of = |pick: fn(&crate::reference::bed_load_layer::LayerState, f64) -> f64| -> Vec<f64> {

@@ -18,8 +18,8 @@ mod statements;
 mod tiers;
 
 pub use observation::BedLoadObservation;
-pub use parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns};
-pub use run::{BedLoadRun, ContinuumRun, Formulation};
+pub use parameters::{BedLoadParameters, Continuum, Fit, GrainParticles, Materials, Stage, StageRuns};
+pub use run::{BedLoadFormulation, BedLoadRun, ContinuumRun};
 
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run};
 use crate::cases::channel;
@@ -33,7 +33,7 @@ use crate::store::Origin;
 #[derive(Debug)]
 pub struct BedLoad;
 
-type Record = RecordOf<BedLoadParameters>;
+type BedLoadRecord = RecordOf<BedLoadParameters>;
 
 impl Case for BedLoad {
     const NAME: &'static str = "bed-load";
@@ -49,11 +49,11 @@ impl Case for BedLoad {
     type Parameters = BedLoadParameters;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
-    fn metrics(_: &BedLoadParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &BedLoadParameters, records: &[BedLoadRecord]) -> Vec<Metric> {
         judgement::all(records)
     }
 
-    fn figures(_: &BedLoadParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &BedLoadParameters, records: &[BedLoadRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
@@ -64,8 +64,8 @@ impl Case for BedLoad {
         foreign::observe(run, given).map(Some)
     }
 
-    fn tables(_: &BedLoadParameters, records: &[Record]) -> Vec<Table> {
-        let of_run = |(run, record): &Record| {
+    fn tables(_: &BedLoadParameters, records: &[BedLoadRecord]) -> Vec<Table> {
+        let of_run = |(run, record): &BedLoadRecord| {
             let variant = run.variant();
             let mut tables = channel::tables(&variant, &record.data.channel);
             tables.extend(profiles::grain_table(&variant, &record.data));

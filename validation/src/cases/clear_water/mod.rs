@@ -5,7 +5,7 @@ mod laws;
 mod metrics;
 mod parameters;
 
-pub use parameters::{ClearWaterParameters, ClearWaterRun, Flow, Period};
+pub use parameters::{ClearWaterParameters, ClearWaterRun, Period, RoughBedFlow};
 
 use super::channel;
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
@@ -19,7 +19,7 @@ use crate::store::Origin;
 #[derive(Debug)]
 pub struct ClearWater;
 
-type Record = RecordOf<ClearWaterParameters>;
+type ClearWaterRecord = RecordOf<ClearWaterParameters>;
 
 impl Case for ClearWater {
     const NAME: &'static str = "clear-water";
@@ -35,11 +35,11 @@ impl Case for ClearWater {
     type Parameters = ClearWaterParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &ClearWaterParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &ClearWaterParameters, records: &[ClearWaterRecord]) -> Vec<Metric> {
         records.iter().flat_map(metrics::of_run).chain(laws::metrics()).collect()
     }
 
-    fn figures(_: &ClearWaterParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &ClearWaterParameters, records: &[ClearWaterRecord]) -> Vec<Figure> {
         vec![figures::profiles(records), figures::over_time(records)]
     }
 
@@ -50,7 +50,7 @@ impl Case for ClearWater {
         channel::foreign::observe(given).map(Some)
     }
 
-    fn tables(_: &ClearWaterParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &ClearWaterParameters, records: &[ClearWaterRecord]) -> Vec<Table> {
         channel::tables_of_runs(records)
     }
 }

@@ -4,9 +4,9 @@ mod parameters;
 mod runs;
 mod tiers;
 
-pub use parameters::{ColumnPlanarParameters, Columns, Regularised, Sensitivity, Variants};
+pub use parameters::{ColumnPlanarParameters, PlanarColumns, Regularised, Sensitivity, Variants};
 
-use super::collapse::{self, Collapse, ColumnRun, Record};
+use super::collapse::{self, Collapse, CollapseRecord, ColumnRun};
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema};
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
@@ -34,15 +34,15 @@ impl Case for ColumnPlanar {
     type Parameters = ColumnPlanarParameters;
     const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
 
-    fn metrics(_: &ColumnPlanarParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Metric> {
         collapse::metrics::all(records)
     }
 
-    fn figures(_: &ColumnPlanarParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Figure> {
         collapse::figures::all(records)
     }
 
-    fn animations(_: &ColumnPlanarParameters, records: &[Record]) -> Vec<Animation> {
+    fn animations(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Animation> {
         collapse::figures::animations(records)
     }
 
@@ -50,7 +50,7 @@ impl Case for ColumnPlanar {
         collapse::foreign::observe(run, given).map(Some)
     }
 
-    fn tables(_: &ColumnPlanarParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Table> {
         records.iter().flat_map(collapse::tables).collect()
     }
 }

@@ -4,7 +4,7 @@ mod parameters;
 
 pub use parameters::{ColumnRoundParameters, RoundColumn};
 
-use super::collapse::{self, Collapse, ColumnRun, Record};
+use super::collapse::{self, Collapse, CollapseRecord, ColumnRun};
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema};
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
@@ -30,15 +30,15 @@ impl Case for ColumnRound {
     type Parameters = ColumnRoundParameters;
     const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
 
-    fn metrics(_: &ColumnRoundParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Metric> {
         collapse::metrics::all(records)
     }
 
-    fn figures(_: &ColumnRoundParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Figure> {
         collapse::figures::all(records)
     }
 
-    fn animations(_: &ColumnRoundParameters, records: &[Record]) -> Vec<Animation> {
+    fn animations(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Animation> {
         collapse::figures::animations(records)
     }
 
@@ -46,7 +46,7 @@ impl Case for ColumnRound {
         collapse::foreign::observe(run, given).map(Some)
     }
 
-    fn tables(_: &ColumnRoundParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Table> {
         records.iter().flat_map(collapse::tables).collect()
     }
 }

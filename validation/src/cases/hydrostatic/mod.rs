@@ -21,7 +21,7 @@ use crate::store::Origin;
 #[derive(Debug)]
 pub struct Hydrostatic;
 
-type Record = RecordOf<HydrostaticParameters>;
+type HydrostaticRecord = RecordOf<HydrostaticParameters>;
 
 impl Case for Hydrostatic {
     const NAME: &'static str = "hydrostatic";
@@ -37,14 +37,14 @@ impl Case for Hydrostatic {
     type Parameters = HydrostaticParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(parameters: &HydrostaticParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(parameters: &HydrostaticParameters, records: &[HydrostaticRecord]) -> Vec<Metric> {
         let mut metrics = metrics::all(records);
         metrics.extend(kernel::all(&parameters.layer.numerics));
         metrics.extend(elasticity::all(&parameters.grains));
         metrics
     }
 
-    fn figures(_: &HydrostaticParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &HydrostaticParameters, records: &[HydrostaticRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
@@ -55,7 +55,7 @@ impl Case for Hydrostatic {
         foreign::observe(run, given).map(Some)
     }
 
-    fn tables(_: &HydrostaticParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &HydrostaticParameters, records: &[HydrostaticRecord]) -> Vec<Table> {
         layer::tables_of_runs(records)
     }
 }

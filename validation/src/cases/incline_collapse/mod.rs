@@ -18,7 +18,7 @@ use crate::store::Origin;
 #[derive(Debug)]
 pub struct InclineCollapse;
 
-type Record = RecordOf<InclineCollapseParameters>;
+type InclineCollapseRecord = RecordOf<InclineCollapseParameters>;
 
 impl Case for InclineCollapse {
     const NAME: &'static str = "incline-collapse";
@@ -37,15 +37,15 @@ impl Case for InclineCollapse {
     type Parameters = InclineCollapseParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Metric> {
         records.iter().flat_map(metrics::of_run).collect()
     }
 
-    fn figures(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn animations(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Animation> {
+    fn animations(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Animation> {
         figures::animations(records)
     }
 
@@ -53,13 +53,13 @@ impl Case for InclineCollapse {
         collapse::foreign_slope::observe(run, given).map(Some)
     }
 
-    fn tables(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Table> {
         records.iter().map(table).collect()
     }
 }
 
 /// Time series of one run.
-fn table((run, record): &Record) -> Table {
+fn table((run, record): &InclineCollapseRecord) -> Table {
     let data = &record.data.collapse;
     let columns: [(&str, &[f64]); 4] = [
         ("t [s]", &data.time),

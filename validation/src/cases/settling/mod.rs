@@ -15,9 +15,9 @@ mod suspension;
 mod tiers;
 
 pub use experiment::{Experiment, Vessel};
-pub use formulation::Formulation;
+pub use formulation::GrainFormulation;
 pub use grain::GrainRun;
-pub use parameters::{Grain, SettlingParameters, SuspendedGrains, Water};
+pub use parameters::{SettlingParameters, SingleGrain, SuspendedGrains, SuspendingFluid};
 pub use probe::{SettlingObservation, SettlingSeries};
 pub use runs::SettlingRun;
 pub use suspension::SuspensionRun;
@@ -32,7 +32,7 @@ use crate::store::Origin;
 #[derive(Debug)]
 pub struct Settling;
 
-type Record = RecordOf<SettlingParameters>;
+type SettlingRecord = RecordOf<SettlingParameters>;
 
 impl Case for Settling {
     const NAME: &'static str = "settling";
@@ -56,15 +56,15 @@ impl Case for Settling {
     type Parameters = SettlingParameters;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
-    fn metrics(_: &SettlingParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &SettlingParameters, records: &[SettlingRecord]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &SettlingParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &SettlingParameters, records: &[SettlingRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(_: &SettlingParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &SettlingParameters, records: &[SettlingRecord]) -> Vec<Table> {
         records.iter().map(|(run, record)| record.data.series.table(&run.variant())).collect()
     }
 }

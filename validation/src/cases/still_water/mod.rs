@@ -17,7 +17,7 @@ use crate::store::Origin;
 #[derive(Debug)]
 pub struct StillWater;
 
-type Record = RecordOf<StillWaterParameters>;
+type StillWaterRecord = RecordOf<StillWaterParameters>;
 
 impl Case for StillWater {
     const NAME: &'static str = "still-water";
@@ -32,15 +32,15 @@ impl Case for StillWater {
     type Parameters = StillWaterParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &StillWaterParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &StillWaterParameters, records: &[StillWaterRecord]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &StillWaterParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &StillWaterParameters, records: &[StillWaterRecord]) -> Vec<Figure> {
         [figures::pressure(records), figures::rest(records)].into_iter().chain(figures::states(records)).collect()
     }
 
-    fn tables(_: &StillWaterParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &StillWaterParameters, records: &[StillWaterRecord]) -> Vec<Table> {
         channel::tables_of_runs(records)
     }
 }

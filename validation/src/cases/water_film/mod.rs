@@ -4,7 +4,7 @@ mod figures;
 mod metrics;
 mod parameters;
 
-pub use parameters::{Film, WaterFilmParameters, WaterFilmRun};
+pub use parameters::{FilmFlow, WaterFilmParameters, WaterFilmRun};
 
 use super::channel;
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
@@ -18,7 +18,7 @@ use crate::store::Origin;
 #[derive(Debug)]
 pub struct WaterFilm;
 
-type Record = RecordOf<WaterFilmParameters>;
+type WaterFilmRecord = RecordOf<WaterFilmParameters>;
 
 impl Case for WaterFilm {
     const NAME: &'static str = "water-film";
@@ -34,11 +34,11 @@ impl Case for WaterFilm {
     type Parameters = WaterFilmParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &WaterFilmParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &WaterFilmParameters, records: &[WaterFilmRecord]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &WaterFilmParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &WaterFilmParameters, records: &[WaterFilmRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
@@ -49,7 +49,7 @@ impl Case for WaterFilm {
         channel::foreign::observe(given).map(Some)
     }
 
-    fn tables(_: &WaterFilmParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &WaterFilmParameters, records: &[WaterFilmRecord]) -> Vec<Table> {
         channel::tables_of_runs(records)
     }
 }
