@@ -4,7 +4,7 @@
 use super::coverage::{Problem, Tally, normal, usual};
 use bagnold_validation::case::{Limits, Silent, Tier};
 use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::evaluation::{CaseRequest, Record, evaluate};
+use bagnold_validation::evaluation::{CaseRequest, EvaluationRecord, evaluate};
 use bagnold_validation::inference::{Budget, SolvePlan};
 use bagnold_validation::store::{Store, StorePolicy};
 use std::cell::RefCell;
@@ -19,7 +19,7 @@ struct Simulated {
     /// The parameter's path and its value at a point.
     setting: fn(f64) -> String,
     /// The data of a record.
-    predict: fn(&Record) -> Vec<f64>,
+    predict: fn(&EvaluationRecord) -> Vec<f64>,
     /// How many they are.
     data: usize,
     /// Their relative standard uncertainty.

@@ -6,7 +6,7 @@ use super::plan::{CalibrationPlan, DataBlock};
 use super::repeated::Repeated;
 use super::target::{Datum, DatumUncertainty, Target};
 use crate::case::{PreparedCase, Registry, Silent, share_out};
-use crate::evaluation::{self, Record};
+use crate::evaluation::{self, EvaluationRecord};
 use crate::inference::Evaluate;
 use crate::input::FieldError;
 use crate::output::FileError;
@@ -75,15 +75,15 @@ impl Objective<'_> {
     }
 
     /// Records of questions, in their order; what has a file is read, the rest simulated on the current pool's threads.
-    fn ask_each(&self, questions: &[Question]) -> Result<Vec<Record>, CalibrationError> {
-        let mut answers: Vec<Option<Record>> = Vec::with_capacity(questions.len());
+    fn ask_each(&self, questions: &[Question]) -> Result<Vec<EvaluationRecord>, CalibrationError> {
+        let mut answers: Vec<Option<EvaluationRecord>> = Vec::with_capacity(questions.len());
         let mut waiting: Vec<(usize, String, Box<dyn PreparedCase>)> = Vec::new();
         for (place, question) in questions.iter().enumerate() {
             let request = &self.plan.blocks[question.block].request;
             match request.prepare(self.registry, &self.plan.file, &question.settings, self.plan.limits) {
                 Ok(prepared) => {
                     let key = evaluation::key(prepared.as_ref());
-                    let known = Record::read(&self.file(&key), &key);
+                    let known = EvaluationRecord::read(&self.file(&key), &key);
                     // two questions of one batch may be the same
                     let asked = waiting.iter().any(|(_, other, _)| *other == key);
                     if known.is_none() && !asked {
@@ -92,7 +92,7 @@ impl Objective<'_> {
                     answers.push(known);
                 }
                 // a point that the case refuses is one where the model fails
-                Err(error) => answers.push(Some(Record::failed("", &request.case, &error.to_string()))),
+                Err(error) => answers.push(Some(EvaluationRecord::failed("", &request.case, &error.to_string()))),
             }
         }
         self.watch.expected(waiting.len());
@@ -116,13 +116,13 @@ impl Objective<'_> {
                 let prepared = request.prepare(self.registry, &self.plan.file, &question.settings, self.plan.limits)?;
                 let key = evaluation::key(prepared.as_ref());
                 let file = self.file(&key);
-                *answer = Some(Record::read(&file, &key).ok_or_else(|| {
+                *answer = Some(EvaluationRecord::read(&file, &key).ok_or_else(|| {
                     let lost = std::io::Error::other("an evaluation that was just written cannot be read back");
                     FileError::unwritable(&file, &lost)
                 })?);
             }
         }
-        let answers: Vec<Record> = answers.into_iter().flatten().collect();
+        let answers: Vec<EvaluationRecord> = answers.into_iter().flatten().collect();
         if let Some(reason) = answers.iter().rev().find_map(|record| record.failure.clone()) {
             *self.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(reason);
         }

@@ -1,6 +1,6 @@
 //! What of a case's record a datum is compared with, and how.
 
-use crate::evaluation::Record;
+use crate::evaluation::EvaluationRecord;
 use crate::input::nearest;
 use crate::statistics::{Beyond, interpolated};
 use serde::{Deserialize, Serialize};
@@ -75,7 +75,7 @@ impl Target {
     ///
     /// # Errors
     /// The words for what the record does not have.
-    pub(super) fn predicted(&self, record: &Record) -> Result<(f64, String), String> {
+    pub(super) fn predicted(&self, record: &EvaluationRecord) -> Result<(f64, String), String> {
         match self {
             Self::Metric { name, variant } => {
                 let mut found = record

@@ -1,7 +1,7 @@
 //! `bagnold calibrate`: parameters from data.
 
-use super::arguments::Calibrate;
-use super::count::Count;
+use super::arguments::CalibrateArguments;
+use super::count::CountBar;
 use super::error::ProgramError;
 use super::{Exit, say};
 use crate::calibration::{CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, calibrate, write};
@@ -13,7 +13,7 @@ use std::path::Path;
 
 /// Calibrates, writes the page and prints the parameters.
 pub(super) fn run(
-    command: &Calibrate,
+    command: &CalibrateArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
@@ -26,7 +26,7 @@ pub(super) fn run(
         OutputFolder::adopt(Path::new("reports"))?;
     }
     let kept = CalibrationFolder::begin(&folder, &command.file, registry.origin(), command.resume)?;
-    let bar = Bar(Count::new("evaluations", 0, 0, quiet));
+    let bar = EvaluationBar(CountBar::new("evaluations", 0, 0, quiet));
     let outcome = calibrate(&plan, &kept, registry, &command.work.open_store(), &bar);
     bar.0.clear();
     let outcome = outcome?;
@@ -78,9 +78,9 @@ fn text(outcome: &CalibrationResult) -> String {
 }
 
 /// A progress bar that counts evaluations.
-struct Bar(Count);
+struct EvaluationBar(CountBar);
 
-impl CalibrationMonitor for Bar {
+impl CalibrationMonitor for EvaluationBar {
     fn expected(&self, evaluations: usize) {
         self.0.expect(evaluations);
     }

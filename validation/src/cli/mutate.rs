@@ -1,8 +1,8 @@
 //! `bagnold mutate`: builds a copy of the program with all mutations, runs it with one at a time, and says who noticed.
 
-use super::arguments::Mutate;
+use super::arguments::MutateArguments;
 use super::arguments::upkeep::MutateAction;
-use super::count::Count;
+use super::count::CountBar;
 use super::error::ProgramError;
 use super::{Exit, say, summary, tell};
 use crate::case::{Registry, share_out};
@@ -26,7 +26,7 @@ const PATIENCE: (f64, f64) = (10.0, 60.0);
 
 /// Lists, tries one error, or tries all.
 pub(super) fn mutate(
-    command: &Mutate,
+    command: &MutateArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
@@ -94,7 +94,7 @@ fn trial(program: &Path, number: usize, scope: &Scope, threads: Option<u16>) -> 
 }
 
 /// Tries the errors asked for, writes the findings and prints them.
-fn all(command: &Mutate, quiet: bool, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+fn all(command: &MutateArguments, quiet: bool, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
     let workspace = sources()?;
     let mutations = Mutations::read(&workspace)?;
     let errors: Vec<&Mutation> = if command.errors.is_empty() {
@@ -126,7 +126,7 @@ fn all(command: &Mutate, quiet: bool, output: &mut (dyn Write + Send)) -> Result
 fn findings(errors: &[&Mutation], program: &Program<'_>, quiet: bool) -> Result<Vec<Finding>, ProgramError> {
     let scopes = |error: &Mutation| program.mutations.scopes(error);
     let cases: BTreeSet<Scope> = errors.iter().flat_map(|&error| scopes(error)).collect();
-    let bar = Count::new("cases and errors", cases.len() + errors.len(), 0, quiet);
+    let bar = CountBar::new("cases and errors", cases.len() + errors.len(), 0, quiet);
     let right = Mutex::new(BTreeMap::new());
     share_out(cases.into_iter().collect(), |scope: Scope| -> Result<(), ProgramError> {
         bar.say(&scope.case);

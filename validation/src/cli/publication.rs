@@ -1,9 +1,9 @@
 //! What `bagnold run` writes and prints of finished cases and studies, and how a report shows them.
 
-use super::arguments::Run;
+use super::arguments::RunArguments;
 use super::error::ProgramError;
 use super::expectation::Expectation;
-use super::profile::Profile;
+use super::profile::StageTimer;
 use super::{Exit, print, say, summary, tell};
 use crate::case::{CaseResult, Tier};
 use crate::judge::Measurements;
@@ -15,8 +15,8 @@ use std::io::Write;
 use std::time::Instant;
 
 /// What a command writes of its results.
-pub(super) struct Written<'a> {
-    pub(super) command: &'a Run,
+pub(super) struct ResultPublication<'a> {
+    pub(super) command: &'a RunArguments,
     pub(super) title: String,
     pub(super) tier: Tier,
     pub(super) baseline: Baseline,
@@ -33,10 +33,10 @@ pub(super) struct Publication<'a> {
     pub(super) store: &'a Store,
     pub(super) expectation: Expectation,
     pub(super) started: Instant,
-    pub(super) profile: Profile,
+    pub(super) profile: StageTimer,
 }
 
-impl Written<'_> {
+impl ResultPublication<'_> {
     /// Writes numbers, tables, states and the page, and prints the verdicts.
     pub(super) fn publish(
         self,

@@ -1,7 +1,7 @@
 //! Simulating under the eyes of a user: what it is expected to take, and how far it has come.
 
 use super::expectation::Expectation;
-use super::progress::Progress;
+use super::progress::RunsBar;
 use super::tell;
 use crate::case::{CaseResult, Estimate, Monitor, ParameterError, PreparedCase, StateOutput, execute};
 use crate::result::States;
@@ -43,7 +43,7 @@ pub(super) fn simulate_showing(
     states: Option<&States>,
     expectation: Option<&Expectation>,
 ) -> Result<Vec<CaseResult>, ParameterError> {
-    let showing = Showing { progress: Progress::new(&cases, quiet), states, expectation };
+    let showing = Showing { progress: RunsBar::new(&cases, quiet), states, expectation };
     let results = execute(cases, store, &showing);
     showing.progress.clear();
     results
@@ -51,7 +51,7 @@ pub(super) fn simulate_showing(
 
 /// A progress bar, who takes the states of the runs, and who takes their times.
 struct Showing<'a> {
-    progress: Progress,
+    progress: RunsBar,
     states: Option<&'a States>,
     expectation: Option<&'a Expectation>,
 }

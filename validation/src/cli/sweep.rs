@@ -1,11 +1,11 @@
 //! `bagnold sweep`: many runs of one plan, here or on a cluster.
 
-use super::arguments::{Cluster, Engine, Sweep, SweepAction};
-use super::count::Count;
+use super::arguments::{Cluster, Engine, SweepAction, SweepArguments};
+use super::count::CountBar;
 use super::error::ProgramError;
 use super::{Exit, say};
 use crate::case::Registry;
-use crate::evaluation::Record;
+use crate::evaluation::EvaluationRecord;
 use crate::output::OutputFolder;
 use crate::sweep::{Entry, SweepFolder, SweepPlan, Tally, Watch, gather, run_entry, run_locally, slurm};
 use std::collections::BTreeSet;
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// Plans, runs, submits or gathers.
 pub(super) fn sweep(
-    command: &Sweep,
+    command: &SweepArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
@@ -40,7 +40,7 @@ const ANEW: &str = "to run them again, name another folder with --out";
 
 fn begin(
     file: &Path,
-    command: &Sweep,
+    command: &SweepArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
@@ -68,7 +68,7 @@ fn begin(
                 );
                 return finish(&sweep, output);
             }
-            let watch = Bar::new(&sweep, quiet);
+            let watch = SweepBar::new(&sweep, quiet);
             let outcome = run_locally(&sweep, registry, &command.work.open_store(), &watch);
             watch.0.clear();
             outcome?;
@@ -148,21 +148,21 @@ fn finish(sweep: &SweepFolder, output: &mut (dyn Write + Send)) -> Result<Exit, 
 }
 
 /// A progress bar that counts runs.
-struct Bar(Count);
+struct SweepBar(CountBar);
 
-impl Bar {
+impl SweepBar {
     fn new(sweep: &SweepFolder, quiet: bool) -> Self {
         let all = sweep.manifest().entries.len();
-        Self(Count::new("runs", all, all - sweep.missing().len(), quiet))
+        Self(CountBar::new("runs", all, all - sweep.missing().len(), quiet))
     }
 }
 
-impl Watch for Bar {
+impl Watch for SweepBar {
     fn begun(&self, entry: &Entry) {
         self.0.say(&entry.folder);
     }
 
-    fn ended(&self, entry: &Entry, record: &Record) {
+    fn ended(&self, entry: &Entry, record: &EvaluationRecord) {
         if let Some(reason) = &record.failure {
             tracing::warn!("{}: {reason}", entry.folder);
         }

@@ -9,7 +9,7 @@ mod record;
 
 pub use error::{PlanError, read_plan};
 pub use paths::Paths;
-pub use record::{MetricValue, Record};
+pub use record::{EvaluationRecord, MetricValue};
 
 use crate::case::{Changes, Limits, Monitor, ParameterError, PreparedCase, Registry, Tier, execute};
 use crate::store::{Store, hexadecimal, identity_or_unique};
@@ -87,23 +87,27 @@ pub fn evaluate(
     prepared: Box<dyn PreparedCase>,
     store: &Store,
     monitor: &dyn Monitor,
-) -> Result<Record, ParameterError> {
+) -> Result<EvaluationRecord, ParameterError> {
     let key = key(prepared.as_ref());
     let case = prepared.name().to_owned();
     let simulate = AssertUnwindSafe(|| execute(vec![prepared], store, monitor));
     match std::panic::catch_unwind(simulate) {
-        Ok(Ok(results)) => Ok(results
-            .into_iter()
-            .next()
-            .map_or_else(|| Record::failed(&key, &case, "nothing was simulated"), |result| Record::of(&key, &result))),
+        Ok(Ok(results)) => Ok(results.into_iter().next().map_or_else(
+            || EvaluationRecord::failed(&key, &case, "nothing was simulated"),
+            |result| EvaluationRecord::of(&key, &result),
+        )),
         Ok(Err(
             error @ (ParameterError::Field(_)
             | ParameterError::Scene(_)
             | ParameterError::Follows { .. }
             | ParameterError::Changed { .. }
             | ParameterError::NothingToRun { .. }),
-        )) => Ok(Record::failed(&key, &case, &error.to_string())),
+        )) => Ok(EvaluationRecord::failed(&key, &case, &error.to_string())),
         Ok(Err(error)) => Err(error),
-        Err(_) => Ok(Record::failed(&key, &case, "a run panicked, which is an error of the program; please report it")),
+        Err(_) => Ok(EvaluationRecord::failed(
+            &key,
+            &case,
+            "a run panicked, which is an error of the program; please report it",
+        )),
     }
 }

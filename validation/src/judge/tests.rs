@@ -66,12 +66,12 @@ fn every_part_alone_gives_numbers_and_none_for_what_is_missing() {
     assert!(cases >= 6, "{cases} cases take files");
 }
 
-fn read(text: &str) -> Result<Trial, JudgeError> {
+fn read(text: &str) -> Result<CaseSubmissions, JudgeError> {
     let folder = tempfile::tempdir().expect("temporary folder");
     let file = folder.path().join("mine.toml");
     std::fs::write(&file, text).expect("writable");
     std::fs::write(folder.path().join("u.csv"), "y [mm],u\n0,0\n1,0.1\n2,0.2\n").expect("writable");
-    Trial::read(&[file], REGISTRY)
+    CaseSubmissions::read(&[file], REGISTRY)
 }
 
 fn message(text: &str) -> String {

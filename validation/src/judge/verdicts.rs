@@ -8,14 +8,14 @@ use std::collections::BTreeSet;
 
 /// A metric of ours with another code's value, if it gave one.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Compared {
+pub struct MetricComparison {
     /// Ours.
     pub own: Metric,
     /// The other code's, with its own gate; none where nothing was given that it follows from.
     pub foreign: Option<Metric>,
 }
 
-impl Compared {
+impl MetricComparison {
     /// How the other code stands; none where nothing was given.
     #[must_use]
     pub fn verdict(&self) -> Option<Verdict> {
@@ -35,7 +35,7 @@ pub(super) fn compare(
     own: &[Metric],
     foreign: &ExternalResult,
     numbers: &Numbers<'_>,
-) -> Result<Vec<Compared>, FieldError> {
+) -> Result<Vec<MetricComparison>, FieldError> {
     let mut given = Vec::new();
     for (variant, run, field) in numbers {
         for (name, value) in &run.numbers {
@@ -51,9 +51,9 @@ pub(super) fn compare(
             (Some(value), measured) => Some(Metric { value, ..measured.unwrap_or(metric).clone() }),
             (None, measured) => measured.cloned(),
         };
-        Compared { own: metric.clone(), foreign }
+        MetricComparison { own: metric.clone(), foreign }
     };
-    let is_shown = |compared: &Compared| compared.foreign.is_some() || compared.own.kind != Kind::Bookkeeping;
+    let is_shown = |compared: &MetricComparison| compared.foreign.is_some() || compared.own.kind != Kind::Bookkeeping;
     Ok(own.iter().enumerate().map(compared).filter(is_shown).collect())
 }
 
@@ -96,7 +96,7 @@ mod tests {
             vec!["front", "height"],
         );
         let compared = compare(&own, &theirs, &[]).expect("no numbers");
-        let verdicts: Vec<Option<Verdict>> = compared.iter().map(Compared::verdict).collect();
+        let verdicts: Vec<Option<Verdict>> = compared.iter().map(MetricComparison::verdict).collect();
         assert_eq!(verdicts, [Some(Verdict::Fail), None, None]);
     }
 

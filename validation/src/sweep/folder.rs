@@ -2,7 +2,7 @@
 
 use super::error::SweepError;
 use super::manifest::{Entry, Manifest};
-use crate::evaluation::Record;
+use crate::evaluation::EvaluationRecord;
 use crate::output::{FolderError, Owner, claim, is_claimed, owner_of};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -83,10 +83,10 @@ impl SweepFolder {
 
     /// The record of a run that is done or has failed.
     #[must_use]
-    pub fn record(&self, entry: &Entry) -> Option<Record> {
+    pub fn record(&self, entry: &Entry) -> Option<EvaluationRecord> {
         match &entry.refusal {
-            Some(reason) => Some(Record::failed("", &entry.case, reason)),
-            None => Record::read(&self.of(entry).join("record.postcard"), &entry.key),
+            Some(reason) => Some(EvaluationRecord::failed("", &entry.case, reason)),
+            None => EvaluationRecord::read(&self.of(entry).join("record.postcard"), &entry.key),
         }
     }
 

@@ -4,7 +4,7 @@ use super::error::SweepError;
 use super::folder::SweepFolder;
 use super::manifest::{Entry, Manifest};
 use crate::case::{CaseFile, Changes, Limits, Registry, Silent, share_out};
-use crate::evaluation::{self, Record};
+use crate::evaluation::{self, EvaluationRecord};
 use crate::output::{FileError, Owner, write_whole};
 use crate::store::Store;
 
@@ -13,14 +13,19 @@ pub trait Watch: Sync {
     /// A run begins.
     fn begun(&self, entry: &Entry);
     /// A run has its record.
-    fn ended(&self, entry: &Entry, record: &Record);
+    fn ended(&self, entry: &Entry, record: &EvaluationRecord);
 }
 
 /// Runs one entry on the current rayon pool's threads and writes its folder, the record last.
 ///
 /// # Errors
 /// Files that cannot be written. A run that fails is no error: its record says why.
-pub fn run_entry(sweep: &SweepFolder, entry: &Entry, registry: Registry, store: &Store) -> Result<Record, SweepError> {
+pub fn run_entry(
+    sweep: &SweepFolder,
+    entry: &Entry,
+    registry: Registry,
+    store: &Store,
+) -> Result<EvaluationRecord, SweepError> {
     if let Some(record) = sweep.record(entry) {
         return Ok(record);
     }
