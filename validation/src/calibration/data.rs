@@ -3,7 +3,7 @@
 use super::error::CalibrationError;
 use super::target::{Datum, DatumUncertainty, Target, parted};
 use crate::input::FieldError;
-use crate::reference::{Column, MeasuredData};
+use crate::reference::{MeasuredData, ReferenceColumn};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
@@ -268,7 +268,7 @@ fn numbers(
 ) -> Result<(Vec<f64>, String), CalibrationError> {
     let values = data.numbers(wanted)?.to_vec();
     let unit = data.columns.iter().find_map(|column| match column {
-        Column::Numbers { name, unit, .. } if name == wanted => Some(unit.clone()),
+        ReferenceColumn::Numbers { name, unit, .. } if name == wanted => Some(unit.clone()),
         _ => None,
     });
     let unit = unit.unwrap_or_default();

@@ -7,7 +7,8 @@ use super::error::ProgramError;
 use super::{Exit, say, summary, tell};
 use crate::case::{Registry, share_out};
 use crate::mutation::{
-    CHOICE, Finding, Mutation, Mutations, Scope, Sighting, Tally, build, judge, run_trial, table, write,
+    CHOICE, DetectionTally, Mutation, MutationOutcome, Mutations, Scope, Sighting, build, judge, run_trial, table,
+    write,
 };
 use crate::output::{FileError, OutputFolder};
 use crate::store::provenance::workspace;
@@ -118,12 +119,12 @@ fn all(command: &MutateArguments, quiet: bool, output: &mut (dyn Write + Send)) 
     claimed.publish()?;
     say(output, &table(&findings));
     say(output, &format!("{:.0} s; written to {}\n", started.elapsed().as_secs_f64(), command.out.display()));
-    Ok(if Tally::of(&findings).holds() { Exit::Held } else { Exit::GateFailed })
+    Ok(if DetectionTally::of(&findings).holds() { Exit::Held } else { Exit::GateFailed })
 }
 
 /// Every case first without errors, then each error through its cases until one notices for certain; as many at a time
 /// as there are threads.
-fn findings(errors: &[&Mutation], program: &Program<'_>, quiet: bool) -> Result<Vec<Finding>, ProgramError> {
+fn findings(errors: &[&Mutation], program: &Program<'_>, quiet: bool) -> Result<Vec<MutationOutcome>, ProgramError> {
     let scopes = |error: &Mutation| program.mutations.scopes(error);
     let cases: BTreeSet<Scope> = errors.iter().flat_map(|&error| scopes(error)).collect();
     let bar = CountBar::new("cases and errors", cases.len() + errors.len(), 0, quiet);
@@ -171,7 +172,7 @@ impl<'a> Program<'a> {
     }
 
     /// Runs an error through its cases, the likeliest first, until a gate or a stop has caught it.
-    fn try_error(&self, error: &Mutation, right: &BTreeMap<Scope, Sighting>) -> Finding {
+    fn try_error(&self, error: &Mutation, right: &BTreeMap<Scope, Sighting>) -> MutationOutcome {
         let scopes = self.mutations.scopes(error);
         let mut comparisons = Vec::new();
         for scope in &scopes {

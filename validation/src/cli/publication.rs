@@ -8,7 +8,7 @@ use super::{Exit, print, say, summary, tell};
 use crate::case::{CaseResult, Tier};
 use crate::judge::Measurements;
 use crate::output::{FileError, OutputFolder};
-use crate::report::{self, Baseline, CaseReport, History, KnownFailures, Provenance, Report, Standing};
+use crate::report::{self, Baseline, CaseReport, History, KnownFailureStatus, KnownFailures, Report, ReportProvenance};
 use crate::result::{MetricsDocument, write_case};
 use crate::store::Store;
 use std::io::Write;
@@ -60,7 +60,7 @@ impl ResultPublication<'_> {
         let page = Report {
             title: self.title,
             tier: self.tier,
-            generated: Provenance::of_this_program(started.elapsed(), String::new()),
+            generated: ReportProvenance::of_this_program(started.elapsed(), String::new()),
             cases: results.iter().map(case_report).collect(),
             baseline: self.baseline,
             against: None,
@@ -112,5 +112,5 @@ pub(super) fn case_report(result: &CaseResult) -> CaseReport {
 
 /// Whether a failing gate is listed, and fails as listed.
 pub(super) fn is_known(known: &KnownFailures, result: &CaseResult, metric: &crate::metric::Metric) -> bool {
-    matches!(known.standing(&result.name, metric), Standing::Known(_))
+    matches!(known.standing(&result.name, metric), KnownFailureStatus::Known(_))
 }

@@ -9,7 +9,7 @@ use super::simulation::{announce, simulate};
 use super::{Exit, say, summary, tell};
 use crate::case::{CaseResult, Changes, ParameterError, PreparedCase, Registry, Tier};
 use crate::output::{FileError, FolderError, OutputFolder};
-use crate::report::{self, Baseline, CaseReport, History, Provenance, Report, history};
+use crate::report::{self, Baseline, CaseReport, History, Report, ReportProvenance, history};
 use crate::store::provenance;
 use crate::study::{Study, Suite};
 use std::io::Write;
@@ -62,7 +62,7 @@ pub(super) fn report(
     let page = Report {
         title: command.suite.as_ref().map_or_else(|| "Bagnold validation report".to_owned(), |folder| name_of(folder)),
         tier,
-        generated: Provenance::of_this_program(started.elapsed(), repeated(command)),
+        generated: ReportProvenance::of_this_program(started.elapsed(), repeated(command)),
         papers: if suite.is_none() { report::papers::accounted(&cases) } else { &[] },
         cases,
         baseline,

@@ -2,7 +2,7 @@
 
 use super::{CodeComparison, JudgedCode, MetricComparison};
 use crate::case::Tier;
-use crate::metric::{Confidence, Kind, Limit, Metric, Variant, Verdict};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Variant, Verdict};
 use crate::report::scatter::{QuantityBias, quantities_of};
 use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
 use serde::Serialize;
@@ -42,7 +42,7 @@ struct VerdictEntry {
     name: String,
     variant: Variant,
     unit: String,
-    kind: Kind,
+    kind: MetricKind,
     /// The code's value; null where none was given.
     value: Option<f64>,
     /// Ours.

@@ -3,7 +3,7 @@
 use super::submission::ForeignRun;
 use crate::case::ExternalResult;
 use crate::input::{FieldError, did_you_mean, nearest};
-use crate::metric::{Kind, Metric, Variant, Verdict};
+use crate::metric::{Metric, MetricKind, Variant, Verdict};
 use std::collections::BTreeSet;
 
 /// A metric of ours with another code's value, if it gave one.
@@ -53,7 +53,8 @@ pub(super) fn compare(
         };
         MetricComparison { own: metric.clone(), foreign }
     };
-    let is_shown = |compared: &MetricComparison| compared.foreign.is_some() || compared.own.kind != Kind::Bookkeeping;
+    let is_shown =
+        |compared: &MetricComparison| compared.foreign.is_some() || compared.own.kind != MetricKind::Bookkeeping;
     Ok(own.iter().enumerate().map(compared).filter(is_shown).collect())
 }
 
@@ -122,7 +123,7 @@ mod tests {
 
     #[test]
     fn our_own_bookkeeping_is_left_out() {
-        let own = [metric("lost", 0.0).of_kind(Kind::Bookkeeping), metric("front", 0.5)];
+        let own = [metric("lost", 0.0).of_kind(MetricKind::Bookkeeping), metric("front", 0.5)];
         let compared = compare(&own, &foreign(Vec::new(), Vec::new()), &[]).expect("no numbers");
         assert_eq!(compared.iter().map(|one| one.own.name.as_str()).collect::<Vec<_>>(), ["front"]);
     }

@@ -21,12 +21,12 @@ struct RunStates {
     folder: PathBuf,
     name: String,
     plan: OutputPlan,
-    written: Mutex<Written>,
+    written: Mutex<StateOutputProgress>,
 }
 
 /// How far it is.
 #[derive(Default)]
-struct Written {
+struct StateOutputProgress {
     /// Simulations of the run that have begun: a start and a stop are two.
     part: usize,
     /// Time at which the part began `[s]`, and states that were due since.
@@ -80,7 +80,7 @@ impl States {
 }
 
 impl RunStates {
-    fn lock(&self) -> std::sync::MutexGuard<'_, Written> {
+    fn lock(&self) -> std::sync::MutexGuard<'_, StateOutputProgress> {
         self.written.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -101,7 +101,7 @@ impl RunStates {
         Ok(file)
     }
 
-    fn add(&self, written: &mut Written, flow: Frame, walls: Option<Frame>) -> io::Result<()> {
+    fn add(&self, written: &mut StateOutputProgress, flow: Frame, walls: Option<Frame>) -> io::Result<()> {
         let number = written.flow.len();
         if number >= MOST_STATES {
             let text = format!("more than {MOST_STATES} states of {}: choose a larger output.every", self.name);

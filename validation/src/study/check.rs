@@ -4,7 +4,7 @@ use super::file::{CheckText, Distance, Reduction};
 use super::probe::Column;
 use crate::input::{FieldError, check_text};
 use crate::judge::Measurements;
-use crate::metric::{Confidence, Kind, Limit, Metric, Origin, Variant};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Origin, Variant};
 use std::path::Path;
 
 /// What is read.
@@ -87,9 +87,9 @@ impl Check {
     pub(super) fn metric(&self, variant: &Variant, value: f64, unit: &str) -> Metric {
         let metric = Metric::observed(&self.name, variant, value, unit)
             .of_kind(match self.confidence {
-                Confidence::Exact => Kind::Verification,
-                _ if self.source.is_none() => Kind::Verification,
-                _ => Kind::Validation,
+                Confidence::Exact => MetricKind::Verification,
+                _ if self.source.is_none() => MetricKind::Verification,
+                _ => MetricKind::Validation,
             })
             .gated_by(self.limit, &self.reason);
         match &self.source {

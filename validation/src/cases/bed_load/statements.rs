@@ -13,7 +13,7 @@ use super::run::{BedLoadFormulation, BedLoadRun};
 use super::tiers::FITTED;
 use crate::case::Run;
 use crate::cases::channel;
-use crate::metric::{Confidence, Kind, Limit, Metric, Value, Variant};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Value, Variant};
 use crate::observation::Recorded;
 use crate::reference::{HONEST_BAND, LAYER_STATEMENTS, TransportFormula};
 use crate::statistics::Segmented;
@@ -78,7 +78,7 @@ pub(super) fn stabilised(
         let reference = formula.transport(run.stream().shields_number());
         let ratio = observed(TRANSPORT_RATIO, data.channel.average(&data.transport), 1.0 / reference);
         let reason = "yield stress and viscosity are fitted to the two other slopes";
-        let metric = ratio.against(Some(1.0), formula.name(), formula.confidence()).of_kind(Kind::Validation);
+        let metric = ratio.against(Some(1.0), formula.name(), formula.confidence()).of_kind(MetricKind::Validation);
         metrics.push(metric.gated(Limit::Within(HONEST_BAND.0, HONEST_BAND.1), reason));
     }
     let gate = |limit: Limit| judged.then_some(limit);

@@ -7,7 +7,7 @@ mod reading;
 use super::JudgeError;
 use crate::case::CaseResult;
 use crate::input::FieldError;
-use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Variant};
 use place::{CurveResidual, MatchingPanel};
 use std::path::{Path, PathBuf};
 
@@ -151,7 +151,7 @@ impl Measurements {
         let confidence = self.said.confidence.unwrap_or(Confidence::Low);
         let metric = Metric::observed("overlay_residual", &variant, curve.residual, "-")
             .against(Some(0.0), &source, confidence)
-            .of_kind(Kind::Validation);
+            .of_kind(MetricKind::Validation);
         let reason = format!("the limit that {} states", self.path.display());
         metric.gated_by(self.said.limit.map(Limit::AtMost), &reason)
     }
