@@ -16,7 +16,7 @@ use crate::checkpoint::{Checkpoints, is_interrupted};
 use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
 use crate::observation::Recorded;
-use crate::store::{Origin, Store};
+use crate::store::{CodeOrigin, Store};
 use bagnold_solver::parameter::schema_of;
 use sha2::{Digest, Sha256};
 use std::sync::OnceLock;
@@ -30,7 +30,7 @@ pub trait AnyCase: Sync {
     /// What its metrics are built from; empty for a case that does not declare it.
     fn quantities(&self) -> &'static [Quantity];
     /// Where its code stands.
-    fn origin(&self) -> Origin;
+    fn origin(&self) -> CodeOrigin;
     /// The tier's parameters as a complete, commented file for `bagnold run`.
     fn show(&self, tier: Tier) -> String;
     /// The JSON Schema (2020-12) of a case file, with the tier's parameters as defaults.
@@ -49,7 +49,7 @@ pub trait PreparedCase: Send + Sync {
     /// Name of the case.
     fn name(&self) -> &'static str;
     /// Where the code of the case stands.
-    fn origin(&self) -> Origin;
+    fn origin(&self) -> CodeOrigin;
     /// The parameters: a complete file for `bagnold run`.
     fn parameters_toml(&self) -> &str;
     /// Number of runs.
@@ -93,7 +93,7 @@ impl<C: Case> AnyCase for C {
         C::QUANTITIES
     }
 
-    fn origin(&self) -> Origin {
+    fn origin(&self) -> CodeOrigin {
         C::ORIGIN
     }
 
@@ -175,7 +175,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         C::NAME
     }
 
-    fn origin(&self) -> Origin {
+    fn origin(&self) -> CodeOrigin {
         C::ORIGIN
     }
 

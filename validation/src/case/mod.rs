@@ -44,7 +44,7 @@ use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity, Variant};
 use crate::observation::Recorded;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -163,7 +163,7 @@ pub trait Case: Sync + 'static {
     const QUANTITIES: &'static [Quantity] = &[];
     /// Where its code stands. Leave it as it is: no hash of sources covers a case of another crate, so its results are known
     /// by the program that computed them.
-    const ORIGIN: Origin = Origin::ELSEWHERE;
+    const ORIGIN: CodeOrigin = CodeOrigin::ELSEWHERE;
     /// Lists that a file states whole: one that it leaves out is empty there, and not the tier's.
     const STATED: &'static [&'static str] = &[];
     /// What another code may give of a run, beside single numbers.

@@ -73,7 +73,7 @@ mod tests {
     use super::REGISTRY;
     use crate::case::{Changes, PreparedCase, Silent, Tier};
     use crate::metric::Variant;
-    use crate::store::{Origin, Store, StorePolicy};
+    use crate::store::{CodeOrigin, Store, StorePolicy};
     use bagnold_solver::material::rheology::ViscousLaw;
     use bagnold_solver::material::rheology::open::{OpenLaw, Parameters, register};
     use std::collections::BTreeSet;
@@ -96,9 +96,9 @@ mod tests {
     #[test]
     fn every_case_is_known_by_the_hash_of_the_sources() {
         for case in REGISTRY.iter() {
-            assert_eq!(case.origin(), Origin::PACKAGE, "{}: its `ORIGIN` is missing", case.name());
+            assert_eq!(case.origin(), CodeOrigin::PACKAGE, "{}: its `ORIGIN` is missing", case.name());
         }
-        assert_eq!(crate::case::pendulum::REGISTRY.origin(), Origin::ELSEWHERE);
+        assert_eq!(crate::case::pendulum::REGISTRY.origin(), CodeOrigin::ELSEWHERE);
     }
 
     /// A liquid that no built-in law knows by this name.

@@ -7,7 +7,9 @@ use super::{Exit, say};
 use crate::case::Registry;
 use crate::evaluation::EvaluationRecord;
 use crate::output::OutputFolder;
-use crate::sweep::{Entry, SweepFolder, SweepPlan, Tally, Watch, gather, run_entry, run_locally, slurm};
+use crate::sweep::{
+    SweepFolder, SweepMonitor, SweepPlan, SweepProgress, SweepRun, gather, run_entry, run_locally, slurm,
+};
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -54,7 +56,7 @@ fn begin(
         OutputFolder::adopt(Path::new("reports"))?;
     }
     if command.engine == Engine::Slurm {
-        slurm::check(&folder, &asked(&command.cluster, command.work.store.clone(), slurm::Request::default()))?;
+        slurm::check(&folder, &asked(&command.cluster, command.work.store.clone(), slurm::SlurmRequest::default()))?;
         slurm::available()?;
     }
     // what is there is resumed, and what is done is shown again
@@ -116,8 +118,8 @@ fn submit(
 }
 
 /// What the options ask for, and where they say nothing, what was asked for the last time.
-fn asked(cluster: &Cluster, store: Option<PathBuf>, last: slurm::Request) -> slurm::Request {
-    slurm::Request {
+fn asked(cluster: &Cluster, store: Option<PathBuf>, last: slurm::SlurmRequest) -> slurm::SlurmRequest {
+    slurm::SlurmRequest {
         partition: cluster.partition.clone().or(last.partition),
         time: cluster.time.clone().or(last.time),
         memory: cluster.memory.clone().or(last.memory),
@@ -130,7 +132,7 @@ fn asked(cluster: &Cluster, store: Option<PathBuf>, last: slurm::Request) -> slu
 
 /// Gathers and says how far the sweep is.
 fn finish(sweep: &SweepFolder, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
-    let Tally { done, failed, missing } = gather(sweep)?;
+    let SweepProgress { done, failed, missing } = gather(sweep)?;
     let all = sweep.manifest().entries.len();
     let mut text = format!("{done} of {all} runs done");
     if failed > 0 {
@@ -157,12 +159,12 @@ impl SweepBar {
     }
 }
 
-impl Watch for SweepBar {
-    fn begun(&self, entry: &Entry) {
+impl SweepMonitor for SweepBar {
+    fn begun(&self, entry: &SweepRun) {
         self.0.say(&entry.folder);
     }
 
-    fn ended(&self, entry: &Entry, record: &EvaluationRecord) {
+    fn ended(&self, entry: &SweepRun, record: &EvaluationRecord) {
         if let Some(reason) = &record.failure {
             tracing::warn!("{}: {reason}", entry.folder);
         }

@@ -16,7 +16,7 @@ use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -26,7 +26,7 @@ type BagnoldRecord = RecordOf<BagnoldParameters>;
 
 impl Case for Bagnold {
     const NAME: &'static str = "bagnold";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "μ(I) grains on an incline: Bagnold's velocity profile, its approach, arrest below and runaway above";
     const DESCRIPTION: &'static str = "A layer of glass beads with the μ(I) rheology on an incline, periodic along the slope, over a no-slip bed. \

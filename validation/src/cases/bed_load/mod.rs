@@ -27,7 +27,7 @@ use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -37,7 +37,7 @@ type BedLoadRecord = RecordOf<BedLoadParameters>;
 
 impl Case for BedLoad {
     const NAME: &'static str = "bed-load";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "water over a bed that moves: profiles, drag and transport, in three formulations";
     const DESCRIPTION: &'static str = "Turbulent water over a bed of 5 mm grains. `stabilised` has one particle a grain, a yield stress that grows with \
         the grains' weight, and two parameters that are fitted on two slopes and judged on the third. `continuum` \

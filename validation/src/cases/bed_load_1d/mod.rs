@@ -23,7 +23,7 @@ use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -34,7 +34,7 @@ type BedLoad1dRecord = RecordOf<BedLoad1dParameters>;
 
 impl Case for BedLoad1d {
     const NAME: &'static str = "bed-load-1d";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "bed load over the depth, two phases with closures of the literature, without particles";
     const DESCRIPTION: &'static str = "Water flows down a slope over a bed of grains and drags the upper ones along. Both phases are continua over the \

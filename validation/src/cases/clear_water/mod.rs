@@ -13,7 +13,7 @@ use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -23,7 +23,7 @@ type ClearWaterRecord = RecordOf<ClearWaterParameters>;
 
 impl Case for ClearWater {
     const NAME: &'static str = "clear-water";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "turbulent clear water over a fixed rough bed against the logarithmic law";
     const DESCRIPTION: &'static str = "Water over a fixed bed of 5 mm grains on the slopes of the bed-load paper, with a mixing length for what the \
         particles do not resolve and the law of a rough wall for the bed. The closure carries the stress of a uniform \

@@ -12,7 +12,7 @@ use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -20,7 +20,7 @@ pub struct ColumnPlanar;
 
 impl Case for ColumnPlanar {
     const NAME: &'static str = "column-planar";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "planar columns of μ(I) grains: run-out, height and stopping time against the published laws";
     const DESCRIPTION: &'static str = "Half a column of dry grains stands against a free-slip symmetry plane on a rough horizontal bed and is released \

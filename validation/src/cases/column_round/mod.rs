@@ -10,7 +10,7 @@ use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -18,7 +18,7 @@ pub struct ColumnRound;
 
 impl Case for ColumnRound {
     const NAME: &'static str = "column-round";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "round columns of sand in three dimensions: run-out against the axisymmetric experiment's law";
     const DESCRIPTION: &'static str = "A quarter of a cylinder of dry sand stands between two free-slip symmetry planes on a rough horizontal bed and is \

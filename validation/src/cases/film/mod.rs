@@ -15,7 +15,7 @@ use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ type Record = RecordOf<FilmParameters>;
 
 impl Case for Film {
     const NAME: &'static str = "film";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "Newtonian, Bingham and Herschel–Bulkley films on an incline against their exact profiles";
     const DESCRIPTION: &'static str = "A viscous film on an incline, periodic along the slope, over a no-slip bed. The Newtonian film starts from rest; \

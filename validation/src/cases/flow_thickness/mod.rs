@@ -15,7 +15,7 @@ use crate::figure::Figure;
 use crate::metric::{Metric, Quantity, Variant};
 use crate::observation::Recorded;
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 use serde::{Deserialize, Serialize};
 
 /// The case.
@@ -107,7 +107,7 @@ impl Run for FlowThicknessRun {
 
 impl Case for FlowThickness {
     const NAME: &'static str = "flow-thickness";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "thickness of flow on a slope, the slope at which a layer stops, and the flow rule";
     const DESCRIPTION: &'static str = "Three questions about thickness. (i) How thick is the flow of a collapse half a metre and more down the slope? \
         Thickness is the volume of the grains in a bin of 2 cm over the bin's width, as in incline-collapse; the paper's \

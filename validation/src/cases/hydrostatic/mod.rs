@@ -15,7 +15,7 @@ use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ type HydrostaticRecord = RecordOf<HydrostaticParameters>;
 
 impl Case for Hydrostatic {
     const NAME: &'static str = "hydrostatic";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "a jittered layer at rest, Newtonian and μ(I): pressure, its noise, drift";
     const DESCRIPTION: &'static str = "A layer of displaced particles, settled without friction before the start (`preparation`), must stay at rest \
         with the exact hydrostatic pressure of its equation of state, without the particle-scale pressure noise that weakly \

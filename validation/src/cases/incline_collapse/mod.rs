@@ -12,7 +12,7 @@ use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -22,7 +22,7 @@ type InclineCollapseRecord = RecordOf<InclineCollapseParameters>;
 
 impl Case for InclineCollapse {
     const NAME: &'static str = "incline-collapse";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "grains released by a gate on a slope: front, thickness and final run-out against experiments";
     const DESCRIPTION: &'static str = "A reservoir of glass beads (14 cm high, 20 cm long, smooth back) stands behind a smooth gate on a rough slope. \

@@ -17,7 +17,7 @@ use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::observation::Frame;
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 use bagnold_solver::domain::Domain;
 use bagnold_solver::weakly_compressible::boundary::backing;
 use bagnold_solver::weakly_compressible::boundary::shell::Shell;
@@ -68,7 +68,7 @@ pub struct UserScene;
 
 impl Case for UserScene {
     const NAME: &'static str = "scene";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "a scene of one's own in the plane: bodies of material, walls of segments, open sides, gauges; judged by its balances";
     const DESCRIPTION: &'static str = "Boxes, discs and polygons of one material under any law, by the weakly compressible model, between walls \
         that are polylines, rough or smooth, at rest or moved by a table of times. Sides of the domain are planes of \

@@ -17,7 +17,7 @@ use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::observation::Frame;
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 use bagnold_solver::domain::Domain;
 use bagnold_solver::weakly_compressible::boundary::mesh_backing;
 use bagnold_solver::weakly_compressible::boundary::shell::Shell;
@@ -68,7 +68,7 @@ pub struct SpaceScene;
 
 impl Case for SpaceScene {
     const NAME: &'static str = "scene-space";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "a scene of one's own in space: bodies of material, walls from STL files or of quadrilaterals and boxes, open sides, gauges; judged by its balances";
     const DESCRIPTION: &'static str = "Boxes, cylinders and balls of one material under any law, by the weakly compressible model, between walls of \
         triangles: meshes from STL files, quadrilaterals and boxes, rough or smooth, at rest or moved by a table of times. Sides of the \

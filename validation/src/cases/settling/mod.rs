@@ -26,7 +26,7 @@ use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -36,7 +36,7 @@ type SettlingRecord = RecordOf<SettlingParameters>;
 
 impl Case for Settling {
     const NAME: &'static str = "settling";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "a grain alone and a uniform suspension sink in a fluid, by every drag law";
     const DESCRIPTION: &'static str = "One grain sinks through a box of fluid that is periodic in both directions and that is pushed up by as much as \
         the grain weighs. Its slip against the fluid around it, in the mean over a window after the start, must be the \

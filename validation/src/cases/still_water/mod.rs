@@ -11,7 +11,7 @@ use crate::case::{Case, RecordOf};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -21,7 +21,7 @@ type StillWaterRecord = RecordOf<StillWaterParameters>;
 
 impl Case for StillWater {
     const NAME: &'static str = "still-water";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "a displaced column of incompressible water at rest: height, vertical velocity, pressure";
     const DESCRIPTION: &'static str = "Water of displaced particles over a closed floor must come to rest with its height and with the hydrostatic \

@@ -12,7 +12,7 @@ use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -22,7 +22,7 @@ type WaterFilmRecord = RecordOf<WaterFilmParameters>;
 
 impl Case for WaterFilm {
     const NAME: &'static str = "water-film";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "a laminar film by the incompressible model against its exact profile, with the order of convergence";
     const DESCRIPTION: &'static str = "A Newtonian film down a slope of 3 % over a bed that it sticks to, by the incompressible projection step. The \
