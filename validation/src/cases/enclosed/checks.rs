@@ -1,8 +1,8 @@
 //! Rules between the fields of a scene.
 
 use super::parameters::Setting;
-use super::setting::{Body, Gauge, Wall, shown, vector};
-use super::{Measure, SceneParameters, names, sides::Sides};
+use super::setting::{SceneBody, SceneGauge, SceneWall, shown, vector};
+use super::{Measurand, SceneParameters, names, sides::SceneSides};
 use crate::case::ParameterError;
 use crate::cases::rules;
 use bagnold_solver::vector::Vector;
@@ -14,8 +14,8 @@ use bagnold_solver::weakly_compressible::numerics::Contact;
 impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     /// Everything that is refused beyond the ranges of single fields.
     pub(super) fn checked(&self) -> Result<(), ParameterError> {
-        let walls = self.walls.iter().map(Wall::name);
-        names::check(&self.name, walls, self.gauges.iter().map(Gauge::name))?;
+        let walls = self.walls.iter().map(SceneWall::name);
+        names::check(&self.name, walls, self.gauges.iter().map(SceneGauge::name))?;
         rules::material("material", &self.material)?;
         self.bulk.check(&self.material).map_err(|error| error.within("bulk"))?;
         self.sides.check()?;
@@ -34,7 +34,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     /// Numerics that the material and the walls need.
     fn check_numerics(&self) -> Result<(), ParameterError> {
         rules::viscous_step("numerics", &self.numerics, &self.material)?;
-        let shells: Vec<_> = self.walls.iter().map(Wall::shell).collect();
+        let shells: Vec<_> = self.walls.iter().map(SceneWall::shell).collect();
         if shells.iter().any(|shell| shell.roughness == Surface::Smooth) {
             rules::gate("numerics", &self.numerics)?;
         }
@@ -50,8 +50,8 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     fn check_gauges(&self) -> Result<(), ParameterError> {
         let down = self.down();
         for (k, gauge) in self.gauges.iter().enumerate() {
-            if let Measure::Force { wall } = gauge.measure(&down) {
-                names::check_wall(k, wall, self.walls.iter().map(Wall::name))?;
+            if let Measurand::Force { wall } = gauge.measure(&down) {
+                names::check_wall(k, wall, self.walls.iter().map(SceneWall::name))?;
             }
             gauge.check(self.spacing, &down).map_err(|error| error.within(&format!("gauges[{k}]")))?;
         }

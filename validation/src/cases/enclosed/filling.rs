@@ -1,8 +1,8 @@
 //! Where particles start: on the sites of a lattice that bodies hold, as dense as the material above them makes them.
 
 use super::parameters::Setting;
-use super::setting::{Body, vector};
-use super::sides::Sides;
+use super::setting::{SceneBody, vector};
+use super::sides::SceneSides;
 use super::surfaces::Surfaces;
 use super::{SceneParameters, shapes};
 use crate::setup::displaced_flow;
@@ -62,13 +62,13 @@ fn lattice<const D: usize>((lower, upper): (Vector<D>, Vector<D>), spacing: f64)
 }
 
 /// The first body that holds a place, if any does.
-fn holder<'a, B: Body<D>, const D: usize>(bodies: &'a [B], place: &Vector<D>) -> Option<&'a B> {
+fn holder<'a, B: SceneBody<D>, const D: usize>(bodies: &'a [B], place: &Vector<D>) -> Option<&'a B> {
     bodies.iter().find(|body| body.holds(place))
 }
 
 /// Depth of a place below the surface of the material, against the direction `up`: as far as bodies reach `[m]`.
 pub(in crate::cases) fn depth<const D: usize>(
-    bodies: &[impl Body<D>],
+    bodies: &[impl SceneBody<D>],
     place: &Vector<D>,
     up: &Vector<D>,
     spacing: f64,

@@ -1,6 +1,6 @@
 //! Reading the gauges of a scene, sample by sample.
 
-use super::Measure;
+use super::Measurand;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
@@ -24,7 +24,7 @@ impl<const D: usize> Memory<D> {
     /// sample. `begun` particles were there at the start.
     pub(in crate::cases) fn read_all(
         &mut self,
-        measures: &[Measure<'_, D>],
+        measures: &[Measurand<'_, D>],
         simulation: &Simulation<D>,
         snapshot: &Snapshot<D>,
         begun: usize,
@@ -47,16 +47,16 @@ impl<const D: usize> Memory<D> {
     fn read(
         &mut self,
         gauge: usize,
-        measure: &Measure<'_, D>,
+        measure: &Measurand<'_, D>,
         simulation: &Simulation<D>,
         snapshot: &Snapshot<D>,
     ) -> Vec<f64> {
         let elapsed = simulation.time() - self.time;
         let per_time = |change: f64| if elapsed > 0.0 { change / elapsed } else { 0.0 };
         match measure {
-            Measure::Front(line) => vec![line.reached(simulation.spacing(), snapshot)],
-            Measure::Depth(depth) => vec![depth.thickness(snapshot)],
-            Measure::Force { wall } => {
+            Measurand::Front(line) => vec![line.reached(simulation.spacing(), snapshot)],
+            Measurand::Depth(depth) => vec![depth.thickness(snapshot)],
+            Measurand::Force { wall } => {
                 let Some(k) = simulation.shells().iter().position(|shell| shell.name == *wall) else {
                     return vec![0.0; D];
                 };
@@ -64,7 +64,7 @@ impl<const D: usize> Memory<D> {
                 // the wall feels the opposite of what it gives
                 (before - simulation.shell_impulses()[k]).iter().map(|&change| per_time(change)).collect()
             }
-            Measure::Flux(opening) => {
+            Measurand::Flux(opening) => {
                 let crossed = opening.crossed(simulation, &self.places);
                 self.crossed[gauge] += crossed;
                 vec![self.crossed[gauge], per_time(crossed)]

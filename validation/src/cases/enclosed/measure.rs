@@ -1,17 +1,17 @@
 //! What gauges measure, whatever the number of axes.
 
-use crate::cases::front::{Line, volumes};
+use crate::cases::front::{FrontLine, volumes};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
 /// What a gauge measures.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Measure<'a, const D: usize> {
+pub enum Measurand<'a, const D: usize> {
     /// How far the material reaches.
-    Front(Line<D>),
+    Front(FrontLine<D>),
     /// Thickness of the material along gravity.
-    Depth(Depth<D>),
+    Depth(DepthGauge<D>),
     /// Force of the flow on a wall.
     Force {
         /// Name of the wall.
@@ -23,7 +23,7 @@ pub enum Measure<'a, const D: usize> {
 
 /// A place around which the material's thickness along gravity is measured: its volume within a width, over the section.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Depth<const D: usize> {
+pub struct DepthGauge<const D: usize> {
     /// The place `[m]`.
     pub at: Vector<D>,
     /// The unit vector along gravity `[-]`.
@@ -34,7 +34,7 @@ pub struct Depth<const D: usize> {
     pub section: f64,
 }
 
-impl<const D: usize> Depth<D> {
+impl<const D: usize> DepthGauge<D> {
     /// The thickness `[m]`.
     pub(super) fn thickness(&self, snapshot: &Snapshot<D>) -> f64 {
         let inside = |place: Vector<D>| {

@@ -12,12 +12,12 @@ const FREE: f64 = 0.4;
 const PASSED: f64 = 0.5;
 
 /// Facets that stand together, with a grid to find them by.
-struct Surface<const D: usize> {
+struct FacetSurface<const D: usize> {
     facets: Vec<Facet<D>>,
     grid: FacetGrid<D>,
 }
 
-impl<const D: usize> Surface<D> {
+impl<const D: usize> FacetSurface<D> {
     fn of(facets: Vec<Facet<D>>, range: f64) -> Self {
         Self { grid: FacetGrid::new(&facets, range), facets }
     }
@@ -29,7 +29,7 @@ impl<const D: usize> Surface<D> {
 }
 
 /// What walls at rest make up together, and each that moves, at the start.
-pub(super) struct Surfaces<const D: usize>(Vec<Surface<D>>);
+pub(super) struct Surfaces<const D: usize>(Vec<FacetSurface<D>>);
 
 impl<const D: usize> Surfaces<D> {
     /// The surfaces of some walls, by which places are found up to a distance `[m]`: as far as the walls are thick.
@@ -37,7 +37,7 @@ impl<const D: usize> Surfaces<D> {
         let (rest, moving): (Vec<_>, Vec<_>) = shells.iter().partition(|shell| shell.motion.is_rest());
         let rest = rest.into_iter().flat_map(|shell| shell.facets.clone()).collect();
         let all = std::iter::once(rest).chain(moving.into_iter().map(|shell| shell.facets.clone()));
-        Self(all.map(|facets| Surface::of(facets, range)).collect())
+        Self(all.map(|facets| FacetSurface::of(facets, range)).collect())
     }
 
     /// Whether a site of a lattice at a spacing `[m]` is in front of all walls, or farther behind them than they are thick.
@@ -49,7 +49,8 @@ impl<const D: usize> Surfaces<D> {
 /// Particles that are behind a wall by less than half a spacing: they have passed it.
 pub(super) fn behind<const D: usize>(simulation: &Simulation<D>) -> u64 {
     let range = PASSED * simulation.spacing();
-    let surfaces: Vec<_> = simulation.shells().iter().map(|shell| Surface::of(shell.facets.clone(), range)).collect();
+    let surfaces: Vec<_> =
+        simulation.shells().iter().map(|shell| FacetSurface::of(shell.facets.clone(), range)).collect();
     let particles = simulation.particles();
     let count = particles.position[..particles.flow_count()].iter().filter(|place| {
         let mut shells = surfaces.iter().zip(simulation.shell_displacements());

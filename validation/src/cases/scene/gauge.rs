@@ -1,11 +1,11 @@
 //! Gauges: what is measured while a scene runs, as series over time.
 
-use super::Place;
+use super::PlaneVector;
 use crate::case::ParameterError;
 use crate::cases::enclosed::names::check_line;
 use crate::cases::enclosed::setting::{self, vector};
-use crate::cases::enclosed::{Depth, Measure, Opening};
-use crate::cases::front::Line;
+use crate::cases::enclosed::{DepthGauge, Measurand, Opening};
+use crate::cases::front::FrontLine;
 use bagnold_solver::parameter::positive;
 use bagnold_solver::vector::Vector;
 use schemars::JsonSchema;
@@ -14,16 +14,16 @@ use serde::{Deserialize, Serialize};
 /// What a gauge measures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
-pub enum Gauge {
+pub enum PlaneGauge {
     /// How far the material reaches along a line: the first place behind its start where less than a thickness stands
     /// across it.
     Front {
         /// Its name.
         name: String,
         /// Start of the line x, y `[m]`.
-        from: Place,
+        from: PlaneVector,
         /// End of the line x, y `[m]`.
-        to: Place,
+        to: PlaneVector,
         /// Thickness `[m]`.
         #[schemars(transform = positive("give it in metres, such as two spacings"))]
         thickness: f64,
@@ -33,7 +33,7 @@ pub enum Gauge {
         /// Its name.
         name: String,
         /// The place x, y `[m]`.
-        at: Place,
+        at: PlaneVector,
         /// Width across gravity `[m]`.
         #[schemars(transform = positive("give it in metres, such as four spacings"))]
         width: f64,
@@ -50,33 +50,33 @@ pub enum Gauge {
         /// Its name.
         name: String,
         /// Start of the line x, y `[m]`.
-        from: Place,
+        from: PlaneVector,
         /// End of the line x, y `[m]`.
-        to: Place,
+        to: PlaneVector,
     },
 }
 
-impl setting::Gauge<2> for Gauge {
+impl setting::SceneGauge<2> for PlaneGauge {
     fn name(&self) -> &str {
         let (Self::Front { name, .. } | Self::Depth { name, .. } | Self::Force { name, .. } | Self::Flux { name, .. }) =
             self;
         name
     }
 
-    fn measure(&self, down: &Vector<2>) -> Measure<'_, 2> {
+    fn measure(&self, down: &Vector<2>) -> Measurand<'_, 2> {
         match self {
             Self::Front { from, to, thickness, .. } => {
-                Measure::Front(Line { from: vector(from), to: vector(to), section: *thickness, strip: None })
+                Measurand::Front(FrontLine { from: vector(from), to: vector(to), section: *thickness, strip: None })
             }
             Self::Depth { at, width, .. } => {
-                Measure::Depth(Depth { at: vector(at), down: *down, width: *width, section: *width })
+                Measurand::Depth(DepthGauge { at: vector(at), down: *down, width: *width, section: *width })
             }
-            Self::Force { wall, .. } => Measure::Force { wall },
+            Self::Force { wall, .. } => Measurand::Force { wall },
             Self::Flux { from, to, .. } => {
                 let (corner, to): (Vector<2>, Vector<2>) = (vector(from), vector(to));
                 let along = to - corner;
                 let normal = Vector::<2>::new(-along[1], along[0]);
-                Measure::Flux(Opening { corner, normal, edges: vec![(along, along.norm_squared())] })
+                Measurand::Flux(Opening { corner, normal, edges: vec![(along, along.norm_squared())] })
             }
         }
     }
@@ -96,7 +96,7 @@ impl setting::Gauge<2> for Gauge {
 mod tests {
     use super::*;
     use crate::cases::enclosed::gauges::Memory;
-    use crate::cases::enclosed::setting::Gauge as _;
+    use crate::cases::enclosed::setting::SceneGauge as _;
     use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
     use bagnold_solver::material::rheology::{Newtonian, Rheology};
     use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn a_block_that_flies_reaches_and_crosses_what_it_should() {
-        let gauge = |text: &str| toml::from_str::<Gauge>(text).expect("a gauge");
+        let gauge = |text: &str| toml::from_str::<PlaneGauge>(text).expect("a gauge");
         let gauges = [
             gauge("kind = \"front\"\nname = \"front\"\nfrom = [0.0, 0.0]\nto = [1.0, 0.0]\nthickness = 0.04"),
             gauge("kind = \"depth\"\nname = \"depth\"\nat = [0.1, 0.0]\nwidth = 0.04"),

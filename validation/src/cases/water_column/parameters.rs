@@ -2,7 +2,7 @@
 
 use crate::case::recording::{self, SimulationStage, Watched};
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
-use crate::cases::front::Line;
+use crate::cases::front::FrontLine;
 use crate::cases::rules;
 use crate::metric::Variant;
 use crate::observation::{EnergyBook, Recorded};
@@ -238,7 +238,7 @@ impl WaterColumnRun {
     /// The first place from the symmetry plane outwards where less than [`FRONT_THICKNESS`] of the width stands `[m]`.
     fn front(&self, snapshot: &Snapshot<2>) -> f64 {
         let (from, to) = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.column.width, 0.0));
-        let line = Line { from, to, section: FRONT_THICKNESS * self.column.width, strip: None };
+        let line = FrontLine { from, to, section: FRONT_THICKNESS * self.column.width, strip: None };
         line.reached(self.spacing(), snapshot)
     }
 }
