@@ -38,14 +38,14 @@ pub struct ExternalColumn {
     /// SI unit, `-` for none.
     pub unit: &'static str,
     /// What it is, one phrase.
-    pub says: &'static str,
+    pub description: &'static str,
 }
 
 impl ExternalColumn {
     /// A column that a case can use.
     #[must_use]
-    pub const fn new(name: &'static str, unit: &'static str, says: &'static str) -> Self {
-        Self { name, unit, says }
+    pub const fn new(name: &'static str, unit: &'static str, description: &'static str) -> Self {
+        Self { name, unit, description }
     }
 }
 
@@ -59,12 +59,12 @@ pub struct ExternalSchema {
     /// Columns of the profile.
     pub profile: &'static [ExternalColumn],
     /// How the measurements are taken from them, in prose.
-    pub says: &'static str,
+    pub description: &'static str,
 }
 
 impl ExternalSchema {
     /// Single numbers only.
-    pub const NUMBERS: Self = Self { particles: &[], series: &[], profile: &[], says: "" };
+    pub const NUMBERS: Self = Self { particles: &[], series: &[], profile: &[], description: "" };
 
     /// The column of that name among those of one part.
     ///

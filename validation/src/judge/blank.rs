@@ -30,7 +30,7 @@ pub fn blank(case: &'static dyn AnyCase, tier: Tier) -> Result<String, Parameter
     let _ = writeln!(text, "[[run]]\nvariant = \"{}\"\n", variants.first().map_or("", String::as_str));
     text.push_str("# Single numbers: metrics of this run by name, in their units. Some belong to other runs of the case; a number that a run does\n# not have is refused with those that it has.\n[run.numbers]\n");
     for quantity in case.quantities() {
-        let _ = writeln!(text, "# {} = 0.0  # [{}] {}", quantity.name, quantity.unit, quantity.says);
+        let _ = writeln!(text, "# {} = 0.0  # [{}] {}", quantity.name, quantity.unit, quantity.description);
     }
     text.push_str(&files(form));
     Ok(text)
@@ -43,7 +43,7 @@ fn files(form: &ExternalSchema) -> String {
         text.push_str("\n# This case takes single numbers only.\n");
         return text;
     }
-    for line in wrapped(form.says) {
+    for line in wrapped(form.description) {
         let _ = write!(text, "\n# {line}");
     }
     text.push_str(
@@ -71,10 +71,10 @@ fn columns(items: &[ExternalColumn]) -> String {
     items.iter().fold(String::new(), |mut text, item| {
         let _ = writeln!(
             text,
-            "# {name} = \"{name} [{unit}]\"  # {says}",
+            "# {name} = \"{name} [{unit}]\"  # {description}",
             name = item.name,
             unit = item.unit,
-            says = item.says
+            description = item.description
         );
         text
     })

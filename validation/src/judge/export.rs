@@ -77,13 +77,13 @@ fn definitions(case: &'static dyn AnyCase, own: &CaseResult) -> String {
         let _ = writeln!(text, "- `{}`, {} particles, {} s", run.variant, run.particles, run.simulated_time);
     }
     let form = case.form();
-    if !form.says.is_empty() {
-        let _ = write!(text, "\n## How measurements are taken\n\n{}\n", paragraph(form.says));
+    if !form.description.is_empty() {
+        let _ = write!(text, "\n## How measurements are taken\n\n{}\n", paragraph(form.description));
     }
     text.push_str(&items(form));
     text.push_str("\n## Numbers\n\n");
     for quantity in case.quantities() {
-        let _ = writeln!(text, "- `{}` [{}]: {}", quantity.name, quantity.unit, quantity.says);
+        let _ = writeln!(text, "- `{}` [{}]: {}", quantity.name, quantity.unit, quantity.description);
     }
     text.push_str("\n## Limits\n\n");
     for metric in own.metrics.iter().filter(|metric| metric.gate.is_some()) {
@@ -102,8 +102,8 @@ fn items(form: &ExternalSchema) -> String {
             continue;
         }
         let _ = write!(text, "\n## {name}\n\n");
-        for ExternalColumn { name, unit, says } in items {
-            let _ = writeln!(text, "- `{name}` [{unit}]: {says}");
+        for ExternalColumn { name, unit, description } in items {
+            let _ = writeln!(text, "- `{name}` [{unit}]: {description}");
         }
     }
     text

@@ -14,33 +14,33 @@ pub struct Quantity {
     pub unit: &'static str,
     /// What its verdict rests on.
     pub kind: MetricKind,
-    /// What it says, one sentence without a full stop.
-    pub says: &'static str,
+    /// What it is, one sentence without a full stop.
+    pub description: &'static str,
 }
 
 impl Quantity {
     /// A quantity of the run's own account.
     #[must_use]
-    pub const fn accounted(name: &'static str, unit: &'static str, says: &'static str) -> Self {
-        Self { name, unit, kind: MetricKind::Bookkeeping, says }
+    pub const fn accounted(name: &'static str, unit: &'static str, description: &'static str) -> Self {
+        Self { name, unit, kind: MetricKind::Bookkeeping, description }
     }
 
     /// A quantity that one of the two papers says something about.
     #[must_use]
-    pub const fn stated(name: &'static str, unit: &'static str, says: &'static str) -> Self {
-        Self { name, unit, kind: MetricKind::Statement, says }
+    pub const fn stated(name: &'static str, unit: &'static str, description: &'static str) -> Self {
+        Self { name, unit, kind: MetricKind::Statement, description }
     }
 
     /// A quantity that is checked against the model's own equations.
     #[must_use]
-    pub const fn verified(name: &'static str, unit: &'static str, says: &'static str) -> Self {
-        Self { name, unit, kind: MetricKind::Verification, says }
+    pub const fn verified(name: &'static str, unit: &'static str, description: &'static str) -> Self {
+        Self { name, unit, kind: MetricKind::Verification, description }
     }
 
     /// A quantity that is compared with an experiment or a published fit.
     #[must_use]
-    pub const fn validated(name: &'static str, unit: &'static str, says: &'static str) -> Self {
-        Self { name, unit, kind: MetricKind::Validation, says }
+    pub const fn validated(name: &'static str, unit: &'static str, description: &'static str) -> Self {
+        Self { name, unit, kind: MetricKind::Validation, description }
     }
 
     /// Its observed metric for a run, in the quantity's unit; the metric's methods add reference and gate.

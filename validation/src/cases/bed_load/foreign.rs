@@ -33,7 +33,7 @@ pub(super) const FORM: ExternalSchema = ExternalSchema {
             "velocity of the grains there, likewise; not a number where there are none",
         ),
     ],
-    says: "transport is q* = q_s/√((s − 1) g d³), a mean over the last quarter of the series with the standard error of its blocks; \
+    description: "transport is q* = q_s/√((s − 1) g d³), a mean over the last quarter of the series with the standard error of its blocks; \
         transport_ratio is that over the 1-D layer of the same closures, predicted_transport compares it with Wong and Parker's \
         formula. fluid_velocity_rms and grain_velocity_rms are root mean squares of the velocities less the 1-D layer's at the \
         heights given (water: 0.5 mm to 0.9 h; grains: where those of the layer are faster than 1 cm/s), over u_*. \

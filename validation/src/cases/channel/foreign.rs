@@ -22,7 +22,7 @@ pub(in crate::cases) const FORM: ExternalSchema = ExternalSchema {
         ),
         ExternalColumn::new("pressure", "Pa", "pressure there"),
     ],
-    says: "The profile is compared at the heights at which it is given, between a tenth and nine tenths of the depth: \
+    description: "The profile is compared at the heights at which it is given, between a tenth and nine tenths of the depth: \
         velocity_rms is the root mean square of the velocity less the logarithmic law (of a laminar film: velocity_l2 against its \
         exact profile), over the friction velocity; semi_log_slope that of a line through the velocity over the logarithm of the \
         height. mean_velocity and bed_shear are means over the last quarter of the series, with the standard error of the mean \

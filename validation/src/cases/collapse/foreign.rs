@@ -47,7 +47,7 @@ pub(in crate::cases) const FORM: ExternalSchema = ExternalSchema {
         ExternalColumn::new("x", "m", "distance from the symmetry plane, rising"),
         ExternalColumn::new("thickness", "m", "thickness of the deposit there: volume per area of the bed"),
     ],
-    says: "Only half of a planar column and a quarter of a round one is given, with x (and z) positive; the last picture is the \
+    description: "Only half of a planar column and a quarter of a round one is given, with x (and z) positive; the last picture is the \
         deposit, if it is not earlier than 2 √(h_0/g). \
         The bed is divided into bins (rings) of 0.1 r_0 from the symmetry plane; each particle's volume is spread evenly over a \
         spacing to either side, and a bin's thickness is the volume in it over its area. The front is where the thickness, \

@@ -34,7 +34,7 @@ pub(in crate::cases) const FORM: ExternalSchema = ExternalSchema {
             "thickness of the deposit there, normal to the bed: volume per area of it",
         ),
     ],
-    says: "r_0 is the length of the reservoir, at whose end the gate stands. The bed is divided into bins of 0.1 r_0; each \
+    description: "r_0 is the length of the reservoir, at whose end the gate stands. The bed is divided into bins of 0.1 r_0; each \
         particle's volume is spread evenly over a spacing to either side, and a bin's thickness is the volume in it over its area. \
         The front is where the thickness, followed down the slope, first falls below 0.02 r_0, linear between the centres of \
         bins; front_displacement is the last front's distance from the gate, front its place at a time over r_0, of the first \

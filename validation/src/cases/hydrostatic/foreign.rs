@@ -20,7 +20,7 @@ pub(super) const FORM: ExternalSchema = ExternalSchema {
         ExternalColumn::new("pressure", "Pa", "pressure there, a mean over the last half second"),
         ExternalColumn::new("normal_stress", "Pa", "stress across the layer p − s_yy there, compressive positive"),
     ],
-    says: "The layer is prepared, or settles, before the start. pressure_l2 is the root of the summed squares of the errors of the \
+    description: "The layer is prepared, or settles, before the start. pressure_l2 is the root of the summed squares of the errors of the \
         pressure over that of the exact hydrostatic one, K (exp(ρ0 g (H − y)/K) − 1), for laws without a yield that carries \
         stress; normal_stress_l2 is the same of p − s_yy for grains, whose pressure at rest is not unique. height_drift is the \
         mean height from 1.8 to 2.2 s over that from 0.8 to 1.2 s, less 1; acoustic_breathing the range of the mean height over \

@@ -27,7 +27,7 @@ pub(in crate::cases) const FORM: ExternalSchema = ExternalSchema {
         ExternalColumn::new("velocity", "m/s", "velocity down the slope there, a mean over the last part of the run"),
         ExternalColumn::new("pressure", "Pa", "pressure there"),
     ],
-    says: "Velocities are compared at the heights at which they are given; a profile with fewer than two points below a fifth of the \
+    description: "Velocities are compared at the heights at which they are given; a profile with fewer than two points below a fifth of the \
         depth, by which the slip at the wall is measured, is not judged. From particles the profile is a mean over all pictures \
         in the last quarter of the time, in twenty bins of equal height, each at the mean height of its particles. velocity_l2 is \
         the root of the summed squares of the bins' errors over that of the exact velocities; implied_stress_error, which needs \

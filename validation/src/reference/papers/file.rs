@@ -136,7 +136,7 @@ fn element(row: ElementRow, place: &RowPlace<'_>) -> Result<Element, PaperError>
         return Err(place.refuse("status", "", rule));
     }
     let ElementRow { id, place, says, note, .. } = row;
-    Ok(Element { id, place, says, implemented, tests, metrics, runs, figures, settled, note })
+    Ok(Element { id, place, statement: says, implemented, tests, metrics, runs, figures, settled, note })
 }
 
 fn settled(row: &ElementRow, place: &RowPlace<'_>) -> Result<Option<(Settled, String)>, PaperError> {
