@@ -22,6 +22,15 @@ git ls-tree -d --name-only "$commit" -- validation/src/cases/ | while read -r fo
     printf '| %s | %s |\n' "${folder##*/}" "$(lines "$folder")"
 done | sort -t'|' -k3 -n
 
-names=$(git grep -hE '^\s*(pub(\([a-z: ]+\))? )?(struct|enum|trait|type) [A-Z]\w*' "$commit" -- 'solver/src/*.rs' 'validation/**/*.rs' |
-    sed -E 's/.*(struct|enum|trait|type) ([A-Z][A-Za-z0-9]*).*/\2/' | sort)
-printf '\ntype names: %s, of which several declarations share %s\n' "$(uniq <<<"$names" | wc -l)" "$(uniq -d <<<"$names" | wc -l)"
+# Type names of a commit, and those that several declarations share. An associated type inside of an `impl` or a trait declares no
+# name of its own: aliases count at the top level of a file only.
+type_names() {
+    local names
+    names=$(git grep -hE '^\s*(pub(\([a-z: ]+\))? )?(struct|enum|trait) [A-Z]\w*|^(pub(\([a-z: ]+\))? )?type [A-Z]\w*' "$1" -- \
+        'solver/src/*.rs' 'validation/**/*.rs' | sed -E 's/.*(struct|enum|trait|type) ([A-Z][A-Za-z0-9]*).*/\2/' | sort)
+    printf 'type names at %s: %s, of which several declarations share %s\n' \
+        "$(git rev-parse --short "$1")" "$(uniq <<<"$names" | wc -l)" "$(uniq -d <<<"$names" | wc -l)"
+}
+
+printf '\n'
+for each in $(printf '%s\n' HEAD "$commit" | uniq); do type_names "$each"; done

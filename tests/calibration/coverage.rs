@@ -2,7 +2,7 @@
 
 use bagnold_validation::inference::diagnosis::{outliers, serial_correlation};
 use bagnold_validation::inference::{
-    Answer, Budget, Evaluate, Evaluated, Method, Plan, Runs, Stopped, UNLIKELY, chi_squared, solve,
+    Answer, Budget, Evaluate, Evaluated, Method, Repeatability, SolvePlan, Stopped, UNLIKELY, chi_squared, solve,
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -25,15 +25,15 @@ impl<F: Fn(&[f64]) -> Option<Vec<f64>>> Evaluate for Problem<F> {
 }
 
 /// What a calibration does unless a plan says otherwise.
-pub(crate) fn usual(start: Vec<f64>) -> Plan {
+pub(crate) fn usual(start: Vec<f64>) -> SolvePlan {
     let dimensions = start.len();
-    Plan {
+    SolvePlan {
         start,
         method: Method::TrustRegion,
         design: Vec::new(),
         budget: Budget { starts: 2 * dimensions + 2, ..Budget::default() },
         region_evaluations: 16 * dimensions,
-        runs: Runs::Smooth,
+        runs: Repeatability::Smooth,
     }
 }
 
@@ -66,7 +66,7 @@ impl Tally {
     /// The same by another plan.
     pub(crate) fn by<F: Fn(&[f64]) -> Option<Vec<f64>>>(
         seeds: std::ops::Range<u64>,
-        plan: &Plan,
+        plan: &SolvePlan,
         problem: impl Fn(u64) -> Problem<F>,
     ) -> Self {
         let mut tally = Self { single: vec![0; plan.start.len()], ..Self::default() };

@@ -1,7 +1,9 @@
 //! Whole calibrations of a film's viscosity: each thing that can be wrong with a problem has its finding.
 
 use super::coverage::normal;
-use bagnold_validation::calibration::{CalibrationFolder, Outcome, Plan, Watch, calibrate};
+use bagnold_validation::calibration::{
+    CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, calibrate,
+};
 use bagnold_validation::case::Limits;
 use bagnold_validation::cases::REGISTRY;
 use bagnold_validation::reference::{HerschelBulkleyFilm, Incline};
@@ -44,16 +46,16 @@ const PROFILE: &str =
 
 struct Unseen;
 
-impl Watch for Unseen {
+impl CalibrationMonitor for Unseen {
     fn expected(&self, _: usize) {}
     fn evaluated(&self, _: &str, _: Option<&str>) {}
 }
 
 /// What a plan in a folder comes to.
-pub(crate) fn outcome(folder: &Path, text: &str) -> Outcome {
+pub(crate) fn outcome(folder: &Path, text: &str) -> CalibrationResult {
     let file = folder.join("plan.toml");
     std::fs::write(&file, text).expect("a folder to write in");
-    let plan = Plan::read(&file, REGISTRY, Limits::default()).unwrap_or_else(|error| panic!("{error}"));
+    let plan = CalibrationPlan::read(&file, REGISTRY, Limits::default()).unwrap_or_else(|error| panic!("{error}"));
     let kept = CalibrationFolder::begin(&folder.join("out"), &file, REGISTRY.origin(), false)
         .unwrap_or_else(|error| panic!("{error}"));
     calibrate(&plan, &kept, REGISTRY, &Store::open(StorePolicy::Use), &Unseen).unwrap_or_else(|error| panic!("{error}"))

@@ -1,7 +1,7 @@
 //! The one-dimensional layer of `bed-load-1d`: μ_2, and μ_2 with B, from velocities of water and grains.
 
 use super::coverage::{Problem, Tally, normal};
-use bagnold_validation::reference::bed_load_layer::{BedLoadLayer, Closures, Grains, Start, Stream};
+use bagnold_validation::reference::bed_load_layer::{BedLoadLayer, Closures, GrainMotion, InitialVelocity, Stream};
 
 /// Relative standard uncertainty of a transport.
 const NOISE: f64 = 0.05;
@@ -44,8 +44,8 @@ fn transports([limiting_friction, dilation]: [f64; 2], cell_height: f64) -> Opti
             grain_density: 2600.0,
             grain_diameter: 5e-3,
         };
-        let layer = BedLoadLayer { stream, closures, grains: Grains::Dilating, cell_height };
-        layer.steady(Start::Rest).ok().map(|state| state.transport())
+        let layer = BedLoadLayer { stream, closures, grains: GrainMotion::Dilating, cell_height };
+        layer.steady(InitialVelocity::Rest).ok().map(|state| state.transport())
     };
     all.map(one).collect()
 }

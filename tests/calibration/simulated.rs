@@ -4,8 +4,8 @@
 use super::coverage::{Problem, Tally, normal, usual};
 use bagnold_validation::case::{Limits, Silent, Tier};
 use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::evaluation::{CaseRequest, Record, evaluate};
-use bagnold_validation::inference::{Budget, Plan};
+use bagnold_validation::evaluation::{CaseRequest, EvaluationRecord, evaluate};
+use bagnold_validation::inference::{Budget, SolvePlan};
 use bagnold_validation::store::{Store, StorePolicy};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ struct Simulated {
     /// The parameter's path and its value at a point.
     setting: fn(f64) -> String,
     /// The data of a record.
-    predict: fn(&Record) -> Vec<f64>,
+    predict: fn(&EvaluationRecord) -> Vec<f64>,
     /// How many they are.
     data: usize,
     /// Their relative standard uncertainty.
@@ -65,7 +65,7 @@ impl Simulated {
     /// Repeats the calibration with many seeds.
     fn study(&self, name: &str, seeds: std::ops::Range<u64>) -> Tally {
         let plan = usual(vec![0.3]);
-        let plan = Plan { budget: Budget { difference: self.difference, ..plan.budget }, ..plan };
+        let plan = SolvePlan { budget: Budget { difference: self.difference, ..plan.budget }, ..plan };
         let tally = Tally::by(seeds, &plan, |seed| self.problem(seed));
         tally.print(name);
         println!("{} points were simulated in all", self.known.borrow().len());

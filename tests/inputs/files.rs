@@ -1,7 +1,7 @@
 //! Plans, tables and case files with random mistakes in them: an error or a plan, never a panic.
 
 use crate::judge::{count, runner};
-use bagnold_validation::calibration::Plan;
+use bagnold_validation::calibration::CalibrationPlan;
 use bagnold_validation::case::{AnyCase, CaseFile, Limits, Tier};
 use bagnold_validation::cases::REGISTRY;
 use bagnold_validation::reference::MeasuredData;
@@ -122,7 +122,7 @@ fn a_calibration_plan_is_read_or_refused() {
     let path = folder.path().join("plan.toml");
     read_with_slips(&shipped("validation/calibrations", "toml"), |text| {
         std::fs::write(&path, text).expect("writable");
-        let _ = Plan::read(&path, REGISTRY, Limits::default());
+        let _ = CalibrationPlan::read(&path, REGISTRY, Limits::default());
     });
 }
 

@@ -1,7 +1,7 @@
 //! What becomes of a generated input.
 
 use crate::changes::{Input, inputs};
-use bagnold_validation::case::{Changes, Prepared, Silent, Tier, execute};
+use bagnold_validation::case::{Changes, PreparedCase, Silent, Tier, execute};
 use bagnold_validation::cases::REGISTRY;
 use bagnold_validation::metric::Verdict;
 use bagnold_validation::store::{Store, StorePolicy};
@@ -49,7 +49,7 @@ fn watched<T: Send + 'static>(patience: Duration, work: impl FnOnce() -> T + Sen
     }
 }
 
-fn prepared(input: &Input) -> Result<Box<dyn Prepared>, String> {
+fn prepared(input: &Input) -> Result<Box<dyn PreparedCase>, String> {
     let changes = Changes { settings: &input.settings, ..Changes::default() };
     let case = REGISTRY.find(input.case).map_err(|error| error.to_string())?;
     case.prepare(Tier::Quick, &changes).map_err(|error| error.to_string())
@@ -81,7 +81,7 @@ fn refusal(message: &str, input: &Input, tally: &mut Tally) {
 }
 
 /// Simulates and judges; `None` for a refusal, else the gates that hold without a number.
-fn computed(prepared: Box<dyn Prepared>) -> Result<Vec<String>, String> {
+fn computed(prepared: Box<dyn PreparedCase>) -> Result<Vec<String>, String> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().map_err(|error| error.to_string())?;
     let results = pool.install(|| execute(vec![prepared], &Store::open(StorePolicy::Bypass), &Silent));
     let results = results.map_err(|error| error.to_string())?;

@@ -5,7 +5,7 @@ use bagnold_validation::case::{CaseResult, Changes, Silent, Tier, execute};
 use bagnold_validation::cases::REGISTRY;
 use bagnold_validation::metric::{Limit, Metric, Verdict};
 use bagnold_validation::observation::Outcome;
-use bagnold_validation::report::{KnownFailures, Standing};
+use bagnold_validation::report::{KnownFailureStatus, KnownFailures};
 use bagnold_validation::store::{Store, StorePolicy};
 use std::sync::{Mutex, PoisonError};
 
@@ -56,15 +56,19 @@ pub(crate) fn complaints(result: &CaseResult, list: &KnownFailures, tier: Tier) 
     diverged.chain(gates).chain(stale).collect()
 }
 
-fn complaint(metric: &Metric, standing: &Standing) -> Option<String> {
+fn complaint(metric: &Metric, standing: &KnownFailureStatus) -> Option<String> {
     let why = match standing {
-        Standing::Unlisted if metric.verdict() == Verdict::Fail => "the gate fails".to_owned(),
-        Standing::Unlisted | Standing::Known(_) => return None,
-        Standing::PassesAgain(entry) => {
+        KnownFailureStatus::Unlisted if metric.verdict() == Verdict::Fail => "the gate fails".to_owned(),
+        KnownFailureStatus::Unlisted | KnownFailureStatus::Known(_) => return None,
+        KnownFailureStatus::PassesAgain(entry) => {
             format!("a known failure since {} now passes: remove the entry", entry.date)
         }
-        Standing::Worse(entry) => format!("a known failure became worse than its best value {:e}", entry.best_value),
-        Standing::WithoutGate(_) => "a known failure, but the metric has no gate: remove the entry".to_owned(),
+        KnownFailureStatus::Worse(entry) => {
+            format!("a known failure became worse than its best value {:e}", entry.best_value)
+        }
+        KnownFailureStatus::WithoutGate(_) => {
+            "a known failure, but the metric has no gate: remove the entry".to_owned()
+        }
     };
     let Metric { name, variant, value, unit, .. } = metric;
     let limit = metric.gate.as_ref().map_or_else(String::new, |gate| {

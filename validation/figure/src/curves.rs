@@ -3,7 +3,7 @@
 use super::canvas::{Canvas, Ink, Point, Rectangle};
 use super::clip::{clip_chain, clip_polygon, dashes, thin};
 use super::error::FigureError;
-use super::palette::{BLACK, GREY, Shape, colour, shape};
+use super::palette::{BLACK, GREY, MarkerShape, colour, shape};
 use super::range::Mapping;
 use super::{Band, Mark, Panel, Series};
 use plotters::style::{RGBColor, WHITE};
@@ -156,17 +156,17 @@ pub(super) fn draw_marker(
     canvas: &mut Canvas<'_>,
     (x, y): Point,
     radius: f64,
-    shape: Shape,
+    shape: MarkerShape,
     colour: RGBColor,
 ) -> Result<(), FigureError> {
     let ink = Ink::solid(colour, 0.0);
     // Sizes that look equal, not sizes that are equal.
     let corners: &[(f64, f64)] = match shape {
-        Shape::Disc => return canvas.disc((x, y), radius, ink),
-        Shape::Square => &[(-0.88, -0.88), (0.88, -0.88), (0.88, 0.88), (-0.88, 0.88)],
-        Shape::Triangle => &[(0.0, -1.25), (1.1, 0.75), (-1.1, 0.75)],
-        Shape::TriangleDown => &[(0.0, 1.25), (1.1, -0.75), (-1.1, -0.75)],
-        Shape::Diamond => &[(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)],
+        MarkerShape::Disc => return canvas.disc((x, y), radius, ink),
+        MarkerShape::Square => &[(-0.88, -0.88), (0.88, -0.88), (0.88, 0.88), (-0.88, 0.88)],
+        MarkerShape::Triangle => &[(0.0, -1.25), (1.1, 0.75), (-1.1, 0.75)],
+        MarkerShape::TriangleDown => &[(0.0, 1.25), (1.1, -0.75), (-1.1, -0.75)],
+        MarkerShape::Diamond => &[(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)],
     };
     let outline: Vec<Point> = corners.iter().map(|&(dx, dy)| (x + radius * dx, y + radius * dy)).collect();
     canvas.polygon(&outline, ink)

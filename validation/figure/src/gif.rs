@@ -43,12 +43,12 @@ static NEAREST: LazyLock<Vec<u8>> = LazyLock::new(|| {
 /// # Errors
 /// No picture, pictures of different sizes, or a picture that cannot be drawn.
 pub fn encode(animation: &Animation) -> Result<Vec<u8>, FigureError> {
-    let pictures: Vec<Picture> = animation
+    let pictures: Vec<IndexedImage> = animation
         .frames
         .par_iter()
         .map(|frame| {
             let pixels = raster::pixels(&render::svg(&animation.figure(frame))?, SCALE)?;
-            Ok(Picture::of(&pixels))
+            Ok(IndexedImage::of(&pixels))
         })
         .collect::<Result<_, FigureError>>()?;
     let Some(first) = pictures.first() else { return Err(FigureError::Animation("it has no picture".to_owned())) };
@@ -90,13 +90,13 @@ fn palette() -> Vec<RGBColor> {
 }
 
 /// A picture in indices of the palette.
-struct Picture {
+struct IndexedImage {
     width: usize,
     height: usize,
     indices: Vec<u8>,
 }
 
-impl Picture {
+impl IndexedImage {
     fn of(pixels: &Pixmap) -> Self {
         // the sheet is white and opaque, so that premultiplied colours are the colours
         let indices = pixels
@@ -237,7 +237,7 @@ mod tests {
             }
         }
         let last = render::svg(&animation.figure(&animation.frames[2])).expect("SVG");
-        let expected = Picture::of(&raster::pixels(&last, SCALE).expect("raster"));
+        let expected = IndexedImage::of(&raster::pixels(&last, SCALE).expect("raster"));
         assert!(canvas == expected.indices);
     }
 

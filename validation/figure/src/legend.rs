@@ -11,7 +11,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 /// Where a legend stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum LegendPosition {
     /// In a corner or at an edge of the plot that holds no data.
     Inside,
     /// Right of the plot.
@@ -21,7 +21,7 @@ pub(super) enum Place {
 }
 
 #[derive(Debug, Clone, Copy)]
-enum Item {
+enum LegendEntry {
     Band,
     Series(usize),
 }
@@ -29,7 +29,7 @@ enum Item {
 /// The entries of a panel's legend with their measures.
 #[derive(Debug)]
 pub(super) struct Legend {
-    entries: Vec<(String, Item)>,
+    entries: Vec<(String, LegendEntry)>,
     em: f64,
     widest: f64,
 }
@@ -37,13 +37,13 @@ pub(super) struct Legend {
 impl Legend {
     /// Every label once: simulations in their order, then references, then bands.
     pub(super) fn of(panel: &Panel, em: f64) -> Self {
-        let mut entries: Vec<(String, Item)> = Vec::new();
+        let mut entries: Vec<(String, LegendEntry)> = Vec::new();
         let of = |reference: bool| {
             let enumerated = panel.series.iter().enumerate();
             let wanted = enumerated.filter(move |(_, series)| (series.mark == Mark::Reference) == reference);
-            wanted.map(|(index, series)| (&series.label, Item::Series(index)))
+            wanted.map(|(index, series)| (&series.label, LegendEntry::Series(index)))
         };
-        let bands = panel.bands.iter().map(|band| (&band.label, Item::Band));
+        let bands = panel.bands.iter().map(|band| (&band.label, LegendEntry::Band));
         for (label, item) in of(false).chain(of(true)).chain(bands) {
             if !label.is_empty() && entries.iter().all(|(known, _)| known != label) {
                 entries.push((label.clone(), item));
@@ -157,16 +157,16 @@ impl Legend {
         &self,
         canvas: &mut Canvas<'_>,
         panel: &Panel,
-        (label, item): &(String, Item),
+        (label, item): &(String, LegendEntry),
         (left, y): Point,
     ) -> Result<(), FigureError> {
         let right = left + self.sample();
         match *item {
-            Item::Band => {
+            LegendEntry::Band => {
                 let half = 0.4 * self.em;
                 draw_band_sample(canvas, &Rectangle { left, top: y - half, right, bottom: y + half })?;
             }
-            Item::Series(index) => {
+            LegendEntry::Series(index) => {
                 if let Some(series) = panel.series.get(index) {
                     draw_sample(canvas, panel, series, (left, right, y))?;
                 }

@@ -140,7 +140,7 @@ pub struct Figure {
 
 /// The files of a written figure.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Written {
+pub struct FigureFiles {
     /// The vector file.
     pub svg: PathBuf,
     /// The raster file, 1600 px wide.
@@ -151,7 +151,7 @@ pub struct Written {
 ///
 /// # Errors
 /// If the name is no file name, drawing fails, or a file cannot be written.
-pub fn write(figure: &Figure, folder: &Path) -> Result<Written, FigureError> {
+pub fn write(figure: &Figure, folder: &Path) -> Result<FigureFiles, FigureError> {
     if !is_file_name(&figure.name) {
         return Err(FigureError::Name { name: figure.name.clone() });
     }
@@ -159,8 +159,10 @@ pub fn write(figure: &Figure, folder: &Path) -> Result<Written, FigureError> {
     let raster = render::png(&drawn)?;
     let write_error = |path: &Path, source| FigureError::Write { path: path.to_owned(), source };
     std::fs::create_dir_all(folder).map_err(|source| write_error(folder, source))?;
-    let written =
-        Written { svg: folder.join(format!("{}.svg", figure.name)), png: folder.join(format!("{}.png", figure.name)) };
+    let written = FigureFiles {
+        svg: folder.join(format!("{}.svg", figure.name)),
+        png: folder.join(format!("{}.png", figure.name)),
+    };
     std::fs::write(&written.svg, drawn).map_err(|source| write_error(&written.svg, source))?;
     std::fs::write(&written.png, raster).map_err(|source| write_error(&written.png, source))?;
     Ok(written)

@@ -32,7 +32,7 @@ pub(super) fn colour(slot: usize) -> RGBColor {
 
 /// Marker shapes, so that a black and white print keeps the series apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Shape {
+pub(super) enum MarkerShape {
     Disc,
     Square,
     Triangle,
@@ -41,8 +41,14 @@ pub(super) enum Shape {
 }
 
 /// The marker of a slot. Five shapes against fourteen colours: the pairs repeat only after 70 slots.
-pub(super) fn shape(slot: usize) -> Shape {
-    const SHAPES: [Shape; 5] = [Shape::Disc, Shape::Square, Shape::Triangle, Shape::Diamond, Shape::TriangleDown];
+pub(super) fn shape(slot: usize) -> MarkerShape {
+    const SHAPES: [MarkerShape; 5] = [
+        MarkerShape::Disc,
+        MarkerShape::Square,
+        MarkerShape::Triangle,
+        MarkerShape::Diamond,
+        MarkerShape::TriangleDown,
+    ];
     SHAPES[slot % SHAPES.len()]
 }
 

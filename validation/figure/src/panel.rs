@@ -6,7 +6,7 @@ use super::curves::{Plot, draw_bands, draw_series};
 use super::error::FigureError;
 use super::field::{BarPlace, ColourScale, draw_field, extent};
 use super::font::{Weight, width};
-use super::legend::{Legend, Place};
+use super::legend::{Legend, LegendPosition};
 use super::palette::{AXIS, BLACK};
 use super::range::{Mapping, Range};
 use super::ticks::{Ticks, ticks};
@@ -35,7 +35,7 @@ impl Margins {
 }
 
 /// A panel whose axes are known and whose place is not yet.
-pub(super) struct Prepared<'p> {
+pub(super) struct ScaledPanel<'p> {
     panel: &'p Panel,
     title: String,
     sizes: Sizes,
@@ -44,11 +44,11 @@ pub(super) struct Prepared<'p> {
     colours: Option<ColourScale>,
     opposite: Option<ColourScale>,
     legend: Legend,
-    legend_place: Place,
+    legend_place: LegendPosition,
     has_data: bool,
 }
 
-impl<'p> Prepared<'p> {
+impl<'p> ScaledPanel<'p> {
     /// Fits axes and ticks of `panel` for a plot of about `width` × `height` pixels.
     pub(super) fn new(panel: &'p Panel, title: String, sizes: Sizes, (wide, high): (f64, f64)) -> Self {
         let (x, y, has_data) = ranges(panel);
@@ -75,7 +75,7 @@ impl<'p> Prepared<'p> {
             colours,
             opposite,
             legend: Legend::of(panel, sizes.legend),
-            legend_place: Place::Inside,
+            legend_place: LegendPosition::Inside,
             has_data,
         }
     }
@@ -90,11 +90,11 @@ impl<'p> Prepared<'p> {
     pub(super) fn settle_legend(&mut self, trial: &Rectangle) {
         let plot = self.plot(self.fitted(trial));
         self.legend_place = if self.legend.is_empty() || self.legend.free_place(self.panel, &plot).is_some() {
-            Place::Inside
+            LegendPosition::Inside
         } else if trial.width() > 1000.0 && self.panel.field.is_none() {
-            Place::Beside
+            LegendPosition::Beside
         } else {
-            Place::Below
+            LegendPosition::Below
         };
     }
 
@@ -123,9 +123,9 @@ impl<'p> Prepared<'p> {
             margins.left = margins.left.max(TICK + factor + 4.0);
         }
         match self.legend_place {
-            Place::Inside => {}
-            Place::Beside => margins.right += self.legend.box_width() + 24.0,
-            Place::Below => margins.bottom += self.legend.height_below(plot_width),
+            LegendPosition::Inside => {}
+            LegendPosition::Beside => margins.right += self.legend.box_width() + 24.0,
+            LegendPosition::Below => margins.bottom += self.legend.height_below(plot_width),
         }
         margins
     }
@@ -180,12 +180,12 @@ impl<'p> Prepared<'p> {
         }
         let window = &plot.window;
         match self.legend_place {
-            Place::Beside => self.legend.draw_box(canvas, self.panel, (window.right + 24.0, window.top)),
-            Place::Below => {
+            LegendPosition::Beside => self.legend.draw_box(canvas, self.panel, (window.right + 24.0, window.top)),
+            LegendPosition::Below => {
                 let top = window.bottom + TICK + TICK_GAP + 1.25 * self.sizes.tick + 1.5 * self.sizes.label;
                 self.legend.draw_rows(canvas, self.panel, (window.left, window.right, top))
             }
-            Place::Inside => {
+            LegendPosition::Inside => {
                 let gap = 0.5 * self.sizes.legend;
                 // Panels that share margins may have got a slightly smaller plot than the trial's.
                 let corner = self

@@ -5,7 +5,7 @@ use super::axes::Sizes;
 use super::canvas::{Canvas, Rectangle, polish};
 use super::discs::gathered;
 use super::error::FigureError;
-use super::panel::{Margins, Prepared};
+use super::panel::{Margins, ScaledPanel};
 
 /// Width of every sheet `[px]`: twice what a page shows, so that it is sharp on any screen.
 pub(super) const WIDTH: f64 = 1600.0;
@@ -26,14 +26,14 @@ pub(super) fn draw(figure: &Figure) -> Result<String, FigureError> {
     let aspect = ASPECTS[(columns - 1).min(ASPECTS.len() - 1)];
     let usual = (column_width - 120.0, (column_width - 120.0) * aspect);
 
-    let mut panels: Vec<Prepared<'_>> = figure
+    let mut panels: Vec<ScaledPanel<'_>> = figure
         .panels
         .iter()
         .enumerate()
         .map(|(index, panel)| {
             let title = lettered(&panel.title, index, figure.panels.len());
             let height = if panel.field.is_some() { TALLEST } else { usual.1 };
-            Prepared::new(panel, title, sizes, (usual.0, height))
+            ScaledPanel::new(panel, title, sizes, (usual.0, height))
         })
         .collect();
     for panel in &mut panels {
@@ -65,7 +65,7 @@ pub(super) fn draw(figure: &Figure) -> Result<String, FigureError> {
 }
 
 /// One row of panels: plots of one height on one base line.
-struct Row {
+struct PanelRow {
     top: f64,
     bottom: f64,
     above: f64,
@@ -73,14 +73,14 @@ struct Row {
     margins: Vec<Margins>,
 }
 
-fn layout(panels: &[Prepared<'_>], columns: usize, column_width: f64, aspect: f64) -> Vec<Row> {
+fn layout(panels: &[ScaledPanel<'_>], columns: usize, column_width: f64, aspect: f64) -> Vec<PanelRow> {
     // Plots of one column begin and end at the same place, so that their axes can be compared.
     let mut shared = vec![Margins::default(); columns];
     for (index, panel) in panels.iter().enumerate() {
         let column = index % columns;
         shared[column] = shared[column].union(panel.margins(column_width - 140.0));
     }
-    let mut rows: Vec<Row> = Vec::new();
+    let mut rows: Vec<PanelRow> = Vec::new();
     let mut top = BORDER;
     for row in panels.chunks(columns) {
         let own: Vec<Margins> = row.iter().map(|panel| panel.margins(column_width - 140.0)).collect();
@@ -92,13 +92,13 @@ fn layout(panels: &[Prepared<'_>], columns: usize, column_width: f64, aspect: f6
             .map(|(panel, margins)| plot_height(panel, column_width - margins.left - margins.right, aspect))
             .fold(LOWEST, f64::max);
         let bottom = top + all.top + plot_height + all.bottom;
-        rows.push(Row { top, bottom, above: all.top, plot_height, margins });
+        rows.push(PanelRow { top, bottom, above: all.top, plot_height, margins });
         top = bottom + GUTTER;
     }
     rows
 }
 
-fn plot_height(panel: &Prepared<'_>, width: f64, aspect: f64) -> f64 {
+fn plot_height(panel: &ScaledPanel<'_>, width: f64, aspect: f64) -> f64 {
     panel.aspect().map_or(width * aspect, |own| (width * own).clamp(LOWEST, TALLEST))
 }
 

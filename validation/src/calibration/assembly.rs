@@ -3,9 +3,11 @@
 use super::error::CalibrationError;
 use super::findings;
 use super::objective::Objective;
-use super::plan::{Parameter, Plan};
+use super::plan::{CalibratedParameter, CalibrationPlan};
 use super::repeated::Repeated;
-use super::result::{Compared, Evaluation, Found, FoundMinimum, Outcome, Sensitivity};
+use super::result::{
+    CalibrationResult, DatumComparison, ElementaryEffect, Evaluation, FoundMinimum, ParameterEstimate,
+};
 use super::target::{Datum, Target};
 use crate::inference::posterior::Posterior;
 use crate::inference::{Answer, Evaluated, LocalMinimum};
@@ -20,12 +22,12 @@ pub(super) fn compared<'r>(
     held_out: bool,
     answer: impl Fn(usize) -> Option<&'r Repeated>,
     named: impl Fn(&Target) -> Target,
-) -> Result<Vec<Compared>, CalibrationError> {
+) -> Result<Vec<DatumComparison>, CalibrationError> {
     let data: Vec<Datum> =
         objective.data_of(held_out).map(|datum| Datum { target: named(&datum.target), ..datum.clone() }).collect();
     let owned: Vec<Option<Repeated>> = (0..objective.plan.blocks.len()).map(|k| answer(k).cloned()).collect();
     let predicted = objective.predict(data.iter(), |block| owned[block].as_ref())?;
-    let one = |(place, (datum, model)): (usize, (Datum, f64))| Compared {
+    let one = |(place, (datum, model)): (usize, (Datum, f64))| DatumComparison {
         block: objective.plan.blocks[datum.block].field.clone(),
         label: datum.target.label(),
         at: datum.target.place(),
@@ -56,14 +58,14 @@ pub(super) fn calibrated(objective: &Objective<'_>, values: &[f64]) -> Result<Ve
 
 /// Everything about a search, in physical units; with samples of the posterior if they were asked for.
 pub(super) fn assemble(
-    plan: &Plan,
+    plan: &CalibrationPlan,
     answer: &Answer,
-    sensitivity: Vec<Sensitivity>,
-    (fit, hold_out): (Vec<Compared>, Result<Vec<Compared>, String>),
+    sensitivity: Vec<ElementaryEffect>,
+    (fit, hold_out): (Vec<DatumComparison>, Result<Vec<DatumComparison>, String>),
     calibrated: Vec<String>,
     truth_inside: Option<bool>,
     posterior: Option<&Posterior>,
-) -> Outcome {
+) -> CalibrationResult {
     let search = &answer.search;
     let region = answer.explored.as_ref().map(|explored| &explored.region);
     let mut findings = findings::of(plan, answer, &fit);
@@ -80,7 +82,7 @@ pub(super) fn assemble(
     };
     let minimum =
         |minimum: &LocalMinimum| FoundMinimum { values: plan.values(&minimum.point), chi_squared: minimum.chi_squared };
-    Outcome {
+    CalibrationResult {
         title: plan.title.clone(),
         note: plan.note.clone(),
         method: plan.method_name(),
@@ -109,13 +111,13 @@ pub(super) fn assemble(
 }
 
 /// What was found of every parameter.
-fn found(plan: &Plan, answer: &Answer, posterior: Option<&Posterior>) -> Vec<Found> {
+fn found(plan: &CalibrationPlan, answer: &Answer, posterior: Option<&Posterior>) -> Vec<ParameterEstimate> {
     let best = plan.values(&answer.search.best);
-    let found = |(k, parameter): (usize, &Parameter)| {
+    let found = |(k, parameter): (usize, &CalibratedParameter)| {
         let physical = |u: f64| parameter.bounds.value(u);
         let profile = answer.explored.as_ref().map(|explored| &explored.region.profiles[k]);
         let ends = answer.explored.as_ref().map(|explored| &explored.ends[k]);
-        Found {
+        ParameterEstimate {
             name: parameter.name.clone(),
             unit: parameter.unit.clone(),
             bounds: (parameter.bounds.lower, parameter.bounds.upper),

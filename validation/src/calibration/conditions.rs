@@ -4,19 +4,19 @@
 //! have a value that a fitted block of the same case has too, within a tolerance (`same_within`).
 
 use super::error::CalibrationError;
-use super::plan::{Block, Plan};
+use super::plan::{CalibrationPlan, DataBlock};
 use crate::evaluation::PlanError;
 use crate::input::{FieldError, nearest};
 
 /// The parameters of a block's case, all of them.
-pub(super) struct Known<'a> {
-    pub(super) block: &'a Block,
+pub(super) struct BlockParameters<'a> {
+    pub(super) block: &'a DataBlock,
     pub(super) parameters: toml::Table,
 }
 
-impl Known<'_> {
+impl BlockParameters<'_> {
     /// The numbers at a dotted path.
-    fn numbers(&self, path: &str, plan: &Plan) -> Result<Vec<f64>, CalibrationError> {
+    fn numbers(&self, path: &str, plan: &CalibrationPlan) -> Result<Vec<f64>, CalibrationError> {
         let mut keys = path.split('.');
         let first = keys.next().and_then(|key| self.parameters.get(key));
         let Some(value) = keys.try_fold(first, |value, key| Some(value?.get(key))).flatten() else {
@@ -50,7 +50,7 @@ fn collect(table: &toml::Table, head: &str, paths: &mut Vec<String>) {
 }
 
 /// Refuses a block that is held out if its conditions are those of a fitted one.
-pub(super) fn check(plan: &Plan, known: &[Known<'_>]) -> Result<(), CalibrationError> {
+pub(super) fn check(plan: &CalibrationPlan, known: &[BlockParameters<'_>]) -> Result<(), CalibrationError> {
     for held_out in known.iter().filter(|known| known.block.held_out) {
         let case = &held_out.block.request.case;
         for fitted in known.iter().filter(|known| !known.block.held_out && known.block.request.case == *case) {

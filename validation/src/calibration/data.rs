@@ -1,9 +1,9 @@
 //! What a model is compared with: single numbers, profiles from a CSV file, or synthetic data.
 
 use super::error::CalibrationError;
-use super::target::{Datum, Target, Uncertainty, parted};
+use super::target::{Datum, DatumUncertainty, Target, parted};
 use crate::input::FieldError;
-use crate::reference::{Column, MeasuredData};
+use crate::reference::{MeasuredData, ReferenceColumn};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
@@ -165,11 +165,11 @@ impl DatumText {
         same_target && self.variant == other.variant && (same_file || same_value)
     }
 
-    fn uncertainty(&self, value: f64) -> Option<Uncertainty> {
+    fn uncertainty(&self, value: f64) -> Option<DatumUncertainty> {
         match (self.uncertainty, self.factor) {
-            (Some(sigma), None) if sigma > 0.0 && sigma.is_finite() => Some(Uncertainty::Absolute(sigma)),
+            (Some(sigma), None) if sigma > 0.0 && sigma.is_finite() => Some(DatumUncertainty::Absolute(sigma)),
             (None, Some(factor)) if factor > 1.0 && factor.is_finite() && value > 0.0 => {
-                Some(Uncertainty::Factor(factor))
+                Some(DatumUncertainty::Factor(factor))
             }
             _ => None,
         }
@@ -203,7 +203,7 @@ impl DatumText {
             target: self.target(0.0),
             value,
             unit: self.unit.clone().unwrap_or_default(),
-            uncertainty: self.uncertainty(value).unwrap_or(Uncertainty::Absolute(f64::NAN)),
+            uncertainty: self.uncertainty(value).unwrap_or(DatumUncertainty::Absolute(f64::NAN)),
             source: self.source.clone().unwrap_or_default(),
         }]))
     }
@@ -242,7 +242,7 @@ impl DatumText {
             target,
             value: values[row],
             unit: unit.clone(),
-            uncertainty: Uncertainty::Absolute(sigmas[row]),
+            uncertainty: DatumUncertainty::Absolute(sigmas[row]),
             source: source.clone(),
         };
         if self.table.is_some() {
@@ -268,7 +268,7 @@ fn numbers(
 ) -> Result<(Vec<f64>, String), CalibrationError> {
     let values = data.numbers(wanted)?.to_vec();
     let unit = data.columns.iter().find_map(|column| match column {
-        Column::Numbers { name, unit, .. } if name == wanted => Some(unit.clone()),
+        ReferenceColumn::Numbers { name, unit, .. } if name == wanted => Some(unit.clone()),
         _ => None,
     });
     let unit = unit.unwrap_or_default();

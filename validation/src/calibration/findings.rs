@@ -1,13 +1,13 @@
 //! What a calibration leaves open, in sentences: of the search, of the fit, of the intervals.
 
-use super::plan::Plan;
-use super::result::Compared;
+use super::plan::CalibrationPlan;
+use super::result::DatumComparison;
 use crate::inference::diagnosis::{outliers, serial_correlation};
-use crate::inference::{Answer, Explored, Parameter as Named, Stopped, UNLIKELY, assess};
+use crate::inference::{Answer, Explored, ParameterLabel, Stopped, UNLIKELY, assess};
 use crate::number::short_digits;
 
 /// Everything that a search and its region leave open, the gravest first.
-pub(super) fn of(plan: &Plan, answer: &Answer, fit: &[Compared]) -> Vec<String> {
+pub(super) fn of(plan: &CalibrationPlan, answer: &Answer, fit: &[DatumComparison]) -> Vec<String> {
     let mut findings = of_search(plan, answer);
     match &answer.explored {
         None => {
@@ -21,7 +21,7 @@ pub(super) fn of(plan: &Plan, answer: &Answer, fit: &[Compared]) -> Vec<String> 
     findings
 }
 
-fn of_search(plan: &Plan, answer: &Answer) -> Vec<String> {
+fn of_search(plan: &CalibrationPlan, answer: &Answer) -> Vec<String> {
     let search = &answer.search;
     let mut findings = Vec::new();
     if matches!(search.stopped, Stopped::BudgetSpent | Stopped::Stalled) {
@@ -49,7 +49,7 @@ fn of_search(plan: &Plan, answer: &Answer) -> Vec<String> {
 }
 
 /// What the residuals at the best point say.
-fn of_fit(parameters: usize, p_value: Option<f64>, fit: &[Compared]) -> Vec<String> {
+fn of_fit(parameters: usize, p_value: Option<f64>, fit: &[DatumComparison]) -> Vec<String> {
     let mut findings = Vec::new();
     match p_value {
         Some(p) if p < UNLIKELY => findings.push(format!(
@@ -91,7 +91,7 @@ fn of_fit(parameters: usize, p_value: Option<f64>, fit: &[Compared]) -> Vec<Stri
 }
 
 /// Residuals of every profile in the order of its abscissas.
-fn profiles(fit: &[Compared]) -> Vec<(String, Vec<f64>)> {
+fn profiles(fit: &[DatumComparison]) -> Vec<(String, Vec<f64>)> {
     let mut profiles: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
     for datum in fit {
         let Some(place) = &datum.at else { continue };
@@ -110,11 +110,11 @@ fn profiles(fit: &[Compared]) -> Vec<(String, Vec<f64>)> {
         .collect()
 }
 
-fn of_region(plan: &Plan, explored: &Explored) -> Vec<String> {
+fn of_region(plan: &CalibrationPlan, explored: &Explored) -> Vec<String> {
     let region = &explored.region;
     let physical = |k: usize, u: f64| plan.parameters[k].bounds.value(u);
-    let names: Vec<Named> =
-        plan.parameters.iter().map(|p| Named { name: p.name.clone(), unit: p.unit.clone() }).collect();
+    let names: Vec<ParameterLabel> =
+        plan.parameters.iter().map(|p| ParameterLabel { name: p.name.clone(), unit: p.unit.clone() }).collect();
     let mut findings: Vec<String> =
         assess(&region.jacobian(), region, &names, &physical).iter().map(ToString::to_string).collect();
     for (parameter, ends) in names.iter().zip(&explored.ends) {
@@ -141,17 +141,17 @@ fn of_region(plan: &Plan, explored: &Explored) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::target::Place;
+    use super::super::target::ProfileLocation;
     use super::*;
     use crate::inference::chi_squared_tail;
     use crate::sampling::Random;
 
     /// A profile of fitted data with these residuals.
-    fn fit(residuals: &[f64]) -> Vec<Compared> {
-        let datum = |(k, residual): (usize, &f64)| Compared {
+    fn fit(residuals: &[f64]) -> Vec<DatumComparison> {
+        let datum = |(k, residual): (usize, &f64)| DatumComparison {
             block: "fit[0]".to_owned(),
             label: format!("u at {k}"),
-            at: Some(Place {
+            at: Some(ProfileLocation {
                 table: "profile".to_owned(),
                 x: "y [m]".to_owned(),
                 y: "u [m/s]".to_owned(),

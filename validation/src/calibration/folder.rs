@@ -3,7 +3,7 @@
 use super::error::CalibrationError;
 use crate::input::{WRITTEN_BY_HAND, read_text};
 use crate::output::{FileError, FolderLock, Owner, claim, is_claimed, owner_of};
-use crate::store::{Origin, identity_or_unique, is_of_this_program};
+use crate::store::{CodeOrigin, identity_or_unique, is_of_this_program};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -36,7 +36,7 @@ impl CalibrationFolder {
     /// # Errors
     /// A folder with another calibration, foreign files, or a calibration that is not to be resumed or that another
     /// command works on; files that cannot be read or written.
-    pub fn begin(folder: &Path, plan: &Path, origin: Origin, resume: bool) -> Result<Self, CalibrationError> {
+    pub fn begin(folder: &Path, plan: &Path, origin: CodeOrigin, resume: bool) -> Result<Self, CalibrationError> {
         let plan = read_text(plan, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(plan, &error))?;
         // what is unfinished is resumed; the result is written last
         let own = Belongs { source_hash: identity_or_unique(origin).to_owned(), plan };

@@ -32,14 +32,17 @@ mod trials;
 
 pub use error::CalibrationError;
 pub use folder::CalibrationFolder;
-pub use objective::Watch;
+pub use objective::CalibrationMonitor;
 pub use page::write;
-pub use plan::{Block, Choice, Conditions, Parameter, Plan, Repeats};
-pub use result::{Compared, Evaluation, Found, FoundMinimum, Outcome, Sensitivity, Trial, weighted_error};
-pub use target::Place;
+pub use plan::{CalibratedParameter, CalibrationPlan, Choice, Conditions, DataBlock, Repeats};
+pub use result::{
+    CalibrationResult, ChoiceResult, DatumComparison, ElementaryEffect, Evaluation, FoundMinimum, ParameterEstimate,
+    weighted_error,
+};
+pub use target::ProfileLocation;
 
 use crate::case::Registry;
-use crate::inference::{self, Answer, Evaluate, Method, Runs, SearchError, chi_squared};
+use crate::inference::{self, Answer, Evaluate, Method, Repeatability, SearchError, chi_squared};
 use crate::sampling::design;
 use crate::store::Store;
 use assembly::compared;
@@ -52,12 +55,12 @@ use std::sync::Mutex;
 /// # Errors
 /// Data without counterpart or with another unit, a search that finds nothing, files that cannot be read or written.
 pub fn calibrate(
-    plan: &Plan,
+    plan: &CalibrationPlan,
     folder: &CalibrationFolder,
     registry: Registry,
     store: &Store,
-    watch: &dyn Watch,
-) -> Result<Outcome, CalibrationError> {
+    watch: &dyn CalibrationMonitor,
+) -> Result<CalibrationResult, CalibrationError> {
     let mut objective = Objective {
         plan,
         registry,
@@ -102,8 +105,8 @@ pub fn calibrate(
 /// The search and its region; where evaluations are repeated, once more with the scatter that was seen about the minimum.
 fn answer(objective: &mut Objective<'_>, start: Vec<f64>) -> Result<Answer, CalibrationError> {
     let plan = objective.plan;
-    let runs = if plan.repeats.count > 1 { Runs::Scattering } else { Runs::Smooth };
-    let mut steps = inference::Plan {
+    let runs = if plan.repeats.count > 1 { Repeatability::Scattering } else { Repeatability::Smooth };
+    let mut steps = inference::SolvePlan {
         start,
         method: plan.method,
         design: if plan.levels.is_empty() { Vec::new() } else { design::full_grid(&plan.levels) },
@@ -111,7 +114,7 @@ fn answer(objective: &mut Objective<'_>, start: Vec<f64>) -> Result<Answer, Cali
         region_evaluations: plan.region_evaluations,
         runs,
     };
-    if runs == Runs::Scattering {
+    if runs == Repeatability::Scattering {
         objective.variances = objective.first_variances()?;
         let first = inference::solve(objective, &steps).map_err(|error| unsolved(error, objective))?;
         objective.variances = objective.variances_about(&first)?;
@@ -134,7 +137,11 @@ fn unsolved(error: SearchError<CalibrationError>, objective: &Objective<'_>) -> 
 
 /// Whether the joint 95 % region holds the truth of synthetic data, as the model itself says, which made them there; where its
 /// runs scatter, as the region is drawn.
-fn truth_inside(plan: &Plan, objective: &mut Objective<'_>, answer: &Answer) -> Result<Option<bool>, CalibrationError> {
+fn truth_inside(
+    plan: &CalibrationPlan,
+    objective: &mut Objective<'_>,
+    answer: &Answer,
+) -> Result<Option<bool>, CalibrationError> {
     let truth: Option<Vec<f64>> =
         plan.parameters.iter().map(|p| p.truth.map(|truth| p.bounds.coordinate(truth))).collect();
     let Some((truth, explored)) = truth.zip(answer.explored.as_ref()) else { return Ok(None) };
@@ -152,7 +159,7 @@ fn compare_at(
     objective: &Objective<'_>,
     values: &[f64],
     held_out: bool,
-) -> Result<Result<Vec<Compared>, String>, CalibrationError> {
+) -> Result<Result<Vec<DatumComparison>, String>, CalibrationError> {
     let blocks: Vec<usize> =
         (0..objective.plan.blocks.len()).filter(|&k| objective.plan.blocks[k].held_out == held_out).collect();
     let questions: Vec<_> = blocks.iter().map(|&block| objective.question(block, values)).collect();

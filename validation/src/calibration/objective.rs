@@ -2,11 +2,11 @@
 
 use super::data::{Group, Synthetic};
 use super::error::CalibrationError;
-use super::plan::{Block, Plan};
+use super::plan::{CalibrationPlan, DataBlock};
 use super::repeated::Repeated;
-use super::target::{Datum, Target, Uncertainty};
-use crate::case::{Prepared, Registry, Silent, share_out};
-use crate::evaluation::{self, Record};
+use super::target::{Datum, DatumUncertainty, Target};
+use crate::case::{PreparedCase, Registry, Silent, share_out};
+use crate::evaluation::{self, EvaluationRecord};
 use crate::inference::Evaluate;
 use crate::input::FieldError;
 use crate::output::FileError;
@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
 /// Watches a calibration, for a progress bar. Called from several threads.
-pub trait Watch: Sync {
+pub trait CalibrationMonitor: Sync {
     /// So many evaluations are to be made beyond those counted before.
     fn expected(&self, evaluations: usize);
     /// One has its record.
@@ -33,16 +33,16 @@ pub(super) struct Question {
 }
 
 /// A job that one of the workers takes: key and case.
-type Waiting = Mutex<Option<(String, Box<dyn Prepared>)>>;
+type Waiting = Mutex<Option<(String, Box<dyn PreparedCase>)>>;
 
 /// The model and the data that it is fitted to.
 pub(super) struct Objective<'a> {
-    pub(super) plan: &'a Plan,
+    pub(super) plan: &'a CalibrationPlan,
     pub(super) registry: Registry,
     pub(super) store: &'a Store,
     /// Where evaluations are kept.
     pub(super) folder: PathBuf,
-    pub(super) watch: &'a dyn Watch,
+    pub(super) watch: &'a dyn CalibrationMonitor,
     /// All data, those of fitted blocks first.
     pub(super) data: Vec<Datum>,
     /// Why the last failing record failed.
@@ -75,15 +75,15 @@ impl Objective<'_> {
     }
 
     /// Records of questions, in their order; what has a file is read, the rest simulated on the current pool's threads.
-    fn ask_each(&self, questions: &[Question]) -> Result<Vec<Record>, CalibrationError> {
-        let mut answers: Vec<Option<Record>> = Vec::with_capacity(questions.len());
-        let mut waiting: Vec<(usize, String, Box<dyn Prepared>)> = Vec::new();
+    fn ask_each(&self, questions: &[Question]) -> Result<Vec<EvaluationRecord>, CalibrationError> {
+        let mut answers: Vec<Option<EvaluationRecord>> = Vec::with_capacity(questions.len());
+        let mut waiting: Vec<(usize, String, Box<dyn PreparedCase>)> = Vec::new();
         for (place, question) in questions.iter().enumerate() {
             let request = &self.plan.blocks[question.block].request;
             match request.prepare(self.registry, &self.plan.file, &question.settings, self.plan.limits) {
                 Ok(prepared) => {
                     let key = evaluation::key(prepared.as_ref());
-                    let known = Record::read(&self.file(&key), &key);
+                    let known = EvaluationRecord::read(&self.file(&key), &key);
                     // two questions of one batch may be the same
                     let asked = waiting.iter().any(|(_, other, _)| *other == key);
                     if known.is_none() && !asked {
@@ -92,12 +92,13 @@ impl Objective<'_> {
                     answers.push(known);
                 }
                 // a point that the case refuses is one where the model fails
-                Err(error) => answers.push(Some(Record::failed("", &request.case, &error.to_string()))),
+                Err(error) => answers.push(Some(EvaluationRecord::failed("", &request.case, &error.to_string()))),
             }
         }
         self.watch.expected(waiting.len());
-        let cost =
-            |prepared: &dyn Prepared| -> f64 { (0..prepared.run_count()).map(|k| prepared.particle_steps(k)).sum() };
+        let cost = |prepared: &dyn PreparedCase| -> f64 {
+            (0..prepared.run_count()).map(|k| prepared.particle_steps(k)).sum()
+        };
         waiting.sort_by(|a, b| cost(b.2.as_ref()).total_cmp(&cost(a.2.as_ref())).then(a.0.cmp(&b.0)));
         let jobs: Vec<Waiting> =
             waiting.into_iter().map(|(_, key, prepared)| Mutex::new(Some((key, prepared)))).collect();
@@ -115,13 +116,13 @@ impl Objective<'_> {
                 let prepared = request.prepare(self.registry, &self.plan.file, &question.settings, self.plan.limits)?;
                 let key = evaluation::key(prepared.as_ref());
                 let file = self.file(&key);
-                *answer = Some(Record::read(&file, &key).ok_or_else(|| {
+                *answer = Some(EvaluationRecord::read(&file, &key).ok_or_else(|| {
                     let lost = std::io::Error::other("an evaluation that was just written cannot be read back");
                     FileError::unwritable(&file, &lost)
                 })?);
             }
         }
-        let answers: Vec<Record> = answers.into_iter().flatten().collect();
+        let answers: Vec<EvaluationRecord> = answers.into_iter().flatten().collect();
         if let Some(reason) = answers.iter().rev().find_map(|record| record.failure.clone()) {
             *self.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(reason);
         }
@@ -186,7 +187,7 @@ impl Objective<'_> {
         .collect()
     }
 
-    pub(super) fn counterpart(&self, block: &Block, reason: String) -> CalibrationError {
+    pub(super) fn counterpart(&self, block: &DataBlock, reason: String) -> CalibrationError {
         CalibrationError::Counterpart { file: self.plan.file.clone(), field: block.field.clone(), reason }
     }
 
@@ -288,7 +289,7 @@ impl Synthetic {
                     target,
                     value: value + sigma * noise.normal(),
                     unit,
-                    uncertainty: Uncertainty::Absolute(sigma),
+                    uncertainty: DatumUncertainty::Absolute(sigma),
                     source: format!("made by Bagnold itself, with {} % of noise", 100.0 * self.noise),
                 })
             })

@@ -1,7 +1,9 @@
 //! Files of a calibration: the page, its figures, tables and the calibrated cases.
 
 use super::figures;
-use super::result::{Compared, Found, FoundMinimum, Outcome, relative_error, weighted_error};
+use super::result::{
+    CalibrationResult, DatumComparison, FoundMinimum, ParameterEstimate, relative_error, weighted_error,
+};
 use crate::figure::{self, FigureError};
 use crate::inference::UNLIKELY;
 use crate::number::four_digits;
@@ -13,7 +15,7 @@ use std::path::Path;
 
 /// A figure as the page shows it.
 #[derive(Debug, Serialize)]
-struct Picture {
+struct CaptionedFile {
     file: String,
     caption: String,
 }
@@ -28,14 +30,14 @@ struct Errors {
 }
 
 #[derive(Debug, Serialize)]
-struct Page<'a> {
-    outcome: &'a Outcome,
+struct CalibrationPage<'a> {
+    outcome: &'a CalibrationResult,
     errors: Vec<Errors>,
     parameters: Vec<Vec<String>>,
     trials: Vec<Vec<String>>,
     data: Vec<Vec<String>>,
     summary: Vec<String>,
-    pictures: Vec<Picture>,
+    pictures: Vec<CaptionedFile>,
     style: &'static str,
 }
 
@@ -43,13 +45,15 @@ struct Page<'a> {
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(outcome: &Outcome, folder: &Path) -> Result<(), FileError> {
+pub fn write(outcome: &CalibrationResult, folder: &Path) -> Result<(), FileError> {
     let unwritable = |error: io::Error| FileError::unwritable(folder, &error);
     let drawn = folder.join("figures");
     let mut pictures = Vec::new();
     for picture in figures::all(outcome) {
         match figure::write(&picture, &drawn) {
-            Ok(_) => pictures.push(Picture { file: format!("figures/{}.svg", picture.name), caption: picture.caption }),
+            Ok(_) => {
+                pictures.push(CaptionedFile { file: format!("figures/{}.svg", picture.name), caption: picture.caption })
+            }
             Err(FigureError::Write { source, .. }) => return Err(unwritable(source)),
             // a figure that cannot be drawn is no reason to lose the numbers
             Err(error) => tracing::error!("figure {}: failed to {error}", picture.name),
@@ -67,7 +71,7 @@ pub fn write(outcome: &Outcome, folder: &Path) -> Result<(), FileError> {
     write_whole(&folder.join("result.json"), format!("{json}\n").as_bytes()).map_err(unwritable)
 }
 
-fn evaluations(outcome: &Outcome) -> io::Result<Vec<u8>> {
+fn evaluations(outcome: &CalibrationResult) -> io::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let heads = outcome.parameters.iter().map(|parameter| format!("{} [{}]", parameter.name, parameter.unit));
     writer.write_record(["evaluation".to_owned()].into_iter().chain(heads).chain(["chi squared [-]".to_owned()]))?;
@@ -80,9 +84,9 @@ fn evaluations(outcome: &Outcome) -> io::Result<Vec<u8>> {
 }
 
 /// Every datum with its use: `fit`, `hold-out`, or those of a choice.
-fn all_data(outcome: &Outcome) -> Vec<(String, &Compared)> {
+fn all_data(outcome: &CalibrationResult) -> Vec<(String, &DatumComparison)> {
     let own = [("fit", &outcome.fit), ("hold-out", &outcome.hold_out)];
-    let mut list: Vec<(String, &Compared)> =
+    let mut list: Vec<(String, &DatumComparison)> =
         own.into_iter().flat_map(|(name, data)| data.iter().map(move |datum| (name.to_owned(), datum))).collect();
     for trial in &outcome.trials {
         list.extend(trial.fit.iter().map(|datum| (format!("fit, {}", trial.name), datum)));
@@ -91,7 +95,7 @@ fn all_data(outcome: &Outcome) -> Vec<(String, &Compared)> {
     list
 }
 
-fn data(outcome: &Outcome) -> io::Result<Vec<u8>> {
+fn data(outcome: &CalibrationResult) -> io::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record([
         "use",
@@ -123,7 +127,7 @@ fn optional(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), four_digits)
 }
 
-fn errors(what: &'static str, data: &[Compared]) -> Option<Errors> {
+fn errors(what: &'static str, data: &[DatumComparison]) -> Option<Errors> {
     (!data.is_empty()).then(|| Errors {
         what,
         data: data.len(),
@@ -134,7 +138,7 @@ fn errors(what: &'static str, data: &[Compared]) -> Option<Errors> {
 }
 
 /// The first sentences of the page.
-fn summary(outcome: &Outcome) -> Vec<String> {
+fn summary(outcome: &CalibrationResult) -> Vec<String> {
     let mut lines = Vec::new();
     if outcome.trials.is_empty() {
         let failed = outcome.evaluations.iter().filter(|evaluation| evaluation.chi_squared.is_none()).count();
@@ -178,7 +182,7 @@ fn summary(outcome: &Outcome) -> Vec<String> {
                 four_digits(p)
             ));
         }
-        let credible = |found: &Found| {
+        let credible = |found: &ParameterEstimate| {
             let (low, high) = found.credible?;
             Some(format!("{} {} … {} {}", found.name, four_digits(low), four_digits(high), found.unit))
         };
@@ -197,8 +201,8 @@ fn summary(outcome: &Outcome) -> Vec<String> {
     lines
 }
 
-fn render(outcome: &Outcome, pictures: Vec<Picture>) -> Result<String, minijinja::Error> {
-    let parameter = |found: &Found| {
+fn render(outcome: &CalibrationResult, pictures: Vec<CaptionedFile>) -> Result<String, minijinja::Error> {
+    let parameter = |found: &ParameterEstimate| {
         let interval = found.interval.map_or_else(
             || "–".to_owned(),
             |(low, high)| {
@@ -223,7 +227,7 @@ fn render(outcome: &Outcome, pictures: Vec<Picture>) -> Result<String, minijinja
             truth,
         ]
     };
-    let trial = |trial: &super::result::Trial| {
+    let trial = |trial: &super::result::ChoiceResult| {
         let ranks = trial.ranks.map_or_else(
             || "–".to_owned(),
             |(low, high)| {
@@ -242,7 +246,7 @@ fn render(outcome: &Outcome, pictures: Vec<Picture>) -> Result<String, minijinja
             trial.failure.clone().or_else(|| trial.hold_out_failure.clone()).unwrap_or_default(),
         ]
     };
-    let datum = |(name, datum): (String, &Compared)| {
+    let datum = |(name, datum): (String, &DatumComparison)| {
         vec![
             name,
             datum.label.clone(),
@@ -254,7 +258,7 @@ fn render(outcome: &Outcome, pictures: Vec<Picture>) -> Result<String, minijinja
             datum.source.clone(),
         ]
     };
-    let page = Page {
+    let page = CalibrationPage {
         errors: [errors("fitted", &outcome.fit), errors("held out", &outcome.hold_out)].into_iter().flatten().collect(),
         parameters: outcome.parameters.iter().map(parameter).collect(),
         trials: outcome.trials.iter().map(trial).collect(),

@@ -15,7 +15,7 @@ const MOST_REPEATS: usize = 100;
 
 /// A parameter with its range.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Parameter {
+pub struct CalibratedParameter {
     /// Name in tables and figures.
     pub name: String,
     /// Unit.
@@ -95,7 +95,7 @@ impl Repeats {
 
 /// A case, and whether its data are fitted or only predicted.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Block {
+pub struct DataBlock {
     /// The case and what differs from its tier.
     pub request: CaseRequest,
     /// Whether its data are held out.
@@ -108,7 +108,7 @@ pub struct Block {
 
 /// A calibration that was read.
 #[derive(Debug, Clone)]
-pub struct Plan {
+pub struct CalibrationPlan {
     /// The file.
     pub file: PathBuf,
     /// What is calibrated, one line.
@@ -130,21 +130,21 @@ pub struct Plan {
     /// Trajectories of the screening; 0 for none.
     pub trajectories: usize,
     /// What is sought.
-    pub parameters: Vec<Parameter>,
+    pub parameters: Vec<CalibratedParameter>,
     /// Levels of a design's grid along each parameter; empty for a Sobol sequence.
     pub levels: Vec<usize>,
     /// What is tried; empty for a search.
     pub choices: Vec<Choice>,
     /// Fitted blocks first.
-    pub blocks: Vec<Block>,
+    pub blocks: Vec<DataBlock>,
     /// The data of each block.
     pub(super) data: Vec<Vec<DatumText>>,
 }
 
-impl Plan {
+impl CalibrationPlan {
     /// The settings of a block's case at a point of physical values.
     #[must_use]
-    pub fn settings(&self, block: &Block, values: &[f64]) -> Vec<String> {
+    pub fn settings(&self, block: &DataBlock, values: &[f64]) -> Vec<String> {
         let path = |paths: &Paths| paths.in_case(&block.request.case).map(str::to_owned);
         self.parameters
             .iter()

@@ -7,7 +7,7 @@ use super::assembly::compared;
 use super::error::CalibrationError;
 use super::objective::{Objective, Question};
 use super::repeated::Repeated;
-use super::result::Compared;
+use super::result::DatumComparison;
 use crate::inference::posterior::sample;
 use crate::inference::posterior::{Posterior, predictive};
 use crate::inference::{Answer, Emulator, Evaluated, Explored};
@@ -18,7 +18,12 @@ pub(super) fn posterior(objective: &Objective<'_>, answer: &Answer) -> Option<Po
 }
 
 /// Gives every fitted datum its band.
-pub(super) fn of_fit(objective: &Objective<'_>, explored: &Explored, posterior: &Posterior, fit: &mut [Compared]) {
+pub(super) fn of_fit(
+    objective: &Objective<'_>,
+    explored: &Explored,
+    posterior: &Posterior,
+    fit: &mut [DatumComparison],
+) {
     let bands = predictive(&explored.emulator, posterior);
     let loss = objective.plan.loss;
     for (place, ((datum, band), known)) in fit.iter_mut().zip(bands).zip(objective.data_of(false)).enumerate() {
@@ -32,7 +37,7 @@ pub(super) fn of_hold_out(
     objective: &Objective<'_>,
     answer: &Answer,
     posterior: &Posterior,
-    hold_out: &mut [Compared],
+    hold_out: &mut [DatumComparison],
 ) -> Result<(), CalibrationError> {
     let plan = objective.plan;
     let (Some(explored), false) = (&answer.explored, hold_out.is_empty()) else { return Ok(()) };

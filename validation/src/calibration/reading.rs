@@ -1,9 +1,9 @@
 //! Reading a calibration: its text, then its cases and data.
 
-use super::conditions::{self, Known};
+use super::conditions::{self, BlockParameters};
 use super::error::CalibrationError;
-use super::plan::Plan;
-use super::text::Text;
+use super::plan::CalibrationPlan;
+use super::text::CalibrationText;
 use crate::case::{Limits, Registry};
 use crate::evaluation::{PlanError, read_plan};
 use crate::input::FieldError;
@@ -11,14 +11,14 @@ use crate::store::Store;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-impl Plan {
+impl CalibrationPlan {
     /// Reads and checks a file.
     ///
     /// # Errors
     /// A file that cannot be read or typed, ranges that break a rule, a case or a path that does not exist, a run that is
     /// in both fit and hold-out.
     pub fn read(file: &Path, registry: Registry, limits: Limits) -> Result<Self, CalibrationError> {
-        let text: Text = read_plan(file, "calibrate")?;
+        let text: CalibrationText = read_plan(file, "calibrate")?;
         let plan = text.checked(file, limits).map_err(|error| error.in_file(file))?;
         plan.check_cases(registry)?;
         plan.check_data()?;
@@ -76,7 +76,7 @@ impl Plan {
             }
             // what the program itself wrote can be read
             let parameters = toml::from_str(prepared.parameters_toml()).unwrap_or_default();
-            known.push(Known { block, parameters });
+            known.push(BlockParameters { block, parameters });
         }
         conditions::check(self, &known)
     }

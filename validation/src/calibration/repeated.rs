@@ -1,15 +1,15 @@
 //! The answers to one question with several seeds.
 
 use super::target::Target;
-use crate::evaluation::Record;
+use crate::evaluation::EvaluationRecord;
 
 /// What one question was answered with every seed.
 #[derive(Debug, Clone)]
-pub(super) struct Repeated(Vec<Record>);
+pub(super) struct Repeated(Vec<EvaluationRecord>);
 
 impl Repeated {
     /// The answers of all seeds, the first seed's first.
-    pub(super) const fn new(records: Vec<Record>) -> Self {
+    pub(super) const fn new(records: Vec<EvaluationRecord>) -> Self {
         Self(records)
     }
 
@@ -19,7 +19,7 @@ impl Repeated {
     }
 
     /// With one seed; a case without seeds gives the same with all.
-    pub(super) fn with_seed(&self, place: usize) -> Option<&Record> {
+    pub(super) fn with_seed(&self, place: usize) -> Option<&EvaluationRecord> {
         self.0.get(place).or_else(|| self.0.first())
     }
 

@@ -1,17 +1,17 @@
 //! What a calibration hands to its page and files: plain data without a trace of when or where it ran.
 
-use super::target::Place;
+use super::target::ProfileLocation;
 use serde::{Deserialize, Serialize};
 
 /// One datum beside the model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Compared {
+pub struct DatumComparison {
     /// Which block of the plan.
     pub block: String,
     /// What is compared.
     pub label: String,
     /// Table, column and abscissa of a point of a profile.
-    pub at: Option<Place>,
+    pub at: Option<ProfileLocation>,
     /// The datum, in `unit`.
     pub datum: f64,
     /// The datum less and plus its standard uncertainty.
@@ -32,7 +32,7 @@ pub struct Compared {
 
 /// One parameter and what the data say about it, in its unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Found {
+pub struct ParameterEstimate {
     /// Name.
     pub name: String,
     /// Unit.
@@ -81,7 +81,7 @@ pub struct FoundMinimum {
 
 /// What one parameter does to the data over its whole range.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Sensitivity {
+pub struct ElementaryEffect {
     /// Name.
     pub name: String,
     /// Mean size of its elementary effects μ*, in standard uncertainties of a datum a range `[-]`.
@@ -92,13 +92,13 @@ pub struct Sensitivity {
 
 /// One choice of a bake-off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Trial {
+pub struct ChoiceResult {
     /// The choice.
     pub name: String,
     /// Fitted data.
-    pub fit: Vec<Compared>,
+    pub fit: Vec<DatumComparison>,
     /// Data held out.
-    pub hold_out: Vec<Compared>,
+    pub hold_out: Vec<DatumComparison>,
     /// χ² of the fitted data `[-]`.
     pub chi_squared: Option<f64>,
     /// χ² of the data held out `[-]`.
@@ -117,7 +117,7 @@ pub struct Trial {
 
 /// A finished calibration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Outcome {
+pub struct CalibrationResult {
     /// What was calibrated.
     pub title: String,
     /// What a reader must know.
@@ -131,7 +131,7 @@ pub struct Outcome {
     /// All evaluations by number: the search, then the ends of the intervals.
     pub evaluations: Vec<Evaluation>,
     /// The parameters.
-    pub parameters: Vec<Found>,
+    pub parameters: Vec<ParameterEstimate>,
     /// Minima in which descents ended, the lowest first.
     pub minima: Vec<FoundMinimum>,
     /// χ² at the best point, which was evaluated, or the sum of another loss `[-]`.
@@ -151,27 +151,27 @@ pub struct Outcome {
     /// Samples of the posterior, parameters in their units; empty unless asked for.
     pub samples: Vec<Vec<f64>>,
     /// Screening; empty if none was asked for.
-    pub sensitivity: Vec<Sensitivity>,
+    pub sensitivity: Vec<ElementaryEffect>,
     /// Fitted data at the best point.
-    pub fit: Vec<Compared>,
+    pub fit: Vec<DatumComparison>,
     /// Data held out, there.
-    pub hold_out: Vec<Compared>,
+    pub hold_out: Vec<DatumComparison>,
     /// Choices by rank; empty unless there were any.
-    pub trials: Vec<Trial>,
+    pub trials: Vec<ChoiceResult>,
     /// Complete parameters of every fitted case at the best point.
     pub calibrated: Vec<String>,
 }
 
 /// Root mean square of weighted residuals `[-]`; none without data.
 #[must_use]
-pub fn weighted_error(data: &[Compared]) -> Option<f64> {
+pub fn weighted_error(data: &[DatumComparison]) -> Option<f64> {
     let sum: f64 = data.iter().map(|datum| datum.residual * datum.residual).sum();
     (!data.is_empty()).then(|| (sum / data.len() as f64).sqrt())
 }
 
 /// Root mean square of (model − datum)/datum `[-]`; none without data or where a datum is zero.
 #[must_use]
-pub(super) fn relative_error(data: &[Compared]) -> Option<f64> {
+pub(super) fn relative_error(data: &[DatumComparison]) -> Option<f64> {
     let sum: f64 = data.iter().map(|datum| ((datum.model - datum.datum) / datum.datum).powi(2)).sum();
     Some((sum / data.len() as f64).sqrt()).filter(|error| error.is_finite())
 }

@@ -2,11 +2,14 @@
 
 use super::error::CalibrationError;
 use super::objective::Objective;
-use super::result::Sensitivity;
+use super::result::ElementaryEffect;
 use crate::inference::sensitivity;
 
 /// Effects of every parameter; empty without trajectories.
-pub(super) fn screen(objective: &mut Objective<'_>, trajectories: usize) -> Result<Vec<Sensitivity>, CalibrationError> {
+pub(super) fn screen(
+    objective: &mut Objective<'_>,
+    trajectories: usize,
+) -> Result<Vec<ElementaryEffect>, CalibrationError> {
     if trajectories == 0 {
         return Ok(Vec::new());
     }
@@ -18,7 +21,7 @@ pub(super) fn screen(objective: &mut Objective<'_>, trajectories: usize) -> Resu
         .parameters
         .iter()
         .zip(&screening.effects)
-        .map(|(parameter, effect)| Sensitivity {
+        .map(|(parameter, effect)| ElementaryEffect {
             name: parameter.name.clone(),
             effect: effect.mean_size,
             spread: effect.deviation,

@@ -1,6 +1,6 @@
 //! What of a case's record a datum is compared with, and how.
 
-use crate::evaluation::Record;
+use crate::evaluation::EvaluationRecord;
 use crate::input::nearest;
 use crate::statistics::{Beyond, interpolated};
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ const HALF_A_STEP: (Beyond, Beyond) = (Beyond::Line(0.5), Beyond::Line(0.5));
 
 /// Where a datum lies in a profile.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Place {
+pub struct ProfileLocation {
     /// Table of the case.
     pub table: String,
     /// Its column of abscissas, with its unit.
@@ -46,7 +46,7 @@ pub(super) enum Target {
 
 /// How far a datum may be off, as a standard deviation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Uncertainty {
+pub(super) enum DatumUncertainty {
     /// In the datum's unit.
     Absolute(f64),
     /// As a factor on the datum.
@@ -65,7 +65,7 @@ pub(super) struct Datum {
     /// Unit.
     pub(super) unit: String,
     /// Standard uncertainty.
-    pub(super) uncertainty: Uncertainty,
+    pub(super) uncertainty: DatumUncertainty,
     /// Where it comes from.
     pub(super) source: String,
 }
@@ -75,7 +75,7 @@ impl Target {
     ///
     /// # Errors
     /// The words for what the record does not have.
-    pub(super) fn predicted(&self, record: &Record) -> Result<(f64, String), String> {
+    pub(super) fn predicted(&self, record: &EvaluationRecord) -> Result<(f64, String), String> {
         match self {
             Self::Metric { name, variant } => {
                 let mut found = record
@@ -153,11 +153,11 @@ impl Target {
 
     /// Where it lies in a profile.
     #[must_use]
-    pub(super) fn place(&self) -> Option<Place> {
+    pub(super) fn place(&self) -> Option<ProfileLocation> {
         match self {
             Self::Metric { .. } => None,
             Self::Profile { table, x, y, at } => {
-                Some(Place { table: table.clone(), x: x.clone(), y: y.clone(), at: *at })
+                Some(ProfileLocation { table: table.clone(), x: x.clone(), y: y.clone(), at: *at })
             }
         }
     }
@@ -180,9 +180,9 @@ impl Datum {
     #[must_use]
     pub(super) fn residual(&self, predicted: f64) -> f64 {
         match self.uncertainty {
-            Uncertainty::Absolute(sigma) => (predicted - self.value) / sigma,
+            DatumUncertainty::Absolute(sigma) => (predicted - self.value) / sigma,
             // a transport that has ceased is as wrong as one too small by e^30
-            Uncertainty::Factor(factor) => {
+            DatumUncertainty::Factor(factor) => {
                 let ratio = predicted / self.value;
                 // the larger of both would also swallow what is not a number
                 let ratio = if ratio < 1e-13 { 1e-13 } else { ratio };
@@ -195,8 +195,8 @@ impl Datum {
     #[must_use]
     pub(super) fn of_residual(&self, residual: f64) -> f64 {
         match self.uncertainty {
-            Uncertainty::Absolute(sigma) => self.value + sigma * residual,
-            Uncertainty::Factor(factor) => self.value * libm::pow(factor, residual),
+            DatumUncertainty::Absolute(sigma) => self.value + sigma * residual,
+            DatumUncertainty::Factor(factor) => self.value * libm::pow(factor, residual),
         }
     }
 
@@ -204,8 +204,8 @@ impl Datum {
     #[must_use]
     pub(super) fn band(&self) -> (f64, f64) {
         match self.uncertainty {
-            Uncertainty::Absolute(sigma) => (self.value - sigma, self.value + sigma),
-            Uncertainty::Factor(factor) => (self.value / factor, self.value * factor),
+            DatumUncertainty::Absolute(sigma) => (self.value - sigma, self.value + sigma),
+            DatumUncertainty::Factor(factor) => (self.value / factor, self.value * factor),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A calibration as it is written: what its numbers and lists must satisfy before any case is looked at.
 
 use super::data::DatumText;
-use super::plan::{Block, Choice, Conditions, Parameter, Plan, Repeats};
+use super::plan::{CalibratedParameter, CalibrationPlan, Choice, Conditions, DataBlock, Repeats};
 use crate::case::{Limits, Tier};
 use crate::evaluation::{CaseRequest, Paths};
 use crate::inference::{Budget, Loss, Method};
@@ -52,7 +52,7 @@ struct BlockText {
 
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Text {
+pub(super) struct CalibrationText {
     title: String,
     #[serde(default)]
     note: String,
@@ -83,9 +83,9 @@ fn none() -> String {
     "-".to_owned()
 }
 
-impl Text {
+impl CalibrationText {
     /// The plan, unless its own numbers or lists break a rule.
-    pub(super) fn checked(self, file: &Path, limits: Limits) -> Result<Plan, FieldError> {
+    pub(super) fn checked(self, file: &Path, limits: Limits) -> Result<CalibrationPlan, FieldError> {
         self.check_lists()?;
         let parameters = self.parameters()?;
         let levels = self.levels()?;
@@ -105,7 +105,7 @@ impl Text {
         let usual_starts = if local && !parameters.is_empty() { 2 * parameters.len() + 2 } else { 0 };
         budget.starts = self.starts.unwrap_or(usual_starts);
         let (blocks, data) = blocks(self.fit, self.hold_out)?;
-        Ok(Plan {
+        Ok(CalibrationPlan {
             file: file.to_owned(),
             title: self.title,
             note: self.note,
@@ -145,8 +145,8 @@ impl Text {
         Ok(())
     }
 
-    fn parameters(&self) -> Result<Vec<Parameter>, FieldError> {
-        let mut parameters: Vec<Parameter> = Vec::new();
+    fn parameters(&self) -> Result<Vec<CalibratedParameter>, FieldError> {
+        let mut parameters: Vec<CalibratedParameter> = Vec::new();
         for (index, text) in self.parameters.iter().enumerate() {
             let parameter = text.checked(&format!("parameters[{index}]"))?;
             if parameters.iter().any(|other| other.name == parameter.name) {
@@ -208,7 +208,7 @@ impl Text {
 }
 
 /// Blocks and their data, fitted ones first.
-fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<(Vec<Block>, Vec<Vec<DatumText>>), FieldError> {
+fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<(Vec<DataBlock>, Vec<Vec<DatumText>>), FieldError> {
     let mut blocks = Vec::new();
     let mut data: Vec<Vec<DatumText>> = Vec::new();
     for (kind, held_out, texts) in [("fit", false, fit), ("hold_out", true, hold_out)] {
@@ -229,7 +229,7 @@ fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<(Vec<Block>, 
             let conditions = block.conditions(&field, held_out)?;
             let tier = block.tier.unwrap_or(Tier::Quick);
             let request = CaseRequest { case: block.case, name: None, tier, with: block.with };
-            blocks.push(Block { request, held_out, conditions, field });
+            blocks.push(DataBlock { request, held_out, conditions, field });
             data.push(block.data);
         }
     }
@@ -262,7 +262,7 @@ impl BlockText {
 }
 
 impl ParameterText {
-    fn checked(&self, field: &str) -> Result<Parameter, FieldError> {
+    fn checked(&self, field: &str) -> Result<CalibratedParameter, FieldError> {
         let bounds = Bounds { lower: self.lower, upper: self.upper, spacing: self.scale };
         bounds.check().map_err(|error| FieldError::of_bounds(field, &error))?;
         let start = self.start.unwrap_or_else(|| bounds.value(0.5));
@@ -277,7 +277,7 @@ impl ParameterText {
             check_name(&format!("{field}.name"), name)?;
         }
         check_text(&format!("{field}.unit"), &self.unit)?;
-        Ok(Parameter {
+        Ok(CalibratedParameter {
             name: self.name.clone().unwrap_or_else(|| self.path.name()),
             unit: self.unit.clone(),
             bounds,

@@ -3,8 +3,8 @@
 use super::assembly::compared;
 use super::error::CalibrationError;
 use super::objective::{Objective, Question};
-use super::plan::{Choice, Plan};
-use super::result::{Compared, Outcome, Trial, weighted_error};
+use super::plan::{CalibrationPlan, Choice};
+use super::result::{CalibrationResult, ChoiceResult, DatumComparison, weighted_error};
 use super::target::Target;
 use crate::inference::scores::{self, Score};
 
@@ -18,7 +18,7 @@ const RIVAL: f64 = 0.05;
 const FEW_DATA: usize = 10;
 
 /// Evaluates and ranks all choices. One that fails stays in the table with its reason.
-pub(super) fn try_all(objective: &Objective<'_>) -> Result<Outcome, CalibrationError> {
+pub(super) fn try_all(objective: &Objective<'_>) -> Result<CalibrationResult, CalibrationError> {
     let plan = objective.plan;
     let blocks = plan.blocks.len();
     let setting = |choice: &Choice, block: usize| choice.in_case(&plan.blocks[block].request.case);
@@ -28,7 +28,7 @@ pub(super) fn try_all(objective: &Objective<'_>) -> Result<Outcome, CalibrationE
         .flat_map(|choice| (0..blocks).map(move |block| Question { block, settings: setting(choice, block) }))
         .collect();
     let answers = objective.ask(&questions)?;
-    let mut trials: Vec<Trial> = Vec::new();
+    let mut trials: Vec<ChoiceResult> = Vec::new();
     let mut first_error = None;
     for (choice, answers) in plan.choices.iter().zip(answers.chunks(blocks)) {
         let named = |target: &Target| target.with_variant(|variant| variant.replace("{choice}", &choice.name));
@@ -36,23 +36,23 @@ pub(super) fn try_all(objective: &Objective<'_>) -> Result<Outcome, CalibrationE
         match both(false) {
             // what is held out must not decide who is ranked
             Ok(fit) => trials.push(match both(true) {
-                Ok(hold_out) => Trial::of(choice.name.clone(), fit, hold_out),
-                Err(error) => Trial {
+                Ok(hold_out) => ChoiceResult::of(choice.name.clone(), fit, hold_out),
+                Err(error) => ChoiceResult {
                     hold_out_failure: Some(error.to_string()),
-                    ..Trial::of(choice.name.clone(), fit, Vec::new())
+                    ..ChoiceResult::of(choice.name.clone(), fit, Vec::new())
                 },
             }),
             Err(error) => {
-                trials.push(Trial::failed(choice.name.clone(), error.to_string()));
+                trials.push(ChoiceResult::failed(choice.name.clone(), error.to_string()));
                 first_error.get_or_insert(error);
             }
         }
     }
-    let worked: Vec<&Trial> = trials.iter().filter(|trial| trial.failure.is_none()).collect();
-    let residuals = |data: &[Compared]| data.iter().map(|datum| datum.residual).collect::<Vec<f64>>();
-    let choices: Vec<scores::Choice> = worked
+    let worked: Vec<&ChoiceResult> = trials.iter().filter(|trial| trial.failure.is_none()).collect();
+    let residuals = |data: &[DatumComparison]| data.iter().map(|datum| datum.residual).collect::<Vec<f64>>();
+    let choices: Vec<scores::FittedChoice> = worked
         .iter()
-        .map(|trial| scores::Choice { name: trial.name.clone(), residuals: residuals(&trial.fit), parameters: 0 })
+        .map(|trial| scores::FittedChoice { name: trial.name.clone(), residuals: residuals(&trial.fit), parameters: 0 })
         .collect();
     let Some(ranked) = scores::rank(&choices, REPEATS, plan.budget.seed) else {
         let nothing = CalibrationError::Search { file: plan.file.clone(), reason: "no choice gave numbers".to_owned() };
@@ -61,13 +61,13 @@ pub(super) fn try_all(objective: &Objective<'_>) -> Result<Outcome, CalibrationE
     for trial in &mut trials {
         trial.score(ranked.iter().find(|score| score.name == trial.name));
     }
-    let weight = |trial: &Trial| trial.chi_squared.unwrap_or(f64::INFINITY);
+    let weight = |trial: &ChoiceResult| trial.chi_squared.unwrap_or(f64::INFINITY);
     trials.sort_by(|a, b| weight(a).total_cmp(&weight(b)));
-    Ok(Outcome::of_trials(plan, trials))
+    Ok(CalibrationResult::of_trials(plan, trials))
 }
 
-impl Outcome {
-    pub(super) fn of_trials(plan: &Plan, trials: Vec<Trial>) -> Self {
+impl CalibrationResult {
+    pub(super) fn of_trials(plan: &CalibrationPlan, trials: Vec<ChoiceResult>) -> Self {
         Self {
             title: plan.title.clone(),
             note: plan.note.clone(),
@@ -95,8 +95,8 @@ impl Outcome {
 }
 
 /// What a bake-off leaves open.
-fn undecided(trials: &[Trial]) -> Vec<String> {
-    let is_rival = |trial: &&Trial| {
+fn undecided(trials: &[ChoiceResult]) -> Vec<String> {
+    let is_rival = |trial: &&ChoiceResult| {
         trial.weight.is_some_and(|weight| weight >= RIVAL) || trial.ranks.is_some_and(|(best, _)| best == 1)
     };
     let rivals: Vec<&str> = trials.iter().filter(is_rival).map(|trial| trial.name.as_str()).collect();
@@ -117,7 +117,7 @@ fn undecided(trials: &[Trial]) -> Vec<String> {
         findings.push(format!("{data} data are few: resampling them tells little about ranks, so look at the weights"));
     }
     let best = trials.iter().filter(|trial| trial.failure.is_none()).min_by(|a, b| {
-        let of = |trial: &Trial| trial.chi_squared.unwrap_or(f64::INFINITY);
+        let of = |trial: &ChoiceResult| trial.chi_squared.unwrap_or(f64::INFINITY);
         of(a).total_cmp(&of(b))
     });
     if let Some(error) = best.and_then(|trial| weighted_error(&trial.fit)).filter(|error| *error > 2.0) {
@@ -129,9 +129,9 @@ fn undecided(trials: &[Trial]) -> Vec<String> {
     findings
 }
 
-impl Trial {
-    pub(super) fn of(name: String, fit: Vec<Compared>, hold_out: Vec<Compared>) -> Self {
-        let sum = |data: &[Compared]| data.iter().map(|datum| datum.residual * datum.residual).sum();
+impl ChoiceResult {
+    pub(super) fn of(name: String, fit: Vec<DatumComparison>, hold_out: Vec<DatumComparison>) -> Self {
+        let sum = |data: &[DatumComparison]| data.iter().map(|datum| datum.residual * datum.residual).sum();
         Self {
             name,
             chi_squared: Some(sum(&fit)),

@@ -4,18 +4,19 @@ use super::causes::explained;
 use super::changes::{Changes, resolve, table_of};
 use super::error::ParameterError;
 use super::finite::fail_broken_profiles;
-use super::foreign::ForeignResult;
+use super::foreign::ExternalResult;
 use super::guard::{Guard, with_changed};
 use super::notes::notes;
 use super::result::{CaseResult, RunSummary, microseconds_each};
 use super::{
-    Case, CaseFile, Estimate, Form, Given, Parameters, Progress, RecordOf, Run, RunOf, StateOutput, Tier, schema,
+    Case, CaseFile, Estimate, ExternalData, ExternalSchema, Parameters, Progress, RecordOf, Run, RunOf, StateOutput,
+    Tier, schema,
 };
 use crate::checkpoint::{Checkpoints, is_interrupted};
 use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
 use crate::observation::Recorded;
-use crate::store::{Origin, Store};
+use crate::store::{CodeOrigin, Store};
 use bagnold_solver::parameter::schema_of;
 use sha2::{Digest, Sha256};
 use std::sync::OnceLock;
@@ -29,26 +30,26 @@ pub trait AnyCase: Sync {
     /// What its metrics are built from; empty for a case that does not declare it.
     fn quantities(&self) -> &'static [Quantity];
     /// Where its code stands.
-    fn origin(&self) -> Origin;
+    fn origin(&self) -> CodeOrigin;
     /// The tier's parameters as a complete, commented file for `bagnold run`.
     fn show(&self, tier: Tier) -> String;
     /// The JSON Schema (2020-12) of a case file, with the tier's parameters as defaults.
     fn schema(&self, tier: Tier) -> serde_json::Value;
     /// What another code may give of a run, beside single numbers.
-    fn form(&self) -> &'static Form;
+    fn form(&self) -> &'static ExternalSchema;
     /// Types and checks a tier's parameters with the user's changes.
     ///
     /// # Errors
     /// The first field that is unknown, of the wrong type, or breaks a rule.
-    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, ParameterError>;
+    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn PreparedCase>, ParameterError>;
 }
 
 /// Checked parameters and the runs that they ask for; each run's record is kept as it comes in.
-pub trait Prepared: Send + Sync {
+pub trait PreparedCase: Send + Sync {
     /// Name of the case.
     fn name(&self) -> &'static str;
     /// Where the code of the case stands.
-    fn origin(&self) -> Origin;
+    fn origin(&self) -> CodeOrigin;
     /// The parameters: a complete file for `bagnold run`.
     fn parameters_toml(&self) -> &str;
     /// Number of runs.
@@ -69,12 +70,12 @@ pub trait Prepared: Send + Sync {
     /// Parameters whose combination gives no valid scene.
     fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError>;
     /// The same with some of its runs only, in this order.
-    fn choose(self: Box<Self>, runs: &[usize]) -> Box<dyn Prepared>;
+    fn choose(self: Box<Self>, runs: &[usize]) -> Box<dyn PreparedCase>;
     /// Judges and draws what another code gives, a run each; those of which it gives no files are left out.
     ///
     /// # Errors
     /// Columns that are missing beside others, of the run of that number.
-    fn foreign(&self, given: &[Given]) -> Result<ForeignResult, (usize, FieldError)>;
+    fn foreign(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)>;
     /// Judges and draws the records. Runs that were not simulated are left out.
     fn finish(self: Box<Self>) -> CaseResult;
 }
@@ -92,11 +93,11 @@ impl<C: Case> AnyCase for C {
         C::QUANTITIES
     }
 
-    fn origin(&self) -> Origin {
+    fn origin(&self) -> CodeOrigin {
         C::ORIGIN
     }
 
-    fn form(&self) -> &'static Form {
+    fn form(&self) -> &'static ExternalSchema {
         &C::FORM
     }
 
@@ -109,7 +110,7 @@ impl<C: Case> AnyCase for C {
         schema::of_file(C::NAME, C::SUMMARY, tier, schema_of::<C::Parameters>(), &defaults)
     }
 
-    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn Prepared>, ParameterError> {
+    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn PreparedCase>, ParameterError> {
         let defaults = C::Parameters::of_tier(tier);
         let changes = changes.with_lists(C::STATED);
         let parameters = resolve(C::NAME, &defaults, &changes)?;
@@ -117,7 +118,7 @@ impl<C: Case> AnyCase for C {
         let runs = guard.runs()?;
         let differs = guard.changed();
         let changed = table_of(&parameters) != table_of(&defaults);
-        Ok(Box::new(Plan::<C> {
+        Ok(Box::new(CasePlan::<C> {
             tier,
             command: if changed {
                 "bagnold run case.toml".to_owned()
@@ -133,12 +134,12 @@ impl<C: Case> AnyCase for C {
 }
 
 /// The progress of a run that keeps checkpoints.
-struct Kept<'a> {
+struct CheckpointedProgress<'a> {
     progress: &'a dyn Progress,
     checkpoints: Option<Checkpoints>,
 }
 
-impl Progress for Kept<'_> {
+impl Progress for CheckpointedProgress<'_> {
     fn advance(&self, simulated: f64, total: f64, particle_steps: f64) {
         self.progress.advance(simulated, total, particle_steps);
     }
@@ -159,7 +160,7 @@ impl Progress for Kept<'_> {
 /// A run and, once it is done, its record and whether that came from the store.
 type Slot<R> = (R, OnceLock<(Recorded<<R as Run>::Observation>, bool)>);
 
-struct Plan<C: Case> {
+struct CasePlan<C: Case> {
     tier: Tier,
     parameters: C::Parameters,
     parameters_toml: String,
@@ -169,12 +170,12 @@ struct Plan<C: Case> {
     slots: Vec<Slot<RunOf<C::Parameters>>>,
 }
 
-impl<C: Case> Prepared for Plan<C> {
+impl<C: Case> PreparedCase for CasePlan<C> {
     fn name(&self) -> &'static str {
         C::NAME
     }
 
-    fn origin(&self) -> Origin {
+    fn origin(&self) -> CodeOrigin {
         C::ORIGIN
     }
 
@@ -219,7 +220,7 @@ impl<C: Case> Prepared for Plan<C> {
             return Ok(());
         }
         let checkpoints = key.as_ref().filter(|_| !anew).map(|key| store.checkpoints(key));
-        let simulated = description.simulate(&Kept { progress, checkpoints });
+        let simulated = description.simulate(&CheckpointedProgress { progress, checkpoints });
         let record = match simulated {
             // what was cut short may look like something that is refused
             Err(_) if is_interrupted() => return Err(ParameterError::Interrupted),
@@ -232,14 +233,14 @@ impl<C: Case> Prepared for Plan<C> {
         Ok(())
     }
 
-    fn choose(self: Box<Self>, runs: &[usize]) -> Box<dyn Prepared> {
+    fn choose(self: Box<Self>, runs: &[usize]) -> Box<dyn PreparedCase> {
         let mut plan = *self;
         let mut slots: Vec<Option<Slot<RunOf<C::Parameters>>>> = plan.slots.into_iter().map(Some).collect();
         plan.slots = runs.iter().filter_map(|&run| slots.get_mut(run)?.take()).collect();
         Box::new(plan)
     }
 
-    fn foreign(&self, given: &[Given]) -> Result<ForeignResult, (usize, FieldError)> {
+    fn foreign(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {
         let mut records: Vec<RecordOf<C::Parameters>> = Vec::new();
         let mut measured = Vec::new();
         for (number, (given, (run, _))) in given.iter().zip(&self.slots).enumerate() {
@@ -251,7 +252,7 @@ impl<C: Case> Prepared for Plan<C> {
                 records.push((run.clone(), given.record(foreign.observation)));
             }
         }
-        Ok(ForeignResult {
+        Ok(ExternalResult {
             metrics: C::metrics(&self.parameters, &records),
             figures: C::figures(&self.parameters, &records),
             tables: C::tables(&self.parameters, &records),

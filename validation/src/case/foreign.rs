@@ -7,70 +7,74 @@ use crate::observation::{Frame, Outcome, Recorded};
 use crate::output::Table;
 use std::collections::BTreeMap;
 
-/// Named columns of one length, in the SI units of their [`Item`].
-pub type Columns = BTreeMap<String, Vec<f64>>;
+/// Named columns of one length, in the SI units of their [`ExternalColumn`].
+pub type NamedColumns = BTreeMap<String, Vec<f64>>;
 
 /// Particles, or cells, at one time.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Picture {
+pub struct ParticleFrame {
     /// Time `[s]`.
     pub time: f64,
     /// What is known of each.
-    pub columns: Columns,
+    pub columns: NamedColumns,
 }
 
 /// All that another code gives of one run, each part optional.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Given {
+pub struct ExternalData {
     /// Particles at times that rise.
-    pub pictures: Vec<Picture>,
+    pub pictures: Vec<ParticleFrame>,
     /// Time series.
-    pub series: Columns,
+    pub series: NamedColumns,
     /// One profile.
-    pub profile: Columns,
+    pub profile: NamedColumns,
 }
 
 /// A column that a case can use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Item {
+pub struct ExternalColumn {
     /// Its name.
     pub name: &'static str,
     /// SI unit, `-` for none.
     pub unit: &'static str,
     /// What it is, one phrase.
-    pub says: &'static str,
+    pub description: &'static str,
 }
 
-impl Item {
+impl ExternalColumn {
     /// A column that a case can use.
     #[must_use]
-    pub const fn new(name: &'static str, unit: &'static str, says: &'static str) -> Self {
-        Self { name, unit, says }
+    pub const fn new(name: &'static str, unit: &'static str, description: &'static str) -> Self {
+        Self { name, unit, description }
     }
 }
 
 /// What a run of a case may yield, beside single numbers, which every case takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Form {
+pub struct ExternalSchema {
     /// Columns of particles.
-    pub particles: &'static [Item],
+    pub particles: &'static [ExternalColumn],
     /// Columns of time series.
-    pub series: &'static [Item],
+    pub series: &'static [ExternalColumn],
     /// Columns of the profile.
-    pub profile: &'static [Item],
+    pub profile: &'static [ExternalColumn],
     /// How the measurements are taken from them, in prose.
-    pub says: &'static str,
+    pub description: &'static str,
 }
 
-impl Form {
+impl ExternalSchema {
     /// Single numbers only.
-    pub const NUMBERS: Self = Self { particles: &[], series: &[], profile: &[], says: "" };
+    pub const NUMBERS: Self = Self { particles: &[], series: &[], profile: &[], description: "" };
 
     /// The column of that name among those of one part.
     ///
     /// # Errors
     /// A name that the case does not know; `field` is where it stands.
-    pub fn find(items: &'static [Item], field: &str, name: &str) -> Result<&'static Item, FieldError> {
+    pub fn find(
+        items: &'static [ExternalColumn],
+        field: &str,
+        name: &str,
+    ) -> Result<&'static ExternalColumn, FieldError> {
         items.iter().find(|item| item.name == name).ok_or_else(|| {
             let names: Vec<&str> = items.iter().map(|item| item.name).collect();
             let (rule, remedy) = if names.is_empty() {
@@ -86,7 +90,7 @@ impl Form {
 
 /// A run's observation from what another code gives.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Foreign<O> {
+pub struct ExternalObservation<O> {
     /// The observation; what was not given is not a number, or empty.
     pub observation: O,
     /// Names of the metrics that what was given suffices for; no other is judged.
@@ -95,7 +99,7 @@ pub struct Foreign<O> {
 
 /// What another code's runs of a case come to.
 #[derive(Debug, Clone)]
-pub struct ForeignResult {
+pub struct ExternalResult {
     /// Numbers, of which those in `measured` may be judged.
     pub metrics: Vec<Metric>,
     /// Figures of its runs alone.
@@ -106,7 +110,7 @@ pub struct ForeignResult {
     pub measured: Vec<(Variant, Vec<&'static str>)>,
 }
 
-impl ForeignResult {
+impl ExternalResult {
     /// Whether a metric may be judged: what was given suffices for it in its run, or in any where it is of several.
     #[must_use]
     pub fn is_measured(&self, metric: &Metric) -> bool {
@@ -120,10 +124,10 @@ impl ForeignResult {
     }
 }
 
-impl Given {
+impl ExternalData {
     /// The record of a run that another code made.
     pub(crate) fn record<O>(&self, observation: O) -> Recorded<O> {
-        let mut frames: Vec<Frame> = self.pictures.iter().map(Picture::frame).collect();
+        let mut frames: Vec<Frame> = self.pictures.iter().map(ParticleFrame::frame).collect();
         // a picture whose particles are not those of the first cannot be compared with it one by one
         let count = frames.last().map_or(0, |frame| frame.position.len());
         if frames.iter().any(|frame| frame.position.len() != count) {
@@ -167,7 +171,7 @@ impl Given {
     }
 }
 
-impl Picture {
+impl ParticleFrame {
     /// As our own runs take them.
     fn frame(&self) -> Frame {
         let at = |name: &str, particle: usize| self.column(name).get(particle).copied();
@@ -221,12 +225,14 @@ impl Picture {
 mod tests {
     use super::*;
 
-    const ITEMS: &[Item] = &[Item::new("front", "m", "place of the front"), Item::new("height", "m", "height")];
+    const ITEMS: &[ExternalColumn] =
+        &[ExternalColumn::new("front", "m", "place of the front"), ExternalColumn::new("height", "m", "height")];
 
     #[test]
     fn a_column_that_a_case_does_not_know_is_refused_by_name() {
-        assert_eq!(Form::find(ITEMS, "series.columns", "front").map(|item| item.unit), Ok("m"));
-        let message = |items, name| Form::find(items, "series.columns", name).expect_err("unknown").to_string();
+        assert_eq!(ExternalSchema::find(ITEMS, "series.columns", "front").map(|item| item.unit), Ok("m"));
+        let message =
+            |items, name| ExternalSchema::find(items, "series.columns", name).expect_err("unknown").to_string();
         assert_eq!(
             message(ITEMS, "frnt"),
             "`series.columns.frnt` is given, but must be one of front, height; did you mean `front`? `bagnold judge --template` explains them"

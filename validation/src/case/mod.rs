@@ -25,12 +25,14 @@ mod schedule;
 mod schema;
 
 pub use changes::Changes;
-pub use erased::{AnyCase, Prepared};
+pub use erased::{AnyCase, PreparedCase};
 pub use error::{ParameterError, SettingError};
 pub use estimate::{Estimate, Limits};
 pub use expectation::{speed_up, wall_time};
 pub use file::CaseFile;
-pub use foreign::{Columns, Foreign, ForeignResult, Form, Given, Item, Picture};
+pub use foreign::{
+    ExternalColumn, ExternalData, ExternalObservation, ExternalResult, ExternalSchema, NamedColumns, ParticleFrame,
+};
 pub use output::{OUTPUT_FIELDS, OutputPlan, StateOutput};
 pub use registry::Registry;
 pub use request::{Request, Requested};
@@ -42,7 +44,7 @@ use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity, Variant};
 use crate::observation::Recorded;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -161,11 +163,11 @@ pub trait Case: Sync + 'static {
     const QUANTITIES: &'static [Quantity] = &[];
     /// Where its code stands. Leave it as it is: no hash of sources covers a case of another crate, so its results are known
     /// by the program that computed them.
-    const ORIGIN: Origin = Origin::ELSEWHERE;
+    const ORIGIN: CodeOrigin = CodeOrigin::ELSEWHERE;
     /// Lists that a file states whole: one that it leaves out is empty there, and not the tier's.
     const STATED: &'static [&'static str] = &[];
     /// What another code may give of a run, beside single numbers.
-    const FORM: Form = Form::NUMBERS;
+    const FORM: ExternalSchema = ExternalSchema::NUMBERS;
     /// Typed parameters.
     type Parameters: Parameters;
 
@@ -185,8 +187,8 @@ pub trait Case: Sync + 'static {
     /// Columns that are missing beside others.
     fn foreign(
         _: &RunOf<Self::Parameters>,
-        _: &Given,
-    ) -> Result<Option<Foreign<ObservationOf<Self::Parameters>>>, FieldError> {
+        _: &ExternalData,
+    ) -> Result<Option<ExternalObservation<ObservationOf<Self::Parameters>>>, FieldError> {
         Ok(None)
     }
     /// Tables for `run`'s output folder: profiles and time series.

@@ -16,17 +16,17 @@ pub(crate) static REGISTRY: Registry = Registry::new(&[&Pendulum]);
 pub(crate) struct Pendulum;
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub(crate) struct Parameters {
+pub(crate) struct PendulumParameters {
     /// Start `[°]`.
     #[schemars(transform = inside(-90.0, 90.0, "give it in degrees").in_words("inside (−90°, 90°)"))]
     slope_angle: f64,
     steps: Vec<u64>,
     limit: f64,
-    grain: Grain,
+    grain: PendulumBob,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-struct Grain {
+struct PendulumBob {
     /// `[m]`.
     #[schemars(transform = positive("give it in metres").in_words("positive"))]
     diameter: f64,
@@ -82,12 +82,17 @@ impl Run for Swing {
     }
 }
 
-impl super::Parameters for Parameters {
+impl super::Parameters for PendulumParameters {
     type Run = Swing;
 
     fn of_tier(tier: Tier) -> Self {
         let finest = if tier == Tier::Quick { 40 } else { 400 };
-        Self { slope_angle: 10.0, steps: vec![20, finest], limit: 0.05, grain: Grain { diameter: 1e-3, damping: 1.0 } }
+        Self {
+            slope_angle: 10.0,
+            steps: vec![20, finest],
+            limit: 0.05,
+            grain: PendulumBob { diameter: 1e-3, damping: 1.0 },
+        }
     }
     fn runs(&self) -> Vec<Swing> {
         let swing = |&steps: &u64| Swing { steps, damping: self.grain.damping, angle: self.slope_angle };
@@ -99,9 +104,9 @@ impl Case for Pendulum {
     const NAME: &'static str = "pendulum";
     const SUMMARY: &'static str = "damped pendulum for tests";
     const DESCRIPTION: &'static str = "An overdamped pendulum against its exponential decay.";
-    type Parameters = Parameters;
+    type Parameters = PendulumParameters;
 
-    fn metrics(parameters: &Parameters, records: &[RecordOf<Parameters>]) -> Vec<Metric> {
+    fn metrics(parameters: &PendulumParameters, records: &[RecordOf<PendulumParameters>]) -> Vec<Metric> {
         records
             .iter()
             .map(|(run, record)| {
@@ -113,10 +118,10 @@ impl Case for Pendulum {
             })
             .collect()
     }
-    fn figures(_parameters: &Parameters, _records: &[RecordOf<Parameters>]) -> Vec<Figure> {
+    fn figures(_parameters: &PendulumParameters, _records: &[RecordOf<PendulumParameters>]) -> Vec<Figure> {
         Vec::new()
     }
-    fn tables(_parameters: &Parameters, records: &[RecordOf<Parameters>]) -> Vec<Table> {
+    fn tables(_parameters: &PendulumParameters, records: &[RecordOf<PendulumParameters>]) -> Vec<Table> {
         let rows = records.iter().flat_map(|(_, record)| &record.data).map(|&angle| vec![angle]).collect();
         vec![Table { name: "angle".to_owned(), columns: vec!["angle [rad]".to_owned()], rows }]
     }

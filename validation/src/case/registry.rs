@@ -3,7 +3,7 @@
 use super::AnyCase;
 use super::error::ParameterError;
 use crate::input::nearest;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// A list of cases with unique names.
 #[derive(Clone, Copy)]
@@ -23,8 +23,8 @@ impl Registry {
 
     /// Where the code of the cases stands: elsewhere, if that of any of them does.
     #[must_use]
-    pub fn origin(self) -> Origin {
-        self.iter().map(AnyCase::origin).fold(Origin::PACKAGE, Origin::and)
+    pub fn origin(self) -> CodeOrigin {
+        self.iter().map(AnyCase::origin).fold(CodeOrigin::PACKAGE, CodeOrigin::and)
     }
 
     /// The case of that name.

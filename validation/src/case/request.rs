@@ -1,7 +1,7 @@
 //! What a user asks to be run: a case by its name or from a file, with changes, all of its runs or some.
 
 use super::error::ParameterError;
-use super::{AnyCase, CaseFile, Changes, Limits, OutputPlan, Prepared, Registry, Tier};
+use super::{AnyCase, CaseFile, Changes, Limits, OutputPlan, PreparedCase, Registry, Tier};
 use crate::metric::Variant;
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ pub struct Request<'a> {
 /// A request whose parameters were checked; nothing has been simulated.
 pub struct Requested {
     /// The case's runs.
-    pub prepared: Box<dyn Prepared>,
+    pub prepared: Box<dyn PreparedCase>,
     /// Its tier.
     pub tier: Tier,
     /// Files with measurements that its file names.
@@ -61,7 +61,7 @@ impl Request<'_> {
 }
 
 /// The runs that have all keys of any of the variants asked for; all where none is asked for.
-fn only(prepared: Box<dyn Prepared>, asked: &[Variant]) -> Result<Box<dyn Prepared>, ParameterError> {
+fn only(prepared: Box<dyn PreparedCase>, asked: &[Variant]) -> Result<Box<dyn PreparedCase>, ParameterError> {
     if asked.is_empty() {
         return Ok(prepared);
     }

@@ -5,7 +5,7 @@ use crate::figure::{Animation, Figure};
 use crate::metric::{Metric, Variant, Verdict};
 use crate::observation::{Frame, Outcome};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 use serde::{Deserialize, Serialize};
 
 /// One run of a case in brief.
@@ -53,7 +53,7 @@ pub struct CaseResult {
     /// Name on the command line.
     pub name: String,
     /// Where its code stands.
-    pub origin: Origin,
+    pub origin: CodeOrigin,
     /// One line about it.
     pub summary: String,
     /// A paragraph: what is simulated and what it is judged against.

@@ -4,7 +4,7 @@
 //! of its own loop may pick up a whole other run, which would delay its own and spoil its timing.
 
 use super::error::ParameterError;
-use super::{CaseResult, Prepared, Progress, StateOutput};
+use super::{CaseResult, PreparedCase, Progress, StateOutput};
 use crate::checkpoint::is_interrupted;
 use crate::store::Store;
 use std::sync::{Mutex, PoisonError};
@@ -63,7 +63,7 @@ impl Progress for RunProgress<'_> {
 
 /// One run of one case.
 #[derive(Debug, Clone, Copy)]
-struct Job {
+struct ScheduledRun {
     case: usize,
     run: usize,
     /// Position over all cases, which the monitor knows it by.
@@ -133,18 +133,18 @@ pub fn share_out<J: Send, E: From<ParameterError> + Send>(
 /// # Errors
 /// The first run whose parameters give no valid scene; an interruption. Runs that have not begun are then left.
 pub fn execute(
-    cases: Vec<Box<dyn Prepared>>,
+    cases: Vec<Box<dyn PreparedCase>>,
     store: &Store,
     monitor: &dyn Monitor,
 ) -> Result<Vec<CaseResult>, ParameterError> {
-    let mut jobs: Vec<Job> = cases
+    let mut jobs: Vec<ScheduledRun> = cases
         .iter()
         .enumerate()
         .flat_map(|(case, prepared)| (0..prepared.run_count()).map(move |run| (case, run)))
         .enumerate()
-        .map(|(number, (case, run))| Job { case, run, number })
+        .map(|(number, (case, run))| ScheduledRun { case, run, number })
         .collect();
-    let cost = |job: &Job| cases[job.case].particle_steps(job.run);
+    let cost = |job: &ScheduledRun| cases[job.case].particle_steps(job.run);
     // The longest first; of equal cost the first first.
     jobs.sort_by(|a, b| cost(b).total_cmp(&cost(a)).then(a.number.cmp(&b.number)));
     share_out(jobs, |job| {
@@ -154,7 +154,7 @@ pub fn execute(
         monitor.finished(job.number);
         outcome
     })?;
-    let results = cases.into_iter().map(Prepared::finish).collect();
+    let results = cases.into_iter().map(PreparedCase::finish).collect();
     // a reference that was cut short is none
     if is_interrupted() { Err(ParameterError::Interrupted) } else { Ok(results) }
 }

@@ -15,7 +15,7 @@ quantities! {
 
 /// What energies are compared with.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::cases) enum Scale {
+pub(in crate::cases) enum EnergyScale {
     /// The work of gravity up to the end: 1 % may stay open.
     Gravity,
     /// An energy `[J]`, in two dimensions `[J/m]`, of a layer at rest, on which gravity does no work: 1e-3 of it may stay
@@ -24,13 +24,13 @@ pub(in crate::cases) enum Scale {
 }
 
 /// Residual, rise, and the two entries that ought to be small; none without a ledger.
-pub(in crate::cases) fn metrics(variant: &Variant, book: &EnergyBook, scale: Scale) -> Vec<Metric> {
+pub(in crate::cases) fn metrics(variant: &Variant, book: &EnergyBook, scale: EnergyScale) -> Vec<Metric> {
     if book.total.is_empty() {
         return Vec::new();
     }
     let (energy, open, scale) = match scale {
-        Scale::Gravity => (book.gravity.abs(), 1.0, "of the work of gravity"),
-        Scale::AtRest(energy) => (energy, 0.1, "of ρ0 g H² times the layer's length"),
+        EnergyScale::Gravity => (book.gravity.abs(), 1.0, "of the work of gravity"),
+        EnergyScale::AtRest(energy) => (energy, 0.1, "of ρ0 g H² times the layer's length"),
     };
     let share = |value: f64| 100.0 * value / energy;
     vec![

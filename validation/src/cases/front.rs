@@ -8,7 +8,7 @@ const PARTS: i32 = 8;
 
 /// A line along which material reaches up to where less than a section stands across it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line<const D: usize> {
+pub struct FrontLine<const D: usize> {
     /// Its start `[m]`.
     pub from: Vector<D>,
     /// Its end `[m]`.
@@ -19,7 +19,7 @@ pub struct Line<const D: usize> {
     pub strip: Option<(Vector<D>, f64)>,
 }
 
-impl<const D: usize> Line<D> {
+impl<const D: usize> FrontLine<D> {
     /// The first place along it, from its start and where material stands on, with less than the section `[m]`: volumes of
     /// particles are spread over a `spacing` `[m]` to either side.
     pub(super) fn reached(&self, spacing: f64, snapshot: &Snapshot<D>) -> f64 {

@@ -71,9 +71,9 @@ registry!($
 #[cfg(test)]
 mod tests {
     use super::REGISTRY;
-    use crate::case::{Changes, Prepared, Silent, Tier};
+    use crate::case::{Changes, PreparedCase, Silent, Tier};
     use crate::metric::Variant;
-    use crate::store::{Origin, Store, StorePolicy};
+    use crate::store::{CodeOrigin, Store, StorePolicy};
     use bagnold_solver::material::rheology::ViscousLaw;
     use bagnold_solver::material::rheology::open::{OpenLaw, Parameters, register};
     use std::collections::BTreeSet;
@@ -96,9 +96,9 @@ mod tests {
     #[test]
     fn every_case_is_known_by_the_hash_of_the_sources() {
         for case in REGISTRY.iter() {
-            assert_eq!(case.origin(), Origin::PACKAGE, "{}: its `ORIGIN` is missing", case.name());
+            assert_eq!(case.origin(), CodeOrigin::PACKAGE, "{}: its `ORIGIN` is missing", case.name());
         }
-        assert_eq!(crate::case::pendulum::REGISTRY.origin(), Origin::ELSEWHERE);
+        assert_eq!(crate::case::pendulum::REGISTRY.origin(), CodeOrigin::ELSEWHERE);
     }
 
     /// A liquid that no built-in law knows by this name.
@@ -117,7 +117,7 @@ mod tests {
         }
     }
 
-    fn prepared(case: &str, settings: &[&str]) -> Result<Box<dyn Prepared>, String> {
+    fn prepared(case: &str, settings: &[&str]) -> Result<Box<dyn PreparedCase>, String> {
         let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
         let case = REGISTRY.iter().find(|other| other.name() == case).expect("a case");
         case.prepare(Tier::Quick, &Changes { file: None, settings: &settings, ..Changes::default() })

@@ -33,20 +33,20 @@ pub struct Checkpoints {
     folder: PathBuf,
     key: String,
     interval: Option<Duration>,
-    state: Mutex<State>,
+    state: Mutex<CheckpointState>,
 }
 
 #[derive(Debug)]
-struct State {
+struct CheckpointState {
     /// What an earlier program left, the newest first, until a run has taken it.
-    left: Option<Vec<Found>>,
+    left: Option<Vec<CheckpointFile>>,
     /// When the next one is due.
     due: Instant,
 }
 
 /// A whole checkpoint of this run.
 #[derive(Debug, Clone)]
-struct Found {
+struct CheckpointFile {
     path: PathBuf,
     contents: Vec<u8>,
 }
@@ -56,11 +56,11 @@ impl Checkpoints {
     #[must_use]
     pub fn at(folder: &Path, key: &str, interval: Option<Duration>) -> Self {
         let due = Instant::now() + interval.unwrap_or(USUAL_INTERVAL);
-        let state = Mutex::new(State { left: None, due });
+        let state = Mutex::new(CheckpointState { left: None, due });
         Self { folder: folder.to_owned(), key: key.to_owned(), interval, state }
     }
 
-    fn lock(&self) -> MutexGuard<'_, State> {
+    fn lock(&self) -> MutexGuard<'_, CheckpointState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -83,19 +83,19 @@ impl Checkpoints {
         decoded
     }
 
-    fn decoded<T>(&self, found: &Found, decode: &mut impl FnMut(&[u8]) -> Result<T, String>) -> Option<T> {
+    fn decoded<T>(&self, found: &CheckpointFile, decode: &mut impl FnMut(&[u8]) -> Result<T, String>) -> Option<T> {
         let refuse = |reason| self.warn(&found.path, &Refused::State(reason));
         decode(&found.contents).map_err(refuse).ok()
     }
 
     /// All whole checkpoints, the newest first; others are refused with their reason.
-    fn whole(&self) -> Vec<Found> {
+    fn whole(&self) -> Vec<CheckpointFile> {
         let mut numbers = self.numbers();
         numbers.reverse();
         let read = |number: u64| {
             let path = self.path(number);
             match file::read(&path, &self.key) {
-                Ok(contents) => Some(Found { path, contents }),
+                Ok(contents) => Some(CheckpointFile { path, contents }),
                 Err(refused) => {
                     self.warn(&path, &refused);
                     None
@@ -183,7 +183,7 @@ impl Checkpoints {
 
 /// How many runs an interruption has found in progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Kept {
+pub struct InterruptedRuns {
     /// Those of which a checkpoint was written.
     pub whole: usize,
     /// Those of which none could be written, or that keep none.
@@ -201,8 +201,8 @@ pub fn count_stopped(is_kept: bool) {
 
 /// Runs that an interruption has stopped so far.
 #[must_use]
-pub fn kept_at_the_end() -> Kept {
-    Kept { whole: WHOLE.load(Ordering::Relaxed), lost: LOST.load(Ordering::Relaxed) }
+pub fn kept_at_the_end() -> InterruptedRuns {
+    InterruptedRuns { whole: WHOLE.load(Ordering::Relaxed), lost: LOST.load(Ordering::Relaxed) }
 }
 
 /// Whether the program has been asked to end.

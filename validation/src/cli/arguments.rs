@@ -7,13 +7,13 @@ mod sweep;
 pub(super) mod upkeep;
 mod work;
 
-pub(super) use examples::Examples;
-pub(super) use foreign::{Compare, Export, Judge};
+pub(super) use examples::ExamplesArguments;
+pub(super) use foreign::{CompareArguments, ExportArguments, JudgeArguments};
 #[cfg(test)]
 pub(super) use new::Named;
-pub(super) use new::{New, NewCrate};
-pub(super) use sweep::{Cluster, Engine, Sweep, SweepAction};
-pub(super) use upkeep::{Mutate, Store, StoreAction, Verify};
+pub(super) use new::{NewArguments, NewCrate};
+pub(super) use sweep::{Cluster, Engine, SweepAction, SweepArguments};
+pub(super) use upkeep::{MutateArguments, StoreAction, StoreArguments, VerifyArguments};
 pub(super) use work::{Allowance, Work};
 
 use crate::case::Tier;
@@ -127,40 +127,40 @@ pub enum Command {
     /// List the cases.
     List,
     /// Print a case's parameters as a TOML file that `run` takes.
-    Show(Show),
+    Show(ShowArguments),
     /// Print the JSON Schema of a case's TOML file, with which editors complete and check it.
-    Schema(Show),
+    Schema(ShowArguments),
     /// Simulate one case and judge it.
-    Run(Run),
+    Run(RunArguments),
     /// Judge other codes' results on a case as our own are judged.
-    Judge(Judge),
+    Judge(JudgeArguments),
     /// Write what another code needs to run a case.
-    Export(Export),
+    Export(ExportArguments),
     /// Put results that were written earlier beside each other.
-    Compare(Compare),
+    Compare(CompareArguments),
     /// Write the calibrations, scenes, studies and sweeps that ship with bagnold, to run or to edit.
-    Examples(Examples),
+    Examples(ExamplesArguments),
     /// Write a crate with a law or a case of your own, ready to build.
-    New(New),
+    New(NewArguments),
     /// Print a shell's completions, or the manual page.
-    Completions(Completions),
+    Completions(CompletionsArguments),
     /// Simulate many cases and write one page about them.
-    Report(Report),
+    Report(ReportArguments),
     /// Find the parameters that agree best with data, and judge them on data held out.
-    Calibrate(Calibrate),
+    Calibrate(CalibrateArguments),
     /// Simulate cases at many points of their parameters, here or on a cluster.
-    Sweep(Box<Sweep>),
+    Sweep(Box<SweepArguments>),
     /// Run every case for a moment and compare the final states with the committed hashes, bit by bit.
-    Verify(Verify),
+    Verify(VerifyArguments),
     /// List what is stored, or delete what is old or too much of it.
-    Store(Store),
+    Store(StoreArguments),
     /// Put errors into a copy of the solver, one at a time, and say which gates notice.
-    Mutate(Mutate),
+    Mutate(MutateArguments),
 }
 
 /// `bagnold show` and `bagnold schema`
 #[derive(Debug, Args)]
-pub struct Show {
+pub struct ShowArguments {
     /// Name of a case, see `bagnold list`.
     pub case: String,
     /// How much the case may cost.
@@ -171,7 +171,7 @@ pub struct Show {
 /// `bagnold run`
 #[derive(Debug, Args)]
 #[command(after_help = RUN_EXAMPLES)]
-pub struct Run {
+pub struct RunArguments {
     /// Name of a case, or a TOML file that describes one or a study.
     #[arg(value_name = "CASE|FILE.toml")]
     pub target: String,
@@ -218,7 +218,7 @@ pub struct Run {
 #[command(after_help = "Examples:
   bagnold completions bash > ~/.local/share/bash-completion/completions/bagnold
   bagnold completions man > ~/.local/share/man/man1/bagnold.1")]
-pub struct Completions {
+pub struct CompletionsArguments {
     /// For what.
     #[arg(value_enum)]
     pub of: CompletionsOf,
@@ -240,7 +240,7 @@ pub enum CompletionsOf {
 /// `bagnold report`
 #[derive(Debug, Args)]
 #[command(after_help = REPORT_EXAMPLES)]
-pub struct Report {
+pub struct ReportArguments {
     /// How much each case may cost [default: quick, or what a study says].
     #[arg(long, value_enum)]
     pub tier: Option<Tier>,
@@ -288,7 +288,7 @@ pub enum Denied {
 /// `bagnold calibrate`
 #[derive(Debug, Args)]
 #[command(after_help = CALIBRATE_EXAMPLES)]
-pub struct Calibrate {
+pub struct CalibrateArguments {
     /// TOML file that says which parameters, which cases and which data.
     #[arg(value_name = "FILE.toml")]
     pub file: PathBuf,

@@ -1,10 +1,10 @@
 //! `bagnold calibrate`: parameters from data.
 
-use super::arguments::Calibrate;
-use super::count::Count;
+use super::arguments::CalibrateArguments;
+use super::count::CountBar;
 use super::error::ProgramError;
 use super::{Exit, say};
-use crate::calibration::{CalibrationFolder, Outcome, Plan, Watch, calibrate, write};
+use crate::calibration::{CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, calibrate, write};
 use crate::case::Registry;
 use crate::number::aligned_digits;
 use crate::output::OutputFolder;
@@ -13,12 +13,12 @@ use std::path::Path;
 
 /// Calibrates, writes the page and prints the parameters.
 pub(super) fn run(
-    command: &Calibrate,
+    command: &CalibrateArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
-    let plan = Plan::read(&command.file, registry, command.allowance.limits())?;
+    let plan = CalibrationPlan::read(&command.file, registry, command.allowance.limits())?;
     let folder = command.out.clone().unwrap_or_else(|| {
         Path::new("reports/calibrations").join(command.file.file_stem().unwrap_or_else(|| "calibration".as_ref()))
     });
@@ -26,7 +26,7 @@ pub(super) fn run(
         OutputFolder::adopt(Path::new("reports"))?;
     }
     let kept = CalibrationFolder::begin(&folder, &command.file, registry.origin(), command.resume)?;
-    let bar = Bar(Count::new("evaluations", 0, 0, quiet));
+    let bar = EvaluationBar(CountBar::new("evaluations", 0, 0, quiet));
     let outcome = calibrate(&plan, &kept, registry, &command.work.open_store(), &bar);
     bar.0.clear();
     let outcome = outcome?;
@@ -37,7 +37,7 @@ pub(super) fn run(
 }
 
 /// The parameters or choices, a line each, and what the data leave open.
-fn text(outcome: &Outcome) -> String {
+fn text(outcome: &CalibrationResult) -> String {
     let mut text = String::new();
     for found in &outcome.parameters {
         let interval = found.interval.map_or_else(String::new, |(low, high)| {
@@ -65,7 +65,7 @@ fn text(outcome: &Outcome) -> String {
             trial.failure.as_ref().map_or_else(String::new, |reason| format!("; failed: {reason}"))
         );
     }
-    let error = |what: &str, data: &[crate::calibration::Compared]| {
+    let error = |what: &str, data: &[crate::calibration::DatumComparison]| {
         crate::calibration::weighted_error(data)
             .map_or_else(String::new, |error| format!("{what}: {} σ over {} data\n", aligned_digits(error), data.len()))
     };
@@ -78,9 +78,9 @@ fn text(outcome: &Outcome) -> String {
 }
 
 /// A progress bar that counts evaluations.
-struct Bar(Count);
+struct EvaluationBar(CountBar);
 
-impl Watch for Bar {
+impl CalibrationMonitor for EvaluationBar {
     fn expected(&self, evaluations: usize) {
         self.0.expect(evaluations);
     }

@@ -1,6 +1,6 @@
 //! `bagnold compare`: results that were written earlier, beside each other.
 
-use super::arguments::Compare;
+use super::arguments::CompareArguments;
 use super::error::ProgramError;
 use super::{Exit, say};
 use crate::case::ParameterError;
@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Reads, compares and writes.
-pub(super) fn compare(command: &Compare, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+pub(super) fn compare(command: &CompareArguments, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
     let all = Results::read(&command.folders)?;
     let same = |folder: &&PathBuf| {
         let whole = |path: &Path| path.canonicalize().ok();

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 /// Progress of things of about equal cost.
-pub(super) struct Count {
+pub(super) struct CountBar {
     display: Display,
     state: Arc<Mutex<Counted>>,
 }
@@ -30,7 +30,7 @@ impl Counted {
     }
 }
 
-impl Count {
+impl CountBar {
     pub(super) fn new(what: &str, all: usize, done: usize, quiet: bool) -> Self {
         let (all, done) = (all as u64, done as u64);
         let (what, doing, begin) = (what.to_owned(), String::new(), Instant::now());

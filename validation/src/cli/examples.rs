@@ -1,6 +1,6 @@
 //! `bagnold examples`: the shipped plans as files.
 
-use super::arguments::Examples;
+use super::arguments::ExamplesArguments;
 use super::error::ProgramError;
 use super::{Exit, say};
 use crate::output::{FileError, OutputFolder};
@@ -10,7 +10,7 @@ use std::path::Path;
 include!(concat!(env!("OUT_DIR"), "/plans.rs"));
 
 /// Writes the calibrations, scenes, studies and sweeps that the program carries.
-pub(super) fn examples(command: &Examples, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+pub(super) fn examples(command: &ExamplesArguments, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
     let claimed = OutputFolder::claim(&command.out)?;
     for (name, text) in FILES {
         let file = claimed.staging().join(name);

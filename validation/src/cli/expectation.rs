@@ -1,7 +1,7 @@
 //! How long a command will take: from what its runs took on this machine before, else from what they take on another one.
 
 use super::machine;
-use crate::case::{CaseResult, Estimate, Prepared, speed_up, wall_time};
+use crate::case::{CaseResult, Estimate, PreparedCase, speed_up, wall_time};
 use crate::metric::Variant;
 use crate::store::{AllSpeeds, Speeds, instruction_set, profile};
 use bagnold_solver::material::rheology::open::registered;
@@ -13,7 +13,7 @@ use std::time::Instant;
 const SHIPPED: &str = include_str!("speeds.json");
 
 /// One run: its case, its name, and its time on one core that follows from its parameters `[s]`.
-struct Run {
+struct ExpectedRun {
     case: &'static str,
     variant: Variant,
     nominal: f64,
@@ -25,16 +25,16 @@ pub(super) struct Expectation {
     command: &'static str,
     begun: Instant,
     cases: Vec<&'static str>,
-    runs: Vec<Run>,
+    runs: Vec<ExpectedRun>,
     /// When each run began, and the time that it took `[s]` once it is done.
     times: Mutex<Vec<(Option<Instant>, Option<f64>)>>,
 }
 
 impl Expectation {
     /// Of the runs of some cases, for a command that is called so.
-    pub(super) fn of(command: &'static str, cases: &[Box<dyn Prepared>]) -> Self {
-        let of_case = |case: &dyn Prepared| -> Vec<Run> {
-            let run = |run: usize| Run {
+    pub(super) fn of(command: &'static str, cases: &[Box<dyn PreparedCase>]) -> Self {
+        let of_case = |case: &dyn PreparedCase| -> Vec<ExpectedRun> {
+            let run = |run: usize| ExpectedRun {
                 case: case.name(),
                 variant: case.variant(run),
                 nominal: case.nominal_seconds(run),
@@ -42,7 +42,7 @@ impl Expectation {
             };
             (0..case.run_count()).map(run).collect()
         };
-        let runs: Vec<Run> = cases.iter().map(AsRef::as_ref).flat_map(of_case).collect();
+        let runs: Vec<ExpectedRun> = cases.iter().map(AsRef::as_ref).flat_map(of_case).collect();
         let times = Mutex::new(runs.iter().map(|_| (None, None)).collect());
         Self { command, begun: Instant::now(), cases: cases.iter().map(|case| case.name()).collect(), runs, times }
     }
@@ -55,7 +55,7 @@ impl Expectation {
     /// Wall time `[s]` by what is known of this machine; what was never measured here is taken over from the shipped times, by
     /// the speed of a small flow on both machines.
     fn seconds(&self, known: &Speeds, threads: usize) -> f64 {
-        let is_known = |run: &Run| known.ratio(run.case, &run.variant).is_some();
+        let is_known = |run: &ExpectedRun| known.ratio(run.case, &run.variant).is_some();
         let is_all_known =
             self.runs.iter().all(is_known) && self.cases.iter().all(|case| known.beside(case, self.command).is_some());
         let shipped: Speeds = serde_json::from_str(SHIPPED).unwrap_or_default();
@@ -69,11 +69,11 @@ impl Expectation {
     }
 
     fn seconds_by(&self, known: &Speeds, shipped: &Speeds, machine: f64, threads: usize) -> f64 {
-        let core_seconds = |run: &Run| {
+        let core_seconds = |run: &ExpectedRun| {
             let shipped = || shipped.ratio(run.case, &run.variant).unwrap_or(1.0) * machine;
             run.nominal * known.ratio(run.case, &run.variant).unwrap_or_else(shipped)
         };
-        let mut order: Vec<&Run> = self.runs.iter().collect();
+        let mut order: Vec<&ExpectedRun> = self.runs.iter().collect();
         order.sort_by(|a, b| b.cost.total_cmp(&a.cost));
         let runs: Vec<f64> = order.into_iter().map(core_seconds).collect();
         let beside = |case: &&str| {
@@ -143,7 +143,7 @@ mod tests {
     use super::*;
 
     fn expectation(nominal: &[f64]) -> Expectation {
-        let run = |(k, &nominal): (usize, &f64)| Run {
+        let run = |(k, &nominal): (usize, &f64)| ExpectedRun {
             case: "film",
             variant: Variant::of("resolution", k),
             nominal,

@@ -1,17 +1,17 @@
 //! `bagnold judge` and `bagnold export`: other codes' results, and what they need for them.
 
-use super::arguments::{Export, Judge};
+use super::arguments::{ExportArguments, JudgeArguments};
 use super::error::ProgramError;
 use super::{Exit, say, simulation};
 use crate::case::{Changes, Registry};
-use crate::judge::{self, Judgement, Trial};
+use crate::judge::{self, CaseSubmissions, CodeComparison};
 use crate::output::OutputFolder;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Judges submissions, or prints an empty one.
 pub(super) fn judge(
-    command: &Judge,
+    command: &JudgeArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
@@ -20,7 +20,7 @@ pub(super) fn judge(
         say(output, &judge::blank(registry.find(case)?, command.tier)?);
         return Ok(Exit::Held);
     }
-    let Trial { prepared, entries } = Trial::read(&command.files, registry)?;
+    let CaseSubmissions { prepared, entries } = CaseSubmissions::read(&command.files, registry)?;
     let folder = command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/judged/{}", prepared.name())));
     if command.out.is_none() {
         OutputFolder::adopt(Path::new("reports"))?;
@@ -39,8 +39,8 @@ pub(super) fn judge(
 }
 
 /// A line for each code.
-fn summary(judgement: &Judgement) -> String {
-    let line = |judged: &judge::Judged| {
+fn summary(judgement: &CodeComparison) -> String {
+    let line = |judged: &judge::JudgedCode| {
         let (holding, failing, not_given) = judged.counts();
         let name = format!("{} {}", judged.code.name, judged.code.version);
         format!("{}: {holding} gates hold, {failing} fail, {not_given} not given\n", name.trim())
@@ -50,7 +50,7 @@ fn summary(judgement: &Judgement) -> String {
 
 /// Writes what another code needs to run a case.
 pub(super) fn export(
-    command: &Export,
+    command: &ExportArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),

@@ -39,7 +39,7 @@ pub use new::NewError;
 
 use crate::case::{Limits, ParameterError, Registry};
 use crate::cases::REGISTRY;
-use crate::checkpoint::{self, Kept};
+use crate::checkpoint::{self, InterruptedRuns};
 use crate::interruption::{self, Signal};
 use crate::store::{Store, StorePolicy};
 use arguments::{Allowance, Work};
@@ -47,7 +47,7 @@ use clap::Parser;
 use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
-use terminal::{Output, print, say, tell};
+use terminal::{StandardOutput, print, say, tell};
 
 /// The program: reads its arguments, prints on standard output and error.
 #[must_use]
@@ -99,7 +99,7 @@ fn answered(answer: &clap::Error) -> ExitCode {
 
 /// What a signal has left, and how to resume.
 fn interrupted(signal: Signal, error: &ProgramError) -> String {
-    let Kept { whole, lost } = checkpoint::kept_at_the_end();
+    let InterruptedRuns { whole, lost } = checkpoint::kept_at_the_end();
     let runs = |count: usize| if count == 1 { "1 run".to_owned() } else { format!("{count} runs") };
     let mut text = format!("interrupted by {}: what is finished is kept", signal.name);
     if whole > 0 {
@@ -124,7 +124,7 @@ pub fn execute(
     registry: Registry,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
-    let mut output = Output::new(output);
+    let mut output = StandardOutput::new(output);
     let exit = act(arguments, registry, &mut output)?;
     output.finish().map(|()| exit)
 }

@@ -1,13 +1,14 @@
 //! `bagnold mutate`: builds a copy of the program with all mutations, runs it with one at a time, and says who noticed.
 
-use super::arguments::Mutate;
+use super::arguments::MutateArguments;
 use super::arguments::upkeep::MutateAction;
-use super::count::Count;
+use super::count::CountBar;
 use super::error::ProgramError;
 use super::{Exit, say, summary, tell};
 use crate::case::{Registry, share_out};
 use crate::mutation::{
-    CHOICE, Finding, Mutation, Mutations, Scope, Sighting, Tally, build, judge, run_trial, table, write,
+    CHOICE, DetectionTally, Mutation, MutationOutcome, Mutations, Scope, Sighting, build, judge, run_trial, table,
+    write,
 };
 use crate::output::{FileError, OutputFolder};
 use crate::store::provenance::workspace;
@@ -26,7 +27,7 @@ const PATIENCE: (f64, f64) = (10.0, 60.0);
 
 /// Lists, tries one error, or tries all.
 pub(super) fn mutate(
-    command: &Mutate,
+    command: &MutateArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
@@ -94,7 +95,7 @@ fn trial(program: &Path, number: usize, scope: &Scope, threads: Option<u16>) -> 
 }
 
 /// Tries the errors asked for, writes the findings and prints them.
-fn all(command: &Mutate, quiet: bool, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+fn all(command: &MutateArguments, quiet: bool, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
     let workspace = sources()?;
     let mutations = Mutations::read(&workspace)?;
     let errors: Vec<&Mutation> = if command.errors.is_empty() {
@@ -118,15 +119,15 @@ fn all(command: &Mutate, quiet: bool, output: &mut (dyn Write + Send)) -> Result
     claimed.publish()?;
     say(output, &table(&findings));
     say(output, &format!("{:.0} s; written to {}\n", started.elapsed().as_secs_f64(), command.out.display()));
-    Ok(if Tally::of(&findings).holds() { Exit::Held } else { Exit::GateFailed })
+    Ok(if DetectionTally::of(&findings).holds() { Exit::Held } else { Exit::GateFailed })
 }
 
 /// Every case first without errors, then each error through its cases until one notices for certain; as many at a time
 /// as there are threads.
-fn findings(errors: &[&Mutation], program: &Program<'_>, quiet: bool) -> Result<Vec<Finding>, ProgramError> {
+fn findings(errors: &[&Mutation], program: &Program<'_>, quiet: bool) -> Result<Vec<MutationOutcome>, ProgramError> {
     let scopes = |error: &Mutation| program.mutations.scopes(error);
     let cases: BTreeSet<Scope> = errors.iter().flat_map(|&error| scopes(error)).collect();
-    let bar = Count::new("cases and errors", cases.len() + errors.len(), 0, quiet);
+    let bar = CountBar::new("cases and errors", cases.len() + errors.len(), 0, quiet);
     let right = Mutex::new(BTreeMap::new());
     share_out(cases.into_iter().collect(), |scope: Scope| -> Result<(), ProgramError> {
         bar.say(&scope.case);
@@ -171,7 +172,7 @@ impl<'a> Program<'a> {
     }
 
     /// Runs an error through its cases, the likeliest first, until a gate or a stop has caught it.
-    fn try_error(&self, error: &Mutation, right: &BTreeMap<Scope, Sighting>) -> Finding {
+    fn try_error(&self, error: &Mutation, right: &BTreeMap<Scope, Sighting>) -> MutationOutcome {
         let scopes = self.mutations.scopes(error);
         let mut comparisons = Vec::new();
         for scope in &scopes {

@@ -9,14 +9,14 @@ use std::path::{Path, PathBuf};
 
 /// Whose committed values are meant.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Places {
+pub(super) enum CommittedValues {
     /// Those of the program's cases.
     OfCases,
     /// Those of the studies in a folder.
     OfSuite(PathBuf),
 }
 
-impl Places {
+impl CommittedValues {
     /// The folder with accepted values and known failures.
     pub(super) fn accepted_folder(&self) -> PathBuf {
         match self {

@@ -9,7 +9,7 @@ use std::time::Instant;
 const LISTED: usize = 20;
 
 /// Takes the times of a command's stages.
-pub(super) struct Profile {
+pub(super) struct StageTimer {
     begun: Instant,
     last: Instant,
     processor: f64,
@@ -17,7 +17,7 @@ pub(super) struct Profile {
     stages: Vec<(&'static str, f64, f64)>,
 }
 
-impl Profile {
+impl StageTimer {
     pub(super) fn begin() -> Self {
         let now = Instant::now();
         Self { begun: now, last: now, processor: processor_seconds(), stages: Vec::new() }
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn stages_and_memory_are_told() {
-        let mut profile = Profile::begin();
+        let mut profile = StageTimer::begin();
         let mut sum = 0.0_f64;
         while processor_seconds() - profile.processor < 0.02 {
             sum += (0..1000).map(f64::from).map(f64::sin).sum::<f64>();

@@ -1,7 +1,7 @@
 //! How far the runs of cases are, how long still, how fast.
 
 use super::display::{Display, time_left};
-use crate::case::{Monitor, Prepared};
+use crate::case::{Monitor, PreparedCase};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
@@ -35,7 +35,7 @@ impl RunState {
 }
 
 /// What is known of all runs.
-struct Runs {
+struct OverallProgress {
     runs: Vec<RunState>,
     finished: AtomicUsize,
     begin: Instant,
@@ -43,7 +43,7 @@ struct Runs {
     doing: Mutex<String>,
 }
 
-impl Runs {
+impl OverallProgress {
     /// Part of all work that is done `[-]`.
     fn done(&self) -> f64 {
         self.runs.iter().map(|run| run.weight * run.parts().0).sum::<f64>().min(1.0)
@@ -69,15 +69,15 @@ impl Runs {
 }
 
 /// Progress of all runs of some cases.
-pub(super) struct Progress {
+pub(super) struct RunsBar {
     display: Display,
-    state: Arc<Runs>,
+    state: Arc<OverallProgress>,
     /// Milliseconds from the beginning to the last update.
     updated: AtomicU64,
 }
 
-impl Progress {
-    pub(super) fn new(cases: &[Box<dyn Prepared>], quiet: bool) -> Self {
+impl RunsBar {
+    pub(super) fn new(cases: &[Box<dyn PreparedCase>], quiet: bool) -> Self {
         let runs: Vec<(String, f64)> = cases
             .iter()
             .flat_map(|case| {
@@ -94,7 +94,7 @@ impl Progress {
             particle_steps: AtomicU64::new(0),
             first_steps: AtomicU64::new(0),
         };
-        let state = Arc::new(Runs {
+        let state = Arc::new(OverallProgress {
             runs: runs.into_iter().map(state).collect(),
             finished: AtomicUsize::new(0),
             begin: Instant::now(),
@@ -131,7 +131,7 @@ impl Progress {
     }
 }
 
-impl Monitor for Progress {
+impl Monitor for RunsBar {
     fn started(&self, run: usize) {
         self.show(self.state.runs[run].name.clone());
     }

@@ -1,22 +1,22 @@
 //! What `bagnold run` writes and prints of finished cases and studies, and how a report shows them.
 
-use super::arguments::Run;
+use super::arguments::RunArguments;
 use super::error::ProgramError;
 use super::expectation::Expectation;
-use super::profile::Profile;
+use super::profile::StageTimer;
 use super::{Exit, print, say, summary, tell};
 use crate::case::{CaseResult, Tier};
 use crate::judge::Measurements;
 use crate::output::{FileError, OutputFolder};
-use crate::report::{self, Baseline, CaseReport, History, KnownFailures, Provenance, Report, Standing};
+use crate::report::{self, Baseline, CaseReport, History, KnownFailureStatus, KnownFailures, Report, ReportProvenance};
 use crate::result::{MetricsDocument, write_case};
 use crate::store::Store;
 use std::io::Write;
 use std::time::Instant;
 
 /// What a command writes of its results.
-pub(super) struct Written<'a> {
-    pub(super) command: &'a Run,
+pub(super) struct ResultPublication<'a> {
+    pub(super) command: &'a RunArguments,
     pub(super) title: String,
     pub(super) tier: Tier,
     pub(super) baseline: Baseline,
@@ -33,10 +33,10 @@ pub(super) struct Publication<'a> {
     pub(super) store: &'a Store,
     pub(super) expectation: Expectation,
     pub(super) started: Instant,
-    pub(super) profile: Profile,
+    pub(super) profile: StageTimer,
 }
 
-impl Written<'_> {
+impl ResultPublication<'_> {
     /// Writes numbers, tables, states and the page, and prints the verdicts.
     pub(super) fn publish(
         self,
@@ -60,7 +60,7 @@ impl Written<'_> {
         let page = Report {
             title: self.title,
             tier: self.tier,
-            generated: Provenance::of_this_program(started.elapsed(), String::new()),
+            generated: ReportProvenance::of_this_program(started.elapsed(), String::new()),
             cases: results.iter().map(case_report).collect(),
             baseline: self.baseline,
             against: None,
@@ -112,5 +112,5 @@ pub(super) fn case_report(result: &CaseResult) -> CaseReport {
 
 /// Whether a failing gate is listed, and fails as listed.
 pub(super) fn is_known(known: &KnownFailures, result: &CaseResult, metric: &crate::metric::Metric) -> bool {
-    matches!(known.standing(&result.name, metric), Standing::Known(_))
+    matches!(known.standing(&result.name, metric), KnownFailureStatus::Known(_))
 }

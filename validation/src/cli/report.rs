@@ -1,15 +1,15 @@
 //! `bagnold report`: many cases, or a suite of studies, on one page.
 
-use super::arguments::{Denied, Report as Arguments};
+use super::arguments::{Denied, ReportArguments};
 use super::error::ProgramError;
-use super::places::Places;
-use super::profile::Profile;
+use super::places::CommittedValues;
+use super::profile::StageTimer;
 use super::publication::{case_report, is_known};
 use super::simulation::{announce, simulate};
 use super::{Exit, say, summary, tell};
-use crate::case::{CaseResult, Changes, ParameterError, Prepared, Registry, Tier};
+use crate::case::{CaseResult, Changes, ParameterError, PreparedCase, Registry, Tier};
 use crate::output::{FileError, FolderError, OutputFolder};
-use crate::report::{self, Baseline, CaseReport, History, Provenance, Report, history};
+use crate::report::{self, Baseline, CaseReport, History, Report, ReportProvenance, history};
 use crate::store::provenance;
 use crate::study::{Study, Suite};
 use std::io::Write;
@@ -18,7 +18,7 @@ use std::time::Instant;
 
 /// Simulates and judges the cases, writes the page and prints what fails.
 pub(super) fn report(
-    command: &Arguments,
+    command: &ReportArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
@@ -27,9 +27,9 @@ pub(super) fn report(
     let (cases, places) = match (&suite, &command.suite) {
         (Some(suite), Some(folder)) => {
             let cases = suite.prepare(registry, command.tier, command.allowance.limits())?;
-            (cases, Places::OfSuite(folder.clone()))
+            (cases, CommittedValues::OfSuite(folder.clone()))
         }
-        _ => (prepare(command, registry)?, Places::OfCases),
+        _ => (prepare(command, registry)?, CommittedValues::OfCases),
     };
     let named: Vec<(String, Tier)> = match &suite {
         Some(suite) => {
@@ -48,7 +48,7 @@ pub(super) fn report(
     let store = command.work.open_store();
     let expectation = announce("report", &cases, &store, quiet);
     let started = Instant::now();
-    let mut profile = Profile::begin();
+    let mut profile = StageTimer::begin();
     let simulated = simulate(cases, &store, quiet, Some(&expectation))?;
     let results = match &suite {
         Some(suite) => suite.judge(simulated)?,
@@ -62,7 +62,7 @@ pub(super) fn report(
     let page = Report {
         title: command.suite.as_ref().map_or_else(|| "Bagnold validation report".to_owned(), |folder| name_of(folder)),
         tier,
-        generated: Provenance::of_this_program(started.elapsed(), repeated(command)),
+        generated: ReportProvenance::of_this_program(started.elapsed(), repeated(command)),
         papers: if suite.is_none() { report::papers::accounted(&cases) } else { &[] },
         cases,
         baseline,
@@ -103,7 +103,7 @@ pub(super) fn report(
 }
 
 /// The folder to write.
-fn folder(command: &Arguments) -> Result<PathBuf, FolderError> {
+fn folder(command: &ReportArguments) -> Result<PathBuf, FolderError> {
     let by_itself = |folder: &Path| {
         OutputFolder::adopt(Path::new("reports"))?;
         Ok(Path::new("reports").join("suites").join(name_of(folder)))
@@ -122,7 +122,7 @@ fn name_of(folder: &Path) -> String {
 }
 
 /// Accepts the values of these results.
-fn accept(places: &Places, results: &[CaseResult]) -> Result<Baseline, ProgramError> {
+fn accept(places: &CommittedValues, results: &[CaseResult]) -> Result<Baseline, ProgramError> {
     let mut baseline = Baseline::default();
     for result in results {
         let fresh = Baseline::of(&result.name, &result.metrics);
@@ -135,7 +135,11 @@ fn accept(places: &Places, results: &[CaseResult]) -> Result<Baseline, ProgramEr
 }
 
 /// What the values are compared with: those of an earlier report, or the accepted ones. Read before anything is simulated.
-fn baseline(command: &Arguments, places: &Places, named: &[(String, Tier)]) -> Result<Baseline, ProgramError> {
+fn baseline(
+    command: &ReportArguments,
+    places: &CommittedValues,
+    named: &[(String, Tier)],
+) -> Result<Baseline, ProgramError> {
     if let Some(folder) = &command.against {
         let names: Vec<String> = named.iter().map(|(name, _)| name.clone()).collect();
         let tier = named.first().map_or(Tier::Quick, |(_, tier)| *tier);
@@ -154,7 +158,7 @@ fn drifted(page: &Report) -> String {
     moved.iter().filter(|moved| moved.has_drifted).map(|moved| format!("drifted: {moved}\n")).collect()
 }
 
-fn prepare(command: &Arguments, registry: Registry) -> Result<Vec<Box<dyn Prepared>>, ParameterError> {
+fn prepare(command: &ReportArguments, registry: Registry) -> Result<Vec<Box<dyn PreparedCase>>, ParameterError> {
     for (place, name) in command.cases.iter().enumerate() {
         if command.cases[..place].iter().any(|other| other.trim() == name.trim()) {
             let remedy = "name each case once: every case has one page";
@@ -172,7 +176,7 @@ fn prepare(command: &Arguments, registry: Registry) -> Result<Vec<Box<dyn Prepar
 }
 
 /// The command that makes the same report again.
-fn repeated(command: &Arguments) -> String {
+fn repeated(command: &ReportArguments) -> String {
     let mut words = "bagnold report".to_owned();
     if let Some(tier) = command.tier.filter(|tier| *tier != Tier::Quick) {
         words += &format!(" --tier {tier}");

@@ -1,11 +1,11 @@
 //! `bagnold run`: one case or study into one folder, with its page.
 
 use super::Exit;
-use super::arguments::Run;
+use super::arguments::RunArguments;
 use super::error::ProgramError;
-use super::places::Places;
-use super::profile::Profile;
-use super::publication::{Publication, Written};
+use super::places::CommittedValues;
+use super::profile::StageTimer;
+use super::publication::{Publication, ResultPublication};
 use super::simulation::{announce, simulate_showing};
 use crate::case::{OutputPlan, ParameterError, Registry, Request, Requested};
 use crate::judge::{self, Measurements};
@@ -18,7 +18,7 @@ use std::time::Instant;
 
 /// Simulates, judges, writes and prints one case.
 pub(super) fn run(
-    command: &Run,
+    command: &RunArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
@@ -45,11 +45,12 @@ pub(super) fn run(
     let claimed = OutputFolder::claim(&folder)?;
     let store = command.work.open_store();
     let expectation = announce("run", std::slice::from_ref(&prepared), &store, quiet || command.json);
-    let known = Places::OfCases.known_failures()?;
+    let known = CommittedValues::OfCases.known_failures()?;
     // accepted values are those of the case as it comes
-    let baseline = if changed { Baseline::default() } else { Places::OfCases.accepted(prepared.name(), tier)? };
+    let baseline =
+        if changed { Baseline::default() } else { CommittedValues::OfCases.accepted(prepared.name(), tier)? };
     let started = Instant::now();
-    let mut profile = Profile::begin();
+    let mut profile = StageTimer::begin();
     let states = wanted.as_ref().map(|plan| States::of(prepared.as_ref(), plan, &claimed.staging().join("states")));
     let mut results = simulate_showing(vec![prepared], &store, quiet, states.as_ref(), Some(&expectation))?;
     states.map_or(Ok(()), States::finish).map_err(|error| FileError::unwritable(&folder, &error))?;
@@ -62,7 +63,7 @@ pub(super) fn run(
         }
     }
 
-    let written = Written {
+    let written = ResultPublication {
         command,
         title: results.first().map(|result| result.name.clone()).unwrap_or_default(),
         tier,

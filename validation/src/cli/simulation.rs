@@ -1,14 +1,19 @@
 //! Simulating under the eyes of a user: what it is expected to take, and how far it has come.
 
 use super::expectation::Expectation;
-use super::progress::Progress;
+use super::progress::RunsBar;
 use super::tell;
-use crate::case::{CaseResult, Estimate, Monitor, ParameterError, Prepared, StateOutput, execute};
+use crate::case::{CaseResult, Estimate, Monitor, ParameterError, PreparedCase, StateOutput, execute};
 use crate::result::States;
 use crate::store::{Store, provenance};
 
 /// Says on standard error what the runs of a command are expected to need.
-pub(super) fn announce(command: &'static str, cases: &[Box<dyn Prepared>], store: &Store, quiet: bool) -> Expectation {
+pub(super) fn announce(
+    command: &'static str,
+    cases: &[Box<dyn PreparedCase>],
+    store: &Store,
+    quiet: bool,
+) -> Expectation {
     if let Some(warning) = provenance::unoptimised() {
         tracing::warn!("{warning}");
     }
@@ -22,7 +27,7 @@ pub(super) fn announce(command: &'static str, cases: &[Box<dyn Prepared>], store
 
 /// Simulates with a progress bar.
 pub(super) fn simulate(
-    cases: Vec<Box<dyn Prepared>>,
+    cases: Vec<Box<dyn PreparedCase>>,
     store: &Store,
     quiet: bool,
     expectation: Option<&Expectation>,
@@ -32,13 +37,13 @@ pub(super) fn simulate(
 
 /// Simulates with a progress bar, and shows states on the way.
 pub(super) fn simulate_showing(
-    cases: Vec<Box<dyn Prepared>>,
+    cases: Vec<Box<dyn PreparedCase>>,
     store: &Store,
     quiet: bool,
     states: Option<&States>,
     expectation: Option<&Expectation>,
 ) -> Result<Vec<CaseResult>, ParameterError> {
-    let showing = Showing { progress: Progress::new(&cases, quiet), states, expectation };
+    let showing = Showing { progress: RunsBar::new(&cases, quiet), states, expectation };
     let results = execute(cases, store, &showing);
     showing.progress.clear();
     results
@@ -46,7 +51,7 @@ pub(super) fn simulate_showing(
 
 /// A progress bar, who takes the states of the runs, and who takes their times.
 struct Showing<'a> {
-    progress: Progress,
+    progress: RunsBar,
     states: Option<&'a States>,
     expectation: Option<&'a Expectation>,
 }

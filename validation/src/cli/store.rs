@@ -1,6 +1,6 @@
 //! `bagnold store`: what is stored, and making it smaller.
 
-use super::arguments::{Store as Arguments, StoreAction};
+use super::arguments::{StoreAction, StoreArguments};
 use super::error::ProgramError;
 use super::{Exit, say};
 use crate::output::FileError;
@@ -12,7 +12,7 @@ const BYTES_PER_GIBIBYTE: f64 = 1024.0 * 1024.0 * 1024.0;
 const SECONDS_PER_DAY: f64 = 86_400.0;
 
 /// Lists or prunes.
-pub(super) fn store(command: &Arguments, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+pub(super) fn store(command: &StoreArguments, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
     let policy = StorePolicy::Use;
     let store = command.store.as_ref().map_or_else(|| Store::open(policy), |folder| Store::at(folder, policy));
     let root = store.root();

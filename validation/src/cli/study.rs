@@ -1,11 +1,11 @@
 //! `bagnold run STUDY.toml`: the runs of a user's own study, judged by its checks.
 
 use super::Exit;
-use super::arguments::Run;
+use super::arguments::RunArguments;
 use super::error::ProgramError;
-use super::places::Places;
-use super::profile::Profile;
-use super::publication::{Publication, Written};
+use super::places::CommittedValues;
+use super::profile::StageTimer;
+use super::publication::{Publication, ResultPublication};
 use super::simulation::{announce, simulate};
 use crate::case::{ParameterError, Registry};
 use crate::output::OutputFolder;
@@ -24,7 +24,7 @@ pub(super) fn file(target: &str, registry: Registry) -> Option<PathBuf> {
 /// Simulates, judges, writes and prints a study.
 pub(super) fn run(
     file: &Path,
-    command: &Run,
+    command: &RunArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
@@ -40,17 +40,17 @@ pub(super) fn run(
     let claimed = OutputFolder::claim(&folder)?;
     let store = command.work.open_store();
     let expectation = announce("run", &cases, &store, quiet || command.json);
-    let places = Places::OfSuite(file.parent().unwrap_or(Path::new("")).to_owned());
+    let places = CommittedValues::OfSuite(file.parent().unwrap_or(Path::new("")).to_owned());
     let known = places.known_failures()?;
     // accepted values are those of the study as it stands
     let is_changed = !command.settings.is_empty();
     let baseline = if is_changed { Baseline::default() } else { places.accepted(study.name(), tier)? };
     let started = Instant::now();
-    let mut profile = Profile::begin();
+    let mut profile = StageTimer::begin();
     let results = simulate(cases, &store, quiet, Some(&expectation))?;
     profile.over("runs and their figures");
     let result = study.judge(results)?;
-    let written = Written {
+    let written = ResultPublication {
         command,
         title: study.name().to_owned(),
         tier,
@@ -63,7 +63,7 @@ pub(super) fn run(
 }
 
 /// Options that mean one case.
-fn refuse_what_cases_take(command: &Run) -> Result<(), ParameterError> {
+fn refuse_what_cases_take(command: &RunArguments) -> Result<(), ParameterError> {
     let options = [
         ("--only", !command.only.is_empty(), "leave out variants of the study"),
         ("--overlay", !command.overlay.is_empty(), "name the file by `compare` in a check"),

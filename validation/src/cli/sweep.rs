@@ -1,20 +1,22 @@
 //! `bagnold sweep`: many runs of one plan, here or on a cluster.
 
-use super::arguments::{Cluster, Engine, Sweep, SweepAction};
-use super::count::Count;
+use super::arguments::{Cluster, Engine, SweepAction, SweepArguments};
+use super::count::CountBar;
 use super::error::ProgramError;
 use super::{Exit, say};
 use crate::case::Registry;
-use crate::evaluation::Record;
+use crate::evaluation::EvaluationRecord;
 use crate::output::OutputFolder;
-use crate::sweep::{Entry, SweepFolder, SweepPlan, Tally, Watch, gather, run_entry, run_locally, slurm};
+use crate::sweep::{
+    SweepFolder, SweepMonitor, SweepPlan, SweepProgress, SweepRun, gather, run_entry, run_locally, slurm,
+};
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Plans, runs, submits or gathers.
 pub(super) fn sweep(
-    command: &Sweep,
+    command: &SweepArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
@@ -40,7 +42,7 @@ const ANEW: &str = "to run them again, name another folder with --out";
 
 fn begin(
     file: &Path,
-    command: &Sweep,
+    command: &SweepArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
@@ -54,7 +56,7 @@ fn begin(
         OutputFolder::adopt(Path::new("reports"))?;
     }
     if command.engine == Engine::Slurm {
-        slurm::check(&folder, &asked(&command.cluster, command.work.store.clone(), slurm::Request::default()))?;
+        slurm::check(&folder, &asked(&command.cluster, command.work.store.clone(), slurm::SlurmRequest::default()))?;
         slurm::available()?;
     }
     // what is there is resumed, and what is done is shown again
@@ -68,7 +70,7 @@ fn begin(
                 );
                 return finish(&sweep, output);
             }
-            let watch = Bar::new(&sweep, quiet);
+            let watch = SweepBar::new(&sweep, quiet);
             let outcome = run_locally(&sweep, registry, &command.work.open_store(), &watch);
             watch.0.clear();
             outcome?;
@@ -116,8 +118,8 @@ fn submit(
 }
 
 /// What the options ask for, and where they say nothing, what was asked for the last time.
-fn asked(cluster: &Cluster, store: Option<PathBuf>, last: slurm::Request) -> slurm::Request {
-    slurm::Request {
+fn asked(cluster: &Cluster, store: Option<PathBuf>, last: slurm::SlurmRequest) -> slurm::SlurmRequest {
+    slurm::SlurmRequest {
         partition: cluster.partition.clone().or(last.partition),
         time: cluster.time.clone().or(last.time),
         memory: cluster.memory.clone().or(last.memory),
@@ -130,7 +132,7 @@ fn asked(cluster: &Cluster, store: Option<PathBuf>, last: slurm::Request) -> slu
 
 /// Gathers and says how far the sweep is.
 fn finish(sweep: &SweepFolder, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
-    let Tally { done, failed, missing } = gather(sweep)?;
+    let SweepProgress { done, failed, missing } = gather(sweep)?;
     let all = sweep.manifest().entries.len();
     let mut text = format!("{done} of {all} runs done");
     if failed > 0 {
@@ -148,21 +150,21 @@ fn finish(sweep: &SweepFolder, output: &mut (dyn Write + Send)) -> Result<Exit, 
 }
 
 /// A progress bar that counts runs.
-struct Bar(Count);
+struct SweepBar(CountBar);
 
-impl Bar {
+impl SweepBar {
     fn new(sweep: &SweepFolder, quiet: bool) -> Self {
         let all = sweep.manifest().entries.len();
-        Self(Count::new("runs", all, all - sweep.missing().len(), quiet))
+        Self(CountBar::new("runs", all, all - sweep.missing().len(), quiet))
     }
 }
 
-impl Watch for Bar {
-    fn begun(&self, entry: &Entry) {
+impl SweepMonitor for SweepBar {
+    fn begun(&self, entry: &SweepRun) {
         self.0.say(&entry.folder);
     }
 
-    fn ended(&self, entry: &Entry, record: &Record) {
+    fn ended(&self, entry: &SweepRun, record: &EvaluationRecord) {
         if let Some(reason) = &record.failure {
             tracing::warn!("{}: {reason}", entry.folder);
         }

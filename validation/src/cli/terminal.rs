@@ -87,12 +87,12 @@ impl TermLike for Forgiving {
 }
 
 /// Standard output that remembers what it could not write, so that the work is finished before the command fails.
-pub(super) struct Output<'a> {
+pub(super) struct StandardOutput<'a> {
     to: &'a mut (dyn Write + Send),
     failure: Option<io::Error>,
 }
 
-impl<'a> Output<'a> {
+impl<'a> StandardOutput<'a> {
     pub(super) fn new(to: &'a mut (dyn Write + Send)) -> Self {
         Self { to, failure: None }
     }
@@ -116,7 +116,7 @@ impl<'a> Output<'a> {
     }
 }
 
-impl Write for Output<'_> {
+impl Write for StandardOutput<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let written = self.to.write(bytes);
         self.noted(written)
@@ -136,7 +136,7 @@ pub(super) fn say(output: &mut (dyn Write + Send), text: &str) {
 /// Prints a document that a program reads, as it stands.
 pub(super) fn print(output: &mut (dyn Write + Send), text: &str) {
     if let Err(error) = output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
-        // [`Output`] remembers it for the end of the command
+        // [`StandardOutput`] remembers it for the end of the command
         tracing::debug!("standard output: {error}");
     }
 }
@@ -162,7 +162,7 @@ mod tests {
     fn what_cannot_be_printed_is_an_error_and_a_reader_who_has_gone_is_none() {
         let finished = |kind| {
             let mut refusing = Refusing(kind);
-            let mut output = Output::new(&mut refusing);
+            let mut output = StandardOutput::new(&mut refusing);
             say(&mut output, "a");
             say(&mut output, "b");
             output.finish()
@@ -171,7 +171,7 @@ mod tests {
         let message = finished(ErrorKind::StorageFull).expect_err("full").to_string();
         assert!(message.starts_with("standard output: cannot be written (no storage space); "), "{message}");
         let mut taken = Vec::new();
-        let mut output = Output::new(&mut taken);
+        let mut output = StandardOutput::new(&mut taken);
         say(&mut output, "a\u{1b}b\n");
         print(&mut output, "{}");
         assert!(output.finish().is_ok());

@@ -1,6 +1,6 @@
 //! `bagnold verify`: short runs of every case end in the committed bits, on 1, 2 and 3 threads.
 
-use super::arguments::Verify;
+use super::arguments::VerifyArguments;
 use super::error::ProgramError;
 use super::{Exit, in_pool_of, say};
 use crate::case::{Changes, ParameterError, Registry, Silent, Tier, execute};
@@ -35,7 +35,7 @@ struct ShortRun {
 
 /// Runs the list and compares, or writes it anew.
 pub(super) fn verify(
-    command: &Verify,
+    command: &VerifyArguments,
     registry: Registry,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
@@ -120,7 +120,7 @@ mod tests {
     use crate::cases::REGISTRY;
 
     fn run(file: &Path, write: bool) -> (Exit, String) {
-        let command = Verify { file: Some(file.to_owned()), write: write.then(|| file.to_owned()) };
+        let command = VerifyArguments { file: Some(file.to_owned()), write: write.then(|| file.to_owned()) };
         let mut output = Vec::new();
         let exit = verify(&command, pendulum::REGISTRY, &mut output).expect("a good list");
         (exit, String::from_utf8(output).expect("text"))

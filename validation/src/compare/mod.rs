@@ -8,5 +8,5 @@ mod reading;
 
 pub use difference::{Difference, differences};
 pub use page::write;
-pub use parameters::{Changed, changed};
+pub use parameters::{ChangedParameter, changed};
 pub use reading::{CompareError, Results};

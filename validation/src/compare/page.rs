@@ -2,7 +2,7 @@
 
 use super::difference::{Difference, differences};
 use super::figures;
-use super::parameters::{Changed, changed};
+use super::parameters::{ChangedParameter, changed};
 use super::reading::Results;
 use crate::figure::{self, FigureError};
 use crate::metric::Verdict;
@@ -14,14 +14,14 @@ use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Serialize)]
-struct Page {
+struct ComparisonPage {
     version: &'static str,
     folders: Vec<Folder>,
     moved: usize,
     same: usize,
-    parameters: Vec<Changed>,
-    rows: Vec<Row>,
-    pictures: Vec<Picture>,
+    parameters: Vec<ChangedParameter>,
+    rows: Vec<ComparisonRow>,
+    pictures: Vec<ComparedFigure>,
     style: &'static str,
 }
 
@@ -35,18 +35,18 @@ struct Folder {
 }
 
 #[derive(Debug, Serialize)]
-struct Row {
+struct ComparisonRow {
     case: String,
     metric: String,
     variant: String,
     unit: String,
     tolerances: String,
     is_moved: bool,
-    cells: Vec<Cell>,
+    cells: Vec<ComparisonCell>,
 }
 
 #[derive(Debug, Serialize)]
-struct Cell {
+struct ComparisonCell {
     class: &'static str,
     symbol: &'static str,
     value: String,
@@ -54,7 +54,7 @@ struct Cell {
 }
 
 #[derive(Debug, Serialize)]
-struct Picture {
+struct ComparedFigure {
     name: String,
     caption: String,
     size: Option<(u32, u32)>,
@@ -62,7 +62,7 @@ struct Picture {
 
 /// A line of `differences.json`.
 #[derive(Debug, Serialize)]
-struct Line<'a> {
+struct DifferenceEntry<'a> {
     case: &'a str,
     metric: &'a str,
     variant: String,
@@ -89,14 +89,14 @@ pub fn write(all: &[Results], folder: &Path) -> Result<usize, ReportError> {
         match figure::write(&picture, &folder.join("figures")) {
             Ok(written) => {
                 let size = figure::size_of(&written.png);
-                pictures.push(Picture { name: picture.name, caption: picture.caption, size });
+                pictures.push(ComparedFigure { name: picture.name, caption: picture.caption, size });
             }
             Err(error @ FigureError::Write { .. }) => return Err(error.into()),
             // a figure that cannot be drawn is no reason to lose the numbers
             Err(error) => tracing::error!("figure {}: failed to {error}", picture.name),
         }
     }
-    let lines: Vec<Line<'_>> = found.iter().map(line).collect();
+    let lines: Vec<DifferenceEntry<'_>> = found.iter().map(line).collect();
     put(folder.join("differences.json"), &pretty(&lines))?;
     let parameters = changed(all);
     put(folder.join("parameters.json"), &pretty(&parameters))?;
@@ -105,8 +105,8 @@ pub fn write(all: &[Results], folder: &Path) -> Result<usize, ReportError> {
     Ok(moved)
 }
 
-fn line(one: &Difference) -> Line<'_> {
-    Line {
+fn line(one: &Difference) -> DifferenceEntry<'_> {
+    DifferenceEntry {
         case: &one.case,
         metric: &one.metric,
         variant: one.variant.to_string(),
@@ -124,10 +124,10 @@ fn render(
     all: &[Results],
     found: &[Difference],
     moved: usize,
-    parameters: Vec<Changed>,
-    pictures: Vec<Picture>,
+    parameters: Vec<ChangedParameter>,
+    pictures: Vec<ComparedFigure>,
 ) -> Result<String, minijinja::Error> {
-    let page = Page {
+    let page = ComparisonPage {
         version: env!("CARGO_PKG_VERSION"),
         folders: all.iter().map(folder).collect(),
         moved,
@@ -153,9 +153,9 @@ fn folder(results: &Results) -> Folder {
     }
 }
 
-fn row(one: &Difference) -> Row {
+fn row(one: &Difference) -> ComparisonRow {
     let first = one.entries.iter().flatten().find_map(|entry| entry.value);
-    Row {
+    ComparisonRow {
         case: one.case.clone(),
         metric: one.metric.clone(),
         variant: one.variant.to_string(),
@@ -170,9 +170,9 @@ fn row(one: &Difference) -> Row {
     }
 }
 
-fn cell(entry: Option<&MetricEntry>, first: Option<f64>) -> Cell {
+fn cell(entry: Option<&MetricEntry>, first: Option<f64>) -> ComparisonCell {
     let Some(entry) = entry else {
-        return Cell { class: "observed", symbol: "–", value: String::new(), change: String::new() };
+        return ComparisonCell { class: "observed", symbol: "–", value: String::new(), change: String::new() };
     };
     let (class, symbol) = match entry.verdict {
         Verdict::Pass => ("pass", "✓"),
@@ -180,7 +180,7 @@ fn cell(entry: Option<&MetricEntry>, first: Option<f64>) -> Cell {
         Verdict::Observed => ("observed", "○"),
     };
     let change = entry.value.zip(first).map(|(value, first)| value - first).filter(|change| *change != 0.0);
-    Cell {
+    ComparisonCell {
         class,
         symbol,
         value: entry.value.map_or_else(|| "not a number".to_owned(), four_digits),

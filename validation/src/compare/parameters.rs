@@ -13,7 +13,7 @@ type Leaves = BTreeMap<String, String>;
 
 /// A parameter in every folder that has its case.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Changed {
+pub struct ChangedParameter {
     /// Name of the case.
     pub case: String,
     /// Dotted path of the parameter, as `--set` takes it; places in lists in brackets.
@@ -24,20 +24,20 @@ pub struct Changed {
 
 /// The parameters of each case that two folders have at least and that are not the same in all of them.
 #[must_use]
-pub fn changed(all: &[Results]) -> Vec<Changed> {
+pub fn changed(all: &[Results]) -> Vec<ChangedParameter> {
     let mut cases: Vec<&String> = all.iter().flat_map(|results| results.cases.keys()).collect();
     cases.sort();
     cases.dedup();
     cases.into_iter().flat_map(|case| of_case(all, case)).collect()
 }
 
-fn of_case(all: &[Results], case: &str) -> Vec<Changed> {
+fn of_case(all: &[Results], case: &str) -> Vec<ChangedParameter> {
     let own = |results: &Results| Some(leaves(results.cases.get(case)?.parameters.as_ref()?));
     differing(case, &all.iter().map(own).collect::<Vec<_>>())
 }
 
 /// What differs among those folders that give parameters at all.
-fn differing(case: &str, all: &[Option<Leaves>]) -> Vec<Changed> {
+fn differing(case: &str, all: &[Option<Leaves>]) -> Vec<ChangedParameter> {
     let given: Vec<&Leaves> = all.iter().flatten().collect();
     let paths: BTreeSet<&String> = given.iter().flat_map(|leaves| leaves.keys()).collect();
     let differs = |path: &&String| given.iter().any(|other| other.get(*path) != given[0].get(*path));
@@ -45,7 +45,7 @@ fn differing(case: &str, all: &[Option<Leaves>]) -> Vec<Changed> {
     paths
         .into_iter()
         .filter(differs)
-        .map(|path| Changed {
+        .map(|path| ChangedParameter {
             case: case.to_owned(),
             path: path.clone(),
             values: all.iter().map(|leaves| value(leaves, path)).collect(),

@@ -9,9 +9,9 @@ mod record;
 
 pub use error::{PlanError, read_plan};
 pub use paths::Paths;
-pub use record::{MetricValue, Record};
+pub use record::{EvaluationRecord, MetricValue};
 
-use crate::case::{Changes, Limits, Monitor, ParameterError, Prepared, Registry, Tier, execute};
+use crate::case::{Changes, Limits, Monitor, ParameterError, PreparedCase, Registry, Tier, execute};
 use crate::store::{Store, hexadecimal, identity_or_unique};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -61,7 +61,7 @@ impl CaseRequest {
         file: &Path,
         settings: &[String],
         limits: Limits,
-    ) -> Result<Box<dyn Prepared>, ParameterError> {
+    ) -> Result<Box<dyn PreparedCase>, ParameterError> {
         let case = registry.find(&self.case).map_err(|error| error.in_file(file))?;
         case.prepare(self.tier, &Changes { file: Some((file, self.with.clone())), settings, limits })
     }
@@ -69,7 +69,7 @@ impl CaseRequest {
 
 /// The hash that an evaluation is known by: 32 hexadecimal digits.
 #[must_use]
-pub fn key(prepared: &dyn Prepared) -> String {
+pub fn key(prepared: &dyn PreparedCase) -> String {
     let mut hash = Sha256::new();
     for part in [identity_or_unique(prepared.origin()), prepared.name(), prepared.parameters_toml()] {
         hash.update((part.len() as u64).to_le_bytes());
@@ -83,23 +83,31 @@ pub fn key(prepared: &dyn Prepared) -> String {
 ///
 /// # Errors
 /// What has nothing to do with the parameters, such as threads that cannot be started.
-pub fn evaluate(prepared: Box<dyn Prepared>, store: &Store, monitor: &dyn Monitor) -> Result<Record, ParameterError> {
+pub fn evaluate(
+    prepared: Box<dyn PreparedCase>,
+    store: &Store,
+    monitor: &dyn Monitor,
+) -> Result<EvaluationRecord, ParameterError> {
     let key = key(prepared.as_ref());
     let case = prepared.name().to_owned();
     let simulate = AssertUnwindSafe(|| execute(vec![prepared], store, monitor));
     match std::panic::catch_unwind(simulate) {
-        Ok(Ok(results)) => Ok(results
-            .into_iter()
-            .next()
-            .map_or_else(|| Record::failed(&key, &case, "nothing was simulated"), |result| Record::of(&key, &result))),
+        Ok(Ok(results)) => Ok(results.into_iter().next().map_or_else(
+            || EvaluationRecord::failed(&key, &case, "nothing was simulated"),
+            |result| EvaluationRecord::of(&key, &result),
+        )),
         Ok(Err(
             error @ (ParameterError::Field(_)
             | ParameterError::Scene(_)
             | ParameterError::Follows { .. }
             | ParameterError::Changed { .. }
             | ParameterError::NothingToRun { .. }),
-        )) => Ok(Record::failed(&key, &case, &error.to_string())),
+        )) => Ok(EvaluationRecord::failed(&key, &case, &error.to_string())),
         Ok(Err(error)) => Err(error),
-        Err(_) => Ok(Record::failed(&key, &case, "a run panicked, which is an error of the program; please report it")),
+        Err(_) => Ok(EvaluationRecord::failed(
+            &key,
+            &case,
+            "a run panicked, which is an error of the program; please report it",
+        )),
     }
 }

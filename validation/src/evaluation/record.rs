@@ -38,7 +38,7 @@ impl MetricValue {
 
 /// A finished evaluation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Record {
+pub struct EvaluationRecord {
     /// What it is known by.
     pub key: String,
     /// Name of the case.
@@ -53,7 +53,7 @@ pub struct Record {
     pub failure: Option<String>,
 }
 
-impl Record {
+impl EvaluationRecord {
     pub(super) fn of(key: &str, result: &CaseResult) -> Self {
         let diverged = result.unexpected_divergences().next().map(|run| match &run.outcome {
             Outcome::Diverged { message, .. } => format!("{} diverged: {message}", run.variant).trim_start().to_owned(),
@@ -111,7 +111,7 @@ mod tests {
     fn a_record_comes_back_to_the_bit_and_only_for_its_key() {
         let folder = tempfile::tempdir().expect("temporary folder");
         let path = folder.path().join("record.postcard");
-        let mut record = Record::failed("a", "film", "no scene");
+        let mut record = EvaluationRecord::failed("a", "film", "no scene");
         record.metrics.push(MetricValue {
             name: "velocity_l2".to_owned(),
             variant: Variant::default(),
@@ -119,11 +119,11 @@ mod tests {
             unit: "%".to_owned(),
             verdict: Verdict::Pass,
         });
-        assert_eq!(Record::read(&path, "a"), None);
+        assert_eq!(EvaluationRecord::read(&path, "a"), None);
         record.write(&path).expect("writable");
-        assert_eq!(Record::read(&path, "a"), Some(record));
-        assert_eq!(Record::read(&path, "b"), None);
+        assert_eq!(EvaluationRecord::read(&path, "a"), Some(record));
+        assert_eq!(EvaluationRecord::read(&path, "b"), None);
         std::fs::write(&path, "damaged").expect("writable");
-        assert_eq!(Record::read(&path, "a"), None);
+        assert_eq!(EvaluationRecord::read(&path, "a"), None);
     }
 }

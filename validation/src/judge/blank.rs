@@ -1,6 +1,6 @@
 //! A submission to be filled in: everything that a case takes, with what it means.
 
-use crate::case::{AnyCase, Changes, Form, Item, ParameterError, Tier};
+use crate::case::{AnyCase, Changes, ExternalColumn, ExternalSchema, ParameterError, Tier};
 use std::fmt::Write as _;
 
 /// A commented submission for a case: one run written out, the others listed.
@@ -30,20 +30,20 @@ pub fn blank(case: &'static dyn AnyCase, tier: Tier) -> Result<String, Parameter
     let _ = writeln!(text, "[[run]]\nvariant = \"{}\"\n", variants.first().map_or("", String::as_str));
     text.push_str("# Single numbers: metrics of this run by name, in their units. Some belong to other runs of the case; a number that a run does\n# not have is refused with those that it has.\n[run.numbers]\n");
     for quantity in case.quantities() {
-        let _ = writeln!(text, "# {} = 0.0  # [{}] {}", quantity.name, quantity.unit, quantity.says);
+        let _ = writeln!(text, "# {} = 0.0  # [{}] {}", quantity.name, quantity.unit, quantity.description);
     }
     text.push_str(&files(form));
     Ok(text)
 }
 
 /// The tables of files that a form has.
-fn files(form: &Form) -> String {
+fn files(form: &ExternalSchema) -> String {
     let mut text = String::new();
     if form.particles.is_empty() && form.series.is_empty() && form.profile.is_empty() {
         text.push_str("\n# This case takes single numbers only.\n");
         return text;
     }
-    for line in wrapped(form.says) {
+    for line in wrapped(form.description) {
         let _ = write!(text, "\n# {line}");
     }
     text.push_str(
@@ -67,14 +67,14 @@ fn files(form: &Form) -> String {
     text
 }
 
-fn columns(items: &[Item]) -> String {
+fn columns(items: &[ExternalColumn]) -> String {
     items.iter().fold(String::new(), |mut text, item| {
         let _ = writeln!(
             text,
-            "# {name} = \"{name} [{unit}]\"  # {says}",
+            "# {name} = \"{name} [{unit}]\"  # {description}",
             name = item.name,
             unit = item.unit,
-            says = item.says
+            description = item.description
         );
         text
     })

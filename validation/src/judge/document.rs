@@ -1,8 +1,8 @@
 //! A judgement for programs: `metrics.json` and JUnit's XML.
 
-use super::{Compared, Judged, Judgement};
+use super::{CodeComparison, JudgedCode, MetricComparison};
 use crate::case::Tier;
-use crate::metric::{Confidence, Kind, Limit, Metric, Variant, Verdict};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Variant, Verdict};
 use crate::report::scatter::{QuantityBias, quantities_of};
 use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
 use serde::Serialize;
@@ -23,7 +23,7 @@ struct CodeDocument {
     failing: usize,
     not_given: usize,
     quantities: Vec<BiasEntry>,
-    metrics: Vec<Entry>,
+    metrics: Vec<VerdictEntry>,
 }
 
 /// Bias and scatter of a quantity over its comparisons.
@@ -38,11 +38,11 @@ struct BiasEntry {
 }
 
 #[derive(Debug, Serialize)]
-struct Entry {
+struct VerdictEntry {
     name: String,
     variant: Variant,
     unit: String,
-    kind: Kind,
+    kind: MetricKind,
     /// The code's value; null where none was given.
     value: Option<f64>,
     /// Ours.
@@ -72,13 +72,13 @@ pub(super) fn biases<'a>(case: &str, metrics: impl IntoIterator<Item = &'a Metri
 }
 
 /// What was given of a code.
-pub(super) fn given(judged: &Judged) -> impl Iterator<Item = &Metric> {
+pub(super) fn given(judged: &JudgedCode) -> impl Iterator<Item = &Metric> {
     judged.metrics.iter().filter_map(|one| one.foreign.as_ref())
 }
 
-pub(super) fn document(judgement: &Judgement) -> Document {
+pub(super) fn document(judgement: &CodeComparison) -> Document {
     let case = judgement.own.name.clone();
-    let code = |judged: &Judged| {
+    let code = |judged: &JudgedCode| {
         let (holding, failing, not_given) = judged.counts();
         let bias = |bias: QuantityBias| BiasEntry {
             quantity: bias.quantity,
@@ -101,12 +101,12 @@ pub(super) fn document(judgement: &Judgement) -> Document {
     Document { case: case.clone(), tier: judgement.own.tier, codes: judgement.codes.iter().map(code).collect() }
 }
 
-fn entry(one: &Compared) -> Entry {
+fn entry(one: &MetricComparison) -> VerdictEntry {
     let finite = |value: f64| Some(value).filter(|value| value.is_finite());
     let metric = one.foreign.as_ref().unwrap_or(&one.own);
     let reference = metric.reference.as_ref();
     let gate = metric.gate.as_ref();
-    Entry {
+    VerdictEntry {
         name: metric.name.clone(),
         variant: metric.variant.clone(),
         unit: metric.unit.clone(),
@@ -124,7 +124,7 @@ fn entry(one: &Compared) -> Entry {
 }
 
 /// A suite for each code, a test for each gate; what was not given is skipped.
-pub(super) fn junit(judgement: &Judgement) -> String {
+pub(super) fn junit(judgement: &CodeComparison) -> String {
     let mut document = quick_junit::Report::new(format!("bagnold judge {}", judgement.own.name));
     for judged in &judgement.codes {
         let name = format!("{} {}", judged.code.name, judged.code.version);

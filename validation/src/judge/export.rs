@@ -2,7 +2,7 @@
 
 use super::blank::{blank, wrapped};
 use super::error::JudgeError;
-use crate::case::{AnyCase, CaseResult, Form, Item};
+use crate::case::{AnyCase, CaseResult, ExternalColumn, ExternalSchema};
 use crate::observation::Frame;
 use crate::output::{FileError, Table};
 use crate::reference::shipped_tables;
@@ -77,13 +77,13 @@ fn definitions(case: &'static dyn AnyCase, own: &CaseResult) -> String {
         let _ = writeln!(text, "- `{}`, {} particles, {} s", run.variant, run.particles, run.simulated_time);
     }
     let form = case.form();
-    if !form.says.is_empty() {
-        let _ = write!(text, "\n## How measurements are taken\n\n{}\n", paragraph(form.says));
+    if !form.description.is_empty() {
+        let _ = write!(text, "\n## How measurements are taken\n\n{}\n", paragraph(form.description));
     }
     text.push_str(&items(form));
     text.push_str("\n## Numbers\n\n");
     for quantity in case.quantities() {
-        let _ = writeln!(text, "- `{}` [{}]: {}", quantity.name, quantity.unit, quantity.says);
+        let _ = writeln!(text, "- `{}` [{}]: {}", quantity.name, quantity.unit, quantity.description);
     }
     text.push_str("\n## Limits\n\n");
     for metric in own.metrics.iter().filter(|metric| metric.gate.is_some()) {
@@ -95,15 +95,15 @@ fn definitions(case: &'static dyn AnyCase, own: &CaseResult) -> String {
     text
 }
 
-fn items(form: &Form) -> String {
+fn items(form: &ExternalSchema) -> String {
     let mut text = String::new();
     for (name, items) in [("Particles", form.particles), ("Time series", form.series), ("Profile", form.profile)] {
         if items.is_empty() {
             continue;
         }
         let _ = write!(text, "\n## {name}\n\n");
-        for Item { name, unit, says } in items {
-            let _ = writeln!(text, "- `{name}` [{unit}]: {says}");
+        for ExternalColumn { name, unit, description } in items {
+            let _ = writeln!(text, "- `{name}` [{unit}]: {description}");
         }
     }
     text

@@ -21,9 +21,9 @@ pub use export::export;
 pub use measured::{Measurements, draw_measured};
 pub use page::write;
 pub use submission::{Code, ForeignRun, ParticleFiles, Submission, TableFile};
-pub use verdicts::Compared;
+pub use verdicts::MetricComparison;
 
-use crate::case::{CaseResult, Changes, ForeignResult, Given, Prepared, Registry};
+use crate::case::{CaseResult, Changes, ExternalData, ExternalResult, PreparedCase, Registry};
 use crate::evaluation::PlanError;
 use crate::figure::Figure;
 use crate::input::FieldError;
@@ -31,47 +31,47 @@ use crate::metric::{Variant, Verdict};
 use std::path::{Path, PathBuf};
 
 /// Submissions of one case, with the runs of ours that they are compared with.
-pub struct Trial {
+pub struct CaseSubmissions {
     /// The runs of ours that any code gives something of.
-    pub prepared: Box<dyn Prepared>,
+    pub prepared: Box<dyn PreparedCase>,
     /// What the codes gave.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<CodeResults>,
 }
 
 /// One code's results.
 #[derive(Debug, Clone)]
-pub struct Entry {
+pub struct CodeResults {
     /// The submission.
     pub submission: Submission,
     /// The runs that it gives, in the order of its file.
     variants: Vec<Variant>,
     /// What follows from the files that it gives.
-    result: ForeignResult,
+    result: ExternalResult,
 }
 
 /// A code's verdicts.
 #[derive(Debug, Clone)]
-pub struct Judged {
+pub struct JudgedCode {
     /// The code.
     pub code: Code,
     /// Its file.
     pub file: PathBuf,
     /// Metrics in our order.
-    pub metrics: Vec<Compared>,
+    pub metrics: Vec<MetricComparison>,
 }
 
 /// All codes beside our own.
 #[derive(Debug, Clone)]
-pub struct Judgement {
+pub struct CodeComparison {
     /// Our case.
     pub own: CaseResult,
     /// The codes.
-    pub codes: Vec<Judged>,
+    pub codes: Vec<JudgedCode>,
     /// Our figures with theirs drawn in.
     pub figures: Vec<Figure>,
 }
 
-impl Judged {
+impl JudgedCode {
     /// Gates that hold, that fail, and that nothing was given for.
     #[must_use]
     pub fn counts(&self) -> (usize, usize, usize) {
@@ -84,7 +84,7 @@ impl Judged {
     }
 }
 
-impl Trial {
+impl CaseSubmissions {
     /// Reads submissions and everything that they name; nothing is simulated yet.
     ///
     /// # Errors
@@ -132,11 +132,11 @@ impl Trial {
 fn entry(
     submission: Submission,
     places: &[usize],
-    form: &crate::case::Form,
-    prepared: &dyn Prepared,
-) -> Result<Entry, JudgeError> {
+    form: &crate::case::ExternalSchema,
+    prepared: &dyn PreparedCase,
+) -> Result<CodeResults, JudgeError> {
     let folder = submission.path.parent().unwrap_or_else(|| Path::new("")).to_owned();
-    let mut given = vec![Given::default(); prepared.run_count()];
+    let mut given = vec![ExternalData::default(); prepared.run_count()];
     for (number, (run, &place)) in submission.runs.iter().zip(places).enumerate() {
         let field = format!("run {}", number + 1);
         given[place] = reading::read(run, form, &field, &folder).map_err(|error| error.in_file(&submission.path))?;
@@ -146,11 +146,11 @@ fn entry(
         error.within(&format!("run {number}")).in_file(&submission.path)
     })?;
     let variants = places.iter().map(|&place| prepared.variant(place)).collect();
-    Ok(Entry { submission, variants, result })
+    Ok(CodeResults { submission, variants, result })
 }
 
 /// Our run that each of a submission's is: of those that have all its keys the one with the fewest keys.
-fn places(submission: &Submission, prepared: &dyn Prepared) -> Result<Vec<usize>, JudgeError> {
+fn places(submission: &Submission, prepared: &dyn PreparedCase) -> Result<Vec<usize>, JudgeError> {
     let variants: Vec<Variant> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
     let mut places: Vec<usize> = Vec::new();
     for (number, run) in submission.runs.iter().enumerate() {
@@ -191,8 +191,8 @@ fn places(submission: &Submission, prepared: &dyn Prepared) -> Result<Vec<usize>
 ///
 /// # Errors
 /// A single number that no metric of its run has.
-pub fn judge(own: CaseResult, entries: &[Entry]) -> Result<Judgement, JudgeError> {
-    let codes: Vec<Judged> = entries
+pub fn judge(own: CaseResult, entries: &[CodeResults]) -> Result<CodeComparison, JudgeError> {
+    let codes: Vec<JudgedCode> = entries
         .iter()
         .map(|entry| {
             let numbers: Vec<_> = entry
@@ -204,13 +204,13 @@ pub fn judge(own: CaseResult, entries: &[Entry]) -> Result<Judgement, JudgeError
                 .collect();
             let metrics = verdicts::compare(&own.metrics, &entry.result, &numbers)
                 .map_err(|error| error.in_file(&entry.submission.path))?;
-            Ok(Judged { code: entry.submission.code.clone(), file: entry.submission.path.clone(), metrics })
+            Ok(JudgedCode { code: entry.submission.code.clone(), file: entry.submission.path.clone(), metrics })
         })
         .collect::<Result<_, JudgeError>>()?;
     let theirs: Vec<(&str, &[Figure])> =
         entries.iter().map(|entry| (entry.submission.code.name.as_str(), entry.result.figures.as_slice())).collect();
     let figures = overlay::overlay(&own.figures, &theirs);
-    Ok(Judgement { own, codes, figures })
+    Ok(CodeComparison { own, codes, figures })
 }
 
 impl PlanError {

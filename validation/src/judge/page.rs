@@ -1,7 +1,7 @@
 //! Files of a judgement: the page, its figures and numbers.
 
 use super::document::{biases, document, given, junit};
-use super::{Compared, Judged, Judgement};
+use super::{CodeComparison, JudgedCode, MetricComparison};
 use crate::figure::{self, FigureError};
 use crate::metric::{Limit, Metric, Verdict};
 use crate::number::{four_digits, two_digits};
@@ -11,16 +11,16 @@ use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Serialize)]
-struct Page {
+struct JudgePage {
     case: String,
     tier: String,
     description: String,
     version: &'static str,
     codes: Vec<CodeRow>,
     heads: Vec<String>,
-    rows: Vec<Row>,
-    quantities: Vec<Quantity>,
-    pictures: Vec<Picture>,
+    rows: Vec<MetricComparisonRow>,
+    quantities: Vec<QuantityScatter>,
+    pictures: Vec<OverlaidFigure>,
     style: &'static str,
 }
 
@@ -37,7 +37,7 @@ struct CodeRow {
 
 /// A metric with ours and every code's value.
 #[derive(Debug, Serialize)]
-struct Row {
+struct MetricComparisonRow {
     metric: String,
     variant: String,
     unit: String,
@@ -45,11 +45,11 @@ struct Row {
     source: String,
     limit: String,
     reason: String,
-    cells: Vec<Cell>,
+    cells: Vec<CodeValueCell>,
 }
 
 #[derive(Debug, Serialize)]
-struct Cell {
+struct CodeValueCell {
     class: &'static str,
     symbol: &'static str,
     word: &'static str,
@@ -60,13 +60,13 @@ struct Cell {
 
 /// Bias and scatter of a quantity, ours and every code's.
 #[derive(Debug, Serialize)]
-struct Quantity {
+struct QuantityScatter {
     name: String,
     cells: Vec<String>,
 }
 
 #[derive(Debug, Serialize)]
-struct Picture {
+struct OverlaidFigure {
     name: String,
     caption: String,
     size: Option<(u32, u32)>,
@@ -76,14 +76,14 @@ struct Picture {
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(judgement: &Judgement, folder: &Path, junit_file: Option<&Path>) -> Result<(), ReportError> {
+pub fn write(judgement: &CodeComparison, folder: &Path, junit_file: Option<&Path>) -> Result<(), ReportError> {
     let put =
         |path: PathBuf, text: &str| std::fs::write(&path, text).map_err(|source| ReportError::Write { path, source });
     let drawn = folder.join("figures");
     let mut pictures = Vec::new();
     for picture in &judgement.figures {
         match figure::write(picture, &drawn) {
-            Ok(written) => pictures.push(Picture {
+            Ok(written) => pictures.push(OverlaidFigure {
                 name: picture.name.clone(),
                 caption: picture.caption.clone(),
                 size: figure::size_of(&written.png),
@@ -107,10 +107,10 @@ pub fn write(judgement: &Judgement, folder: &Path, junit_file: Option<&Path>) ->
     put(folder.join("index.html"), &render(judgement, pictures)?)
 }
 
-fn render(judgement: &Judgement, pictures: Vec<Picture>) -> Result<String, minijinja::Error> {
+fn render(judgement: &CodeComparison, pictures: Vec<OverlaidFigure>) -> Result<String, minijinja::Error> {
     let own = &judgement.own;
     let heads = judgement.codes.iter().map(|judged| judged.code.name.clone()).collect();
-    let page = Page {
+    let page = JudgePage {
         case: own.name.clone(),
         tier: own.tier.to_string(),
         description: own.description.clone(),
@@ -127,7 +127,7 @@ fn render(judgement: &Judgement, pictures: Vec<Picture>) -> Result<String, minij
     environment.get_template("judge.html")?.render(template_value(&page)?)
 }
 
-fn code_row(judged: &Judged) -> CodeRow {
+fn code_row(judged: &JudgedCode) -> CodeRow {
     let (holding, failing, not_given) = judged.counts();
     CodeRow {
         name: judged.code.name.clone(),
@@ -141,13 +141,13 @@ fn code_row(judged: &Judged) -> CodeRow {
 }
 
 /// Metrics that any code was judged by, or could have been: those with a gate or a reference, and those that were given.
-fn rows(judgement: &Judgement) -> Vec<Row> {
+fn rows(judgement: &CodeComparison) -> Vec<MetricComparisonRow> {
     let metrics: Vec<&Metric> = judgement.own.metrics.iter().collect();
     metrics
         .into_iter()
         .filter_map(|metric| {
-            let same = |one: &&Compared| one.own.name == metric.name && one.own.variant == metric.variant;
-            let compared: Vec<Option<&Compared>> =
+            let same = |one: &&MetricComparison| one.own.name == metric.name && one.own.variant == metric.variant;
+            let compared: Vec<Option<&MetricComparison>> =
                 judgement.codes.iter().map(|judged| judged.metrics.iter().find(same)).collect();
             let is_given = compared.iter().flatten().any(|one| one.foreign.is_some());
             let is_asked = compared.iter().flatten().next().is_some() && metric.verdict() != Verdict::Observed;
@@ -156,7 +156,7 @@ fn rows(judgement: &Judgement) -> Vec<Row> {
             }
             let theirs = compared.iter().map(|one| cell(one.and_then(|one| one.foreign.as_ref())));
             let reference = metric.reference.as_ref();
-            Some(Row {
+            Some(MetricComparisonRow {
                 metric: metric.name.clone(),
                 variant: metric.variant.to_string(),
                 unit: metric.unit.clone(),
@@ -178,7 +178,7 @@ fn limit(limit: Limit) -> String {
     }
 }
 
-fn cell(metric: Option<&Metric>) -> Cell {
+fn cell(metric: Option<&Metric>) -> CodeValueCell {
     let verdict = metric.map(Metric::verdict);
     let (class, symbol, text) = match verdict {
         Some(Verdict::Pass) => ("pass", "✓", "holds"),
@@ -187,7 +187,7 @@ fn cell(metric: Option<&Metric>) -> Cell {
         None => ("observed", "–", "not given"),
     };
     let reference = metric.and_then(|metric| metric.reference.as_ref()?.value);
-    Cell {
+    CodeValueCell {
         class,
         symbol,
         word: text,
@@ -201,7 +201,7 @@ fn signed(number: f64) -> String {
 }
 
 /// δ, σ_M and the number of comparisons of every quantity with enough comparisons.
-fn quantities(judgement: &Judgement) -> Vec<Quantity> {
+fn quantities(judgement: &CodeComparison) -> Vec<QuantityScatter> {
     let case = &judgement.own.name;
     let all: Vec<_> = std::iter::once(biases(case, &judgement.own.metrics))
         .chain(judgement.codes.iter().map(|judged| biases(case, given(judged))))
@@ -221,7 +221,7 @@ fn quantities(judgement: &Judgement) -> Vec<Quantity> {
     };
     names
         .into_iter()
-        .map(|name| Quantity {
+        .map(|name| QuantityScatter {
             cells: all.iter().map(|biases| text(biases, &name).unwrap_or_else(|| "–".to_owned())).collect(),
             name,
         })

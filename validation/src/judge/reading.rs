@@ -1,10 +1,10 @@
 //! Reads what a submission names: files of particles, series and profiles → columns in SI units.
 
-use super::column::Source;
+use super::column::ColumnSource;
 use super::submission::{ForeignRun, ParticleFiles, TableFile, rising, sources};
 use super::text_table::TextTable;
-use super::vtk::{self, PLACES, Points};
-use crate::case::{Columns, Form, Given, Item, Picture};
+use super::vtk::{self, PLACES, PointArrays};
+use crate::case::{ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParticleFrame};
 use crate::evaluation::PlanError;
 use crate::input::{self, FieldError, did_you_mean, nearest};
 use crate::output::FileError;
@@ -17,15 +17,20 @@ const LARGEST_FILE: u64 = 1 << 30;
 const MOST_PICTURES: usize = 10_000;
 
 /// Columns of a part with their meaning, ready to be taken from files.
-type Plan = Vec<(&'static Item, Source, f64, String)>;
+type ColumnAssignments = Vec<(&'static ExternalColumn, ColumnSource, f64, String)>;
 
 /// Reads all that is given of a run; paths are relative to `folder`.
 ///
 /// # Errors
 /// Files that cannot be read, columns that are unknown or missing, units of another kind, numbers that are not finite, times
 /// that do not rise.
-pub(super) fn read(run: &ForeignRun, form: &Form, field: &str, folder: &Path) -> Result<Given, PlanError> {
-    let mut given = Given::default();
+pub(super) fn read(
+    run: &ForeignRun,
+    form: &ExternalSchema,
+    field: &str,
+    folder: &Path,
+) -> Result<ExternalData, PlanError> {
+    let mut given = ExternalData::default();
     if let Some(files) = &run.particles {
         let plan = plan(&files.columns, form.particles, &format!("{field}.particles"))?;
         given.pictures = pictures(files, &plan, folder)?;
@@ -61,7 +66,11 @@ fn in_order(numbers: &[f64], field: &str, file: &Path) -> Result<(), FieldError>
 }
 
 /// What the columns of a part mean, each with its factor to SI and the field that it stands in.
-fn plan(texts: &BTreeMap<String, toml::Value>, items: &'static [Item], field: &str) -> Result<Plan, FieldError> {
+fn plan(
+    texts: &BTreeMap<String, toml::Value>,
+    items: &'static [ExternalColumn],
+    field: &str,
+) -> Result<ColumnAssignments, FieldError> {
     let sources = sources(texts, field)?;
     if sources.is_empty() {
         return Err(FieldError::new(&format!("{field}.columns"), "empty", "given", "say which column is what"));
@@ -69,7 +78,7 @@ fn plan(texts: &BTreeMap<String, toml::Value>, items: &'static [Item], field: &s
     sources
         .into_iter()
         .map(|(name, source)| {
-            let item = Form::find(items, &format!("{field}.columns"), &name)?;
+            let item = ExternalSchema::find(items, &format!("{field}.columns"), &name)?;
             let field = format!("{field}.columns.{name}");
             let factor = source.factor(item, &field)?;
             Ok((item, source, factor, field))
@@ -77,13 +86,18 @@ fn plan(texts: &BTreeMap<String, toml::Value>, items: &'static [Item], field: &s
         .collect()
 }
 
-fn columns(table: &TableFile, items: &'static [Item], field: &str, folder: &Path) -> Result<Columns, PlanError> {
+fn columns(
+    table: &TableFile,
+    items: &'static [ExternalColumn],
+    field: &str,
+    folder: &Path,
+) -> Result<NamedColumns, PlanError> {
     let plan = plan(&table.columns, items, field)?;
     let file = folder.join(&table.file);
     Ok(of_table(&read_text_table(&file)?, &plan, &file)?)
 }
 
-fn pictures(files: &ParticleFiles, plan: &Plan, folder: &Path) -> Result<Vec<Picture>, PlanError> {
+fn pictures(files: &ParticleFiles, plan: &ColumnAssignments, folder: &Path) -> Result<Vec<ParticleFrame>, PlanError> {
     let named: Vec<(f64, PathBuf)> = if files.is_collection() {
         let file = folder.join(&files.files[0]);
         let text = String::from_utf8_lossy(&read_bytes(&file)?).into_owned();
@@ -103,11 +117,11 @@ fn pictures(files: &ParticleFiles, plan: &Plan, folder: &Path) -> Result<Vec<Pic
         .map(|(time, file)| {
             let ending = file.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
             let columns = if ["vtu", "vtp", "vtk"].contains(&ending.as_str()) {
-                of_points(&Points::parse(&read_bytes(&file)?, &file)?, plan, &file)?
+                of_points(&PointArrays::parse(&read_bytes(&file)?, &file)?, plan, &file)?
             } else {
                 of_table(&read_text_table(&file)?, plan, &file)?
             };
-            Ok(Picture { time, columns })
+            Ok(ParticleFrame { time, columns })
         })
         .collect()
 }
@@ -121,23 +135,23 @@ fn read_text_table(file: &Path) -> Result<TextTable, PlanError> {
     Ok(TextTable::parse(&String::from_utf8_lossy(&bytes), file)?)
 }
 
-fn of_table(table: &TextTable, plan: &Plan, file: &Path) -> Result<Columns, FieldError> {
+fn of_table(table: &TextTable, plan: &ColumnAssignments, file: &Path) -> Result<NamedColumns, FieldError> {
     let rows = table.columns.first().map_or(0, Vec::len);
-    let column = |source: &Source, field: &str| match source {
-        Source::Heading { text, name, .. } => {
+    let column = |source: &ColumnSource, field: &str| match source {
+        ColumnSource::Heading { text, name, .. } => {
             // the heading may hold its unit itself
             let heading = if table.headings.contains(text) { text } else { name };
             table.column(heading, field, file).map(<[f64]>::to_vec)
         }
-        Source::Constant { value, .. } => Ok(vec![*value; rows]),
+        ColumnSource::Constant { value, .. } => Ok(vec![*value; rows]),
     };
     in_si(plan, file, column)
 }
 
-fn of_points(points: &Points, plan: &Plan, file: &Path) -> Result<Columns, FieldError> {
+fn of_points(points: &PointArrays, plan: &ColumnAssignments, file: &Path) -> Result<NamedColumns, FieldError> {
     let count = points.arrays.get(&format!("{PLACES}:0")).map_or(0, Vec::len);
-    let column = |source: &Source, field: &str| match source {
-        Source::Heading { text, name, .. } => {
+    let column = |source: &ColumnSource, field: &str| match source {
+        ColumnSource::Heading { text, name, .. } => {
             // `velocity [m/s]:0` is the first component of an array whose name holds its unit
             let component = name.rsplit_once(':').filter(|(_, number)| number.parse::<u8>().is_ok());
             let unit = text.trim().rsplit_once('[').map_or("", |(_, unit)| unit);
@@ -153,17 +167,17 @@ fn of_points(points: &Points, plan: &Plan, file: &Path) -> Result<Columns, Field
                 FieldError::new(field, format!("\"{text}\""), &rule, &remedy)
             })
         }
-        Source::Constant { value, .. } => Ok(vec![*value; count]),
+        ColumnSource::Constant { value, .. } => Ok(vec![*value; count]),
     };
     in_si(plan, file, column)
 }
 
 /// All columns of a plan in SI units; every number must be finite.
 fn in_si(
-    plan: &Plan,
+    plan: &ColumnAssignments,
     file: &Path,
-    column: impl Fn(&Source, &str) -> Result<Vec<f64>, FieldError>,
-) -> Result<Columns, FieldError> {
+    column: impl Fn(&ColumnSource, &str) -> Result<Vec<f64>, FieldError>,
+) -> Result<NamedColumns, FieldError> {
     plan.iter()
         .map(|(item, source, factor, field)| {
             let mut values = column(source, field)?;

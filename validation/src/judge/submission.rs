@@ -1,6 +1,6 @@
 //! What another code submits: a TOML file that names its case, its runs, and what it gives of each.
 
-use super::column::{ColumnText, Source};
+use super::column::{ColumnSource, ColumnText};
 use crate::case::Tier;
 use crate::evaluation::{PlanError, read_plan};
 use crate::input::{FieldError, check_name};
@@ -184,7 +184,7 @@ pub(super) fn rising(numbers: &[f64]) -> Option<f64> {
 pub(super) fn sources(
     columns: &BTreeMap<String, toml::Value>,
     field: &str,
-) -> Result<BTreeMap<String, Source>, FieldError> {
+) -> Result<BTreeMap<String, ColumnSource>, FieldError> {
     columns
         .iter()
         .map(|(name, value)| Ok((name.clone(), ColumnText::parse(value, &format!("{field}.columns.{name}"))?)))

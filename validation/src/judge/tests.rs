@@ -1,7 +1,7 @@
 //! Every part of a submission alone, and what is refused.
 
 use super::*;
-use crate::case::{Columns, Form, Item, Parameters, Picture, Tier};
+use crate::case::{ExternalColumn, ExternalSchema, NamedColumns, Parameters, ParticleFrame, Tier};
 use crate::cases::REGISTRY;
 use crate::cases::collapse::{ColumnRun, InclineCollapseParameters};
 use crate::cases::column_planar::ColumnPlanarParameters;
@@ -10,7 +10,7 @@ use crate::cases::column_round::ColumnRoundParameters;
 const ROWS: u32 = 30;
 
 /// Columns that rise from 0 to a hundredth, and shares of `size`.
-fn columns(items: &[Item], size: f64) -> Columns {
+fn columns(items: &[ExternalColumn], size: f64) -> NamedColumns {
     let ramp: Vec<f64> = (0..ROWS).map(|row| f64::from(row) / 2900.0).collect();
     let shares = vec![size / f64::from(ROWS); ROWS as usize];
     let column = |name| if ["area", "volume"].contains(&name) { shares.clone() } else { ramp.clone() };
@@ -30,16 +30,17 @@ fn size_of(case: &str, run: usize) -> f64 {
 }
 
 /// Each part alone: series, profile, one picture, two pictures.
-fn parts(form: &'static Form, is_planar: bool, size: f64) -> Vec<Given> {
-    let particles: Vec<Item> = form.particles.iter().filter(|item| !(is_planar && item.name == "z")).copied().collect();
-    let picture = |time: f64| Picture { time, columns: columns(&particles, size) };
+fn parts(form: &'static ExternalSchema, is_planar: bool, size: f64) -> Vec<ExternalData> {
+    let particles: Vec<ExternalColumn> =
+        form.particles.iter().filter(|item| !(is_planar && item.name == "z")).copied().collect();
+    let picture = |time: f64| ParticleFrame { time, columns: columns(&particles, size) };
     let mut parts = vec![
-        Given { series: columns(form.series, size), ..Given::default() },
-        Given { profile: columns(form.profile, size), ..Given::default() },
+        ExternalData { series: columns(form.series, size), ..ExternalData::default() },
+        ExternalData { profile: columns(form.profile, size), ..ExternalData::default() },
     ];
     if !particles.is_empty() {
-        parts.push(Given { pictures: vec![picture(0.5)], ..Given::default() });
-        parts.push(Given { pictures: vec![picture(0.0), picture(0.5)], ..Given::default() });
+        parts.push(ExternalData { pictures: vec![picture(0.5)], ..ExternalData::default() });
+        parts.push(ExternalData { pictures: vec![picture(0.0), picture(0.5)], ..ExternalData::default() });
     }
     parts
 }
@@ -47,12 +48,12 @@ fn parts(form: &'static Form, is_planar: bool, size: f64) -> Vec<Given> {
 #[test]
 fn every_part_alone_gives_numbers_and_none_for_what_is_missing() {
     let mut cases = 0;
-    for case in REGISTRY.iter().filter(|case| *case.form() != Form::NUMBERS) {
+    for case in REGISTRY.iter().filter(|case| *case.form() != ExternalSchema::NUMBERS) {
         cases += 1;
         let prepared = case.prepare(Tier::Quick, &Changes::default()).expect("a tier");
         let of_run = |run| parts(case.form(), case.name() != "column-round", size_of(case.name(), run));
         for part in 0..of_run(0).len() {
-            let all: Vec<Given> = (0..prepared.run_count()).map(|run| of_run(run).swap_remove(part)).collect();
+            let all: Vec<ExternalData> = (0..prepared.run_count()).map(|run| of_run(run).swap_remove(part)).collect();
             let result = prepared.foreign(&all).map_err(|(run, error)| format!("{} run {run}: {error}", case.name()));
             let result = result.expect("complete columns");
             assert!(result.measured.iter().any(|(_, names)| !names.is_empty()), "{}: nothing measured", case.name());
@@ -65,12 +66,12 @@ fn every_part_alone_gives_numbers_and_none_for_what_is_missing() {
     assert!(cases >= 6, "{cases} cases take files");
 }
 
-fn read(text: &str) -> Result<Trial, JudgeError> {
+fn read(text: &str) -> Result<CaseSubmissions, JudgeError> {
     let folder = tempfile::tempdir().expect("temporary folder");
     let file = folder.path().join("mine.toml");
     std::fs::write(&file, text).expect("writable");
     std::fs::write(folder.path().join("u.csv"), "y [mm],u\n0,0\n1,0.1\n2,0.2\n").expect("writable");
-    Trial::read(&[file], REGISTRY)
+    CaseSubmissions::read(&[file], REGISTRY)
 }
 
 fn message(text: &str) -> String {

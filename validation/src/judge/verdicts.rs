@@ -1,21 +1,21 @@
 //! Another code's numbers under the gates of our own: what was not given is never judged.
 
 use super::submission::ForeignRun;
-use crate::case::ForeignResult;
+use crate::case::ExternalResult;
 use crate::input::{FieldError, did_you_mean, nearest};
-use crate::metric::{Kind, Metric, Variant, Verdict};
+use crate::metric::{Metric, MetricKind, Variant, Verdict};
 use std::collections::BTreeSet;
 
 /// A metric of ours with another code's value, if it gave one.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Compared {
+pub struct MetricComparison {
     /// Ours.
     pub own: Metric,
     /// The other code's, with its own gate; none where nothing was given that it follows from.
     pub foreign: Option<Metric>,
 }
 
-impl Compared {
+impl MetricComparison {
     /// How the other code stands; none where nothing was given.
     #[must_use]
     pub fn verdict(&self) -> Option<Verdict> {
@@ -33,9 +33,9 @@ type Numbers<'a> = [(Variant, &'a ForeignRun, String)];
 /// A single number that no metric of its run has.
 pub(super) fn compare(
     own: &[Metric],
-    foreign: &ForeignResult,
+    foreign: &ExternalResult,
     numbers: &Numbers<'_>,
-) -> Result<Vec<Compared>, FieldError> {
+) -> Result<Vec<MetricComparison>, FieldError> {
     let mut given = Vec::new();
     for (variant, run, field) in numbers {
         for (name, value) in &run.numbers {
@@ -51,9 +51,10 @@ pub(super) fn compare(
             (Some(value), measured) => Some(Metric { value, ..measured.unwrap_or(metric).clone() }),
             (None, measured) => measured.cloned(),
         };
-        Compared { own: metric.clone(), foreign }
+        MetricComparison { own: metric.clone(), foreign }
     };
-    let is_shown = |compared: &Compared| compared.foreign.is_some() || compared.own.kind != Kind::Bookkeeping;
+    let is_shown =
+        |compared: &MetricComparison| compared.foreign.is_some() || compared.own.kind != MetricKind::Bookkeeping;
     Ok(own.iter().enumerate().map(compared).filter(is_shown).collect())
 }
 
@@ -82,9 +83,9 @@ mod tests {
             .gated(Limit::AtMost(1.0), "a limit")
     }
 
-    fn foreign(metrics: Vec<Metric>, measured: Vec<&'static str>) -> ForeignResult {
+    fn foreign(metrics: Vec<Metric>, measured: Vec<&'static str>) -> ExternalResult {
         let measured = vec![(Variant::of("a", 1).and("resolution", 20), measured)];
-        ForeignResult { metrics, figures: Vec::new(), tables: Vec::new(), measured }
+        ExternalResult { metrics, figures: Vec::new(), tables: Vec::new(), measured }
     }
 
     #[test]
@@ -96,7 +97,7 @@ mod tests {
             vec!["front", "height"],
         );
         let compared = compare(&own, &theirs, &[]).expect("no numbers");
-        let verdicts: Vec<Option<Verdict>> = compared.iter().map(Compared::verdict).collect();
+        let verdicts: Vec<Option<Verdict>> = compared.iter().map(MetricComparison::verdict).collect();
         assert_eq!(verdicts, [Some(Verdict::Fail), None, None]);
     }
 
@@ -122,7 +123,7 @@ mod tests {
 
     #[test]
     fn our_own_bookkeeping_is_left_out() {
-        let own = [metric("lost", 0.0).of_kind(Kind::Bookkeeping), metric("front", 0.5)];
+        let own = [metric("lost", 0.0).of_kind(MetricKind::Bookkeeping), metric("front", 0.5)];
         let compared = compare(&own, &foreign(Vec::new(), Vec::new()), &[]).expect("no numbers");
         assert_eq!(compared.iter().map(|one| one.own.name.as_str()).collect::<Vec<_>>(), ["front"]);
     }

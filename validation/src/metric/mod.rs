@@ -8,7 +8,7 @@ pub mod variant;
 pub(crate) use quantity::quantities;
 pub use quantity::{Quantity, undeclared};
 pub use steadiness::unsteadiness;
-pub use uncertainty::{Origin, Part, Uncertainty};
+pub use uncertainty::{Origin, Uncertainty, UncertaintyComponent};
 pub use variant::{Value, Variant};
 
 use serde::{Deserialize, Serialize};
@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 /// What a verdict rests on; the four are never mixed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Kind {
+pub enum MetricKind {
     /// The run's own account: nothing is lost, and mass, momentum and energy add up. It says nothing of the physics.
     Bookkeeping,
     /// Against an exact solution of the model's own equations, or a convergence order.
@@ -132,7 +132,7 @@ pub struct Metric {
     /// What it is compared with, if anything.
     pub reference: Option<Reference>,
     /// What the verdict rests on.
-    pub kind: Kind,
+    pub kind: MetricKind,
     /// The gate, if there is one; a metric without a gate is observed.
     pub gate: Option<Gate>,
     /// Why it is no value of a steady state, although it should be one: it then has no value.
@@ -157,7 +157,7 @@ impl Metric {
             value,
             unit: unit.to_owned(),
             reference: None,
-            kind: Kind::Verification,
+            kind: MetricKind::Verification,
             gate: None,
             not_steady: None,
             uncertainty: Uncertainty::default(),
@@ -214,7 +214,7 @@ impl Metric {
 
     /// Sets what the verdict rests on.
     #[must_use]
-    pub fn of_kind(mut self, kind: Kind) -> Self {
+    pub fn of_kind(mut self, kind: MetricKind) -> Self {
         self.kind = kind;
         self
     }

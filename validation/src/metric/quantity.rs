@@ -1,6 +1,6 @@
 //! What a metric is, declared once: its name, unit and sentence. A case lists its quantities; metrics are built from them.
 
-use super::{Kind, Metric, Variant};
+use super::{Metric, MetricKind, Variant};
 
 /// A number that a case gives, for any of its runs.
 ///
@@ -13,34 +13,34 @@ pub struct Quantity {
     /// Unit of the value, `-` for none, `%` for percent.
     pub unit: &'static str,
     /// What its verdict rests on.
-    pub kind: Kind,
-    /// What it says, one sentence without a full stop.
-    pub says: &'static str,
+    pub kind: MetricKind,
+    /// What it is, one sentence without a full stop.
+    pub description: &'static str,
 }
 
 impl Quantity {
     /// A quantity of the run's own account.
     #[must_use]
-    pub const fn accounted(name: &'static str, unit: &'static str, says: &'static str) -> Self {
-        Self { name, unit, kind: Kind::Bookkeeping, says }
+    pub const fn accounted(name: &'static str, unit: &'static str, description: &'static str) -> Self {
+        Self { name, unit, kind: MetricKind::Bookkeeping, description }
     }
 
     /// A quantity that one of the two papers says something about.
     #[must_use]
-    pub const fn stated(name: &'static str, unit: &'static str, says: &'static str) -> Self {
-        Self { name, unit, kind: Kind::Statement, says }
+    pub const fn stated(name: &'static str, unit: &'static str, description: &'static str) -> Self {
+        Self { name, unit, kind: MetricKind::Statement, description }
     }
 
     /// A quantity that is checked against the model's own equations.
     #[must_use]
-    pub const fn verified(name: &'static str, unit: &'static str, says: &'static str) -> Self {
-        Self { name, unit, kind: Kind::Verification, says }
+    pub const fn verified(name: &'static str, unit: &'static str, description: &'static str) -> Self {
+        Self { name, unit, kind: MetricKind::Verification, description }
     }
 
     /// A quantity that is compared with an experiment or a published fit.
     #[must_use]
-    pub const fn validated(name: &'static str, unit: &'static str, says: &'static str) -> Self {
-        Self { name, unit, kind: Kind::Validation, says }
+    pub const fn validated(name: &'static str, unit: &'static str, description: &'static str) -> Self {
+        Self { name, unit, kind: MetricKind::Validation, description }
     }
 
     /// Its observed metric for a run, in the quantity's unit; the metric's methods add reference and gate.
@@ -87,7 +87,7 @@ mod tests {
     fn a_metric_has_what_its_quantity_declares() {
         const FRONT: Quantity = Quantity::validated("front", "m", "how far the front has come");
         let metric = FRONT.of(&Variant::of("slope", 0.03), 0.5);
-        assert_eq!((metric.name.as_str(), metric.unit.as_str(), metric.kind), ("front", "m", Kind::Validation));
+        assert_eq!((metric.name.as_str(), metric.unit.as_str(), metric.kind), ("front", "m", MetricKind::Validation));
         assert_eq!(metric.gate, None);
     }
 

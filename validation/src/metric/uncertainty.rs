@@ -40,7 +40,7 @@ impl Origin {
 
 /// One cause.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Part {
+pub struct UncertaintyComponent {
     /// What it is.
     pub origin: Origin,
     /// Standard uncertainty, in the metric's unit.
@@ -53,13 +53,13 @@ pub struct Part {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Uncertainty {
-    parts: Vec<Part>,
+    parts: Vec<UncertaintyComponent>,
 }
 
 impl Uncertainty {
     /// The parts in the order in which they were added.
     #[must_use]
-    pub fn parts(&self) -> &[Part] {
+    pub fn parts(&self) -> &[UncertaintyComponent] {
         &self.parts
     }
 
@@ -83,12 +83,12 @@ impl Uncertainty {
 
     pub(super) fn add(&mut self, origin: Origin, standard: Option<f64>, source: &str) {
         if let Some(standard) = standard.filter(|standard| standard.is_finite() && *standard > 0.0) {
-            self.parts.push(Part { origin, standard, source: source.to_owned() });
+            self.parts.push(UncertaintyComponent { origin, standard, source: source.to_owned() });
         }
     }
 }
 
-fn root_of_squares<'p>(parts: impl Iterator<Item = &'p Part>) -> Option<f64> {
+fn root_of_squares<'p>(parts: impl Iterator<Item = &'p UncertaintyComponent>) -> Option<f64> {
     let (sum, number) = parts.fold((0.0, 0), |(sum, number), part| (sum + part.standard * part.standard, number + 1));
     (number > 0).then(|| f64::sqrt(sum))
 }

@@ -89,13 +89,13 @@ pub fn build(workspace: &Path, mutations: &Mutations) -> Result<PathBuf, CopyErr
 }
 
 /// An expression of a source, and what stands instead of it by the number of a mutation.
-struct Choice {
+struct MutatedExpression {
     start: usize,
     end: usize,
     wrong: Vec<(usize, String)>,
 }
 
-impl Choice {
+impl MutatedExpression {
     /// The expression with its alternatives.
     fn expression(&self, source: &str) -> String {
         let wrong =
@@ -112,7 +112,7 @@ fn changed_sources(workspace: &Path, mutations: &Mutations) -> Result<BTreeMap<P
         let file = workspace.join(path);
         read_text(&file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(&file, &error))
     };
-    let mut sources: BTreeMap<PathBuf, (String, Vec<Choice>)> = BTreeMap::new();
+    let mut sources: BTreeMap<PathBuf, (String, Vec<MutatedExpression>)> = BTreeMap::new();
     for mutation in mutations.iter() {
         let number = mutations.number(mutation);
         for place in &mutation.places {
@@ -134,7 +134,7 @@ fn changed_sources(workspace: &Path, mutations: &Mutations) -> Result<BTreeMap<P
             };
             let (start, end) = (at + place.after.len(), at + needle.len());
             match choices.iter_mut().find(|choice| choice.start < end && start < choice.end) {
-                None => choices.push(Choice { start, end, wrong: vec![(number, place.instead.clone())] }),
+                None => choices.push(MutatedExpression { start, end, wrong: vec![(number, place.instead.clone())] }),
                 Some(same) if (same.start, same.end) == (start, end) => {
                     same.wrong.push((number, place.instead.clone()))
                 }

@@ -49,7 +49,7 @@ impl Catch {
 
 /// What became of one error.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Finding {
+pub struct MutationOutcome {
     /// The error.
     pub error: Mutation,
     /// The cases that ran, in order.
@@ -65,11 +65,11 @@ pub struct Finding {
 }
 
 /// One case with and without the error. A case that did not end has no sighting but a reason.
-pub type Comparison<'a> = (&'a Scope, &'a Sighting, Result<Sighting, String>);
+pub type MutationComparison<'a> = (&'a Scope, &'a Sighting, Result<Sighting, String>);
 
 /// Judges what the cases of an error said, each with what it says without.
 #[must_use]
-pub fn judge(error: &Mutation, comparisons: &[Comparison<'_>]) -> Finding {
+pub fn judge(error: &Mutation, comparisons: &[MutationComparison<'_>]) -> MutationOutcome {
     let (mut broken, mut stops, mut drifts, mut wall_seconds) = (Vec::new(), Vec::new(), Vec::new(), 0.0);
     for (scope, right, wrong) in comparisons {
         let case = &scope.case;
@@ -96,7 +96,7 @@ pub fn judge(error: &Mutation, comparisons: &[Comparison<'_>]) -> Finding {
     } else {
         Catch::Nothing
     };
-    Finding {
+    MutationOutcome {
         error: error.clone(),
         cases: comparisons.iter().map(|(scope, ..)| scope.case.clone()).collect(),
         catch,
@@ -118,7 +118,7 @@ fn broken_gates<'a>(case: &'a str, right: &'a Sighting, wrong: &'a Sighting) -> 
 
 /// Errors by their strongest witness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Tally {
+pub struct DetectionTally {
     /// By a gate.
     pub gate: usize,
     /// By a run that diverged or a program that stopped.
@@ -129,10 +129,10 @@ pub struct Tally {
     pub nothing: usize,
 }
 
-impl Tally {
+impl DetectionTally {
     /// Counts.
     #[must_use]
-    pub fn of(findings: &[Finding]) -> Self {
+    pub fn of(findings: &[MutationOutcome]) -> Self {
         let mut tally = Self::default();
         for finding in findings {
             *match finding.catch {
@@ -181,7 +181,7 @@ mod tests {
         Sighting { metrics: vec![metric], diverged: Vec::new(), wall_seconds: 1.0 }
     }
 
-    fn found(right: &Sighting, wrong: Result<Sighting, String>) -> Finding {
+    fn found(right: &Sighting, wrong: Result<Sighting, String>) -> MutationOutcome {
         let scope = Scope { case: "film".to_owned(), settings: Vec::new() };
         let (name, description) = ("von-karman".to_owned(), "κ = 0.45 instead of 0.41".to_owned());
         let error = Mutation { name, description, cases: Vec::new(), places: Vec::new() };
@@ -208,10 +208,10 @@ mod tests {
 
     #[test]
     fn shares_count_divergence_with_the_gates() {
-        let tally = Tally { gate: 15, stop: 2, snapshot: 2, nothing: 1 };
+        let tally = DetectionTally { gate: 15, stop: 2, snapshot: 2, nothing: 1 };
         assert_eq!((tally.all(), tally.caught(), tally.gated()), (20, 0.95, 0.85));
         assert!(tally.holds());
-        assert!(!Tally { nothing: 2, snapshot: 1, ..tally }.holds());
-        assert!(!Tally { stop: 1, snapshot: 3, ..tally }.holds());
+        assert!(!DetectionTally { nothing: 2, snapshot: 1, ..tally }.holds());
+        assert!(!DetectionTally { stop: 1, snapshot: 3, ..tally }.holds());
     }
 }

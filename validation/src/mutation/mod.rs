@@ -17,9 +17,9 @@ mod record;
 mod trial;
 
 pub use copy::{CHOICE, CopyError, build};
-pub use judgement::{Broken, Catch, Comparison, Finding, Tally, judge};
+pub use judgement::{Broken, Catch, DetectionTally, MutationComparison, MutationOutcome, judge};
 pub use page::{table, write};
-pub use record::{FILE, Mutation, Mutations, Place};
+pub use record::{FILE, Mutation, Mutations, SourceReplacement};
 pub use trial::{Scope, Sighting, run_trial};
 
 /// Share of the errors that something must notice `[-]`.

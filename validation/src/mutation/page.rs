@@ -1,6 +1,6 @@
 //! The findings as a table for the terminal, as CSV and as Markdown.
 
-use super::{Catch, Finding, LEAST_CAUGHT, LEAST_GATED, Tally};
+use super::{Catch, DetectionTally, LEAST_CAUGHT, LEAST_GATED, MutationOutcome};
 use crate::metric::Limit;
 use crate::number::short_digits;
 use std::fmt::Write as _;
@@ -19,7 +19,7 @@ fn word(catch: &Catch) -> &'static str {
 }
 
 /// Which gate with its value and limit, or what a run said.
-fn witness(finding: &Finding) -> String {
+fn witness(finding: &MutationOutcome) -> String {
     match &finding.catch {
         Catch::Gate(broken) => {
             let Some(first) = broken.first() else { return String::new() };
@@ -47,7 +47,7 @@ fn rule(limit: Limit) -> String {
     }
 }
 
-fn row(finding: &Finding) -> [String; 6] {
+fn row(finding: &MutationOutcome) -> [String; 6] {
     [
         finding.error.name.clone(),
         finding.error.description.clone(),
@@ -59,8 +59,8 @@ fn row(finding: &Finding) -> [String; 6] {
 }
 
 /// The shares in a sentence each, with what they must be.
-fn shares(findings: &[Finding]) -> String {
-    let tally = Tally::of(findings);
+fn shares(findings: &[MutationOutcome]) -> String {
+    let tally = DetectionTally::of(findings);
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     format!(
         "{} errors: {} caught by a gate, {} by a run that stopped, {} by the snapshot only, {} by nothing.\n\
@@ -79,7 +79,7 @@ fn shares(findings: &[Finding]) -> String {
 
 /// A line per error, those that no gate noticed last, then the shares.
 #[must_use]
-pub fn table(findings: &[Finding]) -> String {
+pub fn table(findings: &[MutationOutcome]) -> String {
     let mut text = String::new();
     let width = findings.iter().map(|finding| finding.error.name.len()).max().unwrap_or(0);
     for finding in findings {
@@ -90,7 +90,7 @@ pub fn table(findings: &[Finding]) -> String {
 }
 
 /// The same as Markdown, with what is wrong and which cases ran.
-fn markdown(findings: &[Finding]) -> String {
+fn markdown(findings: &[MutationOutcome]) -> String {
     let mut text = format!("# Mutations\n\n{}\n", shares(findings));
     let mut line = |cells: &[String]| {
         let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
@@ -108,7 +108,7 @@ fn markdown(findings: &[Finding]) -> String {
 ///
 /// # Errors
 /// The system's.
-pub fn write(findings: &[Finding], folder: &Path) -> std::io::Result<()> {
+pub fn write(findings: &[MutationOutcome], folder: &Path) -> std::io::Result<()> {
     std::fs::write(folder.join("mutation.md"), markdown(findings))?;
     let mut csv = csv::Writer::from_path(folder.join("mutation.csv"))?;
     csv.write_record(COLUMNS)?;

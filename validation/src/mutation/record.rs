@@ -21,13 +21,13 @@ pub struct Mutation {
     /// The cases that ought to notice, the likeliest first.
     pub cases: Vec<String>,
     /// Where the sources change.
-    pub places: Vec<Place>,
+    pub places: Vec<SourceReplacement>,
 }
 
 /// A text of the sources and the text instead of it.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Place {
+pub struct SourceReplacement {
     /// File below `solver/src`.
     pub file: String,
     /// What stands right before the text, where the text alone is not unique.
@@ -49,7 +49,7 @@ pub struct Mutations {
     list: Vec<Mutation>,
 }
 
-impl Place {
+impl SourceReplacement {
     /// What is looked for in the file.
     #[must_use]
     pub fn needle(&self) -> String {

@@ -6,7 +6,7 @@ mod motion;
 pub mod pictures;
 
 pub use energy_book::EnergyBook;
-pub use motion::{Motion, MotionFrame};
+pub use motion::{MotionFrame, MotionSequence};
 
 use serde::{Deserialize, Serialize};
 

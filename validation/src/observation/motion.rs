@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// A run as a sequence of pictures.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Motion {
+pub struct MotionSequence {
     /// Pictures in time order.
     pub frames: Vec<MotionFrame>,
     /// Share of the particles that was kept `[-]`: the same ones in every picture.

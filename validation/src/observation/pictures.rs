@@ -1,6 +1,6 @@
 //! How the particles of a heap are shown: animations, and pictures with speed on one side and pressure on the other.
 
-use super::{Frame, Motion, MotionFrame};
+use super::{Frame, MotionFrame, MotionSequence};
 use crate::figure::{Animation, AnimationFrame, Axis, Field, Figure, Mark, Panel, Series};
 
 /// Share of all speeds that the colours span: single grains of spray would leave no colour to the heap.
@@ -52,7 +52,7 @@ impl View {
 
 /// The animation of a run: particles in the colours of their speed, dashed the thickness by volume and the front.
 #[must_use]
-pub fn animation(name: &str, caption: &str, motion: &Motion, view: &View) -> Animation {
+pub fn animation(name: &str, caption: &str, motion: &MotionSequence, view: &View) -> Animation {
     let unit = view.unit_length;
     let scaled = |[x, y]: [f32; 2]| [(f64::from(x) / unit) as f32, (f64::from(y) / unit) as f32];
     let all = motion.frames.iter().flat_map(|frame| &frame.position).map(|&place| scaled(place));
@@ -94,7 +94,7 @@ pub fn animation(name: &str, caption: &str, motion: &Motion, view: &View) -> Ani
 }
 
 /// The frames while anything moves at more than a fiftieth of the largest speed, and the last one.
-fn moving(motion: &Motion) -> impl Iterator<Item = &MotionFrame> {
+fn moving(motion: &MotionSequence) -> impl Iterator<Item = &MotionFrame> {
     let fastest = |frame: &MotionFrame| frame.speed.iter().copied().fold(0.0, f32::max);
     let limit = 0.02 * motion.frames.iter().map(fastest).fold(0.0, f32::max);
     let end = motion.frames.iter().rposition(|frame| fastest(frame) > limit).map_or(0, |last| last + 1);
@@ -145,7 +145,7 @@ mod tests {
     const VIEW: View = View { unit_length: 0.1, unit: "r0", time_scale: 0.1, spacing: 0.01, mirrored: true };
 
     /// One particle that runs 0.05 m a frame and stops.
-    fn motion() -> Motion {
+    fn motion() -> MotionSequence {
         let frame = |(index, speed): (usize, f32)| MotionFrame {
             time: 0.01 * index as f64,
             position: vec![[0.05 * index as f32, 0.0]],
@@ -153,7 +153,7 @@ mod tests {
             surface: vec![[0.0, 0.01], [0.1, 0.0], [0.2, 0.0]],
             front: 0.1,
         };
-        Motion { frames: [0.0, 1.0, 2.0, 0.01, 0.01].into_iter().enumerate().map(frame).collect(), share: 0.25 }
+        MotionSequence { frames: [0.0, 1.0, 2.0, 0.01, 0.01].into_iter().enumerate().map(frame).collect(), share: 0.25 }
     }
 
     #[test]
@@ -172,7 +172,7 @@ mod tests {
         assert_eq!(moving.frames[0].lines[0].points.len(), 2);
         let one_sided = animation("a", "", &motion(), &View { mirrored: false, unit: "m", unit_length: 1.0, ..VIEW });
         assert_eq!((one_sided.frames[0].points.len(), one_sided.x.label.as_str()), (1, "x [m]"));
-        assert!(animation("a", "", &Motion::default(), &VIEW).frames.is_empty());
+        assert!(animation("a", "", &MotionSequence::default(), &VIEW).frames.is_empty());
     }
 
     #[test]

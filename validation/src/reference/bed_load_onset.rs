@@ -11,16 +11,16 @@ pub const ONSET_SCATTER: f64 = 1.5;
 /// Source of the curve.
 pub const ONSET_SOURCE: &str = "Shields' curve, Soulsby & Whitehouse 1997";
 
-struct Curve {
+struct OnsetCurve {
     coefficients: [f64; 4],
     confidence: Confidence,
 }
 
-static CURVE: LazyLock<Curve> = LazyLock::new(|| {
+static CURVE: LazyLock<OnsetCurve> = LazyLock::new(|| {
     read_shipped("bed-load/onset.csv", |table| {
         let value = |name| table.number_of("coefficient", name, "value");
         let coefficients = [value("a")?, value("b")?, value("c")?, value("e")?];
-        Ok(Curve { coefficients, confidence: table.metadata.confidence })
+        Ok(OnsetCurve { coefficients, confidence: table.metadata.confidence })
     })
 });
 

@@ -19,17 +19,17 @@ pub enum MeasuredBedLoad {
 }
 
 /// A column of profile points, heights above the layer's z = 0 `[m]` first.
-type Points = Vec<(f64, f64)>;
+type HeightProfile = Vec<(f64, f64)>;
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BedLoadProfiles {
     /// φ `[-]`.
-    pub solid_fraction: Points,
+    pub solid_fraction: HeightProfile,
     /// Velocity of the grains, of the sheet flow that of both phases `[m/s]`.
-    pub grain_velocity: Points,
+    pub grain_velocity: HeightProfile,
     /// Velocity of the water `[m/s]`; none of the sheet flow's own.
-    pub fluid_velocity: Points,
+    pub fluid_velocity: HeightProfile,
     /// q* = ∫ φ u_s dz/√((s − 1) g d³) of these points `[-]`.
     pub transport: f64,
     /// Where it comes from.
@@ -79,7 +79,7 @@ impl MeasuredBedLoad {
     #[must_use]
     pub fn profiles(self) -> BedLoadProfiles {
         let level = self.level();
-        let points = |table: &MeasuredData, name: &str| -> Result<Points, ReferenceError> {
+        let points = |table: &MeasuredData, name: &str| -> Result<HeightProfile, ReferenceError> {
             let heights = table.numbers("height")?.iter().map(|height| height - level);
             Ok(heights.zip(table.numbers(name)?.iter().copied()).collect())
         };
@@ -104,7 +104,7 @@ impl MeasuredBedLoad {
                         transport: flux(&fraction, &grains) / unit,
                         solid_fraction: fraction.clone(),
                         grain_velocity: grains,
-                        fluid_velocity: Points::new(),
+                        fluid_velocity: HeightProfile::new(),
                         source: table.metadata.source.clone(),
                     })
                 })
@@ -114,8 +114,8 @@ impl MeasuredBedLoad {
 }
 
 /// ∫ φ u dz `[m²/s]` over the heights that both have, by trapezia of φ's heights cut into tenths.
-fn flux(fraction: &Points, velocity: &Points) -> f64 {
-    let line = |points: &Points, height: f64| {
+fn flux(fraction: &HeightProfile, velocity: &HeightProfile) -> f64 {
+    let line = |points: &HeightProfile, height: f64| {
         interpolated(points, height, (Beyond::EndValue, Beyond::EndValue)).unwrap_or(f64::NAN)
     };
     let carried = |height: f64| line(fraction, height) * line(velocity, height);

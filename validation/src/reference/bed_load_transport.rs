@@ -2,7 +2,7 @@
 //! q* = c (τ* − τ*_c)^n with q* = q_s/√((s − 1) g d³), 0 below the critical Shields number τ*_c.
 
 use super::shipped::read_shipped;
-use super::{MeasuredData, Origin, ReferenceError};
+use super::{MeasuredData, ReferenceError, ReferenceKind};
 use crate::metric::Confidence;
 use std::sync::LazyLock;
 
@@ -27,23 +27,23 @@ pub const HONEST_BAND: (f64, f64) = (0.5, 2.0);
 
 /// What the table says of a formula.
 #[derive(Debug, Clone, PartialEq)]
-struct Row {
+struct FormulaCoefficients {
     source: String,
     confidence: Confidence,
-    origin: Origin,
+    origin: ReferenceKind,
     coefficient: f64,
     critical: f64,
     exponent: f64,
 }
 
 /// In the order of [`TransportFormula::ALL`].
-static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| read_shipped("bed-load/formulas.csv", rows));
+static ROWS: LazyLock<Vec<FormulaCoefficients>> = LazyLock::new(|| read_shipped("bed-load/formulas.csv", rows));
 
-fn rows(table: &MeasuredData) -> Result<Vec<Row>, ReferenceError> {
+fn rows(table: &MeasuredData) -> Result<Vec<FormulaCoefficients>, ReferenceError> {
     let (sources, confidences) = (table.labels("source")?, table.confidences()?);
     let row = |formula: TransportFormula| {
         let row = table.row("formula", formula.key())?;
-        Ok(Row {
+        Ok(FormulaCoefficients {
             source: sources[row].clone(),
             confidence: confidences[row],
             origin: table.metadata.origin,
@@ -78,7 +78,7 @@ impl TransportFormula {
         }
     }
 
-    fn row(self) -> &'static Row {
+    fn row(self) -> &'static FormulaCoefficients {
         &ROWS[self as usize]
     }
 
@@ -98,7 +98,7 @@ impl TransportFormula {
 
     /// What it is.
     #[must_use]
-    pub fn origin(self) -> Origin {
+    pub fn origin(self) -> ReferenceKind {
         self.row().origin
     }
 
@@ -136,8 +136,8 @@ mod tests {
             assert_eq!(formula.transport(critical), 0.0);
             assert_eq!(formula.transport(0.0), 0.0);
             assert!(formula.transport(critical + 1e-6) > 0.0);
-            assert_eq!(formula.origin(), Origin::Fit);
-            assert_eq!(formula.origin().kind(), crate::metric::Kind::Validation);
+            assert_eq!(formula.origin(), ReferenceKind::Fit);
+            assert_eq!(formula.origin().kind(), crate::metric::MetricKind::Validation);
             assert!(formula.confidence() != Confidence::Unverified, "{}", formula.name());
         }
     }

@@ -16,14 +16,14 @@
 //! holds labels.
 
 use super::ReferenceError;
-use super::measured_table::{Column, parse_table};
+use super::measured_table::{ReferenceColumn, parse_table};
 use crate::input::{DOCUMENT, read_text, shown};
-use crate::metric::{Confidence, Kind};
+use crate::metric::{Confidence, MetricKind};
 use std::path::Path;
 
 /// Where a reference value comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Origin {
+pub enum ReferenceKind {
     /// Exact for the model.
     Analytic,
     /// An independent numerical solution of the same model.
@@ -36,13 +36,13 @@ pub enum Origin {
     Statement,
 }
 
-impl Origin {
+impl ReferenceKind {
     /// What a verdict against such a value rests on.
     #[must_use]
-    pub fn kind(self) -> Kind {
+    pub fn kind(self) -> MetricKind {
         match self {
-            Self::Analytic | Self::Computed => Kind::Verification,
-            Self::Fit | Self::Measured | Self::Statement => Kind::Validation,
+            Self::Analytic | Self::Computed => MetricKind::Verification,
+            Self::Fit | Self::Measured | Self::Statement => MetricKind::Validation,
         }
     }
 }
@@ -55,7 +55,7 @@ pub struct Metadata {
     /// Unit of that quantity.
     pub unit: String,
     /// Where the values come from, `kind` in the file.
-    pub origin: Origin,
+    pub origin: ReferenceKind,
     /// How well they are established; rows may say otherwise in a column `confidence`.
     pub confidence: Confidence,
     /// How far they may be off, in words; per-row figures stand in a column.
@@ -74,7 +74,7 @@ pub struct MeasuredData {
     /// What the header says.
     pub metadata: Metadata,
     /// Columns in the order of the file, all of the same length.
-    pub columns: Vec<Column>,
+    pub columns: Vec<ReferenceColumn>,
 }
 
 impl MeasuredData {
@@ -101,7 +101,7 @@ impl MeasuredData {
         self.columns
             .iter()
             .find_map(|column| match column {
-                Column::Numbers { name: own, values, .. } if own == name => Some(values.as_slice()),
+                ReferenceColumn::Numbers { name: own, values, .. } if own == name => Some(values.as_slice()),
                 _ => None,
             })
             .ok_or_else(|| self.no_column("number", name))
@@ -112,7 +112,7 @@ impl MeasuredData {
         self.columns
             .iter()
             .find_map(|column| match column {
-                Column::Labels { name: own, values } if own == name => Some(values.as_slice()),
+                ReferenceColumn::Labels { name: own, values } if own == name => Some(values.as_slice()),
                 _ => None,
             })
             .ok_or_else(|| self.no_column("label", name))
@@ -138,8 +138,8 @@ impl MeasuredData {
     /// How sure the project is of each row: its word in a column `confidence`, or else the header's.
     pub fn confidences(&self) -> Result<Vec<Confidence>, ReferenceError> {
         let rows = match self.columns.first() {
-            Some(Column::Numbers { values, .. }) => values.len(),
-            Some(Column::Labels { values, .. }) => values.len(),
+            Some(ReferenceColumn::Numbers { values, .. }) => values.len(),
+            Some(ReferenceColumn::Labels { values, .. }) => values.len(),
             None => 0,
         };
         if !self.columns.iter().any(|column| column.name() == "confidence") {
@@ -214,11 +214,11 @@ fn parse_metadata(file: &str, text: &str, header_lines: usize) -> Result<Metadat
         slot.and_then(|slot| found[slot].take()).ok_or(ReferenceError::MissingMetadata { file: file.to_owned(), key })
     };
     let origins = [
-        ("analytic", Origin::Analytic),
-        ("computed", Origin::Computed),
-        ("fit", Origin::Fit),
-        ("measured", Origin::Measured),
-        ("statement", Origin::Statement),
+        ("analytic", ReferenceKind::Analytic),
+        ("computed", ReferenceKind::Computed),
+        ("fit", ReferenceKind::Fit),
+        ("measured", ReferenceKind::Measured),
+        ("statement", ReferenceKind::Statement),
     ];
     Ok(Metadata {
         quantity: take("quantity")?.1,

@@ -8,7 +8,7 @@ const LARGEST: f64 = 1e30;
 
 /// One column of a reference table.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Column {
+pub enum ReferenceColumn {
     /// Finite numbers in a unit.
     Numbers {
         /// Name without the unit.
@@ -27,7 +27,7 @@ pub enum Column {
     },
 }
 
-impl Column {
+impl ReferenceColumn {
     /// Name without the unit.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -38,7 +38,7 @@ impl Column {
 }
 
 /// Columns of the table that follows `header_lines` lines of a text.
-pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result<Vec<Column>, ReferenceError> {
+pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result<Vec<ReferenceColumn>, ReferenceError> {
     let table: String = text.lines().skip(header_lines).flat_map(|line| [line, "\n"]).collect();
     let offset = header_lines as u64;
     let refuse = |line: u64, column: usize, rule: String| ReferenceError::Table {
@@ -64,7 +64,7 @@ pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result
     if names.is_empty() {
         return Err(refuse(1, 1, "there is no table; write the columns' names and at least one row".to_owned()));
     }
-    let mut columns: Vec<Column> = Vec::with_capacity(names.len());
+    let mut columns: Vec<ReferenceColumn> = Vec::with_capacity(names.len());
     for (index, name) in names.iter().enumerate() {
         let column = parse_name(name).map_err(|rule| refuse(1, index + 1, rule))?;
         if columns.iter().any(|other| other.name() == column.name()) {
@@ -86,8 +86,8 @@ pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result
         }
         for (index, (column, text)) in columns.iter_mut().zip(&record).enumerate() {
             match column {
-                Column::Labels { values, .. } => values.push(text.to_owned()),
-                Column::Numbers { name, values, .. } => match text.parse::<f64>() {
+                ReferenceColumn::Labels { values, .. } => values.push(text.to_owned()),
+                ReferenceColumn::Numbers { name, values, .. } => match text.parse::<f64>() {
                     Ok(value) if value.abs() <= LARGEST => values.push(value),
                     _ => {
                         return Err(ReferenceError::Number {
@@ -110,9 +110,9 @@ pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result
 }
 
 /// An empty column of a name such as `height [m]`.
-fn parse_name(text: &str) -> Result<Column, String> {
+fn parse_name(text: &str) -> Result<ReferenceColumn, String> {
     let column = match text.split_once('[') {
-        None => Column::Labels { name: text.to_owned(), values: Vec::new() },
+        None => ReferenceColumn::Labels { name: text.to_owned(), values: Vec::new() },
         Some((name, rest)) => {
             let unit = rest
                 .strip_suffix(']')
@@ -120,7 +120,7 @@ fn parse_name(text: &str) -> Result<Column, String> {
             if unit.trim().is_empty() {
                 return Err(format!("`{text}` has an empty unit; write `[-]` for a pure number"));
             }
-            Column::Numbers { name: name.trim().to_owned(), unit: unit.trim().to_owned(), values: Vec::new() }
+            ReferenceColumn::Numbers { name: name.trim().to_owned(), unit: unit.trim().to_owned(), values: Vec::new() }
         }
     };
     if column.name().is_empty() {

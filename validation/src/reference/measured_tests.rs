@@ -21,11 +21,11 @@ fn a_good_file_is_read_completely() {
     let data = MeasuredData::parse("data.csv", &text).expect("readable");
     assert_eq!(data.metadata.quantity, "velocity over depth");
     assert_eq!(data.metadata.source, "test: its own");
-    assert_eq!((data.metadata.origin, data.metadata.confidence), (Origin::Measured, Confidence::High));
+    assert_eq!((data.metadata.origin, data.metadata.confidence), (ReferenceKind::Measured, Confidence::High));
     assert_eq!(data.numbers("height").expect("present"), [0.001, 0.002]);
     assert_eq!(data.numbers("velocity").expect("present"), [0.012, -0.024]);
     assert_eq!(data.labels("run").expect("present"), ["a", "b, again"]);
-    assert!(matches!(&data.columns[1], Column::Numbers { unit, .. } if unit == "m/s"));
+    assert!(matches!(&data.columns[1], ReferenceColumn::Numbers { unit, .. } if unit == "m/s"));
 }
 
 #[test]

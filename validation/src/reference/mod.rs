@@ -45,8 +45,8 @@ pub use grains::{FlowRule, GLASS_BEADS, GLASS_BEADS_FLOW_RULE, LAGREE_GRAINS, Pu
 pub use law_film::LawFilm;
 pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
 pub use liquid_column::{MeasuredFront, WATER_FRONT};
-pub use measured::{MeasuredData, Metadata, Origin};
-pub use measured_table::Column;
+pub use measured::{MeasuredData, Metadata, ReferenceKind};
+pub use measured_table::ReferenceColumn;
 pub use papers::{Element, FigureName, MetricName, PAPERS, Paper, PaperError, Printed, RunName, Settled, TestName};
 pub use rough_channel::{ORIGIN_DEPTH, RoughChannel, roughness_ratio};
 pub use settling::{GrainForm, SettlingGrains, richardson_zaki_confidence, richardson_zaki_exponent};

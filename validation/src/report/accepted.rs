@@ -3,7 +3,7 @@
 
 use super::error::BaselineError;
 use super::shipped;
-use super::snapshot_text::{self, Line};
+use super::snapshot_text::{self, SnapshotLine};
 use crate::case::Tier;
 use crate::figure::is_file_name;
 use crate::input::{DOCUMENT, read_text};
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// Names one metric of one run of one case.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Key {
+pub struct MetricKey {
     /// Case name.
     pub case: String,
     /// Metric name.
@@ -23,7 +23,7 @@ pub struct Key {
     pub variant: Variant,
 }
 
-impl Key {
+impl MetricKey {
     /// The key of `metric` in `case`.
     #[must_use]
     pub fn of(case: &str, metric: &Metric) -> Self {
@@ -34,11 +34,11 @@ impl Key {
 /// Accepted values of any number of cases at one tier.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Baseline {
-    values: BTreeMap<Key, Entry>,
+    values: BTreeMap<MetricKey, AcceptedValue>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct Entry {
+struct AcceptedValue {
     value: f64,
     unit: String,
     verdict: Verdict,
@@ -109,16 +109,16 @@ impl Baseline {
     pub fn of(case: &str, metrics: &[Metric]) -> Self {
         let mut baseline = Self::default();
         for metric in metrics {
-            baseline.add(Key::of(case, metric), metric.value, &metric.unit, metric.verdict());
+            baseline.add(MetricKey::of(case, metric), metric.value, &metric.unit, metric.verdict());
         }
         baseline
     }
 
     /// Adds one value, rounded as a file holds it.
-    pub(super) fn add(&mut self, key: Key, value: f64, unit: &str, verdict: Verdict) {
+    pub(super) fn add(&mut self, key: MetricKey, value: f64, unit: &str, verdict: Verdict) {
         let line = self.values.len();
         let value = snapshot_text::rounded(value);
-        self.values.insert(key, Entry { value, unit: unit.to_owned(), verdict, line });
+        self.values.insert(key, AcceptedValue { value, unit: unit.to_owned(), verdict, line });
     }
 
     /// Adds the values of another case.
@@ -134,7 +134,7 @@ impl Baseline {
 
     /// The value of `key`.
     #[must_use]
-    pub fn value(&self, key: &Key) -> Option<f64> {
+    pub fn value(&self, key: &MetricKey) -> Option<f64> {
         self.values.get(key).map(|entry| entry.value)
     }
 
@@ -178,8 +178,8 @@ impl Baseline {
         let lines = snapshot_text::parse(text, case, tier_name(tier)).map_err(refuse)?;
         let mut read = Self::default();
         for (line, row) in lines.into_iter().enumerate() {
-            let key = Key { case: case.to_owned(), metric: row.name.to_owned(), variant: row.variant.clone() };
-            let entry = Entry { value: row.value, unit: row.unit.to_owned(), verdict: row.verdict, line };
+            let key = MetricKey { case: case.to_owned(), metric: row.name.to_owned(), variant: row.variant.clone() };
+            let entry = AcceptedValue { value: row.value, unit: row.unit.to_owned(), verdict: row.verdict, line };
             if read.values.insert(key, entry).is_some() {
                 return Err(refuse(format!("`{} | {}` stands there twice", row.name, row.variant)));
             }
@@ -193,10 +193,11 @@ impl Baseline {
         snapshot_text::content(self.lines(case))
     }
 
-    fn lines(&self, case: &str) -> impl Iterator<Item = Line<'_>> {
-        let mut entries: Vec<(&Key, &Entry)> = self.values.iter().filter(|(key, _)| key.case == case).collect();
+    fn lines(&self, case: &str) -> impl Iterator<Item = SnapshotLine<'_>> {
+        let mut entries: Vec<(&MetricKey, &AcceptedValue)> =
+            self.values.iter().filter(|(key, _)| key.case == case).collect();
         entries.sort_by_key(|(_, entry)| entry.line);
-        entries.into_iter().map(|(key, entry)| Line {
+        entries.into_iter().map(|(key, entry)| SnapshotLine {
             name: &key.metric,
             variant: key.variant.clone(),
             value: entry.value,
@@ -227,7 +228,7 @@ impl Baseline {
     /// rounding in the file; or its unit or verdict is another.
     #[must_use]
     pub fn drift(&self, case: &str, metric: &Metric) -> Drift {
-        let Some(entry) = self.values.get(&Key::of(case, metric)) else { return Drift::New };
+        let Some(entry) = self.values.get(&MetricKey::of(case, metric)) else { return Drift::New };
         if entry.unit != metric.unit {
             return Drift::UnitChanged { unit: entry.unit.clone() };
         }
@@ -275,8 +276,8 @@ impl Baseline {
 
     /// Baseline values of `case` that `metrics` no longer contain: a metric that vanishes is a regression too.
     #[must_use]
-    pub fn vanished(&self, case: &str, metrics: &[Metric]) -> Vec<Key> {
-        let measured: BTreeSet<Key> = metrics.iter().map(|metric| Key::of(case, metric)).collect();
+    pub fn vanished(&self, case: &str, metrics: &[Metric]) -> Vec<MetricKey> {
+        let measured: BTreeSet<MetricKey> = metrics.iter().map(|metric| MetricKey::of(case, metric)).collect();
         self.values.keys().filter(|key| key.case == case && !measured.contains(key)).cloned().collect()
     }
 }

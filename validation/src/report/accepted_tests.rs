@@ -17,8 +17,8 @@ fn values_survive_the_file_and_other_tiers_stay_apart() {
     let text = std::fs::read_to_string(&path).expect("a file");
     assert!(text.find("wall_slip") < text.find("a |"), "in the order of the case");
     let read = Baseline::read(folder.path(), "bagnold", Tier::Quick).expect("read");
-    assert_eq!(read.value(&Key::of("bagnold", &metrics[0])), Some(0.512_345_679));
-    assert!(read.value(&Key::of("bagnold", &metrics[1])).is_some_and(f64::is_nan));
+    assert_eq!(read.value(&MetricKey::of("bagnold", &metrics[0])), Some(0.512_345_679));
+    assert!(read.value(&MetricKey::of("bagnold", &metrics[1])).is_some_and(f64::is_nan));
     assert_eq!(read.differences("bagnold", &metrics), [""; 0]);
     assert!(Baseline::read(folder.path(), "bagnold", Tier::Paper).expect("missing is empty").is_empty());
     assert!(Baseline::read(folder.path(), "../bagnold", Tier::Paper).is_err());

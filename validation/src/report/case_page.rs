@@ -5,10 +5,10 @@ use super::judgement::{JudgedCase, Severity};
 use super::origin::{provenance, seconds};
 use super::rows::{mark, rows, vanished};
 use super::template::fill;
-use super::view::{Case, CasePage, Mark, Neighbours, Row, Run, picture, typed};
-use super::{Drawn, Report};
+use super::view::{CasePage, CaseView, MetricView, Neighbours, RunView, VerdictMark, picture, typed};
+use super::{DrawnFigure, Report};
 use crate::case::RunSummary;
-use crate::metric::{Kind, Verdict};
+use crate::metric::{MetricKind, Verdict};
 use crate::number::{count, four_digits};
 use crate::observation::Outcome;
 use crate::reference::shipped_tables;
@@ -18,7 +18,7 @@ use crate::reference::shipped_tables;
 pub(super) fn render(
     report: &Report,
     judged: &JudgedCase<'_>,
-    drawn: &[Drawn],
+    drawn: &[DrawnFigure],
     neighbours: Option<Neighbours>,
 ) -> Result<String, minijinja::Error> {
     let page = CasePage {
@@ -42,19 +42,19 @@ pub(super) fn tables(case: &str) -> impl Iterator<Item = (&'static str, &'static
     })
 }
 
-fn case(judged: &JudgedCase<'_>, drawn: &[Drawn]) -> Case {
+fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> CaseView {
     let case = judged.case;
     let mut rows = rows(&case.name, &judged.metrics);
     for (row, judged) in rows.iter_mut().zip(&judged.metrics) {
-        if judged.metric.kind != Kind::Bookkeeping {
+        if judged.metric.kind != MetricKind::Bookkeeping {
             row.figure = figure(row, drawn);
         }
     }
-    Case {
+    CaseView {
         name: case.name.clone(),
         summary: case.summary.clone(),
         description: case.description.split("\n\n").map(str::to_owned).collect(),
-        mark: if case.metrics.is_empty() { Mark::OBSERVED } else { mark(judged.severity()) },
+        mark: if case.metrics.is_empty() { VerdictMark::OBSERVED } else { mark(judged.severity()) },
         statement: case_statement(judged),
         rows,
         vanished: judged.vanished.iter().map(vanished).collect(),
@@ -67,9 +67,9 @@ fn case(judged: &JudgedCase<'_>, drawn: &[Drawn]) -> Case {
 }
 
 /// The figure that shares most words with a metric's name; nothing where none does.
-fn figure(row: &Row, drawn: &[Drawn]) -> String {
+fn figure(row: &MetricView, drawn: &[DrawnFigure]) -> String {
     let is_word_of = |text: &str, word: &str| text.split(|c: char| !c.is_alphanumeric()).any(|other| other == word);
-    let shared = |drawn: &Drawn| {
+    let shared = |drawn: &DrawnFigure| {
         let caption = drawn.caption.to_lowercase();
         let weight = |word: &str| match word {
             _ if word.len() < 4 => 0,
@@ -101,16 +101,18 @@ pub(super) fn case_statement(judged: &JudgedCase<'_>) -> String {
     if words.is_empty() { "no metrics".to_owned() } else { words.join(" · ") }
 }
 
-fn run(run: &RunSummary) -> Run {
+fn run(run: &RunSummary) -> RunView {
     let (mark, outcome) = match &run.outcome {
-        Outcome::Finished => (Mark { word: "finished", ..Mark::PASS }, String::new()),
-        Outcome::Stopped { criterion } => (Mark { word: "stopped", ..Mark::PASS }, criterion.clone()),
+        Outcome::Finished => (VerdictMark { word: "finished", ..VerdictMark::PASS }, String::new()),
+        Outcome::Stopped { criterion } => (VerdictMark { word: "stopped", ..VerdictMark::PASS }, criterion.clone()),
         Outcome::Diverged { message, expected: true } => {
-            (Mark { word: "diverged as expected", ..Mark::OBSERVED }, message.clone())
+            (VerdictMark { word: "diverged as expected", ..VerdictMark::OBSERVED }, message.clone())
         }
-        Outcome::Diverged { message, expected: false } => (Mark { word: "diverged", ..Mark::FAIL }, message.clone()),
+        Outcome::Diverged { message, expected: false } => {
+            (VerdictMark { word: "diverged", ..VerdictMark::FAIL }, message.clone())
+        }
     };
-    Run {
+    RunView {
         variant: run.variant.to_string(),
         mark,
         outcome,

@@ -1,12 +1,12 @@
 //! What has moved since the baseline, by how many tolerances, and how it got there.
 
 use super::Report;
-use super::accepted::{Drift, Key};
+use super::accepted::{Drift, MetricKey};
 use super::history::History;
-use super::judgement::{Judged, Judgement};
+use super::judgement::{JudgedMetric, Judgement};
 use super::rows::vanished;
 use super::snapshot_text::word;
-use super::view::{Mark, anchor};
+use super::view::{VerdictMark, anchor};
 use crate::number::{two_digits, with_unit};
 use serde::Serialize;
 use std::fmt;
@@ -27,7 +27,7 @@ const LINE: (f64, f64) = (96.0, 20.0);
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moved {
     /// Which.
-    pub key: Key,
+    pub key: MetricKey,
     /// By how many tolerances `[-]`; infinite for a change of unit or verdict, and for what is gone.
     pub tolerances: f64,
     /// Whether that is a drift.
@@ -42,7 +42,7 @@ pub struct Moved {
 
 impl fmt::Display for Moved {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Key { case, metric, variant } = &self.key;
+        let MetricKey { case, metric, variant } = &self.key;
         let (value, baseline) = &self.statement;
         write!(out, "{case} {metric} [{variant}] {value}")?;
         if !baseline.is_empty() {
@@ -61,7 +61,7 @@ impl fmt::Display for Moved {
 pub fn moved(judgement: &Judgement<'_>, history: &History) -> Vec<Moved> {
     let mut all = Vec::new();
     for case in &judgement.cases {
-        let of_metric = |judged: &Judged<'_>| of_metric(&case.case.name, judged, history);
+        let of_metric = |judged: &JudgedMetric<'_>| of_metric(&case.case.name, judged, history);
         all.extend(case.metrics.iter().filter_map(of_metric));
         all.extend(case.vanished.iter().map(|key| Moved {
             key: key.clone(),
@@ -78,7 +78,7 @@ pub fn moved(judgement: &Judgement<'_>, history: &History) -> Vec<Moved> {
     all
 }
 
-fn of_metric(case: &str, judged: &Judged<'_>, history: &History) -> Option<Moved> {
+fn of_metric(case: &str, judged: &JudgedMetric<'_>, history: &History) -> Option<Moved> {
     let metric = judged.metric;
     let with_its_unit = |value: f64| with_unit(value, &metric.unit);
     let baseline = match &judged.drift {
@@ -89,7 +89,7 @@ fn of_metric(case: &str, judged: &Judged<'_>, history: &History) -> Option<Moved
         Drift::UnitChanged { unit } => format!("in {unit}"),
         Drift::VerdictChanged { verdict } => format!("{}, now {}", word(*verdict), word(judged.verdict)),
     };
-    let key = Key::of(case, metric);
+    let key = MetricKey::of(case, metric);
     let history = history.of(&key).iter().copied().chain([metric.value]).filter(|value| value.is_finite());
     Some(Moved {
         tolerances: judged.drift.in_tolerances()?,
@@ -103,17 +103,17 @@ fn of_metric(case: &str, judged: &Judged<'_>, history: &History) -> Option<Moved
 
 /// The table as its template sees it.
 #[derive(Debug, Serialize)]
-pub(super) struct Table {
+pub(super) struct DriftTable {
     /// What the values are compared with.
     against: String,
-    rows: Vec<Row>,
+    rows: Vec<DriftRow>,
     /// Rows that are left out: all within their tolerances.
     omitted: usize,
 }
 
 #[derive(Debug, Serialize)]
-struct Row {
-    mark: Mark,
+struct DriftRow {
+    mark: VerdictMark,
     case: String,
     metric: String,
     variant: String,
@@ -138,7 +138,7 @@ struct Sparkline {
 }
 
 /// The table of what has moved.
-pub(super) fn table(report: &Report, judgement: &Judgement<'_>) -> Table {
+pub(super) fn table(report: &Report, judgement: &Judgement<'_>) -> DriftTable {
     let against = match &report.against {
         Some(folder) => format!("the report in {folder}"),
         None => "the accepted values".to_owned(),
@@ -146,17 +146,17 @@ pub(super) fn table(report: &Report, judgement: &Judgement<'_>) -> Table {
     table_of(&moved(judgement, &report.history), against)
 }
 
-fn table_of(all: &[Moved], against: String) -> Table {
+fn table_of(all: &[Moved], against: String) -> DriftTable {
     let drifted = all.iter().filter(|moved| moved.has_drifted).count();
     let shown = all.len().min(ROWS.max(drifted));
-    Table { against, rows: all[..shown].iter().map(row).collect(), omitted: all.len() - shown }
+    DriftTable { against, rows: all[..shown].iter().map(row).collect(), omitted: all.len() - shown }
 }
 
-fn row(moved: &Moved) -> Row {
+fn row(moved: &Moved) -> DriftRow {
     let key = &moved.key;
-    let unchanged = Mark { word: "within", ..Mark::PASS };
-    Row {
-        mark: if moved.has_drifted { Mark::DRIFT } else { unchanged },
+    let unchanged = VerdictMark { word: "within", ..VerdictMark::PASS };
+    DriftRow {
+        mark: if moved.has_drifted { VerdictMark::DRIFT } else { unchanged },
         case: key.case.clone(),
         metric: key.metric.clone(),
         variant: key.variant.to_string(),

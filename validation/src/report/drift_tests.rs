@@ -33,7 +33,7 @@ fn a_drift_of_two_tolerances_tops_the_table_and_is_denied() {
     assert_eq!(names, ["velocity_l2", "wall_slip"]);
     assert!(all[0].has_drifted && (all[0].tolerances - 2.0).abs() < 1e-6, "{:?}", all[0]);
     let shown = table(&report, &judgement);
-    assert_eq!((shown.rows[0].metric.as_str(), shown.rows[0].mark), ("velocity_l2", Mark::DRIFT));
+    assert_eq!((shown.rows[0].metric.as_str(), shown.rows[0].mark), ("velocity_l2", VerdictMark::DRIFT));
     assert_eq!((shown.omitted, shown.against.as_str()), (0, "the accepted values"));
 }
 
@@ -77,7 +77,7 @@ fn an_earlier_report_is_a_baseline() {
     });
     std::fs::write(place.join("metrics.json"), document.to_string()).expect("written");
     let baseline = read(Tier::Quick).expect("readable");
-    let value = |name| baseline.value(&Key::of("film", &metric(name, 0.0)));
+    let value = |name| baseline.value(&MetricKey::of("film", &metric(name, 0.0)));
     assert_eq!(value("velocity_l2"), Some(10.0));
     assert!(value("gci").is_some_and(f64::is_nan) && value("wall_slip").is_none());
     assert!(!baseline.drift("film", &metric("velocity_l2", 10.05)).is_failure());

@@ -1,6 +1,6 @@
 //! An earlier report's folder as the baseline of a new one.
 
-use super::accepted::{Baseline, Key, tier_name};
+use super::accepted::{Baseline, MetricKey, tier_name};
 use super::error::EarlierError;
 use crate::case::Tier;
 use crate::figure::is_file_name;
@@ -32,7 +32,7 @@ impl Baseline {
             }
             found = true;
             for entry in document.metrics {
-                let key = Key { case: case.clone(), metric: entry.name, variant: entry.variant };
+                let key = MetricKey { case: case.clone(), metric: entry.name, variant: entry.variant };
                 // JSON has no word for what is not a finite number
                 baseline.add(key, entry.value.unwrap_or(f64::NAN), &entry.unit, entry.verdict);
             }

@@ -1,6 +1,6 @@
 //! `history.csv`: every gated figure whenever the baseline is taken anew, so that a trend over many commits shows.
 
-use super::accepted::Key;
+use super::accepted::MetricKey;
 use super::error::BaselineError;
 use crate::case::Tier;
 use crate::input::{DOCUMENT, read_text};
@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// One figure at one time. The commit that carries the row dates it.
 #[derive(Debug, Serialize)]
-struct Row<'a> {
+struct HistoryRow<'a> {
     version: &'a str,
     /// Commit that was checked out when the figure was made; the change that moved it comes on top.
     base_commit: &'a str,
@@ -43,7 +43,7 @@ pub fn append(
     let file = std::fs::OpenOptions::new().create(true).append(true).open(path).map_err(write_error)?;
     let mut writer = csv::WriterBuilder::new().has_headers(is_new).from_writer(file);
     for metric in metrics.iter().filter(|metric| metric.verdict() != Verdict::Observed) {
-        let row = Row {
+        let row = HistoryRow {
             version,
             base_commit,
             tier,
@@ -62,7 +62,7 @@ pub fn append(
 /// The values that a figure had, oldest first, of one tier.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct History {
-    values: BTreeMap<Key, Vec<f64>>,
+    values: BTreeMap<MetricKey, Vec<f64>>,
 }
 
 /// What is read of a row.
@@ -95,7 +95,7 @@ impl History {
             })?;
             let Ok(variant) = row.variant.parse() else { continue };
             if row.tier == tier {
-                let key = Key { case: row.case, metric: row.metric, variant };
+                let key = MetricKey { case: row.case, metric: row.metric, variant };
                 read.values.entry(key).or_default().push(row.value);
             }
         }
@@ -104,7 +104,7 @@ impl History {
 
     /// The values of a figure, oldest first.
     #[must_use]
-    pub fn of(&self, key: &Key) -> &[f64] {
+    pub fn of(&self, key: &MetricKey) -> &[f64] {
         self.values.get(key).map_or(&[], Vec::as_slice)
     }
 }
@@ -132,8 +132,8 @@ mod tests {
                         0.1.0,bbb,quick,bagnold,velocity_l2,slope_angle=24,0.4,%,pass\n";
         assert_eq!(text, expected);
         let read = History::read(&path, Tier::Quick).expect("readable");
-        assert_eq!(read.of(&Key::of("bagnold", &metrics[0])), [0.4, 0.4]);
-        assert_eq!(read.of(&Key::of("bagnold", &metrics[1])), [0.0; 0]);
+        assert_eq!(read.of(&MetricKey::of("bagnold", &metrics[0])), [0.4, 0.4]);
+        assert_eq!(read.of(&MetricKey::of("bagnold", &metrics[1])), [0.0; 0]);
         assert_eq!(History::read(&path, Tier::Paper).expect("readable"), History::default());
         assert_eq!(History::read(&folder.path().join("none.csv"), Tier::Quick).expect("empty"), History::default());
         std::fs::write(&path, text.replace("0.4", "much")).expect("a writable folder");

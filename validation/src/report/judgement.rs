@@ -1,10 +1,10 @@
 //! Every metric against its gate, the baseline and the list of known failures; every run against divergence.
 
-use super::accepted::{Drift, Key};
-use super::known_failures::{KnownFailure, Standing};
+use super::accepted::{Drift, MetricKey};
+use super::known_failures::{KnownFailure, KnownFailureStatus};
 use super::papers::Account;
 use super::{CaseReport, Report};
-use crate::metric::{Kind, Metric, Variant, Verdict};
+use crate::metric::{Metric, MetricKind, Variant, Verdict};
 use crate::observation::Outcome;
 
 /// How bad a result is; the order is that of the page.
@@ -24,24 +24,24 @@ pub enum Severity {
 
 /// One metric, judged.
 #[derive(Debug, Clone)]
-pub struct Judged<'r> {
+pub struct JudgedMetric<'r> {
     /// The metric.
     pub metric: &'r Metric,
     /// Against its gate.
     pub verdict: Verdict,
     /// Against the list of known failures.
-    pub standing: Standing,
+    pub standing: KnownFailureStatus,
     /// Against the baseline.
     pub drift: Drift,
 }
 
-impl Judged<'_> {
+impl JudgedMetric<'_> {
     /// The worst of the three verdicts.
     #[must_use]
     pub fn severity(&self) -> Severity {
         match (&self.standing, self.verdict) {
             (standing, _) if standing.is_error() => Severity::Failure,
-            (Standing::Known(_), _) => Severity::KnownFailure,
+            (KnownFailureStatus::Known(_), _) => Severity::KnownFailure,
             (_, Verdict::Fail) => Severity::Failure,
             _ if self.drift.is_failure() => Severity::Drifted,
             (_, Verdict::Pass) => Severity::Pass,
@@ -57,9 +57,9 @@ pub struct JudgedCase<'r> {
     /// The case.
     pub case: &'r CaseReport,
     /// Its metrics.
-    pub metrics: Vec<Judged<'r>>,
+    pub metrics: Vec<JudgedMetric<'r>>,
     /// Baseline values that the case no longer measures.
-    pub vanished: Vec<Key>,
+    pub vanished: Vec<MetricKey>,
     /// Runs that diverged without having declared it: variant and message.
     pub diverged: Vec<(&'r Variant, &'r str)>,
 }
@@ -68,7 +68,7 @@ impl JudgedCase<'_> {
     /// The worst of the case; an empty case is observed.
     #[must_use]
     pub fn severity(&self) -> Severity {
-        let worst = self.metrics.iter().map(Judged::severity).min().unwrap_or(Severity::Observed);
+        let worst = self.metrics.iter().map(JudgedMetric::severity).min().unwrap_or(Severity::Observed);
         if !self.diverged.is_empty() {
             Severity::Failure
         } else if !self.vanished.is_empty() {
@@ -87,7 +87,7 @@ impl JudgedCase<'_> {
 
 /// Gates of one kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Tally {
+pub struct GateTally {
     /// Gates that hold.
     pub hold: usize,
     /// Gates that fail and are not listed.
@@ -113,13 +113,13 @@ pub struct Judgement<'r> {
     /// Cases, the worst first, else in the report's order.
     pub cases: Vec<JudgedCase<'r>>,
     /// Gates of the runs' own account.
-    pub bookkeeping: Tally,
+    pub bookkeeping: GateTally,
     /// Gates against exact solutions.
-    pub verification: Tally,
+    pub verification: GateTally,
     /// Gates against experiments and published fits.
-    pub validation: Tally,
+    pub validation: GateTally,
     /// Gates against what the papers say; a known failure there is a statement that is not reproduced.
-    pub statements: Tally,
+    pub statements: GateTally,
     /// Comparisons with the baseline.
     pub drift: DriftTally,
     /// Entries of the list of known failures that contradict the results.
@@ -135,7 +135,7 @@ pub struct Judgement<'r> {
 impl Judgement<'_> {
     /// The tallies of all kinds.
     #[must_use]
-    pub fn tallies(&self) -> [Tally; 4] {
+    pub fn tallies(&self) -> [GateTally; 4] {
         [self.bookkeeping, self.verification, self.validation, self.statements]
     }
 
@@ -181,10 +181,10 @@ pub fn judge(report: &Report) -> Judgement<'_> {
     let mut cases: Vec<JudgedCase<'_>> = report.cases.iter().map(|case| judge_case(report, case)).collect();
     let mut judgement = Judgement {
         cases: Vec::new(),
-        bookkeeping: Tally::default(),
-        verification: Tally::default(),
-        validation: Tally::default(),
-        statements: Tally::default(),
+        bookkeeping: GateTally::default(),
+        verification: GateTally::default(),
+        validation: GateTally::default(),
+        statements: GateTally::default(),
         drift: DriftTally::default(),
         contradictions: 0,
         diverged: 0,
@@ -211,17 +211,17 @@ pub fn judge(report: &Report) -> Judgement<'_> {
 }
 
 impl Judgement<'_> {
-    fn count(&mut self, judged: &Judged<'_>) {
+    fn count(&mut self, judged: &JudgedMetric<'_>) {
         let tally = match judged.metric.kind {
-            Kind::Bookkeeping => &mut self.bookkeeping,
-            Kind::Verification => &mut self.verification,
-            Kind::Validation => &mut self.validation,
-            Kind::Statement => &mut self.statements,
+            MetricKind::Bookkeeping => &mut self.bookkeeping,
+            MetricKind::Verification => &mut self.verification,
+            MetricKind::Validation => &mut self.validation,
+            MetricKind::Statement => &mut self.statements,
         };
         match (judged.verdict, &judged.standing) {
             (Verdict::Observed, _) => {}
             (Verdict::Pass, _) => tally.hold += 1,
-            (Verdict::Fail, Standing::Known(_)) => tally.known += 1,
+            (Verdict::Fail, KnownFailureStatus::Known(_)) => tally.known += 1,
             (Verdict::Fail, _) => tally.fail += 1,
         }
         if judged.standing.is_error() {
@@ -236,10 +236,10 @@ impl Judgement<'_> {
 }
 
 fn judge_case<'r>(report: &'r Report, case: &'r CaseReport) -> JudgedCase<'r> {
-    let mut metrics: Vec<Judged<'r>> = case
+    let mut metrics: Vec<JudgedMetric<'r>> = case
         .metrics
         .iter()
-        .map(|metric| Judged {
+        .map(|metric| JudgedMetric {
             metric,
             verdict: metric.verdict(),
             standing: report.known_failures.standing(&case.name, metric),
@@ -247,11 +247,11 @@ fn judge_case<'r>(report: &'r Report, case: &'r CaseReport) -> JudgedCase<'r> {
         })
         .collect();
     let first_of_name = |name: &str| case.metrics.iter().position(|metric| metric.name == name);
-    let weight = |kind: Kind| match kind {
-        Kind::Validation => 0,
-        Kind::Statement => 1,
-        Kind::Verification => 2,
-        Kind::Bookkeeping => 3,
+    let weight = |kind: MetricKind| match kind {
+        MetricKind::Validation => 0,
+        MetricKind::Statement => 1,
+        MetricKind::Verification => 2,
+        MetricKind::Bookkeeping => 3,
     };
     metrics.sort_by_key(|judged| (judged.severity(), weight(judged.metric.kind), first_of_name(&judged.metric.name)));
     let diverged = case.runs.iter().filter_map(|run| match &run.outcome {

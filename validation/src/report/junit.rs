@@ -2,8 +2,8 @@
 
 use super::Report;
 use super::accepted::tier_name;
-use super::judgement::{Judged, JudgedCase, Judgement};
-use super::known_failures::Standing;
+use super::judgement::{JudgedCase, JudgedMetric, Judgement};
+use super::known_failures::KnownFailureStatus;
 use super::rows::{note, statement};
 use super::view::typed;
 use crate::metric::Verdict;
@@ -48,14 +48,14 @@ fn cases(case: &JudgedCase<'_>) -> Vec<TestCase> {
 }
 
 /// How a gate ended; nothing for what is only observed.
-fn status(judged: &Judged<'_>) -> Option<TestCaseStatus> {
+fn status(judged: &JudgedMetric<'_>) -> Option<TestCaseStatus> {
     let failed = |kind: &str, message: String| {
         let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
         status.set_type(kind).set_message(message).set_description(reason(judged));
         status
     };
     match (&judged.standing, judged.verdict) {
-        (Standing::Known(_), _) => {
+        (KnownFailureStatus::Known(_), _) => {
             let mut status = TestCaseStatus::skipped();
             status.set_type("known failure").set_message(format!("{}. {}", statement(judged), note(judged)));
             Some(status)
@@ -70,7 +70,7 @@ fn status(judged: &Judged<'_>) -> Option<TestCaseStatus> {
 }
 
 /// Value and limit, why the limit stands where it does, and what the value is compared with.
-fn reason(judged: &Judged<'_>) -> String {
+fn reason(judged: &JudgedMetric<'_>) -> String {
     let why = judged.metric.gate.as_ref().map(|gate| format!("; {}", gate.reason)).unwrap_or_default();
     let source = judged.metric.reference.as_ref().map(|reference| format!("; reference: {}", reference.source));
     format!("{}{why}{}", statement(judged), source.unwrap_or_default())

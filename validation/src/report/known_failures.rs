@@ -1,6 +1,6 @@
 //! Gates that honest attempts did not reach. They stay red on the page, but only a change of them is an error.
 
-use super::accepted::{Key, snapshot_tolerance};
+use super::accepted::{MetricKey, snapshot_tolerance};
 use super::error::BaselineError;
 use super::shipped;
 use crate::input::{WRITTEN_BY_HAND, read_text};
@@ -37,7 +37,7 @@ pub struct KnownFailures {
 
 /// What the list says about a metric.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Standing {
+pub enum KnownFailureStatus {
     /// Not listed: the gate's own verdict counts.
     Unlisted,
     /// Listed and failing as expected: shown red, no error.
@@ -50,7 +50,7 @@ pub enum Standing {
     WithoutGate(KnownFailure),
 }
 
-impl Standing {
+impl KnownFailureStatus {
     /// Whether the list and the result contradict each other.
     #[must_use]
     pub fn is_error(&self) -> bool {
@@ -122,33 +122,33 @@ impl KnownFailures {
     /// The entry for `metric` of `case`.
     #[must_use]
     pub fn entry(&self, case: &str, metric: &Metric) -> Option<&KnownFailure> {
-        let key = Key::of(case, metric);
+        let key = MetricKey::of(case, metric);
         self.failures.iter().find(|failure| failure.key() == key)
     }
 
     /// What the list says about `metric` of `case`.
     #[must_use]
-    pub fn standing(&self, case: &str, metric: &Metric) -> Standing {
-        let Some(entry) = self.entry(case, metric).cloned() else { return Standing::Unlisted };
+    pub fn standing(&self, case: &str, metric: &Metric) -> KnownFailureStatus {
+        let Some(entry) = self.entry(case, metric).cloned() else { return KnownFailureStatus::Unlisted };
         match (metric.verdict(), &metric.gate) {
-            (Verdict::Pass, _) => Standing::PassesAgain(entry),
+            (Verdict::Pass, _) => KnownFailureStatus::PassesAgain(entry),
             (Verdict::Fail, Some(gate)) => {
                 // The margin knows which direction is worse; what is not a number is worse than anything.
                 let lost = gate.limit.margin(entry.best_value) - gate.limit.margin(metric.value);
                 if metric.value.is_finite() && lost <= snapshot_tolerance(metric, entry.best_value) {
-                    Standing::Known(entry)
+                    KnownFailureStatus::Known(entry)
                 } else {
-                    Standing::Worse(entry)
+                    KnownFailureStatus::Worse(entry)
                 }
             }
-            _ => Standing::WithoutGate(entry),
+            _ => KnownFailureStatus::WithoutGate(entry),
         }
     }
 }
 
 impl KnownFailure {
-    fn key(&self) -> Key {
-        Key { case: self.case.clone(), metric: self.metric.clone(), variant: self.variant.clone() }
+    fn key(&self) -> MetricKey {
+        MetricKey { case: self.case.clone(), metric: self.metric.clone(), variant: self.variant.clone() }
     }
 }
 
@@ -184,12 +184,12 @@ reason = "slip at the wall"
     fn a_listed_gate_is_known_until_it_passes_or_gets_worse() {
         let list = read(LIST).expect("list");
         let standing = |value| list.standing("bagnold", &metric(value, Limit::AtMost(0.7)));
-        assert!(matches!(standing(0.9), Standing::Known(_)));
-        assert!(matches!(standing(0.94), Standing::Known(_)), "within 5 % of the best value");
-        assert!(matches!(standing(0.8), Standing::Known(_)), "better, but still failing");
-        assert!(matches!(standing(0.95), Standing::Worse(_)));
-        assert!(matches!(standing(f64::NAN), Standing::Worse(_)));
-        assert!(matches!(standing(0.69), Standing::PassesAgain(_)));
+        assert!(matches!(standing(0.9), KnownFailureStatus::Known(_)));
+        assert!(matches!(standing(0.94), KnownFailureStatus::Known(_)), "within 5 % of the best value");
+        assert!(matches!(standing(0.8), KnownFailureStatus::Known(_)), "better, but still failing");
+        assert!(matches!(standing(0.95), KnownFailureStatus::Worse(_)));
+        assert!(matches!(standing(f64::NAN), KnownFailureStatus::Worse(_)));
+        assert!(matches!(standing(0.69), KnownFailureStatus::PassesAgain(_)));
         assert!(!standing(0.9).is_error() && standing(0.95).is_error() && standing(0.69).is_error());
     }
 
@@ -197,17 +197,17 @@ reason = "slip at the wall"
     fn worse_follows_the_direction_of_the_gate() {
         let list = read(LIST).expect("list");
         let standing = |value| list.standing("bagnold", &metric(value, Limit::AtLeast(1.5)));
-        assert!(matches!(standing(0.84), Standing::Worse(_)));
-        assert!(matches!(standing(1.2), Standing::Known(_)));
+        assert!(matches!(standing(0.84), KnownFailureStatus::Worse(_)));
+        assert!(matches!(standing(1.2), KnownFailureStatus::Known(_)));
     }
 
     #[test]
     fn other_metrics_are_unlisted_and_an_entry_without_a_gate_is_an_error() {
         let list = read(LIST).expect("list");
         let gated = metric(0.9, Limit::AtMost(0.7));
-        assert_eq!(list.standing("film", &gated), Standing::Unlisted);
+        assert_eq!(list.standing("film", &gated), KnownFailureStatus::Unlisted);
         let observed = Metric { gate: None, ..gated };
-        assert!(matches!(list.standing("bagnold", &observed), Standing::WithoutGate(_)));
+        assert!(matches!(list.standing("bagnold", &observed), KnownFailureStatus::WithoutGate(_)));
     }
 
     #[test]

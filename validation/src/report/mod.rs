@@ -29,11 +29,11 @@ mod pages_tests;
 #[cfg(test)]
 mod tests;
 
-pub use accepted::{Baseline, Drift, Key};
+pub use accepted::{Baseline, Drift, MetricKey};
 pub use error::{BaselineError, EarlierError, ReportError};
 pub use history::History;
 pub use judgement::{Judgement, judge};
-pub use known_failures::{KnownFailure, KnownFailures, Standing};
+pub use known_failures::{KnownFailure, KnownFailureStatus, KnownFailures};
 pub use snapshot_text::description;
 pub(crate) use template::template_value;
 
@@ -54,7 +54,7 @@ pub struct Report {
     /// The tier that all cases ran at.
     pub tier: Tier,
     /// How the report came about.
-    pub generated: Provenance,
+    pub generated: ReportProvenance,
     /// The cases in the order of their registry.
     pub cases: Vec<CaseReport>,
     /// The values to compare with, accepted ones or those of an earlier report; may be empty.
@@ -71,7 +71,7 @@ pub struct Report {
 
 /// How a report came about.
 #[derive(Debug, Clone, Default)]
-pub struct Provenance {
+pub struct ReportProvenance {
     /// Version of the program.
     pub version: String,
     /// Commit of the sources, empty if unknown.
@@ -86,7 +86,7 @@ pub struct Provenance {
     pub date: Option<String>,
 }
 
-impl Provenance {
+impl ReportProvenance {
     /// What this program made in `wall` time, by `command` where it is to be shown.
     #[must_use]
     pub fn of_this_program(wall: Duration, command: String) -> Self {
@@ -128,7 +128,7 @@ pub struct CaseReport {
 
 /// A figure or animation as the page refers to it.
 #[derive(Debug, Clone)]
-struct Drawn {
+struct DrawnFigure {
     caption: String,
     name: String,
     /// A GIF, instead of an SVG with a PNG.
@@ -153,7 +153,7 @@ pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), 
         return Err(ReportError::Name { name: case.name.clone() });
     }
     make(folder)?;
-    let drawn: Vec<Vec<Drawn>> = report
+    let drawn: Vec<Vec<DrawnFigure>> = report
         .cases
         .par_iter()
         .map(|case| draw(case, &folder.join("figures").join(&case.name), drawings))
@@ -228,7 +228,7 @@ fn neighbours(report: &Report, name: &str) -> view::Neighbours {
     }
 }
 
-fn draw(case: &CaseReport, folder: &Path, drawings: &Drawings) -> Result<Vec<Drawn>, ReportError> {
+fn draw(case: &CaseReport, folder: &Path, drawings: &Drawings) -> Result<Vec<DrawnFigure>, ReportError> {
     let mut drawn = draw_figures(&case.figures, folder, drawings)?;
     if !case.animations.is_empty() {
         make(folder)?;
@@ -237,11 +237,11 @@ fn draw(case: &CaseReport, folder: &Path, drawings: &Drawings) -> Result<Vec<Dra
         let written = drawing::write_animation(animation, folder, drawings);
         as_drawn(&animation.name, &animation.caption, true, written)
     });
-    drawn.extend(animations.collect::<Result<Vec<Drawn>, ReportError>>()?);
+    drawn.extend(animations.collect::<Result<Vec<DrawnFigure>, ReportError>>()?);
     Ok(drawn)
 }
 
-fn draw_figures(figures: &[Figure], folder: &Path, drawings: &Drawings) -> Result<Vec<Drawn>, ReportError> {
+fn draw_figures(figures: &[Figure], folder: &Path, drawings: &Drawings) -> Result<Vec<DrawnFigure>, ReportError> {
     if !figures.is_empty() {
         make(folder)?;
     }
@@ -259,7 +259,7 @@ fn as_drawn(
     caption: &str,
     moves: bool,
     written: Result<PathBuf, FigureError>,
-) -> Result<Drawn, ReportError> {
+) -> Result<DrawnFigure, ReportError> {
     let (size, failure) = match written {
         Ok(path) => (figure::size_of(&path), None),
         Err(error @ FigureError::Write { .. }) => return Err(error.into()),
@@ -268,7 +268,7 @@ fn as_drawn(
             (None, Some(error.to_string()))
         }
     };
-    Ok(Drawn { caption: caption.to_owned(), name: name.to_owned(), moves, size, failure })
+    Ok(DrawnFigure { caption: caption.to_owned(), name: name.to_owned(), moves, size, failure })
 }
 
 fn make(folder: &Path) -> Result<(), ReportError> {

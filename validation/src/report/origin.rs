@@ -1,9 +1,9 @@
 //! How a report came about, in the words of a page.
 
-use super::Provenance;
+use super::ReportProvenance;
 use crate::store::provenance::short_commit;
 
-pub(super) fn provenance(provenance: &Provenance) -> Vec<(&'static str, String)> {
+pub(super) fn provenance(provenance: &ReportProvenance) -> Vec<(&'static str, String)> {
     let commit = match provenance.commit.as_str() {
         "" => "unknown".to_owned(),
         commit => short_commit(commit),

@@ -1,23 +1,24 @@
 //! What the first page shows of the cases: the worst margins, a picture each, and every gate in one table.
 
 use super::case_page::case_statement;
-use super::judgement::{Judged, JudgedCase, Judgement, Severity};
+use super::judgement::{JudgedCase, JudgedMetric, Judgement, Severity};
 use super::rows::{margin_share, mark, row, statement, whole, worst_mark};
 use super::view::picture;
-use super::view::{CaseLine, Gate, Line, Mark, Thumbnail, anchor};
-use super::{CaseReport, Drawn};
-use crate::metric::Kind;
+use super::view::{CaseLine, GateRow, Thumbnail, VerdictMark, WorstMetric, anchor};
+use super::{CaseReport, DrawnFigure};
+use crate::metric::MetricKind;
 
 /// Lines of a short list: so many fit beside the counts on a laptop's first screen.
 const LINES: usize = 6;
 
 /// Gates that fail, the known ones last, then those that hold by the least share of their limit. Bookkeeping is shown where
 /// it fails only: what is exact holds by nothing.
-pub(super) fn worst(judgement: &Judgement<'_>) -> Vec<Line> {
-    let mut all: Vec<(Severity, f64, Line)> = Vec::new();
+pub(super) fn worst(judgement: &Judgement<'_>) -> Vec<WorstMetric> {
+    let mut all: Vec<(Severity, f64, WorstMetric)> = Vec::new();
     for (case, judged) in metrics(judgement) {
         let fails = judged.severity() <= Severity::KnownFailure;
-        let Some(share) = margin_share(judged.metric).filter(|_| fails || judged.metric.kind != Kind::Bookkeeping)
+        let Some(share) =
+            margin_share(judged.metric).filter(|_| fails || judged.metric.kind != MetricKind::Bookkeeping)
         else {
             continue;
         };
@@ -30,8 +31,8 @@ pub(super) fn worst(judgement: &Judgement<'_>) -> Vec<Line> {
     all.into_iter().take(LINES).map(|(_, _, line)| line).collect()
 }
 
-fn line(case: &JudgedCase<'_>, judged: &Judged<'_>, mark: Mark, number: String) -> Line {
-    Line {
+fn line(case: &JudgedCase<'_>, judged: &JudgedMetric<'_>, mark: VerdictMark, number: String) -> WorstMetric {
+    WorstMetric {
         mark,
         case: case.case.name.clone(),
         anchor: anchor(&case.case.name, &judged.metric.name, &judged.metric.variant),
@@ -43,9 +44,12 @@ fn line(case: &JudgedCase<'_>, judged: &Judged<'_>, mark: Mark, number: String) 
 }
 
 /// A picture a case, a moving one where there is one, in the order of the page.
-pub(super) fn strip<'d>(judgement: &Judgement<'_>, pictures: impl Fn(&CaseReport) -> &'d [Drawn]) -> Vec<Thumbnail> {
+pub(super) fn strip<'d>(
+    judgement: &Judgement<'_>,
+    pictures: impl Fn(&CaseReport) -> &'d [DrawnFigure],
+) -> Vec<Thumbnail> {
     let of_case = |judged: &JudgedCase<'_>| {
-        let drawn: Vec<&Drawn> = pictures(judged.case).iter().filter(|drawn| drawn.failure.is_none()).collect();
+        let drawn: Vec<&DrawnFigure> = pictures(judged.case).iter().filter(|drawn| drawn.failure.is_none()).collect();
         let shown = drawn.iter().find(|drawn| drawn.moves).or(drawn.first())?;
         Some(Thumbnail { case: judged.case.name.clone(), picture: picture(shown) })
     };
@@ -55,10 +59,10 @@ pub(super) fn strip<'d>(judgement: &Judgement<'_>, pictures: impl Fn(&CaseReport
 /// A case's line in the list of cases.
 pub(super) fn case_line(judged: &JudgedCase<'_>) -> CaseLine {
     let case = judged.case;
-    let gates = judged.metrics.iter().filter(|judged| judged.metric.kind != Kind::Bookkeeping);
+    let gates = judged.metrics.iter().filter(|judged| judged.metric.kind != MetricKind::Bookkeeping);
     let least = gates.filter_map(|judged| margin_share(judged.metric)).min_by(f64::total_cmp);
     CaseLine {
-        mark: if case.metrics.is_empty() { Mark::OBSERVED } else { mark(judged.severity()) },
+        mark: if case.metrics.is_empty() { VerdictMark::OBSERVED } else { mark(judged.severity()) },
         name: case.name.clone(),
         summary: case.summary.clone(),
         statement: case_statement(judged),
@@ -70,11 +74,11 @@ pub(super) fn case_line(judged: &JudgedCase<'_>) -> CaseLine {
 }
 
 /// Every metric that is judged or has drifted; what is only observed stands on its case's page.
-pub(super) fn gates(judgement: &Judgement<'_>) -> Vec<Gate> {
+pub(super) fn gates(judgement: &Judgement<'_>) -> Vec<GateRow> {
     let judged = metrics(judgement).filter(|(_, judged)| judged.severity() != Severity::Observed);
-    judged.map(|(case, judged)| Gate { case: case.case.name.clone(), row: row(&case.case.name, judged) }).collect()
+    judged.map(|(case, judged)| GateRow { case: case.case.name.clone(), row: row(&case.case.name, judged) }).collect()
 }
 
-fn metrics<'a, 'r>(judgement: &'a Judgement<'r>) -> impl Iterator<Item = (&'a JudgedCase<'r>, &'a Judged<'r>)> {
+fn metrics<'a, 'r>(judgement: &'a Judgement<'r>) -> impl Iterator<Item = (&'a JudgedCase<'r>, &'a JudgedMetric<'r>)> {
     judgement.cases.iter().flat_map(|case| case.metrics.iter().map(move |judged| (case, judged)))
 }

@@ -1,16 +1,18 @@
 //! The first page: judged report → text → template.
 
 use super::accepted::tier_name;
-use super::judgement::{Judgement, Severity, Tally};
-use super::known_failures::Standing;
+use super::judgement::{GateTally, Judgement, Severity};
+use super::known_failures::KnownFailureStatus;
 use super::origin::provenance;
 use super::overview;
 use super::papers::{self, Status};
 use super::papers_page;
 use super::rows::{note, statement, worst_mark};
 use super::template::fill;
-use super::view::{Banner, BannerItem, CaseLine, Count, Gate, Line, Mark, Thumbnail, anchor, typed};
-use super::{CaseReport, Drawn, Report, drift, scatter};
+use super::view::{
+    Banner, BannerItem, CaseLine, GateRow, Thumbnail, VerdictCount, VerdictMark, WorstMetric, anchor, typed,
+};
+use super::{CaseReport, DrawnFigure, Report, drift, scatter};
 use serde::Serialize;
 
 /// The first page: what a reader must know, and the way to everything else.
@@ -19,14 +21,14 @@ struct Overview {
     title: String,
     tier: &'static str,
     banner: Banner,
-    counts: Vec<Count>,
+    counts: Vec<VerdictCount>,
     /// Gates that fail, then those that hold by least.
-    worst: Vec<Line>,
+    worst: Vec<WorstMetric>,
     strip: Vec<Thumbnail>,
     cases: Vec<CaseLine>,
-    gates: Vec<Gate>,
-    drift: drift::Table,
-    scatter: Vec<scatter::Row>,
+    gates: Vec<GateRow>,
+    drift: drift::DriftTable,
+    scatter: Vec<scatter::ScatterRow>,
     has_papers: bool,
     provenance: Vec<(&'static str, String)>,
     command: String,
@@ -39,8 +41,8 @@ struct Overview {
 pub(super) fn render(
     report: &Report,
     judgement: &Judgement<'_>,
-    drawn: &[Vec<Drawn>],
-    scatter: Vec<scatter::Row>,
+    drawn: &[Vec<DrawnFigure>],
+    scatter: Vec<scatter::ScatterRow>,
 ) -> Result<String, minijinja::Error> {
     let page = Overview {
         title: report.title.clone(),
@@ -64,7 +66,7 @@ pub(super) fn render(
 }
 
 /// The figures of a case among those of all.
-pub(super) fn pictures<'d>(report: &Report, drawn: &'d [Vec<Drawn>], case: &CaseReport) -> &'d [Drawn] {
+pub(super) fn pictures<'d>(report: &Report, drawn: &'d [Vec<DrawnFigure>], case: &CaseReport) -> &'d [DrawnFigure] {
     let position = report.cases.iter().position(|other| std::ptr::eq(other, case));
     position.and_then(|position| drawn.get(position)).map_or(&[][..], Vec::as_slice)
 }
@@ -74,7 +76,7 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
     for case in &judgement.cases {
         for &(variant, message) in &case.diverged {
             let item = BannerItem {
-                mark: Mark { word: "diverged", ..Mark::FAIL },
+                mark: VerdictMark { word: "diverged", ..VerdictMark::FAIL },
                 case: case.case.name.clone(),
                 anchor: "runs".to_owned(),
                 what: "a run diverged".to_owned(),
@@ -88,7 +90,7 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
         }
         for judged in case.metrics.iter().filter(|judged| judged.severity() <= Severity::KnownFailure) {
             let reason = match &judged.standing {
-                Standing::Known(entry) => entry.reason.clone(),
+                KnownFailureStatus::Known(entry) => entry.reason.clone(),
                 _ => String::new(),
             };
             let item = BannerItem {
@@ -114,7 +116,7 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
     Banner { mark, headline, detail, items }
 }
 
-fn headline(judgement: &Judgement<'_>) -> (Mark, String, String) {
+fn headline(judgement: &Judgement<'_>) -> (VerdictMark, String, String) {
     let failing = judgement.failing_gates();
     let holding = judgement.holding_gates();
     let all = failing + holding;
@@ -152,10 +154,10 @@ fn headline(judgement: &Judgement<'_>) -> (Mark, String, String) {
         let headline =
             if failing == 0 { "Failed".to_owned() } else { format!("{failing} of {} {verb}", plural(all, "gate")) };
         // Known failures are red as well: a gate that does not hold is not green for being expected.
-        (if judgement.has_unexpected_failure() { Mark::FAIL } else { Mark::KNOWN }, headline, detail)
+        (if judgement.has_unexpected_failure() { VerdictMark::FAIL } else { VerdictMark::KNOWN }, headline, detail)
     } else if judgement.drift.drifted > 0 {
         (
-            Mark::DRIFT,
+            VerdictMark::DRIFT,
             format!("{} drifted", plural(judgement.drift.drifted, "value")),
             format!("all {} hold", plural(all, "gate")),
         )
@@ -165,14 +167,14 @@ fn headline(judgement: &Judgement<'_>) -> (Mark, String, String) {
             details.insert(0, format!("{} as in the baseline", plural(unchanged, "value")));
         }
         let detail = details.join(" · ");
-        (Mark::PASS, format!("All {} hold", plural(all, "gate")), detail)
+        (VerdictMark::PASS, format!("All {} hold", plural(all, "gate")), detail)
     } else {
-        (Mark::OBSERVED, "Nothing was judged".to_owned(), "no metric of this report has a gate".to_owned())
+        (VerdictMark::OBSERVED, "Nothing was judged".to_owned(), "no metric of this report has a gate".to_owned())
     }
 }
 
-fn counts(judgement: &Judgement<'_>) -> Vec<Count> {
-    let gates = |name, meaning, tally: Tally, known: &str| {
+fn counts(judgement: &Judgement<'_>) -> Vec<VerdictCount> {
+    let gates = |name, meaning, tally: GateTally, known: &str| {
         let all = tally.hold + tally.fail + tally.known;
         let mut details = Vec::new();
         if tally.fail > 0 {
@@ -182,22 +184,22 @@ fn counts(judgement: &Judgement<'_>) -> Vec<Count> {
             details.push(format!("{} {known}", tally.known));
         }
         let mark = match tally {
-            Tally { hold: 0, fail: 0, known: 0 } => Mark::OBSERVED,
-            Tally { fail: 0, known: 0, .. } => Mark::PASS,
-            Tally { fail: 0, .. } => Mark::KNOWN,
-            Tally { .. } => Mark::FAIL,
+            GateTally { hold: 0, fail: 0, known: 0 } => VerdictMark::OBSERVED,
+            GateTally { fail: 0, known: 0, .. } => VerdictMark::PASS,
+            GateTally { fail: 0, .. } => VerdictMark::KNOWN,
+            GateTally { .. } => VerdictMark::FAIL,
         };
         let statement = if all == 0 { "no gates".to_owned() } else { format!("{} of {all} gates hold", tally.hold) };
-        Count { mark, name, meaning, statement, detail: details.join(" · "), link: None }
+        VerdictCount { mark, name, meaning, statement, detail: details.join(" · "), link: None }
     };
     let Judgement { bookkeeping, verification, validation, statements, drift, .. } = judgement;
     let compared = drift.unchanged + drift.drifted;
     let changes = [(drift.drifted, "drifted"), (drift.new, "new")].into_iter().filter(|(count, _)| *count > 0);
-    let regression = Count {
+    let regression = VerdictCount {
         mark: match (drift.drifted, compared) {
-            (0, 0) => Mark::OBSERVED,
-            (0, _) => Mark::PASS,
-            _ => Mark::DRIFT,
+            (0, 0) => VerdictMark::OBSERVED,
+            (0, _) => VerdictMark::PASS,
+            _ => VerdictMark::DRIFT,
         },
         name: "Regression",
         meaning: "against the committed baseline",

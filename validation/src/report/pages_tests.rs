@@ -54,7 +54,7 @@ fn the_first_page_leads_with_the_thinnest_margins_and_the_farthest_moves() {
     let mut report = report(vec![case("film", metrics)]);
     report.baseline = Baseline::of("film", &[gated("roomy", 0.1), gated("thin", 0.7), gated("broken", 0.5)]);
     let judgement = judge(&report);
-    let names = |lines: Vec<view::Line>| lines.into_iter().map(|line| line.metric).collect::<Vec<_>>();
+    let names = |lines: Vec<view::WorstMetric>| lines.into_iter().map(|line| line.metric).collect::<Vec<_>>();
     assert_eq!(names(overview::worst(&judgement)), ["broken", "thin", "roomy"]);
     let page = html(&report);
     let moved: Vec<&str> = page.split("id=\"moved\"").nth(1).expect("a list").split("<b>").skip(1).take(2).collect();

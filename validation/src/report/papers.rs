@@ -96,7 +96,7 @@ impl<'r> Ended<'r> {
 
 /// What became of one element.
 #[derive(Debug, Clone)]
-pub struct Fate<'r> {
+pub struct ElementOutcome<'r> {
     /// The element.
     pub element: &'r Element,
     /// What became of it.
@@ -107,7 +107,7 @@ pub struct Fate<'r> {
     pub ended: Vec<Ended<'r>>,
 }
 
-impl<'r> Fate<'r> {
+impl<'r> ElementOutcome<'r> {
     fn of(element: &'r Element, cases: &'r [CaseReport]) -> Self {
         let of_name = |name: &'r MetricName| {
             let metrics = cases.iter().filter(|case| case.name == name.case).flat_map(|case| &case.metrics);
@@ -147,14 +147,14 @@ pub struct Account<'r> {
     /// The paper.
     pub paper: &'r Paper,
     /// Its elements in order.
-    pub elements: Vec<Fate<'r>>,
+    pub elements: Vec<ElementOutcome<'r>>,
 }
 
 impl<'r> Account<'r> {
     /// The account of a paper by the metrics of these cases.
     #[must_use]
     pub fn of(paper: &'r Paper, cases: &'r [CaseReport]) -> Self {
-        Self { paper, elements: paper.elements.iter().map(|element| Fate::of(element, cases)).collect() }
+        Self { paper, elements: paper.elements.iter().map(|element| ElementOutcome::of(element, cases)).collect() }
     }
 
     /// How many elements have this status.

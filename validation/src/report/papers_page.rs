@@ -1,9 +1,9 @@
 //! The page of the papers: every element, what became of it, and where that is shown; and its card on the overview.
 
 use super::accepted::tier_name;
-use super::papers::{self, Account, Ended, Fate, Shown, Status};
+use super::papers::{self, Account, ElementOutcome, Ended, Shown, Status};
 use super::template::fill;
-use super::view::{Count, Mark, anchor};
+use super::view::{VerdictCount, VerdictMark, anchor};
 use super::{CaseReport, Report};
 use crate::case::Tier;
 use crate::number::{four_digits, with_unit};
@@ -12,7 +12,7 @@ use crate::reference::{MetricName, Printed, RunName};
 use serde::Serialize;
 
 #[derive(Serialize)]
-struct Page {
+struct PapersPage {
     title: String,
     tier: &'static str,
     papers: Vec<PaperView>,
@@ -32,7 +32,7 @@ struct PaperView {
 
 #[derive(Serialize)]
 struct Share {
-    mark: Mark,
+    mark: VerdictMark,
     number: usize,
 }
 
@@ -41,29 +41,29 @@ struct ElementView {
     anchor: String,
     id: String,
     place: String,
-    says: String,
+    statement: String,
     implemented: String,
-    mark: Mark,
+    mark: VerdictMark,
     reason: String,
     note: String,
     values: Vec<ValueView>,
     /// Names of metrics and runs that are not in this report.
     missing: Vec<String>,
     tests: Vec<String>,
-    figures: Vec<Link>,
+    figures: Vec<CasePageLink>,
 }
 
 #[derive(Serialize)]
 struct ValueView {
-    mark: Mark,
-    link: Link,
+    mark: VerdictMark,
+    link: CasePageLink,
     variant: String,
     value: String,
     printed: String,
 }
 
 #[derive(Serialize)]
-struct Link {
+struct CasePageLink {
     case: String,
     /// Where it stands on the case's page.
     anchor: String,
@@ -71,28 +71,28 @@ struct Link {
 }
 
 /// A status as it looks.
-fn mark(status: Status) -> Mark {
-    let of = |look: Mark, symbol| Mark { symbol, word: status.word(), ..look };
+fn mark(status: Status) -> VerdictMark {
+    let of = |look: VerdictMark, symbol| VerdictMark { symbol, word: status.word(), ..look };
     match status {
-        Status::Reproduced => of(Mark::PASS, "✓"),
-        Status::NotReproduced => of(Mark::KNOWN, "✗"),
-        Status::Contradicted => of(Mark::FAIL, "✗"),
-        Status::Replaced => of(Mark::DRIFT, "⇄"),
-        Status::NotStatedClearly => of(Mark::OBSERVED, "?"),
-        Status::NotCovered => of(Mark::OBSERVED, "–"),
-        Status::NotInThisTier => of(Mark::OBSERVED, "○"),
+        Status::Reproduced => of(VerdictMark::PASS, "✓"),
+        Status::NotReproduced => of(VerdictMark::KNOWN, "✗"),
+        Status::Contradicted => of(VerdictMark::FAIL, "✗"),
+        Status::Replaced => of(VerdictMark::DRIFT, "⇄"),
+        Status::NotStatedClearly => of(VerdictMark::OBSERVED, "?"),
+        Status::NotCovered => of(VerdictMark::OBSERVED, "–"),
+        Status::NotInThisTier => of(VerdictMark::OBSERVED, "○"),
     }
 }
 
 /// The card of the papers among the counts of the overview; none without papers.
-pub(super) fn count(accounts: &[Account<'_>]) -> Option<Count> {
+pub(super) fn count(accounts: &[Account<'_>]) -> Option<VerdictCount> {
     let all: usize = accounts.iter().map(|account| account.elements.len()).sum();
     let of = |status| papers::count(accounts, status);
     let open = of(Status::NotReproduced) + of(Status::Contradicted);
     let rest = Status::ALL.into_iter().filter(|status| *status != Status::Reproduced && of(*status) > 0);
     let details: Vec<String> = rest.map(|status| format!("{} {}", of(status), status.word())).collect();
-    (all > 0).then(|| Count {
-        mark: if open > 0 { Mark::KNOWN } else { Mark::PASS },
+    (all > 0).then(|| VerdictCount {
+        mark: if open > 0 { VerdictMark::KNOWN } else { VerdictMark::PASS },
         name: "Papers",
         meaning: "both papers, element by element",
         statement: format!("{} of {all} elements reproduced", of(Status::Reproduced)),
@@ -103,7 +103,7 @@ pub(super) fn count(accounts: &[Account<'_>]) -> Option<Count> {
 
 /// Fills the template of the page.
 pub(super) fn render(report: &Report, accounts: &[Account<'_>]) -> Result<String, minijinja::Error> {
-    let page = Page {
+    let page = PapersPage {
         title: report.title.clone(),
         tier: tier_name(report.tier),
         papers: accounts.iter().map(|account| paper(account, &report.cases)).collect(),
@@ -125,7 +125,7 @@ fn paper(account: &Account<'_>, cases: &[CaseReport]) -> PaperView {
     }
 }
 
-fn element(paper: &str, fate: &Fate<'_>, cases: &[CaseReport]) -> ElementView {
+fn element(paper: &str, fate: &ElementOutcome<'_>, cases: &[CaseReport]) -> ElementView {
     let element = fate.element;
     let is_missing = |name: &&MetricName| !fate.shown.iter().any(|shown| std::ptr::eq(shown.name, *name));
     let missing = element.metrics.iter().filter(is_missing);
@@ -136,7 +136,7 @@ fn element(paper: &str, fate: &Fate<'_>, cases: &[CaseReport]) -> ElementView {
         anchor: format!("{paper}-{}", element.id),
         id: element.id.clone(),
         place: element.place.clone(),
-        says: element.says.clone(),
+        statement: element.statement.clone(),
         implemented: element.implemented.clone().unwrap_or_default(),
         mark: mark(fate.status),
         reason: element.settled.as_ref().map(|(_, reason)| reason.clone()).unwrap_or_default(),
@@ -151,8 +151,8 @@ fn element(paper: &str, fate: &Fate<'_>, cases: &[CaseReport]) -> ElementView {
 fn value(shown: &Shown<'_>) -> ValueView {
     let Shown { name, metric, status } = shown;
     ValueView {
-        mark: status.map_or(Mark::OBSERVED, mark),
-        link: Link {
+        mark: status.map_or(VerdictMark::OBSERVED, mark),
+        link: CasePageLink {
             case: name.case.clone(),
             anchor: anchor(&name.case, &metric.name, &metric.variant),
             text: metric.name.clone(),
@@ -173,7 +173,7 @@ fn run(ended: &Ended<'_>) -> ValueView {
     };
     ValueView {
         mark: mark(*status),
-        link: Link { case: name.case.clone(), anchor: "runs".to_owned(), text: "run".to_owned() },
+        link: CasePageLink { case: name.case.clone(), anchor: "runs".to_owned(), text: "run".to_owned() },
         variant: run.variant.to_string().replace(',', ", "),
         value: outcome,
         printed: String::new(),
@@ -192,11 +192,11 @@ fn range(printed: Printed, unit: &str) -> String {
 }
 
 /// The first figure of this report for every name.
-fn figures(fate: &Fate<'_>, cases: &[CaseReport]) -> Vec<Link> {
+fn figures(fate: &ElementOutcome<'_>, cases: &[CaseReport]) -> Vec<CasePageLink> {
     let drawn = fate.element.figures.iter().filter_map(|wanted| {
         let case = cases.iter().find(|case| case.name == wanted.case)?;
         let figure = case.figures.iter().find(|figure| figure.name.starts_with(&wanted.figure))?;
-        Some(Link {
+        Some(CasePageLink {
             case: case.name.clone(),
             anchor: format!("figure-{}-{}", case.name, figure.name),
             text: figure.name.clone(),

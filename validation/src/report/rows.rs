@@ -1,28 +1,28 @@
 //! One judged metric in words: the cells of its row and its line in the banner.
 
-use super::accepted::{Drift, Key};
-use super::judgement::{Judged, Severity};
-use super::known_failures::Standing;
+use super::accepted::{Drift, MetricKey};
+use super::judgement::{JudgedMetric, Severity};
+use super::known_failures::KnownFailureStatus;
 use super::snapshot_text::word;
-use super::view::{Mark, Row, anchor};
+use super::view::{MetricView, VerdictMark, anchor};
 use super::width::width;
-use crate::metric::{Confidence, Kind, Limit, Metric, Verdict};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Verdict};
 use crate::number::{four_digits, two_digits, with_unit};
 
 /// The mark of a severity.
-pub(super) fn mark(severity: Severity) -> Mark {
+pub(super) fn mark(severity: Severity) -> VerdictMark {
     match severity {
-        Severity::Failure => Mark::FAIL,
-        Severity::KnownFailure => Mark::KNOWN,
-        Severity::Drifted => Mark::DRIFT,
-        Severity::Pass => Mark::PASS,
-        Severity::Observed => Mark::OBSERVED,
+        Severity::Failure => VerdictMark::FAIL,
+        Severity::KnownFailure => VerdictMark::KNOWN,
+        Severity::Drifted => VerdictMark::DRIFT,
+        Severity::Pass => VerdictMark::PASS,
+        Severity::Observed => VerdictMark::OBSERVED,
     }
 }
 
 /// The rows of a case; reasons and sources that stand in the row above are marked as repeated.
-pub(super) fn rows(case: &str, metrics: &[Judged<'_>]) -> Vec<Row> {
-    let mut rows: Vec<Row> = Vec::with_capacity(metrics.len());
+pub(super) fn rows(case: &str, metrics: &[JudgedMetric<'_>]) -> Vec<MetricView> {
+    let mut rows: Vec<MetricView> = Vec::with_capacity(metrics.len());
     for judged in metrics {
         let mut row = row(case, judged);
         if let Some(above) = rows.last().filter(|above| above.metric == row.metric) {
@@ -35,12 +35,12 @@ pub(super) fn rows(case: &str, metrics: &[Judged<'_>]) -> Vec<Row> {
 }
 
 /// A metric as a row.
-pub(super) fn row(case: &str, judged: &Judged<'_>) -> Row {
+pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> MetricView {
     let metric = judged.metric;
     let reference = metric.reference.as_ref();
     let gate = metric.gate.as_ref();
     let (drift, change, relative_change) = drift(judged);
-    Row {
+    MetricView {
         anchor: anchor(case, &metric.name, &metric.variant),
         mark: gate_mark(judged),
         width: width(metric),
@@ -79,42 +79,46 @@ pub(super) fn row(case: &str, judged: &Judged<'_>) -> Row {
 }
 
 /// The mark of the worst verdict; a statement of a paper that is known not to hold is not reproduced.
-pub(super) fn worst_mark(judged: &Judged<'_>) -> Mark {
+pub(super) fn worst_mark(judged: &JudgedMetric<'_>) -> VerdictMark {
     match judged.severity() {
-        Severity::KnownFailure if judged.metric.kind == Kind::Statement => {
-            Mark { word: "not reproduced", ..Mark::KNOWN }
+        Severity::KnownFailure if judged.metric.kind == MetricKind::Statement => {
+            VerdictMark { word: "not reproduced", ..VerdictMark::KNOWN }
         }
         severity => mark(severity),
     }
 }
 
 /// The mark of the gate alone: drift has a column of its own.
-fn gate_mark(judged: &Judged<'_>) -> Mark {
+fn gate_mark(judged: &JudgedMetric<'_>) -> VerdictMark {
     match judged.severity() {
-        Severity::Drifted if judged.verdict == Verdict::Observed => Mark::OBSERVED,
-        Severity::Drifted => Mark::PASS,
+        Severity::Drifted if judged.verdict == Verdict::Observed => VerdictMark::OBSERVED,
+        Severity::Drifted => VerdictMark::PASS,
         _ => worst_mark(judged),
     }
 }
 
 /// What the list of known failures adds, in a sentence.
-pub(super) fn note(judged: &Judged<'_>) -> String {
+pub(super) fn note(judged: &JudgedMetric<'_>) -> String {
     let best = |value: f64| with_unit(value, &judged.metric.unit);
     match &judged.standing {
-        Standing::Unlisted => String::new(),
-        Standing::Known(entry) => {
+        KnownFailureStatus::Unlisted => String::new(),
+        KnownFailureStatus::Known(entry) => {
             format!("Known since {} (best {}): {}", entry.date, best(entry.best_value), entry.reason)
         }
-        Standing::PassesAgain(_) => "Listed as a known failure, but the gate holds: remove the entry.".to_owned(),
-        Standing::Worse(entry) => {
+        KnownFailureStatus::PassesAgain(_) => {
+            "Listed as a known failure, but the gate holds: remove the entry.".to_owned()
+        }
+        KnownFailureStatus::Worse(entry) => {
             format!("Known since {}, but worse than its best value {}.", entry.date, best(entry.best_value))
         }
-        Standing::WithoutGate(_) => "Listed as a known failure, but there is no gate: remove the entry.".to_owned(),
+        KnownFailureStatus::WithoutGate(_) => {
+            "Listed as a known failure, but there is no gate: remove the entry.".to_owned()
+        }
     }
 }
 
 /// `value limit` of a metric, for the banner.
-pub(super) fn statement(judged: &Judged<'_>) -> String {
+pub(super) fn statement(judged: &JudgedMetric<'_>) -> String {
     let metric = judged.metric;
     let value = with_unit(metric.value, &metric.unit);
     match (judged.severity(), &metric.gate, &judged.drift) {
@@ -129,7 +133,7 @@ pub(super) fn statement(judged: &Judged<'_>) -> String {
 }
 
 /// A metric of the baseline that is gone.
-pub(super) fn vanished(key: &Key) -> String {
+pub(super) fn vanished(key: &MetricKey) -> String {
     if key.variant.is_empty() { key.metric.clone() } else { format!("{} ({})", key.metric, key.variant) }
 }
 
@@ -186,7 +190,7 @@ fn residual(difference: f64, expected: f64) -> String {
     format!("{}{}{relative}", sign(difference), two_digits(difference))
 }
 
-fn drift(judged: &Judged<'_>) -> (Mark, String, String) {
+fn drift(judged: &JudgedMetric<'_>) -> (VerdictMark, String, String) {
     let signed = |change: f64| match change {
         c if c.is_nan() => "not a number".to_owned(),
         c if c > 0.0 => format!("+{}", two_digits(c)),
@@ -198,13 +202,15 @@ fn drift(judged: &Judged<'_>) -> (Mark, String, String) {
         if share.is_finite() && change != 0.0 { format!("{sign}{} %", two_digits(share)) } else { String::new() }
     };
     match &judged.drift {
-        Drift::New => (Mark { word: "new", ..Mark::OBSERVED }, "new".to_owned(), String::new()),
+        Drift::New => (VerdictMark { word: "new", ..VerdictMark::OBSERVED }, "new".to_owned(), String::new()),
         Drift::Unchanged { change, baseline, .. } => {
-            (Mark { word: "unchanged", ..Mark::PASS }, signed(*change), relative(*change, *baseline))
+            (VerdictMark { word: "unchanged", ..VerdictMark::PASS }, signed(*change), relative(*change, *baseline))
         }
-        Drift::Drifted { change, baseline, .. } => (Mark::DRIFT, signed(*change), relative(*change, *baseline)),
-        Drift::UnitChanged { unit } => (Mark::DRIFT, format!("unit was {unit}"), String::new()),
-        Drift::VerdictChanged { verdict } => (Mark::DRIFT, format!("verdict was {}", word(*verdict)), String::new()),
+        Drift::Drifted { change, baseline, .. } => (VerdictMark::DRIFT, signed(*change), relative(*change, *baseline)),
+        Drift::UnitChanged { unit } => (VerdictMark::DRIFT, format!("unit was {unit}"), String::new()),
+        Drift::VerdictChanged { verdict } => {
+            (VerdictMark::DRIFT, format!("verdict was {}", word(*verdict)), String::new())
+        }
     }
 }
 
@@ -213,12 +219,12 @@ pub(super) fn whole(share: f64) -> String {
     if share.abs() < 9.95 { two_digits(share) } else { format!("{share:.0}").replace('-', "−") }
 }
 
-fn kind(kind: Kind) -> &'static str {
+fn kind(kind: MetricKind) -> &'static str {
     match kind {
-        Kind::Bookkeeping => "bookkeeping",
-        Kind::Verification => "verification",
-        Kind::Validation => "validation",
-        Kind::Statement => "statement of a paper",
+        MetricKind::Bookkeeping => "bookkeeping",
+        MetricKind::Verification => "verification",
+        MetricKind::Validation => "validation",
+        MetricKind::Statement => "statement of a paper",
     }
 }
 

@@ -1,9 +1,9 @@
 //! Bias and scatter of every quantity that is compared with experiments or published fits often enough.
 
-use super::view::Picture;
-use super::{Drawn, Report};
+use super::view::FigureView;
+use super::{DrawnFigure, Report};
 use crate::figure::{Axis, Figure, Panel};
-use crate::metric::{Confidence, Kind, Metric};
+use crate::metric::{Confidence, Metric, MetricKind};
 use crate::number::{four_digits, two_digits};
 use crate::statistics::{Comparison, Deviation, ModelBias, model_bias};
 use serde::Serialize;
@@ -62,7 +62,7 @@ pub fn quantities_of<'a>(cases: impl IntoIterator<Item = (&'a str, Vec<&'a Metri
 }
 
 fn comparison(metric: &Metric) -> Option<Comparison> {
-    let reference = metric.reference.as_ref().filter(|_| metric.kind == Kind::Validation)?;
+    let reference = metric.reference.as_ref().filter(|_| metric.kind == MetricKind::Validation)?;
     if matches!(reference.confidence, Confidence::Exact | Confidence::Unverified) {
         return None;
     }
@@ -117,7 +117,7 @@ fn figure(quantity: &QuantityBias) -> Figure {
 
 /// A quantity as the template sees it.
 #[derive(Debug, Serialize)]
-pub(super) struct Row {
+pub(super) struct ScatterRow {
     quantity: String,
     cases: String,
     comparisons: usize,
@@ -127,11 +127,11 @@ pub(super) struct Row {
     scatter: String,
     model: String,
     experiment: String,
-    figure: Option<Picture>,
+    figure: Option<FigureView>,
 }
 
 /// The table, with the figures that were drawn of the same quantities.
-pub(super) fn rows(quantities: &[QuantityBias], drawn: &[Drawn]) -> Vec<Row> {
+pub(super) fn rows(quantities: &[QuantityBias], drawn: &[DrawnFigure]) -> Vec<ScatterRow> {
     let row = |(place, of): (usize, &QuantityBias)| {
         let found = &of.found;
         let percent = |share: f64| format!("{}\u{202f}%", two_digits(100.0 * share));
@@ -141,7 +141,7 @@ pub(super) fn rows(quantities: &[QuantityBias], drawn: &[Drawn]) -> Vec<Row> {
             Deviation::Unknown => ("none".to_owned(), "not known".to_owned()),
         };
         let cases: Vec<&str> = of.cases.iter().map(|(case, _)| case.as_str()).collect();
-        Row {
+        ScatterRow {
             quantity: of.quantity.clone(),
             cases: cases.join(", "),
             comparisons: found.comparisons,
@@ -159,7 +159,7 @@ pub(super) fn rows(quantities: &[QuantityBias], drawn: &[Drawn]) -> Vec<Row> {
 
 /// A quantity in the report's `metrics.json`.
 #[derive(Debug, Serialize)]
-struct Entry<'q> {
+struct ScatterEntry<'q> {
     quantity: &'q str,
     unit: &'q str,
     cases: Vec<&'q str>,
@@ -185,7 +185,7 @@ pub(super) fn json(quantities: &[QuantityBias]) -> String {
             Deviation::Known { experiment, .. } | Deviation::WithinExperiment { experiment } => Some(experiment),
             Deviation::Unknown => None,
         };
-        Entry {
+        ScatterEntry {
             quantity,
             unit,
             cases: cases.iter().map(|(case, _)| case.as_str()).collect(),
@@ -198,7 +198,7 @@ pub(super) fn json(quantities: &[QuantityBias]) -> String {
             experimental_deviation,
         }
     };
-    let quantities: Vec<Entry<'_>> = quantities.iter().map(entry).collect();
+    let quantities: Vec<ScatterEntry<'_>> = quantities.iter().map(entry).collect();
     crate::result::pretty(&serde_json::json!({ "quantities": quantities }))
 }
 

@@ -6,7 +6,7 @@ use crate::report::{tests, write};
 use crate::store::Drawings;
 
 fn compared(name: &str, value: f64, reference: f64) -> Metric {
-    Metric::observed(name, &Variant::of("value", value), value, "-").of_kind(Kind::Validation).against(
+    Metric::observed(name, &Variant::of("value", value), value, "-").of_kind(MetricKind::Validation).against(
         Some(reference),
         "an experiment",
         Confidence::High,
@@ -21,7 +21,7 @@ fn report(cases: Vec<(&str, Vec<Metric>)>) -> Report {
 fn example() -> Report {
     let ratio = libm::exp(0.1);
     let unverified = compared("run_out", 9.0, 1.0).against(Some(1.0), "hearsay", Confidence::Unverified);
-    let verified = compared("run_out", 9.0, 1.0).of_kind(Kind::Verification);
+    let verified = compared("run_out", 9.0, 1.0).of_kind(MetricKind::Verification);
     let exact = compared("run_out", 9.0, 1.0).against(Some(1.0), "the steepest slope that can rest", Confidence::Exact);
     let without_number = compared("run_out", 9.0, 1.0).against(None, "a statement", Confidence::High);
     report(vec![

@@ -11,7 +11,7 @@ const COLUMNS: &str = "name | variant | value | unit | verdict";
 
 /// A line.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Line<'a> {
+pub(super) struct SnapshotLine<'a> {
     pub(super) name: &'a str,
     pub(super) variant: Variant,
     pub(super) value: f64,
@@ -29,21 +29,21 @@ pub fn description(case: &str, tier: &str) -> String {
 }
 
 /// A snapshot's content.
-pub(super) fn content<'a>(lines: impl Iterator<Item = Line<'a>>) -> String {
+pub(super) fn content<'a>(lines: impl Iterator<Item = SnapshotLine<'a>>) -> String {
     let mut text = format!("{COLUMNS}\n");
-    for Line { name, variant, value, unit, verdict } in lines {
+    for SnapshotLine { name, variant, value, unit, verdict } in lines {
         text += &format!("{name} | {variant} | {} | {unit} | {}\n", number(value), word(verdict));
     }
     text
 }
 
 /// A file.
-pub(super) fn text<'a>(case: &str, tier: &str, lines: impl Iterator<Item = Line<'a>>) -> String {
+pub(super) fn text<'a>(case: &str, tier: &str, lines: impl Iterator<Item = SnapshotLine<'a>>) -> String {
     format!("---\n{SOURCE}\ndescription: {}\n---\n{}", description(case, tier), content(lines))
 }
 
 /// The lines of a file; what is wrong with it, if it is no such file or that of another case or tier.
-pub(super) fn parse<'a>(text: &'a str, case: &str, tier: &str) -> Result<Vec<Line<'a>>, String> {
+pub(super) fn parse<'a>(text: &'a str, case: &str, tier: &str) -> Result<Vec<SnapshotLine<'a>>, String> {
     let expected = description(case, tier);
     let (heading, content) = text
         .strip_prefix("---\n")
@@ -64,11 +64,11 @@ pub(super) fn parse<'a>(text: &'a str, case: &str, tier: &str) -> Result<Vec<Lin
     lines.enumerate().map(line).collect()
 }
 
-fn parse_line(text: &str) -> Option<Line<'_>> {
+fn parse_line(text: &str) -> Option<SnapshotLine<'_>> {
     let cells: Vec<&str> = text.split('|').map(str::trim).collect();
     let &[name, variant, value, unit, verdict] = cells.as_slice() else { return None };
     let verdict = [Verdict::Pass, Verdict::Fail, Verdict::Observed].into_iter().find(|own| word(*own) == verdict)?;
-    Some(Line { name, variant: variant.parse().ok()?, value: value.parse().ok()?, unit, verdict })
+    Some(SnapshotLine { name, variant: variant.parse().ok()?, value: value.parse().ok()?, unit, verdict })
 }
 
 /// The verdict's word in a file.
@@ -112,8 +112,14 @@ fn number(value: f64) -> String {
 mod tests {
     use super::*;
 
-    fn line(value: f64) -> Line<'static> {
-        Line { name: "velocity_l2", variant: Variant::of("resolution", 40), value, unit: "%", verdict: Verdict::Pass }
+    fn line(value: f64) -> SnapshotLine<'static> {
+        SnapshotLine {
+            name: "velocity_l2",
+            variant: Variant::of("resolution", 40),
+            value,
+            unit: "%",
+            verdict: Verdict::Pass,
+        }
     }
 
     #[test]

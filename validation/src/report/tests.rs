@@ -3,7 +3,7 @@
 use super::pages_tests::links;
 use super::*;
 use crate::figure::{AnimationFrame, Axis, Panel, Scale};
-use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Variant};
 use crate::store::{Drawings, Store, StorePolicy};
 
 pub(super) fn gated(name: &str, value: f64) -> Metric {
@@ -32,7 +32,7 @@ pub(super) fn report(cases: Vec<CaseReport>) -> Report {
     Report {
         title: "Report".to_owned(),
         tier: Tier::Quick,
-        generated: Provenance::default(),
+        generated: ReportProvenance::default(),
         cases,
         baseline: Baseline::default(),
         against: None,
@@ -156,7 +156,7 @@ fn kinds_are_counted_apart_and_observed_values_not_at_all() {
     let report = report(vec![case(
         "collapse",
         vec![
-            gated("run_out", 0.9).of_kind(Kind::Validation),
+            gated("run_out", 0.9).of_kind(MetricKind::Validation),
             gated("velocity_l2", 0.1),
             gated("gci", 0.9).against(None, "hearsay", Confidence::Unverified),
             Metric::observed("final_height", &Variant::default(), 1.0, "m"),

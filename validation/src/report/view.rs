@@ -1,19 +1,19 @@
 //! What the template sees: nothing but text, made by `page` and `rows`.
 
-use super::Drawn;
+use super::DrawnFigure;
 use crate::metric::Variant;
 use serde::Serialize;
 
 /// A verdict in colour, symbol and word, so that none of them is needed alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub(super) struct Mark {
+pub(super) struct VerdictMark {
     /// Class of the style sheet.
     pub(super) class: &'static str,
     pub(super) symbol: &'static str,
     pub(super) word: &'static str,
 }
 
-impl Mark {
+impl VerdictMark {
     pub(super) const FAIL: Self = Self { class: "fail", symbol: "✗", word: "fails" };
     pub(super) const KNOWN: Self = Self { class: "known", symbol: "✗", word: "known failure" };
     pub(super) const DRIFT: Self = Self { class: "drift", symbol: "≠", word: "drifted" };
@@ -34,8 +34,8 @@ pub(super) fn typed(command: &str) -> String {
 
 /// A metric among the worst.
 #[derive(Debug, Serialize)]
-pub(super) struct Line {
-    pub(super) mark: Mark,
+pub(super) struct WorstMetric {
+    pub(super) mark: VerdictMark,
     pub(super) case: String,
     /// Where it stands on the case's page.
     pub(super) anchor: String,
@@ -50,13 +50,13 @@ pub(super) struct Line {
 #[derive(Debug, Serialize)]
 pub(super) struct Thumbnail {
     pub(super) case: String,
-    pub(super) picture: Picture,
+    pub(super) picture: FigureView,
 }
 
 /// A case in the list of cases.
 #[derive(Debug, Serialize)]
 pub(super) struct CaseLine {
-    pub(super) mark: Mark,
+    pub(super) mark: VerdictMark,
     pub(super) name: String,
     pub(super) summary: String,
     pub(super) statement: String,
@@ -65,9 +65,9 @@ pub(super) struct CaseLine {
 
 /// A metric in the table of all cases.
 #[derive(Debug, Serialize)]
-pub(super) struct Gate {
+pub(super) struct GateRow {
     pub(super) case: String,
-    pub(super) row: Row,
+    pub(super) row: MetricView,
 }
 
 /// The page of a case.
@@ -75,7 +75,7 @@ pub(super) struct Gate {
 pub(super) struct CasePage {
     pub(super) title: String,
     pub(super) tier: &'static str,
-    pub(super) case: Case,
+    pub(super) case: CaseView,
     /// Whether there is a baseline to have moved from.
     pub(super) compared: bool,
     /// The report that the page belongs to, if it does.
@@ -95,7 +95,7 @@ pub(super) struct Neighbours {
 
 #[derive(Debug, Serialize)]
 pub(super) struct Banner {
-    pub(super) mark: Mark,
+    pub(super) mark: VerdictMark,
     pub(super) headline: String,
     pub(super) detail: String,
     pub(super) items: Vec<BannerItem>,
@@ -103,7 +103,7 @@ pub(super) struct Banner {
 
 #[derive(Debug, Serialize)]
 pub(super) struct BannerItem {
-    pub(super) mark: Mark,
+    pub(super) mark: VerdictMark,
     pub(super) case: String,
     /// Where it stands on the case's page.
     pub(super) anchor: String,
@@ -119,8 +119,8 @@ pub(super) struct BannerItem {
 
 /// One of the separate verdicts.
 #[derive(Debug, Serialize)]
-pub(super) struct Count {
-    pub(super) mark: Mark,
+pub(super) struct VerdictCount {
+    pub(super) mark: VerdictMark,
     pub(super) name: &'static str,
     pub(super) meaning: &'static str,
     pub(super) statement: String,
@@ -130,27 +130,27 @@ pub(super) struct Count {
 }
 
 #[derive(Debug, Serialize)]
-pub(super) struct Case {
+pub(super) struct CaseView {
     pub(super) name: String,
     pub(super) summary: String,
     pub(super) description: Vec<String>,
-    pub(super) mark: Mark,
+    pub(super) mark: VerdictMark,
     pub(super) statement: String,
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<MetricView>,
     pub(super) vanished: Vec<String>,
-    pub(super) figures: Vec<Picture>,
+    pub(super) figures: Vec<FigureView>,
     /// Tables of reference data that are written beside the page.
     pub(super) tables: Vec<&'static str>,
     pub(super) parameters: String,
     pub(super) command: String,
-    pub(super) runs: Vec<Run>,
+    pub(super) runs: Vec<RunView>,
 }
 
 #[derive(Debug, Serialize)]
-pub(super) struct Row {
+pub(super) struct MetricView {
     /// What a link to the row names.
     pub(super) anchor: String,
-    pub(super) mark: Mark,
+    pub(super) mark: VerdictMark,
     /// What is known of the uncertainty, over the width of the gate.
     pub(super) width: Option<super::width::Width>,
     pub(super) metric: String,
@@ -176,14 +176,14 @@ pub(super) struct Row {
     pub(super) change_key: String,
     /// The figure of the case that shows it best, or nothing.
     pub(super) figure: String,
-    pub(super) drift: Mark,
+    pub(super) drift: VerdictMark,
     pub(super) change: String,
     pub(super) relative_change: String,
     pub(super) note: String,
 }
 
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct Picture {
+pub(super) struct FigureView {
     pub(super) name: String,
     pub(super) caption: String,
     /// A GIF, instead of an SVG with a PNG.
@@ -194,9 +194,9 @@ pub(super) struct Picture {
 }
 
 #[derive(Debug, Serialize)]
-pub(super) struct Run {
+pub(super) struct RunView {
     pub(super) variant: String,
-    pub(super) mark: Mark,
+    pub(super) mark: VerdictMark,
     pub(super) outcome: String,
     pub(super) particles: String,
     pub(super) steps: String,
@@ -210,8 +210,8 @@ pub(super) struct Run {
 }
 
 /// A drawn figure as a page refers to it.
-pub(super) fn picture(drawn: &Drawn) -> Picture {
-    Picture {
+pub(super) fn picture(drawn: &DrawnFigure) -> FigureView {
+    FigureView {
         name: drawn.name.clone(),
         caption: drawn.caption.clone(),
         moves: drawn.moves,

@@ -1,7 +1,7 @@
 //! `metrics.json`: a case's numbers and where they come from, for other programs.
 
 use crate::case::{CaseResult, RunSummary, Tier};
-use crate::metric::{Confidence, Kind, Limit, Metric, Uncertainty, Variant, Verdict};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Uncertainty, Variant, Verdict};
 use crate::store;
 use serde::{Deserialize, Serialize};
 
@@ -69,7 +69,7 @@ pub struct MetricEntry {
     /// How sure the project is of the reference.
     pub confidence: Option<Confidence>,
     /// What the verdict rests on.
-    pub kind: Kind,
+    pub kind: MetricKind,
     /// The gate's limit, such as `{"at_most": 0.7}`; null if the number is only observed.
     pub limit: Option<Limit>,
     /// Why the limit stands where it does.

@@ -2,7 +2,7 @@
 //! walls of every run.
 
 use super::snapshots::{collection, file_name, vtu};
-use crate::case::{OutputPlan, Prepared, StateOutput};
+use crate::case::{OutputPlan, PreparedCase, StateOutput};
 use crate::observation::Frame;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -21,12 +21,12 @@ struct RunStates {
     folder: PathBuf,
     name: String,
     plan: OutputPlan,
-    written: Mutex<Written>,
+    written: Mutex<StateOutputProgress>,
 }
 
 /// How far it is.
 #[derive(Default)]
-struct Written {
+struct StateOutputProgress {
     /// Simulations of the run that have begun: a start and a stop are two.
     part: usize,
     /// Time at which the part began `[s]`, and states that were due since.
@@ -43,7 +43,7 @@ struct Written {
 impl States {
     /// Those of the runs of a case, in a folder that is there.
     #[must_use]
-    pub fn of(case: &dyn Prepared, plan: &OutputPlan, folder: &Path) -> Self {
+    pub fn of(case: &dyn PreparedCase, plan: &OutputPlan, folder: &Path) -> Self {
         let run = |run: usize| RunStates {
             folder: folder.to_owned(),
             name: file_name(&case.variant(run)),
@@ -80,7 +80,7 @@ impl States {
 }
 
 impl RunStates {
-    fn lock(&self) -> std::sync::MutexGuard<'_, Written> {
+    fn lock(&self) -> std::sync::MutexGuard<'_, StateOutputProgress> {
         self.written.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -101,7 +101,7 @@ impl RunStates {
         Ok(file)
     }
 
-    fn add(&self, written: &mut Written, flow: Frame, walls: Option<Frame>) -> io::Result<()> {
+    fn add(&self, written: &mut StateOutputProgress, flow: Frame, walls: Option<Frame>) -> io::Result<()> {
         let number = written.flow.len();
         if number >= MOST_STATES {
             let text = format!("more than {MOST_STATES} states of {}: choose a larger output.every", self.name);

@@ -16,7 +16,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Where the code of a case stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Origin(Home);
+pub struct CodeOrigin(Home);
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Home {
@@ -24,7 +24,7 @@ enum Home {
     Elsewhere,
 }
 
-impl Origin {
+impl CodeOrigin {
     /// In a crate that the hash of the sources knows nothing of.
     pub const ELSEWHERE: Self = Self(Home::Elsewhere);
     /// In this package.
@@ -41,15 +41,15 @@ impl Origin {
 /// such a case depends on, beside its parameters. `None` where the program's own file would have to be read and cannot be;
 /// a warning has said so.
 #[must_use]
-pub fn identity(origin: Origin) -> Option<&'static str> {
-    let is_told_by_sources = origin == Origin::PACKAGE && registered().is_empty();
+pub fn identity(origin: CodeOrigin) -> Option<&'static str> {
+    let is_told_by_sources = origin == CodeOrigin::PACKAGE && registered().is_empty();
     if is_told_by_sources { Some(source_hash()) } else { own_program() }
 }
 
 /// The same; for a program that cannot be read, a name that no other process has: nothing that was computed before is
 /// taken for its own.
 #[must_use]
-pub fn identity_or_unique(origin: Origin) -> &'static str {
+pub fn identity_or_unique(origin: CodeOrigin) -> &'static str {
     static UNIQUE: OnceLock<String> = OnceLock::new();
     identity(origin).unwrap_or_else(|| {
         UNIQUE.get_or_init(|| {
@@ -63,7 +63,7 @@ pub fn identity_or_unique(origin: Origin) -> &'static str {
 /// Whether something was made by this program, with or without cases of another crate.
 #[must_use]
 pub fn is_of_this_program(identity: &str) -> bool {
-    [Origin::PACKAGE, Origin::ELSEWHERE].into_iter().any(|origin| identity_or_unique(origin) == identity)
+    [CodeOrigin::PACKAGE, CodeOrigin::ELSEWHERE].into_iter().any(|origin| identity_or_unique(origin) == identity)
 }
 
 /// The sources and the program's own file; read once.
@@ -123,12 +123,12 @@ mod tests {
 
     #[test]
     fn cases_of_another_crate_are_known_by_the_program_and_this_packages_are_not() {
-        let own = identity(Origin::ELSEWHERE).expect("a test can be read");
+        let own = identity(CodeOrigin::ELSEWHERE).expect("a test can be read");
         assert_ne!(own, source_hash());
         assert_eq!(own, of_program(source_hash(), &std::env::current_exe().expect("known")).expect("readable"));
         assert!(is_of_this_program(own) && !is_of_this_program("another"));
-        assert_eq!(Origin::PACKAGE.and(Origin::PACKAGE), Origin::PACKAGE);
-        assert_eq!(Origin::PACKAGE.and(Origin::ELSEWHERE), Origin::ELSEWHERE);
-        assert_eq!(Origin::ELSEWHERE.and(Origin::PACKAGE), Origin::ELSEWHERE);
+        assert_eq!(CodeOrigin::PACKAGE.and(CodeOrigin::PACKAGE), CodeOrigin::PACKAGE);
+        assert_eq!(CodeOrigin::PACKAGE.and(CodeOrigin::ELSEWHERE), CodeOrigin::ELSEWHERE);
+        assert_eq!(CodeOrigin::ELSEWHERE.and(CodeOrigin::PACKAGE), CodeOrigin::ELSEWHERE);
     }
 }

@@ -17,7 +17,7 @@ const CLOCKS_DIFFER: Duration = Duration::from_secs(86_400);
 
 /// One file of the store.
 #[derive(Debug, Clone, PartialEq, Eq)]
-struct Stored {
+struct StoredFile {
     path: PathBuf,
     bytes: u64,
     modified: SystemTime,
@@ -143,7 +143,7 @@ fn folders(root: &Path) -> Result<Vec<PathBuf>> {
 }
 
 /// Files of a folder with such endings.
-fn stored_in(folder: &Path, endings: &[&str]) -> Result<Vec<Stored>> {
+fn stored_in(folder: &Path, endings: &[&str]) -> Result<Vec<StoredFile>> {
     let mut stored = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let entry = entry?;
@@ -152,14 +152,14 @@ fn stored_in(folder: &Path, endings: &[&str]) -> Result<Vec<Stored>> {
         // not followed: a link that a user put here is the user's
         let metadata = entry.metadata()?;
         if is_entry && metadata.is_file() {
-            stored.push(Stored { path, bytes: metadata.len(), modified: metadata.modified()? });
+            stored.push(StoredFile { path, bytes: metadata.len(), modified: metadata.modified()? });
         }
     }
     Ok(stored)
 }
 
 /// The drawings of a version.
-fn drawn_in(folder: &Path) -> Result<Vec<Stored>> {
+fn drawn_in(folder: &Path) -> Result<Vec<StoredFile>> {
     let folder = folder.join(DRAWN);
     if folder.is_dir() { stored_in(&folder, &DRAWINGS) } else { Ok(Vec::new()) }
 }
@@ -181,7 +181,7 @@ fn runs_in(folder: &Path) -> Result<Vec<PathBuf>> {
 }
 
 /// The checkpoints of every unfinished run of a version.
-fn unfinished_in(folder: &Path) -> Result<Vec<Vec<Stored>>> {
+fn unfinished_in(folder: &Path) -> Result<Vec<Vec<StoredFile>>> {
     runs_in(folder)?.iter().map(|run| stored_in(run, &CHECKPOINTS)).collect()
 }
 

@@ -8,7 +8,7 @@ pub mod provenance;
 mod speeds;
 
 pub use drawn::{DrawingKey, Drawings};
-pub use identity::{Origin, identity, identity_or_unique, is_of_this_program};
+pub use identity::{CodeOrigin, identity, identity_or_unique, is_of_this_program};
 pub use inventory::{Keep, Pruned, Version, prune, versions};
 pub use provenance::{commit, instruction_set, profile, source_hash, target_features, version, workspace};
 pub use speeds::{AllSpeeds, Speeds};
@@ -57,9 +57,9 @@ pub struct Store {
 
 /// Identifies a run of a case by this version of the sources.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Key(String);
+pub struct StoreKey(String);
 
-impl std::fmt::Display for Key {
+impl std::fmt::Display for StoreKey {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.write_str(&self.0)
     }
@@ -101,7 +101,7 @@ impl Store {
 
     /// Where an unfinished run keeps its checkpoints; emptied where everything is to begin anew.
     #[must_use]
-    pub fn checkpoints(&self, key: &Key) -> Checkpoints {
+    pub fn checkpoints(&self, key: &StoreKey) -> Checkpoints {
         let checkpoints = Checkpoints::at(&self.checkpoint_folder(key), &key.0, self.checkpoint_interval);
         if self.policy == StorePolicy::Refresh {
             checkpoints.discard();
@@ -109,7 +109,7 @@ impl Store {
         checkpoints
     }
 
-    fn checkpoint_folder(&self, key: &Key) -> PathBuf {
+    fn checkpoint_folder(&self, key: &StoreKey) -> PathBuf {
         self.folder.join(UNFINISHED).join(&key.0)
     }
 
@@ -122,7 +122,7 @@ impl Store {
     /// The key of a run of a case, or `None` if there is nothing to look up or keep: the store is bypassed, or it is impossible to
     /// tell which program this is.
     #[must_use]
-    pub fn key<R: Serialize>(&self, origin: Origin, case: &str, run: &R) -> Option<Key> {
+    pub fn key<R: Serialize>(&self, origin: CodeOrigin, case: &str, run: &R) -> Option<StoreKey> {
         if self.policy == StorePolicy::Bypass {
             return None;
         }
@@ -137,12 +137,12 @@ impl Store {
             hash.update((part.len() as u64).to_le_bytes());
             hash.update(part);
         }
-        Some(Key(hexadecimal(&hash.finalize())))
+        Some(StoreKey(hexadecimal(&hash.finalize())))
     }
 
     /// The stored record; `None` if there is none, it is damaged, or it is not wanted.
     #[must_use]
-    pub fn fetch<O: DeserializeOwned>(&self, key: &Key) -> Option<Recorded<O>> {
+    pub fn fetch<O: DeserializeOwned>(&self, key: &StoreKey) -> Option<Recorded<O>> {
         if self.policy != StorePolicy::Use {
             return None;
         }
@@ -157,7 +157,7 @@ impl Store {
 
     /// Keeps a record, whose run then needs no checkpoint. A store that cannot be written costs time later, but is no reason
     /// to fail now.
-    pub fn keep<O: Serialize>(&self, key: &Key, record: &Recorded<O>) {
+    pub fn keep<O: Serialize>(&self, key: &StoreKey, record: &Recorded<O>) {
         let new = !self.folder.is_dir();
         if let Err(error) = entry::write(&self.path(key), &key.0, record) {
             static FULL: FirstWarning = FirstWarning::new();
@@ -174,7 +174,7 @@ impl Store {
         }
     }
 
-    fn path(&self, key: &Key) -> PathBuf {
+    fn path(&self, key: &StoreKey) -> PathBuf {
         self.folder.join(format!("{}.postcard", key.0))
     }
 
@@ -238,8 +238,8 @@ mod tests {
         }
     }
 
-    fn key(store: &Store, run: u32) -> Key {
-        store.key(Origin::ELSEWHERE, "test", &run).expect("a number serialises")
+    fn key(store: &Store, run: u32) -> StoreKey {
+        store.key(CodeOrigin::ELSEWHERE, "test", &run).expect("a number serialises")
     }
 
     #[test]
@@ -250,7 +250,7 @@ mod tests {
         store.keep(&key(&store, 1), &kept);
         assert_eq!(store.fetch(&key(&store, 1)), Some(kept));
         assert_eq!(store.fetch::<f64>(&key(&store, 2)), None);
-        assert_ne!(store.key(Origin::ELSEWHERE, "test", &1), store.key(Origin::ELSEWHERE, "other", &1));
+        assert_ne!(store.key(CodeOrigin::ELSEWHERE, "test", &1), store.key(CodeOrigin::ELSEWHERE, "other", &1));
     }
 
     #[test]
@@ -275,7 +275,7 @@ mod tests {
     fn bypass_touches_nothing_and_refresh_replaces() {
         let folder = tempfile::tempdir().expect("temporary folder");
         let bypass = Store::at(folder.path(), StorePolicy::Bypass);
-        assert_eq!(bypass.key(Origin::ELSEWHERE, "test", &1), None);
+        assert_eq!(bypass.key(CodeOrigin::ELSEWHERE, "test", &1), None);
         let refresh = Store::at(folder.path(), StorePolicy::Refresh);
         let key = key(&refresh, 1);
         refresh.keep(&key, &record(1.0));

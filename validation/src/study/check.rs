@@ -1,21 +1,21 @@
 //! A check: what is measured, with its reference, limit and reason.
 
 use super::file::{CheckText, Distance, Reduction};
-use super::probe::Column;
+use super::probe::ColumnWindow;
 use crate::input::{FieldError, check_text};
 use crate::judge::Measurements;
-use crate::metric::{Confidence, Kind, Limit, Metric, Origin, Variant};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Origin, Variant};
 use std::path::Path;
 
 /// What is read.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Read {
+pub(super) enum CheckedQuantity {
     /// A metric of the case itself.
     Metric(String),
     /// A value of a column.
-    Value(Column, Reduction),
+    Value(ColumnWindow, Reduction),
     /// The distance of a column from a measured series.
-    Distance(Column, Box<Measurements>, Distance),
+    Distance(ColumnWindow, Box<Measurements>, Distance),
     /// The order in which another check shrinks with a varied parameter.
     Order {
         /// The other check.
@@ -27,11 +27,11 @@ pub(super) enum Read {
 
 /// A check whose fields are typed.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Check {
+pub(super) struct StudyCheck {
     pub(super) name: String,
     /// Variants that are meant.
     pub(super) only: Variant,
-    pub(super) read: Read,
+    pub(super) read: CheckedQuantity,
     reference: Option<f64>,
     standard_uncertainty: Option<f64>,
     source: Option<String>,
@@ -40,17 +40,19 @@ pub(super) struct Check {
     reason: String,
 }
 
-impl Check {
+impl StudyCheck {
     /// Types a check; files that it names stand beside the study.
     pub(super) fn of(text: &CheckText, beside: &Path) -> Result<Self, FieldError> {
         check_metric_name(&text.name)?;
         let read = read(text, beside)?;
         let measured_source = match &read {
-            Read::Distance(_, measured, _) => Some(measured.source()),
+            CheckedQuantity::Distance(_, measured, _) => Some(measured.source()),
             _ => None,
         };
         let confidence = match &read {
-            Read::Distance(_, measured, _) => text.confidence.or(measured.confidence()).unwrap_or(Confidence::Low),
+            CheckedQuantity::Distance(_, measured, _) => {
+                text.confidence.or(measured.confidence()).unwrap_or(Confidence::Low)
+            }
             _ => text.confidence.unwrap_or(Confidence::Low),
         };
         for (field, value) in [("source", &text.source), ("reason", &text.reason)] {
@@ -87,9 +89,9 @@ impl Check {
     pub(super) fn metric(&self, variant: &Variant, value: f64, unit: &str) -> Metric {
         let metric = Metric::observed(&self.name, variant, value, unit)
             .of_kind(match self.confidence {
-                Confidence::Exact => Kind::Verification,
-                _ if self.source.is_none() => Kind::Verification,
-                _ => Kind::Validation,
+                Confidence::Exact => MetricKind::Verification,
+                _ if self.source.is_none() => MetricKind::Verification,
+                _ => MetricKind::Validation,
             })
             .gated_by(self.limit, &self.reason);
         match &self.source {
@@ -105,7 +107,7 @@ impl Check {
     /// What the value would be if all agreed.
     fn expected(&self) -> Option<f64> {
         match self.read {
-            Read::Distance(..) => Some(0.0),
+            CheckedQuantity::Distance(..) => Some(0.0),
             _ => self.reference,
         }
     }
@@ -122,7 +124,7 @@ fn check_metric_name(name: &str) -> Result<(), FieldError> {
 }
 
 /// What is read: exactly one of the four ways.
-fn read(text: &CheckText, beside: &Path) -> Result<Read, FieldError> {
+fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> {
     let ways = [
         ("metric", text.metric.is_some()),
         ("value", text.value.is_some()),
@@ -150,14 +152,14 @@ fn read(text: &CheckText, beside: &Path) -> Result<Read, FieldError> {
         return Err(FieldError::new(field, "given", &rule, "leave it out"));
     }
     match way {
-        "metric" => Ok(Read::Metric(text.metric.clone().unwrap_or_default())),
+        "metric" => Ok(CheckedQuantity::Metric(text.metric.clone().unwrap_or_default())),
         "order_of" => {
             let missing = || {
                 let remedy = "name the parameter as [[vary]] does, such as \"spacing\"";
                 FieldError::new("order_in", "missing", "given beside `order_of`", remedy)
             };
             let in_parameter = text.order_in.clone().ok_or_else(missing)?;
-            Ok(Read::Order { of: text.order_of.clone().unwrap_or_default(), in_parameter })
+            Ok(CheckedQuantity::Order { of: text.order_of.clone().unwrap_or_default(), in_parameter })
         }
         _ => {
             let column = column(text)?;
@@ -167,7 +169,7 @@ fn read(text: &CheckText, beside: &Path) -> Result<Read, FieldError> {
                 {
                     return Err(FieldError::new("value.at", place, "a finite number", "give a place within the run"));
                 }
-                return Ok(Read::Value(column, reduction));
+                return Ok(CheckedQuantity::Value(column, reduction));
             }
             if text.reference.is_some() || text.standard_uncertainty.is_some() {
                 let remedy = "the file has values and uncertainties of its own";
@@ -178,12 +180,12 @@ fn read(text: &CheckText, beside: &Path) -> Result<Read, FieldError> {
                 let rule = "a table of three columns: what was varied, what was measured, its standard uncertainty";
                 FieldError::new("compare", format!("\"{}\"", file.display()), rule, &error.to_string())
             })?;
-            Ok(Read::Distance(column, Box::new(measured), text.distance.unwrap_or(Distance::Residual)))
+            Ok(CheckedQuantity::Distance(column, Box::new(measured), text.distance.unwrap_or(Distance::Residual)))
         }
     }
 }
 
-fn column(text: &CheckText) -> Result<Column, FieldError> {
+fn column(text: &CheckText) -> Result<ColumnWindow, FieldError> {
     let needed = |field: &str, value: &Option<String>| {
         let remedy = "run the case once: it writes tables/, whose files and headings are meant";
         value.clone().ok_or_else(|| FieldError::new(field, "missing", "given beside `value` or `compare`", remedy))
@@ -193,7 +195,7 @@ fn column(text: &CheckText) -> Result<Column, FieldError> {
         let value = format!("{} … {}", window.0, window.1);
         return Err(FieldError::new("from", value, "at most `to`", "exchange them"));
     }
-    Ok(Column {
+    Ok(ColumnWindow {
         table: needed("table", &text.table)?,
         column: needed("column", &text.column)?,
         over: text.over.clone(),

@@ -1,13 +1,15 @@
 //! What checks have read, drawn beside what it is compared with.
 
-use super::check::{Check, Read};
+use super::check::{CheckedQuantity, StudyCheck};
 use super::{Reading, probe};
 use crate::figure::{Axis, Figure, Mark, Panel};
 use crate::input::FieldError;
 
 /// Adds the figure of a check's column, or draws its reference into that which an earlier check has made.
-pub(super) fn add(figures: &mut Vec<Figure>, check: &Check, readings: &[Reading]) -> Result<(), FieldError> {
-    let (Read::Value(column, _) | Read::Distance(column, ..)) = &check.read else { return Ok(()) };
+pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Reading]) -> Result<(), FieldError> {
+    let (CheckedQuantity::Value(column, _) | CheckedQuantity::Distance(column, ..)) = &check.read else {
+        return Ok(());
+    };
     let Some(first) = readings.iter().find_map(|reading| reading.curve.as_ref()) else { return Ok(()) };
     let name = name_of(&format!("{}-{}", column.table, column.column));
     let place = figures.iter().position(|figure| figure.name == name).unwrap_or_else(|| {
@@ -25,7 +27,7 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &Check, readings: &[Reading]
     let panel = &mut figure.panels[0];
     let colour = panel.series.iter().map(|series| series.colour + 1).max().unwrap_or(0);
     let mut said = String::new();
-    if let Read::Distance(column, measured, _) = &check.read {
+    if let CheckedQuantity::Distance(column, measured, _) = &check.read {
         let points = probe::in_units_of(measured, column, first)?;
         let cloud = points.iter().map(|point| (point[0], point[1]));
         let series = panel.draw(&measured.name(), Mark::Points, colour, cloud);

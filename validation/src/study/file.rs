@@ -39,7 +39,7 @@ pub(super) struct StudyText {
     pub(super) variants: Vec<NamedVariant>,
     /// Parameters that take several values, each with each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(super) vary: Vec<Varied>,
+    pub(super) vary: Vec<VariedParameter>,
     /// What is measured and judged.
     #[serde(default)]
     pub(super) checks: Vec<CheckText>,
@@ -57,8 +57,8 @@ pub(super) struct NamedVariant {
 
 /// A parameter that takes several values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Varied {
+#[serde(deny_unknown_fields, expecting = "struct Varied")]
+pub(super) struct VariedParameter {
     pub(super) path: String,
     /// What it is called in variants; the last key of the path without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -171,7 +171,7 @@ pub(super) enum Distance {
     Mean,
 }
 
-impl Varied {
+impl VariedParameter {
     /// What it is called in variants.
     pub(super) fn label(&self) -> &str {
         self.name.as_deref().unwrap_or_else(|| self.path.rsplit('.').next().unwrap_or_default())
@@ -180,7 +180,7 @@ impl Varied {
 
 /// One set of changes: the variant and the `path=value` settings that make it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Changed {
+pub(super) struct ChangedSettings {
     pub(super) variant: Variant,
     pub(super) settings: Vec<String>,
 }
@@ -261,19 +261,19 @@ impl StudyText {
     }
 
     /// All sets of changes, in the file's order.
-    pub(super) fn changes(&self) -> Vec<Changed> {
+    pub(super) fn changes(&self) -> Vec<ChangedSettings> {
         let setting = |path: &str, value: &Value| format!("{path}={value}");
-        let named = |named: &NamedVariant| Changed {
+        let named = |named: &NamedVariant| ChangedSettings {
             variant: Variant::of("variant", named.name.as_str()),
             settings: named.set.iter().map(|(path, value)| setting(path, value)).collect(),
         };
         let mut all = if self.variants.is_empty() {
-            vec![Changed { variant: Variant::default(), settings: Vec::new() }]
+            vec![ChangedSettings { variant: Variant::default(), settings: Vec::new() }]
         } else {
             self.variants.iter().map(named).collect()
         };
         for varied in &self.vary {
-            let with = |changed: &Changed, value: &Value| {
+            let with = |changed: &ChangedSettings, value: &Value| {
                 let mut next = changed.clone();
                 next.settings.push(setting(&varied.path, value));
                 next.variant = next.variant.and(varied.label(), in_variant(value).unwrap_or_else(|| "-".into()));

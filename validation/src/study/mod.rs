@@ -32,15 +32,15 @@ mod suite;
 
 pub use suite::Suite;
 
-use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, Prepared, Registry, Tier};
+use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier};
 use crate::evaluation::{PlanError, read_plan};
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::judge::Measurements;
 use crate::metric::{Metric, Value, Variant};
 use crate::statistics::log_log_slope;
-use check::{Check, Read};
-use file::{Changed, StudyText};
-use probe::Curve;
+use check::{CheckedQuantity, StudyCheck};
+use file::{ChangedSettings, StudyText};
+use probe::RunCurve;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use toml::Table;
@@ -51,8 +51,8 @@ pub struct Study {
     file: PathBuf,
     text: StudyText,
     base: CaseFile,
-    checks: Vec<Check>,
-    changes: Vec<Changed>,
+    checks: Vec<StudyCheck>,
+    changes: Vec<ChangedSettings>,
 }
 
 /// What a check has read of one run.
@@ -62,13 +62,13 @@ struct Reading {
     value: f64,
     unit: String,
     /// Where it was read from; none for a metric of the case.
-    curve: Option<Curve>,
+    curve: Option<RunCurve>,
 }
 
 impl Reading {
     /// Why its value is not a number.
     fn why_there_is_none(&self) -> String {
-        let ends = |curve: &Curve| Some((curve.over.clone(), curve.points.first()?.0, curve.points.last()?.0));
+        let ends = |curve: &RunCurve| Some((curve.over.clone(), curve.points.first()?.0, curve.points.last()?.0));
         match self.curve.as_ref().map(ends) {
             Some(Some((over, from, to))) => {
                 format!("what is asked for lies beyond the run, whose {over} reaches over {from} … {to}")
@@ -115,20 +115,21 @@ impl Study {
             }
             (None, None) => unreachable!("checked above"),
         };
-        let mut checks: Vec<Check> = Vec::new();
+        let mut checks: Vec<StudyCheck> = Vec::new();
         for (place, own) in text.checks.iter().enumerate() {
             let within = |error: FieldError| in_file(error.within(&format!("checks[{place}]")));
-            let check = Check::of(own, beside).map_err(within)?;
+            let check = StudyCheck::of(own, beside).map_err(within)?;
             if checks.iter().any(|other| other.name == check.name && other.only == check.only) {
                 let remedy = "give each a name of its own, or other variants by `only`";
                 return Err(within(FieldError::new("name", &check.name, "unlike the others", remedy)).into());
             }
-            if let Read::Order { of, in_parameter } = &check.read {
+            if let CheckedQuantity::Order { of, in_parameter } = &check.read {
                 if !checks.iter().any(|other| other.name == *of) {
                     let remedy = "name a check that stands above this one";
                     return Err(within(FieldError::new("order_of", of, "the name of an earlier check", remedy)).into());
                 }
-                let is_varied = |varied: &file::Varied| varied.label() == in_parameter && varied.values.len() > 1;
+                let is_varied =
+                    |varied: &file::VariedParameter| varied.label() == in_parameter && varied.values.len() > 1;
                 if !text.vary.iter().any(is_varied) {
                     let rule = "the name of a parameter that [[vary]] gives several values";
                     return Err(
@@ -164,9 +165,9 @@ impl Study {
         tier: Option<Tier>,
         settings: &[String],
         limits: Limits,
-    ) -> Result<Vec<Box<dyn Prepared>>, PlanError> {
+    ) -> Result<Vec<Box<dyn PreparedCase>>, PlanError> {
         let case = registry.find(&self.base.case).map_err(|error| error.in_file(&self.base.path))?;
-        let prepare = |changed: &Changed| {
+        let prepare = |changed: &ChangedSettings| {
             let settings: Vec<String> = changed.settings.iter().chain(settings).cloned().collect();
             let file = Some((self.base.path.as_path(), self.base.fields.clone()));
             let changes = Changes { file, settings: &settings, limits };
@@ -182,7 +183,7 @@ impl Study {
     /// The files with measurements that its checks compare with.
     pub fn measurements(&self) -> impl Iterator<Item = &Measurements> {
         self.checks.iter().filter_map(|check| match &check.read {
-            Read::Distance(_, measured, _) => Some(&**measured),
+            CheckedQuantity::Distance(_, measured, _) => Some(&**measured),
             _ => None,
         })
     }
@@ -260,7 +261,7 @@ impl Study {
     fn without_runs(&self, tier: Tier, results: &[CaseResult]) -> CaseResult {
         CaseResult {
             name: self.text.study.clone(),
-            origin: results.first().map_or(crate::store::Origin::PACKAGE, |result| result.origin),
+            origin: results.first().map_or(crate::store::CodeOrigin::PACKAGE, |result| result.origin),
             summary: self.text.summary.clone(),
             description: self.text.description.trim().to_owned(),
             tier,
@@ -287,39 +288,44 @@ impl Study {
             ..self.text.clone()
         };
         for (own, check) in text.checks.iter_mut().zip(&self.checks) {
-            if let Read::Distance(_, measured, _) = &check.read {
+            if let CheckedQuantity::Distance(_, measured, _) = &check.read {
                 own.compare = Some(PathBuf::from(measured.kept()));
             }
         }
         toml::to_string(&text).unwrap_or_else(|error| format!("# the study cannot be written as TOML: {error}\n"))
     }
 
-    fn readings(&self, check: &Check, results: &[CaseResult], earlier: &[Metric]) -> Result<Vec<Reading>, FieldError> {
-        if let Read::Order { of, in_parameter } = &check.read {
+    fn readings(
+        &self,
+        check: &StudyCheck,
+        results: &[CaseResult],
+        earlier: &[Metric],
+    ) -> Result<Vec<Reading>, FieldError> {
+        if let CheckedQuantity::Order { of, in_parameter } = &check.read {
             return Ok(orders(earlier, of, in_parameter, &check.only));
         }
         let mut readings = Vec::new();
         for (changed, result) in self.changes.iter().zip(results) {
-            let new = |run: &Variant, value: f64, unit: &str, curve: Option<Curve>| Reading {
+            let new = |run: &Variant, value: f64, unit: &str, curve: Option<RunCurve>| Reading {
                 variant: joined(&changed.variant, run),
                 value,
                 unit: unit.to_owned(),
                 curve,
             };
             match &check.read {
-                Read::Metric(name) => {
+                CheckedQuantity::Metric(name) => {
                     let metrics = probe::metrics(result, name)?;
                     readings.extend(
                         metrics.into_iter().map(|metric| new(&metric.variant, metric.value, &metric.unit, None)),
                     );
                 }
-                Read::Value(column, reduction) => {
+                CheckedQuantity::Value(column, reduction) => {
                     for curve in column.curves(result)? {
                         let value = curve.value(*reduction);
                         readings.push(new(&curve.run.clone(), value, probe::unit_of(&column.column), Some(curve)));
                     }
                 }
-                Read::Distance(column, measured, distance) => {
+                CheckedQuantity::Distance(column, measured, distance) => {
                     for curve in column.curves(result)? {
                         let points = probe::in_units_of(measured, column, &curve)?;
                         let value = curve.distance(&points, column.window, *distance);
@@ -331,7 +337,7 @@ impl Study {
                         readings.push(new(&curve.run.clone(), value, unit, Some(curve)));
                     }
                 }
-                Read::Order { .. } => {}
+                CheckedQuantity::Order { .. } => {}
             }
         }
         readings.retain(|reading| reading.variant.includes(&check.only));

@@ -11,7 +11,7 @@ use crate::statistics::{Beyond, interpolated};
 
 /// A column of the tables that a case writes, and the part of it that counts.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Column {
+pub(super) struct ColumnWindow {
     /// Name of the table, or the beginning of it.
     pub(super) table: String,
     /// Heading of what is measured.
@@ -24,7 +24,7 @@ pub(super) struct Column {
 
 /// A column of one run.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Curve {
+pub(super) struct RunCurve {
     /// The run; empty where the case has a single one.
     pub(super) run: Variant,
     /// Heading of the abscissa.
@@ -39,9 +39,9 @@ pub(super) fn unit_of(heading: &str) -> &str {
     parted.map_or("-", |(_, unit)| unit.trim())
 }
 
-impl Column {
+impl ColumnWindow {
     /// The column in every table of that name: one a run.
-    pub(super) fn curves(&self, result: &CaseResult) -> Result<Vec<Curve>, FieldError> {
+    pub(super) fn curves(&self, result: &CaseResult) -> Result<Vec<RunCurve>, FieldError> {
         let is_meant = |table: &&Table| {
             table.name == self.table || table.name.strip_prefix(&self.table).is_some_and(|rest| rest.starts_with('-'))
         };
@@ -58,7 +58,7 @@ impl Column {
         tables.into_iter().map(|table| self.curve(result, table)).collect()
     }
 
-    fn curve(&self, result: &CaseResult, table: &Table) -> Result<Curve, FieldError> {
+    fn curve(&self, result: &CaseResult, table: &Table) -> Result<RunCurve, FieldError> {
         let headings: Vec<&str> = table.columns.iter().map(String::as_str).collect();
         let place = |field: &str, wanted: &str| {
             table.columns.iter().position(|heading| heading == wanted).ok_or_else(|| {
@@ -75,11 +75,11 @@ impl Column {
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let run = result.runs.iter().map(|run| &run.variant);
         let run = run.filter(|variant| !variant.is_empty()).find(|variant| table.name.ends_with(&variant.file_name()));
-        Ok(Curve { run: run.cloned().unwrap_or_default(), over: table.columns[over].clone(), points })
+        Ok(RunCurve { run: run.cloned().unwrap_or_default(), over: table.columns[over].clone(), points })
     }
 }
 
-impl Curve {
+impl RunCurve {
     /// What a reduction takes of it; not a number where the run has left nothing to take.
     pub(super) fn value(&self, reduction: Reduction) -> f64 {
         let values = || self.points.iter().map(|point| point.1);
@@ -143,8 +143,8 @@ pub(super) fn metrics<'a>(result: &'a CaseResult, name: &str) -> Result<Vec<&'a 
 /// Measured points in the units of a curve.
 pub(super) fn in_units_of(
     measured: &Measurements,
-    column: &Column,
-    curve: &Curve,
+    column: &ColumnWindow,
+    curve: &RunCurve,
 ) -> Result<Vec<[f64; 3]>, FieldError> {
     measured.in_units(unit_of(&curve.over), unit_of(&column.column))
 }
@@ -172,8 +172,8 @@ fn listed(names: &[&str]) -> String {
 mod tests {
     use super::*;
 
-    fn curve(points: &[(f64, f64)]) -> Curve {
-        Curve { run: Variant::default(), over: "t [s]".to_owned(), points: points.to_vec() }
+    fn curve(points: &[(f64, f64)]) -> RunCurve {
+        RunCurve { run: Variant::default(), over: "t [s]".to_owned(), points: points.to_vec() }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! A folder of studies, simulated and judged together.
 
 use super::{Study, is_study};
-use crate::case::{CaseResult, Limits, Prepared, Registry, Tier};
+use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier};
 use crate::evaluation::PlanError;
 use crate::input::FieldError;
 use crate::output::FileError;
@@ -61,7 +61,7 @@ impl Suite {
         registry: Registry,
         tier: Option<Tier>,
         limits: Limits,
-    ) -> Result<Vec<Box<dyn Prepared>>, PlanError> {
+    ) -> Result<Vec<Box<dyn PreparedCase>>, PlanError> {
         let mut all = Vec::new();
         for study in &self.studies {
             all.extend(study.prepare(registry, tier, &[], limits)?);

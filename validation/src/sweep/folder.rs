@@ -1,8 +1,8 @@
 //! The folder of a sweep: who is done, who failed, who is missing.
 
 use super::error::SweepError;
-use super::manifest::{Entry, Manifest};
-use crate::evaluation::Record;
+use super::manifest::{Manifest, SweepRun};
+use crate::evaluation::EvaluationRecord;
 use crate::output::{FolderError, Owner, claim, is_claimed, owner_of};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -12,7 +12,7 @@ const LONGEST_BEGINNING: Duration = Duration::from_secs(30);
 
 /// How far a sweep is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Tally {
+pub struct SweepProgress {
     /// Runs with numbers.
     pub done: usize,
     /// Runs that failed, with their reason.
@@ -77,23 +77,23 @@ impl SweepFolder {
 
     /// Folder of a run.
     #[must_use]
-    pub fn of(&self, entry: &Entry) -> PathBuf {
+    pub fn of(&self, entry: &SweepRun) -> PathBuf {
         self.folder.join("runs").join(&entry.folder)
     }
 
     /// The record of a run that is done or has failed.
     #[must_use]
-    pub fn record(&self, entry: &Entry) -> Option<Record> {
+    pub fn record(&self, entry: &SweepRun) -> Option<EvaluationRecord> {
         match &entry.refusal {
-            Some(reason) => Some(Record::failed("", &entry.case, reason)),
-            None => Record::read(&self.of(entry).join("record.postcard"), &entry.key),
+            Some(reason) => Some(EvaluationRecord::failed("", &entry.case, reason)),
+            None => EvaluationRecord::read(&self.of(entry).join("record.postcard"), &entry.key),
         }
     }
 
     /// Runs without a record, the longest first; of equal ones the first first.
     #[must_use]
-    pub fn missing(&self) -> Vec<&Entry> {
-        let mut missing: Vec<&Entry> =
+    pub fn missing(&self) -> Vec<&SweepRun> {
+        let mut missing: Vec<&SweepRun> =
             self.manifest.entries.iter().filter(|entry| self.record(entry).is_none()).collect();
         missing.sort_by(|a, b| b.particle_steps.total_cmp(&a.particle_steps).then(a.number.cmp(&b.number)));
         missing
@@ -101,8 +101,8 @@ impl SweepFolder {
 
     /// How far it is.
     #[must_use]
-    pub fn tally(&self) -> Tally {
-        let mut tally = Tally::default();
+    pub fn tally(&self) -> SweepProgress {
+        let mut tally = SweepProgress::default();
         for entry in &self.manifest.entries {
             match self.record(entry) {
                 None => tally.missing += 1,

@@ -1,10 +1,10 @@
 //! From the runs' records to one tidy table, the list of failures and pair plots.
 
 use super::error::SweepError;
-use super::folder::{SweepFolder, Tally};
-use super::manifest::{Entry, Manifest};
-use super::map::{self, Surface};
-use crate::evaluation::{MetricValue, Record};
+use super::folder::{SweepFolder, SweepProgress};
+use super::manifest::{Manifest, SweepRun};
+use super::map::{self, MetricMap};
+use crate::evaluation::{EvaluationRecord, MetricValue};
 use crate::figure::{self, Axis, Figure, Mark, Panel, Series};
 use crate::metric::{Variant, Verdict};
 use crate::output::{FileError, write_whole};
@@ -18,9 +18,9 @@ const DRAWN: usize = 4;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn gather(sweep: &SweepFolder) -> Result<Tally, SweepError> {
+pub fn gather(sweep: &SweepFolder) -> Result<SweepProgress, SweepError> {
     let unwritable = |error: std::io::Error| FileError::unwritable(sweep.path(), &error);
-    let records: Vec<(&Entry, Record)> =
+    let records: Vec<(&SweepRun, EvaluationRecord)> =
         sweep.manifest().entries.iter().filter_map(|entry| sweep.record(entry).map(|record| (entry, record))).collect();
     let names = &sweep.manifest().parameters;
     let results = results(names, &records).map_err(unwritable)?;
@@ -38,7 +38,7 @@ pub fn gather(sweep: &SweepFolder) -> Result<Tally, SweepError> {
 }
 
 /// Metrics that the plan names and no run has, once there is a run that could have them.
-fn unknown_metrics<'a>(manifest: &'a Manifest, records: &[(&Entry, Record)]) -> Vec<&'a str> {
+fn unknown_metrics<'a>(manifest: &'a Manifest, records: &[(&SweepRun, EvaluationRecord)]) -> Vec<&'a str> {
     let given: BTreeSet<&str> =
         records.iter().flat_map(|(_, record)| &record.metrics).map(|metric| metric.name.as_str()).collect();
     if given.is_empty() {
@@ -60,7 +60,7 @@ fn draw(drawn: &Figure, folder: &Path) -> Result<(), FileError> {
 }
 
 /// One line per metric: run, case, tier, parameters, metric, variant, value, unit, verdict.
-fn results(names: &[String], records: &[(&Entry, Record)]) -> std::io::Result<Vec<u8>> {
+fn results(names: &[String], records: &[(&SweepRun, EvaluationRecord)]) -> std::io::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let (head, tail) = (["run", "case", "tier"], ["metric", "variant", "value", "unit", "verdict"]);
     writer.write_record(head.into_iter().chain(names.iter().map(String::as_str)).chain(tail))?;
@@ -84,7 +84,7 @@ fn results(names: &[String], records: &[(&Entry, Record)]) -> std::io::Result<Ve
 }
 
 /// One line per run that failed: run, case, tier, parameters, reason.
-fn failures(names: &[String], records: &[(&Entry, Record)]) -> std::io::Result<Vec<u8>> {
+fn failures(names: &[String], records: &[(&SweepRun, EvaluationRecord)]) -> std::io::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let head = ["run", "case", "tier"];
     writer.write_record(head.into_iter().chain(names.iter().map(String::as_str)).chain(["reason"]))?;
@@ -97,14 +97,14 @@ fn failures(names: &[String], records: &[(&Entry, Record)]) -> std::io::Result<V
 }
 
 /// What every line begins with. Words lose TOML's quotes.
-fn first(entry: &Entry) -> Vec<String> {
+fn first(entry: &SweepRun) -> Vec<String> {
     let plain = |value: &String| value.trim_matches(|mark| mark == '"' || mark == '\'').to_owned();
     let head = [entry.number.to_string(), entry.label.clone(), entry.tier.to_string()];
     head.into_iter().chain(entry.point.iter().map(plain)).collect()
 }
 
 /// A case's metrics, one per row of panels, over the parameters that are numbers; and as a map where those are two.
-fn figures(manifest: &Manifest, records: &[(&Entry, Record)]) -> Vec<Figure> {
+fn figures(manifest: &Manifest, records: &[(&SweepRun, EvaluationRecord)]) -> Vec<Figure> {
     let mut cases: Vec<&str> = Vec::new();
     for (entry, _) in records {
         if !cases.contains(&entry.label.as_str()) {
@@ -114,8 +114,8 @@ fn figures(manifest: &Manifest, records: &[(&Entry, Record)]) -> Vec<Figure> {
     cases.into_iter().flat_map(|case| pairs(manifest, case, records)).collect()
 }
 
-fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Vec<Figure> {
-    let own: Vec<&(&Entry, Record)> =
+fn pairs(manifest: &Manifest, case: &str, records: &[(&SweepRun, EvaluationRecord)]) -> Vec<Figure> {
+    let own: Vec<&(&SweepRun, EvaluationRecord)> =
         records.iter().filter(|(entry, record)| entry.label == case && record.failure.is_none()).collect();
     let numbers = |parameter: usize| -> Option<Vec<f64>> {
         let values: Option<Vec<f64>> = own.iter().map(|(entry, _)| entry.point[parameter].parse().ok()).collect();
@@ -131,14 +131,14 @@ fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Vec<F
         metrics.iter().map(|(name, variant)| format!("{name} {variant}").trim_end().to_owned()).collect();
     let (mut panels, mut surfaces) = (Vec::new(), Vec::new());
     for (name, variant) in &metrics {
-        let value_of = |record: &Record| {
+        let value_of = |record: &EvaluationRecord| {
             let found = record.metrics.iter().find(|metric| metric.name == *name && metric.variant == *variant);
             found.filter(|metric| metric.value.is_finite()).map(|metric| (metric.value, metric.unit.clone()))
         };
         if let [(_, x), (_, y)] = &varied[..] {
             let values = own.iter().zip(x.iter().zip(y));
             let points = values.filter_map(|((_, record), (&x, &y))| Some((x, y, value_of(record)?.0))).collect();
-            surfaces.push(Surface { metric: format!("{name} {variant}"), points });
+            surfaces.push(MetricMap { metric: format!("{name} {variant}"), points });
         }
         for (parameter, values) in &varied {
             let mut unit = String::new();
@@ -169,7 +169,7 @@ fn pairs(manifest: &Manifest, case: &str, records: &[(&Entry, Record)]) -> Vec<F
 }
 
 /// The metrics that the plan names, else the first that the parameters change, gated ones first; each with its variant.
-fn drawn_metrics(manifest: &Manifest, own: &[&(&Entry, Record)]) -> Vec<(String, Variant)> {
+fn drawn_metrics(manifest: &Manifest, own: &[&(&SweepRun, EvaluationRecord)]) -> Vec<(String, Variant)> {
     let mut seen = BTreeSet::new();
     let all: Vec<_> = own
         .iter()

@@ -2,25 +2,30 @@
 
 use super::error::SweepError;
 use super::folder::SweepFolder;
-use super::manifest::{Entry, Manifest};
+use super::manifest::{Manifest, SweepRun};
 use crate::case::{CaseFile, Changes, Limits, Registry, Silent, share_out};
-use crate::evaluation::{self, Record};
+use crate::evaluation::{self, EvaluationRecord};
 use crate::output::{FileError, Owner, write_whole};
 use crate::store::Store;
 
 /// Watches a sweep, for a progress bar. Called from several threads.
-pub trait Watch: Sync {
+pub trait SweepMonitor: Sync {
     /// A run begins.
-    fn begun(&self, entry: &Entry);
+    fn begun(&self, entry: &SweepRun);
     /// A run has its record.
-    fn ended(&self, entry: &Entry, record: &Record);
+    fn ended(&self, entry: &SweepRun, record: &EvaluationRecord);
 }
 
 /// Runs one entry on the current rayon pool's threads and writes its folder, the record last.
 ///
 /// # Errors
 /// Files that cannot be written. A run that fails is no error: its record says why.
-pub fn run_entry(sweep: &SweepFolder, entry: &Entry, registry: Registry, store: &Store) -> Result<Record, SweepError> {
+pub fn run_entry(
+    sweep: &SweepFolder,
+    entry: &SweepRun,
+    registry: Registry,
+    store: &Store,
+) -> Result<EvaluationRecord, SweepError> {
     if let Some(record) = sweep.record(entry) {
         return Ok(record);
     }
@@ -54,7 +59,7 @@ pub fn run_locally(
     sweep: &SweepFolder,
     registry: Registry,
     store: &Store,
-    watch: &dyn Watch,
+    watch: &dyn SweepMonitor,
 ) -> Result<(), SweepError> {
     share_out(sweep.missing(), |entry| {
         watch.begun(entry);

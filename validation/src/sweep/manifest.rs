@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// One run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Entry {
+pub struct SweepRun {
     /// Number, from 1.
     pub number: usize,
     /// Name of the case.
@@ -41,7 +41,7 @@ pub struct Manifest {
     /// Metrics to be drawn over the parameters; empty for the gated ones.
     pub metrics: Vec<String>,
     /// The runs by number.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<SweepRun>,
 }
 
 impl Manifest {
@@ -49,7 +49,7 @@ impl Manifest {
     ///
     /// # Errors
     /// A number that the manifest does not have.
-    pub fn entry(&self, number: usize) -> Result<&Entry, SweepError> {
+    pub fn entry(&self, number: usize) -> Result<&SweepRun, SweepError> {
         self.entries.iter().find(|entry| entry.number == number).ok_or_else(|| {
             let rule = format!("between 1 and {}", self.entries.len());
             FieldError::new("--entry", number, &rule, "manifest.json lists the runs").into()
@@ -74,7 +74,7 @@ mod tests {
     #[test]
     fn a_manifest_comes_back_to_the_bit() {
         let mut random = Random::new(3);
-        let entry = |number: usize| Entry {
+        let entry = |number: usize| SweepRun {
             number,
             case: "film".to_owned(),
             label: "film".to_owned(),

@@ -30,13 +30,13 @@ impl Scaled {
 }
 
 /// A metric over two parameters: its name with unit, and of each run both parameters and its value.
-pub(super) struct Surface {
+pub(super) struct MetricMap {
     pub(super) metric: String,
     pub(super) points: Vec<(f64, f64, f64)>,
 }
 
 /// A panel per metric; none without one that has values.
-pub(super) fn figure(case: &str, parameters: [&str; 2], surfaces: &[Surface]) -> Option<Figure> {
+pub(super) fn figure(case: &str, parameters: [&str; 2], surfaces: &[MetricMap]) -> Option<Figure> {
     let panels: Vec<Panel> =
         surfaces.iter().filter(|surface| surface.points.len() > 1).map(|surface| panel(parameters, surface)).collect();
     (!panels.is_empty()).then(|| Figure {
@@ -47,7 +47,7 @@ pub(super) fn figure(case: &str, parameters: [&str; 2], surfaces: &[Surface]) ->
     })
 }
 
-fn panel(parameters: [&str; 2], surface: &Surface) -> Panel {
+fn panel(parameters: [&str; 2], surface: &MetricMap) -> Panel {
     let column = |pick: fn(&(f64, f64, f64)) -> f64| surface.points.iter().map(pick).collect::<Vec<f64>>();
     let x = Scaled::of(&column(|point| point.0), parameters[0]);
     let y = Scaled::of(&column(|point| point.1), parameters[1]);
@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn wide_ranges_are_drawn_by_their_logarithm() {
         let points = vec![(0.01, 1.0, 2.0), (0.1, 2.0, 3.0), (1.0, 3.0, 4.0)];
-        let surface = Surface { metric: "q [-]".to_owned(), points };
+        let surface = MetricMap { metric: "q [-]".to_owned(), points };
         let figure = figure("a case", ["tau", "d"], &[surface]).expect("three points");
         assert_eq!(figure.name, "map-a-case");
         let panel = &figure.panels[0];
@@ -84,7 +84,7 @@ mod tests {
 
     #[test]
     fn a_single_point_is_no_map() {
-        let surface = Surface { metric: "q [-]".to_owned(), points: vec![(1.0, 1.0, 1.0)] };
+        let surface = MetricMap { metric: "q [-]".to_owned(), points: vec![(1.0, 1.0, 1.0)] };
         assert!(figure("film", ["a", "b"], &[surface]).is_none());
     }
 }

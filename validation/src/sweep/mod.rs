@@ -22,8 +22,8 @@ mod slurm_request;
 mod values;
 
 pub use error::SweepError;
-pub use folder::{SweepFolder, Tally};
+pub use folder::{SweepFolder, SweepProgress};
 pub use gather::gather;
-pub use local::{Watch, run_entry, run_locally};
-pub use manifest::{Entry, Manifest};
+pub use local::{SweepMonitor, run_entry, run_locally};
+pub use manifest::{Manifest, SweepRun};
 pub use plan::SweepPlan;

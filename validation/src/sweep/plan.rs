@@ -1,9 +1,9 @@
 //! A sweep as a TOML file.
 
 use super::error::SweepError;
-use super::manifest::{Entry, Manifest};
+use super::manifest::{Manifest, SweepRun};
 use super::values::{check_levels, check_values};
-use crate::case::{Limits, ParameterError, Prepared, Registry};
+use crate::case::{Limits, ParameterError, PreparedCase, Registry};
 use crate::evaluation::{self, CaseRequest, Paths, PlanError, read_plan, toml_number};
 use crate::input::{FieldError, check_name};
 use crate::sampling::{Bounds, Spacing, design};
@@ -32,7 +32,7 @@ enum Design {
     /// All combinations of the parameters' values.
     Word(Word),
     /// Points spread over the range.
-    Spread(Spread),
+    Spread(SpaceFillingDesign),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
@@ -43,7 +43,7 @@ enum Word {
 
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-enum Spread {
+enum SpaceFillingDesign {
     /// One point in each of `points` slices along every axis.
     LatinHypercube { points: usize, seed: u64 },
     /// The first points of a scrambled Sobol sequence.
@@ -55,8 +55,8 @@ impl Design {
 }
 
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Varied {
+#[serde(deny_unknown_fields, expecting = "struct Varied")]
+struct SweptParameter {
     path: Paths,
     name: Option<String>,
     values: Option<Vec<Value>>,
@@ -69,10 +69,10 @@ struct Varied {
 
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Text {
+struct SweepText {
     design: Design,
     cases: Vec<CaseRequest>,
-    parameters: Vec<Varied>,
+    parameters: Vec<SweptParameter>,
     #[serde(default)]
     metrics: Vec<String>,
 }
@@ -81,7 +81,7 @@ struct Text {
 #[derive(Debug, Clone)]
 pub struct SweepPlan {
     file: PathBuf,
-    text: Text,
+    text: SweepText,
 }
 
 impl SweepPlan {
@@ -138,12 +138,12 @@ impl SweepPlan {
             }
         }
         let most = match self.text.design {
-            Design::Spread(Spread::Sobol { .. }) => MOST_SOBOL_POINTS,
+            Design::Spread(SpaceFillingDesign::Sobol { .. }) => MOST_SOBOL_POINTS,
             _ => MOST_RUNS,
         };
         match self.text.design {
             Design::Word(Word::Grid) => {
-                let levels = |parameter: &Varied| {
+                let levels = |parameter: &SweptParameter| {
                     parameter.values.as_ref().map_or_else(|| parameter.levels.unwrap_or(1), Vec::len)
                 };
                 let product = self.text.parameters.iter().try_fold(1usize, |product, parameter| {
@@ -154,7 +154,9 @@ impl SweepPlan {
                     || FieldError::new("parameters", "too many values", &rule, "take fewer values or levels");
                 product.map(|_| ()).ok_or_else(too_many)
             }
-            Design::Spread(Spread::LatinHypercube { points, .. } | Spread::Sobol { points, .. }) => {
+            Design::Spread(
+                SpaceFillingDesign::LatinHypercube { points, .. } | SpaceFillingDesign::Sobol { points, .. },
+            ) => {
                 if (1..=most).contains(&points) {
                     return Ok(());
                 }
@@ -168,22 +170,25 @@ impl SweepPlan {
     fn points(&self) -> Vec<Vec<String>> {
         let parameters = &self.text.parameters;
         let in_cube = |points: Vec<Vec<f64>>| -> Vec<Vec<String>> {
-            let at = |(parameter, &coordinate): (&Varied, &f64)| toml_number(parameter.bounds().value(coordinate));
+            let at =
+                |(parameter, &coordinate): (&SweptParameter, &f64)| toml_number(parameter.bounds().value(coordinate));
             points.iter().map(|point| parameters.iter().zip(point).map(at).collect()).collect()
         };
         match self.text.design {
             Design::Word(Word::Grid) => {
-                let values: Vec<Vec<String>> = parameters.iter().map(Varied::grid).collect();
+                let values: Vec<Vec<String>> = parameters.iter().map(SweptParameter::grid).collect();
                 let place = |levels: &[usize]| -> Vec<String> {
                     levels.iter().zip(&values).map(|(&level, values)| values[level].clone()).collect()
                 };
                 let counts: Vec<usize> = values.iter().map(Vec::len).collect();
                 design::combinations(&counts).iter().map(|levels| place(levels)).collect()
             }
-            Design::Spread(Spread::LatinHypercube { points, seed }) => {
+            Design::Spread(SpaceFillingDesign::LatinHypercube { points, seed }) => {
                 in_cube(design::latin_hypercube(points, parameters.len(), seed))
             }
-            Design::Spread(Spread::Sobol { points, seed }) => in_cube(design::sobol(points, parameters.len(), seed)),
+            Design::Spread(SpaceFillingDesign::Sobol { points, seed }) => {
+                in_cube(design::sobol(points, parameters.len(), seed))
+            }
         }
     }
 
@@ -204,13 +209,13 @@ impl SweepPlan {
         for request in &self.text.cases {
             request.prepare(registry, &self.file, &[], limits)?;
             for point in &points {
-                let setting = |(parameter, value): (&Varied, &String)| {
+                let setting = |(parameter, value): (&SweptParameter, &String)| {
                     format!("{}={value}", parameter.path.in_case(&request.case).unwrap_or_default())
                 };
                 let settings: Vec<String> = self.text.parameters.iter().zip(point).map(setting).collect();
                 let number = entries.len() + 1;
                 let folder = format!("{number:04}-{}", file_name(request.label()));
-                let mut entry = Entry {
+                let mut entry = SweepRun {
                     number,
                     case: request.case.clone(),
                     label: request.label().to_owned(),
@@ -244,7 +249,7 @@ impl SweepPlan {
             Some(error) if entries.iter().all(|entry| entry.refusal.is_some()) => Err(error.into()),
             _ => Ok(Manifest {
                 source_hash: identity_or_unique(registry.origin()).to_owned(),
-                parameters: self.text.parameters.iter().map(Varied::name).collect(),
+                parameters: self.text.parameters.iter().map(SweptParameter::name).collect(),
                 metrics: self.text.metrics.clone(),
                 entries,
             }),
@@ -257,13 +262,13 @@ fn file_name(label: &str) -> String {
     label.chars().map(|letter| if letter.is_alphanumeric() || "-_.".contains(letter) { letter } else { '-' }).collect()
 }
 
-fn cost(prepared: &dyn Prepared) -> f64 {
+fn cost(prepared: &dyn PreparedCase) -> f64 {
     let sum: f64 = (0..prepared.run_count()).map(|run| prepared.particle_steps(run)).sum();
     // JSON has no infinity
     sum.min(f64::MAX)
 }
 
-impl Varied {
+impl SweptParameter {
     fn name(&self) -> String {
         self.name.clone().unwrap_or_else(|| self.path.name())
     }

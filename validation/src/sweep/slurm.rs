@@ -3,7 +3,7 @@
 
 use super::error::SweepError;
 use super::folder::SweepFolder;
-pub use super::slurm_request::Request;
+pub use super::slurm_request::SlurmRequest;
 use crate::input::{WRITTEN_BY_HAND, read_text};
 use crate::output::{FileError, write_whole};
 use serde::{Deserialize, Serialize};
@@ -19,7 +19,7 @@ const ARRAY_LENGTH: usize = 1000;
 
 /// One submitted array.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-struct Job {
+struct SlurmArray {
     /// Slurm's number.
     id: String,
     /// What is added to a task's index to give its entry's number.
@@ -31,7 +31,7 @@ struct Job {
 /// # Errors
 /// What [`check`] refuses, no Slurm on this machine, a submission that is refused, a template that cannot be read or filled, files that cannot be
 /// written.
-pub fn submit(sweep: &SweepFolder, numbers: &[usize], request: &Request) -> Result<Vec<String>, SweepError> {
+pub fn submit(sweep: &SweepFolder, numbers: &[usize], request: &SlurmRequest) -> Result<Vec<String>, SweepError> {
     check(sweep.path(), request)?;
     let template = template_of(request)?;
     let folder = sweep.path().canonicalize().map_err(|error| FileError::unreadable(sweep.path(), &error))?;
@@ -56,7 +56,7 @@ pub fn submit(sweep: &SweepFolder, numbers: &[usize], request: &Request) -> Resu
         let shown = script.display().to_string();
         let printed = call("sbatch", &["--parsable", &shown])?;
         let id = printed.trim().split(';').next().unwrap_or_default().to_owned();
-        jobs.push(Job { id: id.clone(), offset });
+        jobs.push(SlurmArray { id: id.clone(), offset });
         write_json(&scripts.join("jobs.json"), &jobs)?;
         submitted.push(id);
     }
@@ -67,14 +67,14 @@ pub fn submit(sweep: &SweepFolder, numbers: &[usize], request: &Request) -> Resu
 ///
 /// # Errors
 /// A value that Slurm does not take, a folder whose name cannot stand in a script, a template that cannot be read or filled.
-pub fn check(folder: &Path, request: &Request) -> Result<(), SweepError> {
+pub fn check(folder: &Path, request: &SlurmRequest) -> Result<(), SweepError> {
     let folder = std::path::absolute(folder).map_err(|error| FileError::unreadable(folder, &error))?;
     request.check(&folder)?;
     fill(&template_of(request)?, &folder, &folder.join("slurm").join("logs"), 0, &[1], request)?;
     Ok(())
 }
 
-fn template_of(request: &Request) -> Result<String, FileError> {
+fn template_of(request: &SlurmRequest) -> Result<String, FileError> {
     match &request.template {
         Some(file) => read_text(file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(file, &error)),
         None => Ok(TEMPLATE.to_owned()),
@@ -108,7 +108,7 @@ pub fn queued(sweep: &SweepFolder) -> Result<BTreeSet<usize>, SweepError> {
 ///
 /// # Errors
 /// A damaged file.
-pub fn last_request(sweep: &SweepFolder) -> Result<Request, FileError> {
+pub fn last_request(sweep: &SweepFolder) -> Result<SlurmRequest, FileError> {
     read_json(&sweep.path().join("slurm").join("request.json"))
 }
 
@@ -120,7 +120,7 @@ pub fn available() -> Result<(), SweepError> {
     call("sbatch", &["--version"]).map(|_| ())
 }
 
-fn read_jobs(scripts: &Path) -> Result<Vec<Job>, FileError> {
+fn read_jobs(scripts: &Path) -> Result<Vec<SlurmArray>, FileError> {
     read_json(&scripts.join("jobs.json"))
 }
 
@@ -150,7 +150,7 @@ fn fill(
     logs: &Path,
     offset: usize,
     tasks: &[usize],
-    request: &Request,
+    request: &SlurmRequest,
 ) -> Result<String, FileError> {
     let program = std::env::current_exe().map_err(|error| FileError::unreadable(Path::new("bagnold"), &error))?;
     let mut command = quoted(&program);
@@ -247,12 +247,12 @@ mod tests {
 
     #[test]
     fn the_template_asks_only_for_what_was_asked() {
-        let request = Request {
+        let request = SlurmRequest {
             partition: Some("long".to_owned()),
             memory: Some("2G".to_owned()),
             cpus: 4,
             throttle: Some(8),
-            ..Request::default()
+            ..SlurmRequest::default()
         };
         let (folder, logs) = (Path::new("/shared/my sweep"), Path::new("/shared/my sweep/slurm/logs"));
         let text = fill(TEMPLATE, folder, logs, 1000, &[1, 2, 5], &request).expect("a good template");

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// What a job asks of the cluster.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Request {
+pub struct SlurmRequest {
     /// Partition; `None` for the cluster's default.
     pub partition: Option<String>,
     /// Time limit of a task as Slurm reads it, such as `01:30:00`.
@@ -26,7 +26,7 @@ pub struct Request {
     pub store: Option<PathBuf>,
 }
 
-impl Request {
+impl SlurmRequest {
     /// Whether each value has Slurm's form, for a sweep in `folder`.
     ///
     /// # Errors
@@ -99,7 +99,7 @@ fn is_path(text: &str) -> bool {
 mod tests {
     use super::*;
 
-    fn refusal(request: &Request, folder: &str) -> Option<String> {
+    fn refusal(request: &SlurmRequest, folder: &str) -> Option<String> {
         request.check(Path::new(folder)).err().map(|error| error.to_string())
     }
 
@@ -113,7 +113,7 @@ mod tests {
         texts(&["short", "gpu-a100,long_2", "a.b"], is_partition);
         texts(&["90", "90:30", "01:30:00", "2-12", "2-12:30", "2-12:30:15", "unlimited"], is_time);
         texts(&["2G", "500", "16000M"], is_memory);
-        assert_eq!(refusal(&Request::default(), "/shared/Lauf 1, it's 50 %/ä"), None);
+        assert_eq!(refusal(&SlurmRequest::default(), "/shared/Lauf 1, it's 50 %/ä"), None);
     }
 
     #[test]
@@ -128,16 +128,19 @@ mod tests {
         for text in ["G", "1GB", "1.5G", "-1"] {
             assert!(!is_memory(text), "{text}");
         }
-        let request = Request { partition: Some(injected.to_owned()), ..Request::default() };
+        let request = SlurmRequest { partition: Some(injected.to_owned()), ..SlurmRequest::default() };
         assert_eq!(
             refusal(&request, "/shared").expect("refused"),
             "`--partition` is \"short\\n#SBATCH --wrap=evil\", but must be one or more names of letters, digits, `_`, `-` \
              and `.`, parted by commas; `sinfo` lists the partitions"
         );
         for folder in ["/shared/a\nrm -rf x", "/shared/a\"b", "/shared/`id`", "/shared/$HOME", "/shared/a\\"] {
-            assert!(refusal(&Request::default(), folder).expect("refused").starts_with("`--out` is "), "{folder:?}");
+            assert!(
+                refusal(&SlurmRequest::default(), folder).expect("refused").starts_with("`--out` is "),
+                "{folder:?}"
+            );
         }
-        let store = Request { store: Some("/a\nb".into()), ..Request::default() };
+        let store = SlurmRequest { store: Some("/a\nb".into()), ..SlurmRequest::default() };
         assert!(refusal(&store, "/shared").expect("refused").starts_with("`--store` is "));
     }
 }

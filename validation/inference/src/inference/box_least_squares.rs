@@ -9,7 +9,7 @@ const RANK_TOLERANCE: f64 = 1e-10;
 
 /// Where a variable stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Place {
+enum BoundStatus {
     Free,
     Lower,
     Upper,
@@ -24,11 +24,11 @@ pub(super) fn box_least_squares(
 ) -> DVector<f64> {
     let count = matrix.ncols();
     let (matrix, right) = reduced(matrix, right);
-    let mut place = vec![Place::Free; count];
+    let mut place = vec![BoundStatus::Free; count];
     let mut x = DVector::from_fn(count, |k, _| 0.0_f64.clamp(lower[k], upper[k]));
     for k in 0..count {
         if lower[k] == upper[k] {
-            place[k] = Place::Lower;
+            place[k] = BoundStatus::Lower;
         }
     }
     let mut blocked = vec![false; count];
@@ -38,22 +38,22 @@ pub(super) fn box_least_squares(
         let mut share = 1.0_f64;
         for k in 0..count {
             let (from, to) = (x[k], target[k]);
-            if place[k] == Place::Free && !(lower[k]..=upper[k]).contains(&to) {
+            if place[k] == BoundStatus::Free && !(lower[k]..=upper[k]).contains(&to) {
                 let bound = if to < lower[k] { lower[k] } else { upper[k] };
                 share = share.min(((bound - from) / (to - from)).max(0.0));
             }
         }
         let mut bound_any = false;
         for k in 0..count {
-            if place[k] != Place::Free {
+            if place[k] != BoundStatus::Free {
                 continue;
             }
             let moved = x[k] + share * (target[k] - x[k]);
             let room = 1e-14 * (upper[k] - lower[k]);
             if share < 1.0 && target[k] < lower[k] && moved <= lower[k] + room {
-                (x[k], place[k], bound_any) = (lower[k], Place::Lower, true);
+                (x[k], place[k], bound_any) = (lower[k], BoundStatus::Lower, true);
             } else if share < 1.0 && target[k] > upper[k] && moved >= upper[k] - room {
-                (x[k], place[k], bound_any) = (upper[k], Place::Upper, true);
+                (x[k], place[k], bound_any) = (upper[k], BoundStatus::Upper, true);
             } else {
                 x[k] = moved.clamp(lower[k], upper[k]);
             }
@@ -64,9 +64,9 @@ pub(super) fn box_least_squares(
         let force = matrix.tr_mul(&(&right - &matrix * &x));
         let scale = 1e-12 * right.norm() * matrix.norm();
         let pull = |k: usize| match place[k] {
-            Place::Lower => force[k],
-            Place::Upper => -force[k],
-            Place::Free => 0.0,
+            BoundStatus::Lower => force[k],
+            BoundStatus::Upper => -force[k],
+            BoundStatus::Free => 0.0,
         };
         let candidate = (0..count)
             .filter(|k| lower[*k] < upper[*k] && !blocked[*k] && pull(*k) > scale)
@@ -74,7 +74,7 @@ pub(super) fn box_least_squares(
         let Some(released) = candidate else { break };
         // rounding may send it straight back, so each variable is released a limited number of times
         blocked[released] = share < 1.0;
-        place[released] = Place::Free;
+        place[released] = BoundStatus::Free;
     }
     x
 }
@@ -91,8 +91,8 @@ fn reduced(matrix: &DMatrix<f64>, right: &DVector<f64>) -> (DMatrix<f64>, DVecto
 }
 
 /// The free variables at their least squares, the bound ones where they are.
-fn unbounded(matrix: &DMatrix<f64>, right: &DVector<f64>, x: &DVector<f64>, place: &[Place]) -> DVector<f64> {
-    let free: Vec<usize> = (0..place.len()).filter(|k| place[*k] == Place::Free).collect();
+fn unbounded(matrix: &DMatrix<f64>, right: &DVector<f64>, x: &DVector<f64>, place: &[BoundStatus]) -> DVector<f64> {
+    let free: Vec<usize> = (0..place.len()).filter(|k| place[*k] == BoundStatus::Free).collect();
     let mut result = x.clone();
     if free.is_empty() {
         return result;

@@ -3,7 +3,7 @@
 use super::bootstrap::bootstrap;
 use super::explore::explore;
 use super::region::{Region, Uncertainties};
-use super::search::{Budget, Method, Search, Stopped, search};
+use super::search::{Budget, Method, SearchResult, Stopped, search};
 use super::stand_in::{RANGES, Slopes, TRUTH};
 use super::{Emulator, Evaluate};
 use crate::sampling::Random;
@@ -15,7 +15,7 @@ const BUDGET: Budget = Budget { evaluations: 25, seed: 1, difference: 0.02, tole
 /// Starts 27 to 39 per cent of a range away from the truth, (0.8, 0.304, 0.573).
 const STARTS: [[f64; 3]; 3] = [[0.5, 0.5, 0.5], [0.45, 0.6, 0.3], [0.55, 0.1, 0.85]];
 
-fn calibrate(seed: u64) -> (Search, Emulator) {
+fn calibrate(seed: u64) -> (SearchResult, Emulator) {
     let mut model = Slopes::new(seed);
     let found = search(&mut model, &STARTS[seed as usize % 3], Method::TrustRegion, BUDGET).unwrap();
     let further = Budget { evaluations: 12, ..BUDGET };

@@ -18,7 +18,7 @@ const FAIR: f64 = 0.3;
 
 /// One end of the interval of a parameter.
 #[derive(Debug, Clone, PartialEq)]
-pub struct End {
+pub struct IntervalEnd {
     /// All parameters there, in the unit cube.
     pub point: Vec<f64>,
     /// χ² of the model there above the least `[-]`; none where it was not evaluated.
@@ -33,7 +33,7 @@ pub struct End {
 
 /// A side of a parameter, with the points that were evaluated for its end.
 #[derive(Debug, Clone)]
-pub(super) struct Side {
+pub(super) struct IntervalSide {
     /// Which parameter.
     pub(super) parameter: usize,
     /// Whether it is the upper side.
@@ -52,7 +52,7 @@ struct Bracket {
     failing: f64,
 }
 
-impl Side {
+impl IntervalSide {
     /// Both sides of every parameter.
     pub(super) fn all(dimensions: usize) -> Vec<Self> {
         let side = |parameter| {
@@ -120,7 +120,7 @@ impl Side {
     }
 
     /// The end as found.
-    pub(super) fn judge(&self, region: &Region, history: &[Evaluated]) -> End {
+    pub(super) fn judge(&self, region: &Region, history: &[Evaluated]) -> IntervalEnd {
         let bracket = self.bracket(region, history);
         let reached = bracket.inside.map_or(0.0, |(distance, _)| distance);
         let tolerance = TOLERANCE * region.limit;
@@ -136,7 +136,7 @@ impl Side {
                 let held = region.held(&evaluated.point, self.parameter, evaluated.point[self.parameter]);
                 (held.rise - region.limit).abs() <= tolerance || open
             };
-            (right && farthest && best()).then(|| End {
+            (right && farthest && best()).then(|| IntervalEnd {
                 point: evaluated.point.clone(),
                 rise: Some(rise),
                 open,
@@ -144,7 +144,7 @@ impl Side {
                 settled: true,
             })
         };
-        let off = |end: &End| end.rise.map_or(f64::INFINITY, |rise| (rise - region.limit).abs());
+        let off = |end: &IntervalEnd| end.rise.map_or(f64::INFINITY, |rise| (rise - region.limit).abs());
         let settled = (0..history.len()).filter_map(settles);
         if let Some(end) = settled.min_by(|a, b| b.open.cmp(&a.open).then(off(a).total_cmp(&off(b)))) {
             return end;
@@ -156,12 +156,12 @@ impl Side {
             Some((distance, place)) if fails || distance >= self.outwards(region, &expected) => {
                 let evaluated = &history[place];
                 let rise = evaluated.chi_squared.map(|chi| chi - region.minimum.chi_squared);
-                End { point: evaluated.point.clone(), rise, open: false, fails: false, settled: false }
+                IntervalEnd { point: evaluated.point.clone(), rise, open: false, fails: false, settled: false }
             }
-            _ => End { point: expected, rise: None, open, fails: false, settled: false },
+            _ => IntervalEnd { point: expected, rise: None, open, fails: false, settled: false },
         };
         let cornered = fails && bracket.failing - reached <= CLOSE * bracket.failing;
-        End { fails: cornered, settled: cornered, ..wider }
+        IntervalEnd { fails: cornered, settled: cornered, ..wider }
     }
 
     /// The point whose evaluation would tell most about the end: where the emulator has it, as far as that is trusted.

@@ -6,7 +6,7 @@
 //! its principal axes. Whoever finds a lower point on the way ends the exploration: the search is to resume from there.
 
 use super::emulator::{Degree, Emulator, Minimum};
-use super::ends::{End, Side};
+use super::ends::{IntervalEnd, IntervalSide};
 use super::region::{Region, Uncertainties};
 use super::{Budget, Evaluate, Evaluated};
 use nalgebra::SymmetricEigen;
@@ -28,7 +28,7 @@ pub struct Explored {
     /// Its region, with the intervals that the model has decided.
     pub region: Region,
     /// Lower and upper end of every parameter's interval.
-    pub ends: Vec<[End; 2]>,
+    pub ends: Vec<[IntervalEnd; 2]>,
     /// Whether the model agrees with the joint region just inside and just outside of its edge.
     pub joint_settled: bool,
     /// Every point of the search and the further ones.
@@ -46,7 +46,7 @@ impl Explored {
 }
 
 /// A check of the joint region: an axis, its sense, and whether the model agreed.
-struct Check {
+struct RegionCheck {
     axis: usize,
     sense: f64,
     holds: bool,
@@ -67,15 +67,16 @@ pub fn explore<M: Evaluate>(
     let most = searched + budget.evaluations;
     let Some(first) = best(&history) else { return Ok(None) };
     let dimensions = first.point.len();
-    let mut sides = Side::all(dimensions);
-    let senses = |axis| [1.0, -1.0].map(|sense| Check { axis, sense, holds: false });
+    let mut sides = IntervalSide::all(dimensions);
+    let senses = |axis| [1.0, -1.0].map(|sense| RegionCheck { axis, sense, holds: false });
     // with one parameter the joint region is its interval
-    let mut checks: Vec<Check> = if dimensions > 1 { (0..dimensions).flat_map(senses).collect() } else { Vec::new() };
+    let mut checks: Vec<RegionCheck> =
+        if dimensions > 1 { (0..dimensions).flat_map(senses).collect() } else { Vec::new() };
     for round in 0.. {
         let Some((emulator, region)) = mapped(&history, searched, uncertainties, budget) else { return Ok(None) };
         let negligible = budget.negligible(first.chi_squared, emulator.data());
         let lower = first.chi_squared - region.minimum.chi_squared > negligible;
-        let ends: Vec<End> = sides.iter().map(|side| side.judge(&region, &history)).collect();
+        let ends: Vec<IntervalEnd> = sides.iter().map(|side| side.judge(&region, &history)).collect();
         let open: Vec<usize> = (0..sides.len()).filter(|side| !ends[*side].settled).collect();
         let of_edge: Vec<usize> = if open.is_empty() {
             (0..checks.len()).filter(|check| !checks[*check].holds).collect()
@@ -162,12 +163,12 @@ fn mapped(
 fn finished(
     emulator: Emulator,
     mut region: Region,
-    ends: &[End],
+    ends: &[IntervalEnd],
     joint_settled: bool,
     history: Vec<Evaluated>,
     lower: bool,
 ) -> Explored {
-    let ends: Vec<[End; 2]> = ends.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect();
+    let ends: Vec<[IntervalEnd; 2]> = ends.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect();
     for (k, (profile, [below, above])) in region.profiles.iter_mut().zip(&ends).enumerate() {
         profile.interval = [below.point[k], above.point[k]];
         profile.ends = [below.point.clone(), above.point.clone()];
@@ -186,7 +187,7 @@ fn evaluate<M: Evaluate>(model: &mut M, history: &mut Vec<Evaluated>, points: Ve
 
 /// A point on a principal axis, just inside the edge of the joint region on one side and just outside on the other, or on
 /// the face of the cube.
-fn edge(region: &Region, check: &Check) -> Vec<f64> {
+fn edge(region: &Region, check: &RegionCheck) -> Vec<f64> {
     let factors = SymmetricEigen::new(region.covariance.clone());
     let wanted = region.threshold * if check.sense > 0.0 { EDGE[0] } else { EDGE[1] };
     let at = |step: f64| -> Vec<f64> {

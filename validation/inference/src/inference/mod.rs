@@ -27,18 +27,18 @@ pub mod solve;
 mod stand_in;
 
 pub use emulator::Emulator;
-pub use ends::End;
+pub use ends::IntervalEnd;
 pub use explore::{Explored, explore};
-pub use identifiability::{Parameter, assess};
+pub use identifiability::{ParameterLabel, assess};
 pub use loss::Loss;
-pub use profile::{Profile, ProfilePoint};
+pub use profile::{ProfileLikelihood, ProfileLikelihoodPoint};
 pub use region::{Region, Uncertainties, chi_squared_quantile, chi_squared_tail};
-pub use scatter::Runs;
+pub use scatter::Repeatability;
 pub use search::{
-    Budget, Evaluated, LocalMinimum, Method, Search, SearchError, Stopped, continue_search, search, search_design,
+    Budget, Evaluated, LocalMinimum, Method, SearchError, SearchResult, Stopped, continue_search, search, search_design,
 };
 
-pub use solve::{Answer, Plan, UNLIKELY, solve};
+pub use solve::{Answer, SolvePlan, UNLIKELY, solve};
 
 /// The model as the search sees it.
 pub trait Evaluate {

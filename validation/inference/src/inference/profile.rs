@@ -19,7 +19,7 @@ const CURVE_POINTS: usize = 41;
 
 /// A point of the curve.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ProfilePoint {
+pub struct ProfileLikelihoodPoint {
     /// All parameters, in the unit cube.
     pub point: Vec<f64>,
     /// χ² above its minimum `[-]`.
@@ -28,7 +28,7 @@ pub struct ProfilePoint {
 
 /// The values of one parameter that agree with the data.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Profile {
+pub struct ProfileLikelihood {
     /// Least and largest value whose χ² rises by no more than the threshold, in the unit cube.
     pub interval: [f64; 2],
     /// χ² stays below the threshold down to the lower bound of the parameter.
@@ -38,10 +38,10 @@ pub struct Profile {
     /// All parameters at both ends of the interval.
     pub ends: [Vec<f64>; 2],
     /// The curve from beyond one end to beyond the other, of rising values.
-    pub curve: Vec<ProfilePoint>,
+    pub curve: Vec<ProfileLikelihoodPoint>,
 }
 
-impl Profile {
+impl ProfileLikelihood {
     /// Whether both ends lie between the bounds.
     #[must_use]
     pub fn is_closed(&self) -> bool {
@@ -57,15 +57,26 @@ impl Profile {
 
 /// The interval of the parameter `which` up to a rise of χ² by `threshold`, without its curve; `deviation` is a guess of its
 /// standard deviation in the unit cube.
-pub(super) fn profile(emulator: &Emulator, minimum: &Minimum, which: usize, deviation: f64, threshold: f64) -> Profile {
+pub(super) fn profile(
+    emulator: &Emulator,
+    minimum: &Minimum,
+    which: usize,
+    deviation: f64,
+    threshold: f64,
+) -> ProfileLikelihood {
     let side = |direction| crossing(emulator, minimum, &minimum.point, which, direction, deviation, threshold);
     let ((below, open_below), (above, open_above)) = (side(-1.0), side(1.0));
     let interval = [below[which], above[which]];
-    Profile { interval, open_below, open_above, ends: [below, above], curve: Vec::new() }
+    ProfileLikelihood { interval, open_below, open_above, ends: [below, above], curve: Vec::new() }
 }
 
 /// The curve over an interval and half its width beyond.
-pub(super) fn curve(emulator: &Emulator, minimum: &Minimum, which: usize, interval: [f64; 2]) -> Vec<ProfilePoint> {
+pub(super) fn curve(
+    emulator: &Emulator,
+    minimum: &Minimum,
+    which: usize,
+    interval: [f64; 2],
+) -> Vec<ProfileLikelihoodPoint> {
     let margin = 0.5 * (interval[1] - interval[0]);
     let (from, to) = ((interval[0] - margin).max(0.0), (interval[1] + margin).min(1.0));
     let value = |k: usize| from + (to - from) * k as f64 / (CURVE_POINTS - 1) as f64;
@@ -94,11 +105,11 @@ pub(super) fn constrained(
     start: &[f64],
     which: usize,
     value: f64,
-) -> ProfilePoint {
+) -> ProfileLikelihoodPoint {
     let (mut lower, mut upper) = (vec![0.0; start.len()], vec![1.0; start.len()]);
     (lower[which], upper[which]) = (value, value);
     let bottom = descend(emulator, start, &lower, &upper);
-    ProfilePoint { point: bottom.point, rise: bottom.chi_squared - minimum.chi_squared }
+    ProfileLikelihoodPoint { point: bottom.point, rise: bottom.chi_squared - minimum.chi_squared }
 }
 
 /// The last point in a direction below the threshold, and whether it lies at the bound; all values of the others are followed

@@ -5,7 +5,7 @@
 //! (Wilks, Annals of Mathematical Statistics 9 (1938) 60).
 
 use super::emulator::{Emulator, Minimum};
-use super::profile::{Profile, ProfilePoint, constrained, crossing, curve, profile};
+use super::profile::{ProfileLikelihood, ProfileLikelihoodPoint, constrained, crossing, curve, profile};
 use nalgebra::DMatrix;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -39,7 +39,7 @@ pub struct Region {
     /// Rise of χ² at the ends of intervals `[-]`.
     pub limit: f64,
     /// Profile of every parameter with its interval.
-    pub profiles: Vec<Profile>,
+    pub profiles: Vec<ProfileLikelihood>,
     /// Covariance (JᵀJ)⁻¹ at the minimum. A standard deviation far above 1, the range, only says that the data do not
     /// determine the parameter.
     pub covariance: DMatrix<f64>,
@@ -108,7 +108,7 @@ impl Region {
 
     /// The best point of the emulator with one parameter held, downhill from `start`.
     #[must_use]
-    pub fn held(&self, start: &[f64], which: usize, value: f64) -> ProfilePoint {
+    pub fn held(&self, start: &[f64], which: usize, value: f64) -> ProfileLikelihoodPoint {
         constrained(&self.emulator, &self.base, start, which, value)
     }
 

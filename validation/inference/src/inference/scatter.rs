@@ -10,15 +10,15 @@
 //! CMA-ES by 0.74 (0.96) after 200, and the point found here by 0.04 (0.09) after 65 (80).
 
 use super::emulator::{Degree, Emulator, Minimum};
-use super::ends::End;
+use super::ends::IntervalEnd;
 use super::explore::{Explored, FAR, extent};
 use super::region::{Region, Uncertainties};
-use super::{Budget, Evaluate, Evaluated, Search};
+use super::{Budget, Evaluate, Evaluated, SearchResult};
 use serde::{Deserialize, Serialize};
 
 /// Whether evaluating a point again, or one beside it, gives the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum Runs {
+pub enum Repeatability {
     /// They follow the parameters smoothly.
     #[default]
     Smooth,
@@ -26,7 +26,7 @@ pub enum Runs {
     Scattering,
 }
 
-impl Runs {
+impl Repeatability {
     /// The budget of a search: a fall of χ² by less than one says nothing where runs scatter.
     #[must_use]
     pub(super) fn budget(self, budget: Budget) -> Budget {
@@ -44,11 +44,11 @@ impl Runs {
 /// An error of the model itself.
 pub(super) fn averaged<M: Evaluate>(
     model: &mut M,
-    search: Search,
+    search: SearchResult,
     explored: Explored,
     uncertainties: Uncertainties,
     budget: &Budget,
-) -> Result<(Search, Explored), M::Error> {
+) -> Result<(SearchResult, Explored), M::Error> {
     let mut history = explored.history.clone();
     let Some(emulator) = smooth(&history, &explored.region, budget) else { return Ok((search, explored)) };
     let point = emulator.minimum().point;
@@ -64,20 +64,21 @@ pub(super) fn averaged<M: Evaluate>(
     let Some(emulator) = smooth(&history, &explored.region, budget) else { return Ok((search, explored)) };
     let mut region = Region::about(&emulator, minimum.clone(), uncertainties);
     region.draw();
-    let end = |point: &Vec<f64>, open: bool| End {
+    let end = |point: &Vec<f64>, open: bool| IntervalEnd {
         settled: emulator.supports(point),
         point: point.clone(),
         rise: None,
         open,
         fails: false,
     };
-    let ends: Vec<[End; 2]> = region
+    let ends: Vec<[IntervalEnd; 2]> = region
         .profiles
         .iter()
         .map(|profile| [end(&profile.ends[0], profile.open_below), end(&profile.ends[1], profile.open_above)])
         .collect();
     let joint_settled = ends.iter().flatten().all(|end| end.settled);
-    let search = Search { best: minimum.point, chi_squared: minimum.chi_squared, history: history.clone(), ..search };
+    let search =
+        SearchResult { best: minimum.point, chi_squared: minimum.chi_squared, history: history.clone(), ..search };
     Ok((search, Explored { emulator, region, ends, joint_settled, history, lower: false }))
 }
 
@@ -95,7 +96,7 @@ fn smooth(history: &[Evaluated], region: &Region, budget: &Budget) -> Option<Emu
 #[cfg(test)]
 mod tests {
     use super::super::search::Method;
-    use super::super::{Plan, chi_squared, solve};
+    use super::super::{SolvePlan, chi_squared, solve};
     use super::*;
     use crate::sampling::Random;
     use std::convert::Infallible;
@@ -140,8 +141,8 @@ mod tests {
         }
     }
 
-    fn plan(runs: Runs) -> Plan {
-        Plan {
+    fn plan(runs: Repeatability) -> SolvePlan {
+        SolvePlan {
             start: vec![0.8, 0.3],
             method: Method::TrustRegion,
             design: Vec::new(),
@@ -152,7 +153,7 @@ mod tests {
     }
 
     /// Joint regions and intervals of the experiments that hold the truth.
-    fn held(variance: f64, runs: Runs) -> [usize; 3] {
+    fn held(variance: f64, runs: Repeatability) -> [usize; 3] {
         let mut held = [0; 3];
         for seed in 0..EXPERIMENTS {
             let mut model = Scattering::new(seed, variance);
@@ -161,8 +162,8 @@ mod tests {
             let minimum = &explored.region.minimum;
             assert!(minimum.point == answer.search.best && minimum.chi_squared == answer.search.chi_squared);
             held[0] += usize::from(match runs {
-                Runs::Scattering => explored.region.contains(&model.truth),
-                Runs::Smooth => {
+                Repeatability::Scattering => explored.region.contains(&model.truth),
+                Repeatability::Smooth => {
                     chi_squared(&model.mean(&model.truth)) - minimum.chi_squared <= explored.region.threshold
                 }
             });
@@ -178,13 +179,13 @@ mod tests {
     #[test]
     fn regions_of_a_model_that_scatters_hold_the_truth() {
         for variance in [0.3, 1.0] {
-            let held = held(variance, Runs::Scattering);
+            let held = held(variance, Repeatability::Scattering);
             assert!(held.iter().all(|count| *count >= 36), "{variance}: {held:?}");
         }
     }
 
     #[test]
     fn as_if_it_did_not_scatter_they_would_not() {
-        assert!(held(1.0, Runs::Smooth).iter().any(|count| *count < 30));
+        assert!(held(1.0, Repeatability::Smooth).iter().any(|count| *count < 30));
     }
 }

@@ -7,7 +7,7 @@ use crate::sampling::Random;
 
 /// A choice with the weighted residuals of its best parameters.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Choice {
+pub struct FittedChoice {
     /// What it is called.
     pub name: String,
     /// Weighted residuals `[-]`, one a datum in the same order for all choices.
@@ -36,7 +36,7 @@ pub struct Score {
 /// Ranks choices, the best first, with `repeats` resamplings of the data points; none without choices or data, or where
 /// the choices do not have the same data.
 #[must_use]
-pub fn rank(choices: &[Choice], repeats: usize, seed: u64) -> Option<Vec<Score>> {
+pub fn rank(choices: &[FittedChoice], repeats: usize, seed: u64) -> Option<Vec<Score>> {
     let data = choices.first()?.residuals.len();
     if data == 0 || choices.iter().any(|choice| choice.residuals.len() != data) {
         return None;
@@ -93,8 +93,8 @@ fn order(values: &[f64]) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    fn choice(name: &str, residuals: Vec<f64>) -> Choice {
-        Choice { name: name.to_owned(), residuals, parameters: 0 }
+    fn choice(name: &str, residuals: Vec<f64>) -> FittedChoice {
+        FittedChoice { name: name.to_owned(), residuals, parameters: 0 }
     }
 
     #[test]
@@ -123,7 +123,7 @@ mod tests {
 
     #[test]
     fn a_parameter_must_earn_its_keep() {
-        let fitted = Choice { parameters: 1, ..choice("fitted", vec![0.9; 10]) };
+        let fitted = FittedChoice { parameters: 1, ..choice("fitted", vec![0.9; 10]) };
         let scores = rank(&[fitted, choice("plain", vec![0.95; 10])], 100, 1).unwrap();
         assert_eq!(scores[0].name, "plain");
     }

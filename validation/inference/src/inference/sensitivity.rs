@@ -100,11 +100,11 @@ mod tests {
     use std::convert::Infallible;
 
     /// Linear in the first parameter, a product of the second and third, and without the fourth.
-    struct Product {
+    struct ProductModel {
         beyond: f64,
     }
 
-    impl Evaluate for Product {
+    impl Evaluate for ProductModel {
         type Error = Infallible;
         fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Infallible> {
             let one = |u: &Vec<f64>| (u[3] <= self.beyond).then(|| vec![7.0 * u[0] - 1.0, 12.0 * u[1] * u[2]]);
@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn effects_are_those_of_the_formula() {
-        let screening = screen(&mut Product { beyond: 1.0 }, 4, 400, 3).unwrap();
+        let screening = screen(&mut ProductModel { beyond: 1.0 }, 4, 400, 3).unwrap();
         let effects = &screening.effects;
         assert_eq!((screening.points, screening.failed), (2000, 0));
         // one datum of two with effect 7
@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn failures_are_counted_and_left_out() {
-        let screening = screen(&mut Product { beyond: 0.5 }, 4, 50, 3).unwrap();
+        let screening = screen(&mut ProductModel { beyond: 0.5 }, 4, 50, 3).unwrap();
         assert!(screening.failed > 50 && screening.failed < 200);
         assert!(screening.effects[3].effects == 0 && screening.effects[3].mean_size.is_nan());
         assert!((screening.effects[0].mean_size - 7.0 / 2.0f64.sqrt()).abs() < 1e-12);

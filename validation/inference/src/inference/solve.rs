@@ -4,9 +4,9 @@ use super::emulator::Minimum;
 use super::ends::TOLERANCE;
 use super::explore::{Explored, explore};
 use super::region::{Uncertainties, chi_squared_tail};
-use super::scatter::{Runs, averaged};
+use super::scatter::{Repeatability, averaged};
 use super::search::{
-    Budget, LocalMinimum, Method, Search, SearchError, Stopped, continue_search, search, search_design,
+    Budget, LocalMinimum, Method, SearchError, SearchResult, Stopped, continue_search, search, search_design,
 };
 use super::{Evaluate, Evaluated};
 
@@ -19,7 +19,7 @@ const MOST_RESTARTS: usize = 3;
 
 /// What is done, and with how much.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Plan {
+pub struct SolvePlan {
     /// Start in the unit cube.
     pub start: Vec<f64>,
     /// How the minimum is looked for.
@@ -31,14 +31,14 @@ pub struct Plan {
     /// What the exploration of the region may spend, each time.
     pub region_evaluations: usize,
     /// Whether runs scatter.
-    pub runs: Runs,
+    pub runs: Repeatability,
 }
 
 /// The minimum and its region.
 #[derive(Debug, Clone)]
 pub struct Answer {
     /// The search, with every point that was evaluated.
-    pub search: Search,
+    pub search: SearchResult,
     /// Evaluations of the first search.
     pub searched: usize,
     /// The region; none with too few points.
@@ -51,7 +51,7 @@ pub struct Answer {
 ///
 /// # Errors
 /// What [`search`](super::search()) returns.
-pub fn solve<M: Evaluate>(model: &mut M, plan: &Plan) -> Result<Answer, SearchError<M::Error>> {
+pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, SearchError<M::Error>> {
     let usual = plan.runs.budget(plan.budget);
     let mut found = if plan.design.is_empty() {
         search(model, &plan.start, plan.method, usual)?
@@ -79,16 +79,20 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &Plan) -> Result<Answer, SearchEr
             found = again(model, found, explored.history, &lowest, Budget { evaluations: left, ..usual })?;
             continue;
         }
-        let search =
-            Search { best: lowest.point, chi_squared: lowest.chi_squared, history: explored.history.clone(), ..found };
+        let search = SearchResult {
+            best: lowest.point,
+            chi_squared: lowest.chi_squared,
+            history: explored.history.clone(),
+            ..found
+        };
         let (search, explored) = match plan.runs {
-            Runs::Smooth => (search, explored),
-            Runs::Scattering => {
+            Repeatability::Smooth => (search, explored),
+            Repeatability::Scattering => {
                 averaged(model, search, explored, uncertainties, &budget).map_err(SearchError::Model)?
             }
         };
         let stopped = judged(search.stopped, &explored);
-        return Ok(Answer { search: Search { stopped, ..search }, searched, explored: Some(explored), restarts });
+        return Ok(Answer { search: SearchResult { stopped, ..search }, searched, explored: Some(explored), restarts });
     }
 }
 
@@ -105,22 +109,22 @@ fn judged(stopped: Stopped, explored: &Explored) -> Stopped {
 /// The search from a lower point, with everything that is known.
 fn again<M: Evaluate>(
     model: &mut M,
-    before: Search,
+    before: SearchResult,
     history: Vec<Evaluated>,
     lowest: &Minimum,
     budget: Budget,
-) -> Result<Search, SearchError<M::Error>> {
+) -> Result<SearchResult, SearchError<M::Error>> {
     let budget = Budget { starts: 0, ..budget };
     let found = continue_search(model, history, &lowest.point, Method::TrustRegion, budget)?;
     let mut minima = before.minima;
     minima.retain(|minimum| !found.minima.iter().any(|new| new.is_near(minimum)));
     minima.extend(found.minima.iter().cloned());
     minima.sort_by(|a: &LocalMinimum, b| a.chi_squared.total_cmp(&b.chi_squared));
-    Ok(Search { minima, every_start: before.every_start, ..found })
+    Ok(SearchResult { minima, every_start: before.every_start, ..found })
 }
 
 /// Uncertainties are enlarged where the model does not explain the data.
-fn uncertainties(found: &Search) -> Uncertainties {
+fn uncertainties(found: &SearchResult) -> Uncertainties {
     let residuals = found.history.iter().find(|evaluated| evaluated.point == found.best);
     let data = residuals.and_then(|evaluated| evaluated.residuals.as_ref()).map_or(0, Vec::len);
     match data.checked_sub(found.best.len()).filter(|freedom| *freedom > 0) {
@@ -135,9 +139,9 @@ mod tests {
     use std::convert::Infallible;
 
     /// Two wells; the lower one is at 0.9.
-    struct Wells;
+    struct DoubleWell;
 
-    impl Evaluate for Wells {
+    impl Evaluate for DoubleWell {
         type Error = Infallible;
         fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Infallible> {
             let one = |u: &Vec<f64>| vec![14.0 * (u[0] - 0.15) * (u[0] - 0.9), 2.0 * (1.0 - u[0]), 0.5, -0.5];
@@ -147,15 +151,15 @@ mod tests {
 
     #[test]
     fn a_search_is_begun_anew_from_a_lower_point() {
-        let plan = Plan {
+        let plan = SolvePlan {
             start: vec![0.1],
             method: Method::TrustRegion,
             design: Vec::new(),
             budget: Budget::default(),
             region_evaluations: 20,
-            runs: Runs::Smooth,
+            runs: Repeatability::Smooth,
         };
-        let answer = solve(&mut Wells, &plan).expect("it works");
+        let answer = solve(&mut DoubleWell, &plan).expect("it works");
         assert!(answer.restarts == 1 && (answer.search.best[0] - 0.9).abs() < 0.02, "{:?}", answer.search.best);
         assert_eq!(answer.search.minima.len(), 2);
         let explored = answer.explored.expect("enough points");

@@ -17,9 +17,9 @@ pub(super) fn emulator(residuals: impl Fn(&[f64]) -> Vec<f64>) -> Emulator {
 }
 
 /// Rosenbrock's valley; the minimum, χ² = 0, lies at (0.6, 0.36).
-pub(super) struct Valley;
+pub(super) struct RosenbrockModel;
 
-impl Evaluate for Valley {
+impl Evaluate for RosenbrockModel {
     type Error = Infallible;
     fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Infallible> {
         Ok(points.iter().map(|u| Some(vec![30.0 * (u[1] - u[0] * u[0]), 3.0 * (0.6 - u[0])])).collect())
@@ -28,12 +28,12 @@ impl Evaluate for Valley {
 
 /// A decay to a plateau, y = a exp(−b t) + c at twelve times, without noise, standard uncertainty 0.02.
 #[derive(Clone)]
-pub(super) struct Curve {
+pub(super) struct ExponentialDecay {
     /// Where the data come from, in the unit cube.
     pub(super) truth: [f64; 3],
 }
 
-impl Curve {
+impl ExponentialDecay {
     pub(super) fn new() -> Self {
         Self { truth: [0.6, 0.45, 0.4] }
     }
@@ -57,7 +57,7 @@ impl Curve {
     }
 }
 
-impl Evaluate for Curve {
+impl Evaluate for ExponentialDecay {
     type Error = Infallible;
     fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Infallible> {
         Ok(points.iter().map(|u| Some(self.at(u))).collect())
@@ -66,7 +66,7 @@ impl Evaluate for Curve {
 
 /// The curve, where the first coordinate is at most `beyond`; a model that diverges elsewhere.
 pub(super) struct Failing {
-    pub(super) curve: Curve,
+    pub(super) curve: ExponentialDecay,
     pub(super) beyond: f64,
 }
 

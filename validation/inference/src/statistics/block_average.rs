@@ -18,7 +18,7 @@
 //! and Tukey): y_k = n θ − (n − 1) θ_(k) of a mean is the block's mean, and serves any other statistic of the samples, such as
 //! a fitted slope.
 
-use super::{Estimate, student_quantile_of};
+use super::{FittedValue, student_quantile_of};
 use std::ops::Range;
 
 /// Blocks that a time series is split into where nothing else asks for another number.
@@ -46,8 +46,8 @@ pub struct Average {
 impl Average {
     /// The value with its standard error.
     #[must_use]
-    pub fn estimate(self) -> Estimate {
-        Estimate { value: self.value, standard_error: self.standard_error }
+    pub fn estimate(self) -> FittedValue {
+        FittedValue { value: self.value, standard_error: self.standard_error }
     }
 }
 

@@ -1,13 +1,13 @@
 //! Profiles over the height, in bins of one spacing and blocks of time.
 
-use super::{BLOCKS, Estimate, block_jackknife};
+use super::{BLOCKS, FittedValue, block_jackknife};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Sums over the samples (particles × times) of one bin in one block of time.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct BlockSums {
+pub struct BinSums {
     /// Samples.
     pub samples: f64,
     /// Heights `[m]`.
@@ -41,23 +41,23 @@ pub struct BlockProfile {
     /// Times that were sampled.
     pub times: usize,
     /// Sums, shape `[bins][blocks of time]`.
-    pub sums: Vec<Vec<BlockSums>>,
+    pub sums: Vec<Vec<BinSums>>,
 }
 
 impl BlockProfile {
     /// An empty profile of `bins` bins of the height `bin` `[m]` from `bottom` `[m]`.
     #[must_use]
     pub fn new(bottom: f64, bin: f64, bins: usize) -> Self {
-        Self { bottom, bin, times: 0, sums: vec![vec![BlockSums::default(); BLOCKS]; bins] }
+        Self { bottom, bin, times: 0, sums: vec![vec![BinSums::default(); BLOCKS]; bins] }
     }
 
     /// A profile that is known without samples: the same in every block of time, so without a statistical error.
     #[must_use]
     pub fn known(points: impl IntoIterator<Item = ProfilePoint>) -> Self {
-        let sums: Vec<Vec<BlockSums>> = points
+        let sums: Vec<Vec<BinSums>> = points
             .into_iter()
             .map(|ProfilePoint { height, velocity, pressure, .. }| {
-                vec![BlockSums { samples: 1.0, height, velocity, pressure }; BLOCKS]
+                vec![BinSums { samples: 1.0, height, velocity, pressure }; BLOCKS]
             })
             .collect();
         Self { bottom: 0.0, bin: 1.0, times: BLOCKS, sums }
@@ -103,7 +103,7 @@ impl BlockProfile {
 
     /// Velocity of every bin that holds samples, from below, with its statistical error `[m/s]`.
     #[must_use]
-    pub fn velocities(&self) -> Vec<Estimate> {
+    pub fn velocities(&self) -> Vec<FittedValue> {
         let filled = self.sums.iter().filter(|blocks| mean_without(blocks, &(0..0)).is_some());
         filled
             .map(|blocks| {
@@ -115,13 +115,13 @@ impl BlockProfile {
 
     /// A statistic of the whole profile with its statistical error.
     #[must_use]
-    pub fn estimate(&self, statistic: impl Fn(&[ProfilePoint]) -> f64) -> Estimate {
+    pub fn estimate(&self, statistic: impl Fn(&[ProfilePoint]) -> f64) -> FittedValue {
         block_jackknife(BLOCKS, |left_out| statistic(&self.points_without(left_out))).estimate()
     }
 }
 
-fn mean_without(blocks: &[BlockSums], left_out: &Range<usize>) -> Option<ProfilePoint> {
-    let mut sum = BlockSums::default();
+fn mean_without(blocks: &[BinSums], left_out: &Range<usize>) -> Option<ProfilePoint> {
+    let mut sum = BinSums::default();
     for (_, add) in blocks.iter().enumerate().filter(|(block, _)| !left_out.contains(block)) {
         sum.samples += add.samples;
         sum.height += add.height;

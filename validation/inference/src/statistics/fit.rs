@@ -47,7 +47,7 @@ pub fn linear_regression(points: &[(f64, f64)]) -> Option<Regression> {
 
 /// A fitted value with its standard error, both in the value's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimate {
+pub struct FittedValue {
     /// The value.
     pub value: f64,
     /// Its standard error from the scatter about the fit.
@@ -57,7 +57,7 @@ pub struct Estimate {
 /// The slope that groups of points (x, y) share, each group with an intercept of its own; none without two distinct x in
 /// a group and one point more than there are intercepts and slope.
 #[must_use]
-pub fn common_slope(groups: &[Vec<(f64, f64)>]) -> Option<Estimate> {
+pub fn common_slope(groups: &[Vec<(f64, f64)>]) -> Option<FittedValue> {
     let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
     for points in groups {
         let mean = |pick: fn(&(f64, f64)) -> f64| points.iter().map(pick).sum::<f64>() / points.len() as f64;
@@ -72,7 +72,7 @@ pub fn common_slope(groups: &[Vec<(f64, f64)>]) -> Option<Estimate> {
     let value = xy / xx;
     let residual = (yy - value * xy).max(0.0);
     (freedom > 0 && value.is_finite())
-        .then(|| Estimate { value, standard_error: (residual / freedom as f64 / xx).sqrt() })
+        .then(|| FittedValue { value, standard_error: (residual / freedom as f64 / xx).sqrt() })
 }
 
 /// Exponent of a power law with its standard error.

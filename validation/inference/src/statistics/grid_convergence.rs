@@ -92,19 +92,19 @@ pub fn grid_convergence(means: &[Mean]) -> Option<GridConvergence> {
     };
     let points: Vec<[f64; 3]> =
         means.iter().map(|mean| [fine.resolution as f64 / mean.resolution as f64, mean.value, error(mean)]).collect();
-    let fits: Vec<Fit> = (0..=STEPS)
-        .map(|step| Fit::of(&points, ORDERS.0 + (ORDERS.1 - ORDERS.0) * step as f64 / STEPS as f64))
+    let fits: Vec<PowerLawFit> = (0..=STEPS)
+        .map(|step| PowerLawFit::of(&points, ORDERS.0 + (ORDERS.1 - ORDERS.0) * step as f64 / STEPS as f64))
         .collect::<Option<_>>()?;
     let best = best_order(&points, &fits)?;
     let freedom = (means.len() - 2) as f64;
     let is_scatter = scatter.is_some() && best.misfit <= quantile * quantile * freedom;
     let misfit = if is_scatter { 1.0 } else { (best.misfit / freedom).sqrt().max(1.0) };
-    let half_width = |fit: &Fit| {
+    let half_width = |fit: &PowerLawFit| {
         let error = SAFETY * (fine.value - fit.limit);
         let open = quantile * misfit * fit.error;
         (error * error + open * open).sqrt()
     };
-    let is_open = |fit: &&Fit| fit.misfit <= freedom * (quantile * misfit).powi(2);
+    let is_open = |fit: &&PowerLawFit| fit.misfit <= freedom * (quantile * misfit).powi(2);
     // the best is always open: its misfit is scatter
     let (mut widest, mut orders) = (half_width(&best), (best.order, best.order));
     for fit in fits.iter().filter(is_open) {
@@ -133,7 +133,7 @@ fn pooled_scatter(means: &[Mean]) -> Option<(f64, usize)> {
 
 /// f = limit + c h^order through points (h, f, error).
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Fit {
+struct PowerLawFit {
     order: f64,
     limit: f64,
     /// Standard error of the limit, from those of the points.
@@ -142,7 +142,7 @@ struct Fit {
     misfit: f64,
 }
 
-impl Fit {
+impl PowerLawFit {
     fn of(points: &[[f64; 3]], order: f64) -> Option<Self> {
         let (mut one, mut x, mut xx) = (0.0, 0.0, 0.0);
         for &[spacing, _, error] in points {
@@ -170,14 +170,14 @@ impl Fit {
 }
 
 /// The fit of least χ², between the neighbours of the best that was tried, by golden section.
-fn best_order(points: &[[f64; 3]], fits: &[Fit]) -> Option<Fit> {
+fn best_order(points: &[[f64; 3]], fits: &[PowerLawFit]) -> Option<PowerLawFit> {
     let (place, mut best) = fits.iter().copied().enumerate().min_by(|a, b| a.1.misfit.total_cmp(&b.1.misfit))?;
     let mut lower = fits[place.saturating_sub(1)].order;
     let mut upper = fits[(place + 1).min(fits.len() - 1)].order;
     let section = 0.5 * (5.0_f64.sqrt() - 1.0);
     for _ in 0..60 {
         let (left, right) = (upper - section * (upper - lower), lower + section * (upper - lower));
-        let (left, right) = (Fit::of(points, left)?, Fit::of(points, right)?);
+        let (left, right) = (PowerLawFit::of(points, left)?, PowerLawFit::of(points, right)?);
         let better = if left.misfit < right.misfit { left } else { right };
         if better.misfit < best.misfit {
             best = better;

@@ -12,9 +12,9 @@ mod segmented;
 mod student;
 
 pub use block_average::{Average, BLOCKS, TooFewSamples, block_average, block_jackknife};
-pub use block_profile::{BlockProfile, BlockSums, ProfilePoint};
+pub use block_profile::{BinSums, BlockProfile, ProfilePoint};
 pub use fit::{
-    Estimate, Exponent, LinearFit, Regression, common_slope, linear_fit, linear_regression, log_log_slope, power_law,
+    Exponent, FittedValue, LinearFit, Regression, common_slope, linear_fit, linear_regression, log_log_slope, power_law,
 };
 pub use grid_convergence::{GridConvergence, Mean, grid_convergence};
 pub use interpolation::{Beyond, interpolated};

@@ -1,23 +1,23 @@
 //! Direct solution of a block-tridiagonal system of 2 × 2 blocks, by elimination without pivoting.
 
 /// Two unknowns of a cell.
-pub(super) type Pair = [f64; 2];
+pub(super) type CellUnknowns = [f64; 2];
 
 /// One row of blocks. The blocks beside the diagonal are diagonal themselves: stress couples a phase to itself only.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Row {
+pub(super) struct BlockRow {
     /// Below the diagonal.
-    pub(super) lower: Pair,
+    pub(super) lower: CellUnknowns,
     /// On the diagonal, row by row.
-    pub(super) diagonal: [Pair; 2],
+    pub(super) diagonal: [CellUnknowns; 2],
     /// Above the diagonal.
-    pub(super) upper: Pair,
+    pub(super) upper: CellUnknowns,
     /// Right-hand side.
-    pub(super) right: Pair,
+    pub(super) right: CellUnknowns,
 }
 
 /// Solves the system in place: afterwards `right` holds the solution.
-pub(super) fn solve(rows: &mut [Row]) {
+pub(super) fn solve(rows: &mut [BlockRow]) {
     for i in 1..rows.len() {
         let (below, inverse) = (rows[i - 1], inverse(rows[i - 1].diagonal));
         let row = &mut rows[i];
@@ -37,7 +37,7 @@ pub(super) fn solve(rows: &mut [Row]) {
     }
 }
 
-fn inverse([[a, b], [c, d]]: [Pair; 2]) -> [Pair; 2] {
+fn inverse([[a, b], [c, d]]: [CellUnknowns; 2]) -> [CellUnknowns; 2] {
     let scale = 1.0 / (a * d - b * c);
     [[d * scale, -b * scale], [-c * scale, a * scale]]
 }
@@ -49,8 +49,8 @@ mod tests {
     #[test]
     fn the_solution_solves_the_system() {
         let number = |k: usize, salt: usize| ((k * 37 + salt * 101) % 17) as f64 / 17.0 - 0.5;
-        let system: Vec<Row> = (0..30)
-            .map(|k| Row {
+        let system: Vec<BlockRow> = (0..30)
+            .map(|k| BlockRow {
                 lower: if k == 0 { [0.0; 2] } else { [number(k, 1), number(k, 2)] },
                 diagonal: [[3.0 + number(k, 3), number(k, 4)], [number(k, 5), 3.0 + number(k, 6)]],
                 upper: if k == 29 { [0.0; 2] } else { [number(k, 7), number(k, 8)] },

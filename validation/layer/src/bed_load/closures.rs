@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 /// How far an eddy reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum MixingLength {
+pub enum MixingLengthClosure {
     /// No turbulence.
     None,
     /// l = κ √(1 − z/h) (∫ (1 − φ/φ_max) dz + r) from the base up to z: an eddy grows where grains leave it room, and
@@ -29,7 +29,7 @@ pub enum MixingLength {
     Linear,
 }
 
-impl MixingLength {
+impl MixingLengthClosure {
     /// Its name in parameters and results.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -66,7 +66,7 @@ pub struct Closures {
     /// Drag law; Gidaspow's jumps at φ = 0.2 and gives no steady state.
     pub drag: DragLaw,
     /// Mixing length.
-    pub mixing_length: MixingLength,
+    pub mixing_length: MixingLengthClosure,
     /// The constant κ of von Kármán `[-]`.
     #[schemars(transform = positive("give κ, 0.41"))]
     pub karman: f64,
@@ -94,7 +94,7 @@ static LITERATURE: LazyLock<Closures> = LazyLock::new(|| {
         largest_fraction: value("largest solid fraction"),
         dilation: value("dilation"),
         drag: DragLaw::DiFelice,
-        mixing_length: MixingLength::Integral,
+        mixing_length: MixingLengthClosure::Integral,
         karman: value("Kármán constant"),
         turbulent_schmidt: 0.0,
         grain_roughness: GrainRoughness {
@@ -120,7 +120,7 @@ impl Default for Closures {
 
 /// A stress at a shear rate γ, and how it changes with it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Stress {
+pub(super) struct StressResponse {
     /// τ `[Pa]`.
     pub(super) value: f64,
     /// dτ/dγ `[Pa·s]`.
@@ -155,20 +155,20 @@ impl Closures {
 
     /// Stress of the grains, μ(I) p′ γ/√(γ² + γ_r²), at a shear rate `[1/s]` and a pressure p′ `[Pa]`, and what the
     /// water between them adds to it.
-    pub(super) fn grain_stress(&self, rate: f64, pressure: f64, inertia_unit: f64, water: &Between) -> Stress {
+    pub(super) fn grain_stress(&self, rate: f64, pressure: f64, inertia_unit: f64, water: &Between) -> StressResponse {
         let friction = self.friction(rate, pressure, inertia_unit);
         let excess = self.suspension_viscosity.relative(water.solid_fraction) - 1.0;
         let viscosity = (1.0 - water.solid_fraction) * water.density * water.viscosity * excess;
-        Stress {
+        StressResponse {
             value: friction.value + viscosity * rate,
             tangent: friction.tangent + viscosity,
             secant: friction.secant + viscosity,
         }
     }
 
-    fn friction(&self, rate: f64, pressure: f64, inertia_unit: f64) -> Stress {
+    fn friction(&self, rate: f64, pressure: f64, inertia_unit: f64) -> StressResponse {
         if pressure <= 0.0 {
-            return Stress::default();
+            return StressResponse::default();
         }
         let speed = rate.abs();
         let span = self.limiting_friction - self.static_friction;
@@ -180,15 +180,15 @@ impl Closures {
         let secant = friction * pressure / regularised;
         let ratio = self.regularisation_rate / regularised;
         let tangent = secant * ratio * ratio + pressure * slope * speed / regularised;
-        Stress { value: secant * rate, tangent, secant }
+        StressResponse { value: secant * rate, tangent, secant }
     }
 
     /// Stress of the water, (1 − φ) ρ_f [ν + l² |γ|] γ.
-    pub(super) fn fluid_stress(&self, rate: f64, length: f64, water: &Between) -> Stress {
+    pub(super) fn fluid_stress(&self, rate: f64, length: f64, water: &Between) -> StressResponse {
         let inertia = (1.0 - water.solid_fraction) * water.density;
         let eddy = length * length * rate.abs();
         let secant = inertia * (water.viscosity + eddy);
-        Stress { value: secant * rate, tangent: inertia * (water.viscosity + 2.0 * eddy), secant }
+        StressResponse { value: secant * rate, tangent: inertia * (water.viscosity + 2.0 * eddy), secant }
     }
 
     /// Pressure D φ `[Pa]` with which eddies carry grains, per φ, at an exchange coefficient over φ `[kg/(m³ s)]`, a rate
@@ -205,10 +205,10 @@ impl Closures {
         let root = (1.0 - height / flow_depth).max(0.0).sqrt();
         self.karman
             * match self.mixing_length {
-                MixingLength::None => 0.0,
-                MixingLength::Integral => root * room,
-                MixingLength::Root => root * height.max(0.0),
-                MixingLength::Linear => height.max(0.0),
+                MixingLengthClosure::None => 0.0,
+                MixingLengthClosure::Integral => root * room,
+                MixingLengthClosure::Root => root * height.max(0.0),
+                MixingLengthClosure::Linear => height.max(0.0),
             }
     }
 }

@@ -8,18 +8,18 @@
 //! tangents alone overshoot where the friction yields (γ_r is small), secants alone crawl. Fractions follow the shear
 //! rate at once. Fractions that follow it slowly swing for ever in the topmost grains as soon as the cells are small.
 
-use super::block_tridiagonal::{Row, solve};
-use super::closures::{Between, Stress};
+use super::block_tridiagonal::{BlockRow, solve};
+use super::closures::{Between, StressResponse};
 use super::dilation::{Dilation, Loosening};
 use super::profile::LayerState;
-use super::{BedLoadLayer, Grains, Start};
+use super::{BedLoadLayer, GrainMotion, InitialVelocity};
 
 /// Solid fraction below which suspended grains go with those below them `[-]`.
 const SPARSE: f64 = 1e-6;
 
 /// Both phases in their cells.
 #[derive(Debug, Clone)]
-pub(super) struct Column<'a> {
+pub(super) struct TwoPhaseColumn<'a> {
     layer: &'a BedLoadLayer,
     /// Cells whose grains are held still, from the base up.
     held: usize,
@@ -36,8 +36,8 @@ pub(super) struct Column<'a> {
 struct Faces {
     pressure: Vec<f64>,
     length: Vec<f64>,
-    fluid: Vec<Stress>,
-    grains: Vec<Stress>,
+    fluid: Vec<StressResponse>,
+    grains: Vec<StressResponse>,
 }
 
 /// How a step is taken.
@@ -60,18 +60,18 @@ pub(super) struct Change {
     pub(super) left_over: f64,
 }
 
-impl<'a> Column<'a> {
-    pub(super) fn new(layer: &'a BedLoadLayer, start: Start) -> Self {
+impl<'a> TwoPhaseColumn<'a> {
+    pub(super) fn new(layer: &'a BedLoadLayer, start: InitialVelocity) -> Self {
         let cells = layer.cells();
         let width = layer.cell_height;
         let ends = |k: usize| (layer.face(k), layer.face(k + 1));
         let fraction = (0..cells).map(|k| match &layer.grains {
-            Grains::Resting(given) | Grains::Frozen(given) => given.mean(ends(k).0, ends(k).1),
-            Grains::Dilating if layer.face(k) + 0.5 * width < 0.0 => layer.closures.largest_fraction,
-            Grains::Dilating => 0.0,
+            GrainMotion::Resting(given) | GrainMotion::Frozen(given) => given.mean(ends(k).0, ends(k).1),
+            GrainMotion::Dilating if layer.face(k) + 0.5 * width < 0.0 => layer.closures.largest_fraction,
+            GrainMotion::Dilating => 0.0,
         });
         let held = match layer.grains {
-            Grains::Resting(_) => cells,
+            GrainMotion::Resting(_) => cells,
             _ => (layer.stream.held_depth / width).round() as usize,
         };
         let speed = |k: usize| start.velocity(layer.face(k) + 0.5 * width, &layer.stream);
@@ -109,7 +109,7 @@ impl<'a> Column<'a> {
 
     /// Lets the grains follow their shear rate; returns the largest change and the weight without room.
     fn dilate(&mut self) -> (f64, f64) {
-        if !matches!(self.layer.grains, Grains::Dilating) {
+        if !matches!(self.layer.grains, GrainMotion::Dilating) {
             return (0.0, 0.0);
         }
         let BedLoadLayer { stream, closures, .. } = self.layer;
@@ -240,7 +240,7 @@ impl<'a> Column<'a> {
     }
 
     /// (M/Δt + J) δ = R.
-    fn balance(&self, faces: &Faces, stride: Stride) -> Vec<Row> {
+    fn balance(&self, faces: &Faces, stride: Stride) -> Vec<BlockRow> {
         let stream = &self.layer.stream;
         let width = self.layer.cell_height;
         let cells = self.fraction.len();
@@ -261,8 +261,8 @@ impl<'a> Column<'a> {
                 let (drag, slope) = self.drag(k);
                 let water_mass = (1.0 - self.fraction[k]) * stream.fluid_density;
                 let grain_mass = self.fraction[k] * stream.grain_density;
-                let divergence = |stress: &[Stress]| (stress[k + 1].value - stress[k].value) / width;
-                let mut row = Row {
+                let divergence = |stress: &[StressResponse]| (stress[k + 1].value - stress[k].value) / width;
+                let mut row = BlockRow {
                     lower: [-water(k), -solid(k)],
                     diagonal: [
                         [water_mass / stride.time_step + water(k) + water(k + 1) + slope, -slope],

@@ -11,7 +11,7 @@
 //! - l = κ √(1 − z/h) [∫ (1 − φ/φ_max) dz + r]: eddies grow where grains leave them room, and start from the roughness r of
 //!   grains that rest (the solver's `GrainRoughness`), which fades where grains have loosened.
 //!
-//! Both velocities vanish at the base, both stresses at z = h. Three ways to treat the grains ([`Grains`]) isolate what a
+//! Both velocities vanish at the base, both stresses at z = h. Three ways to treat the grains ([`GrainMotion`]) isolate what a
 //! two-phase program does: the flow over and through grains that rest (drag and turbulence), grains that move with a
 //! given fraction (friction and both momenta), and all of it. Finite volumes of second order, no particles; of
 //! the solver's laws it shares drag, viscosity of suspensions, roughness of grains and κ, and is compared with the others ([`Closures`]). Agreement verifies discretisations; that the model is right needs experiments.
@@ -39,16 +39,16 @@ mod stream;
 #[cfg(test)]
 mod tests;
 
-pub use closures::{Closures, MixingLength};
+pub use closures::{Closures, MixingLengthClosure};
 pub use domain::{DIMENSIONLESS_DIAMETERS, OutsideBedLoad, RELATIVE_DEPTHS, SHIELDS_NUMBERS};
 pub use measures::DragPeak;
 pub use profile::{LayerPoint, LayerState};
-pub use solid_fraction::SolidFraction;
+pub use solid_fraction::SolidFractionProfile;
 pub use states::{SAME_STATE, SteadyStates, TwoStates};
 pub use stream::Stream;
 
 use crate::LayerError;
-use column::{Column, Stride};
+use column::{Stride, TwoPhaseColumn};
 
 /// A layer and how it is computed.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,25 +58,25 @@ pub struct BedLoadLayer {
     /// Closures.
     pub closures: Closures,
     /// What the grains do.
-    pub grains: Grains,
+    pub grains: GrainMotion,
     /// Height of a cell `[m]`; both depths and the held depth are whole multiples of it.
     pub cell_height: f64,
 }
 
 /// What the grains do.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Grains {
+pub enum GrainMotion {
     /// They rest at a given φ(z): flow over and through a porous bed, or clear water.
-    Resting(SolidFraction),
+    Resting(SolidFractionProfile),
     /// They move, but their fraction stays as it is given.
-    Frozen(SolidFraction),
+    Frozen(SolidFractionProfile),
     /// They move and dilate. At the start they lie at φ_max below z = 0, and none is lost.
     Dilating,
 }
 
 /// The velocities from which the steady state is sought; it must not depend on them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Start {
+pub enum InitialVelocity {
     /// Nothing moves.
     Rest,
     /// Water and upper grains have a speed `[m/s]` from 15 mm upwards, and in proportion less down to 5 mm below the bed's
@@ -84,7 +84,7 @@ pub enum Start {
     Moving(f64),
 }
 
-impl Start {
+impl InitialVelocity {
     fn velocity(self, z: f64, stream: &Stream) -> f64 {
         match self {
             Self::Rest => 0.0,
@@ -134,11 +134,11 @@ impl BedLoadLayer {
     ///
     /// # Errors
     /// Parameters out of range, or no steady state within [`LARGEST_STEPS`].
-    pub fn steady(&self, start: Start) -> Result<LayerState, LayerError> {
+    pub fn steady(&self, start: InitialVelocity) -> Result<LayerState, LayerError> {
         self.steady_unless(start, &|| false)
     }
 
-    fn steady_unless(&self, start: Start, stopped: &dyn Fn() -> bool) -> Result<LayerState, LayerError> {
+    fn steady_unless(&self, start: InitialVelocity, stopped: &dyn Fn() -> bool) -> Result<LayerState, LayerError> {
         let approach = self.approach_unless(start, stopped)?;
         match approach.unsteady {
             None => Ok(approach.state),
@@ -150,7 +150,7 @@ impl BedLoadLayer {
     ///
     /// # Errors
     /// Parameters out of range.
-    pub fn approach(&self, start: Start) -> Result<Approach, LayerError> {
+    pub fn approach(&self, start: InitialVelocity) -> Result<Approach, LayerError> {
         self.approach_unless(start, &|| false)
     }
 
@@ -158,11 +158,11 @@ impl BedLoadLayer {
     ///
     /// # Errors
     /// Parameters out of range.
-    pub fn approach_unless(&self, start: Start, stopped: &dyn Fn() -> bool) -> Result<Approach, LayerError> {
+    pub fn approach_unless(&self, start: InitialVelocity, stopped: &dyn Fn() -> bool) -> Result<Approach, LayerError> {
         self.check()?;
         let shear_velocity = self.stream.shear_velocity();
         let usual_step = TIME_STEP * self.stream.flow_depth / shear_velocity;
-        let mut column = Column::new(self, start);
+        let mut column = TwoPhaseColumn::new(self, start);
         let mut steps = 0;
         loop {
             let last_good = column.clone();
@@ -263,12 +263,12 @@ impl BedLoadLayer {
                 return refuse(field, depth, "a whole multiple of the cell's height");
             }
         }
-        if self.grains == Grains::Dilating && stream.bed_depth <= 0.0 {
+        if self.grains == GrainMotion::Dilating && stream.bed_depth <= 0.0 {
             return refuse("bed_depth", stream.bed_depth, "greater than 0 if the grains dilate: they come from there");
         }
         if stream.held_depth > stream.bed_depth {
             return refuse("held_depth", stream.held_depth, "at most the depth of the bed");
         }
-        if self.grains == Grains::Dilating { stream.check_sliding(closures) } else { Ok(()) }
+        if self.grains == GrainMotion::Dilating { stream.check_sliding(closures) } else { Ok(()) }
     }
 }

@@ -5,13 +5,13 @@ use crate::LayerError;
 
 /// φ(z) as straight lines between points; two points at one height make a jump. Beyond its ends it is constant.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SolidFraction {
+pub struct SolidFractionProfile {
     points: Vec<(f64, f64)>,
     /// ∫ φ dz from the first point to each point `[m]`.
     integral: Vec<f64>,
 }
 
-impl SolidFraction {
+impl SolidFractionProfile {
     /// From points (z `[m]`, φ `[-]`) in rising order.
     ///
     /// # Errors
@@ -93,20 +93,20 @@ mod tests {
 
     #[test]
     fn means_are_exact_integrals() {
-        let bed = SolidFraction::flat_bed(0.6).expect("valid");
+        let bed = SolidFractionProfile::flat_bed(0.6).expect("valid");
         assert!((bed.mean(-2.0, -1.0) - 0.6).abs() < 1e-15);
         assert!((bed.mean(-1.0, 2.0) - 0.2).abs() < 1e-15);
         assert_eq!(bed.mean(1.0, 2.0), 0.0);
-        let ramp = SolidFraction::new(vec![(0.0, 0.0), (1.0, 0.5), (1.0, 0.2), (3.0, 0.2)]).expect("valid");
+        let ramp = SolidFractionProfile::new(vec![(0.0, 0.0), (1.0, 0.5), (1.0, 0.2), (3.0, 0.2)]).expect("valid");
         // ∫ 0.5 z from ½ to 1 is 3/16, and 0.2 from there to 2
         assert!((ramp.mean(0.5, 2.0) - (0.1875 + 0.2) / 1.5).abs() < 1e-15);
     }
 
     #[test]
     fn impossible_fractions_are_refused() {
-        assert!(SolidFraction::new(Vec::new()).is_err());
-        assert!(SolidFraction::new(vec![(0.0, 0.5), (-1.0, 0.5)]).is_err());
-        assert!(SolidFraction::new(vec![(0.0, 1.0)]).is_err());
-        assert!(SolidFraction::flat_bed(f64::NAN).is_err());
+        assert!(SolidFractionProfile::new(Vec::new()).is_err());
+        assert!(SolidFractionProfile::new(vec![(0.0, 0.5), (-1.0, 0.5)]).is_err());
+        assert!(SolidFractionProfile::new(vec![(0.0, 1.0)]).is_err());
+        assert!(SolidFractionProfile::flat_bed(f64::NAN).is_err());
     }
 }

@@ -1,7 +1,7 @@
 //! The steady state from two starts, at rest and fast: a state that remembers its start is not the only one.
 
 use super::profile::LayerState;
-use super::{BedLoadLayer, Start};
+use super::{BedLoadLayer, InitialVelocity};
 use crate::LayerError;
 
 /// Difference of two states, relative, below which they are one `[-]`.
@@ -105,7 +105,7 @@ impl BedLoadLayer {
     /// # Errors
     /// Those of [`Self::steady_states`]; [`LayerError::NotSteady`] if it was stopped.
     pub fn steady_states_unless(&self, stopped: &dyn Fn() -> bool) -> Result<SteadyStates, LayerError> {
-        let slow = self.steady_unless(Start::Rest, stopped)?;
+        let slow = self.steady_unless(InitialVelocity::Rest, stopped)?;
         let fast = self.steady_unless(self.fast_start(), stopped)?;
         Ok(SteadyStates::of(slow, fast))
     }
@@ -114,8 +114,8 @@ impl BedLoadLayer {
 impl BedLoadLayer {
     /// A start that is faster than any steady state.
     #[must_use]
-    pub fn fast_start(&self) -> Start {
-        Start::Moving(FAST * self.stream.shear_velocity())
+    pub fn fast_start(&self) -> InitialVelocity {
+        InitialVelocity::Moving(FAST * self.stream.shear_velocity())
     }
 }
 

@@ -17,7 +17,7 @@ pub(super) fn stream(slope: f64) -> Stream {
     }
 }
 
-fn layer(slope: f64, grains: Grains) -> BedLoadLayer {
+fn layer(slope: f64, grains: GrainMotion) -> BedLoadLayer {
     BedLoadLayer { stream: stream(slope), closures: Closures::default(), grains, cell_height: 5e-4 }
 }
 
@@ -26,16 +26,16 @@ fn smooth() -> GrainRoughness {
     GrainRoughness { origin_depth: 0.0, ..GrainRoughness::default() }
 }
 
-fn nothing() -> SolidFraction {
-    SolidFraction::flat_bed(0.0).expect("valid")
+fn nothing() -> SolidFractionProfile {
+    SolidFractionProfile::flat_bed(0.0).expect("valid")
 }
 
 #[test]
 fn clear_water_has_the_log_law() {
-    let closures = Closures { mixing_length: MixingLength::Root, ..Closures::default() };
+    let closures = Closures { mixing_length: MixingLengthClosure::Root, ..Closures::default() };
     let stream = Stream { bed_depth: 0.0, ..stream(0.03) };
-    let layer = BedLoadLayer { stream, closures, cell_height: 1.25e-4, ..layer(0.03, Grains::Resting(nothing())) };
-    let state = layer.steady(Start::Rest).expect("steady");
+    let layer = BedLoadLayer { stream, closures, cell_height: 1.25e-4, ..layer(0.03, GrainMotion::Resting(nothing())) };
+    let state = layer.steady(InitialVelocity::Rest).expect("steady");
     let shear_velocity = (stream.driving() * stream.flow_depth).sqrt();
     for (low, high) in [(2e-3, 4e-3), (5e-3, 1e-2), (1e-2, 2e-2), (2e-2, 0.044)] {
         let difference = state.at(high).fluid_velocity - state.at(low).fluid_velocity;
@@ -62,20 +62,20 @@ fn the_integral_mixing_length_is_the_root_one_without_grains() {
     let stream = Stream { bed_depth: 0.0, ..stream(0.02) };
     let speed = |mixing_length| {
         let closures = Closures { mixing_length, grain_roughness: smooth(), ..Closures::default() };
-        let layer = BedLoadLayer { stream, closures, ..layer(0.02, Grains::Resting(nothing())) };
-        layer.steady(Start::Rest).expect("steady").mean_fluid_velocity()
+        let layer = BedLoadLayer { stream, closures, ..layer(0.02, GrainMotion::Resting(nothing())) };
+        layer.steady(InitialVelocity::Rest).expect("steady").mean_fluid_velocity()
     };
-    assert!((speed(MixingLength::Integral) / speed(MixingLength::Root) - 1.0).abs() < 1e-9);
+    assert!((speed(MixingLengthClosure::Integral) / speed(MixingLengthClosure::Root) - 1.0).abs() < 1e-9);
 }
 
 #[test]
 fn without_turbulence_the_film_is_a_parabola() {
     // oil, or the film would be as fast as a rocket
     let stream = Stream { bed_depth: 0.0, kinematic_viscosity: 1e-3, ..stream(0.03) };
-    let closures = Closures { mixing_length: MixingLength::None, ..Closures::default() };
+    let closures = Closures { mixing_length: MixingLengthClosure::None, ..Closures::default() };
     let error = |cell_height: f64| {
-        let layer = BedLoadLayer { stream, closures, cell_height, ..layer(0.03, Grains::Resting(nothing())) };
-        let state = layer.steady(Start::Moving(0.1)).expect("steady");
+        let layer = BedLoadLayer { stream, closures, cell_height, ..layer(0.03, GrainMotion::Resting(nothing())) };
+        let state = layer.steady(InitialVelocity::Moving(0.1)).expect("steady");
         let exact = |z: f64| stream.driving() / stream.kinematic_viscosity * z * (stream.flow_depth - 0.5 * z);
         let errors = state.height.iter().zip(&state.fluid_velocity).map(|(&z, u)| (u - exact(z)).abs());
         errors.fold(0.0, f64::max) / exact(stream.flow_depth)
@@ -87,9 +87,9 @@ fn without_turbulence_the_film_is_a_parabola() {
 
 #[test]
 fn water_seeps_through_a_resting_bed_as_the_drag_law_says() {
-    let bed = SolidFraction::flat_bed(0.6).expect("valid");
-    let layer = layer(0.05, Grains::Resting(bed));
-    let state = layer.steady(Start::Rest).expect("steady");
+    let bed = SolidFractionProfile::flat_bed(0.6).expect("valid");
+    let layer = layer(0.05, GrainMotion::Resting(bed));
+    let state = layer.steady(InitialVelocity::Rest).expect("steady");
     let drag = layer.closures.drag;
     let seeping = state.at(-0.02).fluid_velocity;
     let force = drag.exchange_coefficient(0.6, seeping, 5e-3, 1000.0, 1e-6) * seeping;
@@ -103,8 +103,8 @@ fn transport_is_that_of_a_program_written_before() {
     // the suspension in the water's stress, which at 3 and 5 % makes less than 1 % (at 2 %, left out, 3 %)
     let closures = Closures { grain_roughness: smooth(), ..Closures::default() };
     for (slope, transport, velocity) in [(0.03, 0.1771, 1.25), (0.05, 0.5305, 1.46)] {
-        let layer = BedLoadLayer { cell_height: 2.5e-4, closures, ..layer(slope, Grains::Dilating) };
-        let state = layer.steady(Start::Rest).expect("steady");
+        let layer = BedLoadLayer { cell_height: 2.5e-4, closures, ..layer(slope, GrainMotion::Dilating) };
+        let state = layer.steady(InitialVelocity::Rest).expect("steady");
         assert!((state.transport() / transport - 1.0).abs() < 0.015, "{slope}: {}", state.transport());
         assert!(
             (state.mean_fluid_velocity() / velocity - 1.0).abs() < 0.015,
@@ -117,7 +117,7 @@ fn transport_is_that_of_a_program_written_before() {
 #[test]
 fn no_grain_is_lost_and_the_balances_close() {
     for slope in [0.02, 0.05] {
-        let state = layer(slope, Grains::Dilating).steady(Start::Rest).expect("steady");
+        let state = layer(slope, GrainMotion::Dilating).steady(InitialVelocity::Rest).expect("steady");
         let grains: f64 = state.solid_fraction.iter().sum::<f64>() * state.cell_height;
         assert!((grains / (0.6 * 0.04) - 1.0).abs() < 1e-12, "{grains}");
         assert!((state.grain_pressure[0] / (0.024 * state.stream.submerged_weight()) - 1.0).abs() < 1e-12);
@@ -129,10 +129,10 @@ fn no_grain_is_lost_and_the_balances_close() {
 
 #[test]
 fn all_starts_lead_to_one_state() {
-    let layer = layer(0.03, Grains::Dilating);
-    let rest = layer.steady(Start::Rest).expect("steady");
+    let layer = layer(0.03, GrainMotion::Dilating);
+    let rest = layer.steady(InitialVelocity::Rest).expect("steady");
     for speed in [0.3, 4.0] {
-        let moving = layer.steady(Start::Moving(speed)).expect("steady");
+        let moving = layer.steady(InitialVelocity::Moving(speed)).expect("steady");
         assert!((moving.transport() / rest.transport() - 1.0).abs() < 1e-7);
         assert!(rest.difference(&moving, -0.04) < 1e-7);
     }
@@ -140,7 +140,8 @@ fn all_starts_lead_to_one_state() {
 
 #[test]
 fn two_states_are_both_given() {
-    let [slow, fast] = [0.02, 0.03].map(|slope| layer(slope, Grains::Dilating).steady(Start::Rest).expect("steady"));
+    let [slow, fast] =
+        [0.02, 0.03].map(|slope| layer(slope, GrainMotion::Dilating).steady(InitialVelocity::Rest).expect("steady"));
     let states = SteadyStates::of(slow.clone(), fast.clone());
     assert_eq!((states.slow(), states.second()), (&slow, Some(&fast)));
     assert!(states.difference() > 0.5);
@@ -150,20 +151,20 @@ fn two_states_are_both_given() {
 
 #[test]
 fn its_own_fraction_frozen_gives_the_same_layer() {
-    let layer = layer(0.05, Grains::Dilating);
-    let dilated = layer.steady(Start::Rest).expect("steady");
-    let frozen = BedLoadLayer { grains: Grains::Frozen(SolidFraction::of_cells(&dilated)), ..layer };
-    let state = frozen.steady(Start::Rest).expect("steady");
+    let layer = layer(0.05, GrainMotion::Dilating);
+    let dilated = layer.steady(InitialVelocity::Rest).expect("steady");
+    let frozen = BedLoadLayer { grains: GrainMotion::Frozen(SolidFractionProfile::of_cells(&dilated)), ..layer };
+    let state = frozen.steady(InitialVelocity::Rest).expect("steady");
     assert!((state.transport() / dilated.transport() - 1.0).abs() < 1e-7);
     assert!(dilated.difference(&state, -0.04) < 1e-7);
 }
 
 #[test]
 fn a_shallow_bed_over_held_grains_moves_as_the_deep_one_does() {
-    let deep = layer(0.03, Grains::Dilating);
+    let deep = layer(0.03, GrainMotion::Dilating);
     let shallow =
         BedLoadLayer { stream: Stream { bed_depth: 0.016, held_depth: 0.004, ..deep.stream }, ..deep.clone() };
-    let [deep, shallow] = [deep, shallow].map(|layer| layer.steady(Start::Rest).expect("steady"));
+    let [deep, shallow] = [deep, shallow].map(|layer| layer.steady(InitialVelocity::Rest).expect("steady"));
     assert!((shallow.transport() / deep.transport() - 1.0).abs() < 0.01, "{}", shallow.transport());
     assert!(shallow.grain_velocity[..8].iter().all(|u| *u == 0.0) && shallow.grain_velocity[8] > 0.0);
     assert!(shallow.fluid_velocity[4] > 0.0, "water seeps through grains that are held");
@@ -176,9 +177,9 @@ fn frozen_fractions_are_solved_to_second_order() {
         let x = (z / 0.012 + 0.5).clamp(0.0, 1.0);
         0.6 * (1.0 - x * x * x * (10.0 - x * (15.0 - 6.0 * x)))
     };
-    let frozen = Grains::Frozen(SolidFraction::sampled(-0.006, 0.006, 4096, fraction).expect("valid"));
+    let frozen = GrainMotion::Frozen(SolidFractionProfile::sampled(-0.006, 0.006, 4096, fraction).expect("valid"));
     let states = [5e-4, 2.5e-4, 1.25e-4].map(|cell_height| {
-        BedLoadLayer { cell_height, ..layer(0.02, frozen.clone()) }.steady(Start::Rest).expect("steady")
+        BedLoadLayer { cell_height, ..layer(0.02, frozen.clone()) }.steady(InitialVelocity::Rest).expect("steady")
     });
     let order = (states[0].difference(&states[1], -0.01) / states[1].difference(&states[2], -0.01)).log2();
     assert!((order - 2.0).abs() < 0.1, "{order}");
@@ -186,7 +187,7 @@ fn frozen_fractions_are_solved_to_second_order() {
 
 #[test]
 fn profiles_are_read_at_any_height() {
-    let state = layer(0.03, Grains::Dilating).steady(Start::Rest).expect("steady");
+    let state = layer(0.03, GrainMotion::Dilating).steady(InitialVelocity::Rest).expect("steady");
     let k = 90;
     assert!((state.at(state.height[k]).fluid_velocity - state.fluid_velocity[k]).abs() < 1e-12);
     assert!((state.at(state.face[k]).grain_pressure - state.grain_pressure[k]).abs() < 1e-9);
@@ -198,11 +199,11 @@ fn profiles_are_read_at_any_height() {
 
 #[test]
 fn impossible_layers_are_refused() {
-    let good = layer(0.03, Grains::Dilating);
+    let good = layer(0.03, GrainMotion::Dilating);
     let refused = |change: fn(&mut BedLoadLayer)| {
         let mut layer = good.clone();
         change(&mut layer);
-        layer.steady(Start::Rest).expect_err("refused").to_string()
+        layer.steady(InitialVelocity::Rest).expect_err("refused").to_string()
     };
     let message = "compute the reference solution: slope is 0, but must be finite and greater than 0";
     assert_eq!(refused(|layer| layer.stream.slope = 0.0), message);
@@ -220,23 +221,23 @@ fn impossible_layers_are_refused() {
 fn what_does_not_settle_says_so() {
     // Gidaspow's law jumps at φ = 0.2: a cell there has no steady state
     let closures = Closures { drag: bagnold_solver::material::drag::DragLaw::Gidaspow, ..Closures::default() };
-    let layer = BedLoadLayer { closures, ..layer(0.03, Grains::Dilating) };
-    let error = layer.steady(Start::Rest).expect_err("swings for ever").to_string();
+    let layer = BedLoadLayer { closures, ..layer(0.03, GrainMotion::Dilating) };
+    let error = layer.steady(InitialVelocity::Rest).expect_err("swings for ever").to_string();
     assert!(error.contains(&format!("after {LARGEST_STEPS} time steps")), "{error}");
 }
 
 #[test]
 fn a_bed_that_slides_on_its_base_is_refused() {
     // by hand: i [46 + 40 (1 + 1.6 · 0.6)] = 0.35 · 1.6 · 0.6 · 40 at i = 13.44/124.4 = 0.10804
-    assert!(layer(0.10, Grains::Dilating).check().is_ok());
-    let error = layer(0.12, Grains::Dilating).check().expect_err("slides").to_string();
+    assert!(layer(0.10, GrainMotion::Dilating).check().is_ok());
+    let error = layer(0.12, GrainMotion::Dilating).check().expect_err("slides").to_string();
     assert!(error.contains("slope is 0.12, but must be below 0.10804") && error.contains("0.0548 m"), "{error}");
     // 0.35 · 0.96/1.96 = 0.17143 however deep the bed is
-    let error = layer(0.18, Grains::Dilating).check().expect_err("slides").to_string();
+    let error = layer(0.18, GrainMotion::Dilating).check().expect_err("slides").to_string();
     assert!(error.contains("no bed of these grains"), "{error}");
     // what is refused would move to its base: τ_s at the base of the free grains exceeds μ_s p′
-    let near = BedLoadLayer { stream: Stream { slope: 0.106, ..stream(0.1) }, ..layer(0.1, Grains::Dilating) };
-    let state = near.steady(Start::Rest).expect("steady");
+    let near = BedLoadLayer { stream: Stream { slope: 0.106, ..stream(0.1) }, ..layer(0.1, GrainMotion::Dilating) };
+    let state = near.steady(InitialVelocity::Rest).expect("steady");
     let ratio = state.grain_stress[0] / state.grain_pressure[0];
     assert!(ratio < 0.35 && ratio > 0.33, "{ratio}");
 }
@@ -245,10 +246,10 @@ fn a_bed_that_slides_on_its_base_is_refused() {
 fn a_resting_bed_is_a_rough_wall() {
     // shear far below the onset over 20 d of water: k_s from the log law at mid-depth, between d and 2.5 d (Nikuradse; gravel)
     let closures = Closures::default();
-    let bed = Grains::Resting(SolidFraction::flat_bed(0.6).expect("valid"));
+    let bed = GrainMotion::Resting(SolidFractionProfile::flat_bed(0.6).expect("valid"));
     let water = Stream { slope: 0.0033, flow_depth: 0.1, bed_depth: 0.02, ..stream(0.02) };
     let state = BedLoadLayer { stream: water, closures, grains: bed, cell_height: 1.25e-4 };
-    let state = state.steady(Start::Rest).expect("steady");
+    let state = state.steady(InitialVelocity::Rest).expect("steady");
     let shear_velocity = (water.driving() * water.flow_depth).sqrt();
     let height = 0.03;
     let velocity = state.at(height).fluid_velocity / shear_velocity;
@@ -265,7 +266,7 @@ fn the_onset_does_not_depend_on_the_start() {
     let layer = BedLoadLayer {
         stream: Stream { slope: slope(0.061), ..grains },
         closures: Closures::default(),
-        grains: Grains::Dilating,
+        grains: GrainMotion::Dilating,
         cell_height: 1e-4,
     };
     let states = layer.steady_states().expect("steady");

@@ -1,6 +1,6 @@
 //! The corner plot of the posterior: histograms of single parameters and samples of every pair.
 
-use super::super::result::{Found, Outcome};
+use super::super::result::{CalibrationResult, ParameterEstimate};
 use super::{axis, labelled};
 use crate::figure::{Axis, Figure, Panel};
 
@@ -8,7 +8,7 @@ use crate::figure::{Axis, Figure, Panel};
 const BINS: usize = 24;
 
 /// The figure, if samples were asked for.
-pub(super) fn figure(outcome: &Outcome) -> Option<Figure> {
+pub(super) fn figure(outcome: &CalibrationResult) -> Option<Figure> {
     if outcome.samples.is_empty() {
         return None;
     }
@@ -24,12 +24,12 @@ pub(super) fn figure(outcome: &Outcome) -> Option<Figure> {
     Some(Figure::new("corner", caption, panels).in_columns(count.clamp(1, 3)))
 }
 
-fn column(outcome: &Outcome, k: usize) -> Vec<f64> {
+fn column(outcome: &CalibrationResult, k: usize) -> Vec<f64> {
     outcome.samples.iter().map(|sample| sample[k]).collect()
 }
 
 /// Share of the samples in each bin, as steps.
-fn histogram(parameter: &Found, values: &[f64]) -> Panel {
+fn histogram(parameter: &ParameterEstimate, values: &[f64]) -> Panel {
     let scaled = |value: f64| if parameter.logarithmic { libm::log(value) } else { value };
     let (low, high) = values
         .iter()
@@ -53,9 +53,9 @@ fn histogram(parameter: &Found, values: &[f64]) -> Panel {
     panel
 }
 
-fn pair(outcome: &Outcome, first: usize, second: usize) -> Panel {
+fn pair(outcome: &CalibrationResult, first: usize, second: usize) -> Panel {
     let (x, y) = (&outcome.parameters[first], &outcome.parameters[second]);
-    let of = |parameter: &Found| axis(parameter.logarithmic, &labelled(&parameter.name, &parameter.unit));
+    let of = |parameter: &ParameterEstimate| axis(parameter.logarithmic, &labelled(&parameter.name, &parameter.unit));
     let mut panel = Panel::new("", of(x), of(y));
     panel.points("posterior", 0, column(outcome, first).into_iter().zip(column(outcome, second)));
     panel.points("best", 1, [(x.best, y.best)]);

@@ -2,12 +2,12 @@
 
 mod corner;
 
-use super::result::{Compared, Outcome};
+use super::result::{CalibrationResult, DatumComparison};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::inference::chi_squared_quantile;
 
 /// All figures that the outcome has the numbers for.
-pub(super) fn all(outcome: &Outcome) -> Vec<Figure> {
+pub(super) fn all(outcome: &CalibrationResult) -> Vec<Figure> {
     let mut figures = Vec::new();
     figures.extend(history(outcome));
     figures.extend(profiles(outcome));
@@ -34,7 +34,7 @@ pub(super) fn labelled(name: &str, unit: &str) -> String {
     format!("{name} [{unit}]")
 }
 
-fn history(outcome: &Outcome) -> Option<Figure> {
+fn history(outcome: &CalibrationResult) -> Option<Figure> {
     let points: Vec<(f64, f64)> = outcome
         .evaluations
         .iter()
@@ -69,7 +69,7 @@ fn history(outcome: &Outcome) -> Option<Figure> {
     Some(Figure::new("history", caption, panels))
 }
 
-fn profiles(outcome: &Outcome) -> Option<Figure> {
+fn profiles(outcome: &CalibrationResult) -> Option<Figure> {
     let threshold = outcome.inflation * outcome.inflation * chi_squared_quantile(0.95, 1);
     let mut panels = Vec::new();
     for parameter in outcome.parameters.iter().filter(|parameter| parameter.profile.len() > 1) {
@@ -102,8 +102,8 @@ fn profiles(outcome: &Outcome) -> Option<Figure> {
 }
 
 /// One panel a group of data: profiles over their abscissa, single numbers model over datum.
-fn agreement(name: &str, caption: &str, data: &[Compared]) -> Option<Figure> {
-    let mut groups: Vec<(String, Vec<&Compared>)> = Vec::new();
+fn agreement(name: &str, caption: &str, data: &[DatumComparison]) -> Option<Figure> {
+    let mut groups: Vec<(String, Vec<&DatumComparison>)> = Vec::new();
     for datum in data {
         let title = match &datum.at {
             Some(place) => place.table.clone(),
@@ -117,7 +117,7 @@ fn agreement(name: &str, caption: &str, data: &[Compared]) -> Option<Figure> {
     let tables: Vec<&str> =
         groups.iter().filter(|(_, members)| members[0].at.is_some()).map(|(title, _)| title.as_str()).collect();
     let (head, tail) = common_ends(&tables);
-    let titled = |(title, members): &(String, Vec<&Compared>)| match members[0].at {
+    let titled = |(title, members): &(String, Vec<&DatumComparison>)| match members[0].at {
         Some(_) if tables.len() > 1 => panel(&title[head..title.len() - tail], members),
         Some(_) => panel("", members),
         None => panel(title, members),
@@ -149,16 +149,16 @@ fn common_ends(names: &[&str]) -> (usize, usize) {
     if head + tail < shortest { (head, tail) } else { (0, 0) }
 }
 
-fn panel(title: &str, members: &[&Compared]) -> Panel {
+fn panel(title: &str, members: &[&DatumComparison]) -> Panel {
     let first = members[0];
-    let half = |datum: &&Compared| 0.5 * (datum.band.1 - datum.band.0);
+    let half = |datum: &&DatumComparison| 0.5 * (datum.band.1 - datum.band.0);
     let errors: Vec<f64> = members.iter().map(half).collect();
     if let Some(place) = &first.at {
         let mut panel = Panel::new(title, Axis::linear(&place.x), Axis::linear(&place.y));
-        let of = |value: fn(&Compared) -> f64| -> Vec<(f64, f64)> {
+        let of = |value: fn(&DatumComparison) -> f64| -> Vec<(f64, f64)> {
             members.iter().filter_map(|datum| Some((datum.at.as_ref()?.at, value(datum)))).collect()
         };
-        let band = |datum: &&Compared| {
+        let band = |datum: &&DatumComparison| {
             datum.predicted.zip(datum.at.as_ref()).map(|((low, high), place)| (place.at, low, high))
         };
         let band: Vec<(f64, f64, f64)> = members.iter().filter_map(band).collect();
@@ -189,7 +189,7 @@ fn panel(title: &str, members: &[&Compared]) -> Panel {
     panel
 }
 
-fn trials(outcome: &Outcome) -> Option<Figure> {
+fn trials(outcome: &CalibrationResult) -> Option<Figure> {
     let worked: Vec<_> = outcome.trials.iter().filter(|trial| trial.failure.is_none()).collect();
     let data = worked.first()?.fit.len();
     let mut panel = Panel::new("", Axis::linear("datum by number [-]"), Axis::linear("(model − datum)/σ [-]"));
@@ -201,7 +201,7 @@ fn trials(outcome: &Outcome) -> Option<Figure> {
     Some(Figure::new("choices", "Weighted residuals of every choice, in the order of the table of data.", vec![panel]))
 }
 
-fn sensitivity(outcome: &Outcome) -> Option<Figure> {
+fn sensitivity(outcome: &CalibrationResult) -> Option<Figure> {
     if outcome.sensitivity.is_empty() {
         return None;
     }

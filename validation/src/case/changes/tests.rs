@@ -4,17 +4,17 @@ use bagnold_solver::parameter::not_negative;
 use serde::Deserialize;
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-struct Layer {
+struct LayerExample {
     depth: f64,
     rows: usize,
     angles: Vec<f64>,
-    grains: Grains,
-    law: Law,
-    material: Material,
+    grains: GrainsExample,
+    law: LawExample,
+    material: MaterialExample,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-struct Grains {
+struct GrainsExample {
     diameter: f64,
     spread: Option<f64>,
     packing: Packing,
@@ -29,14 +29,14 @@ enum Packing {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-enum Law {
+enum LawExample {
     Newtonian { viscosity: f64 },
     Bingham { viscosity: f64, yield_stress: f64 },
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "law", rename_all = "kebab-case")]
-enum Material {
+enum MaterialExample {
     Newtonian {
         #[schemars(transform = not_negative("give it in Pa·s"))]
         viscosity: f64,
@@ -47,18 +47,18 @@ enum Material {
     },
 }
 
-fn layer() -> Layer {
-    Layer {
+fn layer() -> LayerExample {
+    LayerExample {
         depth: 0.01,
         rows: 20,
         angles: vec![22.0, 24.0],
-        grains: Grains { diameter: 1e-3, spread: None, packing: Packing::Lattice },
-        law: Law::Newtonian { viscosity: 1.0 },
-        material: Material::MuI { static_friction: 0.4, limiting_friction: 0.6 },
+        grains: GrainsExample { diameter: 1e-3, spread: None, packing: Packing::Lattice },
+        law: LawExample::Newtonian { viscosity: 1.0 },
+        material: MaterialExample::MuI { static_friction: 0.4, limiting_friction: 0.6 },
     }
 }
 
-fn resolved(file: &str, settings: &[&str]) -> Result<Layer, String> {
+fn resolved(file: &str, settings: &[&str]) -> Result<LayerExample, String> {
     let settings: Vec<String> = settings.iter().map(|&text| text.to_owned()).collect();
     let fields = toml::from_str(file).expect("test TOML");
     let changes = Changes { file: Some((Path::new("layer.toml"), fields)), settings: &settings, ..Changes::default() };
@@ -76,12 +76,12 @@ fn a_file_and_settings_change_only_what_they_name() {
         &["rows=40", "grains.packing=jittered", "grains.spread=0.1", "law.bingham.yield_stress=3"],
     )
     .expect("valid changes");
-    let expected = Layer {
+    let expected = LayerExample {
         depth: 0.01,
         rows: 40,
         angles: vec![20.0],
-        grains: Grains { diameter: 2e-3, spread: Some(0.1), packing: Packing::Jittered },
-        law: Law::Bingham { viscosity: 1.0, yield_stress: 3.0 },
+        grains: GrainsExample { diameter: 2e-3, spread: Some(0.1), packing: Packing::Jittered },
+        law: LawExample::Bingham { viscosity: 1.0, yield_stress: 3.0 },
         ..layer()
     };
     assert_eq!(changed, expected);
@@ -183,22 +183,25 @@ fn a_setting_takes_the_blame_for_its_field_only() {
 
 #[test]
 fn another_law_takes_nothing_of_the_defaults_in_whatever_order_it_is_given() {
-    let newtonian = Layer { material: Material::Newtonian { viscosity: 2.0 }, ..layer() };
+    let newtonian = LayerExample { material: MaterialExample::Newtonian { viscosity: 2.0 }, ..layer() };
     for settings in
         [["material.law=newtonian", "material.viscosity=2"], ["material.viscosity=2", "material.law=newtonian"]]
     {
         assert_eq!(resolved("", &settings).as_ref(), Ok(&newtonian));
     }
     assert_eq!(resolved("[material]\nlaw = \"newtonian\"", &["material.viscosity=2"]), Ok(newtonian));
-    let steeper = Layer { material: Material::MuI { static_friction: 0.5, limiting_friction: 0.6 }, ..layer() };
+    let steeper =
+        LayerExample { material: MaterialExample::MuI { static_friction: 0.5, limiting_friction: 0.6 }, ..layer() };
     assert_eq!(resolved("material.static_friction = 0.5", &[]).as_ref(), Ok(&steeper));
     assert_eq!(resolved("", &["material.law=mu-i", "material.static_friction=0.5"]), Ok(steeper));
 }
 
 #[test]
 fn a_friction_angle_stands_for_its_tangent_where_the_law_has_one() {
-    let steeper =
-        Layer { material: Material::MuI { static_friction: libm::tan(0.5), limiting_friction: 0.6 }, ..layer() };
+    let steeper = LayerExample {
+        material: MaterialExample::MuI { static_friction: libm::tan(0.5), limiting_friction: 0.6 },
+        ..layer()
+    };
     let angle = 0.5_f64.to_degrees();
     assert_eq!(resolved(&format!("material.friction_angle = {angle:?}"), &[]).as_ref(), Ok(&steeper));
     assert_eq!(resolved("", &[&format!("material.friction_angle={angle:?}")]).as_ref(), Ok(&steeper));
@@ -235,10 +238,10 @@ fn laws_that_do_not_exist_or_lack_a_parameter_are_refused() {
 #[test]
 fn a_law_that_nobody_knows_is_refused_at_its_key() {
     #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-    struct Bed {
+    struct BedExample {
         material: Rheology,
     }
-    let defaults = Bed { material: Rheology::Newtonian(Newtonian { viscosity: 1.0 }) };
+    let defaults = BedExample { material: Rheology::Newtonian(Newtonian { viscosity: 1.0 }) };
     let settings = ["material.law=newtonain".to_owned()];
     let error = resolve("bed", &defaults, &Changes { settings: &settings, ..Changes::default() })
         .expect_err("refused")

@@ -1,6 +1,6 @@
 //! Records of incompressible simulations.
 
-use super::{Recordable, Restartable, State, picture};
+use super::{Recordable, RecordedState, Restartable, picture};
 use crate::observation::Frame;
 use bagnold_solver::incompressible::{
     IncompressibleScene, IncompressibleSimulation, IncompressibleSnapshot, PhaseSnapshot, SavedIncompressible,
@@ -8,7 +8,7 @@ use bagnold_solver::incompressible::{
 use bagnold_solver::run::{ContinueError, Course, Observer, SceneError, StopReason};
 use bagnold_solver::vector::Vector;
 
-impl<const D: usize> State for IncompressibleSnapshot<D> {
+impl<const D: usize> RecordedState for IncompressibleSnapshot<D> {
     fn bits(&self) -> Vec<u8> {
         self.to_bytes()
     }

@@ -9,7 +9,7 @@ mod picture;
 mod restart;
 mod weakly_compressible;
 
-pub use restart::{Beginning, Followed, Restartable, Stage, Stop, follow, resumed};
+pub use restart::{Beginning, Followed, Restartable, SimulationStage, Stop, follow, resumed};
 
 use crate::case::{ParameterError, Progress};
 use crate::observation::{Frame, Outcome, Recorded, state_hash};
@@ -22,7 +22,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 /// A state of a simulation.
-pub trait State {
+pub trait RecordedState {
     /// Its bits in a fixed order.
     fn bits(&self) -> Vec<u8>;
     /// A picture of it, in the plane or in space.
@@ -32,7 +32,7 @@ pub trait State {
 /// A simulation that can be recorded.
 pub trait Recordable {
     /// Its states.
-    type State: State;
+    type State: RecordedState;
     /// A copy of the present state.
     fn state(&self) -> Self::State;
     /// The present state as other programs want to see it.
@@ -61,7 +61,7 @@ pub fn record<const D: usize, O>(
 where
     Simulation<D>: Compiled<D>,
 {
-    let stage = Stage { progress, end, interval: 0.01 * end, context: &() };
+    let stage = SimulationStage { progress, end, interval: 0.01 * end, context: &() };
     let watched = watch(stage, |_| Ok(scene()), |_| (), |(), _| ControlFlow::Continue(()))?;
     Ok(watched.ending.record(&watched.simulation, measure))
 }
@@ -83,7 +83,7 @@ pub struct Watched<S: Recordable, O> {
 /// # Errors
 /// A scene that breaks a rule; an interruption.
 pub fn watch<const D: usize, O, C>(
-    stage: Stage<'_, C>,
+    stage: SimulationStage<'_, C>,
     scene: impl Fn(Beginning) -> Result<Scene<D>, SceneError>,
     keep: impl FnOnce(&Simulation<D>) -> O,
     mut observe: impl FnMut(&mut O, &Snapshot<D>) -> ControlFlow<()>,
@@ -93,7 +93,7 @@ where
     O: Serialize + DeserializeOwned,
     C: Serialize + DeserializeOwned,
 {
-    let Stage { progress, end, .. } = stage;
+    let SimulationStage { progress, end, .. } = stage;
     let followed = follow(
         stage,
         scene,
@@ -124,7 +124,7 @@ pub struct Ending<S> {
     pub started: Instant,
 }
 
-impl<S: State> Ending<S> {
+impl<S: RecordedState> Ending<S> {
     /// That of a run that has left no frames, does not say why it was stopped, and whose divergence would be an error.
     pub fn of(stop: Stop, last_good: S, started: Instant) -> Self {
         Self { stop, last_good, criterion: String::new(), may_diverge: false, frames: Vec::new(), started }

@@ -43,7 +43,7 @@ pub trait Restartable<const D: usize>: Recordable + Sized {
 
 /// One simulation of a run.
 #[derive(Clone, Copy)]
-pub struct Stage<'a, C> {
+pub struct SimulationStage<'a, C> {
     /// How far it has come, and where it is kept.
     pub progress: &'a dyn Progress,
     /// Its end `[s]`.
@@ -77,9 +77,9 @@ pub struct Followed<S, O> {
     pub started: Instant,
 }
 
-/// A checkpoint. What it reads is what [`Written`] has written.
+/// A checkpoint. What it reads is what [`CheckpointContents`] has written.
 #[derive(Deserialize)]
-struct Read<C, O, S> {
+struct RestoredCheckpoint<C, O, S> {
     _context: C,
     seconds: f64,
     course: Course,
@@ -89,7 +89,7 @@ struct Read<C, O, S> {
 
 /// The context comes first, so that it can be read alone.
 #[derive(Serialize)]
-struct Written<'a, C, O, S> {
+struct CheckpointContents<'a, C, O, S> {
     context: &'a C,
     seconds: f64,
     course: &'a Course,
@@ -109,7 +109,7 @@ pub fn resumed<C: DeserializeOwned>(progress: &dyn Progress) -> Option<C> {
 /// # Errors
 /// A scene that breaks a rule; an interruption.
 pub fn follow<const D: usize, S, O, C>(
-    stage: Stage<'_, C>,
+    stage: SimulationStage<'_, C>,
     scene: impl Fn(Beginning) -> Result<S::Scene, SceneError>,
     keep: impl FnOnce(&S) -> O,
     observe: impl FnMut(&mut O, &S) -> ControlFlow<()>,
@@ -120,11 +120,12 @@ where
     C: Serialize + DeserializeOwned,
 {
     let now = Instant::now();
-    let Stage { progress, end, interval, context } = stage;
+    let SimulationStage { progress, end, interval, context } = stage;
     let checkpoints = progress.checkpoints();
     let left = checkpoints.and_then(|checkpoints| {
         checkpoints.take(|bytes| {
-            let read: Read<C, O, S::Saved> = postcard::from_bytes(bytes).map_err(|error| error.to_string())?;
+            let read: RestoredCheckpoint<C, O, S::Saved> =
+                postcard::from_bytes(bytes).map_err(|error| error.to_string())?;
             let scene = scene(Beginning::Continued).map_err(|error| error.to_string())?;
             let simulation = S::continued(scene, read.simulation).map_err(|error| error.to_string())?;
             Ok((simulation, read.course, read.kept, read.seconds))
@@ -148,7 +149,8 @@ where
         }
     };
     let output = progress.output();
-    let mut watching = Watching { checkpoints, output, context, started, kept, observe, simulation: PhantomData };
+    let mut watching =
+        CheckpointingObserver { checkpoints, output, context, started, kept, observe, simulation: PhantomData };
     let stop = match simulation.follow(&mut course, &mut watching) {
         StopReason::Finished => Stop::Finished,
         StopReason::Stopped => Stop::Stopped,
@@ -162,7 +164,7 @@ where
 }
 
 /// Shows a simulation to the observer of a case and to who wants states on its way, and keeps checkpoints.
-struct Watching<'a, const D: usize, S, O, C, F> {
+struct CheckpointingObserver<'a, const D: usize, S, O, C, F> {
     checkpoints: Option<&'a Checkpoints>,
     output: Option<&'a dyn StateOutput>,
     context: &'a C,
@@ -172,7 +174,7 @@ struct Watching<'a, const D: usize, S, O, C, F> {
     simulation: PhantomData<S>,
 }
 
-impl<const D: usize, S, O, C, F> Observer<S> for Watching<'_, D, S, O, C, F>
+impl<const D: usize, S, O, C, F> Observer<S> for CheckpointingObserver<'_, D, S, O, C, F>
 where
     S: Restartable<D>,
     O: Serialize,
@@ -190,7 +192,7 @@ where
         let interrupted = is_interrupted();
         let wanted = self.checkpoints.filter(|checkpoints| interrupted || checkpoints.is_due());
         let is_kept = wanted.is_some_and(|checkpoints| {
-            let written = Written {
+            let written = CheckpointContents {
                 context: self.context,
                 seconds: self.started.elapsed().as_secs_f64(),
                 course,

@@ -1,6 +1,6 @@
 //! Records of weakly compressible simulations.
 
-use super::{Recordable, Restartable, State, picture};
+use super::{Recordable, RecordedState, Restartable, picture};
 use crate::observation::Frame;
 use bagnold_solver::run::{ContinueError, Course, Observer, SceneError, StopReason};
 use bagnold_solver::vector::{Vector, equivalent_shear_stress, shear_rate};
@@ -9,7 +9,7 @@ use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
-impl<const D: usize> State for Snapshot<D> {
+impl<const D: usize> RecordedState for Snapshot<D> {
     fn bits(&self) -> Vec<u8> {
         self.to_bytes()
     }

@@ -1,8 +1,8 @@
 //! How far a run is from the exact profile, and from the independent one-dimensional solution in time.
 
-use super::Record;
-use super::parameters::Start;
-use super::runs::{BagnoldRun, Purpose};
+use super::BagnoldRecord;
+use super::parameters::LayerStart;
+use super::runs::{BagnoldPurpose, BagnoldRun};
 use crate::cases::Arrangement;
 use crate::cases::layer::{DepthProfile, LayerObservation};
 use crate::reference::{BagnoldProfile, LayerTransient, TransientHistory};
@@ -66,14 +66,14 @@ pub(super) fn implied_stress(profile: &DepthProfile, exact: &BagnoldProfile) -> 
 
 /// (rows, velocity L2 `[%]`) of the runs of one kind at one angle, coarse to fine.
 pub(super) fn convergence_errors(
-    records: &[Record],
+    records: &[BagnoldRecord],
     angle: f64,
     particles: Arrangement,
-    start: Start,
+    start: LayerStart,
 ) -> Vec<(f64, f64)> {
     let mut errors: Vec<(f64, f64)> = records
         .iter()
-        .filter(|(run, _)| matches!(run.purpose, Purpose::Steady | Purpose::Convergence))
+        .filter(|(run, _)| matches!(run.purpose, BagnoldPurpose::Steady | BagnoldPurpose::Convergence))
         .filter(|(run, _)| run.slope_angle == angle && run.particles == particles && run.start == start)
         .filter_map(|(run, record)| {
             let error = SteadyErrors::of(&record.data.profile, &run.profile())?.velocity_l2;
@@ -98,7 +98,9 @@ pub(super) fn history_from_rest(run: &BagnoldRun) -> Option<(TransientHistory, f
 pub(super) fn transient_of(run: &BagnoldRun, end: f64) -> Option<TransientHistory> {
     let start = run.start_profile();
     let layer = match run.purpose {
-        Purpose::Arrest => LayerTransient::from_profile(run.profile(), 100, 1e-3, |y| start.velocity(y).unwrap_or(0.0)),
+        BagnoldPurpose::Arrest => {
+            LayerTransient::from_profile(run.profile(), 100, 1e-3, |y| start.velocity(y).unwrap_or(0.0))
+        }
         _ => LayerTransient::from_rest(run.profile(), 100, 2e-3),
     };
     layer.and_then(|mut layer| layer.run(end, &[])).ok()

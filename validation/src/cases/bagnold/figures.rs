@@ -1,11 +1,11 @@
 //! The case's figures.
 
-use super::Record;
+use super::BagnoldRecord;
 use super::errors::{
     convergence_errors, history_from_rest, implied_stress, inertial_numbers, particle_history, transient_of,
 };
-use super::parameters::{BagnoldParameters, Start};
-use super::runs::{BagnoldRun, Purpose};
+use super::parameters::{BagnoldParameters, LayerStart};
+use super::runs::{BagnoldPurpose, BagnoldRun};
 use crate::cases::Arrangement;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::TransientHistory;
@@ -15,14 +15,14 @@ const PROFILES: &str = "Mean velocity along the slope in 20 bins over the depth,
 const OTHER_GRAINS: &str = "The same for grains of other materials with the same numerics: mean velocity against Bagnold's profile of each \
     material, and the difference in percent of the exact surface velocity.";
 
-pub(super) fn all(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Figure> {
-    let first_start = parameters.starts.first().copied().unwrap_or(Start::Rest);
-    let of = |belongs: &dyn Fn(&BagnoldRun) -> bool| -> Vec<&Record> {
+pub(super) fn all(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Figure> {
+    let first_start = parameters.starts.first().copied().unwrap_or(LayerStart::Rest);
+    let of = |belongs: &dyn Fn(&BagnoldRun) -> bool| -> Vec<&BagnoldRecord> {
         records.iter().filter(|(run, _)| belongs(run)).collect()
     };
-    let steady = of(&|run| run.purpose == Purpose::Steady && run.start == first_start);
-    let outside = of(&|run| matches!(run.purpose, Purpose::Arrest | Purpose::Runaway));
-    let other_grains = of(&|run| run.purpose == Purpose::OtherGrains);
+    let steady = of(&|run| run.purpose == BagnoldPurpose::Steady && run.start == first_start);
+    let outside = of(&|run| matches!(run.purpose, BagnoldPurpose::Arrest | BagnoldPurpose::Runaway));
+    let other_grains = of(&|run| run.purpose == BagnoldPurpose::OtherGrains);
     let mut figures = Vec::new();
     if !steady.is_empty() {
         let profiles = profiles("velocity-profile", PROFILES, &steady);
@@ -45,7 +45,7 @@ fn label(run: &BagnoldRun) -> String {
     }
 }
 
-fn profiles(name: &str, caption: &str, records: &[&Record]) -> Figure {
+fn profiles(name: &str, caption: &str, records: &[&BagnoldRecord]) -> Figure {
     let mut absolute = Panel::new("", Axis::linear("u [m/s]"), Axis::linear("y/h [-]"));
     let mut error = Panel::new("", Axis::linear("(u − exact)/u(h) [%]"), Axis::linear("y/h [-]"));
     error.reference("exact", [(0.0, 0.0), (0.0, 1.0)]);
@@ -65,7 +65,7 @@ fn profiles(name: &str, caption: &str, records: &[&Record]) -> Figure {
     Figure::new(name, caption, vec![absolute, error])
 }
 
-fn stresses(records: &[&Record]) -> Figure {
+fn stresses(records: &[&BagnoldRecord]) -> Figure {
     let mut pressure = Panel::new("", Axis::linear("p [Pa]"), Axis::linear("y/h [-]"));
     let mut inertia = Panel::new("", Axis::linear("I/I(θ), exact [-]"), Axis::linear("y/h [-]"));
     let mut implied = Panel::new("", Axis::linear("μ(I)/tanθ − 1 [%]"), Axis::linear("y/h [-]"));
@@ -92,10 +92,10 @@ fn stresses(records: &[&Record]) -> Figure {
     .in_columns(3)
 }
 
-fn transients(records: &[&Record]) -> Figure {
+fn transients(records: &[&BagnoldRecord]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("t [s]"), Axis::linear("depth mean of u [m/s]"));
     for (slot, (run, record)) in records.iter().enumerate() {
-        if run.start == Start::Rest
+        if run.start == LayerStart::Rest
             && let Some((history, _)) = history_from_rest(run)
         {
             let name = if slot == 0 { "1-D transient solver" } else { "" };
@@ -111,9 +111,9 @@ fn transients(records: &[&Record]) -> Figure {
     )
 }
 
-fn arrest_and_runaway(records: &[&Record]) -> Figure {
+fn arrest_and_runaway(records: &[&BagnoldRecord]) -> Figure {
     let panels = records.iter().enumerate().map(|(slot, (run, record))| {
-        let fate = if run.purpose == Purpose::Arrest { "arrest" } else { "runaway" };
+        let fate = if run.purpose == BagnoldPurpose::Arrest { "arrest" } else { "runaway" };
         let title = format!("{}: {fate}", label(run));
         let mut panel = Panel::new(&title, Axis::linear("t [s]"), Axis::linear("depth mean of u [m/s]"));
         if let Some(history) = transient_of(run, record.simulated_time) {
@@ -131,13 +131,13 @@ fn arrest_and_runaway(records: &[&Record]) -> Figure {
     )
 }
 
-fn convergence(parameters: &BagnoldParameters, records: &[Record]) -> Option<Figure> {
+fn convergence(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Option<Figure> {
     let angle = parameters.convergence_slope_angle;
     let mut panel =
         Panel::new("", Axis::logarithmic("rows over the layer [-]"), Axis::logarithmic("relative L2 of u [%]"));
     let kinds = [
-        (Arrangement::Lattice, Start::Profile, "lattice, from the profile"),
-        (Arrangement::Jittered, Start::Rest, "jittered, from rest"),
+        (Arrangement::Lattice, LayerStart::Profile, "lattice, from the profile"),
+        (Arrangement::Jittered, LayerStart::Rest, "jittered, from rest"),
     ];
     for (slot, (particles, start, name)) in kinds.into_iter().enumerate() {
         let errors = convergence_errors(records, angle, particles, start);

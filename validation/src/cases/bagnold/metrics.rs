@@ -1,9 +1,9 @@
 //! How the runs are judged.
 
-use super::Record;
+use super::BagnoldRecord;
 use super::errors::{SteadyErrors, convergence_errors, history_from_rest, mean_at, particle_history, transient_of};
-use super::parameters::{BagnoldParameters, Start};
-use super::runs::{BagnoldRun, Purpose};
+use super::parameters::{BagnoldParameters, LayerStart};
+use super::runs::{BagnoldPurpose, BagnoldRun};
 use crate::case::Run;
 use crate::cases::Arrangement;
 use crate::cases::energy_ledger;
@@ -44,23 +44,23 @@ const TRANSIENT: &str = "1-D transient solver, finite volumes over the depth";
 /// Fraction of its initial value to which the depth mean has fallen when a layer counts as arrested `[-]`.
 const ARREST_FRACTION: f64 = 0.01;
 
-pub(super) fn all(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Metric> {
+pub(super) fn all(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for record in records {
         // what the paper's algorithm does is its result
-        if record.0.purpose == Purpose::Printed {
+        if record.0.purpose == BagnoldPurpose::Printed {
             metrics.extend(regularised(record));
             continue;
         }
         let variant = record.0.variant();
         metrics.push(layer::particles_lost(&variant, &record.1));
-        metrics.extend(energy_ledger::metrics(&variant, &record.1.data.energy, energy_ledger::Scale::Gravity));
+        metrics.extend(energy_ledger::metrics(&variant, &record.1.data.energy, energy_ledger::EnergyScale::Gravity));
         metrics.extend(match record.0.purpose {
-            Purpose::Steady | Purpose::Convergence => steady(record),
-            Purpose::OtherGrains => other_grains(record),
-            Purpose::Arrest => arrest(record),
-            Purpose::Runaway => runaway(record),
-            Purpose::Regularised | Purpose::Printed => regularised(record),
+            BagnoldPurpose::Steady | BagnoldPurpose::Convergence => steady(record),
+            BagnoldPurpose::OtherGrains => other_grains(record),
+            BagnoldPurpose::Arrest => arrest(record),
+            BagnoldPurpose::Runaway => runaway(record),
+            BagnoldPurpose::Regularised | BagnoldPurpose::Printed => regularised(record),
         });
     }
     metrics.extend(convergence(parameters, records));
@@ -79,7 +79,7 @@ fn by_resolution(metric: Metric, rows: usize, fine: f64, coarse: f64, reason: &s
     }
 }
 
-fn steady(record: &Record) -> Vec<Metric> {
+fn steady(record: &BagnoldRecord) -> Vec<Metric> {
     let (run, data) = (&record.0, &record.1.data);
     let exact = run.profile();
     let Some(errors) = SteadyErrors::of(&data.profile, &exact) else { return Vec::new() };
@@ -111,7 +111,7 @@ fn steady(record: &Record) -> Vec<Metric> {
     metrics.push(height);
     let errors = SteadyErrors::of(&data.profile, &measured);
     metrics.extend(errors.map(|errors| error(VELOCITY_L2_MEASURED_HEIGHT, errors.velocity_l2)));
-    if run.start == Start::Rest {
+    if run.start == LayerStart::Rest {
         metrics.extend(transient(record));
     }
     metrics
@@ -130,7 +130,7 @@ fn relative_height(run: &BagnoldRun, data: &LayerObservation) -> Metric {
 }
 
 /// One set of numerics is to serve every material: the same errors with somewhat wider limits.
-fn other_grains((run, record): &Record) -> Vec<Metric> {
+fn other_grains((run, record): &BagnoldRecord) -> Vec<Metric> {
     let Some(errors) = SteadyErrors::of(&record.data.profile, &run.profile()) else { return Vec::new() };
     let not_steady = run.unsteadiness(&record.data);
     let gated = |quantity: Quantity, value: f64, limit: f64, reason: &str| {
@@ -149,7 +149,7 @@ fn other_grains((run, record): &Record) -> Vec<Metric> {
 }
 
 /// The paper's law is not the exact one, nor is its algorithm that of the case: what they differ by is observed.
-fn regularised((run, record): &Record) -> Vec<Metric> {
+fn regularised((run, record): &BagnoldRecord) -> Vec<Metric> {
     let Some(errors) = SteadyErrors::of(&record.data.profile, &run.profile()) else { return Vec::new() };
     let not_steady = run.unsteadiness(&record.data);
     let observed = |quantity: Quantity, value: f64| {
@@ -159,7 +159,7 @@ fn regularised((run, record): &Record) -> Vec<Metric> {
     vec![observed(VELOCITY_L2, errors.velocity_l2), observed(IMPLIED_STRESS_ERROR, errors.implied_stress_error)]
 }
 
-fn transient((run, record): &Record) -> Vec<Metric> {
+fn transient((run, record): &BagnoldRecord) -> Vec<Metric> {
     let Some((history, steady_mean)) = history_from_rest(run) else { return Vec::new() };
     let Some(rise) = history.rise_time(steady_mean, 0.99) else { return Vec::new() };
     let (variant, particles) = (run.variant(), particle_history(&record.data));
@@ -180,7 +180,7 @@ fn transient((run, record): &Record) -> Vec<Metric> {
     parts.into_iter().map(error).chain(time).collect()
 }
 
-fn arrest((run, record): &Record) -> Vec<Metric> {
+fn arrest((run, record): &BagnoldRecord) -> Vec<Metric> {
     let (variant, series) = (run.variant(), &record.data.series);
     let history = transient_of(run, 2.0 * record.simulated_time);
     let expected = history.and_then(|history| history.arrest_time(ARREST_FRACTION));
@@ -206,7 +206,7 @@ fn arrest((run, record): &Record) -> Vec<Metric> {
     vec![time, rest]
 }
 
-fn runaway((run, record): &Record) -> Vec<Metric> {
+fn runaway((run, record): &BagnoldRecord) -> Vec<Metric> {
     let (variant, particles, end) = (run.variant(), particle_history(&record.data), record.simulated_time);
     let profile = run.profile();
     let least_possible =
@@ -231,10 +231,10 @@ fn least_acceleration(history: &TransientHistory) -> f64 {
     (width..times.len()).map(slope).fold(f64::INFINITY, f64::min)
 }
 
-fn convergence(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Metric> {
+fn convergence(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Metric> {
     let angle = parameters.convergence_slope_angle;
     let reference = "convergence to Bagnold's profile (36)";
-    let of_kind = |(particles, start, name): (Arrangement, Start, &str)| {
+    let of_kind = |(particles, start, name): (Arrangement, LayerStart, &str)| {
         let errors = convergence_errors(records, angle, particles, start);
         if errors.len() < 2 || parameters.convergence_resolutions.len() < 2 {
             return None;
@@ -258,6 +258,7 @@ fn convergence(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Metric
         let metric = metric.against(None, reference, Confidence::Exact).with_snapshot_tolerance(0.01, 0.0);
         Some(metric.gated(Limit::AtLeast(least), reason))
     };
-    let kinds = [(Arrangement::Lattice, Start::Profile, "profile"), (Arrangement::Jittered, Start::Rest, "rest")];
+    let kinds =
+        [(Arrangement::Lattice, LayerStart::Profile, "profile"), (Arrangement::Jittered, LayerStart::Rest, "rest")];
     kinds.into_iter().filter_map(of_kind).collect()
 }

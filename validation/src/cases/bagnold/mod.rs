@@ -7,26 +7,26 @@ mod parameters;
 mod runs;
 mod tiers;
 
-pub use parameters::{BagnoldParameters, OtherGrains, Start};
-pub use runs::{BagnoldRun, Purpose};
+pub use parameters::{BagnoldParameters, LayerStart, OtherGrains};
+pub use runs::{BagnoldPurpose, BagnoldRun};
 
-use crate::case::{Case, Foreign, Form, Given, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::cases::layer::{self, LayerObservation};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
 pub struct Bagnold;
 
-type Record = RecordOf<BagnoldParameters>;
+type BagnoldRecord = RecordOf<BagnoldParameters>;
 
 impl Case for Bagnold {
     const NAME: &'static str = "bagnold";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "μ(I) grains on an incline: Bagnold's velocity profile, its approach, arrest below and runaway above";
     const DESCRIPTION: &'static str = "A layer of glass beads with the μ(I) rheology on an incline, periodic along the slope, over a no-slip bed. \
@@ -37,23 +37,26 @@ impl Case for Bagnold {
         Bagnold's flow makes an error of the friction coefficient eight (25°) to twenty (22°) times as large in the \
         velocity (dln I/dln μ), so the implied stress error \
         |μ(I)/tanθ − 1| stands beside the velocity error.";
-    const FORM: Form = layer::foreign::FORM;
+    const FORM: ExternalSchema = layer::foreign::FORM;
     type Parameters = BagnoldParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Metric> {
         metrics::all(parameters, records)
     }
 
-    fn figures(parameters: &BagnoldParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Figure> {
         figures::all(parameters, records)
     }
 
-    fn foreign(run: &BagnoldRun, given: &Given) -> Result<Option<Foreign<LayerObservation>>, FieldError> {
+    fn foreign(
+        run: &BagnoldRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<LayerObservation>>, FieldError> {
         run.foreign(given).map(Some)
     }
 
-    fn tables(_: &BagnoldParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Table> {
         layer::tables_of_runs(records)
     }
 }

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 /// How the layer starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Start {
+pub enum LayerStart {
     /// At rest, with the shear stress at its static limit.
     Rest,
     /// With the steady velocity and shear stress of the slope angle.
@@ -49,7 +49,7 @@ pub struct BagnoldParameters {
     #[schemars(transform = each(rules::slope_angle()))]
     pub slope_angles: Vec<f64>,
     /// Starts of the steady runs.
-    pub starts: Vec<Start>,
+    pub starts: Vec<LayerStart>,
     /// Simulated time over the recipe's, 3.5 … 5 s at 22 … 25° for 10 mm `[-]`.
     #[schemars(transform = positive("1 runs as long as the reference figures need"))]
     pub duration_factor: f64,

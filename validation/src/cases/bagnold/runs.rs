@@ -1,7 +1,7 @@
 //! The simulations that the case asks for.
 
-use super::parameters::{ARREST_DURATION, BagnoldParameters, Start, law};
-use crate::case::{Foreign, Given, ParameterError, Progress, Run, cost};
+use super::parameters::{ARREST_DURATION, BagnoldParameters, LayerStart, law};
+use crate::case::{ExternalData, ExternalObservation, ParameterError, Progress, Run, cost};
 use crate::cases::Arrangement;
 use crate::cases::layer::{self, Layer, LayerObservation, PeriodicLayer, bulk_modulus};
 use crate::input::FieldError;
@@ -15,7 +15,7 @@ use serde::Serialize;
 /// What a run is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Purpose {
+pub enum BagnoldPurpose {
     /// Bagnold's steady profile.
     Steady,
     /// The same with other grains.
@@ -36,11 +36,11 @@ pub enum Purpose {
 #[derive(Debug, Clone, Serialize)]
 pub struct BagnoldRun {
     /// What it is for.
-    pub purpose: Purpose,
+    pub purpose: BagnoldPurpose,
     /// Slope angle `[°]`.
     pub slope_angle: f64,
     /// Start.
-    pub start: Start,
+    pub start: LayerStart,
     /// Slope angle of the profile it starts with `[°]`.
     pub start_angle: f64,
     /// Arrangement of the particles.
@@ -75,7 +75,7 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
         purpose,
         slope_angle,
         start,
-        start_angle: if purpose == Purpose::Arrest { parameters.arrest_start_angle } else { slope_angle },
+        start_angle: if purpose == BagnoldPurpose::Arrest { parameters.arrest_start_angle } else { slope_angle },
         particles,
         layer: PeriodicLayer {
             resolution,
@@ -101,15 +101,15 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
         |purpose, angle, start, duration| new(purpose, angle, start, Arrangement::Jittered, own_rows, duration);
     let mut runs: Vec<BagnoldRun> = Vec::new();
     for &start in &parameters.starts {
-        let duration = |angle| if start == Start::Rest { from_rest(angle) } else { from_profile };
+        let duration = |angle| if start == LayerStart::Rest { from_rest(angle) } else { from_profile };
         let steady = parameters.slope_angles.iter();
-        runs.extend(steady.map(|&angle| jittered(Purpose::Steady, angle, start, duration(angle))));
+        runs.extend(steady.map(|&angle| jittered(BagnoldPurpose::Steady, angle, start, duration(angle))));
     }
     runs.extend(parameters.other_grains.iter().map(|other| {
         let run = new(
-            Purpose::OtherGrains,
+            BagnoldPurpose::OtherGrains,
             other.slope_angle,
-            Start::Profile,
+            LayerStart::Profile,
             Arrangement::Jittered,
             other.resolution,
             from_profile,
@@ -118,7 +118,7 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
     }));
     let numerics = Numerics { viscous_step: ViscousStep::Implicit, ..own_numerics };
     runs.extend(parameters.regularised_slope_angles.iter().map(|&angle| {
-        let run = jittered(Purpose::Regularised, angle, Start::Profile, from_profile);
+        let run = jittered(BagnoldPurpose::Regularised, angle, LayerStart::Profile, from_profile);
         let layer = PeriodicLayer { numerics, ..run.layer };
         BagnoldRun { regularisation_rate: parameters.regularised_rate, layer, ..run }
     }));
@@ -126,24 +126,26 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
         PRINTED.map(|momentum_operator| {
             let slope = parameters.convergence_slope_angle;
             let rows = parameters.printed_resolution;
-            let run = new(Purpose::Printed, slope, Start::Profile, Arrangement::Jittered, rows, from_profile);
+            let run =
+                new(BagnoldPurpose::Printed, slope, LayerStart::Profile, Arrangement::Jittered, rows, from_profile);
             let layer = PeriodicLayer { numerics: Numerics { momentum_operator, ..Numerics::paper() }, ..run.layer };
             BagnoldRun { regularisation_rate: rate, layer, ..run }
         })
     }));
     let (angle, study) = (parameters.convergence_slope_angle, &parameters.convergence_resolutions);
-    let convergence =
-        |start, particles, rows: usize, duration| new(Purpose::Convergence, angle, start, particles, rows, duration);
-    runs.extend(study.iter().map(|&rows| convergence(Start::Profile, Arrangement::Lattice, rows, from_profile)));
+    let convergence = |start, particles, rows: usize, duration| {
+        new(BagnoldPurpose::Convergence, angle, start, particles, rows, duration)
+    };
+    runs.extend(study.iter().map(|&rows| convergence(LayerStart::Profile, Arrangement::Lattice, rows, from_profile)));
     for &rows in study {
-        let run = convergence(Start::Rest, Arrangement::Jittered, rows, from_rest(angle));
+        let run = convergence(LayerStart::Rest, Arrangement::Jittered, rows, from_rest(angle));
         if !runs.iter().any(|other| other.variant() == run.variant()) {
             runs.push(run);
         }
     }
-    let arrest = |&angle: &f64| jittered(Purpose::Arrest, angle, Start::Profile, ARREST_DURATION * scale);
+    let arrest = |&angle: &f64| jittered(BagnoldPurpose::Arrest, angle, LayerStart::Profile, ARREST_DURATION * scale);
     runs.extend(parameters.arrest_slope_angles.iter().map(arrest));
-    let runaway = |&angle: &f64| jittered(Purpose::Runaway, angle, Start::Rest, 20.0 * scale);
+    let runaway = |&angle: &f64| jittered(BagnoldPurpose::Runaway, angle, LayerStart::Rest, 20.0 * scale);
     runs.extend(parameters.runaway_slope_angles.iter().map(runaway));
     runs
 }
@@ -153,19 +155,19 @@ impl Run for BagnoldRun {
 
     fn variant(&self) -> Variant {
         let start = match self.start {
-            Start::Rest => Value::from("rest"),
-            Start::Profile if self.start_angle != self.slope_angle => {
+            LayerStart::Rest => Value::from("rest"),
+            LayerStart::Profile if self.start_angle != self.slope_angle => {
                 Value::from(format!("profile_{}", self.start_angle))
             }
-            Start::Profile => Value::from("profile"),
+            LayerStart::Profile => Value::from("profile"),
         };
         let run = Variant::of("slope_angle", self.slope_angle)
             .and("start", start)
             .and("particles", self.particles.name())
             .and("resolution", self.layer.resolution);
         match (&self.purpose, &self.material) {
-            (Purpose::Regularised, _) => run.and("regularisation_rate", self.regularisation_rate),
-            (Purpose::Printed, _) => run
+            (BagnoldPurpose::Regularised, _) => run.and("regularisation_rate", self.regularisation_rate),
+            (BagnoldPurpose::Printed, _) => run
                 .and("numerics", self.layer.numerics.pairwise_operator().unwrap_or("default").replace('-', "_"))
                 .and("regularisation_rate", self.regularisation_rate),
             (_, Some(material)) => run.and("material", material.clone()),
@@ -185,13 +187,13 @@ impl Run for BagnoldRun {
         let still = |_: f64| 0.0;
         let layer = self.layer(&still, &still);
         // a runaway layer stops long before its time is up
-        let share = if self.purpose == Purpose::Runaway { 0.4 } else { 1.0 };
+        let share = if self.purpose == BagnoldPurpose::Runaway { 0.4 } else { 1.0 };
         share * layer.expected_steps() * self.layer.particles()
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         let start = self.start_profile();
-        let moving = self.start == Start::Profile;
+        let moving = self.start == LayerStart::Profile;
         let velocity = |y: f64| if moving { start.velocity(y).unwrap_or(0.0) } else { 0.0 };
         // A layer tilted until it fails carries the static friction when it starts. From no stress at all it would
         // first fall freely until the elastic shear is wound up, which at 22° is a sixth of its steady velocity.
@@ -215,7 +217,7 @@ impl BagnoldRun {
     }
 
     /// Its observation as another code gives it.
-    pub(super) fn foreign(&self, given: &Given) -> Result<Foreign<LayerObservation>, FieldError> {
+    pub(super) fn foreign(&self, given: &ExternalData) -> Result<ExternalObservation<LayerObservation>, FieldError> {
         let nothing = |_: f64| 0.0;
         layer::foreign::observe(&self.layer(&nothing, &nothing), given)
     }
@@ -252,7 +254,7 @@ impl BagnoldRun {
         let density = self.density();
         match self.purpose {
             // at 50 ρ0 g H particles leak once the mean passes half the sound speed
-            Purpose::Runaway => 200.0 * density * self.layer.gravity * self.layer.layer_height,
+            BagnoldPurpose::Runaway => 200.0 * density * self.layer.gravity * self.layer.layer_height,
             _ => {
                 let mean = |angle: f64| self.profile_at(angle).depth_mean().unwrap_or(0.0);
                 let expected = mean(self.slope_angle).max(mean(self.start_angle));
@@ -273,8 +275,8 @@ impl BagnoldRun {
             duration: self.duration,
             window: self.averaging_time,
             interval: 2e-3,
-            may_diverge: self.purpose == Purpose::Printed,
-            stop_above: if self.purpose == Purpose::Runaway { 0.5 * self.sound_speed() } else { f64::INFINITY },
+            may_diverge: self.purpose == BagnoldPurpose::Printed,
+            stop_above: if self.purpose == BagnoldPurpose::Runaway { 0.5 * self.sound_speed() } else { f64::INFINITY },
             ..self.layer.of(law(&self.grains, self.regularisation_rate), self.density(), self.slope_angle)
         }
     }

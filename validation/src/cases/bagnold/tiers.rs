@@ -1,6 +1,6 @@
 //! The tiers, the rules between parameters, and the runs that they ask for.
 
-use super::parameters::{ARREST_DURATION, BagnoldParameters, OtherGrains, Start, law};
+use super::parameters::{ARREST_DURATION, BagnoldParameters, LayerStart, OtherGrains, law};
 use super::runs::{self, BagnoldRun};
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::layer::PeriodicLayer;
@@ -17,7 +17,7 @@ impl Parameters for BagnoldParameters {
             layer: PeriodicLayer::settled(0.01, 20, 12),
             solid_fraction: GLASS_BEADS.solid_fraction,
             slope_angles: vec![22.0, 23.0, 24.0, 25.0],
-            starts: vec![Start::Rest],
+            starts: vec![LayerStart::Rest],
             duration_factor: 1.0,
             averaging_time: 0.5,
             convergence_slope_angle: 24.0,
@@ -38,7 +38,7 @@ impl Parameters for BagnoldParameters {
         let paper = Self {
             // with 20 columns the velocity at 22° scatters by 0.3 % from seed to seed, with 40 by less than 0.1 %
             layer: PeriodicLayer { resolution: 40, columns: 40, ..quick.layer },
-            starts: vec![Start::Rest, Start::Profile],
+            starts: vec![LayerStart::Rest, LayerStart::Profile],
             convergence_resolutions: vec![10, 20, 40],
             runaway_slope_angles: vec![34.0],
             other_grains: other_grains(),

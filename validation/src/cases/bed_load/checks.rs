@@ -1,10 +1,10 @@
 //! What a case file may ask for.
 
 use super::continuum::LAYER_CELL;
-use super::parameters::{BedLoadParameters, Grains, Stage};
+use super::parameters::{BedLoadParameters, GrainParticles, Stage};
 use crate::case::ParameterError;
 use crate::cases::rules;
-use crate::reference::bed_load_layer::{Closures, MixingLength};
+use crate::reference::bed_load_layer::{Closures, MixingLengthClosure};
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::material::turbulence::VON_KARMAN;
@@ -49,7 +49,7 @@ impl BedLoadParameters {
         Err(ParameterError::field("stabilised.material.law", name, rule, remedy))
     }
 
-    fn check_grains(&self, path: &str, grains: &Grains) -> Result<(), ParameterError> {
+    fn check_grains(&self, path: &str, grains: &GrainParticles) -> Result<(), ParameterError> {
         let field = |name: &str| format!("{path}.{name}");
         rules::material(&field("material"), &grains.material)?;
         if grains.drag == DragLaw::Ergun {
@@ -79,7 +79,7 @@ impl BedLoadParameters {
         rules::between("continuum.held_depth", continuum.held_depth, 0.0, 0.9 * continuum.bed_depth, remedy)?;
         rules::refuse("continuum.closures", continuum.closures.problem())?;
         let Closures { mixing_length, karman, turbulent_schmidt, .. } = continuum.closures;
-        if mixing_length != MixingLength::Integral {
+        if mixing_length != MixingLengthClosure::Integral {
             let remedy = "the particles know no other; bed-load-1d compares all";
             let given = format!("{mixing_length:?}").to_lowercase();
             return Err(ParameterError::field("continuum.closures.mixing_length", given, "integral", remedy));

@@ -8,7 +8,9 @@ use crate::case::ParameterError;
 use crate::cases::channel::Channel;
 use crate::checkpoint::is_interrupted;
 use crate::reference::LayerError;
-use crate::reference::bed_load_layer::{BedLoadLayer, Grains, LayerState, SolidFraction, SteadyStates, Stream};
+use crate::reference::bed_load_layer::{
+    BedLoadLayer, GrainMotion, LayerState, SolidFractionProfile, SteadyStates, Stream,
+};
 use crate::setup::Lattice;
 use bagnold_solver::incompressible as solver;
 use bagnold_solver::incompressible::{Bed, ParticleSet, ProjectionNumerics, Sediment, Turbulence};
@@ -66,11 +68,11 @@ impl ContinuumRun {
         let one_state = |layer: BedLoadLayer| {
             layer.steady_states_unless(&is_interrupted).and_then(SteadyStates::single).map_err(refused)
         };
-        let dilating = one_state(layer(Grains::Dilating))?;
+        let dilating = one_state(layer(GrainMotion::Dilating))?;
         match self.stage {
             Stage::Frozen | Stage::Dilating => Ok(dilating),
             Stage::Porous => {
-                let resting = Grains::Resting(SolidFraction::of_cells(&dilating));
+                let resting = GrainMotion::Resting(SolidFractionProfile::of_cells(&dilating));
                 one_state(layer(resting))
             }
         }
@@ -129,7 +131,7 @@ impl ContinuumRun {
         let lattice = Lattice { spacing, rows, columns, bottom: fluid.bottom - WALL_ROWS as f64 * spacing };
         let jitter = if self.stage == Stage::Dilating { self.continuum.sediment_jitter } else { 0.0 };
         let mut placed = Placed::default();
-        let of_rows = self.rows_of_grains(&SolidFraction::of_cells(layer), lattice);
+        let of_rows = self.rows_of_grains(&SolidFractionProfile::of_cells(layer), lattice);
         for (site, place) in lattice.sites().zip(lattice.displaced(jitter, seed.wrapping_add(1))) {
             let point = layer.at(site[1]);
             let fraction = match self.stage {
@@ -153,7 +155,7 @@ impl ContinuumRun {
     ///
     /// A few hundredths of grains in a row of their own have nothing to rub against but the row below, and are dragged off by
     /// the water: the topmost row with more takes them.
-    fn rows_of_grains(&self, of_layer: &SolidFraction, lattice: Lattice) -> Vec<f64> {
+    fn rows_of_grains(&self, of_layer: &SolidFractionProfile, lattice: Lattice) -> Vec<f64> {
         let (half, sparse) = (0.5 * lattice.spacing, self.continuum.sparse_row_fraction);
         let mut rows: Vec<f64> = (0..lattice.rows)
             .map(|row| lattice.bottom + (row as f64 + 0.5) * lattice.spacing)
@@ -216,7 +218,7 @@ impl ContinuumRun {
 #[cfg(test)]
 mod tests {
     use super::super::parameters::{BedLoadParameters, StageRuns};
-    use super::super::run::Formulation;
+    use super::super::run::BedLoadFormulation;
     use super::super::runs::runs;
     use super::*;
     use crate::case::{Parameters, Tier};
@@ -235,7 +237,7 @@ mod tests {
             averaging_time: 0.5,
         }];
         let run = runs(&parameters).pop().expect("one run");
-        let Formulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
+        let BedLoadFormulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
         let layer = own.layer(run.stream()).expect("a steady layer");
         let water = |z: f64| layer.at(z).fluid_velocity;
         let channel = own.channel(&run, &layer, &water);
@@ -273,10 +275,10 @@ mod tests {
         let mut rows = |sparse: f64| {
             parameters.continuum.sparse_row_fraction = sparse;
             let run = runs(&parameters).pop().expect("one run");
-            let Formulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
+            let BedLoadFormulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
             let layer = own.layer(run.stream()).expect("a steady layer");
             let lattice = Lattice { spacing: 7e-4, rows: 60, columns: 1, bottom: -0.0161 };
-            own.rows_of_grains(&SolidFraction::of_cells(&layer), lattice)
+            own.rows_of_grains(&SolidFractionProfile::of_cells(&layer), lattice)
         };
         let (plain, gathered) = (rows(0.0), rows(0.03));
         let top = gathered.iter().rposition(|fraction| *fraction > 0.0).expect("grains");

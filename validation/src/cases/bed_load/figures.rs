@@ -1,27 +1,28 @@
 //! The case's figures; 7 to 13 of the paper, redrawn, and the check against the 1-D layer.
 
-use super::Record;
+use super::BedLoadRecord;
 use super::fit::held_out;
 use super::parameters::Stage;
 use super::run::ContinuumRun;
-use super::run::{BedLoadRun, Formulation};
+use super::run::{BedLoadFormulation, BedLoadRun};
 use super::runs::pair_law_name;
 use crate::cases::transport_panel;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::TransportFormula;
 use crate::statistics::{BlockProfile, mean};
 
-pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Figure> {
     let mut figures = Vec::new();
-    let grains: Vec<&Record> =
-        records.iter().filter(|(run, _)| matches!(run.formulation, Formulation::Stabilised(_))).collect();
+    let grains: Vec<&BedLoadRecord> =
+        records.iter().filter(|(run, _)| matches!(run.formulation, BedLoadFormulation::Stabilised(_))).collect();
     if !grains.is_empty() {
         figures.push(water(&grains));
         figures.push(sediment(&grains));
     }
-    let layers: Vec<&Record> = records.iter().filter(|(_, record)| record.data.layer.is_some()).collect();
+    let layers: Vec<&BedLoadRecord> = records.iter().filter(|(_, record)| record.data.layer.is_some()).collect();
     for stage in [Stage::Porous, Stage::Frozen, Stage::Dilating] {
-        let of_stage: Vec<&Record> = layers.iter().copied().filter(|(run, _)| stage_of(run) == Some(stage)).collect();
+        let of_stage: Vec<&BedLoadRecord> =
+            layers.iter().copied().filter(|(run, _)| stage_of(run) == Some(stage)).collect();
         if !of_stage.is_empty() {
             figures.push(against_layer(stage, &of_stage));
         }
@@ -33,7 +34,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
 
 fn stage_of(run: &BedLoadRun) -> Option<Stage> {
     match &run.formulation {
-        Formulation::Continuum(own) => Some(own.stage),
+        BedLoadFormulation::Continuum(own) => Some(own.stage),
         _ => None,
     }
 }
@@ -45,10 +46,10 @@ fn percent(run: &BedLoadRun) -> String {
 /// Names a run beside others of the case.
 fn label(run: &BedLoadRun) -> String {
     match &run.formulation {
-        Formulation::Paper(_) => format!("paper, {}", percent(run)),
-        Formulation::Stabilised(_) => format!("stabilised, {}", percent(run)),
-        Formulation::Fit { .. } => format!("fit, {}", percent(run)),
-        Formulation::Continuum(own) => {
+        BedLoadFormulation::Paper(_) => format!("paper, {}", percent(run)),
+        BedLoadFormulation::Stabilised(_) => format!("stabilised, {}", percent(run)),
+        BedLoadFormulation::Fit { .. } => format!("fit, {}", percent(run)),
+        BedLoadFormulation::Continuum(own) => {
             let ContinuumRun { stage, pair_law, start, spacing, .. } = own;
             let mut label = format!("{}, {}", stage.name(), percent(run));
             if let (false, Some(law)) = (own.is_judged(), pair_law) {
@@ -66,7 +67,7 @@ fn label(run: &BedLoadRun) -> String {
 }
 
 /// Water over height in units of the grain diameter, with clear water.
-fn water(records: &[&Record]) -> Figure {
+fn water(records: &[&BedLoadRecord]) -> Figure {
     let mut profile = Panel::new("", Axis::logarithmic("(z + z_0)/d [-]"), Axis::linear("u_f/u_* [-]"));
     let mut deficit = Panel::new("", Axis::linear("z/d [-]"), Axis::linear("(u_f − u_clear)/u_* [-]"));
     for (slot, (run, record)) in records.iter().enumerate() {
@@ -98,7 +99,7 @@ fn water(records: &[&Record]) -> Figure {
 }
 
 /// Grains and drag over height.
-fn sediment(records: &[&Record]) -> Figure {
+fn sediment(records: &[&BedLoadRecord]) -> Figure {
     let mut velocity = Panel::new("", Axis::logarithmic("u_s [m/s]"), Axis::linear("z/d [-]"));
     let mut drag = Panel::new("", Axis::linear("drag on the grains [N/m³]"), Axis::linear("z/d [-]"));
     for (slot, (run, record)) in records.iter().enumerate() {
@@ -121,7 +122,7 @@ fn sediment(records: &[&Record]) -> Figure {
 }
 
 /// A stage of `continuum` against the 1-D layer.
-fn against_layer(stage: Stage, records: &[&Record]) -> Figure {
+fn against_layer(stage: Stage, records: &[&BedLoadRecord]) -> Figure {
     let mut water = Panel::new("", Axis::linear("u_f/u_* [-]"), Axis::linear("z [mm]"));
     let near = || Axis::linear("z [mm]").between(-8.0, 12.0);
     let mut close = Panel::new("", Axis::linear("u_f/u_* [-]").between(0.0, 12.0), near());
@@ -167,16 +168,16 @@ fn against_layer(stage: Stage, records: &[&Record]) -> Figure {
 }
 
 fn has_judged_law(run: &BedLoadRun) -> bool {
-    matches!(&run.formulation, Formulation::Continuum(own) if own.is_judged())
+    matches!(&run.formulation, BedLoadFormulation::Continuum(own) if own.is_judged())
 }
 
 /// Whether a run belongs to a kind.
-type Choice = fn(&BedLoadRun) -> bool;
+type RunFilter = fn(&BedLoadRun) -> bool;
 
-fn transport(records: &[Record]) -> Figure {
+fn transport(records: &[BedLoadRecord]) -> Figure {
     let mut panel = transport_panel::formulas();
-    let kinds: [(&str, usize, Choice); 4] = [
-        ("stabilised", 0, |run| matches!(run.formulation, Formulation::Stabilised(_))),
+    let kinds: [(&str, usize, RunFilter); 4] = [
+        ("stabilised", 0, |run| matches!(run.formulation, BedLoadFormulation::Stabilised(_))),
         ("continuum, given fraction", 5, |run| stage_of(run) == Some(Stage::Frozen) && has_judged_law(run)),
         ("continuum, dilating", 6, |run| stage_of(run) == Some(Stage::Dilating) && has_judged_law(run)),
         ("continuum, other pair laws", 3, |run| stage_of(run).is_some() && !has_judged_law(run)),
@@ -207,10 +208,10 @@ fn transport(records: &[Record]) -> Figure {
     )
 }
 
-fn over_time(records: &[Record]) -> Figure {
+fn over_time(records: &[BedLoadRecord]) -> Figure {
     let mut velocity = Panel::new("", Axis::linear("t [s]"), Axis::linear("U/U_clear [-]"));
     let mut rate = Panel::new("", Axis::linear("t [s]"), Axis::linear("q* [-]"));
-    let shown = records.iter().filter(|(run, _)| !matches!(run.formulation, Formulation::Fit { .. }));
+    let shown = records.iter().filter(|(run, _)| !matches!(run.formulation, BedLoadFormulation::Fit { .. }));
     for (slot, (run, record)) in shown.enumerate() {
         let data = &record.data;
         let mean = run.clear_water().mean_velocity();

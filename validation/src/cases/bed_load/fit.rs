@@ -1,7 +1,7 @@
 //! The fits of `stabilised`: yield stress and viscosity from the transport on two slopes, judged on the third.
 
-use super::Record;
-use super::run::Formulation;
+use super::BedLoadRecord;
+use super::run::BedLoadFormulation;
 use crate::metric::Variant;
 use crate::reference::TransportFormula;
 
@@ -28,7 +28,7 @@ pub(super) struct HeldOut {
 const FINE: usize = 200;
 
 /// ln q* over yield stress and viscosity on one slope.
-struct Surface {
+struct TransportSurface {
     slope: f64,
     shields_number: f64,
     yields: Vec<f64>,
@@ -37,7 +37,7 @@ struct Surface {
     values: Vec<Vec<f64>>,
 }
 
-impl Surface {
+impl TransportSurface {
     fn at(&self, yield_stress: f64, viscosity: f64) -> f64 {
         let (i, s) = place(&self.yields, yield_stress);
         // transport goes with a power of the viscosity
@@ -59,7 +59,7 @@ fn place(nodes: &[f64], value: f64) -> (usize, f64) {
 }
 
 /// One fit for every slope held out; empty without a whole grid on three slopes.
-pub(super) fn held_out(records: &[Record]) -> Vec<HeldOut> {
+pub(super) fn held_out(records: &[BedLoadRecord]) -> Vec<HeldOut> {
     let surfaces = surfaces(records);
     if surfaces.len() < 3 {
         return Vec::new();
@@ -67,7 +67,8 @@ pub(super) fn held_out(records: &[Record]) -> Vec<HeldOut> {
     surfaces
         .iter()
         .map(|held| {
-            let fitted: Vec<&Surface> = surfaces.iter().filter(|surface| surface.slope != held.slope).collect();
+            let fitted: Vec<&TransportSurface> =
+                surfaces.iter().filter(|surface| surface.slope != held.slope).collect();
             let line =
                 |nodes: &[f64], k: usize| nodes[0] + (nodes[nodes.len() - 1] - nodes[0]) * k as f64 / FINE as f64;
             let mut best = (f64::INFINITY, 0, 0);
@@ -95,10 +96,10 @@ pub(super) fn held_out(records: &[Record]) -> Vec<HeldOut> {
         .collect()
 }
 
-fn surfaces(records: &[Record]) -> Vec<Surface> {
+fn surfaces(records: &[BedLoadRecord]) -> Vec<TransportSurface> {
     let mut points = Vec::new();
     for (run, record) in records {
-        if let Formulation::Fit { law, .. } = &run.formulation {
+        if let BedLoadFormulation::Fit { law, .. } = &run.formulation {
             let transport = record.data.transport_in_window();
             let mean = transport.iter().sum::<f64>() / transport.len() as f64;
             let shields = run.stream().shields_number();
@@ -126,7 +127,13 @@ fn surfaces(records: &[Record]) -> Vec<Surface> {
         let row = |&tau: &f64| viscosities.iter().map(|&mu| value(tau, mu)).collect::<Option<Vec<f64>>>();
         let values = yields.iter().map(row).collect::<Option<Vec<_>>>()?;
         let shields_number = of_slope[0].1;
-        Some(Surface { slope, shields_number, yields: yields.clone(), viscosities: viscosities.clone(), values })
+        Some(TransportSurface {
+            slope,
+            shields_number,
+            yields: yields.clone(),
+            viscosities: viscosities.clone(),
+            values,
+        })
     };
     slopes.iter().filter_map(surface).collect()
 }
@@ -145,7 +152,7 @@ mod tests {
         let value = |tau: f64, mu: f64| 1.0 - 0.3 * tau - 0.5 * libm::log(mu);
         let (yields, viscosities) = (vec![5.0, 7.0, 11.0], vec![0.2, 0.5]);
         let values = yields.iter().map(|&tau| viscosities.iter().map(|&mu| value(tau, mu)).collect()).collect();
-        let surface = Surface { slope: 0.03, shields_number: 0.173, yields, viscosities, values };
+        let surface = TransportSurface { slope: 0.03, shields_number: 0.173, yields, viscosities, values };
         for (tau, mu) in [(5.0, 0.2), (6.5, 0.3), (11.0, 0.5), (9.0, 0.45)] {
             assert!((surface.at(tau, mu) - value(tau, mu)).abs() < 1e-12);
         }

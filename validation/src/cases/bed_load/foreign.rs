@@ -2,26 +2,38 @@
 
 use super::observation::{BedLoadObservation, Carried};
 use super::quantities as quantity;
-use super::run::{BedLoadRun, Formulation};
-use crate::case::{Foreign, Form, Given, Item};
+use super::run::{BedLoadFormulation, BedLoadRun};
+use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::cases::channel::{self, BlockProfile, ProfilePoint};
 use crate::input::FieldError;
 use crate::statistics::BLOCKS;
 
 /// What a run may yield.
-pub(super) const FORM: Form = Form {
+pub(super) const FORM: ExternalSchema = ExternalSchema {
     particles: &[],
     series: &[
-        Item::new("time", "s", "time since the start"),
-        Item::new("transport", "m^2/s", "volume of grains that passes a section, per time and width, without pores"),
-        Item::new("mean_velocity", "m/s", "mean of the water's velocity above the top of the bed at rest"),
+        ExternalColumn::new("time", "s", "time since the start"),
+        ExternalColumn::new(
+            "transport",
+            "m^2/s",
+            "volume of grains that passes a section, per time and width, without pores",
+        ),
+        ExternalColumn::new("mean_velocity", "m/s", "mean of the water's velocity above the top of the bed at rest"),
     ],
     profile: &[
-        Item::new("height", "m", "height above the top of the bed at rest, rising; negative inside it"),
-        Item::new("velocity", "m/s", "velocity of the water there, a mean over a time in which the flow is stationary"),
-        Item::new("grain_velocity", "m/s", "velocity of the grains there, likewise; not a number where there are none"),
+        ExternalColumn::new("height", "m", "height above the top of the bed at rest, rising; negative inside it"),
+        ExternalColumn::new(
+            "velocity",
+            "m/s",
+            "velocity of the water there, a mean over a time in which the flow is stationary",
+        ),
+        ExternalColumn::new(
+            "grain_velocity",
+            "m/s",
+            "velocity of the grains there, likewise; not a number where there are none",
+        ),
     ],
-    says: "transport is q* = q_s/√((s − 1) g d³), a mean over the last quarter of the series with the standard error of its blocks; \
+    description: "transport is q* = q_s/√((s − 1) g d³), a mean over the last quarter of the series with the standard error of its blocks; \
         transport_ratio is that over the 1-D layer of the same closures, predicted_transport compares it with Wong and Parker's \
         formula. fluid_velocity_rms and grain_velocity_rms are root mean squares of the velocities less the 1-D layer's at the \
         heights given (water: 0.5 mm to 0.9 h; grains: where those of the layer are faster than 1 cm/s), over u_*. \
@@ -65,7 +77,10 @@ const OF_TRANSPORT: [&str; 4] = [
 ///
 /// # Errors
 /// A 1-D layer to compare with that cannot be computed.
-pub(super) fn observe(run: &BedLoadRun, given: &Given) -> Result<Foreign<BedLoadObservation>, FieldError> {
+pub(super) fn observe(
+    run: &BedLoadRun,
+    given: &ExternalData,
+) -> Result<ExternalObservation<BedLoadObservation>, FieldError> {
     let water = channel::foreign::observe(given)?.observation;
     let mut measured = Vec::new();
     let (height, velocity) = (given.profile("height"), given.profile("grain_velocity"));
@@ -90,7 +105,7 @@ pub(super) fn observe(run: &BedLoadRun, given: &Given) -> Result<Foreign<BedLoad
         measured.extend([quantity::STREAM_VELOCITY.name, channel::VELOCITY_DRIFT.name]);
     }
     let layer = match &run.formulation {
-        Formulation::Continuum(own) => Some(own.layer(run.stream()).map_err(|error| {
+        BedLoadFormulation::Continuum(own) => Some(own.layer(run.stream()).map_err(|error| {
             FieldError::new("runs", error.to_string(), "a run whose 1-D layer can be computed", "leave the run out")
         })?),
         _ => None,
@@ -104,7 +119,7 @@ pub(super) fn observe(run: &BedLoadRun, given: &Given) -> Result<Foreign<BedLoad
         layer,
         channel: water,
     };
-    Ok(Foreign { observation, measured })
+    Ok(ExternalObservation { observation, measured })
 }
 
 #[cfg(test)]
@@ -113,12 +128,12 @@ mod tests {
     use super::super::parameters::BedLoadParameters;
     use super::super::runs::runs;
     use super::*;
-    use crate::case::{Columns, Parameters, Tier};
+    use crate::case::{NamedColumns, Parameters, Tier};
     use crate::metric::Verdict;
 
     fn dilating() -> BedLoadRun {
         let runs = runs(&BedLoadParameters::of_tier(Tier::Quick));
-        let is_dilating = |run: &BedLoadRun| matches!(&run.formulation, Formulation::Continuum(own) if own.stage.name() == "dilating");
+        let is_dilating = |run: &BedLoadRun| matches!(&run.formulation, BedLoadFormulation::Continuum(own) if own.stage.name() == "dilating");
         runs.into_iter().find(is_dilating).expect("the quick tier has grains that dilate")
     }
 
@@ -126,13 +141,13 @@ mod tests {
     #[test]
     fn the_layer_as_given_by_another_code_is_the_layer() {
         let run = dilating();
-        let Formulation::Continuum(own) = &run.formulation else { unreachable!("it is one of a continuum") };
+        let BedLoadFormulation::Continuum(own) = &run.formulation else { unreachable!("it is one of a continuum") };
         let layer = own.layer(run.stream()).expect("a layer");
         let heights: Vec<f64> = (-30..45).map(|k| 1e-3 * (f64::from(k) + 0.5)).collect();
         let of = |pick: fn(&crate::reference::bed_load_layer::LayerState, f64) -> f64| -> Vec<f64> {
             heights.iter().map(|&z| pick(&layer, z)).collect()
         };
-        let profile: Columns = [
+        let profile: NamedColumns = [
             ("height", heights.clone()),
             ("velocity", of(|layer, z| layer.at(z).fluid_velocity)),
             ("grain_velocity", of(|layer, z| layer.at(z).grain_velocity)),
@@ -141,14 +156,14 @@ mod tests {
         .into();
         let time: Vec<f64> = (0..400).map(|k| 0.01 * f64::from(k)).collect();
         let rate = layer.transport() * run.stream().transport_unit();
-        let series: Columns = [
+        let series: NamedColumns = [
             ("transport", vec![rate; time.len()]),
             ("mean_velocity", vec![layer.mean_fluid_velocity(); time.len()]),
             ("time", time),
         ]
         .map(|(name, values)| (name.to_owned(), values))
         .into();
-        let given = Given { profile, series, ..Given::default() };
+        let given = ExternalData { profile, series, ..ExternalData::default() };
         let seen = observe(&run, &given).expect("complete");
         let record = given.record(seen.observation);
         let found = judgement::all(&[(run, record)]);
@@ -163,10 +178,10 @@ mod tests {
 
     #[test]
     fn a_history_alone_measures_no_profile() {
-        let series: Columns = [("time", vec![0.0, 1.0]), ("transport", vec![1e-4, 1e-4])]
+        let series: NamedColumns = [("time", vec![0.0, 1.0]), ("transport", vec![1e-4, 1e-4])]
             .map(|(name, values)| (name.to_owned(), values))
             .into();
-        let seen = observe(&dilating(), &Given { series, ..Given::default() }).expect("complete");
+        let seen = observe(&dilating(), &ExternalData { series, ..ExternalData::default() }).expect("complete");
         assert_eq!(seen.measured, OF_TRANSPORT);
     }
 }

@@ -1,22 +1,22 @@
 //! How the runs are judged: each by its formulation, all together by statements and fits.
 
-use super::Record;
+use super::BedLoadRecord;
 use super::fit::{self, held_out};
 use super::metrics::{continuum, printed, transport};
 use super::quantities::{FIT_AT_BORDER, FIT_MISFIT, FITTED_VISCOSITY, FITTED_YIELD_STRESS, HELD_OUT_TRANSPORT_RATIO};
-use super::run::Formulation;
+use super::run::BedLoadFormulation;
 use super::statements;
 use crate::metric::{Limit, Metric};
 use crate::reference::{HONEST_BAND, TransportFormula};
 
-pub(super) fn all(records: &[Record]) -> Vec<Metric> {
+pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (run, record) in records {
         match &run.formulation {
-            Formulation::Paper(_) => printed(&mut metrics, run, record),
-            Formulation::Stabilised(grains) => statements::stabilised(&mut metrics, run, record, grains),
-            Formulation::Fit { .. } => metrics.push(transport(run, record)),
-            Formulation::Continuum(own) => continuum(&mut metrics, run, record, own),
+            BedLoadFormulation::Paper(_) => printed(&mut metrics, run, record),
+            BedLoadFormulation::Stabilised(grains) => statements::stabilised(&mut metrics, run, record, grains),
+            BedLoadFormulation::Fit { .. } => metrics.push(transport(run, record)),
+            BedLoadFormulation::Continuum(own) => continuum(&mut metrics, run, record, own),
         }
     }
     statements::say_what_is_missing(records);

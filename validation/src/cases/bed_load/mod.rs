@@ -18,26 +18,26 @@ mod statements;
 mod tiers;
 
 pub use observation::BedLoadObservation;
-pub use parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns};
-pub use run::{BedLoadRun, ContinuumRun, Formulation};
+pub use parameters::{BedLoadParameters, Continuum, Fit, GrainParticles, Materials, Stage, StageRuns};
+pub use run::{BedLoadFormulation, BedLoadRun, ContinuumRun};
 
-use crate::case::{Case, Foreign, Form, Given, RecordOf, Run};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run};
 use crate::cases::channel;
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
 pub struct BedLoad;
 
-type Record = RecordOf<BedLoadParameters>;
+type BedLoadRecord = RecordOf<BedLoadParameters>;
 
 impl Case for BedLoad {
     const NAME: &'static str = "bed-load";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "water over a bed that moves: profiles, drag and transport, in three formulations";
     const DESCRIPTION: &'static str = "Turbulent water over a bed of 5 mm grains. `stabilised` has one particle a grain, a yield stress that grows with \
         the grains' weight, and two parameters that are fitted on two slopes and judged on the third. `continuum` \
@@ -45,24 +45,27 @@ impl Case for BedLoad {
         against the 1-D layer of bed-load-1d in three stages: grains at rest, grains that move at a given fraction, grains \
         that dilate. `paper` is the set-up as printed, which fails in documented ways: its metrics are observations. The \
         quick tier is too short to be stationary and says so: it judges conservation.";
-    const FORM: Form = foreign::FORM;
+    const FORM: ExternalSchema = foreign::FORM;
     type Parameters = BedLoadParameters;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
-    fn metrics(_: &BedLoadParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &BedLoadParameters, records: &[BedLoadRecord]) -> Vec<Metric> {
         judgement::all(records)
     }
 
-    fn figures(_: &BedLoadParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &BedLoadParameters, records: &[BedLoadRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn foreign(run: &BedLoadRun, given: &Given) -> Result<Option<Foreign<BedLoadObservation>>, FieldError> {
+    fn foreign(
+        run: &BedLoadRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<BedLoadObservation>>, FieldError> {
         foreign::observe(run, given).map(Some)
     }
 
-    fn tables(_: &BedLoadParameters, records: &[Record]) -> Vec<Table> {
-        let of_run = |(run, record): &Record| {
+    fn tables(_: &BedLoadParameters, records: &[BedLoadRecord]) -> Vec<Table> {
+        let of_run = |(run, record): &BedLoadRecord| {
             let variant = run.variant();
             let mut tables = channel::tables(&variant, &record.data.channel);
             tables.extend(profiles::grain_table(&variant, &record.data));

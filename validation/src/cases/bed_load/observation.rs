@@ -38,7 +38,7 @@ pub struct Carried {
 
 /// Watches the grains at every sample.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Observer {
+pub(super) struct BedLoadObserver {
     unit: f64,
     length: f64,
     grain_density: f64,
@@ -51,7 +51,7 @@ pub(super) struct Observer {
     observation: BedLoadObservation,
 }
 
-impl Observer {
+impl BedLoadObserver {
     pub(super) fn new(run: &BedLoadRun, channel: &Channel<'_>) -> Self {
         let spacing = channel.sediment.as_ref().map_or(channel.fluid.spacing, |sediment| sediment.spacing);
         let bin = spacing.min(0.5 * run.materials.grain_diameter);

@@ -35,7 +35,7 @@ pub struct Materials {
 
 /// One particle a grain, over a bed whose pores hold water: `paper` as printed, `stabilised` by the recipe.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Grains {
+pub struct GrainParticles {
     /// Slopes, tangents, one run each `[-]`; 0.03 is 3 %, empty for none.
     #[schemars(transform = each(rules::driving_slope()))]
     pub slopes: Vec<f64>,
@@ -210,9 +210,9 @@ pub struct BedLoadParameters {
     /// Water and grains.
     pub materials: Materials,
     /// As printed.
-    pub paper: Grains,
+    pub paper: GrainParticles,
     /// By the recipe.
-    pub stabilised: Grains,
+    pub stabilised: GrainParticles,
     /// Volume fractions.
     pub continuum: Continuum,
     /// Fits of `stabilised`.

@@ -1,6 +1,6 @@
 //! One run: its formulation and what it depends on.
 
-use super::parameters::{Continuum, Grains, Materials, Stage};
+use super::parameters::{Continuum, GrainParticles, Materials, Stage};
 use crate::reference::bed_load_layer::Stream;
 use bagnold_solver::incompressible::PairLaw;
 use bagnold_solver::material::rheology::CoulombBingham;
@@ -9,15 +9,15 @@ use serde::Serialize;
 /// Which formulation a run is of.
 #[derive(Debug, Clone, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Formulation {
+pub enum BedLoadFormulation {
     /// As printed.
-    Paper(Grains),
+    Paper(GrainParticles),
     /// By the recipe.
-    Stabilised(Grains),
+    Stabilised(GrainParticles),
     /// By the recipe, one point of the grid of the fits.
     Fit {
         /// Its grains, of the law of that point.
-        grains: Grains,
+        grains: GrainParticles,
         /// That law.
         law: CoulombBingham,
     },
@@ -25,9 +25,9 @@ pub enum Formulation {
     Continuum(ContinuumRun),
 }
 
-impl Formulation {
+impl BedLoadFormulation {
     /// The parameters of a formulation with one particle a grain.
-    pub(super) fn grains(&self) -> Option<&Grains> {
+    pub(super) fn grains(&self) -> Option<&GrainParticles> {
         match self {
             Self::Paper(grains) | Self::Stabilised(grains) | Self::Fit { grains, .. } => Some(grains),
             Self::Continuum(_) => None,
@@ -54,7 +54,7 @@ pub struct ContinuumRun {
 #[derive(Debug, Clone, Serialize)]
 pub struct BedLoadRun {
     /// Formulation.
-    pub formulation: Formulation,
+    pub formulation: BedLoadFormulation,
     /// Slope `[-]`.
     pub slope: f64,
     /// Water and grains.
@@ -74,10 +74,10 @@ impl BedLoadRun {
         let Materials { depth, gravity, fluid_density, kinematic_viscosity, grain_density, grain_diameter } =
             self.materials;
         let (bed_depth, held_depth) = match &self.formulation {
-            Formulation::Paper(grains) | Formulation::Stabilised(grains) | Formulation::Fit { grains, .. } => {
-                (grains.bed_depth, 0.0)
-            }
-            Formulation::Continuum(own) => (own.continuum.bed_depth, own.continuum.held_depth),
+            BedLoadFormulation::Paper(grains)
+            | BedLoadFormulation::Stabilised(grains)
+            | BedLoadFormulation::Fit { grains, .. } => (grains.bed_depth, 0.0),
+            BedLoadFormulation::Continuum(own) => (own.continuum.bed_depth, own.continuum.held_depth),
         };
         Stream {
             slope: self.slope,

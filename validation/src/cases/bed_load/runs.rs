@@ -1,8 +1,8 @@
 //! The runs: what each depends on, and its scene.
 
-use super::observation::{BedLoadObservation, Observer};
-use super::parameters::{BedLoadParameters, Continuum, Grains};
-use super::run::{BedLoadRun, ContinuumRun, Formulation};
+use super::observation::{BedLoadObservation, BedLoadObserver};
+use super::parameters::{BedLoadParameters, Continuum, GrainParticles};
+use super::run::{BedLoadFormulation, BedLoadRun, ContinuumRun};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::cases::channel::Channel;
 use crate::metric::Variant;
@@ -26,13 +26,13 @@ pub(super) fn runs(parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
         jitter: *jitter,
         seed: *seed,
     };
-    let alone = |grains: &Grains, slope: f64| Grains { slopes: vec![slope], ..grains.clone() };
+    let alone = |grains: &GrainParticles, slope: f64| GrainParticles { slopes: vec![slope], ..grains.clone() };
     let mut runs = Vec::new();
     for &slope in &paper.slopes {
-        runs.push(new(Formulation::Paper(alone(paper, slope)), slope, paper.duration, paper.averaging_time));
+        runs.push(new(BedLoadFormulation::Paper(alone(paper, slope)), slope, paper.duration, paper.averaging_time));
     }
     for &slope in &stabilised.slopes {
-        let formulation = Formulation::Stabilised(alone(stabilised, slope));
+        let formulation = BedLoadFormulation::Stabilised(alone(stabilised, slope));
         runs.push(new(formulation, slope, stabilised.duration, stabilised.averaging_time));
     }
     for list in &continuum.runs {
@@ -41,7 +41,7 @@ pub(super) fn runs(parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
                 for &start in &list.starts {
                     for &spacing in &list.spacings {
                         let spacing = list.stage.spacing(spacing, continuum.largest_spacing, slope, materials);
-                        let formulation = Formulation::Continuum(ContinuumRun {
+                        let formulation = BedLoadFormulation::Continuum(ContinuumRun {
                             continuum: Continuum { runs: Vec::new(), ..continuum.clone() },
                             stage: list.stage,
                             pair_law,
@@ -60,8 +60,8 @@ pub(super) fn runs(parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
         for &plastic_viscosity in &fit.viscosities {
             for &slope in &fit.slopes {
                 let law = CoulombBingham { yield_stress, plastic_viscosity, ..fitted };
-                let grains = Grains { material: Rheology::CoulombBingham(law), ..alone(stabilised, slope) };
-                runs.push(new(Formulation::Fit { grains, law }, slope, fit.duration, fit.averaging_time));
+                let grains = GrainParticles { material: Rheology::CoulombBingham(law), ..alone(stabilised, slope) };
+                runs.push(new(BedLoadFormulation::Fit { grains, law }, slope, fit.duration, fit.averaging_time));
             }
         }
     }
@@ -83,12 +83,12 @@ impl Run for BedLoadRun {
     fn variant(&self) -> Variant {
         let of = |formulation: &str| Variant::of("formulation", formulation).and("slope", self.slope);
         match &self.formulation {
-            Formulation::Paper(_) => of("paper"),
-            Formulation::Stabilised(_) => of("stabilised"),
-            Formulation::Fit { law, .. } => {
+            BedLoadFormulation::Paper(_) => of("paper"),
+            BedLoadFormulation::Stabilised(_) => of("stabilised"),
+            BedLoadFormulation::Fit { law, .. } => {
                 of("fit").and("yield_stress", law.yield_stress).and("viscosity", law.plastic_viscosity)
             }
-            Formulation::Continuum(ContinuumRun { stage, pair_law, start, spacing, .. }) => {
+            BedLoadFormulation::Continuum(ContinuumRun { stage, pair_law, start, spacing, .. }) => {
                 let named = of(stage.name());
                 let named = match pair_law {
                     Some(law) => named.and("pair_law", pair_law_name(*law)),
@@ -116,12 +116,14 @@ impl Run for BedLoadRun {
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadObservation>, ParameterError> {
         match &self.formulation {
-            Formulation::Paper(grains) | Formulation::Stabilised(grains) | Formulation::Fit { grains, .. } => {
+            BedLoadFormulation::Paper(grains)
+            | BedLoadFormulation::Stabilised(grains)
+            | BedLoadFormulation::Fit { grains, .. } => {
                 let law = self.clear_water();
                 let start = |z: f64| if z > 0.0 { 0.9 * law.velocity(z) } else { 0.0 };
                 self.observe(&self.grains_channel(grains, &start), None, progress)
             }
-            Formulation::Continuum(own) => {
+            BedLoadFormulation::Continuum(own) => {
                 let layer = own.layer(self.stream())?;
                 let start = |z: f64| own.start * layer.at(z).fluid_velocity;
                 self.observe(&own.channel(self, &layer, &start), Some(&layer), progress)
@@ -135,10 +137,12 @@ impl BedLoadRun {
     fn size(&self) -> (f64, f64, f64) {
         let depth = self.materials.depth;
         match &self.formulation {
-            Formulation::Paper(grains) | Formulation::Stabilised(grains) | Formulation::Fit { grains, .. } => {
+            BedLoadFormulation::Paper(grains)
+            | BedLoadFormulation::Stabilised(grains)
+            | BedLoadFormulation::Fit { grains, .. } => {
                 (grains.length * (depth + grains.bed_depth), grains.spacing, grains.numerics.time_step)
             }
-            Formulation::Continuum(own) => {
+            BedLoadFormulation::Continuum(own) => {
                 let both = own.continuum.length * (depth + 2.0 * own.continuum.bed_depth);
                 (both, own.spacing, own.numerics().time_step)
             }
@@ -151,10 +155,13 @@ impl BedLoadRun {
         layer: Option<&LayerState>,
         progress: &dyn Progress,
     ) -> Result<Recorded<BedLoadObservation>, ParameterError> {
-        let (record, observer) =
-            channel.run_observed(progress, Observer::new(self, channel), |observer, simulation, in_window| {
+        let (record, observer) = channel.run_observed(
+            progress,
+            BedLoadObserver::new(self, channel),
+            |observer, simulation, in_window| {
                 observer.observe(simulation, in_window);
-            })?;
+            },
+        )?;
         Ok(record.map(|channel| observer.finish(channel, layer)))
     }
 

@@ -1,7 +1,7 @@
 //! The channel of the formulations with one particle a grain, and the water of all.
 
-use super::parameters::{Grains, Materials};
-use super::run::{BedLoadRun, Formulation};
+use super::parameters::{GrainParticles, Materials};
+use super::run::{BedLoadFormulation, BedLoadRun};
 use crate::cases::channel::{Channel, Until};
 use crate::setup::Lattice;
 use bagnold_solver::incompressible as solver;
@@ -9,10 +9,14 @@ use bagnold_solver::incompressible::{Bed, ParticleSet, Sediment};
 use bagnold_solver::vector::Vector;
 
 impl BedLoadRun {
-    pub(super) fn grains_channel<'a>(&self, grains: &Grains, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Channel<'a> {
+    pub(super) fn grains_channel<'a>(
+        &self,
+        grains: &GrainParticles,
+        velocity: &'a (dyn Fn(f64) -> f64 + Sync),
+    ) -> Channel<'a> {
         let Materials { depth, gravity, fluid_density, grain_density, grain_diameter, .. } = self.materials;
         let rows = |length: f64, spacing: f64| (length / spacing).round() as usize;
-        let printed = matches!(self.formulation, Formulation::Paper(_));
+        let printed = matches!(self.formulation, BedLoadFormulation::Paper(_));
         // the printed set-up has water above the bed only, on the grains as on a floor
         let below = if printed { 0.0 } else { grains.bed_depth };
         let fluid = Lattice {

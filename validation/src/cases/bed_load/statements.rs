@@ -1,19 +1,19 @@
 //! `stabilised` against what Kazemi et al. state of the flow, and against the transport formula on the slope held out.
 
-use super::Record;
+use super::BedLoadRecord;
 use super::metrics::{JUDGED_FROM, common, grains, is_settled};
 use super::observation::BedLoadObservation;
-use super::parameters::Grains;
+use super::parameters::GrainParticles;
 use super::profiles::{self, LAYERS};
 use super::quantities::{
     LAYER_BORDER, LAYER_SLOPE, LAYER_SLOPE_RATIO, NEAR_BED_DEFICIT, NUMBER_OF_LAYERS, OUTER_DEFICIT, RELATIVE_DEFICIT,
     SEMI_LOG_SLOPE, SHEARED_FROM, SHEARED_THICKNESS_GROWTH, SHEARED_UP_TO, TRANSPORT_GROWTH, TRANSPORT_RATIO,
 };
-use super::run::{BedLoadRun, Formulation};
+use super::run::{BedLoadFormulation, BedLoadRun};
 use super::tiers::FITTED;
 use crate::case::Run;
 use crate::cases::channel;
-use crate::metric::{Confidence, Kind, Limit, Metric, Value, Variant};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Value, Variant};
 use crate::observation::Recorded;
 use crate::reference::{HONEST_BAND, LAYER_STATEMENTS, TransportFormula};
 use crate::statistics::Segmented;
@@ -37,9 +37,9 @@ impl Stated {
 }
 
 /// Says which statements nothing is judged by, for want of a run of their slope.
-pub(super) fn say_what_is_missing(records: &[Record]) {
+pub(super) fn say_what_is_missing(records: &[BedLoadRecord]) {
     let runs = || records.iter().map(|(run, _)| run);
-    let of_the_recipe = || runs().filter(|run| matches!(run.formulation, Formulation::Stabilised(_)));
+    let of_the_recipe = || runs().filter(|run| matches!(run.formulation, BedLoadFormulation::Stabilised(_)));
     let gentle = of_the_recipe().find(|run| GENTLE.is_of(run));
     if of_the_recipe().next().is_some() && gentle.is_none() {
         tracing::warn!(
@@ -64,7 +64,7 @@ pub(super) fn stabilised(
     metrics: &mut Vec<Metric>,
     run: &BedLoadRun,
     record: &Recorded<BedLoadObservation>,
-    bed: &Grains,
+    bed: &GrainParticles,
 ) {
     let (variant, data) = (run.variant(), &record.data);
     let outer = record.clone().map(|data| data.channel);
@@ -78,7 +78,7 @@ pub(super) fn stabilised(
         let reference = formula.transport(run.stream().shields_number());
         let ratio = observed(TRANSPORT_RATIO, data.channel.average(&data.transport), 1.0 / reference);
         let reason = "yield stress and viscosity are fitted to the two other slopes";
-        let metric = ratio.against(Some(1.0), formula.name(), formula.confidence()).of_kind(Kind::Validation);
+        let metric = ratio.against(Some(1.0), formula.name(), formula.confidence()).of_kind(MetricKind::Validation);
         metrics.push(metric.gated(Limit::Within(HONEST_BAND.0, HONEST_BAND.1), reason));
     }
     let gate = |limit: Limit| judged.then_some(limit);
@@ -167,9 +167,11 @@ fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoad
 }
 
 /// More transport and a thicker sheared layer at 5 % than at 3 %.
-pub(super) fn growth(metrics: &mut Vec<Metric>, records: &[Record]) {
+pub(super) fn growth(metrics: &mut Vec<Metric>, records: &[BedLoadRecord]) {
     let of = |stated: Stated| {
-        let found = |(run, _): &&Record| matches!(run.formulation, Formulation::Stabilised(_)) && stated.is_of(run);
+        let found = |(run, _): &&BedLoadRecord| {
+            matches!(run.formulation, BedLoadFormulation::Stabilised(_)) && stated.is_of(run)
+        };
         records.iter().find(found)
     };
     let (Some((low_run, low)), Some((high_run, high))) = (of(GENTLE), of(STEEP)) else { return };

@@ -1,6 +1,6 @@
 //! What each tier runs.
 
-use super::parameters::{BedLoadParameters, Continuum, Fit, Grains, Materials, Stage, StageRuns};
+use super::parameters::{BedLoadParameters, Continuum, Fit, GrainParticles, Materials, Stage, StageRuns};
 use super::run::BedLoadRun;
 use super::runs;
 use crate::case::{ParameterError, Parameters, Tier};
@@ -48,8 +48,8 @@ impl Parameters for BedLoadParameters {
 }
 
 /// One particle a grain, by the recipe and as printed.
-fn grains() -> (Grains, Grains) {
-    let stabilised = Grains {
+fn grains() -> (GrainParticles, GrainParticles) {
+    let stabilised = GrainParticles {
         slopes: vec![0.03],
         material: Rheology::CoulombBingham(FITTED),
         bed_depth: 0.03,
@@ -64,7 +64,7 @@ fn grains() -> (Grains, Grains) {
         averaging_time: 0.6,
         numerics: ProjectionNumerics::default(),
     };
-    let paper = Grains {
+    let paper = GrainParticles {
         slopes: Vec::new(),
         // printed with |S| = √(S:S): 863 Pa in this norm; the bed is rigid with either
         material: Rheology::CoulombBingham(CoulombBingham {
@@ -149,8 +149,8 @@ fn deeper(continuum: Continuum) -> Continuum {
 
 fn paper(quick: BedLoadParameters) -> BedLoadParameters {
     BedLoadParameters {
-        paper: Grains { slopes: SLOPES.to_vec(), ..quick.paper },
-        stabilised: Grains { slopes: SLOPES.to_vec(), duration: 8.0, averaging_time: 3.0, ..quick.stabilised },
+        paper: GrainParticles { slopes: SLOPES.to_vec(), ..quick.paper },
+        stabilised: GrainParticles { slopes: SLOPES.to_vec(), duration: 8.0, averaging_time: 3.0, ..quick.stabilised },
         continuum: Continuum {
             runs: vec![
                 stage(Stage::Porous, &SLOPES, &ROWS, &[1.0], 4.0),
@@ -169,8 +169,8 @@ fn paper(quick: BedLoadParameters) -> BedLoadParameters {
 
 fn fine(quick: BedLoadParameters) -> BedLoadParameters {
     BedLoadParameters {
-        paper: Grains { slopes: Vec::new(), ..quick.paper },
-        stabilised: Grains { slopes: Vec::new(), ..quick.stabilised },
+        paper: GrainParticles { slopes: Vec::new(), ..quick.paper },
+        stabilised: GrainParticles { slopes: Vec::new(), ..quick.stabilised },
         continuum: Continuum {
             runs: vec![StageRuns {
                 spacings: vec![7e-4, 5e-4],

@@ -1,17 +1,17 @@
 //! The case's figures.
 
-use super::Record;
+use super::BedLoad1dRecord;
 use super::metrics::{difference, log_law};
 use super::records::{literature, of};
-use super::run::{BedLoad1dRun, Purpose, percent};
+use super::run::{BedLoad1dRun, LayerPurpose, percent};
 use crate::cases::transport_panel;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::bed_load_layer::LayerState;
 
-type Layer<'a> = (&'a BedLoad1dRun, &'a LayerState);
+type SolvedLayer<'a> = (&'a BedLoad1dRun, &'a LayerState);
 
-pub(super) fn all(records: &[Record]) -> Vec<Figure> {
-    let layers: Vec<Layer<'_>> = literature(records).collect();
+pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Figure> {
+    let layers: Vec<SolvedLayer<'_>> = literature(records).collect();
     if layers.is_empty() {
         return Vec::new();
     }
@@ -23,7 +23,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     figures
 }
 
-fn profiles(layers: &[Layer<'_>]) -> Figure {
+fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
     let near = |layer: &LayerState| 1.6e3 * layer.top_of_grains();
     let top = layers.iter().map(|(_, state)| near(state)).fold(0.0, f64::max);
     let depth = layers.iter().map(|(run, _)| 1e3 * run.stream.bed_depth).fold(0.0, f64::max).min(10.0);
@@ -94,7 +94,7 @@ fn carried(state: &LayerState) -> Vec<f64> {
     carried
 }
 
-fn transport(layers: &[Layer<'_>]) -> Figure {
+fn transport(layers: &[SolvedLayer<'_>]) -> Figure {
     let mut panel = transport_panel::formulas();
     let points = layers.iter().map(|(run, state)| (run.stream.shields_number(), state.transport()));
     panel.points("layer, nothing fitted", 0, points);
@@ -107,10 +107,10 @@ fn transport(layers: &[Layer<'_>]) -> Figure {
 }
 
 /// Differences between neighbouring cell heights.
-fn convergence(records: &[Record], layers: &[Layer<'_>]) -> Option<Figure> {
+fn convergence(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) -> Option<Figure> {
     let studies = [
-        (Purpose::DilatingOrder, "with dilation: q*", "relative difference of q* [-]"),
-        (Purpose::FrozenOrder, "given fraction: profiles", "relative L2 difference [-]"),
+        (LayerPurpose::DilatingOrder, "with dilation: q*", "relative difference of q* [-]"),
+        (LayerPurpose::FrozenOrder, "given fraction: profiles", "relative L2 difference [-]"),
     ];
     let mut panels = Vec::new();
     for (purpose, title, label) in studies {

@@ -1,9 +1,9 @@
 //! How the layers are judged.
 
-use super::Record;
+use super::BedLoad1dRecord;
 use super::others;
 use super::records::{literature, of};
-use super::run::{BedLoad1dRun, Purpose};
+use super::run::{BedLoad1dRun, LayerPurpose};
 use crate::case::Run;
 use crate::cases::printed_laws;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
@@ -60,18 +60,18 @@ const STUDIED_ABOVE: f64 = -0.01;
 
 const MODEL: &str = "the layer's own equations";
 
-pub(super) fn all(records: &[Record]) -> Vec<Metric> {
+pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (run, state) in literature(records) {
         transport(&mut metrics, run, state);
         balances(&mut metrics, run, state);
         let on_slope = |other: &BedLoad1dRun| other.stream.slope == run.stream.slope;
         for (_, other) in
-            of(records, |purpose| matches!(purpose, Purpose::FastStart(_))).filter(|(run, _)| on_slope(run))
+            of(records, |purpose| matches!(purpose, LayerPurpose::FastStart(_))).filter(|(run, _)| on_slope(run))
         {
             start(&mut metrics, run, state, other);
         }
-        for (purpose, limit) in [(Purpose::DilatingOrder, 1.0), (Purpose::FrozenOrder, 1.8)] {
+        for (purpose, limit) in [(LayerPurpose::DilatingOrder, 1.0), (LayerPurpose::FrozenOrder, 1.8)] {
             let study: Vec<&LayerState> = of(records, |other| *other == purpose)
                 .filter(|(run, _)| on_slope(run))
                 .map(|(_, state)| state)
@@ -85,7 +85,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     metrics.extend(super::onset::metrics(records, ONSET_RATIO, ONSET, START_DIFFERENCE));
     metrics.extend(others::metrics(records, TRANSPORT_RATIO, TRANSPORT, START_DIFFERENCE));
     with_slope(&mut metrics, &literature(records).collect::<Vec<_>>());
-    for (run, state) in of(records, |purpose| matches!(purpose, Purpose::Sensitivity(_))) {
+    for (run, state) in of(records, |purpose| matches!(purpose, LayerPurpose::Sensitivity(_))) {
         if let Some((_, own)) = literature(records).find(|(other, _)| other.stream.slope == run.stream.slope) {
             let ratio = state.transport() / own.transport();
             metrics.push(
@@ -136,20 +136,20 @@ fn second_variant(run: &BedLoad1dRun) -> Variant {
 }
 
 /// Both states of layers with other closures and of those of others, where there are two.
-fn second_states(metrics: &mut Vec<Metric>, records: &[Record]) {
-    for (run, record) in records.iter().filter(|(run, _)| run.purpose != Purpose::Similar) {
+fn second_states(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord]) {
+    for (run, record) in records.iter().filter(|(run, _)| run.purpose != LayerPurpose::Similar) {
         let Some(second) = &record.data.second else { continue };
         metrics.push(TRANSPORT.of(&second_variant(run), second.transport()));
-        if matches!(run.purpose, Purpose::Sensitivity(_)) {
+        if matches!(run.purpose, LayerPurpose::Sensitivity(_)) {
             metrics.push(START_DIFFERENCE.of(&run.variant(), record.data.start_difference));
         }
     }
 }
 
 /// The layer of a sweep: judged where the layer is one of bed load, and both of its states if there are two.
-fn similar(metrics: &mut Vec<Metric>, records: &[Record]) {
+fn similar(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord]) {
     let formula = TransportFormula::WongParker;
-    for (run, record) in records.iter().filter(|(run, _)| run.purpose == Purpose::Similar) {
+    for (run, record) in records.iter().filter(|(run, _)| run.purpose == LayerPurpose::Similar) {
         let expected = formula.transport(run.stream.shields_number());
         let mut state = |variant: &Variant, state: &LayerState| {
             metrics.push(TRANSPORT.of(variant, state.transport()).against(
@@ -215,7 +215,7 @@ fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast:
 
 /// The order of convergence: from the profiles where the fraction is given, from q* where it is not. The topmost grains
 /// end inside a cell, so that profiles of a dilating layer converge everywhere but there.
-fn order(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, study: &[&LayerState], purpose: Purpose, least: f64) {
+fn order(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, study: &[&LayerState], purpose: LayerPurpose, least: f64) {
     let differences: Vec<f64> = study.windows(2).map(|pair| difference(pair[0], pair[1], purpose)).collect();
     let [.., coarse, fine] = differences[..] else { return };
     let heights = Value::list(study.iter().map(|state| state.cell_height));
@@ -230,9 +230,9 @@ fn order(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, study: &[&LayerState], p
 }
 
 /// What is taken for the error of the coarser of two layers `[-]`.
-pub(super) fn difference(coarse: &LayerState, fine: &LayerState, purpose: Purpose) -> f64 {
+pub(super) fn difference(coarse: &LayerState, fine: &LayerState, purpose: LayerPurpose) -> f64 {
     match purpose {
-        Purpose::FrozenOrder => coarse.difference(fine, STUDIED_ABOVE),
+        LayerPurpose::FrozenOrder => coarse.difference(fine, STUDIED_ABOVE),
         _ => (coarse.transport() / fine.transport() - 1.0).abs(),
     }
 }

@@ -15,26 +15,26 @@ mod similar;
 mod tiers;
 
 pub use grain_units::{GrainUnits, Onset, Similar};
-pub use parameters::{BedLoad1dParameters, Grain, Water};
+pub use parameters::{BedGrains, BedLoad1dParameters, WaterStream};
 pub use replacements::Sensitivities;
-pub use run::{BedLoad1dRun, LayerObservation, Purpose};
+pub use run::{BedLoad1dRun, BedLoadLayerObservation, LayerPurpose};
 
 use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
 pub struct BedLoad1d;
 
 /// A run with what it left behind.
-type Record = RecordOf<BedLoad1dParameters>;
+type BedLoad1dRecord = RecordOf<BedLoad1dParameters>;
 
 impl Case for BedLoad1d {
     const NAME: &'static str = "bed-load-1d";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "bed load over the depth, two phases with closures of the literature, without particles";
     const DESCRIPTION: &'static str = "Water flows down a slope over a bed of grains and drags the upper ones along. Both phases are continua over the \
@@ -48,21 +48,21 @@ impl Case for BedLoad1d {
     type Parameters = BedLoad1dParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &BedLoad1dParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &BedLoad1dParameters, records: &[BedLoad1dRecord]) -> Vec<Metric> {
         metrics::all(records).into_iter().chain(laws::metrics()).collect()
     }
 
-    fn figures(_: &BedLoad1dParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &BedLoad1dParameters, records: &[BedLoad1dRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(_: &BedLoad1dParameters, records: &[Record]) -> Vec<Table> {
-        records.iter().filter(|(run, _)| run.purpose == Purpose::Literature).map(profile_table).collect()
+    fn tables(_: &BedLoad1dParameters, records: &[BedLoad1dRecord]) -> Vec<Table> {
+        records.iter().filter(|(run, _)| run.purpose == LayerPurpose::Literature).map(profile_table).collect()
     }
 }
 
 /// Profiles of a layer, cell by cell; what stands at the faces is interpolated.
-fn profile_table((run, record): &Record) -> Table {
+fn profile_table((run, record): &BedLoad1dRecord) -> Table {
     let columns = [
         "z [m]",
         "solid fraction [-]",

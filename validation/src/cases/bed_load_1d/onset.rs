@@ -6,8 +6,8 @@
 //! times it, and W* = 0.002, some 10⁻⁵, is within the creep of a resting bed. That choice was made with the onsets of all
 //! three known; the two others are observed, and at q* = 10⁻³ grains of a millimetre and less miss the curve's scatter.
 
-use super::Record;
-use super::run::{BedLoad1dRun, Purpose};
+use super::BedLoad1dRecord;
+use super::run::{BedLoad1dRun, LayerPurpose};
 use crate::case::Run;
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
 use crate::metric::{Limit, Metric, Quantity};
@@ -16,28 +16,28 @@ use crate::reference::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, ons
 
 /// A transport that counts as motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Criterion {
+enum OnsetCriterion {
     /// q* `[-]`.
     Transport(f64),
     /// W* = q*/τ*^{3/2} `[-]`.
     DimensionlessRate(f64),
 }
 
-const CRITERIA: [(Criterion, &str); 3] = [
-    (Criterion::DimensionlessRate(0.002), "W=0.002"),
-    (Criterion::Transport(1e-4), "q=1e-4"),
-    (Criterion::Transport(1e-3), "q=1e-3"),
+const CRITERIA: [(OnsetCriterion, &str); 3] = [
+    (OnsetCriterion::DimensionlessRate(0.002), "W=0.002"),
+    (OnsetCriterion::Transport(1e-4), "q=1e-4"),
+    (OnsetCriterion::Transport(1e-3), "q=1e-3"),
 ];
 
 /// The criterion that is judged.
-const JUDGED: Criterion = Criterion::Transport(1e-4);
+const JUDGED: OnsetCriterion = OnsetCriterion::Transport(1e-4);
 
 const JUDGED_REASON: &str = "the layer has no threshold: motion counts from q* = 10⁻⁴ on, which formulas with a threshold \
     reach within a tenth above it. Experiments scatter about the curve by this factor. Chosen with the onsets of all three \
     rates known: W* = 0.002 (a resting bed creeps as fast) and q* = 10⁻³ (such formulas need up to 1.3 times their \
     threshold) are shown beside it and not judged";
 
-impl Criterion {
+impl OnsetCriterion {
     /// Transport over that of the criterion `[-]`.
     fn ratio(self, shields_number: f64, transport: f64) -> f64 {
         match self {
@@ -61,15 +61,15 @@ fn expected(run: &BedLoad1dRun) -> f64 {
     critical_shields_number(run.stream.dimensionless_diameter())
 }
 
-fn tables(records: &[Record]) -> impl Iterator<Item = (&BedLoad1dRun, &[(f64, f64)], f64)> {
+fn tables(records: &[BedLoad1dRecord]) -> impl Iterator<Item = (&BedLoad1dRun, &[(f64, f64)], f64)> {
     records
         .iter()
-        .filter(|(run, _)| run.purpose == Purpose::Onset)
+        .filter(|(run, _)| run.purpose == LayerPurpose::Onset)
         .map(|(run, record)| (run, record.data.scan.as_slice(), record.data.start_difference))
 }
 
 /// Onsets and how far the starts differ.
-pub(super) fn metrics(records: &[Record], ratio: Quantity, onset: Quantity, start: Quantity) -> Vec<Metric> {
+pub(super) fn metrics(records: &[BedLoad1dRecord], ratio: Quantity, onset: Quantity, start: Quantity) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (run, scan, difference) in tables(records) {
         for (criterion, name) in CRITERIA {
@@ -102,7 +102,7 @@ pub(super) fn metrics(records: &[Record], ratio: Quantity, onset: Quantity, star
 }
 
 /// Onset over the grain size, and the transport about it.
-pub(super) fn figure(records: &[Record]) -> Option<Figure> {
+pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
     let mut curve = Panel::new("onset", Axis::logarithmic("D* [-]"), Axis::logarithmic("τ* at the onset [-]"));
     let mut rates = Panel::new("transport about it", Axis::logarithmic("τ*/τ*_c [-]"), Axis::logarithmic("q* [-]"));
     let points: Vec<f64> = (0..=60).map(|k| 8.0 * libm::pow(25.0, f64::from(k) / 60.0)).collect();
@@ -140,10 +140,10 @@ mod tests {
     fn the_onset_of_a_power_law_is_exact() {
         let scan: Vec<(f64, f64)> =
             [0.02, 0.03, 0.05, 0.08].map(|tau: f64| (tau, 1e-4 * (tau / 0.04).powi(6))).to_vec();
-        assert!((Criterion::Transport(1e-4).onset(&scan) / 0.04 - 1.0).abs() < 1e-12);
+        assert!((OnsetCriterion::Transport(1e-4).onset(&scan) / 0.04 - 1.0).abs() < 1e-12);
         // 1e-4 (τ/0.04)⁶ = 0.002 τ^{3/2}: τ^{4.5} = 20 · 0.04⁶
         let expected = (20.0_f64 * 0.04_f64.powi(6)).powf(1.0 / 4.5);
-        assert!((Criterion::DimensionlessRate(0.002).onset(&scan) / expected - 1.0).abs() < 1e-12);
-        assert!(Criterion::Transport(1.0).onset(&scan).is_nan());
+        assert!((OnsetCriterion::DimensionlessRate(0.002).onset(&scan) / expected - 1.0).abs() < 1e-12);
+        assert!(OnsetCriterion::Transport(1.0).onset(&scan).is_nan());
     }
 }

@@ -1,7 +1,7 @@
 //! The layer beside bed load that others have simulated grain by grain or measured.
 
-use super::Record;
-use super::run::{BedLoad1dRun, Purpose};
+use super::BedLoad1dRecord;
+use super::run::{BedLoad1dRun, LayerPurpose};
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::metric::{Confidence, Limit, Metric, Quantity, quantities};
@@ -34,7 +34,7 @@ const SCHMIDT: f64 = 1.0;
 /// Every layer with the case's closures, and where eddies are said to carry grains once more with their dispersion.
 pub(super) fn runs(measured: &[MeasuredBedLoad], closures: Closures) -> Vec<BedLoad1dRun> {
     let new = |of: &MeasuredBedLoad, closures| BedLoad1dRun {
-        purpose: Purpose::Measured(*of),
+        purpose: LayerPurpose::Measured(*of),
         stream: of.stream(),
         closures,
         cell_height: CELL_HEIGHT,
@@ -47,9 +47,9 @@ pub(super) fn runs(measured: &[MeasuredBedLoad], closures: Closures) -> Vec<BedL
     runs
 }
 
-fn all(records: &[Record]) -> impl Iterator<Item = (&Record, MeasuredBedLoad)> {
+fn all(records: &[BedLoad1dRecord]) -> impl Iterator<Item = (&BedLoad1dRecord, MeasuredBedLoad)> {
     records.iter().filter_map(|record| match record.0.purpose {
-        Purpose::Measured(of) => Some((record, of)),
+        LayerPurpose::Measured(of) => Some((record, of)),
         _ => None,
     })
 }
@@ -63,7 +63,7 @@ fn difference(height: &[f64], values: &[f64], theirs: &[(f64, f64)]) -> f64 {
 }
 
 /// Profiles beside theirs.
-fn profile_metrics((run, record): &Record, of: MeasuredBedLoad) -> Vec<Metric> {
+fn profile_metrics((run, record): &BedLoad1dRecord, of: MeasuredBedLoad) -> Vec<Metric> {
     let (theirs, state) = (of.profiles(), &record.data.state);
     let is_own = run.closures.turbulent_schmidt == 0.0;
     let of_profile =
@@ -91,7 +91,12 @@ fn profile_metrics((run, record): &Record, of: MeasuredBedLoad) -> Vec<Metric> {
 }
 
 /// Transport and profiles beside theirs; with the case's own closures they are judged.
-pub(super) fn metrics(records: &[Record], ratio: Quantity, transport: Quantity, start: Quantity) -> Vec<Metric> {
+pub(super) fn metrics(
+    records: &[BedLoad1dRecord],
+    ratio: Quantity,
+    transport: Quantity,
+    start: Quantity,
+) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (layer, of) in all(records) {
         let (run, record) = layer;
@@ -122,10 +127,11 @@ pub(super) fn metrics(records: &[Record], ratio: Quantity, transport: Quantity, 
 }
 
 /// Profiles over theirs, a row of panels each.
-pub(super) fn figure(records: &[Record]) -> Option<Figure> {
+pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
     let mut panels = Vec::new();
     for of in [MeasuredBedLoad::GrainSimulation, MeasuredBedLoad::SheetFlow] {
-        let layers: Vec<&Record> = all(records).filter(|(_, other)| *other == of).map(|(record, _)| record).collect();
+        let layers: Vec<&BedLoad1dRecord> =
+            all(records).filter(|(_, other)| *other == of).map(|(record, _)| record).collect();
         if layers.is_empty() {
             continue;
         }

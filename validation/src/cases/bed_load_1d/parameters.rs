@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 /// The water.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Water {
+pub struct WaterStream {
     /// Depth h above the bed `[m]`.
     #[schemars(transform = positive("give it in metres, such as 0.046"))]
     pub depth: f64,
@@ -26,7 +26,7 @@ pub struct Water {
 
 /// The grains.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Grain {
+pub struct BedGrains {
     /// Depth of the bed `[m]`.
     #[schemars(transform = positive("give it in metres, such as 0.04"))]
     pub bed_depth: f64,
@@ -63,9 +63,9 @@ pub struct BedLoad1dParameters {
     #[schemars(transform = each(positive("give it in metres, such as 2.5e-4")))]
     pub frozen_cell_heights: Vec<f64>,
     /// The water.
-    pub water: Water,
+    pub water: WaterStream,
     /// The grains.
-    pub grains: Grain,
+    pub grains: BedGrains,
     /// Closures.
     pub closures: Closures,
     /// Other closures, one at a time.

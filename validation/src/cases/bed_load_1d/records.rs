@@ -1,19 +1,19 @@
 //! Records by what they were computed for.
 
-use super::Record;
-use super::run::{BedLoad1dRun, Purpose};
+use super::BedLoad1dRecord;
+use super::run::{BedLoad1dRun, LayerPurpose};
 use crate::observation::Outcome;
 use crate::reference::bed_load_layer::LayerState;
 
 /// Layers from rest with the case's closures, that became steady.
-pub(super) fn literature(records: &[Record]) -> impl Iterator<Item = (&BedLoad1dRun, &LayerState)> {
-    of(records, |purpose| *purpose == Purpose::Literature)
+pub(super) fn literature(records: &[BedLoad1dRecord]) -> impl Iterator<Item = (&BedLoad1dRun, &LayerState)> {
+    of(records, |purpose| *purpose == LayerPurpose::Literature)
 }
 
 /// Steady layers of a purpose.
 pub(super) fn of(
-    records: &[Record],
-    wanted: impl Fn(&Purpose) -> bool,
+    records: &[BedLoad1dRecord],
+    wanted: impl Fn(&LayerPurpose) -> bool,
 ) -> impl Iterator<Item = (&BedLoad1dRun, &LayerState)> {
     records
         .iter()

@@ -1,6 +1,6 @@
 //! What closures are replaced by, one at a time.
 
-use crate::reference::bed_load_layer::{Closures, MixingLength};
+use crate::reference::bed_load_layer::{Closures, MixingLengthClosure};
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::parameter::{between, each, positive};
 use schemars::JsonSchema;
@@ -30,7 +30,7 @@ pub struct Sensitivities {
     /// Drag laws.
     pub drag: Vec<DragLaw>,
     /// Mixing lengths.
-    pub mixing_length: Vec<MixingLength>,
+    pub mixing_length: Vec<MixingLengthClosure>,
 }
 
 /// A replaced closure.
@@ -52,7 +52,7 @@ pub enum Replaced {
     /// Drag law.
     Drag(DragLaw),
     /// Mixing length.
-    MixingLength(MixingLength),
+    MixingLength(MixingLengthClosure),
 }
 
 impl Sensitivities {
@@ -80,7 +80,7 @@ impl Sensitivities {
             dilation: vec![0.0, 0.15, 0.62],
             cell_height: vec![1e-3, 5e-4, 1.25e-4],
             drag: vec![DragLaw::SchillerNaumann, DragLaw::MorsiAlexander, DragLaw::WenYu, DragLaw::Ergun],
-            mixing_length: vec![MixingLength::Root, MixingLength::Linear],
+            mixing_length: vec![MixingLengthClosure::Root, MixingLengthClosure::Linear],
         }
     }
 

@@ -6,7 +6,8 @@ use crate::checkpoint::is_interrupted;
 use crate::metric::Variant;
 use crate::observation::{Outcome, Recorded, state_hash};
 use crate::reference::bed_load_layer::{
-    Approach, BedLoadLayer, Closures, Grains, LayerState, SAME_STATE, STEADY, SolidFraction, Start, Stream,
+    Approach, BedLoadLayer, Closures, GrainMotion, InitialVelocity, LayerState, SAME_STATE, STEADY,
+    SolidFractionProfile, Stream,
 };
 use crate::reference::{LayerError, MeasuredBedLoad};
 use serde::{Deserialize, Serialize};
@@ -24,7 +25,7 @@ pub(super) const SCANNED: [f64; 6] = [0.55, 0.75, 1.0, 1.3, 1.7, 2.3];
 /// What a layer is computed for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Purpose {
+pub enum LayerPurpose {
     /// The layer with the case's closures, from rest.
     Literature,
     /// The same from a fast start at this speed `[m/s]`.
@@ -43,7 +44,7 @@ pub enum Purpose {
     Measured(MeasuredBedLoad),
 }
 
-impl Purpose {
+impl LayerPurpose {
     /// What the grains do, in a variant.
     pub(super) fn grains(self) -> &'static str {
         if self == Self::FrozenOrder { "frozen" } else { "dilating" }
@@ -54,7 +55,7 @@ impl Purpose {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BedLoad1dRun {
     /// What for.
-    pub purpose: Purpose,
+    pub purpose: LayerPurpose,
     /// The stream.
     pub stream: Stream,
     /// Closures.
@@ -65,7 +66,7 @@ pub struct BedLoad1dRun {
 
 /// What a run leaves behind.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct LayerObservation {
+pub struct BedLoadLayerObservation {
     /// The profiles.
     pub state: LayerState,
     /// Largest change of a velocity in the last step, over u_* `[-]`.
@@ -81,21 +82,21 @@ pub struct LayerObservation {
 }
 
 impl Run for BedLoad1dRun {
-    type Observation = LayerObservation;
+    type Observation = BedLoadLayerObservation;
 
     fn variant(&self) -> Variant {
         let slope = Variant::of("slope", self.stream.slope);
         match self.purpose {
-            Purpose::Literature => slope.and("start", "rest"),
-            Purpose::FastStart(_) => slope.and("start", "fast"),
-            Purpose::DilatingOrder | Purpose::FrozenOrder => {
+            LayerPurpose::Literature => slope.and("start", "rest"),
+            LayerPurpose::FastStart(_) => slope.and("start", "fast"),
+            LayerPurpose::DilatingOrder | LayerPurpose::FrozenOrder => {
                 slope.and("grains", self.purpose.grains()).and("cell_height", self.cell_height)
             }
-            Purpose::Sensitivity(replaced) => slope.and(replaced.closure(), replaced.value_text()),
+            LayerPurpose::Sensitivity(replaced) => slope.and(replaced.closure(), replaced.value_text()),
             // a sweep's points differ in its parameters only
-            Purpose::Similar => Variant::of("layer", "similar"),
-            Purpose::Onset => Variant::of("diameter", self.stream.grain_diameter),
-            Purpose::Measured(of) => {
+            LayerPurpose::Similar => Variant::of("layer", "similar"),
+            LayerPurpose::Onset => Variant::of("diameter", self.stream.grain_diameter),
+            LayerPurpose::Measured(of) => {
                 let schmidt = self.closures.turbulent_schmidt;
                 Variant::of("layer", of.name()).and("turbulent_schmidt", schmidt)
             }
@@ -112,18 +113,18 @@ impl Run for BedLoad1dRun {
 
     fn particle_steps(&self) -> f64 {
         let layers = match self.purpose {
-            Purpose::Onset => 2.0 * SCANNED.len() as f64,
+            LayerPurpose::Onset => 2.0 * SCANNED.len() as f64,
             _ if self.has_both_starts() => 2.0,
             _ => 1.0,
         };
         layers * USUAL_STEPS * (self.stream.flow_depth + self.stream.bed_depth) / self.cell_height
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadLayerObservation>, ParameterError> {
         let started = Instant::now();
         let start = match self.purpose {
-            Purpose::FastStart(speed) => Start::Moving(speed),
-            _ => Start::Rest,
+            LayerPurpose::FastStart(speed) => InitialVelocity::Moving(speed),
+            _ => InitialVelocity::Rest,
         };
         let both = self.has_both_starts();
         let layer = self.layer().map_err(refused)?;
@@ -134,7 +135,7 @@ impl Run for BedLoad1dRun {
             None
         };
         let mut done = Done::of(&approach, fast.as_ref());
-        let scan = if self.purpose == Purpose::Onset { self.scan(&approach, &mut done)? } else { Vec::new() };
+        let scan = if self.purpose == LayerPurpose::Onset { self.scan(&approach, &mut done)? } else { Vec::new() };
         if is_interrupted() {
             return Err(ParameterError::Interrupted);
         }
@@ -165,7 +166,7 @@ impl Run for BedLoad1dRun {
             threads: 1,
             frames: Vec::new(),
             first_bad: None,
-            data: LayerObservation {
+            data: BedLoadLayerObservation {
                 velocity_change: approach.velocity_change,
                 fraction_change: approach.fraction_change,
                 start_difference: done.difference,
@@ -197,7 +198,10 @@ impl Done {
 impl BedLoad1dRun {
     /// Whether the run itself seeks its state from two starts; those of a slope and of an order are runs of their own.
     fn has_both_starts(&self) -> bool {
-        matches!(self.purpose, Purpose::Sensitivity(_) | Purpose::Similar | Purpose::Onset | Purpose::Measured(_))
+        matches!(
+            self.purpose,
+            LayerPurpose::Sensitivity(_) | LayerPurpose::Similar | LayerPurpose::Onset | LayerPurpose::Measured(_)
+        )
     }
 
     /// Shields numbers and transports about the onset, from both starts; that of the run itself is known.
@@ -209,7 +213,7 @@ impl BedLoad1dRun {
                 continue;
             }
             let layer = BedLoadLayer { stream, ..self.layer().map_err(refused)? };
-            let slow = layer.approach_unless(Start::Rest, &is_interrupted).map_err(refused)?;
+            let slow = layer.approach_unless(InitialVelocity::Rest, &is_interrupted).map_err(refused)?;
             let fast = layer.approach_unless(layer.fast_start(), &is_interrupted).map_err(refused)?;
             let both = Done::of(&slow, Some(&fast));
             done.steps += both.steps;
@@ -223,17 +227,17 @@ impl BedLoad1dRun {
     /// The layer.
     fn layer(&self) -> Result<BedLoadLayer, LayerError> {
         let grains = match self.purpose {
-            Purpose::FrozenOrder => Grains::Frozen(smooth_bed(&self.stream, self.closures.largest_fraction)?),
-            _ => Grains::Dilating,
+            LayerPurpose::FrozenOrder => GrainMotion::Frozen(smooth_bed(&self.stream, self.closures.largest_fraction)?),
+            _ => GrainMotion::Dilating,
         };
         Ok(BedLoadLayer { stream: self.stream, closures: self.closures, grains, cell_height: self.cell_height })
     }
 }
 
 /// A bed whose fraction falls smoothly (with two continuous derivatives) across z = 0.
-fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFraction, LayerError> {
+fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFractionProfile, LayerError> {
     let half = TRANSITION * stream.grain_diameter;
-    SolidFraction::sampled(-half, half, 4096, |z| {
+    SolidFractionProfile::sampled(-half, half, 4096, |z| {
         let x = (0.5 * (z / half + 1.0)).clamp(0.0, 1.0);
         largest_fraction * (1.0 - x * x * x * (10.0 - x * (15.0 - 6.0 * x)))
     })

@@ -1,12 +1,12 @@
 //! Closures that differ from the literature's in one point.
 
-use super::Record;
+use super::BedLoad1dRecord;
 use super::records::of;
 use super::replacements::Replaced;
-use super::run::{BedLoad1dRun, Purpose, percent};
+use super::run::{BedLoad1dRun, LayerPurpose, percent};
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
 use crate::reference::TransportFormula;
-use crate::reference::bed_load_layer::{LayerState, MixingLength};
+use crate::reference::bed_load_layer::{LayerState, MixingLengthClosure};
 use bagnold_solver::material::drag::DragLaw;
 
 /// Closures in the order of the figure, with their labels.
@@ -28,10 +28,10 @@ fn place(replaced: Replaced) -> f64 {
             DragLaw::ALL.iter().position(|other| *other == law).map_or(0.0, |place| place as f64 + 1.0)
         }
         Replaced::MixingLength(length) => match length {
-            MixingLength::None => 0.0,
-            MixingLength::Integral => 1.0,
-            MixingLength::Root => 2.0,
-            MixingLength::Linear => 3.0,
+            MixingLengthClosure::None => 0.0,
+            MixingLengthClosure::Integral => 1.0,
+            MixingLengthClosure::Root => 2.0,
+            MixingLengthClosure::Linear => 3.0,
         },
         Replaced::CellHeight(height) => 1e3 * height,
         _ => replaced.value().unwrap_or(f64::NAN),
@@ -54,16 +54,16 @@ fn own(name: &str, run: &BedLoad1dRun) -> Replaced {
 }
 
 /// Transport over the value of each closure.
-pub(super) fn figure(records: &[Record], layers: &[(&BedLoad1dRun, &LayerState)]) -> Option<Figure> {
+pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[(&BedLoad1dRun, &LayerState)]) -> Option<Figure> {
     let mut panels = Vec::new();
     for (name, label) in DRAWN {
         let mut panel = Panel::new("", Axis::linear(label), Axis::logarithmic("q*/q* of Wong & Parker [-]"));
         for (slot, (run, state)) in layers.iter().enumerate() {
             let expected = TransportFormula::WongParker.transport(run.stream.shields_number());
-            let mut points: Vec<(f64, f64)> = of(records, |purpose| matches!(purpose, Purpose::Sensitivity(_)))
+            let mut points: Vec<(f64, f64)> = of(records, |purpose| matches!(purpose, LayerPurpose::Sensitivity(_)))
                 .filter(|(other, _)| other.stream.slope == run.stream.slope)
                 .filter_map(|(other, state)| match other.purpose {
-                    Purpose::Sensitivity(replaced) if replaced.closure() == name => {
+                    LayerPurpose::Sensitivity(replaced) if replaced.closure() == name => {
                         Some((place(replaced), state.transport() / expected))
                     }
                     _ => None,

@@ -2,7 +2,7 @@
 
 use super::grain_units::GrainUnits;
 use super::parameters::BedLoad1dParameters;
-use super::run::{BedLoad1dRun, Purpose, check_sliding};
+use super::run::{BedLoad1dRun, LayerPurpose, check_sliding};
 use crate::case::ParameterError;
 use crate::reference::bed_load_layer::{Closures, Stream};
 use crate::reference::critical_shields_number;
@@ -30,13 +30,13 @@ pub(super) fn runs(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
     };
     let mut runs = Vec::new();
     if similar.shields_number > 0.0 {
-        runs.push(of(&similar.lengths, Purpose::Similar, similar.shields_number, similar.diameter, *closures));
+        runs.push(of(&similar.lengths, LayerPurpose::Similar, similar.shields_number, similar.diameter, *closures));
     }
     let closures = Closures { regularisation_rate: onset.regularisation_rate, ..*closures };
     for &diameter in &onset.diameters {
         let shields_number =
             critical_shields_number(stream(&onset.lengths, parameters, 1.0, diameter).dimensionless_diameter());
-        runs.push(of(&onset.lengths, Purpose::Onset, shields_number, diameter, closures));
+        runs.push(of(&onset.lengths, LayerPurpose::Onset, shields_number, diameter, closures));
     }
     runs
 }
@@ -46,7 +46,7 @@ pub(super) fn check(parameters: &BedLoad1dParameters) -> Result<(), ParameterErr
     parameters.similar.lengths.check("similar")?;
     parameters.onset.lengths.check("onset")?;
     for run in runs(parameters) {
-        if run.purpose == Purpose::Similar {
+        if run.purpose == LayerPurpose::Similar {
             check_sliding("similar.shields_number", parameters.similar.shields_number, &run)?;
         }
     }

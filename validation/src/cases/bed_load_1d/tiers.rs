@@ -1,9 +1,9 @@
 //! The tiers, the rules between parameters, and the runs that they ask for.
 
 use super::grain_units::{GrainUnits, Onset, Similar};
-use super::parameters::{BedLoad1dParameters, Grain, Water};
+use super::parameters::{BedGrains, BedLoad1dParameters, WaterStream};
 use super::replacements::Sensitivities;
-use super::run::{BedLoad1dRun, Purpose, check_sliding};
+use super::run::{BedLoad1dRun, LayerPurpose, check_sliding};
 use super::{others, similar};
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::rules;
@@ -21,8 +21,8 @@ impl Parameters for BedLoad1dParameters {
             fast_start: 2.0,
             dilating_cell_heights: vec![1e-3, 5e-4, 2.5e-4],
             frozen_cell_heights: vec![5e-4, 2.5e-4, 1.25e-4],
-            water: Water { depth: 0.046, density: 1000.0, kinematic_viscosity: 1e-6 },
-            grains: Grain { bed_depth: 0.04, held_depth: 0.0, density: 2600.0, diameter: 5e-3 },
+            water: WaterStream { depth: 0.046, density: 1000.0, kinematic_viscosity: 1e-6 },
+            grains: BedGrains { bed_depth: 0.04, held_depth: 0.0, density: 2600.0, diameter: 5e-3 },
             closures: Closures::default(),
             sensitivities: Sensitivities::none(),
             similar: Similar::NONE,
@@ -65,7 +65,7 @@ impl Parameters for BedLoad1dParameters {
                 }
             }
         }
-        for run in all(self).iter().filter(|run| run.purpose == Purpose::Literature) {
+        for run in all(self).iter().filter(|run| run.purpose == LayerPurpose::Literature) {
             let place = self.slopes.iter().position(|slope| *slope == run.stream.slope).unwrap_or(0);
             check_sliding(&format!("slopes[{place}]"), run.stream.slope, run)?;
         }
@@ -88,15 +88,17 @@ fn all(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
             cell_height,
         };
         let own = parameters.closures;
-        runs.push(new(Purpose::Literature, own, parameters.cell_height));
+        runs.push(new(LayerPurpose::Literature, own, parameters.cell_height));
         if parameters.fast_start > 0.0 {
-            runs.push(new(Purpose::FastStart(parameters.fast_start), own, parameters.cell_height));
+            runs.push(new(LayerPurpose::FastStart(parameters.fast_start), own, parameters.cell_height));
         }
-        runs.extend(parameters.dilating_cell_heights.iter().map(|&height| new(Purpose::DilatingOrder, own, height)));
-        runs.extend(parameters.frozen_cell_heights.iter().map(|&height| new(Purpose::FrozenOrder, own, height)));
+        runs.extend(
+            parameters.dilating_cell_heights.iter().map(|&height| new(LayerPurpose::DilatingOrder, own, height)),
+        );
+        runs.extend(parameters.frozen_cell_heights.iter().map(|&height| new(LayerPurpose::FrozenOrder, own, height)));
         runs.extend(parameters.sensitivities.all().into_iter().map(|replaced| {
             let (closures, cell_height) = replaced.apply(own, parameters.cell_height);
-            new(Purpose::Sensitivity(replaced), closures, cell_height)
+            new(LayerPurpose::Sensitivity(replaced), closures, cell_height)
         }));
     }
     runs.extend(similar::runs(parameters));

@@ -1,28 +1,28 @@
 //! A channel as another code gives it: its profile and its history.
 
 use super::{ChannelObservation, ChannelSeries, MomentumBalance};
-use crate::case::{Foreign, Form, Given, Item};
+use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
 use crate::statistics::{BlockProfile, ProfilePoint};
 
 /// What a run of water over a fixed bed may yield.
-pub(in crate::cases) const FORM: Form = Form {
+pub(in crate::cases) const FORM: ExternalSchema = ExternalSchema {
     particles: &[],
     series: &[
-        Item::new("time", "s", "time since the start"),
-        Item::new("mean_velocity", "m/s", "mean over the depth of the velocity along the floor"),
-        Item::new("bed_shear", "Pa", "friction of the bed per area"),
+        ExternalColumn::new("time", "s", "time since the start"),
+        ExternalColumn::new("mean_velocity", "m/s", "mean over the depth of the velocity along the floor"),
+        ExternalColumn::new("bed_shear", "Pa", "friction of the bed per area"),
     ],
     profile: &[
-        Item::new("height", "m", "height above the bed, rising"),
-        Item::new(
+        ExternalColumn::new("height", "m", "height above the bed, rising"),
+        ExternalColumn::new(
             "velocity",
             "m/s",
             "velocity along the bed there, a mean over a time in which the flow is stationary",
         ),
-        Item::new("pressure", "Pa", "pressure there"),
+        ExternalColumn::new("pressure", "Pa", "pressure there"),
     ],
-    says: "The profile is compared at the heights at which it is given, between a tenth and nine tenths of the depth: \
+    description: "The profile is compared at the heights at which it is given, between a tenth and nine tenths of the depth: \
         velocity_rms is the root mean square of the velocity less the logarithmic law (of a laminar film: velocity_l2 against its \
         exact profile), over the friction velocity; semi_log_slope that of a line through the velocity over the logarithm of the \
         height. mean_velocity and bed_shear are means over the last quarter of the series, with the standard error of the mean \
@@ -34,7 +34,7 @@ const OF_PROFILE: [&str; 5] = ["velocity_rms", "semi_log_slope", "velocity_l2", 
 /// Share of the series at the end that is averaged.
 const LAST: f64 = 0.25;
 
-pub(in crate::cases) fn observe(given: &Given) -> Result<Foreign<ChannelObservation>, FieldError> {
+pub(in crate::cases) fn observe(given: &ExternalData) -> Result<ExternalObservation<ChannelObservation>, FieldError> {
     let mut measured = Vec::new();
     let time = given.series("time").to_vec();
     let or_unknown = |name: &str| {
@@ -78,5 +78,5 @@ pub(in crate::cases) fn observe(given: &Given) -> Result<Foreign<ChannelObservat
         stationary_since: None,
         particles_lost: 0,
     };
-    Ok(Foreign { observation, measured })
+    Ok(ExternalObservation { observation, measured })
 }

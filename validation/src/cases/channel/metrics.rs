@@ -3,7 +3,7 @@
 use super::ChannelObservation;
 use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
 use crate::observation::Recorded;
-use crate::statistics::{Average, Estimate, block_average, linear_fit};
+use crate::statistics::{Average, FittedValue, block_average, linear_fit};
 
 quantities! {
     shared pub(in crate::cases)
@@ -25,9 +25,9 @@ const SNAPSHOT_ERRORS: f64 = 2.0;
 impl ChannelObservation {
     /// Mean of a series over the window, with its statistical error; not a number where the run did not get there.
     #[must_use]
-    pub fn average(&self, array: &[f64]) -> Estimate {
+    pub fn average(&self, array: &[f64]) -> FittedValue {
         block_average(&self.series.within(array, self.window))
-            .map_or(Estimate { value: f64::NAN, standard_error: 0.0 }, Average::estimate)
+            .map_or(FittedValue { value: f64::NAN, standard_error: 0.0 }, Average::estimate)
     }
 
     /// Slope of a line through a series over the window, in its unit per second.
@@ -41,7 +41,7 @@ impl ChannelObservation {
 
 /// A quantity from an average in other units, which may drift by its statistical error.
 #[must_use]
-pub fn observed(quantity: Quantity, variant: &Variant, estimate: Estimate, factor: f64) -> Metric {
+pub fn observed(quantity: Quantity, variant: &Variant, estimate: FittedValue, factor: f64) -> Metric {
     let noise = (SNAPSHOT_ERRORS * factor * estimate.standard_error).abs();
     quantity.of(variant, factor * estimate.value).with_snapshot_tolerance(1e-3, noise)
 }
@@ -72,7 +72,7 @@ pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation
 #[must_use]
 pub fn height_change(variant: &Variant, data: &ChannelObservation, source: &str) -> Metric {
     let height = data.average(&data.series.relative_height);
-    let change = Estimate { value: height.value - 1.0, ..height };
+    let change = FittedValue { value: height.value - 1.0, ..height };
     observed(HEIGHT_CHANGE, variant, change, 100.0).exactly(0.0, source)
 }
 

@@ -30,11 +30,11 @@ pub use closure::TurbulenceClosure;
 pub(super) use metrics::{BED_SHEAR, HEIGHT_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST, PRESSURE_L2, VELOCITY_DRIFT};
 pub use metrics::{bed_shear, height_change, momentum_residual, observed, particles_lost, pressure_l2, velocity_drift};
 pub use probe::{ChannelObservation, ChannelSeries, MomentumBalance};
-pub use stationarity::Mark;
+pub use stationarity::StationaritySample;
 pub use tables::{tables, tables_of_runs};
 pub use water::Water;
 
-use crate::case::recording::{Ending, Followed, Stage, Stop, follow};
+use crate::case::recording::{Ending, Followed, SimulationStage, Stop, follow};
 use crate::case::{ParameterError, Progress};
 use crate::observation::{Frame, Recorded};
 use crate::setup::Lattice;
@@ -167,8 +167,8 @@ impl<'a> Channel<'a> {
         let longest = self.longest();
         let frame_interval = longest / (self.frames.max(2) - 1) as f64;
         // the bed's impulse is that of every step, so the probe sees every step
-        let stage = Stage { progress, end: longest, interval: 1e-3 * self.numerics.time_step, context: &() };
-        let begin = |simulation: &IncompressibleSimulation<2>| Seen {
+        let stage = SimulationStage { progress, end: longest, interval: 1e-3 * self.numerics.time_step, context: &() };
+        let begin = |simulation: &IncompressibleSimulation<2>| ChannelObserver {
             probe: ChannelProbe::new(self),
             last_good: simulation.snapshot(),
             frames: Vec::new(),
@@ -178,8 +178,8 @@ impl<'a> Channel<'a> {
             stage,
             |_| Ok(self.scene()),
             begin,
-            |seen: &mut Seen<O>, simulation| {
-                let Seen { probe, last_good, frames, beside } = seen;
+            |seen: &mut ChannelObserver<O>, simulation| {
+                let ChannelObserver { probe, last_good, frames, beside } = seen;
                 if !probe.observe(simulation) {
                     return ControlFlow::Continue(());
                 }
@@ -193,7 +193,8 @@ impl<'a> Channel<'a> {
                 if probe.is_done() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             },
         )?;
-        let Followed { simulation, stop, kept: Seen { probe, last_good, frames, beside }, started } = followed;
+        let Followed { simulation, stop, kept: ChannelObserver { probe, last_good, frames, beside }, started } =
+            followed;
         // a fixed time is reached by the probe first, and no criterion of its own
         let stop = match (stop, self.until) {
             (Stop::Stopped, Until::Time(_)) => Stop::Finished,
@@ -214,7 +215,7 @@ impl<'a> Channel<'a> {
 
 /// What has been seen of a run.
 #[derive(Serialize, Deserialize)]
-struct Seen<O> {
+struct ChannelObserver<O> {
     probe: ChannelProbe,
     last_good: IncompressibleSnapshot<2>,
     frames: Vec<Frame>,

@@ -1,6 +1,6 @@
 //! What a channel leaves behind: time series, and over the averaging window a profile and the balance of momentum.
 
-use super::stationarity::{Mark, Stationarity};
+use super::stationarity::{Stationarity, StationaritySample};
 use super::{Channel, Until};
 use crate::statistics::BlockProfile;
 use bagnold_solver::incompressible::IncompressibleSimulation;
@@ -77,7 +77,7 @@ pub struct ChannelObservation {
     /// Momentum over the window.
     pub momentum: MomentumBalance,
     /// Ends of the stationarity criterion's intervals, where there is a criterion.
-    pub marks: Vec<Mark>,
+    pub marks: Vec<StationaritySample>,
     /// When the criterion was met `[s]`.
     pub stationary_since: Option<f64>,
     /// Particles that ended outside: of the fluid, those below the floor or above twice the depth.

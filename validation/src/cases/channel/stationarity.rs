@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// The flow at the end of an interval of the criterion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Mark {
+pub struct StationaritySample {
     /// Time `[s]`.
     pub time: f64,
     /// Depth mean of the velocity `[m/s]`.
@@ -23,7 +23,7 @@ pub(super) struct Stationarity {
     until: Until,
     /// g i `[m/s²]`.
     acceleration: f64,
-    pub(super) marks: Vec<Mark>,
+    pub(super) marks: Vec<StationaritySample>,
     /// When the criterion was met `[s]`.
     pub(super) reached: Option<f64>,
 }
@@ -46,8 +46,8 @@ impl Stationarity {
             }
             Some(_) => return,
         };
-        self.marks.push(Mark { time, mean_velocity, change });
-        let small = |mark: &&Mark| mark.change.is_some_and(|change| change.abs() < tolerance);
+        self.marks.push(StationaritySample { time, mean_velocity, change });
+        let small = |mark: &&StationaritySample| mark.change.is_some_and(|change| change.abs() < tolerance);
         if self.marks.iter().rev().take(checks).filter(small).count() == checks {
             self.reached = Some(time);
         }

@@ -1,13 +1,13 @@
 //! The case's figures.
 
-use super::Record;
+use super::ClearWaterRecord;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 
 fn label(slope: f64) -> String {
     format!("{} %", (1e4 * slope).round() / 100.0)
 }
 
-pub(super) fn profiles(records: &[Record]) -> Figure {
+pub(super) fn profiles(records: &[ClearWaterRecord]) -> Figure {
     let mut profile = Panel::new("", Axis::logarithmic("z′/z₀ [-]"), Axis::linear("u/u_* [-]"));
     let mut residual = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("(u − u_log)/u_* [-]"));
     residual.band("limit of the rms", [(0.1, -0.25, 0.25), (0.9, -0.25, 0.25)]);
@@ -39,7 +39,7 @@ pub(super) fn profiles(records: &[Record]) -> Figure {
     )
 }
 
-pub(super) fn over_time(records: &[Record]) -> Figure {
+pub(super) fn over_time(records: &[ClearWaterRecord]) -> Figure {
     let mut velocity = Panel::new("", Axis::linear("t [s]"), Axis::linear("U/U_log [-]"));
     let mut shear = Panel::new("", Axis::linear("t [s]"), Axis::linear("bed shear/(ρ g h i) [-]"));
     let mut longest: f64 = 0.0;

@@ -1,6 +1,6 @@
 //! How the runs are judged.
 
-use super::Record;
+use super::ClearWaterRecord;
 use super::parameters::Period;
 use crate::case::Run;
 use crate::cases::channel::{self, ProfilePoint};
@@ -24,7 +24,7 @@ quantities! {
 /// Heights over the depth between which the profile is compared `[-]`.
 const COMPARED: (f64, f64) = (0.1, 0.9);
 
-pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
+pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
     let (variant, data, law) = (run.variant(), &record.data, run.reference());
     let mut metrics = vec![channel::particles_lost(&variant, record), channel::momentum_residual(&variant, record)];
     let stationary = matches!(run.flow.period, Period::Stationary { .. });

@@ -5,25 +5,25 @@ mod laws;
 mod metrics;
 mod parameters;
 
-pub use parameters::{ClearWaterParameters, ClearWaterRun, Flow, Period};
+pub use parameters::{ClearWaterParameters, ClearWaterRun, Period, RoughBedFlow};
 
 use super::channel;
-use crate::case::{Case, Foreign, Form, Given, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
 pub struct ClearWater;
 
-type Record = RecordOf<ClearWaterParameters>;
+type ClearWaterRecord = RecordOf<ClearWaterParameters>;
 
 impl Case for ClearWater {
     const NAME: &'static str = "clear-water";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "turbulent clear water over a fixed rough bed against the logarithmic law";
     const DESCRIPTION: &'static str = "Water over a fixed bed of 5 mm grains on the slopes of the bed-load paper, with a mixing length for what the \
         particles do not resolve and the law of a rough wall for the bed. The closure carries the stress of a uniform \
@@ -31,23 +31,26 @@ impl Case for ClearWater {
         starts 20 % too slow and is averaged once it is stationary: once its depth mean changes by less than 0.5 % over \
         U/(2 g i) three times in a row. The quick tier starts from the law itself, is too short to be stationary and \
         says so: it judges the balance of momentum only, and reports the rest with its drift.";
-    const FORM: Form = channel::foreign::FORM;
+    const FORM: ExternalSchema = channel::foreign::FORM;
     type Parameters = ClearWaterParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &ClearWaterParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &ClearWaterParameters, records: &[ClearWaterRecord]) -> Vec<Metric> {
         records.iter().flat_map(metrics::of_run).chain(laws::metrics()).collect()
     }
 
-    fn figures(_: &ClearWaterParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &ClearWaterParameters, records: &[ClearWaterRecord]) -> Vec<Figure> {
         vec![figures::profiles(records), figures::over_time(records)]
     }
 
-    fn foreign(_: &ClearWaterRun, given: &Given) -> Result<Option<Foreign<channel::ChannelObservation>>, FieldError> {
+    fn foreign(
+        _: &ClearWaterRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<channel::ChannelObservation>>, FieldError> {
         channel::foreign::observe(given).map(Some)
     }
 
-    fn tables(_: &ClearWaterParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &ClearWaterParameters, records: &[ClearWaterRecord]) -> Vec<Table> {
         channel::tables_of_runs(records)
     }
 }

@@ -42,7 +42,7 @@ pub enum Period {
 
 /// The flow over its bed, and how long it is watched.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Flow {
+pub struct RoughBedFlow {
     /// Kinematic viscosity `[m²/s]`.
     #[schemars(transform = positive("give it in m²/s; water has 1e-6"))]
     pub kinematic_viscosity: f64,
@@ -77,7 +77,7 @@ pub struct ClearWaterParameters {
     pub slopes: Vec<f64>,
     /// The flow.
     #[serde(flatten)]
-    pub flow: Flow,
+    pub flow: RoughBedFlow,
 }
 
 impl Parameters for ClearWaterParameters {
@@ -87,7 +87,7 @@ impl Parameters for ClearWaterParameters {
         let quick = Self {
             water: Water::of_rows(23),
             slopes: vec![0.03],
-            flow: Flow {
+            flow: RoughBedFlow {
                 kinematic_viscosity: 1e-6,
                 sand_roughness: 5e-3,
                 origin_offset: 6e-4,
@@ -101,7 +101,7 @@ impl Parameters for ClearWaterParameters {
         let paper = Self {
             water: Water { columns: 20, ..quick.water },
             slopes: vec![0.02, 0.03, 0.05],
-            flow: Flow { start_share: 0.8, period, ..quick.flow },
+            flow: RoughBedFlow { start_share: 0.8, period, ..quick.flow },
         };
         match tier {
             Tier::Quick => quick,
@@ -111,7 +111,7 @@ impl Parameters for ClearWaterParameters {
     }
 
     fn check(&self) -> Result<(), ParameterError> {
-        let Self { water, flow: Flow { origin_offset, sand_roughness, period, .. }, .. } = *self;
+        let Self { water, flow: RoughBedFlow { origin_offset, sand_roughness, period, .. }, .. } = *self;
         rules::between("origin_offset", origin_offset, 0.0, 0.1 * water.depth, "a fraction of a grain diameter")?;
         let first_row = 0.5 * water.depth / water.resolution as f64 + origin_offset;
         let remedy = "the logarithmic law begins at k_s/30, which must lie below the first row of particles";
@@ -143,7 +143,7 @@ pub struct ClearWaterRun {
     /// The water.
     pub water: Water,
     /// The flow.
-    pub flow: Flow,
+    pub flow: RoughBedFlow,
 }
 
 impl Run for ClearWaterRun {
@@ -187,7 +187,8 @@ impl ClearWaterRun {
 
     fn channel<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Channel<'a> {
         let time = self.reference().adjustment_time();
-        let Flow { kinematic_viscosity, sand_roughness, origin_offset, turbulence, jitter, period, .. } = self.flow;
+        let RoughBedFlow { kinematic_viscosity, sand_roughness, origin_offset, turbulence, jitter, period, .. } =
+            self.flow;
         let (until, window) = match period {
             Period::Fixed { duration, averaging_time } => (Until::Time(duration), averaging_time),
             Period::Stationary { tolerance, checks, at_most, averaging_times } => {

@@ -18,10 +18,10 @@ pub(super) const SAME_LAW_REASON: &str = "the same material law solved by anothe
     with 80";
 
 /// Where a result must lie, and why there.
-pub(super) type Band = Option<(Limit, &'static str)>;
+pub(super) type AcceptanceBand = Option<(Limit, &'static str)>;
 
 /// Where the run-out of published grains must lie.
-pub(super) fn run_out(run: &ColumnRun, law: &CollapseLaw, spread: f64) -> Band {
+pub(super) fn run_out(run: &ColumnRun, law: &CollapseLaw, spread: f64) -> AcceptanceBand {
     let a = run.initial_height();
     if !run.has_published_law() {
         return None;
@@ -52,7 +52,7 @@ pub(super) fn run_out(run: &ColumnRun, law: &CollapseLaw, spread: f64) -> Band {
 }
 
 /// Where the height of published grains must lie.
-pub(super) fn height(run: &ColumnRun, law: &CollapseLaw, spread: f64) -> Band {
+pub(super) fn height(run: &ColumnRun, law: &CollapseLaw, spread: f64) -> AcceptanceBand {
     let a = run.initial_height();
     let expected = law.value(a).filter(|_| run.has_published_law())?;
     let is_round = run.geometry == Geometry::Round;

@@ -14,7 +14,7 @@ use bagnold_solver::weakly_compressible::scene::Scene;
 pub(super) const STIFFNESS: f64 = 50.0;
 
 /// What the grains of a block have in common.
-pub(super) struct Block<const D: usize> {
+pub(super) struct GrainBlock<const D: usize> {
     /// Particle spacing `[m]`.
     pub(super) spacing: f64,
     /// Height of its surface `[m]`, along the second axis.
@@ -35,7 +35,7 @@ pub(super) struct Block<const D: usize> {
     pub(super) numerics: Numerics,
 }
 
-impl<const D: usize> Block<D> {
+impl<const D: usize> GrainBlock<D> {
     /// The block at its lattice sites on a bed that ends at `bed_end` `[m]` along all horizontal axes.
     pub(super) fn scene(&self, sites: impl Iterator<Item = Vector<D>>, domain: Domain<D>, bed_end: f64) -> Scene<D> {
         let equation_of_state =

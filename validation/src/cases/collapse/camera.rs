@@ -1,6 +1,6 @@
 //! Takes the frames of an animation during a run.
 
-use crate::observation::{Motion, MotionFrame};
+use crate::observation::{MotionFrame, MotionSequence};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
 
@@ -19,13 +19,13 @@ pub(in crate::cases) struct Camera {
     /// Thickness of the slab `[m]`.
     pub(in crate::cases) slab: f64,
     /// What was taken so far.
-    pub(in crate::cases) motion: Motion,
+    pub(in crate::cases) motion: MotionSequence,
 }
 
 impl Camera {
     /// A camera that has taken nothing.
     pub(in crate::cases) fn new(interval: f64, slab: f64) -> Self {
-        Self { interval, slab, motion: Motion::default() }
+        Self { interval, slab, motion: MotionSequence::default() }
     }
 
     /// Takes a picture if it is time for one; `surface` is a chain of points and `front` a place, both in `[m]`.

@@ -1,12 +1,12 @@
 //! One column: its scene and its run.
 
-use super::block::{Block, STIFFNESS};
+use super::block::{GrainBlock, STIFFNESS};
 use super::deposit::AT_REST;
 use super::deposit::{Collapse, Surveyor, radius};
 use super::material::Material;
 use super::release::Release;
-use super::watch::Watch;
-use crate::case::recording::{self, Ending, Stage, Watched};
+use super::watch::CollapseObserver;
+use crate::case::recording::{self, Ending, SimulationStage, Watched};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -52,7 +52,7 @@ impl Geometry {
 /// What a column is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Purpose {
+pub enum ColumnPurpose {
     /// To be compared with the published laws.
     Law,
     /// One of several resolutions and seeds.
@@ -67,7 +67,7 @@ pub enum Purpose {
 #[derive(Debug, Clone, Serialize)]
 pub struct ColumnRun {
     /// What it is for.
-    pub purpose: Purpose,
+    pub purpose: ColumnPurpose,
     /// Cross-section.
     pub geometry: Geometry,
     /// The grains.
@@ -98,12 +98,12 @@ impl Run for ColumnRun {
             .and("aspect_ratio", self.aspect_ratio)
             .and("resolution", self.resolution);
         match self.purpose {
-            Purpose::Law => column,
-            Purpose::Convergence => column.and("seed", self.release.seed),
-            Purpose::Hourglass => {
+            ColumnPurpose::Law => column,
+            ColumnPurpose::Convergence => column.and("seed", self.release.seed),
+            ColumnPurpose::Hourglass => {
                 column.and("hourglass", self.release.numerics.hourglass).and("seed", self.release.seed)
             }
-            Purpose::Regularised => column.and("regularisation_rate", self.regularisation_rate.unwrap_or(0.0)),
+            ColumnPurpose::Regularised => column.and("regularisation_rate", self.regularisation_rate.unwrap_or(0.0)),
         }
     }
 
@@ -253,7 +253,7 @@ impl ColumnRun {
         let mut domain = Domain { axes: [symmetry; D] };
         domain.axes[1] = AxisBoundary::Open;
         let Release { gravity, jitter, seed, numerics, .. } = self.release;
-        let block = Block {
+        let block = GrainBlock {
             spacing,
             height: self.rows() as f64 * spacing,
             gravity: Vector::<D>::from_fn(|axis, _| if axis == 1 { -gravity } else { 0.0 }),
@@ -284,9 +284,10 @@ impl ColumnRun {
                 self.explicit_viscous_steps(duration)
             );
         }
-        let begin =
-            |_: &_| Watch::new(self.surveyor(), FRAME_INTERVAL * scale, self.picture_times(), EARLIEST_REST * scale);
-        let stage = Stage { progress, end: duration, interval: scale / POINTS, context: &() };
+        let begin = |_: &_| {
+            CollapseObserver::new(self.surveyor(), FRAME_INTERVAL * scale, self.picture_times(), EARLIEST_REST * scale)
+        };
+        let stage = SimulationStage { progress, end: duration, interval: scale / POINTS, context: &() };
         let watched = recording::watch(
             stage,
             |_| Ok(self.scene::<D>()),

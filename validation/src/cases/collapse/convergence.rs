@@ -1,8 +1,8 @@
 //! How far a column's result depends on the resolution, on the seed and on the hourglass coefficient.
 
-use super::Record;
+use super::CollapseRecord;
 use super::bands::{SAME_LAW, SAME_LAW_REASON, band};
-use super::column::{ColumnRun, Purpose};
+use super::column::{ColumnPurpose, ColumnRun};
 use super::deposit::Collapse;
 use super::material::Material;
 use super::quantities::{
@@ -15,12 +15,12 @@ use crate::reference::{Author, PLANAR_COLLAPSE};
 use crate::statistics::{GridConvergence, Mean, grid_convergence, mean};
 
 /// Name, measure and largest index `[-]` of what must converge.
-type Measured = (&'static str, fn(&Collapse) -> f64, f64);
+type ConvergingMeasure = (&'static str, fn(&Collapse) -> f64, f64);
 
 /// Fewest seeds whose scatter counts as a spread.
 const ENSEMBLE: usize = 5;
 
-const MEASURED: [Measured; 3] = [
+const MEASURED: [ConvergingMeasure; 3] = [
     ("centroid", |collapse| collapse.centroid, 0.03),
     (RUN_OUT.name, Collapse::run_out, 0.08),
     ("front_at_0.05_r0", Collapse::run_out_of_rows, 0.08),
@@ -28,15 +28,15 @@ const MEASURED: [Measured; 3] = [
 
 /// A column that is studied, and all records.
 #[derive(Clone, Copy)]
-struct Study<'a> {
+struct ConvergenceStudy<'a> {
     material: Material,
     aspect_ratio: f64,
-    records: &'a [Record],
+    records: &'a [CollapseRecord],
 }
 
-impl<'a> Study<'a> {
+impl<'a> ConvergenceStudy<'a> {
     /// The columns that have runs of a purpose, in their order.
-    fn all(records: &'a [Record], purpose: Purpose) -> Vec<Self> {
+    fn all(records: &'a [CollapseRecord], purpose: ColumnPurpose) -> Vec<Self> {
         let mut found: Vec<Self> = Vec::new();
         for (run, _) in records.iter().filter(|(run, _)| run.purpose == purpose) {
             let (material, aspect_ratio) = (run.material, run.aspect_ratio);
@@ -62,12 +62,12 @@ impl<'a> Study<'a> {
     }
 
     /// Its runs of some purposes by return mapping, resolution by resolution.
-    fn by_resolution(&self, purposes: &[Purpose]) -> Vec<(usize, Vec<&'a Record>)> {
-        let is_own = |(run, _): &&Record| {
+    fn by_resolution(&self, purposes: &[ColumnPurpose]) -> Vec<(usize, Vec<&'a CollapseRecord>)> {
+        let is_own = |(run, _): &&CollapseRecord| {
             let is_column = run.material == self.material && run.aspect_ratio == self.aspect_ratio;
             is_column && run.regularisation_rate.is_none() && purposes.contains(&run.purpose)
         };
-        let own: Vec<&Record> = self.records.iter().filter(is_own).collect();
+        let own: Vec<&CollapseRecord> = self.records.iter().filter(is_own).collect();
         let mut resolutions: Vec<usize> = own.iter().map(|(run, _)| run.resolution).collect();
         resolutions.sort_unstable();
         resolutions.dedup();
@@ -77,16 +77,17 @@ impl<'a> Study<'a> {
 
     /// Means over the seeds, resolution by resolution. A run that stands for itself is one of its ensemble.
     fn means(&self, measure: fn(&Collapse) -> f64) -> Vec<Mean> {
-        let runs = self.by_resolution(&[Purpose::Law, Purpose::Convergence]).into_iter();
-        let values = |runs: Vec<&Record>| runs.iter().map(|(_, record)| measure(&record.data)).collect::<Vec<_>>();
+        let runs = self.by_resolution(&[ColumnPurpose::Law, ColumnPurpose::Convergence]).into_iter();
+        let values =
+            |runs: Vec<&CollapseRecord>| runs.iter().map(|(_, record)| measure(&record.data)).collect::<Vec<_>>();
         runs.filter_map(|(resolution, runs)| Mean::of(resolution, &values(runs))).collect()
     }
 
     /// Resolutions at which the hourglass coefficient was varied, with (coefficient, mean over the seeds) in ascending
     /// order.
     fn hourglasses(&self, measure: fn(&Collapse) -> f64) -> Vec<(usize, Vec<(f64, f64)>)> {
-        let point = |(run, record): &Record| (run.release.numerics.hourglass, measure(&record.data));
-        let sorted = |(resolution, runs): (usize, Vec<&Record>)| {
+        let point = |(run, record): &CollapseRecord| (run.release.numerics.hourglass, measure(&record.data));
+        let sorted = |(resolution, runs): (usize, Vec<&CollapseRecord>)| {
             let mut points: Vec<(f64, f64)> = runs.into_iter().map(point).collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
             let of_one = |points: &[(f64, f64)]| {
@@ -95,13 +96,13 @@ impl<'a> Study<'a> {
             };
             (resolution, points.chunk_by(|a, b| a.0 == b.0).map(of_one).collect())
         };
-        self.by_resolution(&[Purpose::Hourglass]).into_iter().map(sorted).collect()
+        self.by_resolution(&[ColumnPurpose::Hourglass]).into_iter().map(sorted).collect()
     }
 }
 
-pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
+pub(super) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
     let mut metrics = Vec::new();
-    for study in Study::all(records, Purpose::Convergence) {
+    for study in ConvergenceStudy::all(records, ColumnPurpose::Convergence) {
         for (quantity, measure, largest) in MEASURED {
             let means = study.means(measure);
             let variant = study.name(Variant::of("quantity", quantity));
@@ -120,7 +121,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
             metrics.push(metric.against(None, source, Confidence::Exact).with_snapshot_tolerance(0.02, 0.02));
         }
     }
-    for study in Study::all(records, Purpose::Hourglass) {
+    for study in ConvergenceStudy::all(records, ColumnPurpose::Hourglass) {
         metrics
             .extend(MEASURED.iter().flat_map(|(quantity, measure, _)| hourglass_spreads(&study, quantity, *measure)));
     }
@@ -128,7 +129,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
 }
 
 /// An ensemble's mean run-out against the law of the same material: one run alone scatters too much to be judged by it.
-fn against_law(study: &Study<'_>, variant: &Variant, mean: &Mean) -> Metric {
+fn against_law(study: &ConvergenceStudy<'_>, variant: &Variant, mean: &Mean) -> Metric {
     let law = Author::Lagree.law(&PLANAR_COLLAPSE.run_out);
     let expected = law.value(study.aspect_ratio);
     let metric = ENSEMBLE_RUN_OUT.of(&variant.clone().and("resolution", mean.resolution), mean.value);
@@ -140,7 +141,7 @@ fn against_law(study: &Study<'_>, variant: &Variant, mean: &Mean) -> Metric {
 }
 
 /// How far the choice of the hourglass coefficient moves a result, resolution by resolution.
-fn hourglass_spreads(study: &Study<'_>, quantity: &str, measure: fn(&Collapse) -> f64) -> Vec<Metric> {
+fn hourglass_spreads(study: &ConvergenceStudy<'_>, quantity: &str, measure: fn(&Collapse) -> f64) -> Vec<Metric> {
     let spread = |(resolution, points): (usize, Vec<(f64, f64)>)| {
         let values: Vec<f64> = points.into_iter().map(|point| point.1).collect();
         let (least, most) = values.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &v| (a.min(v), b.max(v)));
@@ -200,27 +201,31 @@ fn finest(means: &[Mean]) -> Option<GridConvergence> {
 
 /// Relative standard uncertainty of a measure from the spacing, half of the index, where the run has the finest resolution
 /// of a study of its column `[-]`.
-pub(super) fn numerical_uncertainty(records: &[Record], run: &ColumnRun, measure: fn(&Collapse) -> f64) -> Option<f64> {
-    let study = Study { material: run.material, aspect_ratio: run.aspect_ratio, records };
+pub(super) fn numerical_uncertainty(
+    records: &[CollapseRecord],
+    run: &ColumnRun,
+    measure: fn(&Collapse) -> f64,
+) -> Option<f64> {
+    let study = ConvergenceStudy { material: run.material, aspect_ratio: run.aspect_ratio, records };
     let means = study.means(measure);
     let is_finest = means.last().is_some_and(|mean| mean.resolution == run.resolution);
     finest(&means).filter(|_| is_finest).map(|found| 0.5 * found.index)
 }
 
 /// Largest relative standard deviation of a measure over an ensemble of [`ENSEMBLE`] seeds or more `[-]`; 0 without one.
-pub(super) fn relative_spread(records: &[Record], measure: fn(&Collapse) -> f64) -> f64 {
-    let studies = Study::all(records, Purpose::Convergence);
+pub(super) fn relative_spread(records: &[CollapseRecord], measure: fn(&Collapse) -> f64) -> f64 {
+    let studies = ConvergenceStudy::all(records, ColumnPurpose::Convergence);
     let ensembles = studies.iter().flat_map(|study| study.means(measure)).filter(|mean| mean.runs >= ENSEMBLE);
     let spread = |mean: Mean| mean.standard_error * (mean.runs as f64).sqrt() / mean.value.abs();
     ensembles.map(spread).fold(0.0, f64::max)
 }
 
 /// Figures of the studies that were made.
-pub(super) fn figures(records: &[Record]) -> Vec<Figure> {
-    let mut resolution = Study::all(records, Purpose::Convergence);
+pub(super) fn figures(records: &[CollapseRecord]) -> Vec<Figure> {
+    let mut resolution = ConvergenceStudy::all(records, ColumnPurpose::Convergence);
     // an ensemble at one resolution says nothing of convergence
     resolution.retain(|study| study.means(|collapse| collapse.centroid).len() > 1);
-    let coefficient = Study::all(records, Purpose::Hourglass);
+    let coefficient = ConvergenceStudy::all(records, ColumnPurpose::Hourglass);
     let mut figures = Vec::new();
     if !resolution.is_empty() {
         figures.push(grid_convergence_figure(&resolution));
@@ -243,7 +248,7 @@ pub(super) fn figures(records: &[Record]) -> Vec<Figure> {
     figures
 }
 
-fn grid_convergence_figure(studies: &[Study<'_>]) -> Figure {
+fn grid_convergence_figure(studies: &[ConvergenceStudy<'_>]) -> Figure {
     let panels = MEASURED.map(|(name, measure, _)| {
         let y = format!("{} over the finest − 1 [%]", name.replace('_', "-"));
         let mut panel = Panel::new("", Axis::linear("particles over r0 [-]"), Axis::linear(&y));

@@ -1,7 +1,7 @@
 //! What is measured of a spreading heap: thickness, front, heights, centroid and energies.
 
 use crate::cases::front::end_of_profile;
-use crate::observation::{EnergyBook, Motion};
+use crate::observation::{EnergyBook, MotionSequence};
 use crate::statistics::{linear_fit, linear_regression};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
@@ -53,7 +53,7 @@ pub struct Collapse {
     /// The energy ledger.
     pub energy: EnergyBook,
     /// Positions and speeds for the animation.
-    pub motion: Motion,
+    pub motion: MotionSequence,
 }
 
 /// Measures snapshots of one column: half a planar one in two dimensions, a quarter of a round one in three. The

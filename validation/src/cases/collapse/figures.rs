@@ -1,7 +1,7 @@
 //! The case's figures.
 
-use super::Record;
-use super::column::{ColumnRun, Geometry, PICTURES, Purpose};
+use super::CollapseRecord;
+use super::column::{ColumnPurpose, ColumnRun, Geometry, PICTURES};
 use super::deposit::Collapse;
 use super::flow_metrics::{self, energies, stations};
 use super::material::Material;
@@ -13,14 +13,14 @@ use crate::observation::pictures::{View, animation, halves};
 use crate::observation::{Frame, Recorded};
 use crate::reference::{Author, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
-pub(in crate::cases) fn all(records: &[Record]) -> Vec<Figure> {
-    let laws: Vec<&Record> = records.iter().filter(|(run, _)| run.purpose == Purpose::Law).collect();
+pub(in crate::cases) fn all(records: &[CollapseRecord]) -> Vec<Figure> {
+    let laws: Vec<&CollapseRecord> = records.iter().filter(|(run, _)| run.purpose == ColumnPurpose::Law).collect();
     let mut figures = Vec::new();
     if !laws.is_empty() {
         figures.push(scaling_figure(&laws));
     }
     for material in materials(&laws) {
-        let own: Vec<&Record> = laws.iter().copied().filter(|(run, _)| run.material == material).collect();
+        let own: Vec<&CollapseRecord> = laws.iter().copied().filter(|(run, _)| run.material == material).collect();
         if is_shown(&own[0].0) {
             figures.extend([deposits(&own), histories(&own), energy_budget(&own), wedges(&own)]);
         }
@@ -36,7 +36,7 @@ pub(in crate::cases) fn all(records: &[Record]) -> Vec<Figure> {
 }
 
 /// The materials in their order.
-fn materials(records: &[&Record]) -> Vec<Material> {
+fn materials(records: &[&CollapseRecord]) -> Vec<Material> {
     let mut found: Vec<Material> = Vec::new();
     for (run, _) in records {
         if !found.contains(&run.material) {
@@ -47,17 +47,17 @@ fn materials(records: &[&Record]) -> Vec<Material> {
 }
 
 /// A name with the material of its columns.
-fn of_material(name: &str, records: &[&Record]) -> String {
+fn of_material(name: &str, records: &[&CollapseRecord]) -> String {
     records.first().map_or(name.to_owned(), |(run, _)| format!("{name}-{}", run.material))
 }
 
 /// Whether a column gets pictures of its own: variants of the grains look like their originals.
 fn is_shown(run: &ColumnRun) -> bool {
-    run.purpose == Purpose::Law && run.material.is_published()
+    run.purpose == ColumnPurpose::Law && run.material.is_published()
 }
 
 /// Run-out and height over the aspect ratio, with every published law of the geometry.
-fn scaling_figure(records: &[&Record]) -> Figure {
+fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
     let round = records.iter().any(|(run, _)| run.geometry == Geometry::Round);
     let (own, other) =
         if round { (&*ROUND_COLLAPSE, &*PLANAR_COLLAPSE) } else { (&*PLANAR_COLLAPSE, &*ROUND_COLLAPSE) };
@@ -119,7 +119,7 @@ fn label(run: &ColumnRun) -> String {
     format!("{material}, a = {}", run.aspect_ratio)
 }
 
-fn deposits(records: &[&Record]) -> Figure {
+fn deposits(records: &[&CollapseRecord]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("x/r0 [-]"), Axis::linear("thickness/r0 [-]"));
     for (slot, (run, record)) in records.iter().enumerate() {
         panel.line(&label(run), slot, record.data.drawn());
@@ -132,7 +132,7 @@ fn deposits(records: &[&Record]) -> Figure {
     )
 }
 
-fn histories(records: &[&Record]) -> Figure {
+fn histories(records: &[&CollapseRecord]) -> Figure {
     let mut front = Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("(front − r0)/r0 over a [-]"));
     let mut energy =
         Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("kinetic/initial potential energy [-]"));
@@ -169,8 +169,8 @@ fn view(run: &ColumnRun) -> View {
 }
 
 /// The animation of every run.
-pub(in crate::cases) fn animations(records: &[Record]) -> Vec<Animation> {
-    let moving = |(run, record): &Record| {
+pub(in crate::cases) fn animations(records: &[CollapseRecord]) -> Vec<Animation> {
+    let moving = |(run, record): &CollapseRecord| {
         let section =
             if run.geometry == Geometry::Round { " The section beside a symmetry plane is shown." } else { "" };
         let caption = format!(
@@ -194,7 +194,7 @@ fn shown(run: &ColumnRun, frames: &[Frame]) -> Option<Figure> {
     (!shown.is_empty()).then(|| halves(&format!("halves-{}", stem(run)), &caption, &shown, &view(run)))
 }
 
-fn energy_budget(records: &[&Record]) -> Figure {
+fn energy_budget(records: &[&CollapseRecord]) -> Figure {
     let runs: Vec<_> =
         records.iter().map(|(run, record)| (label(run), run.time_scale(), energies(&record.data))).collect();
     energy::figure(
@@ -217,7 +217,7 @@ fn velocity_profiles(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<Fig
     (!stations.is_empty()).then(|| velocity_profile::figure(&name, &caption, &stations, (run.half_width, "r0")))
 }
 
-fn wedges(records: &[&Record]) -> Figure {
+fn wedges(records: &[&CollapseRecord]) -> Figure {
     let panels = records.iter().filter_map(|(run, record)| {
         let wedge = flow_metrics::wedge(run, &record.frames)?;
         Some(wedge::panel(&label(run), run, record.frames.last()?, &wedge))

@@ -6,44 +6,48 @@ use super::quantities::{
     BREAK_POINT, DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, HEIGHT_BY_TOP, PARTICLES_LOST, REST_TIME, RUN_OUT,
     SCALING_EXPONENT, STOPPING_TIME,
 };
-use crate::case::{Foreign, Form, Given, Item, Picture};
+use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema, ParticleFrame};
 use crate::input::FieldError;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
 /// What a column's run may yield.
-pub(in crate::cases) const FORM: Form = Form {
+pub(in crate::cases) const FORM: ExternalSchema = ExternalSchema {
     particles: &[
-        Item::new(
+        ExternalColumn::new(
             "x",
             "m",
             "distance from the symmetry plane along the bed; of round columns one of two horizontal axes",
         ),
-        Item::new("y", "m", "height above the bed"),
-        Item::new("z", "m", "second horizontal axis of round columns"),
-        Item::new("area", "m^2", "area that a particle or cell of a planar column stands for"),
-        Item::new("volume", "m^3", "volume that one of a round column stands for"),
-        Item::new(
+        ExternalColumn::new("y", "m", "height above the bed"),
+        ExternalColumn::new("z", "m", "second horizontal axis of round columns"),
+        ExternalColumn::new("area", "m^2", "area that a particle or cell of a planar column stands for"),
+        ExternalColumn::new("volume", "m^3", "volume that one of a round column stands for"),
+        ExternalColumn::new(
             "mass",
             "kg",
             "mass of one, of planar columns a metre of it; with the density in place of area or volume",
         ),
-        Item::new("density", "kg/m^3", "density"),
-        Item::new("vx", "m/s", "velocity along x"),
-        Item::new("vy", "m/s", "velocity along y"),
-        Item::new("vz", "m/s", "velocity along z"),
+        ExternalColumn::new("density", "kg/m^3", "density"),
+        ExternalColumn::new("vx", "m/s", "velocity along x"),
+        ExternalColumn::new("vy", "m/s", "velocity along y"),
+        ExternalColumn::new("vz", "m/s", "velocity along z"),
     ],
     series: &[
-        Item::new("time", "s", "time since the release"),
-        Item::new("front", "m", "distance of the front from the symmetry plane, at a thickness of 0.02 r_0"),
-        Item::new("front_of_rows", "m", "the same at a thickness of 0.05 r_0, from which the stopping time is taken"),
-        Item::new("height", "m", "thickness at the symmetry plane"),
+        ExternalColumn::new("time", "s", "time since the release"),
+        ExternalColumn::new("front", "m", "distance of the front from the symmetry plane, at a thickness of 0.02 r_0"),
+        ExternalColumn::new(
+            "front_of_rows",
+            "m",
+            "the same at a thickness of 0.05 r_0, from which the stopping time is taken",
+        ),
+        ExternalColumn::new("height", "m", "thickness at the symmetry plane"),
     ],
     profile: &[
-        Item::new("x", "m", "distance from the symmetry plane, rising"),
-        Item::new("thickness", "m", "thickness of the deposit there: volume per area of the bed"),
+        ExternalColumn::new("x", "m", "distance from the symmetry plane, rising"),
+        ExternalColumn::new("thickness", "m", "thickness of the deposit there: volume per area of the bed"),
     ],
-    says: "Only half of a planar column and a quarter of a round one is given, with x (and z) positive; the last picture is the \
+    description: "Only half of a planar column and a quarter of a round one is given, with x (and z) positive; the last picture is the \
         deposit, if it is not earlier than 2 √(h_0/g). \
         The bed is divided into bins (rings) of 0.1 r_0 from the symmetry plane; each particle's volume is spread evenly over a \
         spacing to either side, and a bin's thickness is the volume in it over its area. The front is where the thickness, \
@@ -57,14 +61,17 @@ pub(in crate::cases) const FORM: Form = Form {
 const OF_DEPOSIT: [&str; 5] =
     [RUN_OUT.name, FINAL_HEIGHT.name, DEPOSIT_SLOPE_ANGLE.name, SCALING_EXPONENT.name, BREAK_POINT.name];
 
-pub(in crate::cases) fn observe(run: &ColumnRun, given: &Given) -> Result<Foreign<Collapse>, FieldError> {
+pub(in crate::cases) fn observe(
+    run: &ColumnRun,
+    given: &ExternalData,
+) -> Result<ExternalObservation<Collapse>, FieldError> {
     match run.geometry {
         Geometry::Planar => of::<2>(run, given),
         Geometry::Round => of::<3>(run, given),
     }
 }
 
-fn of<const D: usize>(run: &ColumnRun, given: &Given) -> Result<Foreign<Collapse>, FieldError> {
+fn of<const D: usize>(run: &ColumnRun, given: &ExternalData) -> Result<ExternalObservation<Collapse>, FieldError> {
     let unmeasured = Collapse {
         top: f64::NAN,
         centroid: f64::NAN,
@@ -143,7 +150,7 @@ fn of<const D: usize>(run: &ColumnRun, given: &Given) -> Result<Foreign<Collapse
     }
     measured.sort_unstable();
     measured.dedup();
-    Ok(Foreign { observation: collapse, measured })
+    Ok(ExternalObservation { observation: collapse, measured })
 }
 
 /// How far from the origin a particle may be, over the sum of half width and height: further than any column spreads.
@@ -175,7 +182,7 @@ pub(super) struct Room {
 
 impl Room {
     /// Refuses a picture whose particles have much more or less area or volume together than there was at the start.
-    fn check(&self, sum: f64, axes: usize, picture: &Picture) -> Result<(), FieldError> {
+    fn check(&self, sum: f64, axes: usize, picture: &ParticleFrame) -> Result<(), FieldError> {
         if sum > self.size / BULKING && sum < self.size * BULKING {
             return Ok(());
         }
@@ -189,7 +196,7 @@ impl Room {
     }
 }
 
-pub(super) fn snapshot<const D: usize>(room: &Room, picture: &Picture) -> Result<Snapshot<D>, FieldError> {
+pub(super) fn snapshot<const D: usize>(room: &Room, picture: &ParticleFrame) -> Result<Snapshot<D>, FieldError> {
     let Room { spacing, reach, density: bulk_density, .. } = *room;
     let least = if D == 2 { [-spacing, -reach, -reach] } else { [-spacing, -reach, -spacing] };
     picture.within(reach, least, room.origin)?;
@@ -236,7 +243,7 @@ pub(super) fn snapshot<const D: usize>(room: &Room, picture: &Picture) -> Result
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Columns, Parameters, Tier};
+    use crate::case::{NamedColumns, Parameters, Tier};
     use crate::cases::column_planar::ColumnPlanarParameters;
 
     /// A column higher than half of it is wide.
@@ -246,9 +253,9 @@ mod tests {
     }
 
     /// A wedge of thickness (1 − x/3) r_0 as columns of cells, of which the middle cell of a column is as thick as needed.
-    fn wedge(run: &ColumnRun) -> Picture {
+    fn wedge(run: &ColumnRun) -> ParticleFrame {
         let (r, spacing) = (run.half_width, run.spacing());
-        let mut columns: Columns = ["x", "y", "area"].map(|name| (name.to_owned(), Vec::new())).into();
+        let mut columns: NamedColumns = ["x", "y", "area"].map(|name| (name.to_owned(), Vec::new())).into();
         let mut push = |name: &str, value: f64| columns.get_mut(name).expect("declared").push(value);
         for column in 0..3 * run.resolution {
             let x = (column as f64 + 0.5) * spacing;
@@ -257,14 +264,14 @@ mod tests {
             push("y", 0.5 * thickness);
             push("area", thickness * spacing);
         }
-        Picture { time: 1.0, columns }
+        ParticleFrame { time: 1.0, columns }
     }
 
     #[test]
     fn a_deposit_from_particles_and_from_its_profile_has_the_run_out_that_geometry_gives() {
         let run = run();
         let picture = wedge(&run);
-        let particles = Given { pictures: vec![picture], ..Given::default() };
+        let particles = ExternalData { pictures: vec![picture], ..ExternalData::default() };
         let seen = observe(&run, &particles).expect("complete");
         // the thickness is 0.02 r_0 at x = 2.94 r_0
         assert!((seen.observation.run_out() - 1.94).abs() < 0.06, "{}", seen.observation.run_out());
@@ -272,8 +279,8 @@ mod tests {
         assert!(!seen.measured.contains(&"rest_time") && !seen.measured.contains(&"momentum_residual"));
         let x: Vec<f64> = (0..31).map(|k| 0.1 * f64::from(k) * run.half_width).collect();
         let thickness = x.iter().map(|x| (run.half_width - x / 3.0).max(0.0)).collect();
-        let profile: Columns = [("x".to_owned(), x), ("thickness".to_owned(), thickness)].into();
-        let seen = observe(&run, &Given { profile, ..Given::default() }).expect("complete");
+        let profile: NamedColumns = [("x".to_owned(), x), ("thickness".to_owned(), thickness)].into();
+        let seen = observe(&run, &ExternalData { profile, ..ExternalData::default() }).expect("complete");
         assert!((seen.observation.run_out() - 1.94).abs() < 1e-9, "{}", seen.observation.run_out());
         assert!(seen.observation.centroid.is_nan() && !seen.measured.contains(&"height_by_top"));
     }
@@ -283,22 +290,24 @@ mod tests {
         let run = run();
         let mut picture = wedge(&run);
         picture.columns.get_mut("area").expect("declared").iter_mut().for_each(|area| *area *= 1e4);
-        let message =
-            observe(&run, &Given { pictures: vec![picture], ..Given::default() }).expect_err("cm²").to_string();
+        let message = observe(&run, &ExternalData { pictures: vec![picture], ..ExternalData::default() })
+            .expect_err("cm²")
+            .to_string();
         assert!(message.starts_with("`particles.columns.area` is ") && message.contains(" m^2 over all particles at 1 s, but must be within a factor 1.6 of what the column has at the start"), "{message}");
-        let early = Picture { time: 0.0, ..wedge(&run) };
-        let seen = observe(&run, &Given { pictures: vec![early], ..Given::default() }).expect("complete");
+        let early = ParticleFrame { time: 0.0, ..wedge(&run) };
+        let seen = observe(&run, &ExternalData { pictures: vec![early], ..ExternalData::default() }).expect("complete");
         assert_eq!(seen.measured, ["particles_lost"]);
     }
 
     #[test]
     fn a_series_that_goes_on_to_the_end_gives_the_run_out() {
         let run = run();
-        let series = |end: f64| -> Columns {
+        let series = |end: f64| -> NamedColumns {
             let (time, front) = (vec![0.0, end], vec![run.half_width, 2.5 * run.half_width]);
             [("time".to_owned(), time), ("front".to_owned(), front)].into()
         };
-        let of = |end| observe(&run, &Given { series: series(end), ..Given::default() }).expect("complete");
+        let of =
+            |end| observe(&run, &ExternalData { series: series(end), ..ExternalData::default() }).expect("complete");
         let seen = of(5.0 * run.time_scale());
         assert_eq!(seen.measured, ["run_out"]);
         assert!((seen.observation.run_out() - 1.5).abs() < 1e-12);
@@ -310,7 +319,8 @@ mod tests {
         let run = run();
         let mut picture = wedge(&run);
         picture.columns.remove("area");
-        let message = observe(&run, &Given { pictures: vec![picture], ..Given::default() }).expect_err("no size");
+        let message =
+            observe(&run, &ExternalData { pictures: vec![picture], ..ExternalData::default() }).expect_err("no size");
         assert_eq!(
             message.to_string(),
             "`particles.columns.area` is missing, but must be given; name the column of the area, or those of mass and density"

@@ -4,29 +4,37 @@ use super::deposit::Collapse;
 use super::foreign::{Room, snapshot};
 use super::quantities::{DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, PARTICLES_LOST, REST_TIME};
 use super::slope::{EARLIEST_REST, SlopeCollapse, SlopeRun};
-use crate::case::{Foreign, Form, Given, Item};
+use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
 
 /// What a run on a slope may yield.
-pub(in crate::cases) const FORM: Form = Form {
+pub(in crate::cases) const FORM: ExternalSchema = ExternalSchema {
     particles: &[
-        Item::new("x", "m", "distance from the back of the reservoir, along the slope"),
-        Item::new("y", "m", "height above the bed, normal to it"),
-        Item::new("area", "m^2", "area that a particle or cell stands for"),
-        Item::new("mass", "kg", "mass of one, of a metre across; with the density in place of the area"),
-        Item::new("density", "kg/m^3", "density"),
-        Item::new("vx", "m/s", "velocity down the slope"),
-        Item::new("vy", "m/s", "velocity away from the bed"),
+        ExternalColumn::new("x", "m", "distance from the back of the reservoir, along the slope"),
+        ExternalColumn::new("y", "m", "height above the bed, normal to it"),
+        ExternalColumn::new("area", "m^2", "area that a particle or cell stands for"),
+        ExternalColumn::new("mass", "kg", "mass of one, of a metre across; with the density in place of the area"),
+        ExternalColumn::new("density", "kg/m^3", "density"),
+        ExternalColumn::new("vx", "m/s", "velocity down the slope"),
+        ExternalColumn::new("vy", "m/s", "velocity away from the bed"),
     ],
     series: &[
-        Item::new("time", "s", "time since the gate began to move"),
-        Item::new("front", "m", "distance of the front from the back of the reservoir, at a thickness of 0.02 r_0"),
+        ExternalColumn::new("time", "s", "time since the gate began to move"),
+        ExternalColumn::new(
+            "front",
+            "m",
+            "distance of the front from the back of the reservoir, at a thickness of 0.02 r_0",
+        ),
     ],
     profile: &[
-        Item::new("x", "m", "distance from the back of the reservoir, rising"),
-        Item::new("thickness", "m", "thickness of the deposit there, normal to the bed: volume per area of it"),
+        ExternalColumn::new("x", "m", "distance from the back of the reservoir, rising"),
+        ExternalColumn::new(
+            "thickness",
+            "m",
+            "thickness of the deposit there, normal to the bed: volume per area of it",
+        ),
     ],
-    says: "r_0 is the length of the reservoir, at whose end the gate stands. The bed is divided into bins of 0.1 r_0; each \
+    description: "r_0 is the length of the reservoir, at whose end the gate stands. The bed is divided into bins of 0.1 r_0; each \
         particle's volume is spread evenly over a spacing to either side, and a bin's thickness is the volume in it over its area. \
         The front is where the thickness, followed down the slope, first falls below 0.02 r_0, linear between the centres of \
         bins; front_displacement is the last front's distance from the gate, front its place at a time over r_0, of the first \
@@ -42,7 +50,10 @@ const REACH: f64 = 3.0;
 ///
 /// # Errors
 /// Columns that are missing beside others; particles out of reach.
-pub(in crate::cases) fn observe(run: &SlopeRun, given: &Given) -> Result<Foreign<SlopeCollapse>, FieldError> {
+pub(in crate::cases) fn observe(
+    run: &SlopeRun,
+    given: &ExternalData,
+) -> Result<ExternalObservation<SlopeCollapse>, FieldError> {
     let r = run.reservoir.reservoir_length;
     let room = Room {
         spacing: run.spacing(),
@@ -93,13 +104,13 @@ pub(in crate::cases) fn observe(run: &SlopeRun, given: &Given) -> Result<Foreign
     }
     measured.sort_unstable();
     measured.dedup();
-    Ok(Foreign { observation: SlopeCollapse { collapse, thickness }, measured })
+    Ok(ExternalObservation { observation: SlopeCollapse { collapse, thickness }, measured })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Columns, Parameters, Tier};
+    use crate::case::{NamedColumns, Parameters, Tier};
     use crate::cases::collapse::InclineCollapseParameters;
 
     fn run() -> SlopeRun {
@@ -113,8 +124,8 @@ mod tests {
         let r = run.reservoir.reservoir_length;
         let x: Vec<f64> = (0..=100).map(|k| 0.01 * f64::from(k)).collect();
         let thickness = x.iter().map(|x| 0.1 * (1.0 - x)).collect();
-        let profile: Columns = [("x".to_owned(), x), ("thickness".to_owned(), thickness)].into();
-        let seen = observe(&run, &Given { profile, ..Given::default() }).expect("complete");
+        let profile: NamedColumns = [("x".to_owned(), x), ("thickness".to_owned(), thickness)].into();
+        let seen = observe(&run, &ExternalData { profile, ..ExternalData::default() }).expect("complete");
         assert_eq!(seen.measured, ["deposit_slope_angle", "front_displacement"]);
         // 0.1 (1 − x) = 0.02 r_0 at x = 0.96 m
         let displacement = seen.observation.collapse.run_out() * r;
@@ -125,10 +136,10 @@ mod tests {
 
     #[test]
     fn a_series_gives_fronts_and_no_rest() {
-        let series: Columns = [("time", vec![0.0, 0.3, 0.4]), ("front", vec![0.2, 0.5, 0.7])]
+        let series: NamedColumns = [("time", vec![0.0, 0.3, 0.4]), ("front", vec![0.2, 0.5, 0.7])]
             .map(|(name, values)| (name.to_owned(), values))
             .into();
-        let seen = observe(&run(), &Given { series, ..Given::default() }).expect("complete");
+        let seen = observe(&run(), &ExternalData { series, ..ExternalData::default() }).expect("complete");
         assert_eq!(seen.measured, ["front"]);
         assert_eq!(seen.observation.collapse.front[1], 0.5 / run().reservoir.reservoir_length);
     }

@@ -8,7 +8,7 @@ use std::fmt;
 /// The grains of a published experiment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Grains {
+pub enum ExperimentGrains {
     /// Sand of Table 2.
     Sand,
     /// Glass beads of Table 1.
@@ -31,12 +31,12 @@ pub enum Alteration {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Material {
     /// The published grains.
-    pub grains: Grains,
+    pub grains: ExperimentGrains,
     /// What is altered.
     pub alteration: Option<Alteration>,
 }
 
-impl Grains {
+impl ExperimentGrains {
     /// Name in files and variants.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -59,21 +59,21 @@ impl Grains {
 
 impl Material {
     /// Sand as published.
-    pub const SAND: Self = Self::published(Grains::Sand);
+    pub const SAND: Self = Self::published(ExperimentGrains::Sand);
     /// Glass beads as published.
-    pub const GLASS: Self = Self::published(Grains::Glass);
+    pub const GLASS: Self = Self::published(ExperimentGrains::Glass);
     /// Grains of Lagrée et al. as published.
-    pub const LAGREE: Self = Self::published(Grains::Lagree);
+    pub const LAGREE: Self = Self::published(ExperimentGrains::Lagree);
 
     /// Grains as published.
     #[must_use]
-    pub const fn published(grains: Grains) -> Self {
+    pub const fn published(grains: ExperimentGrains) -> Self {
         Self { grains, alteration: None }
     }
 
     /// Grains with one property altered.
     #[must_use]
-    pub const fn altered(grains: Grains, alteration: Alteration) -> Self {
+    pub const fn altered(grains: ExperimentGrains, alteration: Alteration) -> Self {
         Self { grains, alteration: Some(alteration) }
     }
 
@@ -94,10 +94,10 @@ impl Material {
     #[must_use]
     pub fn title(self) -> String {
         let grains = match (self.grains, self.is_published()) {
-            (Grains::Sand, true) => "sand of Table 2",
-            (Grains::Glass, true) => "glass beads of Table 1",
-            (Grains::Lagree, true) => "grains of Lagrée et al.",
-            (Grains::Lagree, false) => "Lagrée et al.",
+            (ExperimentGrains::Sand, true) => "sand of Table 2",
+            (ExperimentGrains::Glass, true) => "glass beads of Table 1",
+            (ExperimentGrains::Lagree, true) => "grains of Lagrée et al.",
+            (ExperimentGrains::Lagree, false) => "Lagrée et al.",
             (other, false) => other.name(),
         };
         match self.alteration {
@@ -131,7 +131,7 @@ mod tests {
         let own = MuI { static_friction: published.static_friction + 0.01, ..published };
         assert_eq!(Material::SAND.title_with(&Rheology::MuI(published)), "sand of Table 2");
         assert_eq!(Material::SAND.title_with(&Rheology::MuI(own)), "own grains as sand");
-        let altered = Material::altered(Grains::Sand, Alteration::ReferenceInertia(0.279));
+        let altered = Material::altered(ExperimentGrains::Sand, Alteration::ReferenceInertia(0.279));
         assert_eq!(altered.title_with(&Rheology::MuI(own)), "sand, I_0 = 0.279");
     }
 
@@ -142,12 +142,12 @@ mod tests {
             (Material::GLASS, "glass", "glass beads of Table 1"),
             (Material::LAGREE, "lagree", "grains of Lagrée et al."),
             (
-                Material::altered(Grains::Sand, Alteration::ReferenceInertia(0.279)),
+                Material::altered(ExperimentGrains::Sand, Alteration::ReferenceInertia(0.279)),
                 "sand_inertia_0.279",
                 "sand, I_0 = 0.279",
             ),
             (
-                Material::altered(Grains::Lagree, Alteration::GrainDiameter(0.001)),
+                Material::altered(ExperimentGrains::Lagree, Alteration::GrainDiameter(0.001)),
                 "lagree_diameter_0.001",
                 "Lagrée et al., D = 0.001",
             ),

@@ -1,11 +1,11 @@
 //! How the columns are judged.
 
-use super::Record;
-use super::bands::{self, Band};
-use super::column::{ColumnRun, Geometry, Purpose};
+use super::CollapseRecord;
+use super::bands::{self, AcceptanceBand};
+use super::column::{ColumnPurpose, ColumnRun, Geometry};
 use super::convergence::{numerical_uncertainty, relative_spread};
 use super::deposit::Collapse;
-use super::material::{Grains, Material};
+use super::material::{ExperimentGrains, Material};
 use super::quantities::{
     DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, FLANK_R_SQUARED, HEIGHT_BY_TOP, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
     RUN_OUT, STOPPING_TIME,
@@ -22,16 +22,16 @@ const CONES: std::ops::RangeInclusive<f64> = 2.0..=3.5;
 /// Share of the variance that a line explains of a flank whose lower half is half as steep as its upper one `[-]`.
 const BENT_FLANK: f64 = 0.973;
 
-pub(in crate::cases) fn all(records: &[Record]) -> Vec<Metric> {
+pub(in crate::cases) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
     let mut metrics = Vec::new();
-    let spread = Spread {
+    let spread = EnsembleSpread {
         run_out: relative_spread(records, Collapse::run_out),
         height: relative_spread(records, Collapse::final_height),
     };
     for (run, record) in records {
-        if run.purpose == Purpose::Law {
+        if run.purpose == ColumnPurpose::Law {
             let numerical = |measure| numerical_uncertainty(records, run, measure);
-            let known = Known {
+            let known = ColumnUncertainty {
                 numerical_run_out: numerical(Collapse::run_out),
                 numerical_height: numerical(Collapse::final_height),
                 spread,
@@ -51,7 +51,7 @@ pub(in crate::cases) fn all(records: &[Record]) -> Vec<Metric> {
 /// The laws of run-out and height whose geometry a run has, and whose material it has or comes closest to.
 fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static CollapseLaw) {
     let (laws, author) = match run.geometry {
-        Geometry::Planar if run.material.grains == Grains::Lagree => (&*PLANAR_COLLAPSE, Author::Lagree),
+        Geometry::Planar if run.material.grains == ExperimentGrains::Lagree => (&*PLANAR_COLLAPSE, Author::Lagree),
         Geometry::Planar => (&*PLANAR_COLLAPSE, Author::Lube),
         Geometry::Round => (&*ROUND_COLLAPSE, Author::Lube),
     };
@@ -66,7 +66,7 @@ pub(in crate::cases) fn conservation(variant: &Variant, collapse: &Collapse, num
             .exactly(0.0, "no particle passes the bed, the symmetry plane or the bed's end")
             .gated(Limit::AtMost(0.0), "grains do not vanish"),
     ];
-    metrics.extend(energy_ledger::metrics(variant, &collapse.energy, energy_ledger::Scale::Gravity));
+    metrics.extend(energy_ledger::metrics(variant, &collapse.energy, energy_ledger::EnergyScale::Gravity));
     // an implicit step keeps no account of what the walls gave
     if numerics.viscous_step == ViscousStep::Explicit {
         metrics.push(
@@ -93,17 +93,17 @@ pub(in crate::cases) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rh
 
 /// Relative standard deviation of results over the seeds of an ensemble `[-]`: what a single run leaves open.
 #[derive(Debug, Clone, Copy)]
-struct Spread {
+struct EnsembleSpread {
     run_out: f64,
     height: f64,
 }
 
 /// What is known of the uncertainty of a column's results `[-]`.
 #[derive(Debug, Clone, Copy)]
-struct Known {
+struct ColumnUncertainty {
     numerical_run_out: Option<f64>,
     numerical_height: Option<f64>,
-    spread: Spread,
+    spread: EnsembleSpread,
 }
 
 /// A metric with the parts of its uncertainty: that of the spacing and that over the seeds, both relative `[-]`. The laws
@@ -123,11 +123,11 @@ fn with_uncertainty(metric: Metric, numerical: Option<f64>, spread: f64) -> Metr
         )
 }
 
-fn of_column(run: &ColumnRun, collapse: &Collapse, known: Known) -> Vec<Metric> {
+fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> Vec<Metric> {
     let spread = known.spread;
     let (variant, a) = (run.variant(), run.initial_height());
     let observed = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
-    let by_law = |quantity: Quantity, value: f64, law: &CollapseLaw, band: Band| {
+    let by_law = |quantity: Quantity, value: f64, law: &CollapseLaw, band: AcceptanceBand| {
         let metric = observed(quantity, value).against(law.value(a), &law.source, law.confidence);
         metric.gated_by(band.map(|band| band.0), band.map_or("", |band| band.1))
     };

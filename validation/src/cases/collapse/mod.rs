@@ -24,10 +24,10 @@ mod velocity_profile;
 mod watch;
 mod wedge;
 
-pub use column::{ColumnRun, Geometry, Purpose};
+pub use column::{ColumnPurpose, ColumnRun, Geometry};
 pub use deposit::{BIN_WIDTH, Collapse, FRONT_THICKNESS, front};
 pub use incline::InclineCollapseParameters;
-pub use material::{Alteration, Grains, Material};
+pub use material::{Alteration, ExperimentGrains, Material};
 pub use release::Release;
 pub use reservoir::Reservoir;
 pub use slope::{SlopeCollapse, SlopeRun};
@@ -40,10 +40,10 @@ use crate::output::Table;
 pub(super) const SAND_HALF_WIDTH: f64 = 0.0972;
 
 /// A run with what it left behind.
-pub(super) type Record = (ColumnRun, Recorded<Collapse>);
+pub(super) type CollapseRecord = (ColumnRun, Recorded<Collapse>);
 
 /// Tables of one run: the deposit and the time series.
-pub(super) fn tables((run, record): &Record) -> Vec<Table> {
+pub(super) fn tables((run, record): &CollapseRecord) -> Vec<Table> {
     let collapse = &record.data;
     let stem = run.variant().file_name();
     let energy = |kind: &str| format!("{kind} energy [{}]", run.geometry.energy_unit());

@@ -1,9 +1,9 @@
 //! How run-out and height of tall columns grow with the aspect ratio: fitted power laws and where they begin.
 
-use super::Record;
-use super::column::{Geometry, Purpose};
+use super::CollapseRecord;
+use super::column::{ColumnPurpose, Geometry};
 use super::deposit::Collapse;
-use super::material::{Alteration, Grains, Material};
+use super::material::{Alteration, ExperimentGrains, Material};
 use super::quantities::{
     BREAK_POINT, FINAL_HEIGHT, RUN_OUT, SCALING_COEFFICIENT, SCALING_CONFIDENCE, SCALING_EXPONENT,
 };
@@ -24,7 +24,7 @@ type Family = (Material, f64, Option<Limit>, Option<Limit>);
 const FAMILIES: [Family; 3] = [
     (Material::SAND, 5.0, Some(Limit::Within(2.0 / 3.0 - 0.05, 2.0 / 3.0 + 0.05)), None),
     (Material::LAGREE, 7.0, Some(Limit::Within(0.65, 0.75)), Some(Limit::Within(0.3, 0.45))),
-    (Material::altered(Grains::Sand, Alteration::ReferenceInertia(0.279)), 5.0, None, None),
+    (Material::altered(ExperimentGrains::Sand, Alteration::ReferenceInertia(0.279)), 5.0, None, None),
 ];
 
 /// A power law through the tall columns of a material.
@@ -39,16 +39,16 @@ pub(super) struct Scaling {
 }
 
 /// The planar columns of a material that the laws are compared with, between two aspect ratios.
-fn columns<'a>(records: &[&'a Record], material: Material, from: f64, to: f64) -> Vec<&'a Record> {
-    let own = |(run, _): &&Record| {
-        let planar = run.geometry == Geometry::Planar && run.purpose == Purpose::Law;
+fn columns<'a>(records: &[&'a CollapseRecord], material: Material, from: f64, to: f64) -> Vec<&'a CollapseRecord> {
+    let own = |(run, _): &&CollapseRecord| {
+        let planar = run.geometry == Geometry::Planar && run.purpose == ColumnPurpose::Law;
         planar && run.material == material && (from..=to).contains(&run.aspect_ratio)
     };
     records.iter().copied().filter(|record| own(record)).collect()
 }
 
 /// The fit of a quantity; none for fewer than four tall columns.
-pub(super) fn fit(records: &[&Record], material: Material, quantity: fn(&Collapse) -> f64) -> Option<Scaling> {
+pub(super) fn fit(records: &[&CollapseRecord], material: Material, quantity: fn(&Collapse) -> f64) -> Option<Scaling> {
     let smallest = FAMILIES.iter().find(|family| family.0 == material)?.1;
     let tall = columns(records, material, smallest, f64::INFINITY);
     let points: Vec<(f64, f64)> =
@@ -65,7 +65,7 @@ fn half_width(law: &Exponent, points: usize) -> f64 {
 }
 
 /// Mean of the run-out over the aspect ratio of shallow columns `[-]`; none without any.
-fn shallow_coefficient(records: &[&Record], material: Material) -> Option<f64> {
+fn shallow_coefficient(records: &[&CollapseRecord], material: Material) -> Option<f64> {
     let shallow = columns(records, material, 0.0, SHALLOW);
     let sum: f64 = shallow.iter().map(|(run, record)| record.data.run_out() / run.initial_height()).sum();
     (!shallow.is_empty()).then(|| sum / shallow.len() as f64)
@@ -85,8 +85,8 @@ fn against_lube(metric: Metric) -> Metric {
     metric.against(Some(0.5 * (shallow.to + tall.from)), &source, lube.confidence)
 }
 
-pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
-    let records: Vec<&Record> = records.iter().collect();
+pub(super) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
+    let records: Vec<&CollapseRecord> = records.iter().collect();
     let mut metrics = Vec::new();
     for (material, smallest, run_out_gate, height_gate) in FAMILIES {
         let columns = columns(&records, material, smallest, f64::INFINITY);

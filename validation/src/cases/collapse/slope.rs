@@ -1,11 +1,11 @@
 //! A reservoir of grains behind a gate on an incline: its scene and its run.
 
-use super::block::{Block, STIFFNESS};
+use super::block::{GrainBlock, STIFFNESS};
 use super::deposit::AT_REST;
 use super::deposit::{Collapse, Surveyor};
 use super::reservoir::Reservoir;
-use super::watch::Watch;
-use crate::case::recording::{self, Ending, Stage, Watched};
+use super::watch::CollapseObserver;
+use crate::case::recording::{self, Ending, SimulationStage, Watched};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::{Value, Variant};
 use crate::observation::Recorded;
@@ -85,8 +85,9 @@ impl Run for SlopeRun {
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, ParameterError> {
         let Reservoir { reservoir_length, channel_length, duration, .. } = self.reservoir;
         let surveyor = self.surveyor();
-        let begin = |_: &_| (Watch::new(surveyor, FRAME_INTERVAL, PICTURES.to_vec(), EARLIEST_REST), Vec::new());
-        let stage = Stage { progress, end: duration, interval: INTERVAL, context: &() };
+        let begin =
+            |_: &_| (CollapseObserver::new(surveyor, FRAME_INTERVAL, PICTURES.to_vec(), EARLIEST_REST), Vec::new());
+        let stage = SimulationStage { progress, end: duration, interval: INTERVAL, context: &() };
         let end_of_channel = channel_length - 0.5 * reservoir_length;
         let watched = recording::watch(
             stage,
@@ -189,7 +190,7 @@ impl SlopeRun {
         let Reservoir { resolution, jitter, seed, numerics, channel_length, .. } = self.reservoir;
         let lattice = Lattice { spacing, rows: self.rows(), columns: resolution, bottom: 0.0 };
         let height = lattice.height();
-        let block = Block {
+        let block = GrainBlock {
             spacing,
             height,
             gravity: Vector::<2>::from(self.gravity()),

@@ -1,7 +1,7 @@
 //! Return mapping and regularised viscosity side by side.
 
-use super::Record;
-use super::column::{ColumnRun, Purpose};
+use super::CollapseRecord;
+use super::column::{ColumnPurpose, ColumnRun};
 use super::deposit::Collapse;
 use super::quantities::{EXPLICIT_STEPS, FINAL_HEIGHT, REGULARISED_DIFFERENCE, RUN_OUT};
 use crate::case::Run;
@@ -9,24 +9,24 @@ use crate::figure::{Axis, Figure, Mark, Panel};
 use crate::metric::{Metric, Variant};
 
 /// The regularised runs.
-fn regularised(records: &[Record]) -> impl Iterator<Item = &Record> {
-    records.iter().filter(|(run, _)| run.purpose == Purpose::Regularised)
+fn regularised(records: &[CollapseRecord]) -> impl Iterator<Item = &CollapseRecord> {
+    records.iter().filter(|(run, _)| run.purpose == ColumnPurpose::Regularised)
 }
 
 /// The run by return mapping that a regularised run is compared with, if it was asked for.
-fn partner<'a>(records: &'a [Record], run: &ColumnRun) -> Option<&'a Record> {
+fn partner<'a>(records: &'a [CollapseRecord], run: &ColumnRun) -> Option<&'a CollapseRecord> {
     records.iter().find(|(other, _)| {
-        other.purpose == Purpose::Law
+        other.purpose == ColumnPurpose::Law
             && (&other.material, other.aspect_ratio, other.resolution)
                 == (&run.material, run.aspect_ratio, run.resolution)
     })
 }
 
-pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
+pub(super) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
     regularised(records).flat_map(|record| of_regularised(record, partner(records, &record.0))).collect()
 }
 
-fn of_regularised((run, record): &Record, partner: Option<&Record>) -> Vec<Metric> {
+fn of_regularised((run, record): &CollapseRecord, partner: Option<&CollapseRecord>) -> Vec<Metric> {
     let variant = run.variant();
     let mut metrics = vec![
         // what (29) would ask for with the viscosity of (35) at rest under the whole column
@@ -52,8 +52,8 @@ fn of_regularised((run, record): &Record, partner: Option<&Record>) -> Vec<Metri
     metrics
 }
 
-pub(super) fn figure(records: &[Record]) -> Option<Figure> {
-    let pairs: Vec<(&Record, &Record)> =
+pub(super) fn figure(records: &[CollapseRecord]) -> Option<Figure> {
+    let pairs: Vec<(&CollapseRecord, &CollapseRecord)> =
         regularised(records).filter_map(|record| Some((record, partner(records, &record.0)?))).collect();
     if pairs.is_empty() {
         return None;
@@ -93,7 +93,7 @@ mod tests {
     fn column(aspect_ratio: f64, regularisation_rate: Option<f64>) -> ColumnRun {
         let grains = TABLE_2_SAND.law;
         ColumnRun {
-            purpose: if regularisation_rate.is_some() { Purpose::Regularised } else { Purpose::Law },
+            purpose: if regularisation_rate.is_some() { ColumnPurpose::Regularised } else { ColumnPurpose::Law },
             geometry: Geometry::Planar,
             material: Material::SAND,
             aspect_ratio,
@@ -123,7 +123,7 @@ mod tests {
             data: Collapse { deposit: vec![(0.05, 0.5), (2.95, 0.03), (3.05, 0.01)], ..Collapse::default() },
         };
         let columns = sand.iter().map(|&ratio| column(ratio, None)).chain([column(1.0, Some(0.01))]);
-        let records: Vec<Record> = columns.map(|run| (run, record.clone())).collect();
+        let records: Vec<CollapseRecord> = columns.map(|run| (run, record.clone())).collect();
         let metrics = metrics(&records);
         assert!(metrics.iter().all(|metric| metric.name != "run_out" || (metric.value - 2.0).abs() < 1e-12));
         metrics.into_iter().map(|metric| metric.name).collect()

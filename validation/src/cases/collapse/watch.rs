@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// What is seen of a run.
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Watch {
+pub(super) struct CollapseObserver {
     /// Measures every snapshot.
     surveyor: Surveyor,
     /// Takes the frames of the animation.
@@ -23,7 +23,7 @@ pub(super) struct Watch {
     passed: usize,
 }
 
-impl Watch {
+impl CollapseObserver {
     /// Has seen nothing; takes a frame of the animation every `frame_interval` `[s]`.
     pub(super) fn new(surveyor: Surveyor, frame_interval: f64, times: Vec<f64>, earliest_rest: f64) -> Self {
         let camera = Camera::new(frame_interval, surveyor.spacing);

@@ -4,15 +4,15 @@ mod parameters;
 mod runs;
 mod tiers;
 
-pub use parameters::{ColumnPlanarParameters, Columns, Regularised, Sensitivity, Variants};
+pub use parameters::{ColumnPlanarParameters, PlanarColumns, Regularised, Sensitivity, Variants};
 
-use super::collapse::{self, Collapse, ColumnRun, Record};
-use crate::case::{Case, Foreign, Form, Given};
+use super::collapse::{self, Collapse, CollapseRecord, ColumnRun};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema};
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -20,7 +20,7 @@ pub struct ColumnPlanar;
 
 impl Case for ColumnPlanar {
     const NAME: &'static str = "column-planar";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "planar columns of μ(I) grains: run-out, height and stopping time against the published laws";
     const DESCRIPTION: &'static str = "Half a column of dry grains stands against a free-slip symmetry plane on a rough horizontal bed and is released \
@@ -30,27 +30,27 @@ impl Case for ColumnPlanar {
         Table 2; the other grains are those of Lagrée, Staron & Popinet (2011), whose grain diameter the source does \
         not give. The coefficients of the published laws depend on the material, their exponents much less. With another \
         law than μ(I) the published laws are shown and do not gate.";
-    const FORM: Form = collapse::foreign::FORM;
+    const FORM: ExternalSchema = collapse::foreign::FORM;
     type Parameters = ColumnPlanarParameters;
     const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
 
-    fn metrics(_: &ColumnPlanarParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Metric> {
         collapse::metrics::all(records)
     }
 
-    fn figures(_: &ColumnPlanarParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Figure> {
         collapse::figures::all(records)
     }
 
-    fn animations(_: &ColumnPlanarParameters, records: &[Record]) -> Vec<Animation> {
+    fn animations(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Animation> {
         collapse::figures::animations(records)
     }
 
-    fn foreign(run: &ColumnRun, given: &Given) -> Result<Option<Foreign<Collapse>>, FieldError> {
+    fn foreign(run: &ColumnRun, given: &ExternalData) -> Result<Option<ExternalObservation<Collapse>>, FieldError> {
         collapse::foreign::observe(run, given).map(Some)
     }
 
-    fn tables(_: &ColumnPlanarParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Table> {
         records.iter().flat_map(collapse::tables).collect()
     }
 }

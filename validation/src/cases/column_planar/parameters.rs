@@ -1,6 +1,6 @@
 //! The parameters.
 
-use crate::cases::collapse::{Grains, Release};
+use crate::cases::collapse::{ExperimentGrains, Release};
 use crate::cases::{Bulk, rules};
 use crate::reference::PublishedGrains;
 use bagnold_solver::material::rheology::Rheology;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 /// Grains and the columns that are made of them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Columns {
+pub struct PlanarColumns {
     /// Aspect ratios a = h_0/r_0 `[-]`; empty for none.
     #[schemars(transform = each(between(0.1, 100.0, "the published laws reach from 0.3 to 20")))]
     pub aspect_ratios: Vec<f64>,
@@ -83,11 +83,11 @@ pub struct ColumnPlanarParameters {
     #[serde(flatten)]
     pub release: Release,
     /// The paper's sand; I_0 is 2.65 as printed, 0.279 follows from (41) for the glass beads.
-    pub sand: Columns,
+    pub sand: PlanarColumns,
     /// The paper's glass beads, for figures 7–9.
-    pub glass: Columns,
+    pub glass: PlanarColumns,
     /// Grains of Lagrée, Staron & Popinet (2011); the source does not say their diameter, here it is 0.02 r_0.
-    pub lagree: Columns,
+    pub lagree: PlanarColumns,
     /// Sand with other values of I_0 `[-]`.
     #[schemars(transform = within("values", each(positive("0.279 follows from (41) for the glass beads"))))]
     pub sand_inertias: Variants,
@@ -110,8 +110,12 @@ pub(super) const SHOWN: [(f64, &[f64]); 3] =
 
 impl ColumnPlanarParameters {
     /// The materials with their names.
-    pub(super) fn materials(&self) -> [(Grains, &Columns); 3] {
-        [(Grains::Sand, &self.sand), (Grains::Glass, &self.glass), (Grains::Lagree, &self.lagree)]
+    pub(super) fn materials(&self) -> [(ExperimentGrains, &PlanarColumns); 3] {
+        [
+            (ExperimentGrains::Sand, &self.sand),
+            (ExperimentGrains::Glass, &self.glass),
+            (ExperimentGrains::Lagree, &self.lagree),
+        ]
     }
 
     /// The parameter that a column's resolution comes from.
@@ -125,7 +129,7 @@ impl ColumnPlanarParameters {
     }
 }
 
-impl Columns {
+impl PlanarColumns {
     /// No columns yet, of published grains, 0.1 m to either side.
     pub(super) fn of(grains: &PublishedGrains) -> Self {
         Self {

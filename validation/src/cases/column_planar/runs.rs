@@ -1,7 +1,7 @@
 //! The columns that the case asks for, in report order.
 
-use super::parameters::{ColumnPlanarParameters, Columns, SHOWN};
-use crate::cases::collapse::{Alteration, ColumnRun, Geometry, Grains, Material, Purpose, Release};
+use super::parameters::{ColumnPlanarParameters, PlanarColumns, SHOWN};
+use crate::cases::collapse::{Alteration, ColumnPurpose, ColumnRun, ExperimentGrains, Geometry, Material, Release};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 
@@ -27,11 +27,11 @@ pub(super) fn all(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
 
 impl ColumnPlanarParameters {
     /// A column that is there for the laws.
-    fn column(&self, material: Material, columns: &Columns, aspect_ratio: f64) -> ColumnRun {
+    fn column(&self, material: Material, columns: &PlanarColumns, aspect_ratio: f64) -> ColumnRun {
         let shown = SHOWN.iter().find(|shown| shown.0 == aspect_ratio).map_or(&[][..], |shown| shown.1);
         let is_shown = matches!(material, Material::SAND | Material::GLASS);
         ColumnRun {
-            purpose: Purpose::Law,
+            purpose: ColumnPurpose::Law,
             geometry: Geometry::Planar,
             material,
             aspect_ratio,
@@ -47,21 +47,22 @@ impl ColumnPlanarParameters {
 
     /// Columns of grains that differ from others in one number.
     fn altered(&self) -> Vec<ColumnRun> {
-        let of = |columns: &Columns, law: MuI, material: Material, aspect_ratios: &[f64]| {
-            let columns = Columns { law: Rheology::MuI(law), ..columns.clone() };
+        let of = |columns: &PlanarColumns, law: MuI, material: Material, aspect_ratios: &[f64]| {
+            let columns = PlanarColumns { law: Rheology::MuI(law), ..columns.clone() };
             aspect_ratios.iter().map(|&ratio| self.column(material, &columns, ratio)).collect::<Vec<_>>()
         };
         let mut runs = Vec::new();
         if let Rheology::MuI(law) = self.sand.law {
             for &reference_inertia in &self.sand_inertias.values {
-                let material = Material::altered(Grains::Sand, Alteration::ReferenceInertia(reference_inertia));
+                let material =
+                    Material::altered(ExperimentGrains::Sand, Alteration::ReferenceInertia(reference_inertia));
                 let ratios = &self.sand_inertias.aspect_ratios;
                 runs.extend(of(&self.sand, MuI { reference_inertia, ..law }, material, ratios));
             }
         }
         if let Rheology::MuI(law) = self.lagree.law {
             for &grain_diameter in &self.lagree_diameters.values {
-                let material = Material::altered(Grains::Lagree, Alteration::GrainDiameter(grain_diameter));
+                let material = Material::altered(ExperimentGrains::Lagree, Alteration::GrainDiameter(grain_diameter));
                 let ratios = &self.lagree_diameters.aspect_ratios;
                 runs.extend(of(&self.lagree, MuI { grain_diameter, ..law }, material, ratios));
             }
@@ -83,7 +84,12 @@ impl ColumnPlanarParameters {
                     let is_own = resolution == own.resolution && seed == self.release.seed;
                     if !(is_own && lagree.aspect_ratios.contains(&ratio)) {
                         let release = Release { seed, ..self.release };
-                        runs.push(ColumnRun { purpose: Purpose::Convergence, resolution, release, ..own.clone() });
+                        runs.push(ColumnRun {
+                            purpose: ColumnPurpose::Convergence,
+                            resolution,
+                            release,
+                            ..own.clone()
+                        });
                     }
                 }
             }
@@ -105,7 +111,7 @@ impl ColumnPlanarParameters {
                     runs.extend(study.hourglass_seeds.iter().take(seeds).map(|&seed| {
                         let numerics = Numerics { hourglass, ..self.release.numerics };
                         let release = Release { numerics, seed, ..self.release };
-                        ColumnRun { purpose: Purpose::Hourglass, resolution, release, ..own.clone() }
+                        ColumnRun { purpose: ColumnPurpose::Hourglass, resolution, release, ..own.clone() }
                     }));
                 }
             }
@@ -123,7 +129,7 @@ impl ColumnPlanarParameters {
             ..self.release
         };
         let run = |&ratio: &f64| ColumnRun {
-            purpose: Purpose::Regularised,
+            purpose: ColumnPurpose::Regularised,
             law: Rheology::RegularisedMuI(law.regularised(rate)),
             regularisation_rate: Some(rate),
             shown_times: Vec::new(),

@@ -1,9 +1,9 @@
 //! The tiers, the rules between parameters, and the runs that they ask for.
 
-use super::parameters::{ColumnPlanarParameters, Columns, Regularised, SHOWN, Sensitivity, Variants};
+use super::parameters::{ColumnPlanarParameters, PlanarColumns, Regularised, SHOWN, Sensitivity, Variants};
 use super::runs;
 use crate::case::{ParameterError, Parameters, Tier};
-use crate::cases::collapse::{self, ColumnRun, Purpose, Release};
+use crate::cases::collapse::{self, ColumnPurpose, ColumnRun, Release};
 use crate::cases::rules;
 use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, TABLE_2_SAND};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
@@ -17,19 +17,19 @@ impl Parameters for ColumnPlanarParameters {
             tall_resolution: 20,
             release: Release::with(Numerics::default()),
             // Table 2; figures 7–10
-            sand: Columns {
+            sand: PlanarColumns {
                 aspect_ratios: vec![0.7, 0.9, 1.5, 3.0],
                 half_width: collapse::SAND_HALF_WIDTH,
                 tall_half_width: 0.0292,
-                ..Columns::of(&TABLE_2_SAND)
+                ..PlanarColumns::of(&TABLE_2_SAND)
             },
             // Table 1; figures 7–9 are captioned glass beads
-            glass: Columns {
+            glass: PlanarColumns {
                 half_width: collapse::SAND_HALF_WIDTH,
                 tall_half_width: 0.0292,
-                ..Columns::of(&GLASS_BEADS)
+                ..PlanarColumns::of(&GLASS_BEADS)
             },
-            lagree: Columns { aspect_ratios: vec![1.0], ..Columns::of(&LAGREE_GRAINS) },
+            lagree: PlanarColumns { aspect_ratios: vec![1.0], ..PlanarColumns::of(&LAGREE_GRAINS) },
             sand_inertias: Variants::default(),
             lagree_diameters: Variants::default(),
             // the spread over five seeds, which the gates of run-out and height take into account
@@ -58,12 +58,15 @@ impl Parameters for ColumnPlanarParameters {
             },
             regularised: Regularised { aspect_ratios: vec![1.0, 3.0], rate: 0.01 },
             resolution: 40,
-            sand: Columns {
+            sand: PlanarColumns {
                 aspect_ratios: vec![0.5, 0.7, 0.9, 1.0, 1.5, 2.0, 2.75, 3.0, 4.8, 5.0, 7.0, 10.0, 14.0, 20.0],
                 ..quick.sand.clone()
             },
-            glass: Columns { aspect_ratios: SHOWN.iter().map(|shown| shown.0).collect(), ..quick.glass.clone() },
-            lagree: Columns { aspect_ratios: vec![0.5, 1.0, 2.0, 3.0, 7.0, 10.0, 14.0, 20.0], ..quick.lagree.clone() },
+            glass: PlanarColumns { aspect_ratios: SHOWN.iter().map(|shown| shown.0).collect(), ..quick.glass.clone() },
+            lagree: PlanarColumns {
+                aspect_ratios: vec![0.5, 1.0, 2.0, 3.0, 7.0, 10.0, 14.0, 20.0],
+                ..quick.lagree.clone()
+            },
             ..quick.clone()
         };
         match tier {
@@ -103,9 +106,9 @@ impl Parameters for ColumnPlanarParameters {
             rules::viscous_step("numerics", &self.release.numerics, &columns.law)?;
         }
         collapse::check_size(&self.runs(), |run| match run.purpose {
-            Purpose::Convergence => "sensitivity.resolutions".to_owned(),
-            Purpose::Hourglass => "sensitivity.hourglass_resolutions".to_owned(),
-            Purpose::Law | Purpose::Regularised => self.resolution_field(run.aspect_ratio).to_owned(),
+            ColumnPurpose::Convergence => "sensitivity.resolutions".to_owned(),
+            ColumnPurpose::Hourglass => "sensitivity.hourglass_resolutions".to_owned(),
+            ColumnPurpose::Law | ColumnPurpose::Regularised => self.resolution_field(run.aspect_ratio).to_owned(),
         })
     }
 

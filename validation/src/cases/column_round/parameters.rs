@@ -1,7 +1,7 @@
 //! The case's parameters and their tiers.
 
 use crate::case::{ParameterError, Parameters, Tier};
-use crate::cases::collapse::{self, ColumnRun, Geometry, Material, Purpose, Release};
+use crate::cases::collapse::{self, ColumnPurpose, ColumnRun, Geometry, Material, Release};
 use crate::cases::{Bulk, rules};
 use crate::reference::TABLE_2_SAND;
 use bagnold_solver::material::rheology::Rheology;
@@ -74,7 +74,7 @@ impl Parameters for ColumnRoundParameters {
 
     fn runs(&self) -> Vec<ColumnRun> {
         let run = |column: &RoundColumn| ColumnRun {
-            purpose: Purpose::Law,
+            purpose: ColumnPurpose::Law,
             geometry: Geometry::Round,
             material: Material::SAND,
             aspect_ratio: column.aspect_ratio,

@@ -2,8 +2,8 @@
 
 use super::parameters::Setting;
 use super::periods::Periods;
-use super::setting::{Body, Gauge, Wall, shown, vector};
-use super::{Measure, SceneParameters, names, sides::Sides};
+use super::setting::{SceneBody, SceneGauge, SceneWall, shown, vector};
+use super::{Measurand, SceneParameters, names, sides::SceneSides};
 use crate::case::ParameterError;
 use crate::cases::rules;
 use bagnold_solver::vector::Vector;
@@ -15,8 +15,8 @@ use bagnold_solver::weakly_compressible::numerics::Contact;
 impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     /// Everything that is refused beyond the ranges of single fields.
     pub(super) fn checked(&self) -> Result<(), ParameterError> {
-        let walls = self.walls.iter().map(Wall::name);
-        names::check(&self.name, walls, self.gauges.iter().map(Gauge::name))?;
+        let walls = self.walls.iter().map(SceneWall::name);
+        names::check(&self.name, walls, self.gauges.iter().map(SceneGauge::name))?;
         rules::material("material", &self.material)?;
         self.bulk.check(&self.material).map_err(|error| error.within("bulk"))?;
         self.sides.check()?;
@@ -35,7 +35,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     /// Numerics that the material and the walls need.
     fn check_numerics(&self) -> Result<(), ParameterError> {
         rules::viscous_step("numerics", &self.numerics, &self.material)?;
-        let shells: Vec<_> = self.walls.iter().map(Wall::shell).collect();
+        let shells: Vec<_> = self.walls.iter().map(SceneWall::shell).collect();
         if shells.iter().any(|shell| shell.roughness == Surface::Smooth) {
             rules::gate("numerics", &self.numerics)?;
         }
@@ -51,8 +51,8 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     fn check_gauges(&self) -> Result<(), ParameterError> {
         let down = self.down();
         for (k, gauge) in self.gauges.iter().enumerate() {
-            if let Measure::Force { wall } = gauge.measure(&down) {
-                names::check_wall(&format!("gauges[{k}].wall"), wall, self.walls.iter().map(Wall::name))?;
+            if let Measurand::Force { wall } = gauge.measure(&down) {
+                names::check_wall(&format!("gauges[{k}].wall"), wall, self.walls.iter().map(SceneWall::name))?;
             }
             gauge.check(self.spacing, &down).map_err(|error| error.within(&format!("gauges[{k}]")))?;
             self.check_direction(k, gauge)?;
@@ -65,7 +65,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         let within = |error: ParameterError| Err(error.within(&format!("gauges[{k}]")));
         let (given, wall) = gauge.along();
         if let Some(wall) = wall {
-            names::check_wall(&format!("gauges[{k}].normal_to"), wall, self.walls.iter().map(Wall::name))?;
+            names::check_wall(&format!("gauges[{k}].normal_to"), wall, self.walls.iter().map(SceneWall::name))?;
         }
         if let Some(given) = given {
             let shown = shown(given.iter());
@@ -84,7 +84,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             }
         }
         let direction = self.direction_of(gauge);
-        let is_depth = matches!(gauge.measure(&direction), Measure::Depth(_));
+        let is_depth = matches!(gauge.measure(&direction), Measurand::Depth(_));
         if is_depth && !Periods::of(&self.sides.axes()).are_crossed_by(&direction) {
             let rule = "a direction that crosses the layer between the periodic sides";
             let remedy = "along periodic sides the material never ends: give another direction, or `normal_to` a wall";

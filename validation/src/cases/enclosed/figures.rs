@@ -2,15 +2,16 @@
 
 use super::parameters::Setting;
 use super::series;
-use super::{Record, SceneObservation, SceneParameters};
+use super::{SceneObservation, SceneParameters, SceneRecord};
 use crate::figure::{Axis, Figure, Panel};
 
 pub(in crate::cases) fn all<S: Setting<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
-    records: &[Record<S, D>],
+    records: &[SceneRecord<S, D>],
 ) -> Vec<Figure> {
-    let of_run =
-        |(_, record): &Record<S, D>| [Some(S::pictures(parameters, &record.frames)), gauges(parameters, &record.data)];
+    let of_run = |(_, record): &SceneRecord<S, D>| {
+        [Some(S::pictures(parameters, &record.frames)), gauges(parameters, &record.data)]
+    };
     records.iter().flat_map(of_run).flatten().collect()
 }
 
@@ -19,7 +20,7 @@ fn gauges<S: Setting<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
     data: &SceneObservation<D>,
 ) -> Option<Figure> {
-    let panel = |series: series::Series<'_, D>| {
+    let panel = |series: series::GaugeSeries<'_, D>| {
         let columns = &series.columns;
         let axis = columns.first().map_or("", |column| &column.axis);
         let mut panel = Panel::new(series.gauge, Axis::linear("t [s]"), Axis::linear(axis));

@@ -2,8 +2,8 @@
 
 use super::behind_walls::{Permissions, Site};
 use super::parameters::Setting;
-use super::setting::{Body, Wall, vector};
-use super::sides::Sides;
+use super::setting::{SceneBody, SceneWall, vector};
+use super::sides::SceneSides;
 use super::surfaces::{Surfaces, is_taken};
 use super::{SceneParameters, shapes};
 use crate::case::ParameterError;
@@ -82,13 +82,13 @@ fn lattice<const D: usize>(
 }
 
 /// The first body that holds a place, if any does, by its place among all.
-fn holder<const D: usize>(bodies: &[impl Body<D>], place: &Vector<D>) -> Option<usize> {
+fn holder<const D: usize>(bodies: &[impl SceneBody<D>], place: &Vector<D>) -> Option<usize> {
     bodies.iter().position(|body| body.holds(place))
 }
 
 /// Depth of a place below the surface of the material, against the direction `up`: as far as bodies reach `[m]`.
 pub(in crate::cases) fn depth<const D: usize>(
-    bodies: &[impl Body<D>],
+    bodies: &[impl SceneBody<D>],
     place: &Vector<D>,
     up: &Vector<D>,
     spacing: f64,

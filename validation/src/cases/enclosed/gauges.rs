@@ -1,6 +1,6 @@
 //! Reading the gauges of a scene, sample by sample.
 
-use super::Measure;
+use super::Measurand;
 use super::periods::Periods;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
@@ -25,7 +25,7 @@ impl<const D: usize> Memory<D> {
     /// sample. `begun` particles were there at the start, between sides that repeat themselves by `periods`.
     pub(in crate::cases) fn read_all(
         &mut self,
-        measures: &[Measure<'_, D>],
+        measures: &[Measurand<'_, D>],
         simulation: &Simulation<D>,
         snapshot: &Snapshot<D>,
         (begun, periods): (usize, &Periods<D>),
@@ -47,7 +47,7 @@ impl<const D: usize> Memory<D> {
     /// The values of the gauge at this place among all, one a column.
     fn read(
         &mut self,
-        (gauge, measure): (usize, &Measure<'_, D>),
+        (gauge, measure): (usize, &Measurand<'_, D>),
         simulation: &Simulation<D>,
         snapshot: &Snapshot<D>,
         periods: &Periods<D>,
@@ -55,9 +55,9 @@ impl<const D: usize> Memory<D> {
         let elapsed = simulation.time() - self.time;
         let per_time = |change: f64| if elapsed > 0.0 { change / elapsed } else { 0.0 };
         match measure {
-            Measure::Front(line) => vec![line.reached(simulation.spacing(), snapshot)],
-            Measure::Depth(depth) => vec![depth.thickness(simulation.spacing(), periods, snapshot)],
-            Measure::Force { wall } => {
+            Measurand::Front(line) => vec![line.reached(simulation.spacing(), snapshot)],
+            Measurand::Depth(depth) => vec![depth.thickness(simulation.spacing(), periods, snapshot)],
+            Measurand::Force { wall } => {
                 let Some(k) = simulation.shells().iter().position(|shell| shell.name == *wall) else {
                     return vec![0.0; D];
                 };
@@ -65,7 +65,7 @@ impl<const D: usize> Memory<D> {
                 // the wall feels the opposite of what it gives
                 (before - simulation.shell_impulses()[k]).iter().map(|&change| per_time(change)).collect()
             }
-            Measure::Flux(opening) => {
+            Measurand::Flux(opening) => {
                 let crossed = opening.crossed(simulation, periods, &self.places, elapsed);
                 self.crossed[gauge] += crossed;
                 vec![self.crossed[gauge], per_time(crossed)]

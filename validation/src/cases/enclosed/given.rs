@@ -5,6 +5,9 @@ use serde::{Serialize, de::DeserializeOwned};
 use std::fmt::Debug;
 
 /// Plain data that a case file gives.
-pub trait Given: Debug + Clone + PartialEq + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static {}
+pub trait PlainData:
+    Debug + Clone + PartialEq + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static
+{
+}
 
-impl<T: Debug + Clone + PartialEq + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static> Given for T {}
+impl<T: Debug + Clone + PartialEq + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static> PlainData for T {}

@@ -2,7 +2,7 @@
 
 use super::periods::Periods;
 use super::shapes;
-use crate::cases::front::Line;
+use crate::cases::front::FrontLine;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
@@ -14,11 +14,11 @@ const IN_PLANE: f64 = 1e-9;
 
 /// What a gauge measures.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Measure<'a, const D: usize> {
+pub enum Measurand<'a, const D: usize> {
     /// How far the material reaches.
-    Front(Line<D>),
+    Front(FrontLine<D>),
     /// Thickness of the material along a direction.
-    Depth(Depth<D>),
+    Depth(DepthGauge<D>),
     /// Force of the flow on a wall.
     Force {
         /// Name of the wall.
@@ -30,7 +30,7 @@ pub enum Measure<'a, const D: usize> {
 
 /// A place around which the material's thickness along a direction is measured: its volume within a width, over the section.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Depth<const D: usize> {
+pub struct DepthGauge<const D: usize> {
     /// The place `[m]`.
     pub at: Vector<D>,
     /// The unit vector along which it is measured `[-]`.
@@ -41,7 +41,7 @@ pub struct Depth<const D: usize> {
     pub section: f64,
 }
 
-impl<const D: usize> Depth<D> {
+impl<const D: usize> DepthGauge<D> {
     /// The thickness `[m]` of particles at a `spacing` `[m]`, each of which fills its cell of that edge; what repeats itself
     /// beyond periodic sides is met there too.
     pub(super) fn thickness(&self, spacing: f64, periods: &Periods<D>, snapshot: &Snapshot<D>) -> f64 {

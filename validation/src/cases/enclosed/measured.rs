@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// A measured series that a gauge is compared with.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Measured {
+pub struct MeasuredSeries {
     /// Name of the gauge, whose first column it is.
     pub gauge: String,
     /// Where the numbers come from.

@@ -3,8 +3,8 @@
 use super::parameters::Setting;
 use super::series;
 use super::setting::vector;
-use super::sides::Sides;
-use super::{Measure, Measured, Record, SceneObservation, SceneParameters};
+use super::sides::SceneSides;
+use super::{Measurand, MeasuredSeries, SceneObservation, SceneParameters, SceneRecord};
 use crate::cases::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::statistics::{Beyond, interpolated};
@@ -51,14 +51,14 @@ pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> 
 /// The metrics of all runs.
 pub(in crate::cases) fn all<S: Setting<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
-    records: &[Record<S, D>],
+    records: &[SceneRecord<S, D>],
 ) -> Vec<Metric> {
     records.iter().flat_map(|record| of_run(parameters, record)).collect()
 }
 
 fn of_run<S: Setting<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
-    (run, record): &Record<S, D>,
+    (run, record): &SceneRecord<S, D>,
 ) -> Vec<Metric> {
     let (variant, data) = (run.named(), &record.data);
     let mut metrics = balances(&variant, data, parameters.sides.has_mirror());
@@ -68,13 +68,13 @@ fn of_run<S: Setting<D>, const D: usize>(
         let first = series.values.first().map_or(&[][..], Vec::as_slice);
         let last = first.last().copied().unwrap_or(f64::NAN);
         let metric = match series.measure {
-            Measure::Front(_) => FRONT.of(&own, last),
-            Measure::Depth(_) => DEPTH.of(&own, last),
-            Measure::Force { .. } => {
+            Measurand::Front(_) => FRONT.of(&own, last),
+            Measurand::Depth(_) => DEPTH.of(&own, last),
+            Measurand::Force { .. } => {
                 let means: Vec<f64> = series.values.iter().map(|component| mean(component)).collect();
                 S::MEAN_FORCE.of(&own, size(&means))
             }
-            Measure::Flux(_) => S::MASS_CROSSED.of(&own, last),
+            Measurand::Flux(_) => S::MASS_CROSSED.of(&own, last),
         };
         metrics.push(metric.with_snapshot_tolerance(0.1, 0.1 * largest(first)));
         metrics.extend(errors(&own, &data.time, first, &series.measured));
@@ -144,8 +144,8 @@ fn energy<const D: usize>(variant: &Variant, data: &SceneObservation<D>, gravity
 }
 
 /// A gauge's series beside what was measured.
-fn errors(variant: &Variant, time: &[f64], series: &[f64], measured: &[&Measured]) -> Vec<Metric> {
-    let error = |measured: &&Measured| {
+fn errors(variant: &Variant, time: &[f64], series: &[f64], measured: &[&MeasuredSeries]) -> Vec<Metric> {
+    let error = |measured: &&MeasuredSeries| {
         let limit = (measured.limit > 0.0).then_some(Limit::AtMost(measured.limit));
         GAUGE_ERROR
             .of(variant, 100.0 * error(time, series, &measured.points))

@@ -23,9 +23,9 @@ pub mod sides;
 mod surfaces;
 mod tiers;
 
-pub use given::Given;
-pub use measure::{Depth, Measure, Opening};
-pub use measured::Measured;
+pub use given::PlainData;
+pub use measure::{DepthGauge, Measurand, Opening};
+pub use measured::MeasuredSeries;
 pub use observation::{Left, SceneObservation};
 pub use parameters::{SceneParameters, Setting};
 pub use run::SceneRun;
@@ -34,4 +34,4 @@ pub use sides::DomainSide;
 use crate::observation::Recorded;
 
 /// A run of a scene with what it left behind.
-type Record<S, const D: usize> = (SceneRun<S, D>, Recorded<SceneObservation<D>>);
+type SceneRecord<S, const D: usize> = (SceneRun<S, D>, Recorded<SceneObservation<D>>);

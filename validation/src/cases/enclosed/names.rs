@@ -1,6 +1,6 @@
 //! Rules that scenes share: names, lines, times, measured series.
 
-use super::Measured;
+use super::MeasuredSeries;
 use super::setting::shown;
 use crate::case::ParameterError;
 use crate::input::{check_name, check_text};
@@ -72,7 +72,10 @@ pub(super) fn check_wall<'a>(
 }
 
 /// Measured series have a gauge, times and positive values.
-pub(super) fn check_measured(measured: &[Measured], is_gauge: impl Fn(&str) -> bool) -> Result<(), ParameterError> {
+pub(super) fn check_measured(
+    measured: &[MeasuredSeries],
+    is_gauge: impl Fn(&str) -> bool,
+) -> Result<(), ParameterError> {
     for (k, measured) in measured.iter().enumerate() {
         let field = |name: &str| format!("measured[{k}].{name}");
         if !is_gauge(&measured.gauge) {

@@ -1,11 +1,11 @@
 //! Everything that a scene is, and what the plane and space each give of it in their own way: all else is written once, over
 //! [`Setting`].
 
-use super::given::Given;
-use super::measured::Measured;
-use super::setting::{Body, Gauge, Wall, vector};
-use super::sides::Sides;
-use super::{Measure, shapes};
+use super::given::PlainData;
+use super::measured::MeasuredSeries;
+use super::setting::{SceneBody, SceneGauge, SceneWall, vector};
+use super::sides::SceneSides;
+use super::{Measurand, shapes};
 use crate::case::Tier;
 use crate::cases::Bulk;
 use crate::figure::Figure;
@@ -26,15 +26,15 @@ use std::fmt::Debug;
 /// The plane (D = 2) or space (D = 3).
 pub trait Setting<const D: usize>: Debug + Clone + Copy + PartialEq + Send + Sync + 'static {
     /// Coordinates or components along the axes, as a case file gives them.
-    type Place: Given + Copy + Into<[f64; D]>;
+    type Place: PlainData + Copy + Into<[f64; D]>;
     /// The sides of the domain by their names.
-    type Sides: Sides<D>;
+    type Sides: SceneSides<D>;
     /// A piece of material.
-    type Body: Body<D>;
+    type Body: SceneBody<D>;
     /// A wall.
-    type Wall: Wall<D>;
+    type Wall: SceneWall<D>;
     /// A gauge.
-    type Gauge: Gauge<D>;
+    type Gauge: SceneGauge<D>;
 
     /// What to do about a scene without bodies.
     const ADD_A_BODY: &'static str;
@@ -104,7 +104,7 @@ pub struct SceneParameters<S: Setting<D>, const D: usize> {
     /// What is measured.
     pub gauges: Vec<S::Gauge>,
     /// Measured series that gauges are compared with.
-    pub measured: Vec<Measured>,
+    pub measured: Vec<MeasuredSeries>,
     /// Numerics.
     pub numerics: Numerics,
 }
@@ -149,7 +149,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     }
 
     /// What the gauges measure, gauge by gauge.
-    pub(super) fn measures(&self) -> Vec<Measure<'_, D>> {
+    pub(super) fn measures(&self) -> Vec<Measurand<'_, D>> {
         self.gauges.iter().map(|gauge| gauge.measure(&self.direction_of(gauge))).collect()
     }
 
@@ -157,7 +157,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     pub(super) fn direction_of(&self, gauge: &S::Gauge) -> Vector<D> {
         let of_wall = |name: &str| {
             let wall = self.walls.iter().find(|wall| wall.name() == name)?;
-            let Measure::Depth(depth) = gauge.measure(&self.down()) else { return None };
+            let Measurand::Depth(depth) = gauge.measure(&self.down()) else { return None };
             let facets = wall.shell().facets;
             let distance = |facet: &Facet<D>| (facet.nearest(&depth.at) - depth.at).norm();
             facets.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|facet| facet.normal)
@@ -169,7 +169,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     /// Lower and upper corner of all material and walls `[m]`.
     pub(in crate::cases) fn extent(&self) -> (Vector<D>, Vector<D>) {
         let bodies = self.bodies.iter().flat_map(|body| <[Vector<D>; 2]>::from(body.extent()));
-        shapes::around(bodies.chain(self.walls.iter().flat_map(Wall::hull)))
+        shapes::around(bodies.chain(self.walls.iter().flat_map(SceneWall::hull)))
     }
 
     /// Height of the scene along gravity, from the highest material to the lowest of walls and material `[m]`; bodies count
@@ -182,7 +182,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             (one.inf(&other).sum(), one.sup(&other).sum())
         };
         let highest = self.bodies.iter().map(|body| ends(body).1).fold(f64::NEG_INFINITY, f64::max);
-        let of_walls = self.walls.iter().flat_map(Wall::hull).map(|place| up.dot(&place));
+        let of_walls = self.walls.iter().flat_map(SceneWall::hull).map(|place| up.dot(&place));
         let lowest = self.bodies.iter().map(|body| ends(body).0).chain(of_walls).fold(f64::INFINITY, f64::min);
         highest - lowest
     }

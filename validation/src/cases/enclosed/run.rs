@@ -3,11 +3,11 @@
 use super::gauges::Memory;
 use super::parameters::Setting;
 use super::periods::Periods;
-use super::setting::{Body, Wall, vector};
-use super::sides::Sides;
+use super::setting::{SceneBody, SceneWall, vector};
+use super::sides::SceneSides;
 use super::surfaces::{Surfaces, behind};
 use super::{SceneObservation, SceneParameters};
-use crate::case::recording::{self, Ending, Followed, Stage};
+use crate::case::recording::{self, Ending, Followed, SimulationStage};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
@@ -32,7 +32,7 @@ pub struct SceneRun<S: Setting<D>, const D: usize> {
 
 /// What is kept from sample to sample.
 #[derive(Serialize, Deserialize)]
-struct Watch<const D: usize> {
+struct SceneObserver<const D: usize> {
     observation: SceneObservation<D>,
     memory: Memory<D>,
     frames: Vec<Frame>,
@@ -53,7 +53,7 @@ where
             let (lower, upper) = body.extent();
             (upper - lower).product()
         });
-        let walls: f64 = self.scene.walls.iter().map(Wall::measure).sum();
+        let walls: f64 = self.scene.walls.iter().map(SceneWall::measure).sum();
         let power = |axes: usize| (0..axes).map(|_| self.scene.spacing).product::<f64>();
         volumes.sum::<f64>() / power(D) + walls / power(D - 1) * self.rows() as f64
     }
@@ -79,8 +79,8 @@ where
         }
         let (gravity, measures) = (vector(&scene.gravity), scene.measures());
         let periods = Periods::of(&scene.sides.axes());
-        let stage = Stage { progress, end: scene.duration, interval: scene.interval, context: &() };
-        let begin = |_: &Simulation<D>| Watch {
+        let stage = SimulationStage { progress, end: scene.duration, interval: scene.interval, context: &() };
+        let begin = |_: &Simulation<D>| SceneObserver {
             observation: SceneObservation::default(),
             memory: Memory::default(),
             frames: Vec::new(),
@@ -89,7 +89,7 @@ where
             stage,
             |_| -> Result<Scene<D>, SceneError> { Ok(made.clone()) },
             |simulation: &Simulation<D>| (simulation.snapshot(), begin(simulation)),
-            |(last_good, watch): &mut (Snapshot<D>, Watch<D>), simulation| {
+            |(last_good, watch): &mut (Snapshot<D>, SceneObserver<D>), simulation| {
                 *last_good = simulation.snapshot();
                 let steps = simulation.steps() as f64 * last_good.mass.len() as f64;
                 progress.advance(last_good.time, scene.duration, steps);
@@ -139,7 +139,7 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
     fn scene(&self) -> Result<(Scene<D>, f64), ParameterError> {
         let SceneParameters { spacing, numerics, material, .. } = self.scene;
         let domain = Domain { axes: self.scene.sides.axes() };
-        let mut shells: Vec<_> = self.scene.walls.iter().map(Wall::shell).collect();
+        let mut shells: Vec<_> = self.scene.walls.iter().map(SceneWall::shell).collect();
         S::lay(&mut shells, &domain, spacing, self.rows());
         let equation_of_state = self.equation_of_state();
         let surfaces = Surfaces::of(&shells, self.rows() as f64 * spacing);

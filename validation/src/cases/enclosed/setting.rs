@@ -1,14 +1,14 @@
 //! Bodies, walls and gauges, which the plane and space each give in their own way.
 
-use super::Measure;
-use super::given::Given;
+use super::Measurand;
+use super::given::PlainData;
 use crate::case::ParameterError;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::Surface;
 use bagnold_solver::weakly_compressible::boundary::shell::Shell;
 
 /// A piece of the material at the start.
-pub trait Body<const D: usize>: Given {
+pub trait SceneBody<const D: usize>: PlainData {
     /// Velocity at the start `[m/s]`.
     fn velocity(&self) -> Vector<D>;
 
@@ -26,7 +26,7 @@ pub trait Body<const D: usize>: Given {
 }
 
 /// A wall. It has one side: behind it is nothing.
-pub trait Wall<const D: usize>: Given {
+pub trait SceneWall<const D: usize>: PlainData {
     /// What its facets are called.
     const FACETS: &'static str;
     /// What it is given by: the places where it is at the start.
@@ -57,7 +57,7 @@ pub trait Wall<const D: usize>: Given {
 }
 
 /// What is measured while a scene runs.
-pub trait Gauge<const D: usize>: Given {
+pub trait SceneGauge<const D: usize>: PlainData {
     /// Its name.
     fn name(&self) -> &str;
 
@@ -66,7 +66,7 @@ pub trait Gauge<const D: usize>: Given {
 
     /// What it measures, where gravity, or what takes its place as the direction of a thickness, points along the unit vector
     /// `down`.
-    fn measure(&self, down: &Vector<D>) -> Measure<'_, D>;
+    fn measure(&self, down: &Vector<D>) -> Measurand<'_, D>;
 
     /// Refuses lines and openings without a size, measured by the spacing `[m]`.
     ///

@@ -1,6 +1,6 @@
 //! Sides of a scene's domain.
 
-use super::given::Given;
+use super::given::PlainData;
 use crate::case::ParameterError;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::vector::Vector;
@@ -47,15 +47,15 @@ impl DomainSide {
 }
 
 /// The lower and the upper side along an axis.
-pub type Pair = (DomainSide, DomainSide);
+pub type SidePair = (DomainSide, DomainSide);
 
 /// All sides of a domain.
-pub trait Sides<const D: usize>: Given {
+pub trait SceneSides<const D: usize>: PlainData {
     /// Names of the lower and the upper side along each axis.
     const NAMES: [(&'static str, &'static str); D];
 
     /// The lower and the upper side along each axis.
-    fn pairs(&self) -> [Pair; D];
+    fn pairs(&self) -> [SidePair; D];
 
     /// The boundary of the solver along each axis.
     fn axes(&self) -> [AxisBoundary; D] {

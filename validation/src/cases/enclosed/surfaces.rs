@@ -12,7 +12,7 @@ const FREE: f64 = 0.4;
 const PASSED: f64 = 0.5;
 
 /// Facets that stand together, with a grid to find them by.
-struct Surface<const D: usize> {
+struct FacetSurface<const D: usize> {
     facets: Vec<Facet<D>>,
     /// The wall that each facet is of, by its place among all.
     walls: Vec<usize>,
@@ -28,7 +28,7 @@ pub(super) struct NearestWall {
     pub(super) distance: f64,
 }
 
-impl<const D: usize> Surface<D> {
+impl<const D: usize> FacetSurface<D> {
     fn of<'a>(shells: impl Iterator<Item = (usize, &'a Shell<D>)>, range: f64) -> Self {
         let (walls, facets): (Vec<usize>, Vec<Facet<D>>) =
             shells.flat_map(|(wall, shell)| shell.facets.iter().map(move |facet| (wall, *facet))).unzip();
@@ -43,14 +43,14 @@ impl<const D: usize> Surface<D> {
 }
 
 /// What walls at rest make up together, and each that moves, at the start.
-pub(super) struct Surfaces<const D: usize>(Vec<Surface<D>>);
+pub(super) struct Surfaces<const D: usize>(Vec<FacetSurface<D>>);
 
 impl<const D: usize> Surfaces<D> {
     /// The surfaces of some walls, by which places are found up to a distance `[m]`: as far as the walls are thick.
     pub(super) fn of(shells: &[Shell<D>], range: f64) -> Self {
         let (rest, moving): (Vec<_>, Vec<_>) = shells.iter().enumerate().partition(|(_, shell)| shell.motion.is_rest());
-        let rest = std::iter::once(Surface::of(rest.into_iter(), range));
-        let moving = moving.into_iter().map(|one| Surface::of(std::iter::once(one), range));
+        let rest = std::iter::once(FacetSurface::of(rest.into_iter(), range));
+        let moving = moving.into_iter().map(|one| FacetSurface::of(std::iter::once(one), range));
         Self(rest.chain(moving).collect())
     }
 
@@ -71,7 +71,7 @@ pub(super) fn is_taken(nearest: &NearestWall, spacing: f64) -> bool {
 pub(super) fn behind<const D: usize>(simulation: &Simulation<D>) -> u64 {
     let range = PASSED * simulation.spacing();
     let shells = simulation.shells().iter().enumerate();
-    let surfaces: Vec<_> = shells.map(|one| Surface::of(std::iter::once(one), range)).collect();
+    let surfaces: Vec<_> = shells.map(|one| FacetSurface::of(std::iter::once(one), range)).collect();
     let particles = simulation.particles();
     let count = particles.position[..particles.flow_count()].iter().filter(|place| {
         let mut shells = surfaces.iter().zip(simulation.shell_displacements());

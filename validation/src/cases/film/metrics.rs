@@ -58,7 +58,7 @@ fn of_run(record: &Record) -> Vec<Metric> {
         VELOCITY_L2_COMPRESSIBLE.of(&variant, value).exactly(0.0, source).with_snapshot_tolerance(1e-3, 1e-4)
     });
     let mut common = vec![layer::particles_lost(&variant, recorded)];
-    common.extend(energy_ledger::metrics(&variant, &recorded.data.energy, energy_ledger::Scale::Gravity));
+    common.extend(energy_ledger::metrics(&variant, &recorded.data.energy, energy_ledger::EnergyScale::Gravity));
     common.into_iter().chain(profile(record)).chain(compressible).chain(plug_edge(record)).collect()
 }
 

@@ -10,12 +10,12 @@ pub use parameters::{EddyLiquid, FilmParameters, FluidKind};
 pub use runs::FilmRun;
 
 use super::layer;
-use crate::case::{Case, Foreign, Form, Given, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ type Record = RecordOf<FilmParameters>;
 
 impl Case for Film {
     const NAME: &'static str = "film";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "Newtonian, Bingham and Herschel–Bulkley films on an incline against their exact profiles";
     const DESCRIPTION: &'static str = "A viscous film on an incline, periodic along the slope, over a no-slip bed. The Newtonian film starts from rest; \
@@ -34,7 +34,7 @@ impl Case for Film {
         exact solutions of the unregularised laws: the regularisation's creep of the plug is part of the error. The \
         Newtonian film is also run with the collapse paper's operators and walls, which are observed and do not gate. Any other \
         law, under `material`, is compared with its steady film, integrated over the depth, and does not gate.";
-    const FORM: Form = layer::foreign::FORM;
+    const FORM: ExternalSchema = layer::foreign::FORM;
     type Parameters = FilmParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -46,7 +46,10 @@ impl Case for Film {
         figures::all(records)
     }
 
-    fn foreign(run: &FilmRun, given: &Given) -> Result<Option<Foreign<layer::LayerObservation>>, FieldError> {
+    fn foreign(
+        run: &FilmRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<layer::LayerObservation>>, FieldError> {
         run.foreign(given).map(Some)
     }
 

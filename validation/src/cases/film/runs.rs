@@ -1,7 +1,7 @@
 //! The simulations.
 
 use super::comparison::NumericsSet;
-use crate::case::{Foreign, Given, ParameterError, Progress, Run, cost};
+use crate::case::{ExternalData, ExternalObservation, ParameterError, Progress, Run, cost};
 use crate::cases::Arrangement;
 use crate::cases::layer::{self, Layer, LayerObservation, PeriodicLayer, Top, bulk_modulus};
 use crate::input::FieldError;
@@ -122,7 +122,7 @@ impl FilmRun {
     }
 
     /// Its observation as another code gives it.
-    pub(super) fn foreign(&self, given: &Given) -> Result<Foreign<LayerObservation>, FieldError> {
+    pub(super) fn foreign(&self, given: &ExternalData) -> Result<ExternalObservation<LayerObservation>, FieldError> {
         layer::foreign::observe(&self.layer(&|_| 0.0), given)
     }
 

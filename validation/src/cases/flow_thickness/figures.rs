@@ -1,11 +1,13 @@
 //! The case's figures.
 
 use super::metrics::{froude_number, incline, relative_thickness};
-use super::{Fate, FlowThicknessParameters, Record, StartStop, StartStopRun, collapses, flows, searches};
+use super::{
+    FlowThicknessParameters, FlowThicknessRecord, LayerFate, StartStop, StartStopRun, collapses, flows, searches,
+};
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::RoughIncline;
 
-pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Figure> {
+pub(super) fn all(parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Vec<Figure> {
     let Some(incline) = incline(parameters) else { return Vec::new() };
     let drawn = [
         (collapses(records).next().is_some(), histories as fn(_, _, _) -> _),
@@ -16,7 +18,7 @@ pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> V
 }
 
 /// Thickness at the stations over time, one panel per slope.
-fn histories(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[Record]) -> Figure {
+fn histories(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
     let panels = collapses(records).enumerate().map(|(place, (run, data))| {
         let y = Axis::linear("thickness [cm]").between(0.0, 6.0);
         let mut panel = Panel::new(&format!("{}°", run.slope_angle), Axis::linear("t [s]"), y);
@@ -47,7 +49,7 @@ fn histories(incline: &RoughIncline, parameters: &FlowThicknessParameters, recor
 }
 
 /// Which layers stop: the local law and the experiments.
-fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Record]) -> Figure {
+fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("layer thickness [mm]"));
     let thickness = |step: i32| 1.0e-3 * libm::pow(40.0, f64::from(step) / 60.0);
     let experiment =
@@ -55,7 +57,7 @@ fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Reco
     let local = libm::atan(incline.static_friction).to_degrees();
     panel.line("experiments: h_stop(θ)", 2, experiment);
     panel.reference("local law: tanθ = μ_s", [(local, 1.0), (local, 40.0)]);
-    let ends = [("stopped", Fate::Stops), ("kept flowing", Fate::Flows), ("undecided", Fate::Undecided)];
+    let ends = [("stopped", LayerFate::Stops), ("kept flowing", LayerFate::Flows), ("undecided", LayerFate::Undecided)];
     for (slot, (label, fate)) in ends.into_iter().enumerate() {
         let of_search = |(run, found): (&StartStopRun, &StartStop)| -> Vec<(f64, f64)> {
             let ended = found.trials.iter().filter(|trial| trial.fate == fate);
@@ -63,7 +65,7 @@ fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Reco
         };
         let points: Vec<(f64, f64)> = searches(records).flat_map(of_search).collect();
         // most searches leave nothing open, and then the legend need not speak of it
-        if fate != Fate::Undecided || !points.is_empty() {
+        if fate != LayerFate::Undecided || !points.is_empty() {
             panel.points(label, slot, points);
         }
     }
@@ -77,7 +79,7 @@ fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Reco
 }
 
 /// The flow rule (42).
-fn flow_rule(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[Record]) -> Figure {
+fn flow_rule(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("h/h_stop(θ) [-]"), Axis::linear("Ū/√(gh) [-]"));
     let points: Vec<(f64, f64)> = flows(records)
         .filter_map(|(run, data)| Some((relative_thickness(incline, run)?, froude_number(run, data))))

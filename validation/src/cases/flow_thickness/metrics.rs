@@ -1,7 +1,8 @@
 //! How the case is judged.
 
 use super::{
-    FlowThicknessParameters, FlowThicknessRun, Record, StartStop, StartStopRun, SteadyRun, collapses, flows, searches,
+    FlowThicknessParameters, FlowThicknessRecord, FlowThicknessRun, StartStop, StartStopRun, SteadyRun, collapses,
+    flows, searches,
 };
 use crate::case::Run;
 use crate::cases::collapse::metrics::conservation;
@@ -28,7 +29,7 @@ const STEADY_UP_TO: f64 = 25.5;
 /// Part of a steady flow's time series that its mean velocity is taken over, the last `[-]`.
 const WINDOW: f64 = 0.3;
 
-pub(super) fn all(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Metric> {
+pub(super) fn all(parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Vec<Metric> {
     let Some(incline) = incline(parameters) else { return Vec::new() };
     let mut metrics = thicknesses(&incline, parameters, records);
     metrics.extend(searches(records).flat_map(|(run, found)| stopping(&incline, run, found)));
@@ -47,7 +48,11 @@ pub(super) fn incline(parameters: &FlowThicknessParameters) -> Option<RoughIncli
 }
 
 /// Part (i): the thickness of the flow at the stations.
-fn thicknesses(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Metric> {
+fn thicknesses(
+    incline: &RoughIncline,
+    parameters: &FlowThicknessParameters,
+    records: &[FlowThicknessRecord],
+) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (run, data) in collapses(records) {
         metrics.extend(conservation(&run.variant(), &data.collapse, &run.reservoir.numerics));
@@ -120,7 +125,11 @@ pub(super) fn relative_thickness(incline: &RoughIncline, run: &SteadyRun) -> Opt
 }
 
 /// Part (iii): β of (42) from the steady flows.
-fn flow_rule(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Metric> {
+fn flow_rule(
+    incline: &RoughIncline,
+    parameters: &FlowThicknessParameters,
+    records: &[FlowThicknessRecord],
+) -> Vec<Metric> {
     let (mut xx, mut xy, mut count) = (0.0, 0.0, 0);
     let mut expected = 0.0;
     for (run, data) in flows(records) {

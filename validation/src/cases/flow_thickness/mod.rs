@@ -6,7 +6,7 @@ mod parameters;
 mod start_stop;
 
 pub use parameters::FlowThicknessParameters;
-pub use start_stop::{Fate, LayerAtSlope, StartStop, StartStopRun, Trial};
+pub use start_stop::{LayerAtSlope, LayerFate, SlopeTrial, StartStop, StartStopRun};
 
 use super::collapse::{SlopeCollapse, SlopeRun};
 use super::layer::LayerObservation;
@@ -15,7 +15,7 @@ use crate::figure::Figure;
 use crate::metric::{Metric, Quantity, Variant};
 use crate::observation::Recorded;
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 use serde::{Deserialize, Serialize};
 
 /// The case.
@@ -55,7 +55,7 @@ pub enum FlowThicknessObservation {
     Steady(LayerObservation),
 }
 
-type Record = RecordOf<FlowThicknessParameters>;
+type FlowThicknessRecord = RecordOf<FlowThicknessParameters>;
 
 impl Run for FlowThicknessRun {
     type Observation = FlowThicknessObservation;
@@ -98,7 +98,7 @@ impl Run for FlowThicknessRun {
             Self::Collapse(run) => run.simulate(progress)?.map(FlowThicknessObservation::Collapse),
             Self::StartStop(run) => run.simulate(progress)?.map(FlowThicknessObservation::StartStop),
             Self::Steady(run) => {
-                let start = start_stop::Motion::of(run.layer.profile(run.slope_angle));
+                let start = start_stop::InitialMotion::of(run.layer.profile(run.slope_angle));
                 run.layer.layer(run.slope_angle, &start).run(progress)?.map(FlowThicknessObservation::Steady)
             }
         })
@@ -107,7 +107,7 @@ impl Run for FlowThicknessRun {
 
 impl Case for FlowThickness {
     const NAME: &'static str = "flow-thickness";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "thickness of flow on a slope, the slope at which a layer stops, and the flow rule";
     const DESCRIPTION: &'static str = "Three questions about thickness. (i) How thick is the flow of a collapse half a metre and more down the slope? \
         Thickness is the volume of the grains in a bin of 2 cm over the bin's width, as in incline-collapse; the paper's \
@@ -120,35 +120,35 @@ impl Case for FlowThickness {
     type Parameters = FlowThicknessParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Vec<Metric> {
         metrics::all(parameters, records)
     }
 
-    fn figures(parameters: &FlowThicknessParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Vec<Figure> {
         figures::all(parameters, records)
     }
 
-    fn tables(_: &FlowThicknessParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Vec<Table> {
         records.iter().filter_map(trials).collect()
     }
 }
 
 /// The trials of a search.
-fn trials((run, record): &Record) -> Option<Table> {
+fn trials((run, record): &FlowThicknessRecord) -> Option<Table> {
     let FlowThicknessObservation::StartStop(found) = &record.data else { return None };
     let columns = ["slope [°]", "stops [-]", "t [s]", "mean u [m/s]"];
-    let stops = |trial: &Trial| match trial.fate {
-        Fate::Stops => 1.0,
-        Fate::Flows => 0.0,
-        Fate::Undecided => f64::NAN,
+    let stops = |trial: &SlopeTrial| match trial.fate {
+        LayerFate::Stops => 1.0,
+        LayerFate::Flows => 0.0,
+        LayerFate::Undecided => f64::NAN,
     };
-    let row = |trial: &Trial| vec![trial.slope_angle, stops(trial), trial.time, trial.mean_velocity];
+    let row = |trial: &SlopeTrial| vec![trial.slope_angle, stops(trial), trial.time, trial.mean_velocity];
     let name = format!("trials-{}", run.variant().file_name());
     Some(Table::of_rows(name, &columns, found.trials.iter().map(row)))
 }
 
 /// The collapses among the records.
-fn collapses(records: &[Record]) -> impl Iterator<Item = (&SlopeRun, &SlopeCollapse)> {
+fn collapses(records: &[FlowThicknessRecord]) -> impl Iterator<Item = (&SlopeRun, &SlopeCollapse)> {
     records.iter().filter_map(|(run, record)| match (run, &record.data) {
         (FlowThicknessRun::Collapse(run), FlowThicknessObservation::Collapse(data)) => Some((run, data)),
         _ => None,
@@ -156,7 +156,7 @@ fn collapses(records: &[Record]) -> impl Iterator<Item = (&SlopeRun, &SlopeColla
 }
 
 /// The searches among the records.
-fn searches(records: &[Record]) -> impl Iterator<Item = (&StartStopRun, &StartStop)> {
+fn searches(records: &[FlowThicknessRecord]) -> impl Iterator<Item = (&StartStopRun, &StartStop)> {
     records.iter().filter_map(|(run, record)| match (run, &record.data) {
         (FlowThicknessRun::StartStop(run), FlowThicknessObservation::StartStop(data)) => Some((run, data)),
         _ => None,
@@ -164,7 +164,7 @@ fn searches(records: &[Record]) -> impl Iterator<Item = (&StartStopRun, &StartSt
 }
 
 /// The steady flows among the records.
-fn flows(records: &[Record]) -> impl Iterator<Item = (&SteadyRun, &LayerObservation)> {
+fn flows(records: &[FlowThicknessRecord]) -> impl Iterator<Item = (&SteadyRun, &LayerObservation)> {
     records.iter().filter_map(|(run, record)| match (run, &record.data) {
         (FlowThicknessRun::Steady(run), FlowThicknessObservation::Steady(data)) => Some((run, data)),
         _ => None,

@@ -1,6 +1,6 @@
 //! The slope at which a layer of given thickness stops flowing, bisected.
 
-use crate::case::recording::{Ending, Followed, Stage, follow, resumed};
+use crate::case::recording::{Ending, Followed, SimulationStage, follow, resumed};
 use crate::case::{ParameterError, Progress};
 use crate::cases::layer::{Layer, PeriodicLayer, bulk_modulus};
 use crate::observation::Recorded;
@@ -48,7 +48,7 @@ pub struct StartStopRun {
 /// What became of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Fate {
+pub enum LayerFate {
     /// It came to rest.
     Stops,
     /// It reached a steady flow.
@@ -59,11 +59,11 @@ pub enum Fate {
 
 /// One layer of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Trial {
+pub struct SlopeTrial {
     /// Slope `[°]`.
     pub slope_angle: f64,
     /// What became of the layer.
-    pub fate: Fate,
+    pub fate: LayerFate,
     /// When it stopped, was found steady or was given up `[s]`.
     pub time: f64,
     /// Depth mean of its velocity at that time `[m/s]`.
@@ -76,7 +76,7 @@ pub struct Trial {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StartStop {
     /// All trials in their order.
-    pub trials: Vec<Trial>,
+    pub trials: Vec<SlopeTrial>,
 }
 
 impl StartStop {
@@ -84,9 +84,10 @@ impl StartStop {
     /// search do not bracket the change, or where a trial left open which it is.
     #[must_use]
     pub fn bracket(&self) -> Option<(f64, f64)> {
-        let angles = |fate: Fate| self.trials.iter().filter(move |t| t.fate == fate).map(|t| t.slope_angle);
-        let (steepest, gentlest) = (angles(Fate::Stops).reduce(f64::max)?, angles(Fate::Flows).reduce(f64::min)?);
-        let decided = angles(Fate::Undecided).next().is_none();
+        let angles = |fate: LayerFate| self.trials.iter().filter(move |t| t.fate == fate).map(|t| t.slope_angle);
+        let (steepest, gentlest) =
+            (angles(LayerFate::Stops).reduce(f64::max)?, angles(LayerFate::Flows).reduce(f64::min)?);
+        let decided = angles(LayerFate::Undecided).next().is_none();
         (decided && steepest < gentlest).then_some((steepest, gentlest))
     }
 }
@@ -100,7 +101,7 @@ impl LayerAtSlope {
     }
 
     /// The layer at a slope `[°]`, from the steady profile of another.
-    pub(super) fn layer<'a>(&self, angle: f64, start: &'a Motion) -> Layer<'a> {
+    pub(super) fn layer<'a>(&self, angle: f64, start: &'a InitialMotion) -> Layer<'a> {
         let density = self.solid_fraction * self.material.grain_density;
         Layer {
             bulk_modulus: bulk_modulus(density, self.layer.gravity, self.layer.layer_height, start.depth_mean),
@@ -127,13 +128,13 @@ impl LayerAtSlope {
 }
 
 /// How a layer moves at the start.
-pub(super) struct Motion {
+pub(super) struct InitialMotion {
     velocity: Box<dyn Fn(f64) -> f64 + Sync>,
     shear_stress: Box<dyn Fn(f64) -> f64 + Sync>,
     depth_mean: f64,
 }
 
-impl Motion {
+impl InitialMotion {
     /// The motion of a steady profile.
     pub(super) fn of(profile: BagnoldProfile) -> Self {
         Self {
@@ -147,8 +148,8 @@ impl Motion {
 impl StartStopRun {
     pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<StartStop>, ParameterError> {
         let (stopping, flowing) = self.bracket;
-        let new = Search { stopping, flowing, trials: Vec::new(), steps: 0, simulated_time: 0.0, seconds: 0.0 };
-        let mut search: Search = resumed(progress).unwrap_or(new);
+        let new = SlopeBisection { stopping, flowing, trials: Vec::new(), steps: 0, simulated_time: 0.0, seconds: 0.0 };
+        let mut search: SlopeBisection = resumed(progress).unwrap_or(new);
         loop {
             let angle = search.next_angle();
             let (trial, simulation, ending) = self.attempt(angle, progress, &search)?;
@@ -156,7 +157,7 @@ impl StartStopRun {
             search.steps += simulation.steps();
             search.simulated_time += simulation.time();
             if !search.enter(trial) || search.is_narrow(self.tolerance) {
-                let Search { trials, steps, simulated_time, seconds, .. } = search;
+                let SlopeBisection { trials, steps, simulated_time, seconds, .. } = search;
                 let record = ending.record(&simulation, |_| StartStop { trials });
                 return Ok(Recorded { steps, simulated_time, wall_seconds: seconds, ..record });
             }
@@ -174,18 +175,24 @@ impl StartStopRun {
         &self,
         angle: f64,
         progress: &dyn Progress,
-        search: &Search,
-    ) -> Result<(Trial, Simulation<2>, Ending<Snapshot<2>>), ParameterError> {
-        let start = Motion::of(self.layer.profile(self.start_angle));
+        search: &SlopeBisection,
+    ) -> Result<(SlopeTrial, Simulation<2>, Ending<Snapshot<2>>), ParameterError> {
+        let start = InitialMotion::of(self.layer.profile(self.start_angle));
         let layer = self.layer.layer(angle, &start);
         let (round, rounds) = (search.trials.len() as f64, self.rounds());
         let (h, duration) = (self.layer.layer.layer_height, self.layer.duration);
         let threshold = STOPPED * (self.layer.layer.gravity * h).sqrt();
         let lag = (STEADY_TIME / INTERVAL) as usize;
-        let stage = Stage { progress, end: duration, interval: INTERVAL, context: search };
-        let begin = |simulation: &Simulation<2>| Seen {
+        let stage = SimulationStage { progress, end: duration, interval: INTERVAL, context: search };
+        let begin = |simulation: &Simulation<2>| LayerObserver {
             means: Vec::new(),
-            trial: Trial { slope_angle: angle, fate: Fate::Undecided, time: 0.0, mean_velocity: f64::NAN, lost: 0 },
+            trial: SlopeTrial {
+                slope_angle: angle,
+                fate: LayerFate::Undecided,
+                time: 0.0,
+                mean_velocity: f64::NAN,
+                lost: 0,
+            },
             last_good: simulation.snapshot(),
         };
         let followed = follow(
@@ -193,29 +200,29 @@ impl StartStopRun {
             |beginning| layer.scene_for(beginning),
             begin,
             |seen, simulation| {
-                let Seen { means, trial, last_good } = seen;
+                let LayerObserver { means, trial, last_good } = seen;
                 let snapshot = simulation.snapshot();
                 let mass: f64 = snapshot.mass.iter().sum();
                 let mean = snapshot.mass.iter().zip(&snapshot.velocity).map(|(m, v)| m * v[0]).sum::<f64>() / mass;
                 means.push(mean);
                 let steady = means.len() > lag && (mean / means[means.len() - 1 - lag] - 1.0).abs() < STEADY;
                 let fate = match (mean < threshold, steady) {
-                    (true, _) => Fate::Stops,
-                    (false, true) => Fate::Flows,
-                    (false, false) => Fate::Undecided,
+                    (true, _) => LayerFate::Stops,
+                    (false, true) => LayerFate::Flows,
+                    (false, false) => LayerFate::Undecided,
                 };
                 let lost = snapshot.position.iter().filter(|x| !(x[1] > 0.0 && x[1] < 2.0 * h)).count();
-                *trial = Trial { slope_angle: angle, fate, time: snapshot.time, mean_velocity: mean, lost };
+                *trial = SlopeTrial { slope_angle: angle, fate, time: snapshot.time, mean_velocity: mean, lost };
                 progress.advance(
                     round * duration + snapshot.time,
                     rounds * duration,
                     simulation.steps() as f64 * snapshot.mass.len() as f64,
                 );
                 *last_good = snapshot;
-                if fate == Fate::Undecided { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+                if fate == LayerFate::Undecided { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
         )?;
-        let Followed { simulation, stop, kept: Seen { trial, last_good, .. }, started } = followed;
+        let Followed { simulation, stop, kept: LayerObserver { trial, last_good, .. }, started } = followed;
         let criterion = "the slope at which the layer stops is bracketed".to_owned();
         Ok((trial, simulation, Ending { criterion, ..Ending::of(stop, last_good, started) }))
     }
@@ -223,27 +230,27 @@ impl StartStopRun {
 
 /// What has been seen of a layer.
 #[derive(Serialize, Deserialize)]
-struct Seen {
+struct LayerObserver {
     /// Depth means of its velocity `[m/s]`.
     means: Vec<f64>,
-    trial: Trial,
+    trial: SlopeTrial,
     last_good: Snapshot<2>,
 }
 
 /// How far a search has come.
 #[derive(Serialize, Deserialize)]
-struct Search {
+struct SlopeBisection {
     /// Steepest slope at which a layer stopped, and gentlest at which one flowed `[°]`.
     stopping: f64,
     flowing: f64,
-    trials: Vec<Trial>,
+    trials: Vec<SlopeTrial>,
     /// Steps, simulated time and wall time `[s]` of all trials.
     steps: u64,
     simulated_time: f64,
     seconds: f64,
 }
 
-impl Search {
+impl SlopeBisection {
     /// Slope of the next trial `[°]`.
     fn next_angle(&self) -> f64 {
         match self.trials.len() {
@@ -254,17 +261,17 @@ impl Search {
     }
 
     /// Enters a trial; whether the change is still bracketed.
-    fn enter(&mut self, trial: Trial) -> bool {
+    fn enter(&mut self, trial: SlopeTrial) -> bool {
         self.trials.push(trial);
         match (self.trials.len(), trial.fate) {
-            (_, Fate::Undecided) => false,
-            (1, fate) => fate == Fate::Stops,
-            (2, fate) => fate == Fate::Flows,
-            (_, Fate::Stops) => {
+            (_, LayerFate::Undecided) => false,
+            (1, fate) => fate == LayerFate::Stops,
+            (2, fate) => fate == LayerFate::Flows,
+            (_, LayerFate::Stops) => {
                 self.stopping = trial.slope_angle;
                 true
             }
-            (_, Fate::Flows) => {
+            (_, LayerFate::Flows) => {
                 self.flowing = trial.slope_angle;
                 true
             }
@@ -283,14 +290,22 @@ mod tests {
 
     #[test]
     fn the_bracket_is_that_of_the_trials() {
-        let trial = |slope_angle: f64, fate: Fate| Trial { slope_angle, fate, time: 1.0, mean_velocity: 0.0, lost: 0 };
-        let search = |trials: &[(f64, Fate)]| StartStop { trials: trials.iter().map(|t| trial(t.0, t.1)).collect() };
-        let found = [(19.0, Fate::Stops), (25.0, Fate::Flows), (22.0, Fate::Flows), (20.5, Fate::Stops)];
+        let trial = |slope_angle: f64, fate: LayerFate| SlopeTrial {
+            slope_angle,
+            fate,
+            time: 1.0,
+            mean_velocity: 0.0,
+            lost: 0,
+        };
+        let search =
+            |trials: &[(f64, LayerFate)]| StartStop { trials: trials.iter().map(|t| trial(t.0, t.1)).collect() };
+        let found =
+            [(19.0, LayerFate::Stops), (25.0, LayerFate::Flows), (22.0, LayerFate::Flows), (20.5, LayerFate::Stops)];
         assert_eq!(search(&found).bracket(), Some((20.5, 22.0)));
-        assert_eq!(search(&[(19.0, Fate::Flows)]).bracket(), None);
-        assert_eq!(search(&[(22.0, Fate::Stops), (21.0, Fate::Flows)]).bracket(), None);
+        assert_eq!(search(&[(19.0, LayerFate::Flows)]).bracket(), None);
+        assert_eq!(search(&[(22.0, LayerFate::Stops), (21.0, LayerFate::Flows)]).bracket(), None);
         // a layer that is still slowing down when its time is up does not flow
-        let undecided = [(19.0, Fate::Stops), (25.0, Fate::Flows), (22.0, Fate::Undecided)];
+        let undecided = [(19.0, LayerFate::Stops), (25.0, LayerFate::Flows), (22.0, LayerFate::Undecided)];
         assert_eq!(search(&undecided).bracket(), None);
     }
 }

@@ -1,11 +1,11 @@
 //! The case's figures.
 
-use super::Record;
+use super::HydrostaticRecord;
 use super::parameters::HydrostaticRun;
 use crate::figure::{Axis, Figure, Panel};
 use bagnold_solver::material::rheology::Rheology;
 
-pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+pub(super) fn all(records: &[HydrostaticRecord]) -> Vec<Figure> {
     let mut laws: Vec<Rheology> = Vec::new();
     for (run, _) in records {
         if !laws.contains(&run.law) {
@@ -40,7 +40,7 @@ fn label(run: &HydrostaticRun) -> String {
     format!("{material}, {coupling}")
 }
 
-fn pressure(records: &[&Record]) -> Panel {
+fn pressure(records: &[&HydrostaticRecord]) -> Panel {
     let (run, _) = records[0];
     let height = run.layer.layer_height;
     let scale = run.density * run.layer.gravity * height;

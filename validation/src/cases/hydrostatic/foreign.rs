@@ -2,25 +2,25 @@
 
 use super::metrics::{ACOUSTIC_BREATHING, HEIGHT_DRIFT, NORMAL_STRESS_L2, PRESSURE_L2, RMS_SPEED};
 use super::parameters::HydrostaticRun;
-use crate::case::{Foreign, Form, Given, Item};
+use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::cases::layer::foreign::unmeasured;
 use crate::cases::layer::{DepthProfile, LayerObservation, TimeSeries};
 use crate::input::FieldError;
 
 /// What a run may yield.
-pub(super) const FORM: Form = Form {
+pub(super) const FORM: ExternalSchema = ExternalSchema {
     particles: &[],
     series: &[
-        Item::new("time", "s", "time since the start"),
-        Item::new("rms_speed", "m/s", "root mean square of the speed"),
-        Item::new("mean_height", "m", "mean over the mass of the height above the bed"),
+        ExternalColumn::new("time", "s", "time since the start"),
+        ExternalColumn::new("rms_speed", "m/s", "root mean square of the speed"),
+        ExternalColumn::new("mean_height", "m", "mean over the mass of the height above the bed"),
     ],
     profile: &[
-        Item::new("height", "m", "height above the bed, rising"),
-        Item::new("pressure", "Pa", "pressure there, a mean over the last half second"),
-        Item::new("normal_stress", "Pa", "stress across the layer p − s_yy there, compressive positive"),
+        ExternalColumn::new("height", "m", "height above the bed, rising"),
+        ExternalColumn::new("pressure", "Pa", "pressure there, a mean over the last half second"),
+        ExternalColumn::new("normal_stress", "Pa", "stress across the layer p − s_yy there, compressive positive"),
     ],
-    says: "The layer is prepared, or settles, before the start. pressure_l2 is the root of the summed squares of the errors of the \
+    description: "The layer is prepared, or settles, before the start. pressure_l2 is the root of the summed squares of the errors of the \
         pressure over that of the exact hydrostatic one, K (exp(ρ0 g (H − y)/K) − 1), for laws without a yield that carries \
         stress; normal_stress_l2 is the same of p − s_yy for grains, whose pressure at rest is not unique. height_drift is the \
         mean height from 1.8 to 2.2 s over that from 0.8 to 1.2 s, less 1; acoustic_breathing the range of the mean height over \
@@ -31,7 +31,10 @@ pub(super) const FORM: Form = Form {
 ///
 /// # Errors
 /// None yet: columns that are missing make what needs them unmeasured.
-pub(super) fn observe(run: &HydrostaticRun, given: &Given) -> Result<Foreign<LayerObservation>, FieldError> {
+pub(super) fn observe(
+    run: &HydrostaticRun,
+    given: &ExternalData,
+) -> Result<ExternalObservation<LayerObservation>, FieldError> {
     let mut measured = Vec::new();
     let mut observation = unmeasured();
     let height = given.profile("height");
@@ -73,13 +76,13 @@ pub(super) fn observe(run: &HydrostaticRun, given: &Given) -> Result<Foreign<Lay
             measured.extend([HEIGHT_DRIFT.name, ACOUSTIC_BREATHING.name]);
         }
     }
-    Ok(Foreign { observation, measured })
+    Ok(ExternalObservation { observation, measured })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Columns, Parameters, Tier};
+    use crate::case::{NamedColumns, Parameters, Tier};
     use crate::cases::hydrostatic::HydrostaticParameters;
 
     #[test]
@@ -87,8 +90,8 @@ mod tests {
         let run = HydrostaticParameters::of_tier(Tier::Quick).runs().remove(0);
         let height: Vec<f64> = (0..20).map(|k| (f64::from(k) + 0.5) / 20.0 * run.height()).collect();
         let pressure = height.iter().map(|&y| run.pressure(y)).collect();
-        let profile: Columns = [("height".to_owned(), height), ("pressure".to_owned(), pressure)].into();
-        let seen = observe(&run, &Given { profile, ..Given::default() }).expect("complete");
+        let profile: NamedColumns = [("height".to_owned(), height), ("pressure".to_owned(), pressure)].into();
+        let seen = observe(&run, &ExternalData { profile, ..ExternalData::default() }).expect("complete");
         assert_eq!(seen.measured, ["pressure_l2"]);
         let wrong = seen.observation.profile.pressure.iter().zip(&seen.observation.profile.height);
         assert!(wrong.into_iter().all(|(pressure, &y)| *pressure == run.pressure(y)));
@@ -98,10 +101,10 @@ mod tests {
     #[test]
     fn a_history_of_heights_gives_drift_and_breathing() {
         let run = HydrostaticParameters::of_tier(Tier::Quick).runs().remove(0);
-        let series: Columns = [("time", vec![0.0, 1.0, 2.0]), ("mean_height", vec![0.5, 0.5, 0.5])]
+        let series: NamedColumns = [("time", vec![0.0, 1.0, 2.0]), ("mean_height", vec![0.5, 0.5, 0.5])]
             .map(|(name, values)| (name.to_owned(), values))
             .into();
-        let seen = observe(&run, &Given { series, ..Given::default() }).expect("complete");
+        let seen = observe(&run, &ExternalData { series, ..ExternalData::default() }).expect("complete");
         assert_eq!(seen.measured, ["height_drift", "acoustic_breathing"]);
     }
 }

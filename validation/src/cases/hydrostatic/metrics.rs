@@ -1,6 +1,6 @@
 //! How the runs are judged.
 
-use super::Record;
+use super::HydrostaticRecord;
 use super::parameters::HydrostaticRun;
 use crate::case::Run;
 use crate::cases::energy_ledger;
@@ -31,8 +31,9 @@ quantities! {
 
 const EXACT: &str = "hydrostatic pressure of the equation of state, K (exp(ρ0 g (H − y)/K) − 1)";
 
-pub(super) fn all(records: &[Record]) -> Vec<Metric> {
-    let (coupled, uncoupled): (Vec<&Record>, Vec<&Record>) = records.iter().partition(|(run, _)| run.is_coupled());
+pub(super) fn all(records: &[HydrostaticRecord]) -> Vec<Metric> {
+    let (coupled, uncoupled): (Vec<&HydrostaticRecord>, Vec<&HydrostaticRecord>) =
+        records.iter().partition(|(run, _)| run.is_coupled());
     let mut metrics: Vec<Metric> = coupled.iter().flat_map(|record| at_rest(record)).collect();
     for record in uncoupled {
         let partner = coupled.iter().find(|(other, _)| other.law == record.0.law);
@@ -42,7 +43,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
 }
 
 /// The noise of an uncoupled layer, against the coupled one of the same law.
-fn without_coupling((run, record): &Record, partner: Option<&Record>) -> Vec<Metric> {
+fn without_coupling((run, record): &HydrostaticRecord, partner: Option<&HydrostaticRecord>) -> Vec<Metric> {
     let (variant, noise) = (run.variant(), mean(&record.data.series.pressure_noise));
     let own = PRESSURE_NOISE.of(&variant, noise).exactly(0.0, "smooth pressure").with_snapshot_tolerance(0.2, 1e-6);
     let factor = partner.map(|(_, partner)| {
@@ -55,7 +56,7 @@ fn without_coupling((run, record): &Record, partner: Option<&Record>) -> Vec<Met
     [own].into_iter().chain(factor).collect()
 }
 
-fn at_rest((run, record): &Record) -> Vec<Metric> {
+fn at_rest((run, record): &HydrostaticRecord) -> Vec<Metric> {
     let (variant, series, profile) = (run.variant(), &record.data.series, &record.data.profile);
     let (quantity, pressure) = match run.states_of_rest() {
         None => (PRESSURE_L2, &profile.pressure),
@@ -74,7 +75,7 @@ fn at_rest((run, record): &Record) -> Vec<Metric> {
             .gated(Limit::AtMost(1.0), "the project's aim: 1 % of the hydrostatic profile")
             .with_snapshot_tolerance(0.02, 1e-3),
     ];
-    let scale = energy_ledger::Scale::AtRest(run.energy_scale());
+    let scale = energy_ledger::EnergyScale::AtRest(run.energy_scale());
     metrics.extend(energy_ledger::metrics(&variant, &record.data.energy, scale));
     if let Some((passive, active)) = run.states_of_rest() {
         let (least, most) = record.data.pressure_ratio;

@@ -1,6 +1,6 @@
 //! The case's figures.
 
-use super::Record;
+use super::InclineCollapseRecord;
 use crate::cases::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun};
 use crate::figure::{Animation, Axis, Field, Figure, Panel};
 use crate::observation::pictures::{View, animation};
@@ -12,7 +12,7 @@ const PROFILES: [f64; 6] = [0.0, 0.2, 0.4, 0.6, 0.8, 1.2];
 /// The paper's scale of viscosities `[Pa·s]`.
 const PAPER_SCALE: (f64, f64) = (0.0, 1.5);
 
-pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+pub(super) fn all(records: &[InclineCollapseRecord]) -> Vec<Figure> {
     if records.is_empty() {
         return Vec::new();
     }
@@ -24,8 +24,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
 }
 
 /// The collapses in motion.
-pub(super) fn animations(records: &[Record]) -> Vec<Animation> {
-    let moving = |(run, record): &Record| {
+pub(super) fn animations(records: &[InclineCollapseRecord]) -> Vec<Animation> {
+    let moving = |(run, record): &InclineCollapseRecord| {
         let caption = format!(
             "{}: the collapse in the colours of the speed. Dashed are the thickness (volume per bin of 0.1 r0) and the \
              front, where it falls below 0.02 r0. The gate at 0.2 m is not drawn.",
@@ -54,7 +54,7 @@ fn label(run: &SlopeRun) -> String {
     format!("{}°, {gate}{law}", run.slope_angle)
 }
 
-fn fronts(records: &[Record]) -> Figure {
+fn fronts(records: &[InclineCollapseRecord]) -> Figure {
     let mut front = Panel::new("", Axis::linear("t [s]"), Axis::linear("front − gate [m]"));
     let mut energy = Panel::new("", Axis::linear("t [s]"), Axis::linear("kinetic energy [J/m]"));
     for (slot, (run, record)) in records.iter().enumerate() {
@@ -73,7 +73,7 @@ fn fronts(records: &[Record]) -> Figure {
     )
 }
 
-fn thickness(records: &[Record]) -> Figure {
+fn thickness(records: &[InclineCollapseRecord]) -> Figure {
     let high = records.first().map_or(0.14, |(run, _)| run.reservoir.initial_height);
     let panels = records.iter().enumerate().map(|(place, (run, record))| {
         let y = Axis::linear("thickness [cm]").between(0.0, 100.0 * high);
@@ -99,7 +99,7 @@ fn thickness(records: &[Record]) -> Figure {
 }
 
 /// Final run-out over the slope, with the band of the experiments' fit.
-fn run_outs(records: &[Record]) -> Figure {
+fn run_outs(records: &[InclineCollapseRecord]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("run-out from the gate [m]"));
     let Some((first, _)) = records.first() else { unreachable!("figures are drawn of records") };
     let friction = first.static_friction();
@@ -136,10 +136,10 @@ const FIRST_FIELD: f64 = 0.1;
 const SHEAR_RATES: (f64, f64) = (-1.0, 2.0);
 
 /// What is drawn of a picture: values, label, limits.
-type Drawn = (Vec<f64>, &'static str, (f64, f64));
+type DrawnField = (Vec<f64>, &'static str, (f64, f64));
 
 /// Velocity along the slope and shear rate in time: the paper's figure 4 and what it says beside figure 5.
-fn velocities((run, record): &Record) -> Figure {
+fn velocities((run, record): &InclineCollapseRecord) -> Figure {
     let along = |frame: &Frame| -> Vec<f64> { frame.vector("velocity").iter().map(|v| v[0]).collect() };
     let fastest = fields_of(record).flat_map(along).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let caption = "velocity along the slope, and shear rate on a logarithmic scale; colours end where the scale does.";
@@ -150,7 +150,7 @@ fn velocities((run, record): &Record) -> Figure {
 }
 
 /// The viscosity in time: the paper's figure 5.
-fn viscosities((run, record): &Record) -> Figure {
+fn viscosities((run, record): &InclineCollapseRecord) -> Figure {
     let caption = "apparent viscosity on the paper's scale of 0 to 1.5 Pa·s and on a logarithmic one. The viscosity of \
                    grains that hardly move has no upper bound.";
     fields("fields", caption, run, record, |frame| {
@@ -170,7 +170,7 @@ fn fields(
     caption: &str,
     run: &SlopeRun,
     record: &Recorded<SlopeCollapse>,
-    drawn: impl Fn(&Frame) -> Vec<Drawn>,
+    drawn: impl Fn(&Frame) -> Vec<DrawnField>,
 ) -> Figure {
     let high = run.reservoir.initial_height;
     let far = fields_of(record).flat_map(|frame| &frame.position).map(|x| x[0]).fold(0.0, f64::max);

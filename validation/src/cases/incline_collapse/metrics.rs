@@ -1,6 +1,6 @@
 //! How a collapse on a slope is judged.
 
-use super::Record;
+use super::InclineCollapseRecord;
 use super::inside::Inside;
 use crate::case::Run;
 use crate::cases::collapse::metrics::{at_rest, conservation};
@@ -33,7 +33,7 @@ const MARGIN: f64 = 0.15;
 /// Times at which the front is reported `[s]`.
 const FRONT_TIMES: [f64; 2] = [0.3, 0.4];
 
-pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
+pub(super) fn of_run((run, record): &InclineCollapseRecord) -> Vec<Metric> {
     let (variant, data) = (run.variant(), &record.data.collapse);
     let observed = |quantity: Quantity, variant: &Variant, value: f64| {
         quantity.of(variant, value).with_snapshot_tolerance(1e-3, 1e-3)

@@ -7,22 +7,22 @@ mod metrics;
 pub use super::collapse::InclineCollapseParameters;
 
 use super::collapse::{self, SlopeCollapse, SlopeRun};
-use crate::case::{Case, Foreign, Form, Given, RecordOf, Run};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run};
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
 pub struct InclineCollapse;
 
-type Record = RecordOf<InclineCollapseParameters>;
+type InclineCollapseRecord = RecordOf<InclineCollapseParameters>;
 
 impl Case for InclineCollapse {
     const NAME: &'static str = "incline-collapse";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "grains released by a gate on a slope: front, thickness and final run-out against experiments";
     const DESCRIPTION: &'static str = "A reservoir of glass beads (14 cm high, 20 cm long, smooth back) stands behind a smooth gate on a rough slope. \
@@ -33,33 +33,33 @@ impl Case for InclineCollapse {
         thickness (volume per bin of 0.1 r_0, each particle spread over a spacing to either side) first falls below \
         0.02 r_0. With another law of the grains than μ(I), whose contact friction takes the place of μ_s, the fit does not \
         gate.";
-    const FORM: Form = collapse::foreign_slope::FORM;
+    const FORM: ExternalSchema = collapse::foreign_slope::FORM;
     type Parameters = InclineCollapseParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Metric> {
         records.iter().flat_map(metrics::of_run).collect()
     }
 
-    fn figures(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn animations(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Animation> {
+    fn animations(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Animation> {
         figures::animations(records)
     }
 
-    fn foreign(run: &SlopeRun, given: &Given) -> Result<Option<Foreign<SlopeCollapse>>, FieldError> {
+    fn foreign(run: &SlopeRun, given: &ExternalData) -> Result<Option<ExternalObservation<SlopeCollapse>>, FieldError> {
         collapse::foreign_slope::observe(run, given).map(Some)
     }
 
-    fn tables(_: &InclineCollapseParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Table> {
         records.iter().map(table).collect()
     }
 }
 
 /// Time series of one run.
-fn table((run, record): &Record) -> Table {
+fn table((run, record): &InclineCollapseRecord) -> Table {
     let data = &record.data.collapse;
     let columns: [(&str, &[f64]); 4] = [
         ("t [s]", &data.time),

@@ -2,32 +2,32 @@
 
 use super::Layer;
 use super::probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
-use crate::case::{Foreign, Form, Given, Item, Picture};
+use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema, ParticleFrame};
 use crate::input::FieldError;
 use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
 /// What a layer's run may yield.
-pub(in crate::cases) const FORM: Form = Form {
+pub(in crate::cases) const FORM: ExternalSchema = ExternalSchema {
     particles: &[
-        Item::new("x", "m", "place along the slope, anywhere within the period"),
-        Item::new("y", "m", "height above the bed"),
-        Item::new("vx", "m/s", "velocity down the slope"),
-        Item::new("vy", "m/s", "velocity away from the bed"),
-        Item::new("mass", "kg", "mass of one, of a metre across; without it all count alike"),
-        Item::new("pressure", "Pa", "pressure"),
+        ExternalColumn::new("x", "m", "place along the slope, anywhere within the period"),
+        ExternalColumn::new("y", "m", "height above the bed"),
+        ExternalColumn::new("vx", "m/s", "velocity down the slope"),
+        ExternalColumn::new("vy", "m/s", "velocity away from the bed"),
+        ExternalColumn::new("mass", "kg", "mass of one, of a metre across; without it all count alike"),
+        ExternalColumn::new("pressure", "Pa", "pressure"),
     ],
     series: &[
-        Item::new("time", "s", "time since the start"),
-        Item::new("mean_velocity", "m/s", "mean over the mass of the velocity down the slope"),
-        Item::new("rms_speed", "m/s", "root mean square of the speed"),
+        ExternalColumn::new("time", "s", "time since the start"),
+        ExternalColumn::new("mean_velocity", "m/s", "mean over the mass of the velocity down the slope"),
+        ExternalColumn::new("rms_speed", "m/s", "root mean square of the speed"),
     ],
     profile: &[
-        Item::new("height", "m", "height above the bed, rising"),
-        Item::new("velocity", "m/s", "velocity down the slope there, a mean over the last part of the run"),
-        Item::new("pressure", "Pa", "pressure there"),
+        ExternalColumn::new("height", "m", "height above the bed, rising"),
+        ExternalColumn::new("velocity", "m/s", "velocity down the slope there, a mean over the last part of the run"),
+        ExternalColumn::new("pressure", "Pa", "pressure there"),
     ],
-    says: "Velocities are compared at the heights at which they are given; a profile with fewer than two points below a fifth of the \
+    description: "Velocities are compared at the heights at which they are given; a profile with fewer than two points below a fifth of the \
         depth, by which the slip at the wall is measured, is not judged. From particles the profile is a mean over all pictures \
         in the last quarter of the time, in twenty bins of equal height, each at the mean height of its particles. velocity_l2 is \
         the root of the summed squares of the bins' errors over that of the exact velocities; implied_stress_error, which needs \
@@ -68,7 +68,10 @@ const LAST: f64 = 0.25;
 ///
 /// # Errors
 /// Columns that are missing beside others.
-pub(in crate::cases) fn observe(layer: &Layer<'_>, given: &Given) -> Result<Foreign<LayerObservation>, FieldError> {
+pub(in crate::cases) fn observe(
+    layer: &Layer<'_>,
+    given: &ExternalData,
+) -> Result<ExternalObservation<LayerObservation>, FieldError> {
     let mut measured = Vec::new();
     let mut observation = unmeasured();
     if let Some(end) = given.pictures.last().map(|picture| picture.time) {
@@ -120,7 +123,7 @@ pub(in crate::cases) fn observe(layer: &Layer<'_>, given: &Given) -> Result<Fore
     }
     measured.sort_unstable();
     measured.dedup();
-    Ok(Foreign { observation, measured })
+    Ok(ExternalObservation { observation, measured })
 }
 
 /// Nothing was measured: two times without a number, so that a history can be asked for.
@@ -141,7 +144,7 @@ pub(in crate::cases) fn unmeasured() -> LayerObservation {
     }
 }
 
-fn snapshot(picture: &Picture) -> Result<Snapshot<2>, FieldError> {
+fn snapshot(picture: &ParticleFrame) -> Result<Snapshot<2>, FieldError> {
     let remedy = "a layer's particles have x, y, vx and vy";
     let [x, y, vx, vy] = ["x", "y", "vx", "vy"].map(|name| picture.needed(name, remedy));
     let (x, y, vx, vy) = (x?, y?, vx?, vy?);

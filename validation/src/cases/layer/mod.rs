@@ -11,7 +11,7 @@ pub use preparation::Preparation;
 pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 pub use tables::tables_of_runs;
 
-use crate::case::recording::{self, Beginning, Ending, Stage, Watched};
+use crate::case::recording::{self, Beginning, Ending, SimulationStage, Watched};
 use crate::case::{ParameterError, Progress, cost};
 use crate::metric::{Limit, Metric, Variant, quantities};
 use crate::observation::{Frame, Recorded};
@@ -210,7 +210,7 @@ impl Layer<'_> {
     /// # Errors
     /// A scene that breaks a rule of the solver; an interruption.
     pub fn run(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
-        let stage = Stage { progress, end: self.duration, interval: self.interval, context: &() };
+        let stage = SimulationStage { progress, end: self.duration, interval: self.interval, context: &() };
         let begin = |simulation: &Simulation<2>| {
             self.announce(simulation);
             (LayerProbe::new(self), Vec::new())

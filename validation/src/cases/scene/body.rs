@@ -1,6 +1,6 @@
 //! Bodies of material: boxes, polygons and discs, and the places that they hold.
 
-use super::Place;
+use super::PlaneVector;
 use crate::case::ParameterError;
 use crate::cases::enclosed::setting::{self, shown, vector};
 use crate::cases::enclosed::shapes;
@@ -12,40 +12,40 @@ use serde::{Deserialize, Serialize};
 /// A piece of the material at the start.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "shape", rename_all = "kebab-case")]
-pub enum Body {
+pub enum PlaneBody {
     /// A rectangle along the axes.
     Box {
         /// Lower left corner x, y `[m]`.
-        lower: Place,
+        lower: PlaneVector,
         /// Upper right corner x, y `[m]`.
-        upper: Place,
+        upper: PlaneVector,
         /// Velocity at the start, x, y `[m/s]`.
         #[serde(default)]
-        velocity: Place,
+        velocity: PlaneVector,
     },
     /// A disc.
     Disc {
         /// Its middle x, y `[m]`.
-        centre: Place,
+        centre: PlaneVector,
         /// Its radius `[m]`.
         #[schemars(transform = positive("give it in metres"))]
         radius: f64,
         /// Velocity at the start, x, y `[m/s]`.
         #[serde(default)]
-        velocity: Place,
+        velocity: PlaneVector,
     },
     /// What a closed polyline encloses.
     Polygon {
         /// Its corners x, y `[m]`, the last of which is joined to the first.
         #[schemars(transform = filled("at least one corner", "give three corners or more"))]
-        points: Vec<Place>,
+        points: Vec<PlaneVector>,
         /// Velocity at the start, x, y `[m/s]`.
         #[serde(default)]
-        velocity: Place,
+        velocity: PlaneVector,
     },
 }
 
-impl setting::Body<2> for Body {
+impl setting::SceneBody<2> for PlaneBody {
     fn velocity(&self) -> Vector<2> {
         let (Self::Box { velocity, .. } | Self::Disc { velocity, .. } | Self::Polygon { velocity, .. }) = self;
         vector(velocity)
@@ -95,14 +95,14 @@ impl setting::Body<2> for Body {
 mod tests {
     use super::*;
     use crate::cases::enclosed::filling::depth;
-    use crate::cases::enclosed::setting::Body as _;
+    use crate::cases::enclosed::setting::SceneBody as _;
 
     #[test]
     fn bodies_hold_what_is_inside() {
         let velocity = (0.0, 0.0);
-        let triangle = Body::Polygon { points: vec![(0.0, 0.0), (2.0, 0.0), (0.0, 2.0)], velocity };
-        let disc = Body::Disc { centre: (1.0, 1.0), radius: 0.5, velocity };
-        let square = Body::Box { lower: (-1.0, -1.0), upper: (0.0, 0.0), velocity };
+        let triangle = PlaneBody::Polygon { points: vec![(0.0, 0.0), (2.0, 0.0), (0.0, 2.0)], velocity };
+        let disc = PlaneBody::Disc { centre: (1.0, 1.0), radius: 0.5, velocity };
+        let square = PlaneBody::Box { lower: (-1.0, -1.0), upper: (0.0, 0.0), velocity };
         for (body, inside, outside) in
             [(&triangle, [0.5, 0.5], [1.5, 1.5]), (&disc, [1.3, 1.3], [1.4, 1.4]), (&square, [-0.5, -0.5], [0.1, -0.5])]
         {
@@ -113,7 +113,7 @@ mod tests {
         let up = Vector::<2>::new(0.0, 1.0);
         assert!((depth(&bodies, &[-0.5, -0.75].into(), &up, 0.1) - 0.75).abs() < 0.02);
         assert!((depth(&bodies, &[0.5, 0.5].into(), &up, 0.1) - 1.0).abs() < 0.02);
-        let flat = Body::Box { lower: (0.0, 0.0), upper: (1.0, 0.0), velocity };
+        let flat = PlaneBody::Box { lower: (0.0, 0.0), upper: (1.0, 0.0), velocity };
         assert_eq!(
             flat.check().expect_err("flat").to_string(),
             "`upper` is (1, 0), but must be above and to the right of `lower`; give the upper right corner"

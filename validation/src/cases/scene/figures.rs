@@ -1,13 +1,13 @@
 //! Pictures of the material between its walls.
 
-use super::SceneParameters;
-use crate::cases::enclosed::setting::Wall;
+use super::PlaneParameters;
+use crate::cases::enclosed::setting::SceneWall;
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
 
 /// One panel a picture, the particles in the colours of their speed and the walls where they stand.
-pub(super) fn pictures(parameters: &SceneParameters, frames: &[Frame]) -> Figure {
+pub(super) fn pictures(parameters: &PlaneParameters, frames: &[Frame]) -> Figure {
     let fastest = frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
     let (lower, upper) = parameters.extent();
     let margin = 2.0 * parameters.spacing;

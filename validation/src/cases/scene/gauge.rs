@@ -1,11 +1,11 @@
 //! Gauges: what is measured while a scene runs, as series over time.
 
-use super::Place;
+use super::PlaneVector;
 use crate::case::ParameterError;
 use crate::cases::enclosed::names::check_line;
 use crate::cases::enclosed::setting::{self, vector};
-use crate::cases::enclosed::{Depth, Measure, Opening};
-use crate::cases::front::Line;
+use crate::cases::enclosed::{DepthGauge, Measurand, Opening};
+use crate::cases::front::FrontLine;
 use bagnold_solver::parameter::positive;
 use bagnold_solver::vector::Vector;
 use schemars::JsonSchema;
@@ -14,16 +14,16 @@ use serde::{Deserialize, Serialize};
 /// What a gauge measures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
-pub enum Gauge {
+pub enum PlaneGauge {
     /// How far the material reaches along a line: the first place behind its start where less than a thickness stands
     /// across it.
     Front {
         /// Its name.
         name: String,
         /// Start of the line x, y `[m]`.
-        from: Place,
+        from: PlaneVector,
         /// End of the line x, y `[m]`.
-        to: Place,
+        to: PlaneVector,
         /// Thickness `[m]`.
         #[schemars(transform = positive("give it in metres, such as two spacings"))]
         thickness: f64,
@@ -34,13 +34,13 @@ pub enum Gauge {
         /// Its name.
         name: String,
         /// The place x, y `[m]`.
-        at: Place,
+        at: PlaneVector,
         /// Width across the direction `[m]`.
         #[schemars(transform = positive("give it in metres, such as four spacings"))]
         width: f64,
         /// What it is measured along, unless along gravity: x, y of any length `[-]`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        direction: Option<Place>,
+        direction: Option<PlaneVector>,
         /// Name of the wall along whose normal it is measured, unless along gravity: that of its nearest segment.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         normal_to: Option<String>,
@@ -57,13 +57,13 @@ pub enum Gauge {
         /// Its name.
         name: String,
         /// Start of the line x, y `[m]`.
-        from: Place,
+        from: PlaneVector,
         /// End of the line x, y `[m]`.
-        to: Place,
+        to: PlaneVector,
     },
 }
 
-impl setting::Gauge<2> for Gauge {
+impl setting::SceneGauge<2> for PlaneGauge {
     fn name(&self) -> &str {
         let (Self::Front { name, .. } | Self::Depth { name, .. } | Self::Force { name, .. } | Self::Flux { name, .. }) =
             self;
@@ -75,20 +75,20 @@ impl setting::Gauge<2> for Gauge {
         (direction.as_ref().map(vector), normal_to.as_deref())
     }
 
-    fn measure(&self, down: &Vector<2>) -> Measure<'_, 2> {
+    fn measure(&self, down: &Vector<2>) -> Measurand<'_, 2> {
         match self {
             Self::Front { from, to, thickness, .. } => {
-                Measure::Front(Line { from: vector(from), to: vector(to), section: *thickness, strip: None })
+                Measurand::Front(FrontLine { from: vector(from), to: vector(to), section: *thickness, strip: None })
             }
             Self::Depth { at, width, .. } => {
-                Measure::Depth(Depth { at: vector(at), direction: *down, width: *width, section: *width })
+                Measurand::Depth(DepthGauge { at: vector(at), direction: *down, width: *width, section: *width })
             }
-            Self::Force { wall, .. } => Measure::Force { wall },
+            Self::Force { wall, .. } => Measurand::Force { wall },
             Self::Flux { from, to, .. } => {
                 let (corner, to): (Vector<2>, Vector<2>) = (vector(from), vector(to));
                 let along = to - corner;
                 let normal = Vector::<2>::new(-along[1], along[0]);
-                Measure::Flux(Opening { corner, normal, edges: vec![(along, along.norm_squared())] })
+                Measurand::Flux(Opening { corner, normal, edges: vec![(along, along.norm_squared())] })
             }
         }
     }
@@ -109,7 +109,7 @@ mod tests {
     use super::*;
     use crate::cases::enclosed::gauges::Memory;
     use crate::cases::enclosed::periods::Periods;
-    use crate::cases::enclosed::setting::Gauge as _;
+    use crate::cases::enclosed::setting::SceneGauge as _;
     use bagnold_solver::domain::AxisBoundary;
     use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
     use bagnold_solver::material::rheology::{Newtonian, Rheology};
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn a_block_that_flies_reaches_and_crosses_what_it_should() {
-        let gauge = |text: &str| toml::from_str::<Gauge>(text).expect("a gauge");
+        let gauge = |text: &str| toml::from_str::<PlaneGauge>(text).expect("a gauge");
         let gauges = [
             gauge("kind = \"front\"\nname = \"front\"\nfrom = [0.0, 0.0]\nto = [1.0, 0.0]\nthickness = 0.04"),
             gauge("kind = \"depth\"\nname = \"depth\"\nat = [0.1, 0.0]\nwidth = 0.04"),
@@ -166,7 +166,7 @@ mod tests {
 
     #[test]
     fn what_wraps_crosses_no_line_but_those_on_its_way() {
-        let gauge = |text: &str| toml::from_str::<Gauge>(text).expect("a gauge");
+        let gauge = |text: &str| toml::from_str::<PlaneGauge>(text).expect("a gauge");
         let gauges = [
             gauge("kind = \"flux\"\nname = \"inside\"\nfrom = [0.15, 1.0]\nto = [0.15, -1.0]"),
             gauge("kind = \"flux\"\nname = \"at-the-side\"\nfrom = [0.2, 1.0]\nto = [0.2, -1.0]"),
@@ -198,7 +198,7 @@ mod tests {
         let axes = [AxisBoundary::Periodic { lower: 0.0, upper: 0.2 }, AxisBoundary::Open];
         let thickness = |direction: Vector<2>| {
             let text = "kind = \"depth\"\nname = \"depth\"\nat = [0.19, 0.0]\nwidth = 0.03";
-            let gauge = toml::from_str::<Gauge>(text).expect("a gauge");
+            let gauge = toml::from_str::<PlaneGauge>(text).expect("a gauge");
             let mut memory = Memory::default();
             let measures = [gauge.measure(&direction)];
             memory.read_all(&measures, &simulation, &snapshot, (160, &Periods::of(&axes)))[0]

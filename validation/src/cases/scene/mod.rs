@@ -6,9 +6,9 @@ mod gauge;
 mod tiers;
 mod wall;
 
-pub use body::Body;
-pub use gauge::Gauge;
-pub use wall::{FlowSide, Sides, WallLine};
+pub use body::PlaneBody;
+pub use gauge::PlaneGauge;
+pub use wall::{FlowSide, PlaneSides, WallLine};
 
 use super::enclosed::Setting;
 use super::enclosed::{self, metrics, series};
@@ -17,29 +17,29 @@ use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::observation::Frame;
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 use bagnold_solver::domain::Domain;
 use bagnold_solver::weakly_compressible::boundary::backing;
 use bagnold_solver::weakly_compressible::boundary::shell::Shell;
 
 /// Two coordinates or components along x and y.
-pub type Place = (f64, f64);
+pub type PlaneVector = (f64, f64);
 
 /// Parameters of the case.
-pub type SceneParameters = enclosed::SceneParameters<Plane, 2>;
+pub type PlaneParameters = enclosed::SceneParameters<Plane, 2>;
 
-type Record = RecordOf<SceneParameters>;
+type PlaneSceneRecord = RecordOf<PlaneParameters>;
 
 /// The plane: masses, forces and fluxes are those per metre of depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane;
 
 impl Setting<2> for Plane {
-    type Place = Place;
-    type Sides = Sides;
-    type Body = Body;
+    type Place = PlaneVector;
+    type Sides = PlaneSides;
+    type Body = PlaneBody;
     type Wall = WallLine;
-    type Gauge = Gauge;
+    type Gauge = PlaneGauge;
 
     const ADD_A_BODY: &'static str = "add a box, a disc or a polygon of material";
     const COST: f64 = 1.0;
@@ -49,7 +49,7 @@ impl Setting<2> for Plane {
         Quantity::accounted("mass_crossed", "kg/m", "mass that has crossed a gauge's line up to the end");
     const FLUX_UNIT: &'static str = "kg/(m s)";
 
-    fn of_tier(tier: Tier) -> SceneParameters {
+    fn of_tier(tier: Tier) -> PlaneParameters {
         tiers::of_tier(tier)
     }
 
@@ -57,7 +57,7 @@ impl Setting<2> for Plane {
         backing::lay(shells, domain, spacing, rows);
     }
 
-    fn pictures(parameters: &SceneParameters, frames: &[Frame]) -> Figure {
+    fn pictures(parameters: &PlaneParameters, frames: &[Frame]) -> Figure {
         figures::pictures(parameters, frames)
     }
 }
@@ -68,7 +68,7 @@ pub struct UserScene;
 
 impl Case for UserScene {
     const NAME: &'static str = "scene";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "a scene of one's own in the plane: bodies of material, walls of segments, open sides, gauges; judged by its balances";
     const DESCRIPTION: &'static str = "Boxes, discs and polygons of one material under any law, by the weakly compressible model, between walls \
         that are polylines, rough or smooth, at rest or moved by a table of times. Sides of the domain are planes of \
@@ -76,19 +76,19 @@ impl Case for UserScene {
         force on a wall and the flux through a line, and are written as series. There is no reference but what the file \
         itself gives: a scene is judged by its balances of mass, momentum and energy, and by nothing having passed a wall. \
         The scene of the tiers is a column of glass beads that collapses onto a step and falls over its edge.";
-    type Parameters = SceneParameters;
+    type Parameters = PlaneParameters;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Plane, 2>();
     const STATED: &'static [&'static str] = &["bodies", "walls", "gauges", "measured"];
 
-    fn metrics(parameters: &SceneParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(parameters: &PlaneParameters, records: &[PlaneSceneRecord]) -> Vec<Metric> {
         metrics::all(parameters, records)
     }
 
-    fn figures(parameters: &SceneParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(parameters: &PlaneParameters, records: &[PlaneSceneRecord]) -> Vec<Figure> {
         enclosed::figures::all(parameters, records)
     }
 
-    fn tables(parameters: &SceneParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(parameters: &PlaneParameters, records: &[PlaneSceneRecord]) -> Vec<Table> {
         series::tables(parameters, records)
     }
 }

@@ -1,6 +1,6 @@
 //! Walls of a scene: polylines, rough or smooth, at rest or moved by a table; and the sides of its domain.
 
-use super::Place;
+use super::PlaneVector;
 use crate::case::ParameterError;
 use crate::cases::enclosed::setting::{self, vector};
 use crate::cases::enclosed::{DomainSide, sides};
@@ -27,7 +27,7 @@ pub struct WallLine {
     /// Its name, by which gauges and messages call it.
     pub name: String,
     /// Its points x, y `[m]`.
-    pub points: Vec<Place>,
+    pub points: Vec<PlaneVector>,
     /// Whether its last point is joined to the first.
     #[serde(default)]
     pub closed: bool,
@@ -50,7 +50,7 @@ fn left() -> FlowSide {
     FlowSide::Left
 }
 
-impl setting::Wall<2> for WallLine {
+impl setting::SceneWall<2> for WallLine {
     const FACETS: &'static str = "segments";
     const GIVEN_BY: &'static str = "points";
     const TURN: &'static str = "turn the wall round by `flow`, if it is seen from its back";
@@ -107,7 +107,7 @@ impl setting::Wall<2> for WallLine {
 /// The sides of the domain.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Sides {
+pub struct PlaneSides {
     /// At small x.
     pub left: DomainSide,
     /// At large x.
@@ -118,10 +118,10 @@ pub struct Sides {
     pub top: DomainSide,
 }
 
-impl sides::Sides<2> for Sides {
+impl sides::SceneSides<2> for PlaneSides {
     const NAMES: [(&'static str, &'static str); 2] = [("left", "right"), ("bottom", "top")];
 
-    fn pairs(&self) -> [sides::Pair; 2] {
+    fn pairs(&self) -> [sides::SidePair; 2] {
         [(self.left, self.right), (self.bottom, self.top)]
     }
 }

@@ -1,6 +1,6 @@
 //! Bodies of material: boxes, cylinders and balls, and the places that they hold.
 
-use super::Place;
+use super::SpaceVector;
 use crate::case::ParameterError;
 use crate::cases::enclosed::setting::{self, shown, vector};
 use crate::cases::enclosed::shapes;
@@ -12,44 +12,44 @@ use serde::{Deserialize, Serialize};
 /// A piece of the material at the start.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "shape", rename_all = "kebab-case")]
-pub enum Body {
+pub enum SpaceBody {
     /// A box along the axes.
     Box {
         /// Lower corner x, y, z `[m]`.
-        lower: Place,
+        lower: SpaceVector,
         /// Upper corner x, y, z `[m]`.
-        upper: Place,
+        upper: SpaceVector,
         /// Velocity at the start, x, y, z `[m/s]`.
         #[serde(default)]
-        velocity: Place,
+        velocity: SpaceVector,
     },
     /// A cylinder.
     Cylinder {
         /// Middle of one end x, y, z `[m]`.
-        from: Place,
+        from: SpaceVector,
         /// Middle of the other end x, y, z `[m]`.
-        to: Place,
+        to: SpaceVector,
         /// Its radius `[m]`.
         #[schemars(transform = positive("give it in metres"))]
         radius: f64,
         /// Velocity at the start, x, y, z `[m/s]`.
         #[serde(default)]
-        velocity: Place,
+        velocity: SpaceVector,
     },
     /// A ball.
     Sphere {
         /// Its middle x, y, z `[m]`.
-        centre: Place,
+        centre: SpaceVector,
         /// Its radius `[m]`.
         #[schemars(transform = positive("give it in metres"))]
         radius: f64,
         /// Velocity at the start, x, y, z `[m/s]`.
         #[serde(default)]
-        velocity: Place,
+        velocity: SpaceVector,
     },
 }
 
-impl setting::Body<3> for Body {
+impl setting::SceneBody<3> for SpaceBody {
     fn velocity(&self) -> Vector<3> {
         let (Self::Box { velocity, .. } | Self::Cylinder { velocity, .. } | Self::Sphere { velocity, .. }) = self;
         vector(velocity)
@@ -82,7 +82,7 @@ impl setting::Body<3> for Body {
     }
 
     fn check(&self) -> Result<(), ParameterError> {
-        let shown = |place: &Place| shown(&vector::<3>(place));
+        let shown = |place: &SpaceVector| shown(&vector::<3>(place));
         match self {
             Self::Box { lower, upper, .. } if !shapes::has_inside::<3>(&vector(lower), &vector(upper)) => {
                 let rule = "greater than `lower` along x, y and z";
@@ -100,14 +100,14 @@ impl setting::Body<3> for Body {
 mod tests {
     use super::*;
     use crate::cases::enclosed::filling::depth;
-    use crate::cases::enclosed::setting::Body as _;
+    use crate::cases::enclosed::setting::SceneBody as _;
 
     #[test]
     fn bodies_hold_what_is_inside_and_their_boxes_hold_them() {
         let velocity = (0.0, 0.0, 0.0);
-        let cuboid = Body::Box { lower: (0.0, 0.0, 0.0), upper: (1.0, 2.0, 3.0), velocity };
-        let cylinder = Body::Cylinder { from: (0.0, 0.0, 0.0), to: (3.0, 0.0, 4.0), radius: 1.0, velocity };
-        let ball = Body::Sphere { centre: (1.0, 1.0, 1.0), radius: 0.5, velocity };
+        let cuboid = SpaceBody::Box { lower: (0.0, 0.0, 0.0), upper: (1.0, 2.0, 3.0), velocity };
+        let cylinder = SpaceBody::Cylinder { from: (0.0, 0.0, 0.0), to: (3.0, 0.0, 4.0), radius: 1.0, velocity };
+        let ball = SpaceBody::Sphere { centre: (1.0, 1.0, 1.0), radius: 0.5, velocity };
         for (body, inside, outside) in [
             (&cuboid, [0.5, 1.5, 2.5], [0.5, 2.5, 1.5]),
             (&cylinder, [1.5, 0.9, 2.0], [1.5, 1.1, 2.0]),
@@ -124,7 +124,7 @@ mod tests {
         assert!((upper - Vector::<3>::new(3.8, 1.0, 4.6)).norm() < 1e-12, "{upper}");
         let up = Vector::<3>::new(0.0, 0.0, 1.0);
         assert!((depth(&[cuboid], &[0.5, 0.5, 2.0].into(), &up, 0.1) - 1.0).abs() < 0.02);
-        let flat = Body::Box { lower: (0.0, 0.0, 0.0), upper: (1.0, 0.0, 1.0), velocity };
+        let flat = SpaceBody::Box { lower: (0.0, 0.0, 0.0), upper: (1.0, 0.0, 1.0), velocity };
         assert_eq!(
             flat.check().expect_err("flat").to_string(),
             "`upper` is (1, 0, 1), but must be greater than `lower` along x, y and z; give the corner that is opposite to \

@@ -1,7 +1,7 @@
 //! Pictures of the material from the side and from above, between the edges of its walls.
 
 use super::SpaceParameters;
-use crate::cases::enclosed::setting::Wall;
+use crate::cases::enclosed::setting::SceneWall;
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
@@ -15,16 +15,16 @@ const MOST_EDGES: usize = 400;
 const SHARP: f64 = 0.94;
 
 /// From where the scene is seen: the axes to the right and up in the picture, and the one towards the eye with its sign.
-struct View {
+struct ViewDirection {
     name: &'static str,
     right: usize,
     up: usize,
     towards: (usize, f64),
 }
 
-const VIEWS: [View; 2] = [
-    View { name: "from the side", right: 0, up: 2, towards: (1, -1.0) },
-    View { name: "from above", right: 0, up: 1, towards: (2, 1.0) },
+const VIEWS: [ViewDirection; 2] = [
+    ViewDirection { name: "from the side", right: 0, up: 2, towards: (1, -1.0) },
+    ViewDirection { name: "from above", right: 0, up: 1, towards: (2, 1.0) },
 ];
 
 /// Two panels a picture, the particles in the colours of their speed and the edges of the walls where they stand.
@@ -58,7 +58,7 @@ pub(super) fn pictures(parameters: &SpaceParameters, frames: &[Frame]) -> Figure
 }
 
 /// The particles as one view shows them, those nearest to the eye last.
-fn material(parameters: &SpaceParameters, frame: &Frame, view: &View, fastest: f64) -> Panel {
+fn material(parameters: &SpaceParameters, frame: &Frame, view: &ViewDirection, fastest: f64) -> Panel {
     let (lower, upper) = parameters.extent();
     let margin = 2.0 * parameters.spacing;
     let axis = |k: usize| {
@@ -79,7 +79,7 @@ fn material(parameters: &SpaceParameters, frame: &Frame, view: &View, fastest: f
 }
 
 /// An edge of a triangle.
-struct Edge {
+struct TriangleEdge {
     ends: [Vector<3>; 2],
     /// Of the triangle `[-]`.
     normal: Vector<3>,
@@ -88,15 +88,15 @@ struct Edge {
 /// Edges at which triangles end or fold.
 fn sharp_edges(facets: &[Facet<3>]) -> Vec<[Vector<3>; 2]> {
     let bits = |corner: &Vector<3>| [0, 1, 2].map(|axis| (corner[axis] as f32 + 0.0).to_bits());
-    let mut edges: BTreeMap<[[u32; 3]; 2], Vec<Edge>> = BTreeMap::new();
+    let mut edges: BTreeMap<[[u32; 3]; 2], Vec<TriangleEdge>> = BTreeMap::new();
     for Facet { corners: [a, b, c], normal } in facets.iter().copied() {
         for ends in [[a, b], [b, c], [c, a]] {
             let mut key = ends.each_ref().map(bits);
             key.sort_unstable();
-            edges.entry(key).or_default().push(Edge { ends, normal });
+            edges.entry(key).or_default().push(TriangleEdge { ends, normal });
         }
     }
-    let sharp = |edges: &Vec<Edge>| match edges.as_slice() {
+    let sharp = |edges: &Vec<TriangleEdge>| match edges.as_slice() {
         [one, other] => one.normal.dot(&other.normal) < SHARP,
         _ => true,
     };

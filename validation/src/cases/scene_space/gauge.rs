@@ -1,11 +1,11 @@
 //! Gauges: what is measured while a scene in space runs, as series over time.
 
-use super::Place;
+use super::SpaceVector;
 use crate::case::ParameterError;
 use crate::cases::enclosed::names::check_line;
 use crate::cases::enclosed::setting::{self, shown, vector};
-use crate::cases::enclosed::{Depth, Measure, Opening};
-use crate::cases::front::Line;
+use crate::cases::enclosed::{DepthGauge, Measurand, Opening};
+use crate::cases::front::FrontLine;
 use bagnold_solver::parameter::positive;
 use bagnold_solver::vector::Vector;
 use schemars::JsonSchema;
@@ -14,16 +14,16 @@ use serde::{Deserialize, Serialize};
 /// What a gauge measures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
-pub enum Gauge {
+pub enum SpaceGauge {
     /// How far the material reaches along a line: the first place behind its start where, on the mean over a width, less
     /// than a thickness stands across it.
     Front {
         /// Its name.
         name: String,
         /// Start of the line x, y, z `[m]`.
-        from: Place,
+        from: SpaceVector,
         /// End of the line x, y, z `[m]`.
-        to: Place,
+        to: SpaceVector,
         /// Thickness `[m]`.
         #[schemars(transform = positive("give it in metres, such as two spacings"))]
         thickness: f64,
@@ -37,13 +37,13 @@ pub enum Gauge {
         /// Its name.
         name: String,
         /// The place x, y, z `[m]`, at least half a width from mirrors and walls.
-        at: Place,
+        at: SpaceVector,
         /// Diameter of the circle `[m]`.
         #[schemars(transform = positive("give it in metres, such as four spacings"))]
         width: f64,
         /// What it is measured along, unless along gravity: x, y, z of any length `[-]`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        direction: Option<Place>,
+        direction: Option<SpaceVector>,
         /// Name of the wall along whose normal it is measured, unless along gravity: that of its nearest triangle.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         normal_to: Option<String>,
@@ -61,11 +61,11 @@ pub enum Gauge {
         /// Its name.
         name: String,
         /// A corner and the two next to it x, y, z `[m]`.
-        corners: (Place, Place, Place),
+        corners: (SpaceVector, SpaceVector, SpaceVector),
     },
 }
 
-impl setting::Gauge<3> for Gauge {
+impl setting::SceneGauge<3> for SpaceGauge {
     fn name(&self) -> &str {
         let (Self::Front { name, .. } | Self::Depth { name, .. } | Self::Force { name, .. } | Self::Flux { name, .. }) =
             self;
@@ -77,24 +77,24 @@ impl setting::Gauge<3> for Gauge {
         (direction.as_ref().map(vector), normal_to.as_deref())
     }
 
-    fn measure(&self, down: &Vector<3>) -> Measure<'_, 3> {
+    fn measure(&self, down: &Vector<3>) -> Measurand<'_, 3> {
         match self {
             Self::Front { from, to, thickness, width, .. } => {
                 let (from, to): (Vector<3>, Vector<3>) = (vector(from), vector(to));
                 let across = down.cross(&(to - from)).normalize();
-                Measure::Front(Line { from, to, section: thickness * width, strip: Some((across, 0.5 * width)) })
+                Measurand::Front(FrontLine { from, to, section: thickness * width, strip: Some((across, 0.5 * width)) })
             }
             Self::Depth { at, width, .. } => {
                 let section = std::f64::consts::FRAC_PI_4 * width * width;
-                Measure::Depth(Depth { at: vector(at), direction: *down, width: *width, section })
+                Measurand::Depth(DepthGauge { at: vector(at), direction: *down, width: *width, section })
             }
-            Self::Force { wall, .. } => Measure::Force { wall },
+            Self::Force { wall, .. } => Measurand::Force { wall },
             Self::Flux { corners: (a, b, c), .. } => {
                 let [corner, one, other] = edges([a, b, c]);
                 let normal = one.cross(&other);
                 let square = normal.norm_squared();
                 let edges = vec![(other.cross(&normal), square), (normal.cross(&one), square)];
-                Measure::Flux(Opening { corner, normal, edges })
+                Measurand::Flux(Opening { corner, normal, edges })
             }
         }
     }
@@ -122,7 +122,7 @@ impl setting::Gauge<3> for Gauge {
 }
 
 /// A corner of a parallelogram, and its edges to the two next to it `[m]`.
-fn edges(corners: [&Place; 3]) -> [Vector<3>; 3] {
+fn edges(corners: [&SpaceVector; 3]) -> [Vector<3>; 3] {
     let [corner, next, last] = corners.map(vector::<3>);
     [corner, next - corner, last - corner]
 }
@@ -132,7 +132,7 @@ mod tests {
     use super::*;
     use crate::cases::enclosed::gauges::Memory;
     use crate::cases::enclosed::periods::Periods;
-    use crate::cases::enclosed::setting::Gauge as _;
+    use crate::cases::enclosed::setting::SceneGauge as _;
     use bagnold_solver::domain::AxisBoundary;
     use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
     use bagnold_solver::material::rheology::{Newtonian, Rheology};
@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn a_block_that_flies_reaches_and_crosses_what_it_should() {
-        let gauge = |text: &str| toml::from_str::<Gauge>(text).expect("a gauge");
+        let gauge = |text: &str| toml::from_str::<SpaceGauge>(text).expect("a gauge");
         let gauges = [
             gauge(
                 "kind = \"front\"\nname = \"front\"\nfrom = [0.0, 0.04, 0.0]\nto = [1.0, 0.04, 0.0]\nthickness = 0.03\nwidth = 0.06",

@@ -6,9 +6,9 @@ mod gauge;
 mod tiers;
 mod wall;
 
-pub use body::Body;
-pub use gauge::Gauge;
-pub use wall::{Sides, Wall};
+pub use body::SpaceBody;
+pub use gauge::SpaceGauge;
+pub use wall::{SpaceSides, SpaceWall};
 
 use super::enclosed::Setting;
 use super::enclosed::{self, metrics, series};
@@ -17,29 +17,29 @@ use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::observation::Frame;
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 use bagnold_solver::domain::Domain;
 use bagnold_solver::weakly_compressible::boundary::mesh_backing;
 use bagnold_solver::weakly_compressible::boundary::shell::Shell;
 
 /// Three coordinates or components along x, y and z.
-pub type Place = (f64, f64, f64);
+pub type SpaceVector = (f64, f64, f64);
 
 /// Parameters of the case.
 pub type SpaceParameters = enclosed::SceneParameters<Space, 3>;
 
-type Record = RecordOf<SpaceParameters>;
+type SpaceSceneRecord = RecordOf<SpaceParameters>;
 
 /// Space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Space;
 
 impl Setting<3> for Space {
-    type Place = Place;
-    type Sides = Sides;
-    type Body = Body;
-    type Wall = Wall;
-    type Gauge = Gauge;
+    type Place = SpaceVector;
+    type Sides = SpaceSides;
+    type Body = SpaceBody;
+    type Wall = SpaceWall;
+    type Gauge = SpaceGauge;
 
     const ADD_A_BODY: &'static str = "add a box, a cylinder or a sphere of material";
     const COST: f64 = 4.0;
@@ -68,7 +68,7 @@ pub struct SpaceScene;
 
 impl Case for SpaceScene {
     const NAME: &'static str = "scene-space";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "a scene of one's own in space: bodies of material, walls from STL files or of quadrilaterals and boxes, open sides, gauges; judged by its balances";
     const DESCRIPTION: &'static str = "Boxes, cylinders and balls of one material under any law, by the weakly compressible model, between walls of \
         triangles: meshes from STL files, quadrilaterals and boxes, rough or smooth, at rest or moved by a table of times. Sides of the \
@@ -81,15 +81,15 @@ impl Case for SpaceScene {
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Space, 3>();
     const STATED: &'static [&'static str] = &["bodies", "walls", "gauges", "measured"];
 
-    fn metrics(parameters: &SpaceParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(parameters: &SpaceParameters, records: &[SpaceSceneRecord]) -> Vec<Metric> {
         metrics::all(parameters, records)
     }
 
-    fn figures(parameters: &SpaceParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(parameters: &SpaceParameters, records: &[SpaceSceneRecord]) -> Vec<Figure> {
         enclosed::figures::all(parameters, records)
     }
 
-    fn tables(parameters: &SpaceParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(parameters: &SpaceParameters, records: &[SpaceSceneRecord]) -> Vec<Table> {
         series::tables(parameters, records)
     }
 }

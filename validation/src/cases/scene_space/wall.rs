@@ -1,6 +1,6 @@
 //! Walls of a scene in space: triangles from a file, quadrilaterals and boxes; and the sides of its domain.
 
-use super::Place;
+use super::SpaceVector;
 use crate::case::ParameterError;
 use crate::cases::enclosed::setting::{self, shown, vector};
 use crate::cases::enclosed::{DomainSide, shapes, sides};
@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// end at their common edge.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Wall {
+pub struct SpaceWall {
     /// Its name, by which gauges and messages call it.
     pub name: String,
     /// STL file of its triangles `[m]`, whose path begins at the case file; empty without one. The triangles are read with
@@ -23,13 +23,13 @@ pub struct Wall {
     pub mesh: String,
     /// Triangles, each by its corners x, y, z `[m]`.
     #[serde(default)]
-    pub triangles: Vec<(Place, Place, Place)>,
+    pub triangles: Vec<(SpaceVector, SpaceVector, SpaceVector)>,
     /// Plane quadrilaterals, each by its corners x, y, z `[m]` in their order.
     #[serde(default)]
-    pub quads: Vec<(Place, Place, Place, Place)>,
+    pub quads: Vec<(SpaceVector, SpaceVector, SpaceVector, SpaceVector)>,
     /// Boxes along the axes with the flow around them, each by its lower and its upper corner x, y, z `[m]`.
     #[serde(default)]
-    pub boxes: Vec<(Place, Place)>,
+    pub boxes: Vec<(SpaceVector, SpaceVector)>,
     /// Whether the flow sticks to it or slides.
     #[serde(default = "setting::rough")]
     pub surface: Surface,
@@ -41,9 +41,9 @@ pub struct Wall {
     pub motion: Vec<(f64, f64, f64, f64)>,
 }
 
-impl Wall {
+impl SpaceWall {
     /// A rough wall of quadrilaterals at rest.
-    pub(super) fn of_quads(name: &str, quads: Vec<(Place, Place, Place, Place)>) -> Self {
+    pub(super) fn of_quads(name: &str, quads: Vec<(SpaceVector, SpaceVector, SpaceVector, SpaceVector)>) -> Self {
         Self {
             name: name.to_owned(),
             mesh: String::new(),
@@ -65,7 +65,7 @@ impl Wall {
     }
 }
 
-impl setting::Wall<3> for Wall {
+impl setting::SceneWall<3> for SpaceWall {
     const FACETS: &'static str = "triangles";
     const GIVEN_BY: &'static str = "corners";
     const TURN: &'static str =
@@ -154,7 +154,7 @@ fn faces(lower: &Vector<3>, upper: &Vector<3>) -> [[Vector<3>; 4]; 6] {
 /// The sides of the domain.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Sides {
+pub struct SpaceSides {
     /// At small x.
     pub left: DomainSide,
     /// At large x.
@@ -169,10 +169,10 @@ pub struct Sides {
     pub top: DomainSide,
 }
 
-impl sides::Sides<3> for Sides {
+impl sides::SceneSides<3> for SpaceSides {
     const NAMES: [(&'static str, &'static str); 3] = [("left", "right"), ("front", "back"), ("bottom", "top")];
 
-    fn pairs(&self) -> [sides::Pair; 3] {
+    fn pairs(&self) -> [sides::SidePair; 3] {
         [(self.left, self.right), (self.front, self.back), (self.bottom, self.top)]
     }
 }
@@ -180,11 +180,12 @@ impl sides::Sides<3> for Sides {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cases::enclosed::setting::Wall as _;
+    use crate::cases::enclosed::setting::SceneWall as _;
 
     #[test]
     fn the_faces_of_a_box_look_outwards_and_close_it() {
-        let wall = Wall { boxes: vec![((0.0, 0.0, 0.0), (1.0, 2.0, 3.0))], ..Wall::of_quads("box", Vec::new()) };
+        let wall =
+            SpaceWall { boxes: vec![((0.0, 0.0, 0.0), (1.0, 2.0, 3.0))], ..SpaceWall::of_quads("box", Vec::new()) };
         let middle = Vector::<3>::new(0.5, 1.0, 1.5);
         let shell = wall.shell();
         assert_eq!(shell.facets.len(), 12);
@@ -195,15 +196,16 @@ mod tests {
     #[test]
     fn walls_that_are_none_are_refused_by_their_field() {
         let o = (0.0, 0.0, 0.0);
-        let bent = Wall::of_quads("bent", vec![(o, (1.0, 0.0, 0.0), (1.0, 1.0, 0.2), (0.0, 1.0, 0.0))]);
+        let bent = SpaceWall::of_quads("bent", vec![(o, (1.0, 0.0, 0.0), (1.0, 1.0, 0.2), (0.0, 1.0, 0.0))]);
         assert!(bent.check(0.1).expect_err("bent").to_string().starts_with("`quads[0]` is not plane"));
-        let unread = Wall { mesh: "a.stl".to_owned(), ..Wall::of_quads("unread", Vec::new()) };
+        let unread = SpaceWall { mesh: "a.stl".to_owned(), ..SpaceWall::of_quads("unread", Vec::new()) };
         assert_eq!(
             unread.check(0.1).expect_err("unread").to_string(),
             "`mesh` is \"a.stl\", but must be read with the case file that names it; name it in a case file, or give `triangles`"
         );
-        assert!(Wall::of_quads("none", Vec::new()).check(0.1).is_err());
-        let inverse = Wall { boxes: vec![((1.0, 0.0, 0.0), (0.0, 1.0, 1.0))], ..Wall::of_quads("box", Vec::new()) };
+        assert!(SpaceWall::of_quads("none", Vec::new()).check(0.1).is_err());
+        let inverse =
+            SpaceWall { boxes: vec![((1.0, 0.0, 0.0), (0.0, 1.0, 1.0))], ..SpaceWall::of_quads("box", Vec::new()) };
         assert!(inverse.check(0.1).expect_err("no inside").to_string().starts_with("`boxes[0]` is (0, 1, 1)"));
     }
 }

@@ -1,16 +1,16 @@
 //! The case's figures.
 
-use super::formulation::Formulation;
+use super::formulation::GrainFormulation;
 use super::probe::{SettlingObservation, SettlingSeries};
 use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;
-use super::{Record, drag_curves};
+use super::{SettlingRecord, drag_curves};
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::{GrainForm, richardson_zaki_exponent};
 use bagnold_solver::material::drag::DragLaw;
 
 /// The formulations that single grains have, in the order of their panels.
-const FORMULATIONS: [Formulation; 2] = [Formulation::Paper, Formulation::Stabilised];
+const FORMULATIONS: [GrainFormulation; 2] = [GrainFormulation::Paper, GrainFormulation::Stabilised];
 
 /// The formulation of suspensions.
 const CONTINUUM: &str = "continuum";
@@ -18,7 +18,7 @@ const CONTINUUM: &str = "continuum";
 /// Densest suspension drawn `[-]`.
 const DENSEST: f64 = 0.6;
 
-pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+pub(super) fn all(records: &[SettlingRecord]) -> Vec<Figure> {
     let suspensions: Vec<_> = suspensions(records).collect();
     let mut figures = vec![approach(records)];
     let alone = alone(records);
@@ -33,14 +33,14 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
 }
 
 /// The suspensions among the records.
-fn suspensions(records: &[Record]) -> impl Iterator<Item = (&SuspensionRun, &SettlingObservation)> {
+fn suspensions(records: &[SettlingRecord]) -> impl Iterator<Item = (&SuspensionRun, &SettlingObservation)> {
     records.iter().filter_map(|(run, record)| match run {
         SettlingRun::Grain(_) => None,
         SettlingRun::Suspension(run) => Some((run, &record.data)),
     })
 }
 
-fn approach(records: &[Record]) -> Figure {
+fn approach(records: &[SettlingRecord]) -> Figure {
     let title = |run: &SettlingRun| match run {
         SettlingRun::Grain(run) => format!("one grain, {}", run.formulation.name()),
         SettlingRun::Suspension(run) => format!("suspension, φ = {}", run.solid_fraction),
@@ -84,12 +84,12 @@ fn approach(records: &[Record]) -> Figure {
 }
 
 /// Grains alone, and suspensions so dilute that they stand for one: formulation, root `[m/s]`, what was seen.
-fn alone<'a>(records: &'a [Record]) -> Vec<(&'static str, f64, &'a SettlingObservation)> {
+fn alone<'a>(records: &'a [SettlingRecord]) -> Vec<(&'static str, f64, &'a SettlingObservation)> {
     let root = |run: &SettlingRun| match run {
         SettlingRun::Grain(run) => Some((run.formulation.name(), run.terminal_velocity())),
         SettlingRun::Suspension(run) => run.dilute.then(|| (CONTINUUM, run.terminal_velocity())),
     };
-    let of = |(run, record): &'a Record| root(run).map(|(name, root)| (name, root, &record.data));
+    let of = |(run, record): &'a SettlingRecord| root(run).map(|(name, root)| (name, root, &record.data));
     records.iter().filter_map(of).collect()
 }
 
@@ -99,7 +99,7 @@ fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
     let (low, high) = (roots().fold(f64::INFINITY, f64::min), roots().fold(0.0, f64::max));
     let (low, high) = (low - 0.05 * high, 1.05 * high);
     panel.band("gate, 1 %", [(low, -1.0, 1.0), (high, -1.0, 1.0)]);
-    for (slot, name) in FORMULATIONS.map(Formulation::name).into_iter().chain([CONTINUUM]).enumerate() {
+    for (slot, name) in FORMULATIONS.map(GrainFormulation::name).into_iter().chain([CONTINUUM]).enumerate() {
         let measured = |&(_, root, data): &(&str, f64, &SettlingObservation)| {
             let (mean, noise) = data.series.mean(&data.series.slip);
             ((root, 100.0 * (mean / root - 1.0)), 100.0 * noise / root)

@@ -7,14 +7,14 @@ use serde::{Deserialize, Serialize};
 /// A formulation of the two-phase model that knows single grains.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Formulation {
+pub enum GrainFormulation {
     /// The bed-load paper's operators, drag from the slip of each pair.
     Paper,
     /// The case's numerics, drag from the slip against the mean of the fluid around.
     Stabilised,
 }
 
-impl Formulation {
+impl GrainFormulation {
     /// Its name in parameters and results.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -1,7 +1,7 @@
 //! A grain alone in a periodic box of fluid.
 
 use super::experiment::Experiment;
-use super::formulation::Formulation;
+use super::formulation::GrainFormulation;
 use super::parameters::SettlingParameters;
 use super::probe::Drag;
 use crate::reference::{GrainForm, SettlingGrains};
@@ -16,14 +16,14 @@ use serde::Serialize;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GrainRun {
     /// Formulation.
-    pub formulation: Formulation,
+    pub formulation: GrainFormulation,
     /// The grain in its box.
     pub experiment: Experiment,
 }
 
 pub(super) fn runs(parameters: &SettlingParameters) -> Vec<GrainRun> {
     let grain = &parameters.grain;
-    let new = |formulation: Formulation, law| {
+    let new = |formulation: GrainFormulation, law| {
         let relaxation = |grains: &SettlingGrains| relaxation_time(grains, law);
         let experiment = parameters.experiment(grain.vessel, law, grain.relaxation_times, relaxation);
         let numerics = formulation.numerics(parameters.numerics);

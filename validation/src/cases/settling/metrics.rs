@@ -1,6 +1,6 @@
 //! How the runs are judged.
 
-use super::Record;
+use super::SettlingRecord;
 use super::grain::GrainRun;
 use super::probe::{SettlingObservation, SettlingSeries};
 use super::quantities::{
@@ -18,8 +18,8 @@ const SPHERE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ¾ for a
 const HINDERED: &str = "root of φ (1 − φ)(ρ_s − ρ_f) g = K |u_r|";
 const VESSEL: &str = "u_s = −(1 − φ) |u_r| without a flux of the mixture";
 
-pub(super) fn all(records: &[Record]) -> Vec<Metric> {
-    let judged = |(run, record): &Record| match run {
+pub(super) fn all(records: &[SettlingRecord]) -> Vec<Metric> {
+    let judged = |(run, record): &SettlingRecord| match run {
         SettlingRun::Grain(own) => alone(own, &run.variant(), &record.data),
         SettlingRun::Suspension(own) => together(own, &run.variant(), &record.data),
     };

@@ -15,9 +15,9 @@ mod suspension;
 mod tiers;
 
 pub use experiment::{Experiment, Vessel};
-pub use formulation::Formulation;
+pub use formulation::GrainFormulation;
 pub use grain::GrainRun;
-pub use parameters::{Grain, SettlingParameters, SuspendedGrains, Water};
+pub use parameters::{SettlingParameters, SingleGrain, SuspendedGrains, SuspendingFluid};
 pub use probe::{SettlingObservation, SettlingSeries};
 pub use runs::SettlingRun;
 pub use suspension::SuspensionRun;
@@ -26,17 +26,17 @@ use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
 pub struct Settling;
 
-type Record = RecordOf<SettlingParameters>;
+type SettlingRecord = RecordOf<SettlingParameters>;
 
 impl Case for Settling {
     const NAME: &'static str = "settling";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "a grain alone and a uniform suspension sink in a fluid, by every drag law";
     const DESCRIPTION: &'static str = "One grain sinks through a box of fluid that is periodic in both directions and that is pushed up by as much as \
         the grain weighs. Its slip against the fluid around it, in the mean over a window after the start, must be the \
@@ -56,15 +56,15 @@ impl Case for Settling {
     type Parameters = SettlingParameters;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
-    fn metrics(_: &SettlingParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &SettlingParameters, records: &[SettlingRecord]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &SettlingParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &SettlingParameters, records: &[SettlingRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(_: &SettlingParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &SettlingParameters, records: &[SettlingRecord]) -> Vec<Table> {
         records.iter().map(|(run, record)| record.data.series.table(&run.variant())).collect()
     }
 }

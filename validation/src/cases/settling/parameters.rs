@@ -1,7 +1,7 @@
 //! Parameters.
 
 use super::experiment::{Experiment, Vessel};
-use super::formulation::Formulation;
+use super::formulation::GrainFormulation;
 use crate::cases::rules;
 use crate::reference::SettlingGrains;
 use bagnold_solver::incompressible::ProjectionNumerics;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 /// The fluid.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Water {
+pub struct SuspendingFluid {
     /// Density ρ_f `[kg/m³]`.
     #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub density: f64,
@@ -23,14 +23,14 @@ pub struct Water {
 
 /// A grain alone in a periodic box of fluid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Grain {
+pub struct SingleGrain {
     /// The box.
     #[serde(flatten)]
     pub vessel: Vessel,
     /// Drag laws; Ergun's has no grain alone; empty for none.
     pub laws: Vec<DragLaw>,
     /// Formulations.
-    pub formulations: Vec<Formulation>,
+    pub formulations: Vec<GrainFormulation>,
     /// Simulated time over the time u_t ρ_s/(2 (ρ_s − ρ_f) g) in which a grain gets to its terminal velocity `[-]`.
     #[schemars(transform = between(10.0, 1e4, "40 leaves a window of 24 to average over"))]
     pub relaxation_times: f64,
@@ -67,9 +67,9 @@ pub struct SettlingParameters {
     /// Seed of the displacements.
     pub seed: u64,
     /// The fluid.
-    pub water: Water,
+    pub water: SuspendingFluid,
     /// A grain alone.
-    pub grain: Grain,
+    pub grain: SingleGrain,
     /// A suspension.
     pub suspension: SuspendedGrains,
     /// Numerics of the formulation "stabilised"; "paper" takes the paper's own, with these steps and tolerances.

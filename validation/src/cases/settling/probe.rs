@@ -1,6 +1,6 @@
 //! What a settling run leaves behind: slip over time, and how far momentum closes in every step.
 
-use crate::case::recording::{Ending, Followed, Stage, follow};
+use crate::case::recording::{Ending, Followed, SimulationStage, follow};
 use crate::case::{ParameterError, Progress};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -90,7 +90,7 @@ pub(super) struct Probe {
 
 /// What has been seen of a run.
 #[derive(Serialize, Deserialize)]
-struct Seen {
+struct SettlingObserver {
     /// Momentum of both phases after the last step, and its time `[s]`.
     momentum: Vector<2>,
     time: f64,
@@ -124,8 +124,9 @@ impl Probe {
             interval: duration / SAMPLES,
         };
         // momentum is that of every step
-        let stage = Stage { progress, end: duration, interval: 1e-3 * scene.numerics.time_step, context: &() };
-        let begin = |simulation: &IncompressibleSimulation<2>| Seen {
+        let stage =
+            SimulationStage { progress, end: duration, interval: 1e-3 * scene.numerics.time_step, context: &() };
+        let begin = |simulation: &IncompressibleSimulation<2>| SettlingObserver {
             momentum: Vector::zeros(),
             time: 0.0,
             observation: SettlingObservation::default(),
@@ -144,12 +145,12 @@ impl Probe {
                 ControlFlow::Continue(())
             },
         )?;
-        let Followed { simulation, stop, kept: Seen { last_good, observation, .. }, started } = followed;
+        let Followed { simulation, stop, kept: SettlingObserver { last_good, observation, .. }, started } = followed;
         Ok(Ending::of(stop, last_good, started).record(&simulation, |_| observation))
     }
 
     /// Sees a step; true where it was a sample.
-    fn observe(&self, seen: &mut Seen, simulation: &IncompressibleSimulation<2>) -> bool {
+    fn observe(&self, seen: &mut SettlingObserver, simulation: &IncompressibleSimulation<2>) -> bool {
         let (momentum, force) = momentum(simulation);
         let (before, step) = (seen.momentum, simulation.time() - seen.time);
         (seen.momentum, seen.time) = (momentum, simulation.time());

@@ -1,9 +1,9 @@
 //! The tiers, the rules between parameters, and the runs that they ask for.
 
 use super::experiment::Vessel;
-use super::formulation::Formulation;
+use super::formulation::GrainFormulation;
 use super::grain;
-use super::parameters::{Grain, SettlingParameters, SuspendedGrains, Water};
+use super::parameters::{SettlingParameters, SingleGrain, SuspendedGrains, SuspendingFluid};
 use super::runs::SettlingRun;
 use super::suspension::{self, LEAST_BED, covers};
 use crate::case::{ParameterError, Parameters, Tier};
@@ -20,11 +20,11 @@ impl Parameters for SettlingParameters {
             gravity: 9.81,
             grain_density: 2600.0,
             seed: 1,
-            water: Water { density: 1000.0, kinematic_viscosity: 1e-6 },
-            grain: Grain {
+            water: SuspendingFluid { density: 1000.0, kinematic_viscosity: 1e-6 },
+            grain: SingleGrain {
                 vessel: Vessel { diameter: 5e-3, columns: 8, rows: 12, drag_smoothing_ratio: 2.0, jitter: 0.001 },
                 laws: vec![DragLaw::MorsiAlexander, DragLaw::DiFelice],
-                formulations: vec![Formulation::Paper, Formulation::Stabilised],
+                formulations: vec![GrainFormulation::Paper, GrainFormulation::Stabilised],
                 relaxation_times: 40.0,
             },
             suspension: SuspendedGrains {
@@ -40,7 +40,12 @@ impl Parameters for SettlingParameters {
         let of_size = |vessel: Vessel, columns, rows| Vessel { columns, rows, ..vessel };
         let (grain, suspension) = (quick.grain.vessel, quick.suspension.vessel);
         let paper = Self {
-            grain: Grain { vessel: of_size(grain, 12, 16), laws: alone, relaxation_times: 80.0, ..quick.grain.clone() },
+            grain: SingleGrain {
+                vessel: of_size(grain, 12, 16),
+                laws: alone,
+                relaxation_times: 80.0,
+                ..quick.grain.clone()
+            },
             suspension: SuspendedGrains {
                 // the laws that do not hinder have twice the slip, at which short waves grow sooner
                 vessel: Vessel { drag_smoothing_ratio: 3.0, ..of_size(suspension, 12, 24) },
@@ -54,7 +59,7 @@ impl Parameters for SettlingParameters {
             Tier::Quick => quick,
             Tier::Paper => paper,
             Tier::Fine => Self {
-                grain: Grain { vessel: of_size(grain, 24, 32), relaxation_times: 160.0, ..paper.grain.clone() },
+                grain: SingleGrain { vessel: of_size(grain, 24, 32), relaxation_times: 160.0, ..paper.grain.clone() },
                 suspension: SuspendedGrains {
                     vessel: of_size(paper.suspension.vessel, 24, 48),
                     ..paper.suspension.clone()

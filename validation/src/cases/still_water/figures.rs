@@ -1,6 +1,6 @@
 //! The case's figures.
 
-use super::Record;
+use super::StillWaterRecord;
 use super::parameters::StillWaterRun;
 use crate::figure::{Axis, Field, Figure, Panel};
 use crate::observation::{Frame, Outcome};
@@ -17,7 +17,7 @@ fn pressures(run: &StillWaterRun, frame: &Frame) -> Vec<(f64, f64)> {
     frame.position.iter().zip(frame.scalar("pressure")).map(|(x, p)| (x[1] / depth, p / scale)).collect()
 }
 
-pub(super) fn pressure(records: &[Record]) -> Figure {
+pub(super) fn pressure(records: &[StillWaterRecord]) -> Figure {
     let mut profile = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("p/(ρ g h) [-]"));
     let mut error = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("p/(ρ g h) − (1 − z/h) [%]"));
     for (slot, (run, record)) in records.iter().filter(|(run, _)| !run.unstabilised).enumerate() {
@@ -36,7 +36,7 @@ pub(super) fn pressure(records: &[Record]) -> Figure {
     )
 }
 
-pub(super) fn rest(records: &[Record]) -> Figure {
+pub(super) fn rest(records: &[StillWaterRecord]) -> Figure {
     let mut height = Panel::new("", Axis::linear("t [s]"), Axis::linear("mean height/(h/2) [-]"));
     let mut speed = Panel::new("", Axis::logarithmic("t [s]"), Axis::logarithmic("rms vertical velocity [m/s]"));
     let longest = records.iter().map(|(run, _)| run.duration).fold(0.0, f64::max);
@@ -64,7 +64,7 @@ pub(super) fn rest(records: &[Record]) -> Figure {
 }
 
 /// The last state of a run with and without stabilisation.
-pub(super) fn states(records: &[Record]) -> Option<Figure> {
+pub(super) fn states(records: &[StillWaterRecord]) -> Option<Figure> {
     let (unstabilised, failed) = records.iter().find(|(run, _)| run.unstabilised)?;
     let (stabilised, held) = records.iter().find(|(run, _)| !run.unstabilised && run.jitter == unstabilised.jitter)?;
     let millimetres = |length: f64| 1e3 * length;

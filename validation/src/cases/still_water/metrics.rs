@@ -1,6 +1,6 @@
 //! How the runs are judged.
 
-use super::Record;
+use super::StillWaterRecord;
 use crate::case::Run;
 use crate::cases::channel;
 use crate::metric::{Confidence, Limit, Metric, quantities};
@@ -18,12 +18,13 @@ const AT_REST_AFTER: f64 = 15.0;
 /// Height over the depth above which a particle was thrown there `[-]`.
 const SPRAY: f64 = 1.2;
 
-pub(super) fn all(records: &[Record]) -> Vec<Metric> {
-    let (failed, held): (Vec<&Record>, Vec<&Record>) = records.iter().partition(|(run, _)| run.unstabilised);
+pub(super) fn all(records: &[StillWaterRecord]) -> Vec<Metric> {
+    let (failed, held): (Vec<&StillWaterRecord>, Vec<&StillWaterRecord>) =
+        records.iter().partition(|(run, _)| run.unstabilised);
     held.into_iter().flat_map(stabilised).chain(failed.into_iter().map(blow_up)).collect()
 }
 
-fn stabilised((run, record): &Record) -> [Metric; 4] {
+fn stabilised((run, record): &StillWaterRecord) -> [Metric; 4] {
     let (variant, data) = (run.variant(), &record.data);
     // what is 0 has no relative drift
     let floored = |metric: Metric, floor: f64| {
@@ -49,7 +50,7 @@ fn stabilised((run, record): &Record) -> [Metric; 4] {
 }
 
 /// When a column without stabilisation has blown up `[s]`: a particle above 1.2 h, or a divergence; else the whole time.
-fn blow_up((run, record): &Record) -> Metric {
+fn blow_up((run, record): &StillWaterRecord) -> Metric {
     let series = &record.data.series;
     let sprayed = series.time.iter().zip(&series.highest).find(|(_, height)| **height >= SPRAY);
     let time = sprayed.map_or(record.simulated_time, |(time, _)| *time);

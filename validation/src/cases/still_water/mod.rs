@@ -11,17 +11,17 @@ use crate::case::{Case, RecordOf};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
 pub struct StillWater;
 
-type Record = RecordOf<StillWaterParameters>;
+type StillWaterRecord = RecordOf<StillWaterParameters>;
 
 impl Case for StillWater {
     const NAME: &'static str = "still-water";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "a displaced column of incompressible water at rest: height, vertical velocity, pressure";
     const DESCRIPTION: &'static str = "Water of displaced particles over a closed floor must come to rest with its height and with the hydrostatic \
@@ -32,15 +32,15 @@ impl Case for StillWater {
     type Parameters = StillWaterParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &StillWaterParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &StillWaterParameters, records: &[StillWaterRecord]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &StillWaterParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &StillWaterParameters, records: &[StillWaterRecord]) -> Vec<Figure> {
         [figures::pressure(records), figures::rest(records)].into_iter().chain(figures::states(records)).collect()
     }
 
-    fn tables(_: &StillWaterParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &StillWaterParameters, records: &[StillWaterRecord]) -> Vec<Table> {
         channel::tables_of_runs(records)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Record;
 use crate::case::Run;
-use crate::cases::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, Scale, WALL_WORK};
+use crate::cases::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
 use crate::metric::{Limit, Metric, Origin, quantities};
 use crate::reference::WATER_FRONT;
 use crate::statistics::{Beyond, interpolated};
@@ -23,7 +23,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
 
 fn of_run((run, record): &Record) -> Vec<Metric> {
     let (variant, data) = (run.variant(), &record.data);
-    let mut metrics = energy_ledger::metrics(&variant, &data.energy, Scale::Gravity);
+    let mut metrics = energy_ledger::metrics(&variant, &data.energy, EnergyScale::Gravity);
     let measured = &*WATER_FRONT;
     let observed = |quantity: crate::metric::Quantity, value: f64| {
         quantity.of(&variant, value).against(Some(0.0), &measured.source, measured.confidence)

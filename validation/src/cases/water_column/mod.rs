@@ -10,7 +10,7 @@ use crate::case::{Case, RecordOf};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
-use crate::store::Origin;
+use crate::store::CodeOrigin;
 
 /// The case.
 #[derive(Debug)]
@@ -20,7 +20,7 @@ type Record = RecordOf<WaterColumnParameters>;
 
 impl Case for WaterColumn {
     const NAME: &'static str = "water-column";
-    const ORIGIN: Origin = Origin::PACKAGE;
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "a column of water that collapses on a bed: no wall may feed energy into it, and its front runs as measured";
     const DESCRIPTION: &'static str = "A column of water of 1 mPa·s, twice as high as wide, is released beside a symmetry plane, by the weakly \

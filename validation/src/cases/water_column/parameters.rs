@@ -1,8 +1,8 @@
 //! Parameters, tiers and runs.
 
-use crate::case::recording::{self, Stage, Watched};
+use crate::case::recording::{self, SimulationStage, Watched};
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
-use crate::cases::front::Line;
+use crate::cases::front::FrontLine;
 use crate::cases::rules;
 use crate::metric::Variant;
 use crate::observation::{EnergyBook, Recorded};
@@ -177,7 +177,7 @@ impl Run for WaterColumnRun {
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ColumnObservation>, ParameterError> {
         let end = self.column.duration * self.time_scale();
-        let stage = Stage { progress, end, interval: end / SAMPLES, context: &() };
+        let stage = SimulationStage { progress, end, interval: end / SAMPLES, context: &() };
         let begin = |_: &_| ColumnObservation::default();
         let watched = recording::watch(
             stage,
@@ -238,7 +238,7 @@ impl WaterColumnRun {
     /// The first place from the symmetry plane outwards where less than [`FRONT_THICKNESS`] of the width stands `[m]`.
     fn front(&self, snapshot: &Snapshot<2>) -> f64 {
         let (from, to) = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.column.width, 0.0));
-        let line = Line { from, to, section: FRONT_THICKNESS * self.column.width, strip: None };
+        let line = FrontLine { from, to, section: FRONT_THICKNESS * self.column.width, strip: None };
         line.reached(self.spacing(), snapshot)
     }
 }

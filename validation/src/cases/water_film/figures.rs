@@ -1,17 +1,17 @@
 //! The case's figures.
 
-use super::Record;
-use super::metrics::{Depth, convergence_errors, depth_of};
+use super::WaterFilmRecord;
+use super::metrics::{FilmDepth, convergence_errors, depth_of};
 use super::parameters::WaterFilmRun;
 use crate::figure::{Axis, Figure, Panel};
 
-pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+pub(super) fn all(records: &[WaterFilmRecord]) -> Vec<Figure> {
     let mut figures = vec![profiles(records), over_time(records)];
-    let errors = convergence_errors(records, Depth::Nominal);
+    let errors = convergence_errors(records, FilmDepth::Nominal);
     if errors.len() >= 2 {
         let mut panel =
             Panel::new("", Axis::logarithmic("rows over the depth [-]"), Axis::logarithmic("relative L2 of u [%]"));
-        let own = convergence_errors(records, Depth::Own);
+        let own = convergence_errors(records, FilmDepth::Own);
         panel.line_points("against the film of the nominal depth", 0, errors);
         panel.line_points("against the film of the particles' own depth", 1, own.iter().copied());
         panel.order(1, "first order", &own);
@@ -29,7 +29,7 @@ fn label(run: &WaterFilmRun) -> String {
     format!("{} rows, {}", run.water.resolution, run.particles.name())
 }
 
-fn profiles(records: &[Record]) -> Figure {
+fn profiles(records: &[WaterFilmRecord]) -> Figure {
     let mut velocity = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("u/u(h) [-]"));
     let mut error = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("(u − u exact)/u(h) [%]"));
     for (slot, (run, record)) in records.iter().enumerate() {
@@ -57,7 +57,7 @@ fn profiles(records: &[Record]) -> Figure {
     )
 }
 
-fn over_time(records: &[Record]) -> Figure {
+fn over_time(records: &[WaterFilmRecord]) -> Figure {
     let mut mean = Panel::new("", Axis::linear("t ν π²/(4h²) [-]"), Axis::linear("U/(⅔ u(h)) [-]"));
     let mut height = Panel::new("", Axis::linear("t ν π²/(4h²) [-]"), Axis::linear("mean height/(h/2) [-]"));
     let mut longest: f64 = 0.0;
@@ -71,7 +71,7 @@ fn over_time(records: &[Record]) -> Figure {
         let exact = run.exact(run.water.depth).flux() / run.water.depth;
         mean.line(&label(run), slot, line(&series.mean_velocity, exact));
         height.line("", slot, line(&series.relative_height, 1.0));
-        let own = depth_of(run, &record.data, Depth::Own) / run.water.depth;
+        let own = depth_of(run, &record.data, FilmDepth::Own) / run.water.depth;
         let (from, to) = record.data.window;
         let window = vec![(at(from), own), (at(to), own)];
         height.reference("mean over the window", window);

@@ -1,12 +1,12 @@
 //! How the runs are judged.
 
-use super::Record;
+use super::WaterFilmRecord;
 use super::parameters::WaterFilmRun;
 use crate::case::Run;
 use crate::cases::Arrangement;
 use crate::cases::channel::{self, ChannelObservation, ProfilePoint, Water};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
-use crate::statistics::{Estimate, log_log_slope};
+use crate::statistics::{FittedValue, log_log_slope};
 
 quantities! {
     [channel::PARTICLES_LOST, channel::MOMENTUM_RESIDUAL, channel::HEIGHT_CHANGE, channel::BED_SHEAR]
@@ -20,19 +20,19 @@ quantities! {
 
 /// Which film a profile is compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Depth {
+pub(super) enum FilmDepth {
     /// That of the nominal depth.
     Nominal,
     /// That of the particles' own depth, twice their mean height.
     Own,
 }
 
-pub(super) fn all(records: &[Record]) -> Vec<Metric> {
+pub(super) fn all(records: &[WaterFilmRecord]) -> Vec<Metric> {
     let orders = [
-        (OBSERVED_ORDER, Depth::Nominal, "first order is expected of walls and surface"),
-        (OBSERVED_ORDER_OWN_DEPTH, Depth::Own, "the same, where the depth is not part of the error"),
+        (OBSERVED_ORDER, FilmDepth::Nominal, "first order is expected of walls and surface"),
+        (OBSERVED_ORDER_OWN_DEPTH, FilmDepth::Own, "the same, where the depth is not part of the error"),
     ];
-    let order = |(quantity, depth, reason): (Quantity, Depth, &str)| {
+    let order = |(quantity, depth, reason): (Quantity, FilmDepth, &str)| {
         let errors = convergence_errors(records, depth);
         let rows = Value::list(errors.iter().map(|(rows, _)| *rows));
         let variant = Variant::of("particles", "lattice").and("resolution", rows);
@@ -43,14 +43,14 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     records.iter().flat_map(of_run).chain(orders.into_iter().filter_map(order)).collect()
 }
 
-fn source(depth: Depth) -> &'static str {
+fn source(depth: FilmDepth) -> &'static str {
     match depth {
-        Depth::Nominal => "exact film (g i/ν)(h z − z²/2)",
-        Depth::Own => "exact film of the depth that the particles take, twice their mean height",
+        FilmDepth::Nominal => "exact film (g i/ν)(h z − z²/2)",
+        FilmDepth::Own => "exact film of the depth that the particles take, twice their mean height",
     }
 }
 
-fn of_run((run, record): &Record) -> [Metric; 6] {
+fn of_run((run, record): &WaterFilmRecord) -> [Metric; 6] {
     let (variant, data) = (run.variant(), &record.data);
     let error = |quantity, depth| {
         channel::observed(quantity, &variant, velocity_l2(run, data, depth), 100.0).exactly(0.0, source(depth))
@@ -60,25 +60,25 @@ fn of_run((run, record): &Record) -> [Metric; 6] {
     [
         channel::particles_lost(&variant, record),
         channel::momentum_residual(&variant, record),
-        error(VELOCITY_L2, Depth::Nominal)
+        error(VELOCITY_L2, FilmDepth::Nominal)
             .gated_by(limit, "0.8 % at 20 rows, from the lattice and from displaced particles"),
-        error(VELOCITY_L2_OWN_DEPTH, Depth::Own),
+        error(VELOCITY_L2_OWN_DEPTH, FilmDepth::Own),
         channel::height_change(&variant, data, "mean height h/2; the velocity goes with the square of the depth"),
         channel::bed_shear(&variant, data, density * gravity * depth * run.film.slope),
     ]
 }
 
 /// Depth h `[m]` that a run is compared at.
-pub(super) fn depth_of(run: &WaterFilmRun, data: &ChannelObservation, depth: Depth) -> f64 {
+pub(super) fn depth_of(run: &WaterFilmRun, data: &ChannelObservation, depth: FilmDepth) -> f64 {
     let heights = data.series.within(&data.series.relative_height, data.window);
     match depth {
-        Depth::Nominal => run.water.depth,
-        Depth::Own => run.water.depth * heights.iter().sum::<f64>() / heights.len() as f64,
+        FilmDepth::Nominal => run.water.depth,
+        FilmDepth::Own => run.water.depth * heights.iter().sum::<f64>() / heights.len() as f64,
     }
 }
 
 /// Relative L2 of the velocity over the samples of all bins `[-]`.
-fn velocity_l2(run: &WaterFilmRun, data: &ChannelObservation, depth: Depth) -> Estimate {
+fn velocity_l2(run: &WaterFilmRun, data: &ChannelObservation, depth: FilmDepth) -> FittedValue {
     let film = run.exact(depth_of(run, data, depth));
     data.profile.estimate(|points: &[ProfilePoint]| {
         let (error, scale) = points.iter().fold((0.0, 0.0), |(error, scale), point| {
@@ -90,7 +90,7 @@ fn velocity_l2(run: &WaterFilmRun, data: &ChannelObservation, depth: Depth) -> E
 }
 
 /// (rows, relative L2 `[%]`) of the lattice runs, coarse to fine.
-pub(super) fn convergence_errors(records: &[Record], depth: Depth) -> Vec<(f64, f64)> {
+pub(super) fn convergence_errors(records: &[WaterFilmRecord], depth: FilmDepth) -> Vec<(f64, f64)> {
     let mut errors: Vec<(f64, f64)> = records
         .iter()
         .filter(|(run, _)| run.particles == Arrangement::Lattice)

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 /// The film, and how long it is watched.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Film {
+pub struct FilmFlow {
     /// Slope i of the bed, a tangent `[-]`; 0.03 is 3 %.
     #[schemars(transform = rules::driving_slope())]
     pub slope: f64,
@@ -39,7 +39,7 @@ pub struct WaterFilmParameters {
     pub water: Water,
     /// The film.
     #[serde(flatten)]
-    pub film: Film,
+    pub film: FilmFlow,
     /// Arrangements to run at `resolution`.
     #[schemars(transform = filled("one or both of \"lattice\" and \"jittered\"", "name every arrangement once"))]
     #[schemars(transform = unique("name every arrangement once"))]
@@ -56,7 +56,13 @@ impl Parameters for WaterFilmParameters {
     fn of_tier(tier: Tier) -> Self {
         let water = Water::of_rows(20);
         let quick = Self {
-            film: Film { slope: 0.03, surface_velocity: 0.5, jitter: 0.1, relaxation_times: 2.0, averaging_times: 1.0 },
+            film: FilmFlow {
+                slope: 0.03,
+                surface_velocity: 0.5,
+                jitter: 0.1,
+                relaxation_times: 2.0,
+                averaging_times: 1.0,
+            },
             arrangements: vec![Arrangement::Lattice],
             convergence_resolutions: Vec::new(),
             // rows that slide over each other stay rows: their density is the lattice's, not that of stirred water
@@ -65,7 +71,7 @@ impl Parameters for WaterFilmParameters {
         let paper = Self {
             arrangements: vec![Arrangement::Lattice, Arrangement::Jittered],
             convergence_resolutions: vec![10, 20, 40],
-            film: Film { relaxation_times: 6.0, averaging_times: 2.0, ..quick.film },
+            film: FilmFlow { relaxation_times: 6.0, averaging_times: 2.0, ..quick.film },
             ..quick.clone()
         };
         match tier {
@@ -92,7 +98,7 @@ impl Parameters for WaterFilmParameters {
             WaterFilmRun {
                 particles,
                 water: Water { resolution, numerics: ProjectionNumerics { time_step, ..water.numerics }, ..water },
-                film: Film { jitter: particles.displacement(film.jitter), ..film },
+                film: FilmFlow { jitter: particles.displacement(film.jitter), ..film },
             }
         };
         let mut runs: Vec<WaterFilmRun> =
@@ -112,7 +118,7 @@ pub struct WaterFilmRun {
     /// The water, with the rows of this run.
     pub water: Water,
     /// The film, with the displacements of this run.
-    pub film: Film,
+    pub film: FilmFlow,
 }
 
 impl Run for WaterFilmRun {
@@ -144,7 +150,7 @@ impl WaterFilmRun {
     /// Kinematic viscosity ν = g i h²/(2 u) `[m²/s]`.
     #[must_use]
     pub fn kinematic_viscosity(&self) -> f64 {
-        let (Water { depth, gravity, .. }, Film { slope, surface_velocity, .. }) = (self.water, self.film);
+        let (Water { depth, gravity, .. }, FilmFlow { slope, surface_velocity, .. }) = (self.water, self.film);
         gravity * slope * depth * depth / (2.0 * surface_velocity)
     }
 

@@ -13,7 +13,7 @@ The folder receives calibrations/*.toml and studies/*.toml with their data, scen
 /// `bagnold examples`
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Examples {
+pub struct ExamplesArguments {
     /// Folder to write.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,

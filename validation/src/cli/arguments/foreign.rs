@@ -26,7 +26,7 @@ every number, and submission.toml for `bagnold judge`.";
 /// `bagnold judge`
 #[derive(Debug, Args)]
 #[command(after_help = JUDGE_EXAMPLES)]
-pub struct Judge {
+pub struct JudgeArguments {
     /// What the codes submit, a TOML file each.
     #[arg(value_name = "FILE.toml", required_unless_present = "template")]
     pub files: Vec<PathBuf>,
@@ -50,7 +50,7 @@ pub struct Judge {
 /// `bagnold export`
 #[derive(Debug, Args)]
 #[command(after_help = EXPORT_EXAMPLES)]
-pub struct Export {
+pub struct ExportArguments {
     /// Name of a case.
     pub case: String,
     /// How fine its runs are.
@@ -78,7 +78,7 @@ Exit codes: 0 compared, 1 with --deny-differences if a number differs by more th
 /// `bagnold compare`
 #[derive(Debug, Args)]
 #[command(after_help = COMPARE_EXAMPLES)]
-pub struct Compare {
+pub struct CompareArguments {
     /// Folders of `bagnold run` or `bagnold report`, of which the first is what the others are compared with.
     #[arg(value_name = "DIR", required = true, num_args = 2..)]
     pub folders: Vec<PathBuf>,

@@ -14,7 +14,7 @@ exact solution, case files and a README that says what to do next.";
 /// `bagnold new`
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct New {
+pub struct NewArguments {
     /// Of what.
     #[command(subcommand)]
     pub what: NewCrate,

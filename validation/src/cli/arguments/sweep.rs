@@ -28,7 +28,7 @@ Exit codes: 0 every run has numbers, 1 some are missing, 2 bad input, 3 some fai
 /// `bagnold sweep`
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, after_help = SWEEP_EXAMPLES)]
-pub struct Sweep {
+pub struct SweepArguments {
     /// What to do with a sweep that was begun.
     #[command(subcommand)]
     pub action: Option<SweepAction>,

@@ -19,7 +19,7 @@ Exit codes: 0 enough errors are caught, and by gates; 1 too few; 2 bad input, or
 /// `bagnold verify`
 #[derive(Debug, Args)]
 #[command(after_help = "Exit codes: 0 the same bits, 1 other bits, 2 bad input.")]
-pub struct Verify {
+pub struct VerifyArguments {
     /// List of short runs to use instead of the committed one.
     #[arg(long, value_name = "FILE.toml")]
     pub file: Option<PathBuf>,
@@ -30,7 +30,7 @@ pub struct Verify {
 
 /// `bagnold store`
 #[derive(Debug, Args)]
-pub struct Store {
+pub struct StoreArguments {
     /// What to do.
     #[command(subcommand)]
     pub action: StoreAction,
@@ -60,7 +60,7 @@ pub enum StoreAction {
 /// `bagnold mutate`
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, after_help = MUTATE_EXAMPLES)]
-pub struct Mutate {
+pub struct MutateArguments {
     /// What to do instead of trying errors.
     #[command(subcommand)]
     pub action: Option<MutateAction>,

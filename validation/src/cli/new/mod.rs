@@ -2,7 +2,7 @@
 
 mod name;
 
-use super::arguments::{New, NewCrate};
+use super::arguments::{NewArguments, NewCrate};
 use super::error::ProgramError;
 use super::{Exit, say};
 use crate::input::FieldError;
@@ -53,7 +53,7 @@ const CASE: &[Template] = &[
 const PROFILE: &str = include_str!("template/profile.template");
 
 /// Writes the crate.
-pub(super) fn new(command: &New, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+pub(super) fn new(command: &NewArguments, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
     let (asked, templates) = match &command.what {
         NewCrate::Law(asked) => (asked, LAW),
         NewCrate::Case(asked) => (asked, CASE),

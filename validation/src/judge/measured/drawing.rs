@@ -1,14 +1,14 @@
 //! Measurements as points with error bars.
 
 use super::Measurements;
-use super::place::Place;
+use super::place::MatchingPanel;
 use crate::figure::{Figure, Mark, Series};
 
 /// Bars along the horizontal axis are lines of their own; so many at most, or a figure is nothing but bars.
 const MOST_BARS: usize = 400;
 
 /// Draws them into their panel, in a colour of their own.
-pub(super) fn draw(measurements: &Measurements, place: &Place, figures: &mut [Figure]) {
+pub(super) fn draw(measurements: &Measurements, place: &MatchingPanel, figures: &mut [Figure]) {
     let panel = &mut figures[place.figure].panels[place.panel];
     let colour = panel.series.iter().map(|series| series.colour + 1).max().unwrap_or(0);
     let (to_x, to_y) = place.factors;

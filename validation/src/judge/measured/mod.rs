@@ -7,8 +7,8 @@ mod reading;
 use super::JudgeError;
 use crate::case::CaseResult;
 use crate::input::FieldError;
-use crate::metric::{Confidence, Kind, Limit, Metric, Variant};
-use place::{Curve, Place};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Variant};
+use place::{CurveResidual, MatchingPanel};
 use std::path::{Path, PathBuf};
 
 /// Measurements of one quantity over another, with a standard uncertainty each.
@@ -19,9 +19,9 @@ pub struct Measurements {
     /// Its text, as it was read.
     text: String,
     /// What they are given over: the first column.
-    abscissa: Column,
+    abscissa: MeasuredColumn,
     /// What was measured: the second column.
-    measured: Column,
+    measured: MeasuredColumn,
     /// Standard uncertainties, in the unit of what was measured.
     uncertainty: Vec<f64>,
     /// What its comments say.
@@ -30,7 +30,7 @@ pub struct Measurements {
 
 /// A column of the file.
 #[derive(Debug, Clone, PartialEq)]
-struct Column {
+struct MeasuredColumn {
     /// Name of the quantity, as an axis has it.
     name: String,
     /// Unit.
@@ -110,7 +110,7 @@ impl Measurements {
     /// # Errors
     /// A unit of another kind.
     pub(crate) fn in_units(&self, abscissa: &str, measured: &str) -> Result<Vec<[f64; 3]>, FieldError> {
-        let factor = |column: &Column, unit: &str| {
+        let factor = |column: &MeasuredColumn, unit: &str| {
             reading::same_kind(&column.unit, unit).ok_or_else(|| {
                 let rule = format!("a unit of the same kind as [{unit}]");
                 let error = FieldError::new(&column.name, format!("[{}]", column.unit), &rule, "mend the heading");
@@ -128,7 +128,7 @@ impl Measurements {
     /// # Errors
     /// Axes that no figure of the case has or more than one, a curve that is not there, measurements beside every curve.
     pub fn draw(&self, result: &mut CaseResult) -> Result<(), JudgeError> {
-        let place = Place::of(self, &result.figures)?;
+        let place = MatchingPanel::of(self, &result.figures)?;
         let curves = place.curves(self, &result.figures)?;
         drawing::draw(self, &place, &mut result.figures);
         let metrics: Vec<Metric> = curves.iter().map(|curve| self.metric(curve, curves.len() > 1)).collect();
@@ -136,7 +136,7 @@ impl Measurements {
         Ok(())
     }
 
-    fn metric(&self, curve: &Curve, one_of_several: bool) -> Metric {
+    fn metric(&self, curve: &CurveResidual, one_of_several: bool) -> Metric {
         let name = text_of_variant(&self.name());
         let variant = Variant::of("overlay", name.as_str());
         let variant =
@@ -151,7 +151,7 @@ impl Measurements {
         let confidence = self.said.confidence.unwrap_or(Confidence::Low);
         let metric = Metric::observed("overlay_residual", &variant, curve.residual, "-")
             .against(Some(0.0), &source, confidence)
-            .of_kind(Kind::Validation);
+            .of_kind(MetricKind::Validation);
         let reason = format!("the limit that {} states", self.path.display());
         metric.gated_by(self.said.limit.map(Limit::AtMost), &reason)
     }

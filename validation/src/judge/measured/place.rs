@@ -1,7 +1,7 @@
 //! Where measurements belong: the panel whose axes are theirs, and its curves.
 
 use super::reading::same_kind;
-use super::{Column, Measurements};
+use super::{MeasuredColumn, Measurements};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::input::FieldError;
 use crate::statistics::{Beyond, interpolated};
@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 /// A panel with the axes of the measurements.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
+pub(super) struct MatchingPanel {
     /// Number of the figure.
     pub(super) figure: usize,
     /// Number of its panel.
@@ -22,7 +22,7 @@ pub(super) struct Place {
 
 /// A curve of the panel beside the measurements.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Curve {
+pub(super) struct CurveResidual {
     /// Its legend.
     pub(super) label: String,
     /// Root mean square of (curve − measurement)/uncertainty where the curve has a value `[-]`.
@@ -31,7 +31,7 @@ pub(super) struct Curve {
     pub(super) compared: usize,
 }
 
-impl Place {
+impl MatchingPanel {
     /// The only panel with these axes that fits what the file says.
     pub(super) fn of(measurements: &Measurements, figures: &[Figure]) -> Result<Self, FieldError> {
         let mut found = Vec::new();
@@ -55,7 +55,7 @@ impl Place {
     fn at(measurements: &Measurements, panel: &Panel) -> Option<Self> {
         let (over, what) = (&measurements.abscissa, &measurements.measured);
         let has_curves = panel.field.is_none() && panel.series.iter().any(is_ours);
-        let fit = |x: &Column, y: &Column| Some((factor(x, &panel.x)?, factor(y, &panel.y)?));
+        let fit = |x: &MeasuredColumn, y: &MeasuredColumn| Some((factor(x, &panel.x)?, factor(y, &panel.y)?));
         let place = |is_across, factors| Self { figure: 0, panel: 0, is_across, factors };
         let upright = fit(over, what).map(|factors| place(false, factors));
         let across = fit(what, over).map(|(what, over)| place(true, (over, what)));
@@ -68,7 +68,11 @@ impl Place {
     }
 
     /// The curves that are compared, with their residuals.
-    pub(super) fn curves(&self, measurements: &Measurements, figures: &[Figure]) -> Result<Vec<Curve>, FieldError> {
+    pub(super) fn curves(
+        &self,
+        measurements: &Measurements,
+        figures: &[Figure],
+    ) -> Result<Vec<CurveResidual>, FieldError> {
         let panel = &figures[self.figure].panels[self.panel];
         let meant = |series: &&Series| {
             is_ours(series) && measurements.said.curve.as_ref().is_none_or(|label| *label == series.label)
@@ -83,9 +87,9 @@ impl Place {
         }
         let residual = |series: &&Series| {
             let (residual, compared) = self.residual(measurements, &series.points)?;
-            Some(Curve { label: series.label.clone(), residual, compared })
+            Some(CurveResidual { label: series.label.clone(), residual, compared })
         };
-        let curves: Vec<Curve> = series.iter().filter_map(residual).collect();
+        let curves: Vec<CurveResidual> = series.iter().filter_map(residual).collect();
         if curves.is_empty() {
             let (name, figure) = (&measurements.abscissa.name, &figures[self.figure].name);
             let values = measurements.abscissa.values.iter().map(|value| value * self.factors.0);
@@ -122,7 +126,7 @@ fn is_ours(series: &Series) -> bool {
 }
 
 /// The factor from a column's unit to that of an axis of its name.
-fn factor(column: &Column, axis: &Axis) -> Option<f64> {
+fn factor(column: &MeasuredColumn, axis: &Axis) -> Option<f64> {
     let label = axis.label.trim();
     let parted = label.strip_suffix(']').and_then(|label| label.rsplit_once('['));
     let (name, unit) = parted.map_or((label, "-"), |(name, unit)| (name.trim(), unit.trim()));
@@ -130,7 +134,7 @@ fn factor(column: &Column, axis: &Axis) -> Option<f64> {
 }
 
 fn axes(measurements: &Measurements) -> String {
-    let heading = |column: &Column| format!("{} [{}]", column.name, column.unit);
+    let heading = |column: &MeasuredColumn| format!("{} [{}]", column.name, column.unit);
     format!("{} over {}", heading(&measurements.measured), heading(&measurements.abscissa))
 }
 
@@ -145,8 +149,8 @@ fn none(measurements: &Measurements, figures: &[Figure]) -> FieldError {
     FieldError::new("columns", axes(measurements), &rule, remedy).in_file(&measurements.path)
 }
 
-fn too_many(measurements: &Measurements, figures: &[Figure], several: &[Place]) -> FieldError {
-    let name = |place: &Place| {
+fn too_many(measurements: &Measurements, figures: &[Figure], several: &[MatchingPanel]) -> FieldError {
+    let name = |place: &MatchingPanel| {
         let figure = &figures[place.figure];
         let title = &figure.panels[place.panel].title;
         if title.is_empty() { figure.name.clone() } else { format!("{}, panel {title}", figure.name) }
@@ -158,7 +162,7 @@ fn too_many(measurements: &Measurements, figures: &[Figure], several: &[Place]) 
 }
 
 /// Where curves have values.
-fn reach(place: &Place, series: &[&Series]) -> String {
+fn reach(place: &MatchingPanel, series: &[&Series]) -> String {
     let points = series.iter().flat_map(|series| &series.points).map(|point| place.turned(*point).0);
     format!("they reach over {}", range(points))
 }

@@ -1,9 +1,9 @@
 //! The file of measurements.
 
-use super::{Column, Measurements, Said};
+use super::{MeasuredColumn, Measurements, Said};
 use crate::evaluation::PlanError;
 use crate::input::{DOCUMENT, FieldError, read_text};
-use crate::judge::column::{ColumnText, Source};
+use crate::judge::column::{ColumnSource, ColumnText};
 use crate::judge::text_table::TextTable;
 use crate::judge::unit;
 use crate::metric::Confidence;
@@ -34,13 +34,13 @@ fn parse(path: &Path, text: &str) -> Result<Measurements, FieldError> {
             "such as y/h [-],u [m/s],uncertainty [m/s]",
         ));
     }
-    let columns: Vec<Column> = table
+    let columns: Vec<MeasuredColumn> = table
         .headings
         .iter()
         .zip(table.columns)
         .map(|(heading, values)| column(heading, values))
         .collect::<Result<_, _>>()?;
-    let Ok([abscissa, measured, uncertainty]) = <[Column; 3]>::try_from(columns) else {
+    let Ok([abscissa, measured, uncertainty]) = <[MeasuredColumn; 3]>::try_from(columns) else {
         unreachable!("there are three columns")
     };
     let factor = same_kind(&uncertainty.unit, &measured.unit).ok_or_else(|| {
@@ -66,8 +66,9 @@ fn parse(path: &Path, text: &str) -> Result<Measurements, FieldError> {
     })
 }
 
-fn column(heading: &str, values: Vec<f64>) -> Result<Column, FieldError> {
-    let Source::Heading { name, unit, .. } = ColumnText::parse(&toml::Value::String(heading.to_owned()), heading)?
+fn column(heading: &str, values: Vec<f64>) -> Result<MeasuredColumn, FieldError> {
+    let ColumnSource::Heading { name, unit, .. } =
+        ColumnText::parse(&toml::Value::String(heading.to_owned()), heading)?
     else {
         unreachable!("a text is a heading")
     };
@@ -75,7 +76,7 @@ fn column(heading: &str, values: Vec<f64>) -> Result<Column, FieldError> {
         let value = format!("{} in row {}", values[row], row + 1);
         return Err(FieldError::new(heading, value, "finite numbers up to 1e30", "leave the row out or mend it"));
     }
-    Ok(Column { name, unit, values })
+    Ok(MeasuredColumn { name, unit, values })
 }
 
 /// The factor from one unit to another `[-]`; of the same text it is 1, also where the unit is unknown.

@@ -22,7 +22,7 @@ fn result() -> CaseResult {
     profile.line_points("fine", 1, [(0.0, 0.0), (6.0, 1.0)]);
     CaseResult {
         name: "film".to_owned(),
-        origin: crate::store::Origin::PACKAGE,
+        origin: crate::store::CodeOrigin::PACKAGE,
         summary: String::new(),
         description: String::new(),
         tier: Tier::Quick,

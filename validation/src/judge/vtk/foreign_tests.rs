@@ -1,6 +1,6 @@
 //! Files that VTK and meshio wrote (`tests/foreign/vtk/`), whose values are exact in every type.
 
-use super::Points;
+use super::PointArrays;
 use std::path::{Path, PathBuf};
 
 pub(super) fn folder() -> PathBuf {
@@ -47,7 +47,7 @@ fn files_of_vtk_and_meshio_have_the_values_that_were_written() {
     assert_eq!(files.len(), 31, "{files:?}");
     for (file, bytes) in files {
         let name = file.file_name().and_then(|name| name.to_str()).expect("a name").to_owned();
-        let points = Points::parse(&bytes, &file).unwrap_or_else(|error| panic!("{error}"));
+        let points = PointArrays::parse(&bytes, &file).unwrap_or_else(|error| panic!("{error}"));
         let is_large = name.contains("zlib") || name.contains("blocks");
         let count = if is_large { 36 } else { 7 };
         let arrays = match (is_large, name.starts_with("vtk") && name.ends_with(".vtk")) {
@@ -67,7 +67,7 @@ fn files_of_vtk_and_meshio_have_the_values_that_were_written() {
 fn other_compressors_are_refused_by_their_name_with_a_remedy() {
     for (name, compressor) in [("vtk-lz4.vtu", "vtkLZ4DataCompressor"), ("meshio-lzma.vtu", "vtkLZMADataCompressor")] {
         let bytes = std::fs::read(folder().join(name)).expect("a file");
-        let message = Points::parse(&bytes, Path::new(name)).expect_err("compressed").to_string();
+        let message = PointArrays::parse(&bytes, Path::new(name)).expect_err("compressed").to_string();
         assert!(message.contains(&format!("compressed by {compressor}")), "{message}");
         assert!(message.contains("SetCompressorTypeToZLib()"), "{message}");
     }
@@ -80,7 +80,7 @@ fn pieces_follow_each_other() {
     let text = std::fs::read_to_string(&file).expect("text");
     let (from, to) = (text.find("<Piece").expect("a piece"), text.find("</UnstructuredGrid>").expect("an end"));
     let twice = format!("{}{}{}", &text[..to], &text[from..to], &text[to..]);
-    let points = Points::parse(twice.as_bytes(), &file).expect("two pieces");
+    let points = PointArrays::parse(twice.as_bytes(), &file).expect("two pieces");
     let written: Vec<f64> = (0..7).chain(0..7).map(|index| expected("velocity [m/s]:1", index)).collect();
     assert_eq!(points.arrays["velocity [m/s]:1"], written);
 }

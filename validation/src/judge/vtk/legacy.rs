@@ -1,7 +1,7 @@
 //! Points of the legacy format `.vtk`: keywords with counts, each followed by values as text or in big-endian order.
 
 use super::array::{ByteOrder, Scalar};
-use super::{PLACES, Points, Refusal};
+use super::{PLACES, PointArrays, Refusal};
 
 /// What is left of a file.
 struct Legacy<'file> {
@@ -11,7 +11,7 @@ struct Legacy<'file> {
 
 /// What attributes belong to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Owner {
+enum AttributeOwner {
     Dataset,
     Points(usize),
     /// Cells, with their number.
@@ -22,7 +22,7 @@ enum Owner {
 ///
 /// # Errors
 /// A file that is none of points, is damaged, or announces more values than it has.
-pub(super) fn read(bytes: &[u8]) -> Result<Points, Refusal> {
+pub(super) fn read(bytes: &[u8]) -> Result<PointArrays, Refusal> {
     let mut file = Legacy { rest: bytes, is_binary: false };
     if !file.line().to_ascii_lowercase().starts_with(b"# vtk datafile version") {
         return Err("no file of VTK".into());
@@ -37,8 +37,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Points, Refusal> {
     if dataset[0] != "DATASET" || !["UNSTRUCTURED_GRID", "POLYDATA"].contains(&dataset[1].as_str()) {
         return Err("a grid of another kind".into());
     }
-    let mut points = Points::default();
-    let mut owner = Owner::Dataset;
+    let mut points = PointArrays::default();
+    let mut owner = AttributeOwner::Dataset;
     while let Some(keyword) = file.next_word()? {
         file.section(&keyword.to_ascii_uppercase(), &mut owner, &mut points)?;
     }
@@ -46,7 +46,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Points, Refusal> {
 }
 
 impl<'file> Legacy<'file> {
-    fn section(&mut self, keyword: &str, owner: &mut Owner, points: &mut Points) -> Result<(), Refusal> {
+    fn section(&mut self, keyword: &str, owner: &mut AttributeOwner, points: &mut PointArrays) -> Result<(), Refusal> {
         match keyword {
             "POINTS" => {
                 let count = self.count()?;
@@ -68,9 +68,9 @@ impl<'file> Legacy<'file> {
                 if count != given {
                     return Err(format!("of {given} points, but with data of {count}").into());
                 }
-                *owner = Owner::Points(count);
+                *owner = AttributeOwner::Points(count);
             }
-            "CELL_DATA" => *owner = Owner::Cells(self.count()?),
+            "CELL_DATA" => *owner = AttributeOwner::Cells(self.count()?),
             "METADATA" => self.metadata(),
             "FIELD" => {
                 self.word()?;
@@ -79,7 +79,7 @@ impl<'file> Legacy<'file> {
                     let (components, tuples) = (self.count()?, self.count()?);
                     let scalar = self.scalar()?;
                     let values = self.values(scalar, tuples, components)?;
-                    if let Owner::Points(_) = owner {
+                    if let AttributeOwner::Points(_) = owner {
                         points.part(&name, components, &values);
                     }
                 }
@@ -92,11 +92,11 @@ impl<'file> Legacy<'file> {
             }
             _ => {
                 let count = match *owner {
-                    Owner::Points(count) | Owner::Cells(count) => count,
-                    Owner::Dataset => return Err(unknown(keyword)),
+                    AttributeOwner::Points(count) | AttributeOwner::Cells(count) => count,
+                    AttributeOwner::Dataset => return Err(unknown(keyword)),
                 };
                 let (name, components, values) = self.attribute(keyword, count)?;
-                if let Owner::Points(_) = owner {
+                if let AttributeOwner::Points(_) = owner {
                     points.part(&name, components, &values);
                 }
             }

@@ -21,7 +21,7 @@ pub(super) use collection::collection;
 
 /// Points with their arrays, each value by value; vectors are parted into `name:0`, `name:1`, `name:2`.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Points {
+pub(super) struct PointArrays {
     /// Arrays by name; the places are `Points:0`, `Points:1`, `Points:2`.
     pub(super) arrays: BTreeMap<String, Vec<f64>>,
 }
@@ -50,7 +50,7 @@ impl From<&str> for Refusal {
     }
 }
 
-impl Points {
+impl PointArrays {
     /// Reads a file's points.
     ///
     /// # Errors

@@ -22,14 +22,14 @@ pub(super) struct Encoding {
 
 /// Bytes from the start of an array on; what follows the array may stand behind it.
 #[derive(Debug, Clone)]
-pub(super) enum Stored<'file> {
+pub(super) enum EncodedArray<'file> {
     /// As they are.
     Raw(&'file [u8]),
     /// In base 64, which may be padded and begin anew between header and values; with bytes that are decoded already.
     Base64 { text: &'file [u8], decoded: Vec<u8> },
 }
 
-impl<'file> Stored<'file> {
+impl<'file> EncodedArray<'file> {
     pub(super) fn base64(text: &'file [u8]) -> Self {
         Self::Base64 { text, decoded: Vec::new() }
     }

@@ -32,7 +32,7 @@ const LEGACY: &str = "# vtk DataFile Version 3.0\nparticles\nASCII\nDATASET UNST
 
 #[test]
 fn a_legacy_file_gives_its_arrays() {
-    let points = Points::parse(LEGACY.as_bytes(), Path::new("a.vtk")).expect("a grid");
+    let points = PointArrays::parse(LEGACY.as_bytes(), Path::new("a.vtk")).expect("a grid");
     assert_eq!(points.arrays["Points:1"], [1.0, 3.0]);
     assert_eq!(points.arrays["mass"], [0.5, 0.25]);
     assert_eq!(points.arrays["velocity:1"], [0.0, 1.0]);
@@ -44,7 +44,7 @@ fn what_is_no_file_of_vtk_is_refused_without_a_panic() {
         ["", "x,y\n1,2\n", "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece/></UnstructuredGrid></VTKFile>"]
     {
         for name in ["a.vtu", "a.vtk"] {
-            let message = Points::parse(text.as_bytes(), Path::new(name)).expect_err("no grid").to_string();
+            let message = PointArrays::parse(text.as_bytes(), Path::new(name)).expect_err("no grid").to_string();
             assert!(message.starts_with(&format!("{name}: `file` is ")), "{message}");
         }
     }
@@ -62,10 +62,10 @@ fn a_collection_names_files_beside_itself() {
 
 #[test]
 fn text_and_base_64_give_the_same_points() {
-    let points = Points::parse(TEXT.as_bytes(), Path::new("a.vtu")).expect("a grid");
+    let points = PointArrays::parse(TEXT.as_bytes(), Path::new("a.vtu")).expect("a grid");
     assert_eq!(points.arrays["Points:1"], [1.0, 3.0]);
     assert_eq!(points.arrays["mass"], [0.5, 0.25]);
-    assert_eq!(Points::parse(binary().as_bytes(), Path::new("a.vtu")).expect("a grid"), points);
+    assert_eq!(PointArrays::parse(binary().as_bytes(), Path::new("a.vtu")).expect("a grid"), points);
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn documents_nested_too_deep_are_refused_before_they_are_parsed() {
     assert!(nesting::parse(&beside).is_ok());
     for text in [nested(100_000), "<a>".repeat(100_000)] {
         assert!(collection(&text, Path::new("all.pvd")).is_err());
-        assert!(Points::parse(text.as_bytes(), Path::new("a.vtu")).is_err());
+        assert!(PointArrays::parse(text.as_bytes(), Path::new("a.vtu")).is_err());
     }
 }
 
@@ -96,7 +96,7 @@ fn a_count_beyond_the_file_is_refused_before_memory_is_asked_for() {
     for (text, name) in
         [(legacy, "a.vtk"), (binary_legacy, "a.vtk"), (text, "a.vtu"), (encoded, "a.vtu"), (compressed, "a.vtu")]
     {
-        let message = Points::parse(text.as_bytes(), Path::new(name)).expect_err("no such count").to_string();
+        let message = PointArrays::parse(text.as_bytes(), Path::new(name)).expect_err("no such count").to_string();
         assert!(message.starts_with(&format!("{name}: `file` is ")), "{message}");
     }
 }
@@ -104,7 +104,7 @@ fn a_count_beyond_the_file_is_refused_before_memory_is_asked_for() {
 #[test]
 fn an_empty_appended_section_is_none() {
     let text = TEXT.replace("</VTKFile>", "<AppendedData encoding=\"raw\"/></VTKFile>");
-    let points = Points::parse(text.as_bytes(), Path::new("a.vtu")).expect("a grid");
+    let points = PointArrays::parse(text.as_bytes(), Path::new("a.vtu")).expect("a grid");
     assert_eq!(points.arrays["mass"], [0.5, 0.25]);
 }
 
@@ -117,7 +117,7 @@ fn appended_arrays_that_share_their_bytes_are_refused() {
          </PointData></Piece></PolyData><AppendedData encoding=\"raw\">_"
     );
     let bytes = [text.as_bytes(), &12_000_u32.to_le_bytes(), &[0; 12_000]].concat();
-    let message = Points::parse(&bytes, Path::new("a.vtp")).expect_err("shared").to_string();
+    let message = PointArrays::parse(&bytes, Path::new("a.vtp")).expect_err("shared").to_string();
     assert!(message.contains("arrays share their bytes"), "{message}");
 }
 
@@ -189,7 +189,7 @@ proptest! {
         for damage in &damages {
             damage.to(&mut bytes);
         }
-        if let Ok(points) = Points::parse(&bytes, name) {
+        if let Ok(points) = PointArrays::parse(&bytes, name) {
             let count = points.arrays["Points:0"].len();
             prop_assert!(points.arrays.values().all(|values| values.len() == count));
         }

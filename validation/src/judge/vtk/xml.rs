@@ -1,8 +1,8 @@
 //! Points of the XML formats `.vtu` and `.vtp`.
 
 use super::array::{ByteOrder, Scalar};
-use super::stored::{Encoding, Stored};
-use super::{PLACES, Points, Refusal, nesting};
+use super::stored::{EncodedArray, Encoding};
+use super::{PLACES, PointArrays, Refusal, nesting};
 use roxmltree::Node;
 
 /// The section behind the document to which arrays point by offsets.
@@ -13,7 +13,7 @@ struct Appended<'file> {
 }
 
 /// What arrays are read from.
-struct Source<'file> {
+struct ArraySource<'file> {
     encoding: Encoding,
     appended: Option<Appended<'file>>,
     /// Bytes of the file that arrays may still take: arrays that share their bytes would need more memory than the file has.
@@ -24,7 +24,7 @@ struct Source<'file> {
 ///
 /// # Errors
 /// A document that is no grid of points, is damaged, or is compressed by something else than zlib.
-pub(super) fn read(bytes: &[u8]) -> Result<Points, Refusal> {
+pub(super) fn read(bytes: &[u8]) -> Result<PointArrays, Refusal> {
     let (text, section) = parted(bytes)?;
     let document = nesting::parse(&text)?;
     let root = document.root_element();
@@ -41,8 +41,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Points, Refusal> {
         (Some(bytes), Some(node)) => Some(appended(bytes, node)?),
         _ => None,
     };
-    let mut source = Source { encoding: encoding(root)?, appended, left: bytes.len() };
-    let mut points = Points::default();
+    let mut source = ArraySource { encoding: encoding(root)?, appended, left: bytes.len() };
+    let mut points = PointArrays::default();
     let grid = child(root, kind).ok_or_else(|| format!("without `{kind}`"))?;
     for piece in grid.children().filter(|node| node.has_tag_name("Piece")) {
         source.piece(piece, &mut points)?;
@@ -109,8 +109,8 @@ fn count(node: Node<'_, '_>, name: &str) -> Result<Option<usize>, Refusal> {
     node.attribute(name).map(|text| text.trim().parse().map_err(|_| wrong(text).into())).transpose()
 }
 
-impl Source<'_> {
-    fn piece(&mut self, piece: Node<'_, '_>, points: &mut Points) -> Result<(), Refusal> {
+impl ArraySource<'_> {
+    fn piece(&mut self, piece: Node<'_, '_>, points: &mut PointArrays) -> Result<(), Refusal> {
         let number = count(piece, "NumberOfPoints")?.unwrap_or(0);
         if number == 0 {
             return Ok(());
@@ -160,7 +160,7 @@ impl Source<'_> {
             }
             "binary" => {
                 inline = texts().collect();
-                Stored::base64(inline.as_bytes())
+                EncodedArray::base64(inline.as_bytes())
             }
             "appended" => self.appended_at(array)?,
             other => return Err(of_array(format!("with the format `{other}`"))),
@@ -170,7 +170,7 @@ impl Source<'_> {
         Ok(scalar.decode(&bytes, count, self.encoding.order))
     }
 
-    fn bytes(&mut self, mut stored: Stored<'_>, expected: usize) -> Result<Vec<u8>, String> {
+    fn bytes(&mut self, mut stored: EncodedArray<'_>, expected: usize) -> Result<Vec<u8>, String> {
         let before = stored.left();
         let bytes = stored.array(expected, self.encoding)?;
         let taken = before - stored.left();
@@ -179,11 +179,11 @@ impl Source<'_> {
     }
 }
 
-impl<'file> Source<'file> {
-    fn appended_at(&self, array: Node<'_, '_>) -> Result<Stored<'file>, Refusal> {
+impl<'file> ArraySource<'file> {
+    fn appended_at(&self, array: Node<'_, '_>) -> Result<EncodedArray<'file>, Refusal> {
         let appended = self.appended.ok_or("without the appended data of its arrays")?;
         let offset = count(array, "offset")?.ok_or("with an appended array without `offset`")?;
         let bytes = appended.bytes.get(offset..).ok_or("damaged (an array begins behind the end)")?;
-        Ok(if appended.is_raw { Stored::Raw(bytes) } else { Stored::base64(bytes) })
+        Ok(if appended.is_raw { EncodedArray::Raw(bytes) } else { EncodedArray::base64(bytes) })
     }
 }

@@ -10,12 +10,12 @@ struct File {
     title: String,
     source: String,
     #[serde(default, rename = "element")]
-    elements: Vec<Row>,
+    elements: Vec<ElementRow>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Row {
+struct ElementRow {
     id: String,
     place: String,
     says: String,
@@ -72,13 +72,13 @@ const SETTLED: [(&str, Settled); 3] = [
 const OUTSIDE: [(&str, bool); 2] = [("contradicted", true), ("not reproduced", false)];
 
 /// A row with its place, for refusals.
-struct Place<'a> {
+struct RowPlace<'a> {
     file: &'a str,
     row: usize,
     id: &'a str,
 }
 
-impl Place<'_> {
+impl RowPlace<'_> {
     fn refuse(&self, field: &'static str, value: &str, rule: impl Into<String>) -> PaperError {
         let (file, id) = (self.file.to_owned(), self.id.to_owned());
         PaperError::Row { file, row: self.row, id, field, value: value.to_owned(), rule: rule.into() }
@@ -99,7 +99,7 @@ impl Paper {
         let mut elements: Vec<Element> = Vec::with_capacity(file.elements.len());
         for (index, row) in file.elements.into_iter().enumerate() {
             let id = row.id.clone();
-            let place = Place { file: &path, row: index + 1, id: &id };
+            let place = RowPlace { file: &path, row: index + 1, id: &id };
             if let Some(other) = elements.iter().position(|other| other.id == row.id) {
                 return Err(place.refuse("id", &row.id, format!("unique; row {} has it already", other + 1)));
             }
@@ -109,7 +109,7 @@ impl Paper {
     }
 }
 
-fn element(row: Row, place: &Place<'_>) -> Result<Element, PaperError> {
+fn element(row: ElementRow, place: &RowPlace<'_>) -> Result<Element, PaperError> {
     let plain = |text: &str| text.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
     if !KINDS.iter().any(|kind| row.id.len() > kind.len() && row.id.starts_with(kind)) || !plain(&row.id) {
         let rule = format!("one of {} and more of a-z, 0-9 and -", KINDS.join(", "));
@@ -135,11 +135,11 @@ fn element(row: Row, place: &Place<'_>) -> Result<Element, PaperError> {
         let rule = format!("one of {}, where no metric, run or test says what became of the element", words.join(", "));
         return Err(place.refuse("status", "", rule));
     }
-    let Row { id, place, says, note, .. } = row;
-    Ok(Element { id, place, says, implemented, tests, metrics, runs, figures, settled, note })
+    let ElementRow { id, place, says, note, .. } = row;
+    Ok(Element { id, place, statement: says, implemented, tests, metrics, runs, figures, settled, note })
 }
 
-fn settled(row: &Row, place: &Place<'_>) -> Result<Option<(Settled, String)>, PaperError> {
+fn settled(row: &ElementRow, place: &RowPlace<'_>) -> Result<Option<(Settled, String)>, PaperError> {
     match (&row.status, &row.because) {
         (None, None) => Ok(None),
         (None, Some(reason)) => Err(place.refuse("because", reason, "absent where no `status` is written")),
@@ -156,7 +156,7 @@ fn settled(row: &Row, place: &Place<'_>) -> Result<Option<(Settled, String)>, Pa
     }
 }
 
-fn test_name(text: &str, place: &Place<'_>) -> Result<TestName, PaperError> {
+fn test_name(text: &str, place: &RowPlace<'_>) -> Result<TestName, PaperError> {
     match text.split_once("::") {
         Some((file, function)) if file.ends_with(".rs") && !function.is_empty() => {
             Ok(TestName { file: file.to_owned(), function: function.to_owned() })
@@ -165,7 +165,7 @@ fn test_name(text: &str, place: &Place<'_>) -> Result<TestName, PaperError> {
     }
 }
 
-fn figure_name(text: &str, place: &Place<'_>) -> Result<FigureName, PaperError> {
+fn figure_name(text: &str, place: &RowPlace<'_>) -> Result<FigureName, PaperError> {
     match text.split_once('/') {
         Some((case, figure)) if !case.is_empty() && !figure.is_empty() => {
             Ok(FigureName { case: case.to_owned(), figure: figure.to_owned() })
@@ -174,7 +174,7 @@ fn figure_name(text: &str, place: &Place<'_>) -> Result<FigureName, PaperError> 
     }
 }
 
-fn metric_name(row: MetricRow, place: &Place<'_>) -> Result<MetricName, PaperError> {
+fn metric_name(row: MetricRow, place: &RowPlace<'_>) -> Result<MetricName, PaperError> {
     let (lowest, highest) = match (row.printed, row.tolerance, row.at_least, row.at_most) {
         (Some(value), Some(tolerance), None, None) => {
             if !(tolerance >= 0.0 && tolerance.is_finite() && value.is_finite()) {

@@ -33,7 +33,7 @@ pub struct Element {
     /// Where it stands in the paper.
     pub place: String,
     /// What it says.
-    pub says: String,
+    pub statement: String,
     /// The file that has it, from the root of the workspace; none where nothing does.
     pub implemented: Option<String>,
     /// Tests that hold it.

@@ -23,7 +23,7 @@ pub(super) const MOST_POINTS: usize = 100;
 
 /// The random functions of all residuals: one row per point, one column per residual.
 #[derive(Debug, Clone)]
-pub(super) struct Correction {
+pub(super) struct KrigingCorrection {
     points: Vec<Vec<f64>>,
     length: f64,
     pub(super) coefficients: DMatrix<f64>,
@@ -31,7 +31,7 @@ pub(super) struct Correction {
     error: f64,
 }
 
-impl Correction {
+impl KrigingCorrection {
     /// The correction for what is left over (one row per point, the best first); none where it would not predict a point
     /// better than the polynomial alone, whose error is `error`.
     pub(super) fn fit(points: &[&[f64]], left: &DMatrix<f64>, weights: &[f64], error: f64) -> Option<Self> {
@@ -117,10 +117,10 @@ mod tests {
         DMatrix::from_iterator(points.len(), 1, points.iter().map(value))
     }
 
-    fn fitted(points: &[Vec<f64>], left: &DMatrix<f64>) -> Option<Correction> {
+    fn fitted(points: &[Vec<f64>], left: &DMatrix<f64>) -> Option<KrigingCorrection> {
         let borrowed: Vec<&[f64]> = points.iter().map(Vec::as_slice).collect();
         let error = left.norm_squared() / points.len() as f64;
-        Correction::fit(&borrowed, left, &vec![1.0; points.len()], error)
+        KrigingCorrection::fit(&borrowed, left, &vec![1.0; points.len()], error)
     }
 
     #[test]

@@ -13,7 +13,7 @@ mod polynomial;
 use super::box_least_squares::least_squares;
 use super::descent::{Bottom, Smooth, descend};
 use super::search::Evaluated;
-use correction::Correction;
+use correction::KrigingCorrection;
 use nalgebra::{DMatrix, DVector};
 use polynomial::{basis, local};
 
@@ -46,7 +46,7 @@ pub struct Emulator {
     /// δ in the unit cube.
     scale: f64,
     /// What the polynomials miss.
-    correction: Option<Correction>,
+    correction: Option<KrigingCorrection>,
     /// One row a residual, one column a coefficient, those of the correction last.
     coefficients: DMatrix<f64>,
     /// The same χ² with as many rows as columns at most.
@@ -107,8 +107,8 @@ impl Emulator {
         let data = left.ncols() as f64;
         // without a point to spare the polynomial passes through all of them
         let correction =
-            leave_one_out.and_then(|error| Correction::fit(&places, &left, &weights, data * error * error));
-        let known = correction.as_ref().map_or(0, Correction::len);
+            leave_one_out.and_then(|error| KrigingCorrection::fit(&places, &left, &weights, data * error * error));
+        let known = correction.as_ref().map_or(0, KrigingCorrection::len);
         let mut coefficients = solution.transpose().resize_horizontally(columns + known, 0.0);
         if let Some(correction) = &correction {
             coefficients.columns_mut(columns, known).copy_from(&correction.coefficients.transpose());

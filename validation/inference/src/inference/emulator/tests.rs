@@ -1,7 +1,7 @@
 //! Polynomials are reproduced, and what they miss is corrected.
 
 use super::*;
-use crate::inference::stand_in::Curve;
+use crate::inference::stand_in::ExponentialDecay;
 use crate::inference::{Evaluate, chi_squared};
 use crate::sampling::design::{full_grid, latin_hypercube};
 
@@ -72,7 +72,7 @@ fn failed_points_are_left_out() {
 
 #[test]
 fn the_minimum_of_a_smooth_curve_is_close() {
-    let curve = Curve::new();
+    let curve = ExponentialDecay::new();
     let points = full_grid(&[4, 4, 4]);
     let residuals = curve.clone().residuals(&points).unwrap();
     let history = evaluated(&points, |u| residuals[points.iter().position(|point| point == u)?].clone());

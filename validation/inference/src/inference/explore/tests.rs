@@ -4,13 +4,13 @@ use super::*;
 use crate::inference::chi_squared;
 use crate::inference::descent::{Smooth, descend};
 use crate::inference::search::{Method, search};
-use crate::inference::stand_in::Curve;
+use crate::inference::stand_in::ExponentialDecay;
 use nalgebra::{DMatrix, DVector};
 use std::convert::Infallible;
 
 /// The curve from data that say less.
 struct Vague {
-    curve: Curve,
+    curve: ExponentialDecay,
     /// Standard uncertainty over that of the curve.
     vagueness: f64,
 }
@@ -52,7 +52,7 @@ fn exact(model: &Vague, k: usize, bound: f64) -> f64 {
 #[test]
 fn wide_intervals_are_those_of_the_model_itself() {
     for vagueness in [2.0, 4.0, 8.0] {
-        let mut model = Vague { curve: Curve::new(), vagueness };
+        let mut model = Vague { curve: ExponentialDecay::new(), vagueness };
         let budget = Budget::default();
         let found = search(&mut model, &[0.5; 3], Method::TrustRegion, budget).unwrap();
         let first = Emulator::fit(&found.history, budget.difference).unwrap();
@@ -79,7 +79,7 @@ fn wide_intervals_are_those_of_the_model_itself() {
 #[test]
 fn every_end_is_a_run_of_the_model() {
     for vagueness in [1.0, 4.0] {
-        let mut model = Vague { curve: Curve::new(), vagueness };
+        let mut model = Vague { curve: ExponentialDecay::new(), vagueness };
         let budget = Budget::default();
         let found = search(&mut model, &[0.5; 3], Method::TrustRegion, budget).unwrap();
         let least = found.chi_squared;
@@ -97,7 +97,7 @@ fn every_end_is_a_run_of_the_model() {
 #[test]
 fn a_budget_that_ends_leaves_ends_unsettled() {
     for evaluations in 0..6 {
-        let mut model = Vague { curve: Curve::new(), vagueness: 8.0 };
+        let mut model = Vague { curve: ExponentialDecay::new(), vagueness: 8.0 };
         let found = search(&mut model, &[0.5; 3], Method::TrustRegion, Budget::default()).unwrap();
         let count = found.history.len();
         let budget = Budget { evaluations, ..Budget::default() };
@@ -108,9 +108,9 @@ fn a_budget_that_ends_leaves_ends_unsettled() {
 }
 
 /// Two wells, of which the search has seen the shallow one only.
-struct Wells;
+struct HiddenWell;
 
-impl Evaluate for Wells {
+impl Evaluate for HiddenWell {
     type Error = Infallible;
     fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Infallible> {
         let one = |u: &Vec<f64>| vec![6.0 * (u[0] - 0.2) * (u[0] - 0.8) / 0.36, 2.0 * (1.0 - u[0])];
@@ -120,9 +120,10 @@ impl Evaluate for Wells {
 
 #[test]
 fn a_lower_point_on_the_way_is_told() {
-    let found = search(&mut Wells, &[0.1], Method::TrustRegion, Budget::default()).unwrap();
+    let found = search(&mut HiddenWell, &[0.1], Method::TrustRegion, Budget::default()).unwrap();
     assert!(found.best[0] < 0.5);
-    let explored = explore(&mut Wells, found.history, Uncertainties::AsStated, &Budget::default()).unwrap().unwrap();
+    let explored =
+        explore(&mut HiddenWell, found.history, Uncertainties::AsStated, &Budget::default()).unwrap().unwrap();
     assert!(explored.lower && explored.region.minimum.chi_squared < found.chi_squared);
 }
 
@@ -137,7 +138,7 @@ fn an_interval_ends_where_the_model_fails() {
             Ok(results.into_iter().zip(points).map(|(result, u)| result.filter(|_| u[0] < 0.62)).collect())
         }
     }
-    let mut cut = Cut(Vague { curve: Curve::new(), vagueness: 4.0 });
+    let mut cut = Cut(Vague { curve: ExponentialDecay::new(), vagueness: 4.0 });
     let found = search(&mut cut, &[0.5; 3], Method::TrustRegion, Budget::default()).unwrap();
     let explored = explore(&mut cut, found.history, Uncertainties::AsStated, &Budget::default()).unwrap().unwrap();
     let end = &explored.ends[0][1];

@@ -4,7 +4,7 @@ mod sentence;
 
 use super::region::{CONFIDENCE, Region, chi_squared_quantile};
 use nalgebra::DMatrix;
-use sentence::Writer;
+use sentence::SentenceWriter;
 use std::fmt;
 
 /// A closed interval wider than this share of the range says nothing much.
@@ -27,7 +27,7 @@ const AT_BOUND: f64 = 1e-6;
 
 /// A parameter as sentences call it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Parameter {
+pub struct ParameterLabel {
     /// Its name, as in the input file.
     pub name: String,
     /// Its unit; empty or `-` without one.
@@ -36,7 +36,7 @@ pub struct Parameter {
 
 /// What was found, with numbers in the unit cube.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Kind {
+pub enum FindingKind {
     /// There are fewer data than parameters.
     FewData {
         /// Number of data.
@@ -90,7 +90,7 @@ pub enum Kind {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// What was found.
-    pub kind: Kind,
+    pub kind: FindingKind,
     text: String,
 }
 
@@ -106,41 +106,41 @@ impl fmt::Display for Finding {
 pub fn assess(
     jacobian: &DMatrix<f64>,
     region: &Region,
-    parameters: &[Parameter],
+    parameters: &[ParameterLabel],
     physical: &dyn Fn(usize, f64) -> f64,
 ) -> Vec<Finding> {
-    let writer = Writer { parameters, physical };
+    let writer = SentenceWriter { parameters, physical };
     let minimum = &region.minimum.point;
     let (data, count) = (jacobian.nrows(), jacobian.ncols());
     let mut findings = Vec::new();
-    let mut add = |kind: Kind| findings.push(Finding { text: writer.sentence(&kind, minimum), kind });
+    let mut add = |kind: FindingKind| findings.push(Finding { text: writer.sentence(&kind, minimum), kind });
 
     let (values, directions) = spectrum(jacobian);
     let largest = values.iter().copied().fold(0.0, f64::max);
     let rank = values.iter().filter(|value| **value > RANK_TOLERANCE * largest).count();
     if data < count {
-        add(Kind::FewData { data, parameters: count });
+        add(FindingKind::FewData { data, parameters: count });
     } else if rank < count {
-        add(Kind::RankDeficient { rank, parameters: count });
+        add(FindingKind::RankDeficient { rank, parameters: count });
     }
     for (k, profile) in region.profiles.iter().enumerate() {
         if !profile.is_closed() || profile.width() > WIDE {
             let open = [profile.open_below, profile.open_above];
-            add(Kind::NotDetermined { parameter: k, interval: profile.interval, open });
+            add(FindingKind::NotDetermined { parameter: k, interval: profile.interval, open });
         }
     }
     for (k, profile) in region.profiles.iter().enumerate() {
         let (lower, upper) = (minimum[k] < AT_BOUND, minimum[k] > 1.0 - AT_BOUND);
         // where every value agrees, it means nothing that the best lies at an end
         if (lower || upper) && !(profile.open_below && profile.open_above) {
-            add(Kind::AtBound { parameter: k, upper });
+            add(FindingKind::AtBound { parameter: k, upper });
         }
     }
     for first in 0..count {
         for second in first + 1..count {
             let correlation = region.correlation[(first, second)];
             if correlation.abs() > STRONG {
-                add(Kind::Correlated { pair: [first, second], correlation });
+                add(FindingKind::Correlated { pair: [first, second], correlation });
             }
         }
     }
@@ -153,7 +153,7 @@ pub fn assess(
         // where even the best known combination is weak there is nothing to set it against
         let alike = free.iter().zip(&fixed).map(|(a, b)| a * b).sum::<f64>().abs() > 0.99;
         if reach > WEAK && members > 1 && !alike {
-            add(Kind::WeakDirection { fixed, free, reach });
+            add(FindingKind::WeakDirection { fixed, free, reach });
         }
     }
     findings
@@ -215,7 +215,7 @@ mod tests {
         let region = Region::new(&emulator, Uncertainties::AsStated);
         let jacobian = emulator.jacobian(&region.minimum.point);
         let parameters = [("viscosity", "Pa·s"), ("friction", "-")]
-            .map(|(name, unit)| Parameter { name: name.to_owned(), unit: unit.to_owned() });
+            .map(|(name, unit)| ParameterLabel { name: name.to_owned(), unit: unit.to_owned() });
         let findings = assess(&jacobian, &region, &parameters, &|k, u| [0.5 + 2.0 * u, u][k]);
         for finding in &findings {
             println!("{finding}");
@@ -235,19 +235,19 @@ mod tests {
     #[test]
     fn one_datum_does_not_determine_two_parameters() {
         let found = findings(|u| vec![40.0 * (u[0] + u[1] - 1.0)]);
-        assert_eq!(found[0].kind, Kind::FewData { data: 1, parameters: 2 });
-        assert!(matches!(found[1].kind, Kind::NotDetermined { parameter: 0, .. }));
+        assert_eq!(found[0].kind, FindingKind::FewData { data: 1, parameters: 2 });
+        assert!(matches!(found[1].kind, FindingKind::NotDetermined { parameter: 0, .. }));
         let all = texts(&found);
         assert_eq!(
             all[1],
             "the data do not determine `viscosity`: any value from 0.5 to 2.5 Pa·s agrees with them at 95 %"
         );
-        let Some(Kind::WeakDirection { free, fixed, reach }) = found.last().map(|finding| &finding.kind) else {
+        let Some(FindingKind::WeakDirection { free, fixed, reach }) = found.last().map(|finding| &finding.kind) else {
             panic!("{all:?}")
         };
         assert!(found.iter().any(|finding| matches!(
             finding.kind,
-            Kind::Correlated { correlation, .. } if correlation < -0.999
+            FindingKind::Correlated { correlation, .. } if correlation < -0.999
         )));
         assert!((free[0] + free[1]).abs() < 1e-6 && (fixed[0] - fixed[1]).abs() < 1e-6 && *reach > 1e6);
     }
@@ -258,9 +258,9 @@ mod tests {
         let found = findings(|u| vec![100.0 * (u[0] + u[1] - 1.0), 4.0 * (u[0] - u[1])]);
         assert!(found.iter().any(|finding| matches!(
             finding.kind,
-            Kind::Correlated { pair: [0, 1], correlation } if correlation < -0.99
+            FindingKind::Correlated { pair: [0, 1], correlation } if correlation < -0.99
         )));
-        let weak = found.iter().find(|finding| matches!(finding.kind, Kind::WeakDirection { .. })).unwrap();
+        let weak = found.iter().find(|finding| matches!(finding.kind, FindingKind::WeakDirection { .. })).unwrap();
         assert_eq!(
             weak.to_string(),
             "the data fix 0.71 `viscosity` + 0.71 `friction` (each as a share of its range) but hardly 0.71 \
@@ -285,6 +285,6 @@ mod tests {
     #[test]
     fn dependence_on_fewer_combinations_is_told() {
         let found = findings(|u| (1..4).map(|k| f64::from(k) * 10.0 * (u[0] + u[1] - 1.0)).collect());
-        assert_eq!(found[0].kind, Kind::RankDeficient { rank: 1, parameters: 2 });
+        assert_eq!(found[0].kind, FindingKind::RankDeficient { rank: 1, parameters: 2 });
     }
 }

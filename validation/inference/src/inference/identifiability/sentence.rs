@@ -1,15 +1,15 @@
 //! Findings in sentences.
 
-use super::{Kind, Parameter};
+use super::{FindingKind, ParameterLabel};
 use bagnold_number::short_digits;
 
 /// Writes numbers of the unit cube as a physicist reads them.
-pub(super) struct Writer<'a> {
-    pub(super) parameters: &'a [Parameter],
+pub(super) struct SentenceWriter<'a> {
+    pub(super) parameters: &'a [ParameterLabel],
     pub(super) physical: &'a dyn Fn(usize, f64) -> f64,
 }
 
-impl Writer<'_> {
+impl SentenceWriter<'_> {
     fn name(&self, k: usize) -> String {
         self.parameters.get(k).map_or_else(|| format!("parameter {k}"), |parameter| format!("`{}`", parameter.name))
     }
@@ -52,18 +52,18 @@ impl Writer<'_> {
     }
 
     /// The sentence that tells a finding about a minimum.
-    pub(super) fn sentence(&self, kind: &Kind, minimum: &[f64]) -> String {
+    pub(super) fn sentence(&self, kind: &FindingKind, minimum: &[f64]) -> String {
         match kind {
-            Kind::FewData { data, parameters } => format!(
+            FindingKind::FewData { data, parameters } => format!(
                 "there are fewer data ({data}) than parameters ({parameters}), so not all parameters can be \
                  determined; fix some or add data"
             ),
-            Kind::RankDeficient { rank, parameters } => format!(
+            FindingKind::RankDeficient { rank, parameters } => format!(
                 "near the best point the data depend on only {rank} independent combination{} of the {parameters} \
                  parameters; fix some or add data of another kind",
                 if *rank == 1 { "" } else { "s" }
             ),
-            Kind::NotDetermined { parameter, interval, open } => {
+            FindingKind::NotDetermined { parameter, interval, open } => {
                 let (name, unit) = (self.name(*parameter), self.unit(*parameter));
                 let [from, to] = interval.map(|u| self.value(*parameter, u));
                 match open {
@@ -80,7 +80,7 @@ impl Writer<'_> {
                     ),
                 }
             }
-            Kind::AtBound { parameter, upper } => format!(
+            FindingKind::AtBound { parameter, upper } => format!(
                 "the best {} lies at its {} bound {}{}: values beyond may agree still better, so widen the range if \
                  physics allows",
                 self.name(*parameter),
@@ -88,7 +88,7 @@ impl Writer<'_> {
                 self.value(*parameter, if *upper { 1.0 } else { 0.0 }),
                 self.unit(*parameter)
             ),
-            Kind::Correlated { pair: [first, second], correlation } => format!(
+            FindingKind::Correlated { pair: [first, second], correlation } => format!(
                 "the data determine {} and {} only together (correlation {}): a larger value of one is made up for \
                  by a {} value of the other",
                 self.name(*first),
@@ -96,7 +96,7 @@ impl Writer<'_> {
                 short_digits(*correlation, 3),
                 if *correlation > 0.0 { "larger" } else { "smaller" }
             ),
-            Kind::WeakDirection { free, fixed, reach } => {
+            FindingKind::WeakDirection { free, fixed, reach } => {
                 let step = (*reach).min(room(minimum, free));
                 let back = (*reach).min(room(minimum, &free.iter().map(|share| -share).collect::<Vec<_>>()));
                 format!(

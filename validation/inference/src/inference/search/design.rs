@@ -1,6 +1,6 @@
 //! A design: given points, and the minimum of the polynomial through them.
 
-use super::{Budget, Halt, Recorder, Search, SearchError, Stopped, check};
+use super::{Budget, Halt, Recorder, SearchError, SearchResult, Stopped, check};
 use crate::inference::{Emulator, Evaluate};
 
 /// Evaluates the points of a design in one batch, and the model at the minimum of their emulator.
@@ -11,7 +11,7 @@ pub fn search_design<M: Evaluate>(
     model: &mut M,
     points: &[Vec<f64>],
     budget: Budget,
-) -> Result<Search, SearchError<M::Error>> {
+) -> Result<SearchResult, SearchError<M::Error>> {
     check(points.first().map_or(&[], Vec::as_slice), &budget)?;
     for point in points {
         check(point, &budget)?;
@@ -36,7 +36,7 @@ pub(super) fn run<M: Evaluate>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::stand_in::Curve;
+    use super::super::super::stand_in::ExponentialDecay;
     use super::*;
     use crate::sampling::design::full_grid;
 
@@ -44,7 +44,7 @@ mod tests {
     fn the_minimum_of_the_emulator_betters_the_grid() {
         let grid = full_grid(&[4, 4, 4]);
         let budget = Budget { evaluations: 65, ..Budget::default() };
-        let found = search_design(&mut Curve::new(), &grid, budget).unwrap();
+        let found = search_design(&mut ExponentialDecay::new(), &grid, budget).unwrap();
         assert_eq!((found.history.len(), found.stopped), (65, Stopped::DesignDone));
         assert_eq!(found.best, found.history[64].point);
         let of_grid = found.history[..64].iter().filter_map(|e| e.chi_squared).fold(f64::INFINITY, f64::min);
@@ -55,7 +55,7 @@ mod tests {
     #[test]
     fn a_design_must_have_points() {
         assert!(matches!(
-            search_design(&mut Curve::new(), &[], Budget::default()),
+            search_design(&mut ExponentialDecay::new(), &[], Budget::default()),
             Err(SearchError::Setting { field: "start", .. })
         ));
     }

@@ -6,13 +6,13 @@ use nalgebra::{DMatrix, DVector};
 
 /// A point with its residuals and χ².
 #[derive(Clone)]
-pub(super) struct Place {
+pub(super) struct Iterate {
     pub(super) point: Vec<f64>,
     pub(super) residuals: DVector<f64>,
     pub(super) chi_squared: f64,
 }
 
-impl Place {
+impl Iterate {
     pub(super) fn new(point: Vec<f64>, residuals: Vec<f64>) -> Self {
         let residuals = DVector::from_vec(residuals);
         let chi_squared = residuals.norm_squared();
@@ -24,7 +24,7 @@ impl Place {
 /// on the other side, then at half the step; a coordinate along which all fail counts as without effect.
 pub(super) fn differences<M: Evaluate>(
     recorder: &mut Recorder<'_, M>,
-    here: &Place,
+    here: &Iterate,
     difference: f64,
 ) -> Result<DMatrix<f64>, Halt<M::Error>> {
     let count = here.point.len();
@@ -58,10 +58,10 @@ pub(super) fn differences<M: Evaluate>(
 /// difference is one-sided; where on neither, it is the one that was known.
 pub(super) fn central_differences<M: Evaluate>(
     recorder: &mut Recorder<'_, M>,
-    mut here: Place,
+    mut here: Iterate,
     known: &DMatrix<f64>,
     budget: &Budget,
-) -> Result<(DMatrix<f64>, Place), Halt<M::Error>> {
+) -> Result<(DMatrix<f64>, Iterate), Halt<M::Error>> {
     let mut jacobian = known.clone();
     let shifted = |k: usize, step: f64| {
         let mut point = here.point.clone();
@@ -84,7 +84,7 @@ pub(super) fn central_differences<M: Evaluate>(
     let negligible = budget.negligible(here.chi_squared, here.residuals.len());
     for (point, residuals) in points.into_iter().zip(results) {
         let Some(residuals) = residuals else { continue };
-        let there = Place::new(point, residuals);
+        let there = Iterate::new(point, residuals);
         if here.chi_squared - there.chi_squared > negligible {
             here = there;
         }
@@ -94,21 +94,21 @@ pub(super) fn central_differences<M: Evaluate>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::stand_in::{Curve, Failing};
+    use super::super::super::stand_in::{ExponentialDecay, Failing};
     use super::*;
 
     #[test]
     fn differences_stay_inside_the_cube_and_out_of_failures() {
-        let mut model = Failing { curve: Curve::new(), beyond: 0.5 };
+        let mut model = Failing { curve: ExponentialDecay::new(), beyond: 0.5 };
         let mut recorder = Recorder::new(&mut model, 99);
         let point = vec![0.49, 1.0, 0.0];
         let residuals = recorder.residuals_at(&point).unwrap().unwrap();
-        let jacobian = differences(&mut recorder, &Place::new(point, residuals), 0.02).unwrap();
+        let jacobian = differences(&mut recorder, &Iterate::new(point, residuals), 0.02).unwrap();
         let asked: Vec<Vec<f64>> = recorder.history().iter().map(|evaluated| evaluated.point.clone()).collect();
         assert_eq!(asked[2], [0.49, 0.98, 0.0]);
         assert_eq!(asked[3], [0.49, 1.0, 0.02]);
         assert_eq!(asked[4], [0.47, 1.0, 0.0]);
-        let exact = Curve::new().jacobian(&[0.49, 1.0, 0.0]);
+        let exact = ExponentialDecay::new().jacobian(&[0.49, 1.0, 0.0]);
         for k in 0..3 {
             assert!((jacobian.column(k) - exact.column(k)).norm() < 0.05 * exact.column(k).norm(), "{k}");
         }

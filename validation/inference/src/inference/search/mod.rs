@@ -156,7 +156,7 @@ impl LocalMinimum {
 
 /// What a search has found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Search {
+pub struct SearchResult {
     /// The evaluated point of least χ², in the unit cube.
     pub best: Vec<f64>,
     /// χ² there `[-]`.
@@ -213,7 +213,7 @@ pub fn search<M: Evaluate>(
     start: &[f64],
     method: Method,
     budget: Budget,
-) -> Result<Search, SearchError<M::Error>> {
+) -> Result<SearchResult, SearchError<M::Error>> {
     continue_search(model, Vec::new(), start, method, budget)
 }
 
@@ -227,7 +227,7 @@ pub fn continue_search<M: Evaluate>(
     start: &[f64],
     method: Method,
     budget: Budget,
-) -> Result<Search, SearchError<M::Error>> {
+) -> Result<SearchResult, SearchError<M::Error>> {
     check(start, &budget)?;
     let known = history.len();
     let mut recorder = Recorder::with(model, history, known + budget.evaluations);

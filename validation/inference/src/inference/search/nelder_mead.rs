@@ -122,7 +122,7 @@ pub(super) fn mirrored(point: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::stand_in::Valley;
+    use super::super::super::stand_in::RosenbrockModel;
     use super::super::{Method, search};
     use super::*;
 
@@ -154,7 +154,7 @@ mod tests {
     #[test]
     fn it_converges_by_itself() {
         let budget = Budget { evaluations: 1000, ..Budget::default() };
-        let found = search(&mut Valley, &[0.5, 0.5], Method::NelderMead, budget).unwrap();
+        let found = search(&mut RosenbrockModel, &[0.5, 0.5], Method::NelderMead, budget).unwrap();
         assert_eq!(found.stopped, Stopped::Converged);
         assert!(found.chi_squared < 0.02 && found.history.len() < 100, "{}", found.history.len());
     }

@@ -1,6 +1,6 @@
 //! What has been evaluated: each distinct point once, never more than the budget.
 
-use super::{Evaluated, LocalMinimum, Search, SearchError, Stopped};
+use super::{Evaluated, LocalMinimum, SearchError, SearchResult, Stopped};
 use crate::inference::Evaluate;
 use crate::sampling::design;
 use std::collections::BTreeMap;
@@ -30,7 +30,7 @@ pub(in crate::inference) struct Recorder<'a, M> {
 }
 
 /// A point and the residuals there.
-type Start = (Vec<f64>, Vec<f64>);
+type EvaluatedStart = (Vec<f64>, Vec<f64>);
 
 /// Points of one batch while none has worked yet.
 const RESCUE_BATCH: usize = 4;
@@ -109,7 +109,11 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
     }
 
     /// The start, or where the model fails there, the best of the first few points spread over the cube that work.
-    pub(in crate::inference) fn working_start(&mut self, start: &[f64], seed: u64) -> Result<Start, Halt<M::Error>> {
+    pub(in crate::inference) fn working_start(
+        &mut self,
+        start: &[f64],
+        seed: u64,
+    ) -> Result<EvaluatedStart, Halt<M::Error>> {
         if let Some(residuals) = self.residuals_at(start)? {
             return Ok((start.to_vec(), residuals));
         }
@@ -130,7 +134,7 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
         outcome: Result<Stopped, Halt<M::Error>>,
         mut minima: Vec<LocalMinimum>,
         every_start: bool,
-    ) -> Result<Search, SearchError<M::Error>> {
+    ) -> Result<SearchResult, SearchError<M::Error>> {
         let stopped = match outcome {
             Ok(stopped) => stopped,
             Err(Halt::BudgetSpent | Halt::NothingWorked) => Stopped::BudgetSpent,
@@ -140,7 +144,7 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
         match self.best().map(|(best, chi_squared)| (best.point.clone(), chi_squared)) {
             Some((best, chi_squared)) => {
                 minima.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
-                Ok(Search { best, chi_squared, history: self.history, stopped, minima, every_start })
+                Ok(SearchResult { best, chi_squared, history: self.history, stopped, minima, every_start })
             }
             None => Err(SearchError::NothingWorked { evaluations: self.history.len() }),
         }
@@ -154,7 +158,7 @@ fn bits(point: &[f64]) -> Vec<u64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::stand_in::Valley;
+    use super::super::super::stand_in::RosenbrockModel;
     use super::*;
 
     struct Counting(usize);
@@ -195,7 +199,7 @@ mod tests {
         let mut model = Counting(0);
         let (start, residuals) = Recorder::new(&mut model, 9).working_start(&[1.0], 1).unwrap();
         assert!(start[0] < 0.9 && residuals == start);
-        let (start, _) = Recorder::new(&mut Valley, 9).working_start(&[1.0, 0.5], 1).unwrap();
+        let (start, _) = Recorder::new(&mut RosenbrockModel, 9).working_start(&[1.0, 0.5], 1).unwrap();
         assert_eq!(start, [1.0, 0.5]);
     }
 }

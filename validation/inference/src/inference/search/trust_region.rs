@@ -13,7 +13,7 @@
 //! Source: Nocedal & Wright, "Numerical Optimization", 2nd ed. (2006), chapters 4 and 11 (Broyden's update: 11.17).
 
 use super::barrier::is_parted;
-use super::differences::{Place, central_differences, differences};
+use super::differences::{Iterate, central_differences, differences};
 use super::{Budget, Halt, LocalMinimum, Recorder, Stopped};
 use crate::inference::box_least_squares::box_least_squares;
 use crate::inference::{Emulator, Evaluate};
@@ -43,14 +43,14 @@ const MOST_POLISHES: usize = 3;
 /// Distance below which the emulator of a descent trusts no difference.
 const LEAST_SCALE: f64 = 0.02;
 
-impl Place {
-    fn descent(self, stopped: Option<Stopped>) -> Descent {
-        Descent { point: self.point, chi_squared: self.chi_squared, stopped }
+impl Iterate {
+    fn descent(self, stopped: Option<Stopped>) -> DescentResult {
+        DescentResult { point: self.point, chi_squared: self.chi_squared, stopped }
     }
 }
 
 /// Where a descent has ended, and why.
-pub(super) struct Descent {
+pub(super) struct DescentResult {
     /// The best point of this descent.
     pub(super) point: Vec<f64>,
     /// χ² there `[-]`.
@@ -66,9 +66,9 @@ pub(super) fn run<M: Evaluate>(
     start: &[f64],
     budget: &Budget,
     known: &[LocalMinimum],
-) -> Result<Descent, Halt<M::Error>> {
+) -> Result<DescentResult, Halt<M::Error>> {
     let (point, residuals) = recorder.working_start(start, budget.seed)?;
-    let mut here = Place::new(point, residuals);
+    let mut here = Iterate::new(point, residuals);
     let mut jacobian = differences(recorder, &here, budget.difference)?;
     // where the differences were taken last, and where both ways
     let (mut origin, mut confirmed) = (here.point.clone(), None);
@@ -113,7 +113,7 @@ pub(super) fn run<M: Evaluate>(
             radius = 0.25 * length;
             continue;
         };
-        let there = Place::new(trial, residuals);
+        let there = Iterate::new(trial, residuals);
         let gain = (here.chi_squared - there.chi_squared) / predicted;
         let miss = &there.residuals - &here.residuals - &jacobian * &step;
         jacobian += miss * step.transpose() / step.norm_squared();
@@ -138,7 +138,7 @@ pub(super) fn run<M: Evaluate>(
 /// Whether nothing on the emulator parts a place from a minimum that is known.
 fn leads_to_known<M: Evaluate>(
     recorder: &Recorder<'_, M>,
-    here: &Place,
+    here: &Iterate,
     known: &[LocalMinimum],
     budget: &Budget,
 ) -> bool {
@@ -153,21 +153,21 @@ fn leads_to_known<M: Evaluate>(
 /// there than at the best point.
 fn polish<M: Evaluate>(
     recorder: &mut Recorder<'_, M>,
-    here: &Place,
+    here: &Iterate,
     negligible: f64,
     allowed: bool,
-) -> Result<Option<Place>, Halt<M::Error>> {
+) -> Result<Option<Iterate>, Halt<M::Error>> {
     let Some(emulator) = Emulator::fit(recorder.history(), LEAST_SCALE).filter(|_| allowed) else { return Ok(None) };
     let minimum = emulator.minimum_near(&here.point);
     if here.chi_squared - minimum.chi_squared <= negligible {
         return Ok(None);
     }
-    let there = recorder.residuals_at(&minimum.point)?.map(|residuals| Place::new(minimum.point, residuals));
+    let there = recorder.residuals_at(&minimum.point)?.map(|residuals| Iterate::new(minimum.point, residuals));
     Ok(there.filter(|there| here.chi_squared - there.chi_squared > negligible))
 }
 
 /// The step of least predicted χ² within the radius and the cube.
-fn box_step(here: &Place, jacobian: &DMatrix<f64>, radius: f64) -> DVector<f64> {
+fn box_step(here: &Iterate, jacobian: &DMatrix<f64>, radius: f64) -> DVector<f64> {
     let lower: Vec<f64> = here.point.iter().map(|u| (-u).max(-radius)).collect();
     let upper: Vec<f64> = here.point.iter().map(|u| (1.0 - u).min(radius)).collect();
     box_least_squares(jacobian, &-&here.residuals, &lower, &upper)
