@@ -39,7 +39,9 @@ impl<const D: usize> Model<D> {
     /// What the momentum operator and the law need of the velocity gradient.
     pub(crate) fn gradient_use(&self) -> GradientUse {
         match self.numerics.momentum_operator {
-            MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence => GradientUse::Stress,
+            MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence | MomentumOperator::ByLaw => {
+                GradientUse::Stress
+            }
             MomentumOperator::Pairwise
                 if matches!(self.rheology, Rheology::Newtonian(_)) && self.numerics.density_coupling == 0.0 =>
             {

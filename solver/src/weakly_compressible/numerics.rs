@@ -15,6 +15,9 @@ pub enum MomentumOperator {
     SingleDivergence,
     /// The same divergence without kernel correction.
     UncorrectedDivergence,
+    /// The single divergence without kernel correction for liquids, whose forces then do no work that the density does not
+    /// answer, so that they come to rest; with it for all laws with a friction.
+    ByLaw,
     /// Pressure (10) and pairwise viscosity (11).
     Pairwise,
     /// Pressure (10) and pairwise viscosity with Schwaiger's correction (13).
@@ -176,11 +179,25 @@ impl Numerics {
         }
     }
 
+    /// Whether each particle's kernel correction enters its momentum equation, with a law.
+    #[must_use]
+    pub fn corrects_forces(&self, law: &Rheology) -> bool {
+        match self.momentum_operator {
+            MomentumOperator::SingleDivergence => true,
+            MomentumOperator::ByLaw => law.contact_friction() > 0.0,
+            MomentumOperator::UncorrectedDivergence
+            | MomentumOperator::Pairwise
+            | MomentumOperator::PairwiseCorrected => false,
+        }
+    }
+
     /// The name of the momentum operator, where it is one of the pairwise ones.
     #[must_use]
     pub fn pairwise_operator(&self) -> Option<&'static str> {
         match self.momentum_operator {
-            MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence => None,
+            MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence | MomentumOperator::ByLaw => {
+                None
+            }
             MomentumOperator::Pairwise => Some("pairwise"),
             MomentumOperator::PairwiseCorrected => Some("pairwise-corrected"),
         }

@@ -24,7 +24,7 @@ impl<const D: usize> State<D> {
         wall_stress::run(&self.model, &mut self.particles, &mut self.pairs);
         self.images.copy_scalars(&mut self.particles.pressure);
         match self.model.numerics.momentum_operator {
-            MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence => {
+            MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence | MomentumOperator::ByLaw => {
                 geometry::run(&self.model, &mut self.particles, &mut self.pairs);
                 self.images.copy_vectors(&mut self.particles.pressure_gradient);
                 self.images.copy_tensors(&mut self.particles.corrected_stress);

@@ -136,7 +136,6 @@ pub struct Metric {
     /// The gate, if there is one; a metric without a gate is observed.
     pub gate: Option<Gate>,
     /// Why it is no value of a steady state, although it should be one: it then has no value.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub not_steady: Option<String>,
     /// What value and reference are known to, as far as it is known.
     #[serde(default)]
@@ -261,6 +260,16 @@ mod tests {
                 let metric = Metric::observed("front", &Variant::default(), value, "m").gated(limit, "a reason");
                 assert_eq!(metric.verdict(), Verdict::Fail);
             }
+        }
+    }
+
+    #[test]
+    fn a_metric_is_read_back_from_the_binary_form_that_trials_leave() {
+        for reason in [None, Some("not steady: it rises".to_owned())] {
+            let metric = Metric::observed("front", &Variant::default(), 0.5, "m").unless(reason.as_ref());
+            let bytes = postcard::to_allocvec(&metric).expect("plain data");
+            let read: Metric = postcard::from_bytes(&bytes).expect("the same");
+            assert_eq!((read.name, read.not_steady), (metric.name, reason));
         }
     }
 

@@ -12,7 +12,6 @@ use crate::lanes::{LANES, LanePass, Lanes};
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
-use crate::weakly_compressible::numerics::MomentumOperator;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::kernel_correction::corrections;
 use rayon::prelude::*;
@@ -77,6 +76,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
         let list = &self.model.list;
         let region_start = self.block * list.region();
         let count = self.out.corrected_stress.len();
+        let corrects_forces = self.model.numerics.corrects_forces(&self.model.rheology);
         let mut offset = 0;
         while offset < count {
             let first = self.block * BLOCK + offset;
@@ -85,7 +85,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             let sums = pair_sums::<V, D>(self.model, self.records, &group, weights);
             let end = (offset + LANES).min(count);
             let (for_gradients, mut for_forces) = corrections(&sums.moment);
-            if self.model.numerics.momentum_operator != MomentumOperator::SingleDivergence {
+            if !corrects_forces {
                 for_forces = identity();
             }
             let stress = self.stress(first..first + end - offset, sums.pressure);

@@ -18,6 +18,8 @@ quantities! { shared
     THROUGH_WALLS: accounted("through_walls", "-", "particles that are behind a wall at the end"),
     MASS_LEFT: accounted("mass_left", "%", "mass that has left by open sides"),
     CUT_OFF: accounted("cut_off", "%", "material of the bodies that is behind walls or at them, and is left out at the start"),
+    FINAL_RMS_SPEED:
+        accounted("final_rms_speed", "m/s", "root mean square of the speed in the scene, mean over the last tenth of the run"),
     FRONT: accounted("front", "m", "how far the material reaches along a gauge's line at the end"),
     DEPTH: accounted("depth", "m", "thickness of the material at a gauge at the end"),
     GAUGE_ERROR: validated("gauge_error", "%", "root mean square of a gauge's relative error at the measured times"),
@@ -28,7 +30,7 @@ const AT_REST: f64 = 0.1;
 
 /// All quantities of a case of scenes, of which two have units of its own: [`Setting::MEAN_FORCE`] and
 /// [`Setting::MASS_CROSSED`].
-pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> [Quantity; 15] {
+pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> [Quantity; 16] {
     [
         ENERGY_RESIDUAL,
         ENERGY_RISE,
@@ -40,6 +42,7 @@ pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> 
         THROUGH_WALLS,
         MASS_LEFT,
         CUT_OFF,
+        FINAL_RMS_SPEED,
         FRONT,
         DEPTH,
         GAUGE_ERROR,
@@ -63,6 +66,7 @@ fn of_run<S: Setting<D>, const D: usize>(
     let (variant, data) = (run.named(), &record.data);
     let mut metrics = balances(&variant, data, parameters.sides.has_mirror());
     metrics.extend(energy(&variant, data, vector(&parameters.gravity).norm(), parameters.height()));
+    metrics.push(FINAL_RMS_SPEED.of(&variant, final_mean(&data.rms_speed)).with_snapshot_tolerance(0.1, 1e-3));
     for series in series::of_run(parameters, data) {
         let own = variant.clone().and("gauge", series.gauge);
         let first = series.values.first().map_or(&[][..], Vec::as_slice);
@@ -168,6 +172,12 @@ fn size(components: &[f64]) -> f64 {
 fn mean(series: &[f64]) -> f64 {
     let series = series.get(1..).unwrap_or_default();
     series.iter().sum::<f64>() / series.len() as f64
+}
+
+/// Mean over the last tenth of the samples, one at least.
+fn final_mean(series: &[f64]) -> f64 {
+    let last = &series[series.len() - series.len().div_ceil(10)..];
+    last.iter().sum::<f64>() / last.len() as f64
 }
 
 fn largest(series: &[f64]) -> f64 {

@@ -23,6 +23,8 @@ pub struct SceneObservation<const D: usize> {
     pub time: Vec<f64>,
     /// Mass in the scene `[kg]`.
     pub mass: Vec<f64>,
+    /// Root mean square of the speed in the scene `[m/s]`.
+    pub rms_speed: Vec<f64>,
     /// The gauges' values, shape `[columns][samples]`.
     pub gauges: Vec<Vec<f64>>,
     /// The energy ledger, with what has left still counted.
@@ -51,6 +53,7 @@ impl<const D: usize> Default for SceneObservation<D> {
         Self {
             time: Vec::new(),
             mass: Vec::new(),
+            rms_speed: Vec::new(),
             gauges: Vec::new(),
             energy: EnergyBook::default(),
             left: Vec::new(),
@@ -91,6 +94,8 @@ impl<const D: usize> SceneObservation<D> {
         let missing = held + gone - self.momentum_at_start - supports - given;
         self.time.push(snapshot.time);
         self.mass.push(inside);
+        let squares: f64 = snapshot.velocity.iter().zip(&snapshot.mass).map(|(v, m)| v.norm_squared() * m).sum();
+        self.rms_speed.push((squares / inside).sqrt());
         for (series, value) in self.gauges.iter_mut().zip(gauges) {
             series.push(value);
         }

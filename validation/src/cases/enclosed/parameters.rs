@@ -18,7 +18,7 @@ use bagnold_solver::parameter::{between, filled, positive};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::facet::Facet;
 use bagnold_solver::weakly_compressible::boundary::shell::Shell;
-use bagnold_solver::weakly_compressible::numerics::Numerics;
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
@@ -139,7 +139,8 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             walls: Vec::new(),
             gauges: Vec::new(),
             measured: Vec::new(),
-            numerics: Numerics::default(),
+            // a liquid comes to rest, grains keep the operator that they are verified with
+            numerics: Numerics { momentum_operator: MomentumOperator::ByLaw, ..Numerics::default() },
         }
     }
 
