@@ -5,7 +5,7 @@ use bagnold_validation::inference::{Evaluate, chi_squared, solve};
 use bagnold_validation::reference::{HerschelBulkleyFilm, Incline};
 use std::fmt::Write;
 
-const INCLINE: Incline = Incline { layer_height: 0.05, slope_angle: 0.3, gravity: 9.81, density: 1300.0 };
+const INCLINE: Incline = Incline { layer_height: 0.05, inclination: 0.3, gravity: 9.81, density: 1300.0 };
 const HEIGHTS: usize = 15;
 /// Relative standard uncertainty of a velocity.
 const NOISE: f64 = 0.03;

@@ -70,7 +70,7 @@ fn of_own_data(parameters: &str, seed: usize) -> Vec<String> {
 
 /// Findings with velocities `[m/s]` at twelve heights of the exact film of a flow index, whose noise of 3 % may be stated wrongly.
 fn of_exact_data(flow_index: f64, stated: f64, change: fn(usize, f64) -> f64) -> Vec<String> {
-    let incline = Incline { layer_height: 0.01, slope_angle: 10.0_f64.to_radians(), gravity: 9.81, density: 1000.0 };
+    let incline = Incline { layer_height: 0.01, inclination: 10.0_f64.to_radians(), gravity: 9.81, density: 1000.0 };
     let film = HerschelBulkleyFilm { incline, yield_stress: 0.0, consistency: 0.5, flow_index };
     let mut text = String::from(
         "# quantity: velocity of a film\n# unit: m/s\n# kind: computed\n# confidence: high\n# uncertainty: column\n\

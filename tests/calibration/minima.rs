@@ -12,7 +12,7 @@ const GRID: usize = 200;
 /// measured worse, prefers one. The edge of the plug fixes the yield stress.
 fn film(u: &[f64]) -> Vec<f64> {
     let of = |flow_index, yield_stress| {
-        let incline = Incline { layer_height: 0.05, slope_angle: 0.3, gravity: 9.81, density: 1300.0 };
+        let incline = Incline { layer_height: 0.05, inclination: 0.3, gravity: 9.81, density: 1300.0 };
         let film = HerschelBulkleyFilm { incline, yield_stress, consistency: 78.0, flow_index };
         [film.plug_velocity(), film.velocity(0.017), film.plug_edge()]
     };

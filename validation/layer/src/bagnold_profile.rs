@@ -13,8 +13,8 @@ use bagnold_solver::material::rheology::MuI;
 pub struct BagnoldProfile {
     /// Thickness h `[m]` normal to the slope.
     pub layer_height: f64,
-    /// Slope θ `[rad]`.
-    pub slope_angle: f64,
+    /// Slope θ `[rad]`; `slope_angle` is the same in degrees, as files and messages give it.
+    pub inclination: f64,
     /// Gravity g `[m/s²]`.
     pub gravity: f64,
     /// Grain diameter D `[m]`.
@@ -37,7 +37,7 @@ impl BagnoldProfile {
     pub fn of(grains: &MuI, layer_height: f64, solid_fraction: f64, gravity: f64, slope_angle: f64) -> Self {
         Self {
             layer_height,
-            slope_angle: slope_angle.to_radians(),
+            inclination: slope_angle.to_radians(),
             gravity,
             grain_diameter: grains.grain_diameter,
             grain_density: grains.grain_density,
@@ -71,10 +71,10 @@ impl BagnoldProfile {
             let rule = "finite and greater than static_friction";
             return Err(LayerError::Parameter { field: "limiting_friction", value: self.limiting_friction, rule });
         }
-        if self.slope_angle.is_nan() || self.slope_angle.abs() >= std::f64::consts::FRAC_PI_2 {
+        if self.inclination.is_nan() || self.inclination.abs() >= std::f64::consts::FRAC_PI_2 {
             return Err(LayerError::Parameter {
-                field: "slope_angle",
-                value: self.slope_angle,
+                field: "inclination",
+                value: self.inclination,
                 rule: "within ±π/2 rad",
             });
         }
@@ -84,7 +84,7 @@ impl BagnoldProfile {
     /// Inertial number I `[-]` of the steady flow, the same at every height; none where there is no steady flow.
     #[must_use]
     pub fn inertial_number(&self) -> Option<f64> {
-        let tangent = libm::tan(self.slope_angle);
+        let tangent = libm::tan(self.inclination);
         (tangent >= self.static_friction && tangent < self.limiting_friction)
             .then(|| self.reference_inertia * (tangent - self.static_friction) / (self.limiting_friction - tangent))
     }
@@ -126,13 +126,13 @@ impl BagnoldProfile {
     /// Pressure ρ g cosθ (h − y) `[Pa]` at a height `[m]`, steady or not.
     #[must_use]
     pub fn pressure(&self, height: f64) -> f64 {
-        self.bulk_density() * self.gravity * libm::cos(self.slope_angle) * self.depth_below_surface(height)
+        self.bulk_density() * self.gravity * libm::cos(self.inclination) * self.depth_below_surface(height)
     }
 
     /// Shear stress ρ g sinθ (h − y) `[Pa]` at a height `[m]` of the steady flow.
     #[must_use]
     pub fn shear_stress(&self, height: f64) -> f64 {
-        self.bulk_density() * self.gravity * libm::sin(self.slope_angle) * self.depth_below_surface(height)
+        self.bulk_density() * self.gravity * libm::sin(self.inclination) * self.depth_below_surface(height)
     }
 
     /// h − y `[m]`, 0 above the layer.
@@ -142,7 +142,7 @@ impl BagnoldProfile {
 
     /// √(φ g cosθ) `[m^½/s]`.
     fn fall_scale(&self) -> f64 {
-        (self.solid_fraction * self.gravity * libm::cos(self.slope_angle)).sqrt()
+        (self.solid_fraction * self.gravity * libm::cos(self.inclination)).sqrt()
     }
 }
 
@@ -151,7 +151,7 @@ impl BagnoldProfile {
 pub(crate) fn glass_beads(degrees: f64) -> BagnoldProfile {
     BagnoldProfile {
         layer_height: 0.01,
-        slope_angle: degrees.to_radians(),
+        inclination: degrees.to_radians(),
         gravity: 9.81,
         grain_diameter: 0.5e-3,
         grain_density: 2500.0,
@@ -178,7 +178,7 @@ mod tests {
             assert!((shear_rate / layer.shear_rate(height).expect("steady") - 1.0).abs() < 1e-6);
             let inertia = shear_rate * layer.grain_diameter / (layer.pressure(height) / layer.grain_density).sqrt();
             let friction = 0.382 + (0.643 - 0.382) / (1.0 + 0.279 / inertia);
-            let weight = 1500.0 * 9.81 * libm::sin(layer.slope_angle) * (0.01 - height);
+            let weight = 1500.0 * 9.81 * libm::sin(layer.inclination) * (0.01 - height);
             assert!((friction * layer.pressure(height) / weight - 1.0).abs() < 1e-6);
             assert!((layer.shear_stress(height) / weight - 1.0).abs() < 1e-14);
         }
@@ -218,6 +218,6 @@ mod tests {
             let error = BagnoldProfile { limiting_friction: bad, ..good }.check().expect_err("refused");
             assert!(error.to_string().contains("limiting_friction"), "{error}");
         }
-        assert!(BagnoldProfile { slope_angle: 1.6, ..good }.check().is_err());
+        assert!(BagnoldProfile { inclination: 1.6, ..good }.check().is_err());
     }
 }

@@ -144,7 +144,7 @@ impl LayerTransient {
 
     /// Advances by one time step.
     pub fn step(&mut self) -> Result<(), LayerError> {
-        let push = self.time_step * self.layer.gravity * libm::sin(self.layer.slope_angle);
+        let push = self.time_step * self.layer.gravity * libm::sin(self.layer.inclination);
         let differences: Vec<f64> = (0..self.faces.len())
             .map(|j| if j == 0 { self.velocity[0] + push } else { self.velocity[j] - self.velocity[j - 1] })
             .collect();

@@ -81,12 +81,12 @@ fn arrest(degrees: f64, cells: usize, step: f64) -> Option<f64> {
 fn explicit_elastic_depth_mean(layer: &BagnoldProfile, cells: usize, duration: f64) -> f64 {
     let (width, stiffness) = (layer.layer_height / cells as f64, 400.0f64);
     let step = 0.2 * width / stiffness.sqrt();
-    let push = layer.gravity * libm::sin(layer.slope_angle);
+    let push = layer.gravity * libm::sin(layer.inclination);
     let (mut velocity, mut stress) = (vec![0.0; cells], vec![0.0; cells + 1]);
     for _ in 0..(duration / step) as usize {
         for j in 0..cells {
             let shear = if j == 0 { velocity[0] / (0.5 * width) } else { (velocity[j] - velocity[j - 1]) / width };
-            let pressure = layer.gravity * libm::cos(layer.slope_angle) * (layer.layer_height - j as f64 * width);
+            let pressure = layer.gravity * libm::cos(layer.inclination) * (layer.layer_height - j as f64 * width);
             let (low, high) = (layer.static_friction * pressure, layer.limiting_friction * pressure);
             let rate = layer.reference_inertia * (layer.solid_fraction * pressure).sqrt() / layer.grain_diameter;
             let trial: f64 = stress[j] + stiffness * step * shear;

@@ -67,7 +67,7 @@ mod tests {
     use super::*;
     use crate::reference::NewtonianFilm;
 
-    const INCLINE: Incline = Incline { layer_height: 0.01, slope_angle: 0.17, gravity: 9.81, density: 1000.0 };
+    const INCLINE: Incline = Incline { layer_height: 0.01, inclination: 0.17, gravity: 9.81, density: 1000.0 };
 
     #[test]
     fn carries_the_shear_stress() {

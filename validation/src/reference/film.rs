@@ -9,8 +9,8 @@
 pub struct Incline {
     /// Thickness h `[m]` normal to the slope.
     pub layer_height: f64,
-    /// Slope θ `[rad]`.
-    pub slope_angle: f64,
+    /// Slope θ `[rad]`; `slope_angle` is the same in degrees, as files and messages give it.
+    pub inclination: f64,
     /// Gravity g `[m/s²]`.
     pub gravity: f64,
     /// Density ρ `[kg/m³]`.
@@ -21,7 +21,7 @@ impl Incline {
     /// G = ρ g sinθ `[Pa/m]`, the weight along the slope that shear has to carry.
     #[must_use]
     pub fn driving_force(&self) -> f64 {
-        self.density * self.gravity * libm::sin(self.slope_angle)
+        self.density * self.gravity * libm::sin(self.inclination)
     }
 
     /// Shear stress G (h − y) `[Pa]` at a height `[m]` above the bed.
@@ -155,7 +155,7 @@ impl HerschelBulkleyFilm {
 mod tests {
     use super::*;
 
-    const BED: Incline = Incline { layer_height: 0.05, slope_angle: 0.3, gravity: 9.81, density: 1300.0 };
+    const BED: Incline = Incline { layer_height: 0.05, inclination: 0.3, gravity: 9.81, density: 1300.0 };
     const YIELD: f64 = 60.0;
 
     fn herschel_bulkley(flow_index: f64, yield_stress: f64) -> HerschelBulkleyFilm {
@@ -225,7 +225,7 @@ mod tests {
         let film = herschel_bulkley(0.5, 1e4);
         assert_eq!((film.plug_edge(), film.flux(), film.velocity(0.02)), (0.0, 0.0, 0.0));
         let level =
-            BinghamFilm { incline: Incline { slope_angle: 0.0, ..BED }, yield_stress: 0.0, plastic_viscosity: 1.0 };
+            BinghamFilm { incline: Incline { inclination: 0.0, ..BED }, yield_stress: 0.0, plastic_viscosity: 1.0 };
         assert_eq!((level.flux(), level.velocity(0.02)), (0.0, 0.0));
     }
 }

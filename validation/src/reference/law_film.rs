@@ -26,7 +26,7 @@ impl LawFilm {
     #[must_use]
     pub fn shear_rate(&self, height: f64) -> f64 {
         let shear_stress = self.incline.shear_stress(height);
-        let pressure = shear_stress / libm::tan(self.incline.slope_angle);
+        let pressure = shear_stress / libm::tan(self.incline.inclination);
         let falls_short = |rate: f64| self.law.viscosity(rate, pressure) * rate < shear_stress;
         let (mut slow, mut fast) = RATES;
         if !falls_short(slow) {
@@ -75,7 +75,7 @@ mod tests {
     use crate::reference::{BagnoldProfile, GLASS_BEADS, NewtonianFilm};
     use bagnold_solver::material::rheology::Newtonian;
 
-    const INCLINE: Incline = Incline { layer_height: 0.01, slope_angle: 0.42, gravity: 9.81, density: 1000.0 };
+    const INCLINE: Incline = Incline { layer_height: 0.01, inclination: 0.42, gravity: 9.81, density: 1000.0 };
 
     #[test]
     fn the_newtonian_film_is_that_of_nusselt() {
@@ -97,7 +97,7 @@ mod tests {
         let surface = exact.surface_velocity().expect("between the friction angles");
         assert!((film.velocity(0.01) / surface - 1.0).abs() < 1e-3, "{} {surface}", film.velocity(0.01));
         // below the static friction they stand, above the limiting one nothing holds them
-        let tilted = |slope_angle| LawFilm { incline: Incline { slope_angle, ..incline }, ..film };
+        let tilted = |inclination| LawFilm { incline: Incline { inclination, ..incline }, ..film };
         assert_eq!(tilted(0.3).velocity(0.01), 0.0);
         assert_eq!(tilted(0.7).velocity(0.01), f64::INFINITY);
     }

@@ -59,7 +59,7 @@ pub(super) fn implied_stress(profile: &DepthProfile, exact: &BagnoldProfile) -> 
         exact.static_friction
             + (exact.limiting_friction - exact.static_friction) / (1.0 + exact.reference_inertia / inertial_number)
     };
-    let tangent = libm::tan(exact.slope_angle);
+    let tangent = libm::tan(exact.inclination);
     let numbers = inertial_numbers(profile, exact).into_iter();
     numbers.map(|(y, inertial_number)| (y, friction(inertial_number) / tangent - 1.0)).collect()
 }

@@ -210,7 +210,7 @@ fn runaway((run, record): &BagnoldRecord) -> Vec<Metric> {
     let (variant, particles, end) = (run.variant(), particle_history(&record.data), record.simulated_time);
     let profile = run.profile();
     let least_possible =
-        profile.gravity * (libm::sin(profile.slope_angle) - profile.limiting_friction * libm::cos(profile.slope_angle));
+        profile.gravity * (libm::sin(profile.inclination) - profile.limiting_friction * libm::cos(profile.inclination));
     let acceleration = LEAST_ACCELERATION
         .of(&variant, least_acceleration(&particles) / least_possible)
         .exactly(1.0, "g (sinθ − μ_2 cosθ), the limit of infinite inertial number")

@@ -55,7 +55,8 @@ fn of_run(record: &Record) -> Vec<Metric> {
     }
     let compressible = compressible_l2(record).map(|value| {
         let source = "exact weakly compressible film, η du/dy = p tanθ";
-        VELOCITY_L2_COMPRESSIBLE.of(&variant, value).exactly(0.0, source).with_snapshot_tolerance(1e-3, 1e-4)
+        let metric = VELOCITY_L2_COMPRESSIBLE.of(&variant, value).exactly(0.0, source);
+        metric.with_snapshot_tolerance(1e-3, 1e-4).unless(unsteadiness(record).as_ref())
     });
     let mut common = vec![layer::particles_lost(&variant, recorded)];
     common.extend(energy_ledger::metrics(&variant, &recorded.data.energy, energy_ledger::EnergyScale::Gravity));
@@ -69,6 +70,11 @@ fn errors(record: &Record) -> [(Quantity, f64); 2] {
     [(VELOCITY_L2, velocity_l2), (FLUX_ERROR, flux_error(record))]
 }
 
+/// Why a film's profile is not that of a steady flow; none where it is.
+fn unsteadiness((run, record): &Record) -> Option<String> {
+    record.data.unsteadiness(run.window())
+}
+
 /// What another set of numerics gives: to be seen beside the default, not to be judged.
 fn compared(record: &Record) -> Vec<Metric> {
     // a run that diverged has no profile to speak of
@@ -76,8 +82,10 @@ fn compared(record: &Record) -> Vec<Metric> {
         return Vec::new();
     }
     let variant = record.0.variant();
+    let not_steady = unsteadiness(record);
     let observed = |(quantity, value): (Quantity, f64)| {
-        quantity.of(&variant, value).exactly(0.0, EXACT).with_snapshot_tolerance(0.02, 0.05)
+        let metric = quantity.of(&variant, value).exactly(0.0, EXACT).with_snapshot_tolerance(0.02, 0.05);
+        metric.unless(not_steady.as_ref())
     };
     errors(record).map(observed).to_vec()
 }
@@ -133,8 +141,10 @@ fn profile(record: &Record) -> Vec<Metric> {
         _ => None,
     };
     let exact = if matches!(run.film(), SteadyFilm::Integrated(_)) { INTEGRATED } else { EXACT };
+    let not_steady = unsteadiness(record);
     let judged = |(quantity, value): (Quantity, f64)| {
         let metric = quantity.of(&run.variant(), value).exactly(0.0, exact).with_snapshot_tolerance(1e-3, 1e-4);
+        let metric = metric.unless(not_steady.as_ref());
         match limit {
             Some((limit, reason)) if quantity == VELOCITY_L2 => metric.gated(Limit::AtMost(limit), reason),
             Some((limit, reason)) => metric.gated(Limit::Within(-limit, limit), reason),
@@ -157,7 +167,8 @@ fn plug_edge((run, record): &Record) -> Option<Metric> {
         .of(&run.variant(), (edge - exact) / spacing)
         .exactly(0.0, "edge of the plug at h − τ_y/(ρ g sinθ)")
         .gated(Limit::Within(-1.0, 1.0), reason)
-        .with_snapshot_tolerance(0.01, 0.01);
+        .with_snapshot_tolerance(0.01, 0.01)
+        .unless(record.data.unsteadiness(run.window()).as_ref());
     Some(error)
 }
 

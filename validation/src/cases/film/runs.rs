@@ -14,7 +14,7 @@ use serde::Serialize;
 /// The incline of a layer of a density `[kg/m³]` on a slope `[°]`.
 pub(super) fn incline(layer: &PeriodicLayer, slope_angle: f64, density: f64) -> Incline {
     let PeriodicLayer { layer_height, gravity, .. } = *layer;
-    Incline { layer_height, slope_angle: slope_angle.to_radians(), gravity, density }
+    Incline { layer_height, inclination: slope_angle.to_radians(), gravity, density }
 }
 
 /// One simulation.
@@ -115,10 +115,10 @@ impl FilmRun {
         }
         let layer = self.layer(&|_| 0.0);
         let (bulk_modulus, h) = (layer.bulk_modulus, self.layer.layer_height);
-        let rate = self.density * self.layer.gravity * libm::cos(layer.slope_angle) / bulk_modulus;
+        let rate = self.density * self.layer.gravity * libm::cos(layer.inclination) / bulk_modulus;
         // (exp(ah) − exp(a(h − y)))/a − y without cancellation for a stiff fluid
         let integral = libm::exp(rate * (h - height)) * libm::expm1(rate * height) / rate - height;
-        Some(libm::tan(layer.slope_angle) * bulk_modulus / law.viscosity * integral)
+        Some(libm::tan(layer.inclination) * bulk_modulus / law.viscosity * integral)
     }
 
     /// Its observation as another code gives it.
@@ -126,16 +126,27 @@ impl FilmRun {
         layer::foreign::observe(&self.layer(&|_| 0.0), given)
     }
 
+    /// Simulated time `[s]`.
+    fn duration(&self) -> f64 {
+        let depth = self.layer.layer_height;
+        self.relaxation_times * self.density * depth * depth / self.film().relaxing_viscosity()
+    }
+
+    /// Length of the window before the end that is averaged over `[s]`.
+    pub(super) fn window(&self) -> f64 {
+        0.15 * self.duration()
+    }
+
     fn layer<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Layer<'a> {
         let film = self.film();
         let PeriodicLayer { layer_height, gravity, .. } = self.layer;
-        let duration = self.relaxation_times * self.density * layer_height * layer_height / film.relaxing_viscosity();
+        let duration = self.duration();
         Layer {
             bulk_modulus: bulk_modulus(self.density, gravity, layer_height, film.flux() / layer_height),
             velocity,
             top: self.top,
             duration,
-            window: 0.15 * duration,
+            window: self.window(),
             interval: duration / 500.0,
             // (13) is known to go unstable on displaced particles; that is shown, and no error of the run
             may_diverge: NumericsSet::OTHERS.contains(&self.numerics_set),

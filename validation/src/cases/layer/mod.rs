@@ -43,8 +43,8 @@ pub enum Top {
 pub struct Layer<'a> {
     /// Its size, its particles and their numerics.
     pub layer: PeriodicLayer,
-    /// Slope angle θ `[rad]`.
-    pub slope_angle: f64,
+    /// Slope θ `[rad]`; `slope_angle` is the same in degrees, as files and messages give it.
+    pub inclination: f64,
     /// Reference density ρ0 `[kg/m³]`.
     pub reference_density: f64,
     /// Bulk modulus K `[Pa]`.
@@ -96,7 +96,7 @@ impl Layer<'_> {
     /// Exact pressure `[Pa]` of the compressible layer at rest, K (exp(ρ0 g cosθ (H − y)/K) − 1).
     #[must_use]
     pub fn hydrostatic_pressure(&self, y: f64) -> f64 {
-        let across = self.layer.gravity * libm::cos(self.slope_angle);
+        let across = self.layer.gravity * libm::cos(self.inclination);
         hydrostatic_pressure(self.bulk_modulus, self.reference_density, across, self.layer.layer_height - y)
     }
 
@@ -168,7 +168,7 @@ impl Layer<'_> {
             wall_particles: fill(&[bed], &domain, extent, spacing, wall_rows(numerics.smoothing_ratio)),
             walls: vec![bed],
             domain,
-            gravity: Vector::<2>::new(libm::sin(self.slope_angle), -libm::cos(self.slope_angle)) * self.layer.gravity,
+            gravity: Vector::<2>::new(libm::sin(self.inclination), -libm::cos(self.inclination)) * self.layer.gravity,
             numerics,
             ..Scene::unbounded(flow, spacing, equation_of_state, self.rheology)
         }
@@ -194,7 +194,7 @@ impl Layer<'_> {
                 "slope angle {:.1}°, {} rows: the explicit viscous step needs about {steps:.1e} steps for {} s, {:.0} times \
                  as many as the speed of sound would; that is {:.1} h on one core. A larger regularisation rate shortens \
                  it, but lets the material creep: it is still compared with the unregularised law",
-                self.slope_angle.to_degrees(),
+                self.inclination.to_degrees(),
                 self.layer.resolution,
                 self.duration,
                 steps / acoustic,

@@ -66,7 +66,7 @@ impl PeriodicLayer {
     pub fn of(&self, rheology: Rheology, reference_density: f64, slope_angle: f64) -> Layer<'static> {
         Layer {
             layer: *self,
-            slope_angle: slope_angle.to_radians(),
+            inclination: slope_angle.to_radians(),
             reference_density,
             bulk_modulus: bulk_modulus(reference_density, self.gravity, self.layer_height, 0.0),
             top: Top::Free,

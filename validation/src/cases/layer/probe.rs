@@ -117,7 +117,7 @@ pub struct LayerProbe {
 impl LayerProbe {
     pub(super) fn new(layer: &Layer<'_>) -> Self {
         let PeriodicLayer { layer_height, gravity, columns, numerics, .. } = layer.layer;
-        let across = gravity * libm::cos(layer.slope_angle);
+        let across = gravity * libm::cos(layer.inclination);
         Self {
             height: layer_height,
             length: columns as f64 * layer.spacing(),
@@ -125,7 +125,7 @@ impl LayerProbe {
             weight: layer.reference_density * across * layer_height,
             hydrostatic: (layer.bulk_modulus, layer.reference_density, across),
             window_start: layer.duration - layer.window,
-            noise: layer.slope_angle == 0.0,
+            noise: layer.inclination == 0.0,
             series: TimeSeries::default(),
             sums: vec![[0.0; 6]; BINS],
             ratio: (f64::INFINITY, f64::NEG_INFINITY),

@@ -166,7 +166,7 @@ impl WaterFilmRun {
         let incline = Incline {
             layer_height: depth,
             // the body force along the bed is g i: i is the sine here
-            slope_angle: libm::asin(self.film.slope),
+            inclination: libm::asin(self.film.slope),
             gravity: self.water.gravity,
             density: self.water.density,
         };
