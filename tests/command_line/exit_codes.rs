@@ -27,6 +27,24 @@ fn a_profile_goes_to_standard_error_and_leaves_the_document_alone() {
 }
 
 #[test]
+fn one_and_no_number_where_a_flow_is_not_steady() {
+    let place = Place::new();
+    // fine grains that have run a tenth of the time that they need
+    let settings = "slope_angles=[21.731] arrest_slope_angles=[] material.static_friction=0.359 material.limiting_friction=0.547 \
+                    material.reference_inertia=0.637 material.grain_diameter=0.000296 layer_height=0.0123 solid_fraction=0.587 \
+                    averaging_time=0.2 duration_factor=0.1";
+    let settings = settings.split_whitespace().flat_map(|setting| ["--set", setting]);
+    let arguments: Vec<&str> = ["bagnold", "--quiet", "--json"].into_iter().chain(settings).collect();
+    let document = document(&place.run(&arguments).code(1));
+    let of_profile: Vec<_> = document.metrics.iter().filter(|metric| metric.not_steady.is_some()).collect();
+    assert!(of_profile.len() >= 4, "{} metrics are not steady", of_profile.len());
+    for metric in of_profile {
+        assert_eq!(metric.value, None, "{}", metric.name);
+        assert_ne!(metric.verdict, Verdict::Pass, "{}", metric.name);
+    }
+}
+
+#[test]
 fn one_when_a_gate_fails() {
     let place = Place::new();
     // a twentieth of the time that the film needs to reach its steady profile

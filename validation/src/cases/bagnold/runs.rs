@@ -281,3 +281,37 @@ impl BagnoldRun {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Parameters, Tier};
+
+    #[test]
+    fn runs_from_rest_last_as_the_recipe_or_as_long_as_the_material_needs() {
+        let quick = BagnoldParameters::of_tier(Tier::Quick);
+        let durations = |parameters: &BagnoldParameters| {
+            let runs = parameters.runs().into_iter().filter(|run| run.purpose == BagnoldPurpose::Steady);
+            runs.map(|run| run.duration).collect::<Vec<_>>()
+        };
+        assert_eq!(durations(&quick), [3.5, 4.0, 4.5, 5.0], "glass beads");
+        let Rheology::MuI(glass) = quick.material else { unreachable!("glass beads are of μ(I)") };
+        let fine = MuI {
+            static_friction: 0.359,
+            limiting_friction: 0.547,
+            reference_inertia: 0.637,
+            grain_diameter: 0.296e-3,
+            ..glass
+        };
+        let layer = PeriodicLayer { layer_height: 0.0123, ..quick.layer };
+        let fine = BagnoldParameters {
+            material: Rheology::MuI(fine),
+            layer,
+            slope_angles: vec![21.731],
+            solid_fraction: 0.587,
+            ..quick
+        };
+        // 99.9 % after 21.2 s by the resolved transient, and the window
+        assert!(durations(&fine).iter().all(|duration| (21.0..22.5).contains(duration)), "{:?}", durations(&fine));
+    }
+}
