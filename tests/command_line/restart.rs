@@ -101,7 +101,7 @@ scale = "log"
 [[fit]]
 case = "film"
 with = { fluids = ["newtonian"], resolution = 30, convergence_resolutions = [], comparison_resolution = 0, relaxation_times = 1.5 }
-data = [{ metric = "velocity_l2", value = 0.0, unit = "%", uncertainty = 1.0, source = "own" }]
+data = [{ metric = "wall_work", value = -1.0, unit = "%", uncertainty = 1.0, source = "own" }]
 "#;
 
 /// How often each command is disturbed.

@@ -105,7 +105,10 @@ impl Target {
                         first.variant
                     ));
                 }
-                Ok((first.value, first.unit.clone()))
+                match &first.not_steady {
+                    Some(reason) => Err(format!("no `{name}`: {reason}; let the runs last longer")),
+                    None => Ok((first.value, first.unit.clone())),
+                }
             }
             Self::Profile { table, x, y, at } => {
                 let found = record.tables.iter().find(|other| other.name == *table).ok_or_else(|| {

@@ -22,6 +22,8 @@ pub struct MetricValue {
     pub unit: String,
     /// The gate's outcome.
     pub verdict: Verdict,
+    /// Why it has no value: what the flow still does at the end of the run.
+    pub not_steady: Option<String>,
 }
 
 impl MetricValue {
@@ -32,6 +34,7 @@ impl MetricValue {
             value: metric.value,
             unit: metric.unit.clone(),
             verdict: metric.verdict(),
+            not_steady: metric.not_steady.clone(),
         }
     }
 }
@@ -118,6 +121,7 @@ mod tests {
             value: 0.1 + 0.2,
             unit: "%".to_owned(),
             verdict: Verdict::Pass,
+            not_steady: None,
         });
         assert_eq!(EvaluationRecord::read(&path, "a"), None);
         record.write(&path).expect("writable");
