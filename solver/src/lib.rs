@@ -10,6 +10,7 @@ pub mod lanes;
 pub mod parameter;
 pub mod vector;
 
+mod cell_order;
 mod linear;
 pub mod material;
 

@@ -21,7 +21,7 @@ const fn peers(rooms: &'static [&'static str]) -> Floor {
 
 /// `solver/src`, from the ground up.
 const SOLVER: &[Floor] = &[
-    floor(&["vector", "lanes", "kernel", "domain", "parameter"]),
+    floor(&["vector", "lanes", "kernel", "domain", "parameter", "cell_order"]),
     floor(&["material", "linear"]),
     floor(&["run"]),
     peers(&["weakly_compressible", "incompressible"]),
@@ -34,7 +34,7 @@ const INFERENCE: &[Floor] = &[floor(&["statistics", "sampling"]), floor(&["infer
 /// `validation/src`, likewise; what it passes on of other packages stands below it.
 const VALIDATION: &[Floor] = &[
     floor(&["input", "interruption"]),
-    floor(&["output"]),
+    floor(&["output", "page"]),
     floor(&["metric", "reference"]),
     floor(&["observation"]),
     floor(&["store", "checkpoint"]),

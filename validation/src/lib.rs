@@ -14,6 +14,7 @@ pub mod metric;
 pub mod mutation;
 pub mod observation;
 pub mod output;
+mod page;
 pub mod reference;
 pub mod report;
 pub mod result;

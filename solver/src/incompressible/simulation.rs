@@ -1,6 +1,5 @@
 //! An incompressible simulation as others see it: how it is set up, run and read.
 
-use super::phase::Phase;
 use super::scene::IncompressibleScene;
 use super::snapshot::{IncompressibleSnapshot, PhaseSnapshot};
 use super::state::State;
@@ -108,11 +107,7 @@ impl IncompressibleSimulation<2> {
         IncompressibleSnapshot {
             time: self.state.time,
             fluid: PhaseSnapshot::of(&self.state.phases.fluid),
-            sediment: match (&self.state.columns, &self.state.phases.sediment) {
-                (Some(columns), _) => PhaseSnapshot::of_grains(&columns.grains),
-                (None, Some(sediment)) => PhaseSnapshot::of(sediment),
-                (None, None) => PhaseSnapshot::default(),
-            },
+            sediment: PhaseSnapshot::of_sediment(&self.state.sediment()),
             drag: self.drag(),
         }
     }
@@ -164,8 +159,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
     /// Free particles of both phases.
     #[must_use]
     pub fn free_particles(&self) -> usize {
-        self.state.phases.all().map(Phase::len).sum::<usize>()
-            + self.state.columns.as_ref().map_or(0, |c| c.grains.len())
+        self.state.phases.fluid.len() + self.state.sediment().position.len()
     }
 
     /// The scene.
@@ -189,12 +183,8 @@ impl<const D: usize> IncompressibleSimulation<D> {
     /// Positions `[m]` and velocities `[m/s]` of the free sediment, shape `[particles]`; empty without sediment.
     #[must_use]
     pub fn sediment(&self) -> (&[Vector<D>], &[Vector<D>]) {
-        let State { columns, phases, .. } = &self.state;
-        match (columns, &phases.sediment) {
-            (Some(columns), _) => (&columns.grains.position, &columns.grains.velocity),
-            (None, Some(sediment)) => (&sediment.position, &sediment.velocity),
-            (None, None) => (&[], &[]),
-        }
+        let sediment = self.state.sediment();
+        (sediment.position, sediment.velocity)
     }
 
     /// Part of the space that the fluid had at every fluid particle in the last step `[-]`.
@@ -212,11 +202,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
     /// Masses of the free sediment `[kg]`, per metre of width in 2-D.
     #[must_use]
     pub fn sediment_masses(&self) -> &[f64] {
-        match (&self.state.columns, &self.state.phases.sediment) {
-            (Some(columns), _) => &columns.grains.mass,
-            (None, Some(sediment)) => &sediment.mass,
-            (None, None) => &[],
-        }
+        self.state.sediment().mass
     }
 
     /// Uniform pressure gradient that has taken the mixture's mean flux out in the last step `[Pa/m]`.

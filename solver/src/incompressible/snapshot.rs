@@ -1,7 +1,7 @@
 //! A copy of both phases in the order of the scene.
 
-use super::columns::Grains;
 use super::phase::Phase;
+use super::state::SedimentParticles;
 use crate::vector::Vector;
 use serde::{Deserialize, Serialize};
 
@@ -44,15 +44,14 @@ impl<const D: usize> PhaseSnapshot<D> {
         }
     }
 
-    /// Grains of columns, which have neither a pressure nor a concentration of their own.
-    pub(super) fn of_grains(grains: &Grains<D>) -> Self {
-        Self {
-            position: grains.position.clone(),
-            velocity: grains.velocity.clone(),
-            pressure: vec![0.0; grains.len()],
-            concentration: vec![1.0; grains.len()],
-            mass: grains.mass.clone(),
-        }
+    /// Of grains of columns pressures of 0 and concentrations of 1: they have none of their own.
+    pub(super) fn of_sediment(sediment: &SedimentParticles<'_, D>) -> Self {
+        let SedimentParticles { position, velocity, mass, of_phase } = *sediment;
+        let all = |value: f64| vec![value; position.len()];
+        let own = |(pressure, concentration): (&[f64], &[f64])| (pressure.to_vec(), concentration.to_vec());
+        let (pressure, concentration) = of_phase.map_or_else(|| (all(0.0), all(1.0)), own);
+        let (position, velocity, mass) = (position.to_vec(), velocity.to_vec(), mass.to_vec());
+        Self { position, velocity, pressure, concentration, mass }
     }
 }
 

@@ -1,6 +1,6 @@
 //! All that a run carries from step to step.
 
-use super::columns::Columns;
+use super::columns::{Columns, Grains};
 use super::divergence::Failure;
 use super::passes::drag_exchange::DragExchange;
 use super::passes::search::Search;
@@ -33,7 +33,38 @@ pub(super) struct State<const D: usize> {
     pub(super) last_step: f64,
 }
 
+/// What every kind of sediment has; arrays have the shape `[free particles]`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SedimentParticles<'s, const D: usize> {
+    pub(super) position: &'s [Vector<D>],
+    pub(super) velocity: &'s [Vector<D>],
+    pub(super) mass: &'s [f64],
+    /// Pressure `[Pa]` and concentration `[-]`, which grains of columns have none of.
+    pub(super) of_phase: Option<(&'s [f64], &'s [f64])>,
+}
+
 impl<const D: usize> State<D> {
+    /// The sediment, be it a phase of pairs or grains of columns; empty where there is none.
+    pub(super) fn sediment(&self) -> SedimentParticles<'_, D> {
+        match (&self.columns, &self.phases.sediment) {
+            (Some(Columns { grains: Grains { position, velocity, mass, .. }, .. }), _) => {
+                SedimentParticles { position, velocity, mass, of_phase: None }
+            }
+            (None, Some(Phase { position, velocity, mass, pressure, concentration, .. })) => {
+                SedimentParticles { position, velocity, mass, of_phase: Some((pressure, concentration)) }
+            }
+            (None, None) => SedimentParticles { position: &[], velocity: &[], mass: &[], of_phase: None },
+        }
+    }
+
+    /// Puts all particles back into their periods.
+    pub(super) fn wrap(&mut self) {
+        self.phases.wrap(&self.scene.domain);
+        if let Some(columns) = &mut self.columns {
+            columns.grains.wrap(&self.scene.domain);
+        }
+    }
+
     /// The state at the start of a scene, with its candidates searched.
     ///
     /// # Errors
@@ -77,9 +108,9 @@ impl<const D: usize> State<D> {
     /// A failure with its place and time.
     pub(super) fn divergence(&self, failure: Failure) -> Divergence<D> {
         let Failure { row, quantity, value, limit } = failure;
-        let grain = row.checked_sub(self.phases.fluid.len());
-        let of_grain = |columns: &Columns<D>| columns.grains.position.get(grain?).copied();
-        let position = self.columns.as_ref().and_then(of_grain).unwrap_or_else(|| self.phases.position(row));
+        let (fluid, sediment) = (&self.phases.fluid.position, self.sediment());
+        let grain = row.checked_sub(fluid.len()).and_then(|grain| sediment.position.get(grain));
+        let position = grain.copied().unwrap_or_else(|| fluid[row.min(fluid.len() - 1)]);
         Divergence {
             time: self.time,
             step: self.steps,

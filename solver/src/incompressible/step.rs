@@ -35,10 +35,7 @@ fn advance<const D: usize>(state: &mut State<D>) -> Result<(), Failure> {
     advance_columns(state, time_step)?;
     project(state, time_step)?;
     shift(state, &numerics, time_step);
-    state.phases.wrap(&state.scene.domain);
-    if let Some(columns) = &mut state.columns {
-        columns.grains.wrap(&state.scene.domain);
-    }
+    state.wrap();
     state.time += time_step;
     state.steps += 1;
     Ok(())

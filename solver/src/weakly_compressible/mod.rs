@@ -7,6 +7,7 @@ pub mod boundary;
 pub mod divergence;
 mod enclosure_step;
 pub mod energy;
+mod forces;
 mod model;
 pub mod neighbours;
 pub mod numerics;
@@ -22,6 +23,7 @@ mod step;
 mod surroundings;
 pub mod terms;
 pub mod time_step;
+mod velocity_step;
 pub(crate) mod viscous_solve;
 
 pub use saved::SavedSimulation;

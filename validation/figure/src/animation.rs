@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// An animation. Axes and colours are fixed, so that only what moves moves.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Animation {
-    /// File name without ending, kebab-case, unique within the case's figures and animations.
+    /// File name without ending, kebab-case, unique within its folder.
     pub name: String,
     /// Caption for the report: what is seen and what it means.
     pub caption: String,

@@ -1,4 +1,22 @@
-//! Figures as plain data: who has something to show describes what to draw, this package draws it.
+//! Figures as plain data: who has something to show describes what to draw, this package draws it, as SVG, PNG and GIF. The
+//! files are the same to the byte on every machine: fonts and rasteriser are part of the package.
+//!
+//! A [`Figure`] is a sheet of [`Panel`]s; a panel has two [`Axis`], and in it curves and clouds ([`Series`]), [`Band`]s of
+//! uncertainty and [`Field`]s of particles. Colours are told apart by the colour-blind, and marks differ in shape too.
+//!
+//! ```
+//! use bagnold_figure::{Axis, Figure, Panel};
+//!
+//! let mut panel = Panel::new("", Axis::linear("u [m/s]"), Axis::linear("y/h [-]"));
+//! panel.reference("exact", (0..=20).map(|k| f64::from(k) / 20.0).map(|y| (y * (2.0 - y), y)));
+//! panel.points("measured", 0, [(0.44, 0.25), (0.74, 0.5), (0.95, 0.75)]);
+//! let figure = Figure::new("profile", "Velocity over the depth of a film.", vec![panel]);
+//!
+//! let folder = tempfile::tempdir().expect("a folder");
+//! let files = bagnold_figure::write(&figure, folder.path()).expect("drawn");
+//! assert!(std::fs::read_to_string(&files.svg).expect("written").contains("y/h [-]"));
+//! assert_eq!(bagnold_figure::size_of(&files.png).expect("a picture").0, 1600);
+//! ```
 
 mod animation;
 mod axes;
@@ -128,7 +146,7 @@ pub struct Panel {
 /// A figure: one or more panels on one sheet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Figure {
-    /// File name without ending, kebab-case, unique within the case.
+    /// File name without ending, kebab-case, unique within its folder.
     pub name: String,
     /// Caption for the report: what is seen and what it means.
     pub caption: String,

@@ -4,21 +4,14 @@ use super::figures;
 use super::result::{
     CalibrationResult, DatumComparison, FoundMinimum, ParameterEstimate, relative_error, weighted_error,
 };
-use crate::figure::{self, FigureError};
+use crate::figure::FigureError;
 use crate::inference::UNLIKELY;
 use crate::number::four_digits;
 use crate::output::{FileError, write_whole};
-use crate::report::template_value;
+use crate::page::{self, PageFigure};
 use serde::Serialize;
 use std::io;
 use std::path::Path;
-
-/// A figure as the page shows it.
-#[derive(Debug, Serialize)]
-struct CaptionedFile {
-    file: String,
-    caption: String,
-}
 
 /// Errors of a set of data as text.
 #[derive(Debug, Serialize)]
@@ -37,8 +30,7 @@ struct CalibrationPage<'a> {
     trials: Vec<Vec<String>>,
     data: Vec<Vec<String>>,
     summary: Vec<String>,
-    pictures: Vec<CaptionedFile>,
-    style: &'static str,
+    pictures: Vec<PageFigure>,
 }
 
 /// Writes everything into a folder, the result last.
@@ -47,18 +39,8 @@ struct CalibrationPage<'a> {
 /// Files that cannot be written.
 pub fn write(outcome: &CalibrationResult, folder: &Path) -> Result<(), FileError> {
     let unwritable = |error: io::Error| FileError::unwritable(folder, &error);
-    let drawn = folder.join("figures");
-    let mut pictures = Vec::new();
-    for picture in figures::all(outcome) {
-        match figure::write(&picture, &drawn) {
-            Ok(_) => {
-                pictures.push(CaptionedFile { file: format!("figures/{}.svg", picture.name), caption: picture.caption })
-            }
-            Err(FigureError::Write { source, .. }) => return Err(unwritable(source)),
-            // a figure that cannot be drawn is no reason to lose the numbers
-            Err(error) => tracing::error!("figure {}: failed to {error}", picture.name),
-        }
-    }
+    let undrawn = |error: FigureError| unwritable(io::Error::other(error.to_string()));
+    let pictures = page::draw(&figures::all(outcome), &folder.join("figures")).map_err(undrawn)?;
     for (place, text) in outcome.calibrated.iter().enumerate() {
         let name = if place == 0 { "calibrated.toml".to_owned() } else { format!("calibrated-{}.toml", place + 1) };
         write_whole(&folder.join(name), text.as_bytes()).map_err(unwritable)?;
@@ -201,7 +183,7 @@ fn summary(outcome: &CalibrationResult) -> Vec<String> {
     lines
 }
 
-fn render(outcome: &CalibrationResult, pictures: Vec<CaptionedFile>) -> Result<String, minijinja::Error> {
+fn render(outcome: &CalibrationResult, pictures: Vec<PageFigure>) -> Result<String, minijinja::Error> {
     let parameter = |found: &ParameterEstimate| {
         let interval = found.interval.map_or_else(
             || "–".to_owned(),
@@ -266,10 +248,6 @@ fn render(outcome: &CalibrationResult, pictures: Vec<CaptionedFile>) -> Result<S
         summary: summary(outcome),
         pictures,
         outcome,
-        style: include_str!("../report/template/style.css"),
     };
-    let mut environment = minijinja::Environment::new();
-    // the ending tells the template engine to escape everything that is inserted
-    environment.add_template("index.html", include_str!("template/index.html"))?;
-    environment.get_template("index.html")?.render(template_value(&page)?)
+    page::fill(&[("index.html", include_str!("template/index.html"))], "index.html", &page)
 }

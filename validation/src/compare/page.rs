@@ -4,10 +4,11 @@ use super::difference::{Difference, differences};
 use super::figures;
 use super::parameters::{ChangedParameter, changed};
 use super::reading::Results;
-use crate::figure::{self, FigureError};
+use crate::figure::Figure;
 use crate::metric::Verdict;
 use crate::number::{four_digits, two_digits};
-use crate::report::{ReportError, template_value};
+use crate::page::{self, PageFigure};
+use crate::report::ReportError;
 use crate::result::{MetricEntry, pretty};
 use crate::store::provenance::short_commit;
 use serde::Serialize;
@@ -21,8 +22,7 @@ struct ComparisonPage {
     same: usize,
     parameters: Vec<ChangedParameter>,
     rows: Vec<ComparisonRow>,
-    pictures: Vec<ComparedFigure>,
-    style: &'static str,
+    pictures: Vec<PageFigure>,
 }
 
 #[derive(Debug, Serialize)]
@@ -53,13 +53,6 @@ struct ComparisonCell {
     change: String,
 }
 
-#[derive(Debug, Serialize)]
-struct ComparedFigure {
-    name: String,
-    caption: String,
-    size: Option<(u32, u32)>,
-}
-
 /// A line of `differences.json`.
 #[derive(Debug, Serialize)]
 struct DifferenceEntry<'a> {
@@ -84,18 +77,8 @@ pub fn write(all: &[Results], folder: &Path) -> Result<usize, ReportError> {
     let mut cases: Vec<&String> = all.iter().flat_map(|results| results.cases.keys()).collect();
     cases.sort();
     cases.dedup();
-    let mut pictures = Vec::new();
-    for picture in cases.into_iter().flat_map(|case| figures::all(all, case)) {
-        match figure::write(&picture, &folder.join("figures")) {
-            Ok(written) => {
-                let size = figure::size_of(&written.png);
-                pictures.push(ComparedFigure { name: picture.name, caption: picture.caption, size });
-            }
-            Err(error @ FigureError::Write { .. }) => return Err(error.into()),
-            // a figure that cannot be drawn is no reason to lose the numbers
-            Err(error) => tracing::error!("figure {}: failed to {error}", picture.name),
-        }
-    }
+    let figures: Vec<Figure> = cases.into_iter().flat_map(|case| figures::all(all, case)).collect();
+    let pictures = page::draw(&figures, &folder.join("figures"))?;
     let lines: Vec<DifferenceEntry<'_>> = found.iter().map(line).collect();
     put(folder.join("differences.json"), &pretty(&lines))?;
     let parameters = changed(all);
@@ -125,7 +108,7 @@ fn render(
     found: &[Difference],
     moved: usize,
     parameters: Vec<ChangedParameter>,
-    pictures: Vec<ComparedFigure>,
+    pictures: Vec<PageFigure>,
 ) -> Result<String, minijinja::Error> {
     let page = ComparisonPage {
         version: env!("CARGO_PKG_VERSION"),
@@ -135,11 +118,8 @@ fn render(
         parameters,
         rows: found.iter().map(row).collect(),
         pictures,
-        style: include_str!("../report/template/style.css"),
     };
-    let mut environment = minijinja::Environment::new();
-    environment.add_template("compare.html", include_str!("template/compare.html"))?;
-    environment.get_template("compare.html")?.render(template_value(&page)?)
+    page::fill(&[("compare.html", include_str!("template/compare.html"))], "compare.html", &page)
 }
 
 fn folder(results: &Results) -> Folder {

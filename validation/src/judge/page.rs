@@ -2,10 +2,10 @@
 
 use super::document::{biases, document, given, junit};
 use super::{CodeComparison, JudgedCode, MetricComparison};
-use crate::figure::{self, FigureError};
 use crate::metric::{Limit, Metric, Verdict};
 use crate::number::{four_digits, two_digits};
-use crate::report::{ReportError, template_value};
+use crate::page::{self, PageFigure};
+use crate::report::ReportError;
 use crate::result::pretty;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -20,8 +20,7 @@ struct JudgePage {
     heads: Vec<String>,
     rows: Vec<MetricComparisonRow>,
     quantities: Vec<QuantityScatter>,
-    pictures: Vec<OverlaidFigure>,
-    style: &'static str,
+    pictures: Vec<PageFigure>,
 }
 
 #[derive(Debug, Serialize)]
@@ -65,13 +64,6 @@ struct QuantityScatter {
     cells: Vec<String>,
 }
 
-#[derive(Debug, Serialize)]
-struct OverlaidFigure {
-    name: String,
-    caption: String,
-    size: Option<(u32, u32)>,
-}
-
 /// Writes `index.html`, `metrics.json` and `figures/` into a folder, and JUnit's XML into a file where one is named.
 ///
 /// # Errors
@@ -79,20 +71,7 @@ struct OverlaidFigure {
 pub fn write(judgement: &CodeComparison, folder: &Path, junit_file: Option<&Path>) -> Result<(), ReportError> {
     let put =
         |path: PathBuf, text: &str| std::fs::write(&path, text).map_err(|source| ReportError::Write { path, source });
-    let drawn = folder.join("figures");
-    let mut pictures = Vec::new();
-    for picture in &judgement.figures {
-        match figure::write(picture, &drawn) {
-            Ok(written) => pictures.push(OverlaidFigure {
-                name: picture.name.clone(),
-                caption: picture.caption.clone(),
-                size: figure::size_of(&written.png),
-            }),
-            Err(error @ FigureError::Write { .. }) => return Err(error.into()),
-            // a figure that cannot be drawn is no reason to lose the numbers
-            Err(error) => tracing::error!("figure {}: failed to {error}", picture.name),
-        }
-    }
+    let pictures = page::draw(&judgement.figures, &folder.join("figures"))?;
     for table in &judgement.own.tables {
         let tables = folder.join("tables");
         let failed = |source| ReportError::Write { path: tables.clone(), source };
@@ -107,7 +86,7 @@ pub fn write(judgement: &CodeComparison, folder: &Path, junit_file: Option<&Path
     put(folder.join("index.html"), &render(judgement, pictures)?)
 }
 
-fn render(judgement: &CodeComparison, pictures: Vec<OverlaidFigure>) -> Result<String, minijinja::Error> {
+fn render(judgement: &CodeComparison, pictures: Vec<PageFigure>) -> Result<String, minijinja::Error> {
     let own = &judgement.own;
     let heads = judgement.codes.iter().map(|judged| judged.code.name.clone()).collect();
     let page = JudgePage {
@@ -120,11 +99,8 @@ fn render(judgement: &CodeComparison, pictures: Vec<OverlaidFigure>) -> Result<S
         rows: rows(judgement),
         quantities: quantities(judgement),
         pictures,
-        style: include_str!("../report/template/style.css"),
     };
-    let mut environment = minijinja::Environment::new();
-    environment.add_template("judge.html", include_str!("template/judge.html"))?;
-    environment.get_template("judge.html")?.render(template_value(&page)?)
+    page::fill(&[("judge.html", include_str!("template/judge.html"))], "judge.html", &page)
 }
 
 fn code_row(judged: &JudgedCode) -> CodeRow {

@@ -28,7 +28,6 @@ pub(super) fn render(
         compared: !report.baseline.is_empty(),
         report: neighbours,
         provenance: provenance(&report.generated),
-        style: include_str!("template/style.css"),
         script: include_str!("template/page.js"),
     };
     fill("case.html", &page)

@@ -35,7 +35,6 @@ pub use history::History;
 pub use judgement::{Judgement, judge};
 pub use known_failures::{KnownFailure, KnownFailureStatus, KnownFailures};
 pub use snapshot_text::description;
-pub(crate) use template::template_value;
 
 use crate::case::Tier;
 use crate::figure::{self, Animation, Figure, FigureError};

@@ -33,7 +33,6 @@ struct Overview {
     provenance: Vec<(&'static str, String)>,
     command: String,
     date: Option<String>,
-    style: &'static str,
     script: &'static str,
 }
 
@@ -59,7 +58,6 @@ pub(super) fn render(
         provenance: provenance(&report.generated),
         command: typed(&report.generated.command),
         date: report.generated.date.clone(),
-        style: include_str!("template/style.css"),
         script: include_str!("template/page.js"),
     };
     fill("index.html", &page)

@@ -16,7 +16,6 @@ struct PapersPage {
     title: String,
     tier: &'static str,
     papers: Vec<PaperView>,
-    style: &'static str,
     script: &'static str,
 }
 
@@ -107,7 +106,6 @@ pub(super) fn render(report: &Report, accounts: &[Account<'_>]) -> Result<String
         title: report.title.clone(),
         tier: tier_name(report.tier),
         papers: accounts.iter().map(|account| paper(account, &report.cases)).collect(),
-        style: include_str!("template/style.css"),
         script: include_str!("template/page.js"),
     };
     fill("papers.html", &page)

@@ -81,7 +81,6 @@ pub(super) struct CasePage {
     /// The report that the page belongs to, if it does.
     pub(super) report: Option<Neighbours>,
     pub(super) provenance: Vec<(&'static str, String)>,
-    pub(super) style: &'static str,
     pub(super) script: &'static str,
 }
 

@@ -5,11 +5,11 @@ use super::folder::{SweepFolder, SweepProgress};
 use super::manifest::{Manifest, SweepRun};
 use super::map::{self, MetricMap};
 use crate::evaluation::{EvaluationRecord, MetricValue};
-use crate::figure::{self, Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, FigureError, Mark, Panel, Series};
 use crate::metric::{Variant, Verdict};
 use crate::output::{FileError, write_whole};
+use crate::page;
 use std::collections::BTreeSet;
-use std::path::Path;
 
 /// Metrics that are drawn for a case if the plan names none.
 const DRAWN: usize = 4;
@@ -30,10 +30,9 @@ pub fn gather(sweep: &SweepFolder) -> Result<SweepProgress, SweepError> {
     for name in unknown_metrics(sweep.manifest(), &records) {
         tracing::warn!("no run gives the metric `{name}` that the plan wants drawn; results.csv names those there are");
     }
-    let folder = sweep.path().join("figures");
-    for drawn in figures(sweep.manifest(), &records) {
-        draw(&drawn, &folder)?;
-    }
+    let figures = figures(sweep.manifest(), &records);
+    let undrawn = |error: FigureError| unwritable(std::io::Error::other(error.to_string()));
+    page::draw(&figures, &sweep.path().join("figures")).map_err(undrawn)?;
     Ok(sweep.tally())
 }
 
@@ -45,18 +44,6 @@ fn unknown_metrics<'a>(manifest: &'a Manifest, records: &[(&SweepRun, Evaluation
         return Vec::new();
     }
     manifest.metrics.iter().map(String::as_str).filter(|name| !given.contains(name)).collect()
-}
-
-fn draw(drawn: &Figure, folder: &Path) -> Result<(), FileError> {
-    match figure::write(drawn, folder) {
-        Ok(_) => Ok(()),
-        Err(figure::FigureError::Write { source, .. }) => Err(FileError::unwritable(folder, &source)),
-        // a figure that cannot be drawn is no reason to lose the numbers
-        Err(error) => {
-            tracing::error!("figure {}: failed to {error}", drawn.name);
-            Ok(())
-        }
-    }
 }
 
 /// One line per metric: run, case, tier, parameters, metric, variant, value, unit, verdict.

@@ -1,17 +1,17 @@
 //! Cells for the search of candidate pairs, with periods that are wrapped instead of copied.
 
+use crate::cell_order::CellOrder;
 use crate::domain::{AxisBoundary, Domain};
 use crate::vector::Vector;
 
-/// Particles sorted by cell; the sort is stable, so the order is a function of the input alone.
+/// Particles sorted by cell.
 #[derive(Debug)]
 pub(crate) struct Grid<const D: usize> {
     lower: Vector<D>,
     inverse_size: Vector<D>,
     cells: [usize; D],
     periodic: [bool; D],
-    start: Vec<u32>,
-    cell_of: Vec<u32>,
+    order: CellOrder,
     index: Vec<u32>,
 }
 
@@ -25,8 +25,7 @@ impl<const D: usize> Grid<D> {
             inverse_size: Vector::zeros(),
             cells: [1; D],
             periodic: [false; D],
-            start: Vec::new(),
-            cell_of: Vec::new(),
+            order: CellOrder::default(),
             index: Vec::new(),
         }
     }
@@ -46,31 +45,13 @@ impl<const D: usize> Grid<D> {
             self.lower[axis] = lower;
             self.inverse_size[axis] = self.cells[axis] as f64 / length;
         }
-        let total: usize = self.cells.iter().product();
-        self.start.clear();
-        if self.start.capacity() <= total {
-            // room for more: an open axis grows with every splash
-            self.start.reserve(2 * (total + 1));
-        }
-        self.start.resize(total + 1, 0);
-        self.cell_of.clear();
-        for position in positions {
-            let cell = self.cell(&self.coordinates(position));
-            self.cell_of.push(cell as u32);
-            self.start[cell + 1] += 1;
-        }
-        for cell in 0..total {
-            self.start[cell + 1] += self.start[cell];
-        }
-        self.index.resize(positions.len(), 0);
-        for (index, &cell) in self.cell_of.iter().enumerate() {
-            let place = &mut self.start[cell as usize];
-            self.index[*place as usize] = index as u32;
-            *place += 1;
-        }
-        // every start has moved to its cell's end, which is the next cell's start
-        self.start.copy_within(0..total, 1);
-        self.start[0] = 0;
+        // taken out while the cells of particles are asked for
+        let mut order = std::mem::take(&mut self.order);
+        let cells = positions.iter().map(|position| self.cell(&self.coordinates(position)));
+        let count = order.count(self.cells.iter().product(), cells);
+        self.index.resize(count, 0);
+        order.place(|particle, place| self.index[place] = particle as u32);
+        self.order = order;
     }
 
     /// Calls `visit` for every particle in the cells around a position, each once.
@@ -98,7 +79,7 @@ impl<const D: usize> Grid<D> {
                 }
             }
             let cell = self.cell(&cell);
-            for &index in &self.index[self.start[cell] as usize..self.start[cell + 1] as usize] {
+            for &index in &self.index[self.order.places(cell, cell)] {
                 visit(index);
             }
         }

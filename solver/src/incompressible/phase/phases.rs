@@ -2,7 +2,6 @@
 
 use super::Phase;
 use crate::domain::Domain;
-use crate::vector::Vector;
 
 /// The fluid and the sediment, if there is one.
 #[derive(Debug)]
@@ -32,14 +31,5 @@ impl<const D: usize> Phases<D> {
     /// Largest speed of any particle `[m/s]`.
     pub(crate) fn largest_speed(&self) -> f64 {
         self.all().map(Phase::largest_speed_squared).fold(0.0, f64::max).sqrt()
-    }
-
-    /// Position of a row of the velocity system `[m]`: the fluid's particles first, then the sediment's.
-    pub(crate) fn position(&self, row: usize) -> Vector<D> {
-        let free_fluid = self.fluid.len();
-        match &self.sediment {
-            Some(sediment) if row >= free_fluid => sediment.position[row - free_fluid],
-            _ => self.fluid.position[row.min(free_fluid - 1)],
-        }
     }
 }

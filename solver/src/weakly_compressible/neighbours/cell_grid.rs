@@ -1,5 +1,6 @@
 //! A uniform grid of cells no smaller than the search radius, with the particles sorted by cell.
 
+use crate::cell_order::CellOrder;
 use crate::lanes::LANES;
 use crate::vector::Vector;
 use std::ops::Range;
@@ -10,8 +11,7 @@ pub(crate) struct CellGrid<const D: usize> {
     origin: Vector<D>,
     inverse_size: f64,
     cells: [usize; D],
-    start: Vec<u32>,
-    cell_of: Vec<u32>,
+    order: CellOrder,
     /// Particle index of each entry, and of [`LANES`] more that mean nothing.
     pub(crate) index: Vec<u32>,
     /// Coordinates of the entries along each axis `[m]`, and of [`LANES`] more that mean nothing.
@@ -27,8 +27,7 @@ impl<const D: usize> CellGrid<D> {
             origin: Vector::zeros(),
             inverse_size: 1.0,
             cells: [1; D],
-            start: Vec::new(),
-            cell_of: Vec::new(),
+            order: CellOrder::default(),
             index: Vec::new(),
             coordinates: std::array::from_fn(|_| Vec::new()),
         }
@@ -84,36 +83,24 @@ impl<const D: usize> CellGrid<D> {
         cell
     }
 
-    /// Sorts `entries` (index, position) by cell; stable, so the order is a function of the input alone.
-    pub(crate) fn sort<'a>(&mut self, entries: impl Iterator<Item = (u32, &'a Vector<D>)> + Clone) {
-        let total: usize = self.cells.iter().product();
-        self.start.clear();
-        self.start.resize(total + 1, 0);
-        self.cell_of.clear();
-        for (_, position) in entries.clone() {
-            let cell = self.cell(position);
-            self.cell_of.push(cell as u32);
-            self.start[cell + 1] += 1;
-        }
-        for cell in 0..total {
-            self.start[cell + 1] += self.start[cell];
-        }
-        let count = self.cell_of.len();
+    /// Sorts `entries` (index, position) by cell.
+    pub(crate) fn sort<'a>(&mut self, mut entries: impl Iterator<Item = (u32, &'a Vector<D>)> + Clone) {
+        // taken out while the cells of particles are asked for
+        let mut order = std::mem::take(&mut self.order);
+        let cells = entries.clone().map(|(_, position)| self.cell(position));
+        let count = order.count(self.cells.iter().product(), cells);
         self.index.resize(count + LANES, 0);
         for coordinates in &mut self.coordinates {
             coordinates.resize(count + LANES, 0.0);
         }
-        for (&cell, (index, position)) in self.cell_of.iter().zip(entries) {
-            let place = self.start[cell as usize] as usize;
-            self.start[cell as usize] += 1;
+        order.place(|_, place| {
+            let Some((index, position)) = entries.next() else { return };
             self.index[place] = index;
             for axis in 0..D {
                 self.coordinates[axis][place] = position[axis];
             }
-        }
-        // every start has moved to its cell's end, which is the next cell's start
-        self.start.copy_within(0..total, 1);
-        self.start[0] = 0;
+        });
+        self.order = order;
     }
 
     /// The ranges of entries in the cells around `position`, and how many there are.
@@ -132,7 +119,7 @@ impl<const D: usize> CellGrid<D> {
         for plane in planes {
             for row in low[1]..high[1] + 1 {
                 let line = (plane * self.cells[1] + row) * self.cells[0];
-                ranges[count] = self.start[line + low[0]] as usize..self.start[line + high[0] + 1] as usize;
+                ranges[count] = self.order.places(line + low[0], line + high[0]);
                 count += 1;
             }
         }
