@@ -169,6 +169,9 @@ fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
     let shape = Shape::of(schema);
     let chosen = shape.chosen(&Value::Table(changes.clone())).or_else(|| shape.chosen(&Value::Table(table.clone())));
     let in_degrees = with_friction(chosen.and_then(|variant| variant.content), changes);
+    if let Some(changes) = &in_degrees {
+        say_what_stays(table, changes);
+    }
     let changes = in_degrees.as_ref().unwrap_or(changes);
     if is_other_choice(&shape, table, changes) {
         table.clone_from(changes);
@@ -240,6 +243,17 @@ fn with_friction(law: Option<&Schema>, changes: &Table) -> Option<Table> {
     changes.remove(ANGLE);
     changes.insert(COEFFICIENT.to_owned(), Value::Float(libm::tan(angle.to_radians())));
     Some(changes)
+}
+
+/// Says which parameters of friction keep their values where an angle has been given alone: what grains do in fast flow does not
+/// follow from the angle at which they stop.
+fn say_what_stays(table: &Table, changes: &Table) {
+    let keeps = |name: &&&str| !changes.contains_key(**name) && table.contains_key(**name);
+    let value = |name: &&str| table.get(*name).map(|value| format!("{name} = {value}"));
+    let stays: Vec<String> = ["limiting_friction", "reference_inertia"].iter().filter(keeps).filter_map(value).collect();
+    if let Some(coefficient) = changes.get(COEFFICIENT).filter(|_| !stays.is_empty()) {
+        tracing::warn!("`{ANGLE}` sets {COEFFICIENT} = {coefficient}; {} as before", stays.join(" and "));
+    }
 }
 
 /// Whether `changes` picks another variant of an enum than `table`.

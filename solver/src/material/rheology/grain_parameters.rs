@@ -13,7 +13,7 @@ macro_rules! law_of_grains {
         #[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
         #[serde(deny_unknown_fields)]
         pub struct $law {
-            /// Friction coefficient μ_s `[-]` of slow flow.
+            /// Friction coefficient μ_s `[-]` of slow flow; in files `friction_angle` `[°]`, its arctangent, may stand in its place.
             #[schemars(
                 transform = above(0.0, "give the tangent of the angle at which grains stop; 0.382 for glass beads")
             )]
