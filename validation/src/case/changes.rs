@@ -250,7 +250,8 @@ fn with_friction(law: Option<&Schema>, changes: &Table) -> Option<Table> {
 fn say_what_stays(table: &Table, changes: &Table) {
     let keeps = |name: &&&str| !changes.contains_key(**name) && table.contains_key(**name);
     let value = |name: &&str| table.get(*name).map(|value| format!("{name} = {value}"));
-    let stays: Vec<String> = ["limiting_friction", "reference_inertia"].iter().filter(keeps).filter_map(value).collect();
+    let stays: Vec<String> =
+        ["limiting_friction", "reference_inertia"].iter().filter(keeps).filter_map(value).collect();
     if let Some(coefficient) = changes.get(COEFFICIENT).filter(|_| !stays.is_empty()) {
         tracing::warn!("`{ANGLE}` sets {COEFFICIENT} = {coefficient}; {} as before", stays.join(" and "));
     }

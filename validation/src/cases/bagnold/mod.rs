@@ -2,6 +2,7 @@
 
 mod errors;
 mod figures;
+mod limits;
 mod metrics;
 mod parameters;
 mod runs;

@@ -192,6 +192,9 @@ impl Run for BagnoldRun {
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
+        if let Some(reason) = self.beyond_limits() {
+            tracing::warn!("{}: {reason}", self.variant());
+        }
         let start = self.start_profile();
         let moving = self.start == LayerStart::Profile;
         let velocity = |y: f64| if moving { start.velocity(y).unwrap_or(0.0) } else { 0.0 };
