@@ -8,7 +8,7 @@ use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
 use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::Value as Schema;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// What the user asks to differ from a tier's parameters.
@@ -22,7 +22,32 @@ pub struct Changes<'a> {
     pub limits: Limits,
 }
 
+/// Where a user has given parameters, for errors that come up once the changes are gone.
+#[derive(Debug, Default)]
+pub(super) struct ParameterSource {
+    file: Option<PathBuf>,
+    settings: Vec<String>,
+}
+
+impl ParameterSource {
+    /// An error whose field stands in the user's file says so.
+    pub(super) fn placed(&self, error: ParameterError) -> ParameterError {
+        match (&self.file, error.field_path()) {
+            (Some(file), Some(field)) if !is_set(&self.settings, field) => error.in_file(file),
+            _ => error,
+        }
+    }
+}
+
 impl Changes<'_> {
+    /// Where they come from.
+    pub(super) fn source(&self) -> ParameterSource {
+        ParameterSource {
+            file: self.file.as_ref().map(|(file, _)| file.to_path_buf()),
+            settings: self.settings.to_vec(),
+        }
+    }
+
     /// The same, with lists empty that a file leaves out.
     #[must_use]
     pub(super) fn with_lists(&self, stated: &[&str]) -> Self {
@@ -151,7 +176,7 @@ fn unknown_path(case: &str, known: &[&[String]], path: &str, value: &str) -> Par
 }
 
 /// Whether one of the `--set` arguments gives `field`, so that the file is not to blame for its value.
-pub(super) fn is_set(settings: &[String], field: &str) -> bool {
+fn is_set(settings: &[String], field: &str) -> bool {
     settings
         .iter()
         .filter_map(|argument| parts(argument))

@@ -1,7 +1,7 @@
 //! Cases without their types: what the command line, the report and the tests work with.
 
 use super::causes::explained;
-use super::changes::{Changes, resolve, table_of};
+use super::changes::{Changes, ParameterSource, resolve, table_of};
 use super::error::ParameterError;
 use super::finite::fail_broken_profiles;
 use super::foreign::ExternalResult;
@@ -128,6 +128,7 @@ impl<C: Case> AnyCase for C {
             parameters_toml: file_text::<C>(tier, &parameters),
             slots: runs.into_iter().map(|run| (run, OnceLock::new())).collect(),
             differs,
+            source: changes.source(),
             parameters,
         }))
     }
@@ -167,6 +168,8 @@ struct CasePlan<C: Case> {
     command: String,
     /// Fields that differ from the tier's, with their values.
     differs: Vec<(String, String)>,
+    /// Where they were given.
+    source: ParameterSource,
     slots: Vec<Slot<RunOf<C::Parameters>>>,
 }
 
@@ -224,7 +227,10 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         let record = match simulated {
             // what was cut short may look like something that is refused
             Err(_) if is_interrupted() => return Err(ParameterError::Interrupted),
-            simulated => simulated.map(explained).map_err(|error| with_changed(error, &self.differs))?,
+            simulated => {
+                let placed = |error| self.source.placed(with_changed(error, &self.differs));
+                simulated.map(explained).map_err(placed)?
+            }
         };
         if let Some(key) = &key {
             store.keep(key, &record);

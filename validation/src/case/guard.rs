@@ -1,7 +1,7 @@
 //! What is asked of a case's parameters as a whole, before anything is allocated: the rules between fields, runs that can
 //! be distinguished, and a size that this machine can take. Every refusal names a field that the user has changed.
 
-use super::changes::{Changes, find, is_set, leaves, table_of};
+use super::changes::{Changes, find, leaves, table_of};
 use super::error::ParameterError;
 use super::{Estimate, Parameters, Run, Tier};
 use bagnold_solver::parameter::shortened;
@@ -32,13 +32,14 @@ impl<'a, P: Parameters> Guard<'a, P> {
 
     /// The runs that the parameters ask for.
     pub(super) fn runs(&self) -> Result<Vec<P::Run>, ParameterError> {
-        self.parameters.check().map_err(|error| self.placed(self.named(error)))?;
+        let source = self.changes.source();
+        self.parameters.check().map_err(|error| source.placed(self.named(error)))?;
         let runs = self.parameters.runs();
         if runs.is_empty() {
             return Err(ParameterError::NothingToRun { case: self.case.to_owned(), empty: self.emptied() });
         }
-        self.told_apart(&runs).map_err(|error| self.placed(error))?;
-        self.affordable(&runs).map_err(|error| self.placed(error))?;
+        self.told_apart(&runs).map_err(|error| source.placed(error))?;
+        self.affordable(&runs).map_err(|error| source.placed(error))?;
         Ok(runs)
     }
 
@@ -58,14 +59,6 @@ impl<'a, P: Parameters> Guard<'a, P> {
                 (path, shortened(value.replace('\n', " ")))
             })
             .collect()
-    }
-
-    /// An error whose field stands in the user's file says so.
-    fn placed(&self, error: ParameterError) -> ParameterError {
-        match (&self.changes.file, error.field_path()) {
-            (Some((file, _)), Some(field)) if !is_set(self.changes.settings, field) => error.in_file(file),
-            _ => error,
-        }
     }
 
     /// An error about a field that the user has not changed becomes one of the field that leads to it.
