@@ -37,13 +37,15 @@ pub(super) fn read(
     }
     if let Some(table) = &run.series {
         given.series = columns(table, form.series, &format!("{field}.series"), folder)?;
-        let time = given.series("time");
-        if time.is_empty() {
-            let rule = "given with every series";
+        let names =
+            ["time", "relative_time"].into_iter().filter(|name| form.series.iter().any(|item| item.name == *name));
+        let Some(name) = names.clone().find(|name| !given.series(name).is_empty()) else {
             let name = format!("{field}.series.columns.time");
-            return Err(FieldError::new(&name, "missing", rule, "name the column of the times").into());
-        }
-        in_order(time, &format!("{field}.series.columns.time"), &folder.join(&table.file))?;
+            let rule =
+                format!("given{} with every series", if names.count() > 1 { ", or `relative_time`," } else { "" });
+            return Err(FieldError::new(&name, "missing", &rule, "name the column of the times").into());
+        };
+        in_order(given.series(name), &format!("{field}.series.columns.{name}"), &folder.join(&table.file))?;
     }
     if let Some(table) = &run.profile {
         given.profile = columns(table, form.profile, &format!("{field}.profile"), folder)?;

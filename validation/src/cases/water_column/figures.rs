@@ -13,6 +13,10 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         let data = &record.data;
         let points = || data.time.iter().copied();
         front.line(&run.variant().to_string(), slot, points().zip(data.front.iter().copied()));
+        // another code's front comes without energies
+        if data.energy.total.is_empty() {
+            continue;
+        }
         let start = data.energy.total.first().copied().unwrap_or(f64::NAN);
         let share = |total: &f64| 100.0 * (total - start) / data.energy.gravity;
         energy.line("", slot, points().zip(data.energy.total.iter().map(share)));

@@ -1,13 +1,15 @@
 //! A column of water that collapses on smooth and on rough beds.
 
 mod figures;
+mod foreign;
 mod metrics;
 mod parameters;
 
 pub use parameters::{ColumnObservation, WaterColumnParameters, WaterColumnRun};
 
-use crate::case::{Case, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::figure::Figure;
+use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 use crate::store::CodeOrigin;
@@ -31,6 +33,7 @@ impl Case for WaterColumn {
         steps: with the kernel correction the same column gains 1.4 % of the work of gravity.";
     type Parameters = WaterColumnParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
+    const FORM: ExternalSchema = foreign::FORM;
 
     fn metrics(_: &WaterColumnParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
@@ -38,6 +41,13 @@ impl Case for WaterColumn {
 
     fn figures(_: &WaterColumnParameters, records: &[Record]) -> Vec<Figure> {
         figures::all(records)
+    }
+
+    fn foreign(
+        run: &WaterColumnRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<ColumnObservation>>, FieldError> {
+        foreign::observe(run, given)
     }
 
     fn tables(_: &WaterColumnParameters, records: &[Record]) -> Vec<Table> {

@@ -199,7 +199,7 @@ impl Run for WaterColumnRun {
 
 impl WaterColumnRun {
     /// √(a/(2g)) `[s]`.
-    fn time_scale(&self) -> f64 {
+    pub(super) fn time_scale(&self) -> f64 {
         (self.column.width / (2.0 * self.column.gravity)).sqrt()
     }
 
