@@ -82,6 +82,28 @@ pub fn read_plan<T: DeserializeOwned>(file: &Path, command: &'static str) -> Res
     let text = read_text(file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(file, &error))?;
     toml::from_str(&text).map_err(|error| {
         let (line, column) = position(&text, error.span().map_or(0, |span| span.start));
-        PlanError::Syntax { file: file.to_owned(), line, column, message: error.message().to_owned(), command }
+        PlanError::Syntax {
+            file: file.to_owned(),
+            line,
+            column,
+            message: in_plain_words(&text, line, error.message()),
+            command,
+        }
     })
+}
+
+/// A message about a value in the words of who writes it, with the field that stands on its line.
+fn in_plain_words(text: &str, line: usize, message: &str) -> String {
+    const TYPES: [(&str, &str); 4] = [
+        ("expected f64", "expected a number, without quotes"),
+        ("expected usize", "expected a whole number, without quotes"),
+        ("expected u64", "expected a whole number, without quotes"),
+        ("expected a boolean", "expected true or false, without quotes"),
+    ];
+    let Some((programmers, words)) = TYPES.iter().find(|(programmers, _)| message.ends_with(programmers)) else {
+        return message.to_owned();
+    };
+    let field = text.lines().nth(line.saturating_sub(1)).and_then(|line| line.split_once('='));
+    let field = field.map_or_else(String::new, |(field, _)| format!("`{}`: ", field.trim()));
+    format!("{field}{}", message.replace(programmers, words))
 }

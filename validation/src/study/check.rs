@@ -251,6 +251,14 @@ fn limit(text: &CheckText) -> Result<(Option<Limit>, String), FieldError> {
                     (lower.is_finite() && upper.is_finite() && lower <= upper, format!("{lower} … {upper}"))
                 }
             };
+            if let Limit::AtMost(bound) = limit
+                && text.compare.is_some()
+                && bound < 0.0
+            {
+                let (rule, remedy) =
+                    ("0 or more", "a distance from measurements is never negative: give the largest that is good");
+                return Err(FieldError::new(field, value, rule, remedy));
+            }
             if !is_sound {
                 return Err(FieldError::new(field, value, "finite, the smaller bound first", "mend the numbers"));
             }

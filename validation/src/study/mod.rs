@@ -79,13 +79,16 @@ impl Reading {
     }
 }
 
-/// Whether a file describes a study: it has the key `study`.
+/// What only studies have; one whose first line is misspelt is to be refused, not passed over.
+const KEYS: [&str; 4] = ["study", "checks", "vary", "variants"];
+
+/// Whether a file describes a study: it has the key `study`, or one that only studies have.
 #[must_use]
 pub fn is_study(path: &Path) -> bool {
     let text = read_text(path, WRITTEN_BY_HAND).unwrap_or_default();
     // a file with a slip in its syntax is a study as well, if a line says so
     match text.parse::<Table>() {
-        Ok(table) => table.contains_key("study"),
+        Ok(table) => KEYS.iter().any(|key| table.contains_key(*key)),
         Err(_) => text.lines().any(|line| line.split_once('=').is_some_and(|(key, _)| key.trim() == "study")),
     }
 }

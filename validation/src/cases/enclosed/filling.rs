@@ -27,6 +27,9 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         equation_of_state: &EquationOfState,
     ) -> Result<(Flow<D>, f64), ParameterError> {
         let Self { spacing, jitter, ref bodies, .. } = *self;
+        for remark in misfits(bodies, spacing) {
+            tracing::warn!("{remark}");
+        }
         let gravity = vector(&self.gravity);
         let (up, weight) = (-gravity.normalize(), equation_of_state.reference_density * gravity.norm());
         let corners = bodies.iter().flat_map(|body| <[Vector<D>; 2]>::from(body.extent()));
@@ -81,6 +84,30 @@ fn lattice<const D: usize>(
     .map(move |cells| (cells, Vector::<D>::from(cells.map(|cell| cell as f64 + 0.5)) * spacing))
 }
 
+/// Share of a body's mass that its particles may have too much or too little before it is said `[-]`.
+const MISFIT: f64 = 0.02;
+
+/// What is to be said of bodies that are no whole number of spacings: their particles have another mass than they.
+fn misfits<const D: usize>(bodies: &[impl SceneBody<D>], spacing: f64) -> Vec<String> {
+    let of_cells = |body: &_| {
+        let cells = lattice(SceneBody::extent(body), spacing).filter(|(_, place)| SceneBody::holds(body, place));
+        cells.count() as f64 * spacing.powi(D as i32)
+    };
+    let mut remarks = Vec::new();
+    for (number, body) in bodies.iter().enumerate() {
+        let share = of_cells(body) / body.volume();
+        // a body without a particle is refused elsewhere
+        if share > 0.0 && (share - 1.0).abs() > MISFIT {
+            remarks.push(format!(
+                "`bodies[{number}]`: its particles have {:.1} % of its mass, what the lattice of {spacing} m from the origin holds of it; put plane \
+                 faces on whole numbers of spacings, or make the spacing smaller",
+                100.0 * share
+            ));
+        }
+    }
+    remarks
+}
+
 /// The first body that holds a place, if any does, by its place among all.
 fn holder<const D: usize>(bodies: &[impl SceneBody<D>], place: &Vector<D>) -> Option<usize> {
     bodies.iter().position(|body| body.holds(place))
@@ -104,6 +131,16 @@ pub(in crate::cases) fn depth<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cases::scene::PlaneBody;
+
+    #[test]
+    fn a_body_of_broken_spacings_is_said_to_lose_mass() {
+        let new = |height: f64| PlaneBody::Box { lower: (0.0, 0.0), upper: (0.1, height), velocity: (0.0, 0.0) };
+        assert_eq!(misfits(&[new(0.03)], 0.0025), Vec::<String>::new());
+        // 12.5 rows: the middle of the last lies on the edge and is not held
+        let remarks = misfits(&[new(0.03), new(0.03125)], 0.0025);
+        assert!(remarks.len() == 1 && remarks[0].starts_with("`bodies[1]`: its particles have 96.0 %"), "{remarks:?}");
+    }
 
     #[test]
     fn the_sites_of_a_box_run_along_its_first_axis() {

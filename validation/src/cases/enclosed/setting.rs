@@ -15,6 +15,9 @@ pub trait SceneBody<const D: usize>: PlainData {
     /// Lower and upper corner of its box `[m]`.
     fn extent(&self) -> (Vector<D>, Vector<D>);
 
+    /// Its area `[m²]` in the plane, its volume `[m³]` in space.
+    fn volume(&self) -> f64;
+
     /// Whether it holds a place.
     fn holds(&self, place: &Vector<D>) -> bool;
 

@@ -7,6 +7,11 @@ pub(in crate::cases) fn has_inside<const D: usize>(lower: &Vector<D>, upper: &Ve
     (upper - lower).iter().all(|edge| *edge > 0.0)
 }
 
+/// Area of a box `[m²]` in the plane, its volume `[m³]` in space.
+pub(in crate::cases) fn box_volume<const D: usize>(lower: &Vector<D>, upper: &Vector<D>) -> f64 {
+    (upper - lower).iter().product()
+}
+
 /// Whether a box holds a place; its upper faces are those of what is beyond.
 pub(in crate::cases) fn box_holds<const D: usize>(lower: &Vector<D>, upper: &Vector<D>, place: &Vector<D>) -> bool {
     (0..D).all(|axis| place[axis] >= lower[axis] && place[axis] < upper[axis])

@@ -8,6 +8,7 @@ use bagnold_solver::parameter::{filled, positive};
 use bagnold_solver::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 
 /// A piece of the material at the start.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -56,6 +57,18 @@ impl setting::SceneBody<2> for PlaneBody {
             Self::Box { lower, upper, .. } => (vector(lower), vector(upper)),
             Self::Disc { centre, radius, .. } => shapes::around_ball(&vector(centre), *radius),
             Self::Polygon { points, .. } => shapes::around(points.iter().map(vector)),
+        }
+    }
+
+    fn volume(&self) -> f64 {
+        match self {
+            Self::Box { lower, upper, .. } => shapes::box_volume::<2>(&vector(lower), &vector(upper)),
+            Self::Disc { radius, .. } => PI * radius * radius,
+            Self::Polygon { points, .. } => {
+                let next = points.iter().cycle().skip(1);
+                let twice: f64 = points.iter().zip(next).map(|(a, b)| a.0 * b.1 - b.0 * a.1).sum();
+                0.5 * twice.abs()
+            }
         }
     }
 
@@ -109,6 +122,8 @@ mod tests {
             assert!(body.holds(&inside.into()) && !body.holds(&outside.into()), "{body:?}");
             assert!(body.check().is_ok());
         }
+        let areas = [(&triangle, 2.0), (&disc, 0.25 * PI), (&square, 1.0)];
+        assert!(areas.iter().all(|(body, area)| (body.volume() - area).abs() < 1e-12));
         let bodies = [square, triangle];
         let up = Vector::<2>::new(0.0, 1.0);
         assert!((depth(&bodies, &[-0.5, -0.75].into(), &up, 0.1) - 0.75).abs() < 0.02);

@@ -8,6 +8,7 @@ use bagnold_solver::parameter::positive;
 use bagnold_solver::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 
 /// A piece of the material at the start.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -65,6 +66,17 @@ impl setting::SceneBody<3> for SpaceBody {
                 (from.inf(&to) - beside, from.sup(&to) + beside)
             }
             Self::Sphere { centre, radius, .. } => shapes::around_ball(&vector(centre), *radius),
+        }
+    }
+
+    fn volume(&self) -> f64 {
+        match self {
+            Self::Box { lower, upper, .. } => shapes::box_volume::<3>(&vector(lower), &vector(upper)),
+            Self::Cylinder { from, to, radius, .. } => {
+                let (from, to) = (vector::<3>(from), vector(to));
+                PI * radius * radius * (to - from).norm()
+            }
+            Self::Sphere { radius, .. } => 4.0 / 3.0 * PI * radius.powi(3),
         }
     }
 
