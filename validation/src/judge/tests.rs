@@ -9,11 +9,16 @@ use crate::cases::column_round::ColumnRoundParameters;
 
 const ROWS: u32 = 30;
 
-/// Columns that rise from 0 to a hundredth, and shares of `size`.
+/// Columns that rise from 0 to a hundredth, times to one second, and shares of `size`.
 fn columns(items: &[ExternalColumn], size: f64) -> NamedColumns {
     let ramp: Vec<f64> = (0..ROWS).map(|row| f64::from(row) / 2900.0).collect();
     let shares = vec![size / f64::from(ROWS); ROWS as usize];
-    let column = |name| if ["area", "volume"].contains(&name) { shares.clone() } else { ramp.clone() };
+    let column = |name| match name {
+        "area" | "volume" => shares.clone(),
+        // a front must reach as far in time as the measurement
+        "time" => ramp.iter().map(|value| 100.0 * value).collect(),
+        _ => ramp.clone(),
+    };
     items.iter().map(|item| (item.name.to_owned(), column(item.name))).collect()
 }
 
@@ -29,15 +34,18 @@ fn size_of(case: &str, run: usize) -> f64 {
     }
 }
 
-/// Each part alone: series, profile, one picture, two pictures.
+/// Each part that the case takes, alone: series, profile, one picture, two pictures.
 fn parts(form: &'static ExternalSchema, is_planar: bool, size: f64) -> Vec<ExternalData> {
     let particles: Vec<ExternalColumn> =
         form.particles.iter().filter(|item| !(is_planar && item.name == "z")).copied().collect();
     let picture = |time: f64| ParticleFrame { time, columns: columns(&particles, size) };
-    let mut parts = vec![
-        ExternalData { series: columns(form.series, size), ..ExternalData::default() },
-        ExternalData { profile: columns(form.profile, size), ..ExternalData::default() },
-    ];
+    let mut parts = Vec::new();
+    if !form.series.is_empty() {
+        parts.push(ExternalData { series: columns(form.series, size), ..ExternalData::default() });
+    }
+    if !form.profile.is_empty() {
+        parts.push(ExternalData { profile: columns(form.profile, size), ..ExternalData::default() });
+    }
     if !particles.is_empty() {
         parts.push(ExternalData { pictures: vec![picture(0.5)], ..ExternalData::default() });
         parts.push(ExternalData { pictures: vec![picture(0.0), picture(0.5)], ..ExternalData::default() });
