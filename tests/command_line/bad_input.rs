@@ -72,7 +72,7 @@ fn an_unreadable_file() {
     refused(
         &place,
         &["binary.toml"],
-        "binary.toml: cannot be read (stream did not contain valid UTF-8); check the path and its permissions",
+        "binary.toml: cannot be read (text in UTF-16, not in UTF-8); save it as plain text in UTF-8",
     );
 }
 

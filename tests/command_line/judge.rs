@@ -190,3 +190,55 @@ fn collections_and_grids_nested_too_deep_are_refused() {
         assert!(message.contains(file) && message.contains("nested deeper than 64 elements"), "{message}");
     }
 }
+
+/// A block of beads of a few particles that falls apart, with a front that was measured and may be missed by half.
+const FLUME: &str = "case = \"scene\"\nname = \"flume\"\ngravity = [0.0, -9.81]\nspacing = 0.02\nduration = 0.1\ninterval = 0.01\n\
+    [sides]\nleft = { mirror = 0.0 }\nright = { open = 0.5 }\nbottom = \"none\"\ntop = \"none\"\n\
+    [[bodies]]\nshape = \"box\"\nlower = [0.0, 0.0]\nupper = [0.1, 0.1]\n\
+    [[walls]]\nname = \"bed\"\npoints = [[0.0, 0.0], [0.5, 0.0]]\n\
+    [[gauges]]\nkind = \"front\"\nname = \"toe\"\nfrom = [0.0, 0.0]\nto = [0.5, 0.0]\nthickness = 0.02\n\
+    [[measured]]\ngauge = \"toe\"\nsource = \"own flume\"\npoints = [[0.05, 0.11], [0.09, 0.13]]\nlimit = 50.0\n";
+
+#[test]
+fn a_series_of_the_front_of_a_scene_is_judged_by_what_its_file_says_was_measured() {
+    let place = Place::new();
+    place.file("flume.toml", FLUME);
+    place.bagnold(&["run", "flume.toml", "--out", "own", "--quiet"]).assert().code(0);
+    let submission = "case = \"scene\"\nbase = \"flume.toml\"\n[code]\nname = \"our own series\"\n[[run]]\nvariant = \"scene=flume\"\n\
+        series = { file = \"own/tables/gauges-scene-flume.csv\", columns = { time = \"t [s]\", front = \"toe: front [m]\" } }\n";
+    place.file("mine.toml", submission);
+    let judge = |code: i32| {
+        let finished = place.bagnold(&["judge", "mine.toml", "--out", "judged", "--quiet"]).assert().code(code);
+        String::from_utf8_lossy(&finished.get_output().stderr).into_owned()
+    };
+    judge(0);
+    let metrics = read(&place, "judged/metrics.json")["codes"][0]["metrics"].as_array().expect("metrics").clone();
+    let of = |name: &str| metrics.iter().find(|metric| metric["name"] == name).unwrap_or_else(|| panic!("no {name}"));
+    for (name, verdict) in [("front", "observed"), ("gauge_error", "pass")] {
+        assert!(of(name)["value"].is_f64(), "{name}: {}", of(name));
+        assert_eq!(of(name)["value"], of(name)["bagnold"], "{name}");
+        assert_eq!(of(name)["verdict"], verdict, "{name}");
+    }
+    // both are drawn, and who measured it is named
+    let page = std::fs::read_to_string(place.path("judged/index.html")).expect("a page");
+    assert!(page.contains("our own series") && page.contains("own flume"));
+    // twice as far is beyond the limit of the scene's file
+    place.file("far.csv", "t,front\n0,0.2\n0.1,0.26\n");
+    place.file(
+        "mine.toml",
+        &submission.replace("own/tables/gauges-scene-flume.csv", "far.csv").replace("toe: front", "front"),
+    );
+    judge(1);
+    // a scene in which nothing measures a front
+    let without = FLUME.split("[[gauges]]").next().expect("text");
+    place.file("flume.toml", without);
+    let message = judge(2);
+    assert!(
+        message.contains("mine.toml: `run 1.series.front` is given for scene flume, which measures no front"),
+        "{message}"
+    );
+    assert!(message.contains("add [[gauges]] with kind = \"front\""), "{message}");
+    place.file("flume.toml", &FLUME.replace("\"scene\"", "\"film\""));
+    let message = judge(2);
+    assert!(message.contains("`case` is \"scene\", but must be the case of flume.toml, \"film\""), "{message}");
+}

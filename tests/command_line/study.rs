@@ -110,6 +110,24 @@ fn variants_and_settings_change_what_is_simulated() {
 }
 
 #[test]
+fn a_setting_of_what_the_study_varies_names_both_places() {
+    let place = place();
+    let named =
+        STUDY.replacen("[[checks]]", "[[variants]]\nname = \"low\"\nset = { gravity = [0.0, -1.0] }\n[[checks]]", 1);
+    place.file("study.toml", &named);
+    for (setting, field, at) in
+        [("spacing=0.03", "spacing", "vary[0].path"), ("gravity=[0.0, -2.0]", "gravity", "variants[0].set")]
+    {
+        let arguments = ["run", "study.toml", "--set", setting, "--out", "out", "--quiet"];
+        let finished = place.bagnold(&arguments).assert().code(2);
+        let message = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
+        let said =
+            format!("`{field}` is given twice, first by `{at}` in study.toml; change it there, or leave out --set");
+        assert!(message.contains(&format!("`--set` is {setting}")) && message.contains(&said), "{message}");
+    }
+}
+
+#[test]
 fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
     let place = place();
     for (from, to, said) in [
@@ -195,7 +213,13 @@ fn a_suite_is_one_report_with_accepted_values_of_its_own() {
     let moved: String = line.chars().map(|letter| if letter == '1' { '7' } else { letter }).collect();
     let moved = if moved == line { line.replace(['2', '3', '4', '5', '6', '8', '9'], "1") } else { moved };
     std::fs::write(&snapshot, text.replace(&line, &moved)).expect("writable");
+    // drift alone does not change the exit code, and the report says so
+    let finished = report(&[]).code(0);
+    let text = String::from_utf8_lossy(&finished.get_output().stdout).into_owned();
+    assert!(text.contains("drifted: balances") && text.contains("1 value has drifted, but every gate holds"), "{text}");
+    assert!(text.contains("unless --deny drift is given"), "{text}");
     let finished = report(&["--deny", "drift"]).code(1);
+    assert!(!String::from_utf8_lossy(&finished.get_output().stdout).contains("unless --deny drift"));
     assert!(String::from_utf8_lossy(&finished.get_output().stdout).contains("drifted: balances"));
 
     let empty = Place::new();

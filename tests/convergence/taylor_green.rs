@@ -9,7 +9,7 @@ use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::run::StopReason;
 use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::boundary::Enclosure;
-use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, PairPrecision};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
@@ -80,6 +80,7 @@ fn bare(momentum_operator: MomentumOperator) -> Numerics {
         artificial_viscosity: 0.0,
         hourglass: 0.0,
         viscous_courant: 0.1,
+        pair_precision: PairPrecision::Double,
         ..Numerics::default()
     }
 }

@@ -6,7 +6,7 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::boundary::Enclosure;
-use bagnold_solver::weakly_compressible::numerics::Numerics;
+use bagnold_solver::weakly_compressible::numerics::{Numerics, PairPrecision};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
@@ -49,7 +49,7 @@ where
         spacing,
         equation_of_state: EquationOfState { reference_density: 1000.0, bulk_modulus: 1e6, tension: Tension::Kept },
         rheology: Rheology::Newtonian(Newtonian { viscosity: 1.0 }),
-        numerics: Numerics::default(),
+        numerics: Numerics { pair_precision: PairPrecision::Double, ..Numerics::default() },
     };
     // a new simulation has the gradient of its initial state
     Simulation::new(scene).expect("a valid scene").snapshot()

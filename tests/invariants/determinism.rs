@@ -6,7 +6,7 @@ use bagnold_solver::lanes::InstructionSet;
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::wall;
-use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscousStep};
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, PairPrecision, ViscousStep};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use rayon::ThreadPoolBuilder;
@@ -59,14 +59,23 @@ where
     }
 }
 
+fn in_both_precisions<const D: usize>(scene: &Scene<D>)
+where
+    Simulation<D>: Compiled<D>,
+{
+    for pair_precision in [PairPrecision::Double, PairPrecision::Single] {
+        check(&Scene { numerics: Numerics { pair_precision, ..scene.numerics }, ..scene.clone() });
+    }
+}
+
 #[test]
 fn a_plane_column_is_the_same_to_the_last_bit() {
-    check(&column([110, 80]));
+    in_both_precisions(&column([110, 80]));
 }
 
 #[test]
 fn a_column_in_space_is_the_same_to_the_last_bit() {
-    check(&column([13, 12, 14]));
+    in_both_precisions(&column([13, 12, 14]));
 }
 
 #[test]

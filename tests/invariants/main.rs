@@ -9,6 +9,7 @@ mod meshes;
 mod momentum_balance;
 mod neighbour_list;
 mod open_law;
+mod pair_precision;
 mod patches;
 mod restart;
 mod scene_errors;

@@ -1,6 +1,6 @@
 //! No pair term makes momentum: Σ m Δv = 0 in every step of a fully periodic block, term by term.
 
-use crate::patches::{Disorder, GRAINS, SPACING, SYRUP, block, open_scene, periodic_scene, simulation};
+use crate::patches::{Disorder, GRAINS, SPACING, SYRUP, block, exact_pairs, open_scene, periodic_scene, simulation};
 use bagnold_solver::material::rheology::{Bingham, Newtonian, Rheology};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics, ViscositySwitch};
@@ -20,7 +20,7 @@ fn bare() -> Numerics {
         artificial_viscosity: 0.0,
         hourglass: 0.0,
         verlet_skin: 0.03,
-        ..Numerics::default()
+        ..exact_pairs()
     }
 }
 

@@ -5,7 +5,7 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector, deviator, equivalent_shear_stress};
 use bagnold_solver::weakly_compressible::boundary::{Enclosure, Wall};
-use bagnold_solver::weakly_compressible::numerics::Numerics;
+use bagnold_solver::weakly_compressible::numerics::{Numerics, PairPrecision};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use rand::{RngExt, SeedableRng};
@@ -92,7 +92,13 @@ pub(crate) fn block<const D: usize>(cells: [usize; D], disorder: Disorder, seed:
     flow
 }
 
-/// Grains without gravity, walls or boundaries, with the recipe's numerics.
+/// The recipe with pairs in double precision, whose sums close to rounding. What single precision leaves of that is in
+/// `pair_precision`.
+pub(crate) fn exact_pairs() -> Numerics {
+    Numerics { pair_precision: PairPrecision::Double, ..Numerics::default() }
+}
+
+/// Grains without gravity, walls or boundaries, with the recipe's numerics and pairs in double precision.
 pub(crate) fn open_scene<const D: usize>(flow: Flow<D>) -> Scene<D> {
     Scene {
         flow,
@@ -104,7 +110,7 @@ pub(crate) fn open_scene<const D: usize>(flow: Flow<D>) -> Scene<D> {
         spacing: SPACING,
         equation_of_state: EQUATION_OF_STATE,
         rheology: GRAINS,
-        numerics: Numerics::default(),
+        numerics: exact_pairs(),
     }
 }
 

@@ -1,8 +1,8 @@
 //! Galilean invariance, quarter turns, mirror images, and independence of the length of the neighbour list.
 
 use crate::patches::{
-    Disorder, EQUATION_OF_STATE, GRAINS, SPACING, SYRUP, advance, bed, block, largest_difference, open_scene,
-    periodic_scene, simulation,
+    Disorder, EQUATION_OF_STATE, GRAINS, SPACING, SYRUP, advance, bed, block, exact_pairs, largest_difference,
+    open_scene, periodic_scene, simulation,
 };
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::rheology::{Bingham, Rheology};
@@ -17,7 +17,7 @@ const BINGHAM: Rheology =
 
 /// Every operator with the law that it is meant for, all its options on.
 fn variants() -> [(Numerics, Rheology); 5] {
-    let recipe = Numerics { smagorinsky_constant: 0.2, ..Numerics::default() };
+    let recipe = Numerics { smagorinsky_constant: 0.2, ..exact_pairs() };
     let with = |momentum_operator| Numerics { momentum_operator, ..recipe };
     [
         (recipe, GRAINS),

@@ -3,7 +3,10 @@
 //! The runs come from the store that the report uses too, so that none is simulated twice.
 
 mod known_failures;
+mod long_runs;
 mod perturbation;
+mod scene_preparation;
+mod scene_texts;
 mod scenes;
 mod verdict;
 

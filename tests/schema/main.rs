@@ -132,3 +132,34 @@ fn schema_and_program_refuse_the_same_values() {
         }
     }
 }
+
+#[test]
+fn the_schema_of_a_study_accepts_the_shipped_one_and_refuses_slips() {
+    let schema: Value = serde_json::from_str(&printed(&["schema", "study"])).expect("JSON");
+    jsonschema::draft202012::meta::validate(&schema).expect("valid against the metaschema");
+    let validator = validator(&schema);
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../validation/studies/beads-in-a-flume.toml");
+    let text = std::fs::read_to_string(file).expect("the shipped study");
+    let study = |from: &str, to: &str| -> Value {
+        assert!(text.contains(from), "{from}");
+        toml::from_str(&text.replacen(from, to, 1)).expect("TOML")
+    };
+    let errors: Vec<String> =
+        validator.iter_errors(&study("", "")).map(|error| format!("{}: {error}", error.instance_path())).collect();
+    assert!(errors.is_empty(), "{errors:?}");
+    for (from, to) in [
+        ("study = ", "stduy = "),
+        ("base = \"flume.toml\"", ""),
+        ("base = ", "case = \"scene\"\nbase = "),
+        ("values = [0.01, 0.005]", "values = [[0.01]]"),
+        ("values = [0.01, 0.005]", "values = 0.01"),
+        ("value = \"last\"", "value = \"latest\""),
+        ("value = \"last\"", ""),
+        ("value = \"last\"", "value = \"last\"\nmetric = \"energy_residual\""),
+        ("at_most = 2.0", "at_most = \"2\""),
+        ("confidence = \"exact\"", "confidence = \"sure\""),
+        ("within = [-151.6, -145.6]", "within = [-151.6]"),
+    ] {
+        assert!(!validator.is_valid(&study(from, to)), "{from} -> {to}");
+    }
+}

@@ -1,3 +1,5 @@
+#![allow(dead_code, reason = "each bench takes what it needs")]
+
 //! The blocks that the benches step: a dam at rest beside a symmetry plane, and a periodic block that drifts.
 
 use bagnold_solver::domain::{AxisBoundary, Domain};

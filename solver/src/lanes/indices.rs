@@ -131,6 +131,15 @@ impl<'a> LaneChunks<'a> {
         self.raw.is_empty()
     }
 
+    /// Takes the first few away, as many as there are.
+    #[inline(always)]
+    #[must_use]
+    pub fn take_first(&mut self, count: usize) -> Self {
+        let (first, rest) = self.raw.split_at(if count < self.raw.len() { count } else { self.raw.len() });
+        self.raw = rest;
+        Self { raw: first, bound: self.bound }
+    }
+
     /// The bare indices.
     #[must_use]
     pub fn raw(&self) -> &'a [[u32; LANES]] {

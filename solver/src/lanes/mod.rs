@@ -3,16 +3,21 @@
 //! A pair sum is written once against [`Lanes`] and compiled for the portable, AVX2 and AVX-512 back ends; the
 //! processor's best one is chosen at run time. The lane count, the absence of fused multiply–add and the meaning of
 //! every operation are fixed here, so every back end gives the same bits. A lane is a particle: lanes are never summed.
+//! Each back end has eight f32 lanes beside them, for what a pair is made of; sums over pairs are f64.
 
 pub mod algebra;
 mod indices;
 mod portable;
 mod real;
+mod single;
 #[cfg(target_arch = "x86_64")]
 mod x86;
+#[cfg(target_arch = "x86_64")]
+mod x86_single;
 
 pub use indices::{CheckedIndices, LaneChunks, LaneIndices};
 pub use real::Real;
+pub use single::SingleLanes;
 
 use crate::vector::{Tensor, Vector};
 
@@ -21,6 +26,12 @@ pub const LANES: usize = 8;
 
 /// Eight f64 values with lane-wise arithmetic.
 pub trait Lanes: Real {
+    /// Eight f32 lanes of the same instruction set.
+    type Single: SingleLanes;
+    /// Eight f32 values as f64, exactly.
+    fn widen(single: Self::Single) -> Self;
+    /// The nearest f32 values.
+    fn narrow(self) -> Self::Single;
     /// Loads `source[index · stride + offset]` for eight indices, where `source` is a flat array of records.
     /// Implementations may rely on `offset < stride` and on the length check in [`gather`].
     #[doc(hidden)]
@@ -211,6 +222,7 @@ mod tests {
         vectors: &'a [Vector<3>],
         tensors: &'a [Tensor<3>],
         quads: &'a [[f64; 4]],
+        singles: &'a [[f32; 4]],
         out: &'a mut Vec<u64>,
     }
 
@@ -239,6 +251,10 @@ mod tests {
                 let mut stored = [[0.0; 4]; 3 * LANES];
                 V::store_quads(&[p, q, r, s], &mut stored, 3, 1);
                 self.out.extend(stored.as_flattened().iter().map(|value| value.to_bits()));
+                let [e, f, g, h] = V::Single::load_quads(self.singles, 2, 1, &indices);
+                let k = (e * f - g / h).max(e).min(h + f).sqrt().where_less(e, -g);
+                self.out.extend(V::widen(k.fixed_difference(b.narrow())).to_array().map(f64::to_bits));
+                self.out.extend(V::widen(k - b.narrow()).to_array().map(f64::to_bits));
             }
         }
     }
@@ -251,10 +267,12 @@ mod tests {
         let vectors: Vec<_> = (0..n).map(|k| Vector::<3>::from_fn(|i, _| value(7 * k + i))).collect();
         let tensors: Vec<_> = (0..n).map(|k| Tensor::<3>::from_fn(|i, j| value(11 * k + 3 * i + j))).collect();
         let quads: Vec<_> = (0..2 * n).map(|k| std::array::from_fn(|i| value(5 * k + i))).collect();
+        let singles: Vec<_> = quads.iter().map(|quad: &[f64; 4]| quad.map(|value| value as f32)).collect();
         let mut results = Vec::new();
         for set in InstructionSet::available() {
             let mut out = Vec::new();
-            set.run(Everything { a: &a, vectors: &vectors, tensors: &tensors, quads: &quads, out: &mut out });
+            let (quads, singles) = (&quads, &singles);
+            set.run(Everything { a: &a, vectors: &vectors, tensors: &tensors, quads, singles, out: &mut out });
             assert!(out.len() > 8 * 50);
             results.push(out);
         }

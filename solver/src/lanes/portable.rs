@@ -1,7 +1,8 @@
 //! The back end for any processor: arrays of eight.
 #![expect(unsafe_code, reason = "unchecked gathers behind one length check")]
 
-use super::{FlatRecords, LANES, LaneIndices, Lanes, Real};
+use super::single::PortableSingle;
+use super::{FlatRecords, LANES, LaneIndices, Lanes, Real, SingleLanes};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 #[derive(Clone, Copy)]
@@ -79,6 +80,18 @@ impl Real for Portable {
 }
 
 impl Lanes for Portable {
+    type Single = PortableSingle;
+
+    #[inline(always)]
+    fn widen(single: PortableSingle) -> Self {
+        Self(single.to_array().map(f64::from))
+    }
+
+    #[inline(always)]
+    fn narrow(self) -> PortableSingle {
+        PortableSingle::load(&self.0.map(|value| value as f32))
+    }
+
     #[inline(always)]
     fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self {
         assert!(source.records >= indices.bound && offset < source.stride, "array shorter than its index bound");

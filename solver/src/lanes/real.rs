@@ -2,11 +2,11 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// One f64 or eight lanes of f64, with the same rounding.
+/// One f64, eight lanes of f64 with the same rounding, or eight lanes of f32.
 pub trait Real:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
-    /// The same value in every lane.
+    /// The same value in every lane, rounded to its precision.
     fn splat(value: f64) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;

@@ -1,6 +1,7 @@
 //! The x86-64 back ends: AVX2 as two registers of four lanes, AVX-512 as one of eight.
 #![expect(unsafe_code, reason = "vector intrinsics; a value of these types exists only after the processor was asked")]
 
+use super::x86_single::Single;
 use super::{FlatRecords, InstructionSet, LANES, LaneIndices, LanePass, Lanes, Level, Real};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -123,6 +124,20 @@ impl Real for Avx512 {
 }
 
 impl Lanes for Avx512 {
+    type Single = Single;
+
+    #[inline(always)]
+    fn widen(single: Single) -> Self {
+        // SAFETY: values of these types exist only inside run_avx512.
+        Self(unsafe { _mm512_cvtps_pd(single.0) })
+    }
+
+    #[inline(always)]
+    fn narrow(self) -> Single {
+        // SAFETY: values of this type exist only inside run_avx512.
+        Single(unsafe { _mm512_cvtpd_ps(self.0) })
+    }
+
     #[inline(always)]
     fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self {
         assert!(source.records >= indices.bound && offset < source.stride, "array shorter than its index bound");
@@ -262,6 +277,23 @@ impl Real for Avx2 {
 }
 
 impl Lanes for Avx2 {
+    type Single = Single;
+
+    #[inline(always)]
+    fn widen(single: Single) -> Self {
+        // SAFETY: values of these types exist only inside run_avx2.
+        unsafe {
+            let (low, high) = (_mm256_castps256_ps128(single.0), _mm256_extractf128_ps::<1>(single.0));
+            Self(_mm256_cvtps_pd(low), _mm256_cvtps_pd(high))
+        }
+    }
+
+    #[inline(always)]
+    fn narrow(self) -> Single {
+        // SAFETY: values of this type exist only inside run_avx2.
+        Single(unsafe { _mm256_set_m128(_mm256_cvtpd_ps(self.1), _mm256_cvtpd_ps(self.0)) })
+    }
+
     #[inline(always)]
     fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self {
         assert!(source.records >= indices.bound && offset < source.stride, "array shorter than its index bound");

@@ -4,10 +4,14 @@
 //! energy E of pressure and shear read off the state. Every entry is the work that a term of the scheme did in each step:
 //!
 //! - forces at the mean velocity of the step, v̄ = ½(vⁿ + vⁿ⁺¹), at which the change of K is exactly Σ m v̄·a Δt;
-//! - deformation with the stress before the step and the velocity gradient after it, as the step takes them.
+//! - deformation by the new velocity gradient with the mean of the stresses before and after the step;
+//! - gravity at the new velocity, with which particles move.
 //!
-//! Walls: Σ m vⁿ⁺¹·a_w Δt of their tractions, plus the part of the stress' work on the velocity gradient that they cause,
-//! both at the new velocity, so that what a step's length does to them is in the residual, where it meets its opposite.
+//! The stress acts on K as it was before the step, and on the deformation as its mean: over a run the difference is the sum
+//! of Δt ½(Fⁿ⁺¹·vⁿ⁺¹ − Fⁿ·vⁿ) with the force F of the stress, of which only both ends are left. With gravity's, that is
+//! ½ Δt m a·v: nothing where the flow is steady, and half a step's change of K elsewhere.
+//!
+//! Walls: Σ m v̄·a_w Δt of their tractions, plus the part of the stress' work on the velocity gradient that they cause.
 //! In the continuum the two are equal and opposite at a wall at rest, so that W_w is the work of walls that move: what a
 //! wall at rest has in W_w, its extrapolation has fed into the flow, or slip along it has taken. The divergence of the
 //! forces, with the correction E, is the transpose of a gradient with E; continuity takes none and the strain rate L, and
@@ -17,7 +21,7 @@
 //! velocity at 24°. E varies as particles pass each other, so that what it adds does not come back.)
 
 use crate::lanes::Lanes;
-use crate::lanes::algebra::{accumulate, contraction, matrix_product};
+use crate::lanes::algebra::{accumulate, contraction, matrix_product, zero_tensor};
 use crate::material::equation_of_state::{EquationOfState, Tension};
 use crate::vector::{Tensor, Vector, double_contraction};
 use crate::weakly_compressible::particles::Particles;
@@ -170,12 +174,47 @@ impl<const D: usize> VelocityStep<'_, D> {
     #[inline(always)]
     pub(crate) fn add_to(&self, sum: &mut EnergyLedger) {
         let end = self.after + self.contact;
-        let impulse = 0.5 * self.mass * self.time_step * (self.before + self.after);
+        let mean = 0.5 * (self.before + end);
+        let impulse = self.mass * self.time_step * mean;
         sum.gravity += self.mass * self.time_step * self.gravity.dot(&end);
-        sum.walls += self.mass * self.time_step * end.dot(self.by_walls);
+        sum.walls += impulse.dot(self.by_walls);
         sum.artificial -= impulse.dot(self.by_damping);
         sum.wall_control -= impulse.dot(self.by_wall_control);
-        sum.contact -= 0.5 * self.mass * self.contact.dot(&(self.after + end));
+        sum.contact -= self.mass * mean.dot(&self.contact);
+    }
+}
+
+/// What a push adds that follows the velocity step of a particle.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PushStep<'a, const D: usize> {
+    pub(crate) mass: f64,
+    pub(crate) time_step: f64,
+    pub(crate) gravity: &'a Vector<D>,
+    /// Without the push.
+    pub(crate) velocity: Vector<D>,
+    pub(crate) push: Vector<D>,
+    /// Work of the walls that pushed, at their velocities `[J]`.
+    pub(crate) given: f64,
+    /// Of the step, and what of it came from walls' tractions, artificial terms, and hourglass control at walls `[m/s²]`.
+    pub(crate) acceleration: &'a Vector<D>,
+    pub(crate) by_walls: &'a Vector<D>,
+    pub(crate) by_damping: &'a Vector<D>,
+    pub(crate) by_wall_control: &'a Vector<D>,
+}
+
+impl<const D: usize> PushStep<'_, D> {
+    /// Adds the push to a sum that has the step without it: every force has worked at a mean velocity that is half the push
+    /// more.
+    #[inline(always)]
+    pub(crate) fn add_to(&self, sum: &mut EnergyLedger) {
+        let momentum = self.mass * self.time_step * self.push;
+        sum.gravity += momentum.dot(self.gravity);
+        sum.walls += 0.5 * momentum.dot(self.by_walls) + self.given;
+        sum.artificial -= 0.5 * momentum.dot(self.by_damping);
+        sum.wall_control -= 0.5 * momentum.dot(self.by_wall_control);
+        // an earlier contact with a plane in this step is in both of these means, once with each sign
+        let mean = self.velocity + 0.5 * (self.push - self.time_step * self.acceleration);
+        sum.contact += self.given - self.mass * mean.dot(&self.push);
     }
 }
 
@@ -189,8 +228,8 @@ pub(crate) struct DeformationStep<'a, V, const D: usize> {
     pub(crate) shear_modulus: Option<f64>,
     /// Stress beside the law's that acted, of elastic damping and eddies `[Pa]`.
     pub(crate) added_stress: &'a [[V; D]; D],
-    /// Pressure before the step `[Pa]`.
-    pub(crate) pressure: V,
+    /// Pressures before and after the step `[Pa]`.
+    pub(crate) pressure: (V, V),
     /// ∇·v of the flow among itself as continuity takes it `[1/s]`.
     pub(crate) divergence: V,
     /// Velocity gradient of the flow among itself before any correction `[1/s]`, and the correction E of the forces `[-]`.
@@ -211,28 +250,34 @@ impl<V: Lanes, const D: usize> DeformationStep<'_, V, D> {
         let (volume, time_step) = (self.volume, V::splat(self.time_step));
         let work = volume * time_step;
         sum.viscous = sum.viscous + work * contraction(self.added_stress, self.rate);
-        let mut acting = *self.stress_before;
+        let half = V::splat(0.5);
+        let mut law = zero_tensor::<V, D>();
+        for i in 0..D {
+            accumulate(&mut law[i], half, &self.stress_before[i]);
+            accumulate(&mut law[i], half, &self.stress[i]);
+        }
+        let mut acting = law;
         for i in 0..D {
             accumulate(&mut acting[i], V::splat(1.0), &self.added_stress[i]);
         }
+        let pressure = half * (self.pressure.0 + self.pressure.1);
         let mut whole = acting;
         for i in 0..D {
-            whole[i][i] = whole[i][i] - self.pressure;
+            whole[i][i] = whole[i][i] - pressure;
         }
         let by_walls = contraction(&acting, self.rate_by_walls);
-        let taken = contraction(&acting, self.rate) - by_walls - self.pressure * self.divergence;
+        let taken = contraction(&acting, self.rate) - by_walls - pressure * self.divergence;
         let given = contraction(&matrix_product(&whole, self.force_correction), self.raw_gradient);
         sum.correction = sum.correction + work * (taken - given);
         sum.walls = sum.walls + work * by_walls;
         match self.shear_modulus {
-            None => sum.viscous = sum.viscous + work * contraction(self.stress_before, self.rate),
+            None => sum.viscous = sum.viscous + work * contraction(&law, self.rate),
             Some(shear_modulus) => {
                 // what the acting stress has done and elastic shear has not kept; what a trial has beyond the yield is no
                 // work, since no force ever had it
                 let compliance = V::splat(0.25 / shear_modulus);
                 let lost = contraction(self.stress_before, self.stress_before) - contraction(self.stress, self.stress);
-                sum.plastic =
-                    sum.plastic + volume * compliance * lost + work * contraction(self.stress_before, self.rate);
+                sum.plastic = sum.plastic + volume * compliance * lost + work * contraction(&law, self.rate);
             }
         }
     }
@@ -259,7 +304,7 @@ impl<V: Lanes> CompressionStep<V> {
         let square = (self.density.0 * self.density.1).max(V::splat(f64::MIN_POSITIVE));
         let factor = self.mass / square;
         let mean = V::splat(0.5) * (self.pressure.0 + self.pressure.1);
-        sum.walls = sum.walls + factor * self.pressure.0 * self.by_walls;
+        sum.walls = sum.walls + factor * mean * self.by_walls;
         sum.density_coupling = sum.density_coupling - factor * mean * self.by_coupling;
     }
 }

@@ -109,6 +109,11 @@ impl<const D: usize> Model<D> {
         self.numerics.stress_diffusion * self.equation_of_state.sound_speed() * self.kernel.smoothing_length()
     }
 
+    /// Whether the terms of pairs are single precision.
+    pub(crate) fn pairs_in_single(&self) -> bool {
+        self.numerics.pairs_in_single()
+    }
+
     /// Whether the stress ratio diffuses: where a law carries its stress along.
     pub(crate) fn stress_diffuses(&self) -> bool {
         self.rheology.is_plastic() && self.numerics.stress_diffusion > 0.0 && self.gradient_use() == GradientUse::Stress

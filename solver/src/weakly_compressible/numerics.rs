@@ -58,6 +58,17 @@ pub enum HourglassDirection {
     Radial,
 }
 
+/// In which precision the terms of a pair are taken; what particles keep, and sums over pairs, are always double.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PairPrecision {
+    /// f64.
+    Double,
+    /// f32, with positions as integers whose differences are exact: faster, and half the memory (default). What it does not serve (pairwise
+    /// operators, hourglass control along all directions, Morris & Monaghan's switch, implicit viscous steps) stays double.
+    Single,
+}
+
 /// How a viscous law's stress enters the momentum equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -120,6 +131,8 @@ pub struct Numerics {
     /// Coefficient of the explicit viscous bound ρh²/η `[-]`.
     #[schemars(transform = up_to(1.0, DEFAULTS))]
     pub viscous_courant: f64,
+    /// Precision of the terms of a pair.
+    pub pair_precision: PairPrecision,
     /// When the viscous stress is taken, before or after the step.
     pub viscous_step: ViscousStep,
     /// Share of the net acceleration that an implicit viscous step may leave without its viscous answer `[-]`, both as
@@ -151,6 +164,7 @@ impl Default for Numerics {
             acoustic_courant: 0.4,
             advective_courant: 0.25,
             viscous_courant: 0.2,
+            pair_precision: PairPrecision::Single,
             viscous_step: ViscousStep::Explicit,
             viscous_tolerance: 0.1,
             verlet_skin: 0.1,
@@ -189,6 +203,16 @@ impl Numerics {
             | MomentumOperator::Pairwise
             | MomentumOperator::PairwiseCorrected => false,
         }
+    }
+
+    /// Whether the terms of pairs are single precision: asked for, and served by these numerics.
+    #[must_use]
+    pub fn pairs_in_single(&self) -> bool {
+        self.pair_precision == PairPrecision::Single
+            && self.pairwise_operator().is_none()
+            && matches!(self.hourglass_direction, HourglassDirection::RadialAndNormal | HourglassDirection::Radial)
+            && self.viscosity_switch == ViscositySwitch::Constant
+            && self.viscous_step == ViscousStep::Explicit
     }
 
     /// The name of the momentum operator, where it is one of the pairwise ones.

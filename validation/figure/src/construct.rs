@@ -1,24 +1,35 @@
 //! Short ways to make the parts of a figure.
 
-use super::{Axis, Band, Field, Figure, Mark, Panel, Scale, Series};
+use super::{Axis, AxisRatio, Band, Field, Figure, Mark, Panel, Scale, Series};
 
 impl Axis {
     /// A linear axis that fits its data.
     #[must_use]
     pub fn linear(label: &str) -> Self {
-        Self { label: label.to_owned(), scale: Scale::Linear, limits: None }
+        Self { label: label.to_owned(), scale: Scale::Linear, limits: None, ratio: None }
     }
 
     /// A logarithmic axis that fits its data.
     #[must_use]
     pub fn logarithmic(label: &str) -> Self {
-        Self { label: label.to_owned(), scale: Scale::Logarithmic, limits: None }
+        Self { label: label.to_owned(), scale: Scale::Logarithmic, limits: None, ratio: None }
     }
 
     /// The same axis between fixed limits.
     #[must_use]
     pub fn between(self, lower: f64, upper: f64) -> Self {
         Self { limits: Some((lower, upper)), ..self }
+    }
+
+    /// The same axis as the ratio of a quantity to a scale in a unit, if there is one scale: of several that differ, or none, it
+    /// stays without.
+    #[must_use]
+    pub fn over(self, name: &str, unit: &str, scales: impl IntoIterator<Item = f64>) -> Self {
+        let mut scales = scales.into_iter();
+        let scale =
+            scales.next().filter(|first| first.is_finite() && *first > 0.0 && scales.all(|other| other == *first));
+        let ratio = scale.map(|scale| AxisRatio { name: name.to_owned(), unit: unit.to_owned(), scale });
+        Self { ratio, ..self }
     }
 }
 

@@ -60,6 +60,19 @@ pub struct Axis {
     pub scale: Scale,
     /// Fixed limits; `None` fits the data.
     pub limits: Option<(f64, f64)>,
+    /// What a dimensionless axis is a ratio of, where it has one scale for all curves.
+    pub ratio: Option<AxisRatio>,
+}
+
+/// A quantity over a scale: x/r0 is x `[m]` over r0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AxisRatio {
+    /// Name of the quantity, such as `x`.
+    pub name: String,
+    /// Unit of quantity and scale.
+    pub unit: String,
+    /// The scale, in that unit.
+    pub scale: f64,
 }
 
 /// Spacing of an axis.

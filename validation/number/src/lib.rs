@@ -13,12 +13,34 @@ pub fn two_digits(value: f64) -> String {
     significant(value, 2, &TYPESET)
 }
 
+/// Two values with as many significant digits, four at least, as show their difference to a tenth of it; equal ones have four.
+#[must_use]
+pub fn distinct_digits(value: f64, other: f64) -> (String, String) {
+    const FEWEST: usize = 4;
+    // more do not tell two numbers of double precision apart
+    const MOST: usize = 17;
+    let rounded = |number: f64, digits: usize| format!("{number:.*e}", digits - 1).parse::<f64>().unwrap_or(number);
+    let difference = value - other;
+    let shows = |digits: &usize| {
+        let shown = rounded(value, *digits) - rounded(other, *digits);
+        (shown - difference).abs() <= 0.1 * difference.abs()
+    };
+    let digits = if difference.is_finite() { (FEWEST..MOST).find(shows).unwrap_or(MOST) } else { FEWEST };
+    (significant(value, digits, &TYPESET), significant(other, digits, &TYPESET))
+}
+
 /// A value with its unit: `0.56 %`, `0.1 m/s`; the unit `-` is not written.
 #[must_use]
 pub fn with_unit(value: f64, unit: &str) -> String {
+    in_unit(&four_digits(value), unit)
+}
+
+/// Digits with their unit; the unit `-` is not written.
+#[must_use]
+pub fn in_unit(digits: &str, unit: &str) -> String {
     match unit {
-        "" | "-" => four_digits(value),
-        _ => format!("{}\u{202f}{unit}", four_digits(value)),
+        "" | "-" => digits.to_owned(),
+        _ => format!("{digits}\u{202f}{unit}"),
     }
 }
 
@@ -161,6 +183,28 @@ mod tests {
         assert_eq!(count(1_234_567), "1\u{202f}234\u{202f}567");
         assert_eq!(count(999), "999");
     }
+
+    #[test]
+    fn two_values_have_the_digits_that_show_their_difference() {
+        for (value, other, texts) in [
+            (10.2, 10.0, ("10.2", "10")),
+            (0.123_449, 0.123_451, ("0.123449", "0.123451")),
+            (1.234_561e-7, 1.234_562e-7, ("1.234561×10⁻⁷", "1.234562×10⁻⁷")),
+            // four digits differ, but by a whole last digit in place of a tenth of it
+            (1.000_51, 1.000_49, ("1.00051", "1.00049")),
+            (-3.0, 3.0, ("−3", "3")),
+            (0.0, 1e-12, ("0", "1×10⁻¹²")),
+            (0.123_456_7, 0.123_456_7, ("0.1235", "0.1235")),
+            (f64::NAN, 1.0, ("not a number", "1")),
+            (f64::INFINITY, f64::INFINITY, ("∞", "∞")),
+        ] {
+            assert_eq!(distinct_digits(value, other), (texts.0.to_owned(), texts.1.to_owned()), "{value:e}, {other:e}");
+        }
+        // neighbours in double precision
+        let (value, other) = distinct_digits(1.0, 1.0 + f64::EPSILON);
+        assert_ne!(value, other);
+    }
+
     #[test]
     fn columns_of_a_terminal_keep_their_zeros() {
         for (value, text) in [

@@ -3,6 +3,7 @@
 use super::error::{ParameterError, SettingError};
 use super::estimate::Limits;
 use super::fault;
+use crate::metric::Variant;
 use bagnold_solver::material::rheology::open::registered;
 use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
 use schemars::JsonSchema;
@@ -20,6 +21,8 @@ pub struct Changes<'a> {
     pub settings: &'a [String],
     /// How much the runs may ask for.
     pub limits: Limits,
+    /// Keys of the runs that are to be simulated; all runs where there are none. What concerns only other runs is not refused.
+    pub only: &'a [Variant],
 }
 
 /// Where a user has given parameters, for errors that come up once the changes are gone.
@@ -295,19 +298,23 @@ fn is_other_choice(shape: &Shape<'_>, table: &Table, changes: &Table) -> bool {
 fn refuse_twice(before: &[String], argument: &str) -> Result<(), SettingError> {
     let Some((path, value)) = parts(argument) else { return Ok(()) };
     for earlier in before {
-        let Some((other, first)) = parts(earlier) else { continue };
-        let twice = given_by(path, value).into_iter().find(|field| {
-            given_by(other, first)
-                .iter()
-                .any(|given| given == field || is_below(given, field) || is_below(field, given))
-        });
-        // a path that leads through a value is refused as a path that does not exist
-        if let Some(field) = twice.filter(|_| !is_below(path, other) || value_of(first).is_table()) {
+        if let Some(field) = twice_given(earlier, argument) {
             let (path, value, earlier) = (path.to_owned(), value.to_owned(), earlier.clone());
             return Err(SettingError::Twice { path, value, field, earlier });
         }
     }
     Ok(())
+}
+
+/// The field that a `path=value` gives which another one, before it, gives as well. A path that leads through a value is
+/// refused as a path that does not exist.
+pub(crate) fn twice_given(earlier: &str, argument: &str) -> Option<String> {
+    let ((path, value), (other, first)) = (parts(argument)?, parts(earlier)?);
+    let is_given_by = |field: &String| {
+        given_by(other, first).iter().any(|given| given == field || is_below(given, field) || is_below(field, given))
+    };
+    let twice = given_by(path, value).into_iter().find(is_given_by);
+    twice.filter(|_| !is_below(path, other) || value_of(first).is_table())
 }
 
 /// The fields that a setting gives: its path, or of a table those in it.

@@ -93,6 +93,11 @@ impl CaseFile {
         Ok(Self { path: path.to_owned(), case, tier, overlay: Vec::new(), output: None, fields })
     }
 
+    /// Lays fields over its own: tables field by field, everything else as a whole.
+    pub(crate) fn lay_over(&mut self, over: &Table) {
+        lay_over(&mut self.fields, over);
+    }
+
     /// The text of a complete file: the parameters in the order of their struct, each with its note.
     #[must_use]
     pub(super) fn text(case: &str, tier: Tier, parameters: &str, notes: &BTreeMap<String, String>) -> String {
@@ -121,6 +126,18 @@ impl CaseFile {
         }
         // The serialiser already parts its tables by an empty line, and so does the loop above.
         text.replace("\n\n\n", "\n\n")
+    }
+}
+
+/// Lays fields over others: tables field by field, everything else as a whole.
+fn lay_over(base: &mut Table, over: &Table) {
+    for (key, value) in over {
+        match (base.get_mut(key), value) {
+            (Some(toml::Value::Table(below)), toml::Value::Table(above)) => lay_over(below, above),
+            _ => {
+                base.insert(key.clone(), value.clone());
+            }
+        }
     }
 }
 
@@ -185,5 +202,12 @@ mod tests {
             text,
             "case = \"film\"\ntier = \"paper\"\n\ndepth = 0.01  # height of the layer [m]\n\n[fluid]  # water\ndensity = 1000.0  # [kg/m³]\n"
         );
+    }
+
+    #[test]
+    fn fields_are_laid_over_others_table_by_table() {
+        let mut base: Table = toml::from_str("a = 1\n[b]\nc = 1\nd = [1]").expect("TOML");
+        lay_over(&mut base, &toml::from_str("e = 2\n[b]\nd = [2, 3]").expect("TOML"));
+        assert_eq!(base, toml::from_str::<Table>("a = 1\ne = 2\n[b]\nc = 1\nd = [2, 3]").expect("TOML"));
     }
 }

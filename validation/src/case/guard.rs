@@ -38,9 +38,31 @@ impl<'a, P: Parameters> Guard<'a, P> {
         if runs.is_empty() {
             return Err(ParameterError::NothingToRun { case: self.case.to_owned(), empty: self.emptied() });
         }
-        self.told_apart(&runs).map_err(|error| source.placed(error))?;
-        self.affordable(&runs).map_err(|error| source.placed(error))?;
+        let chosen = self.chosen(&runs);
+        self.parameters.check_runs(&chosen).map_err(|error| source.placed(self.named(error)))?;
+        self.told_apart(&chosen).map_err(|error| source.placed(error))?;
+        self.affordable(&chosen).map_err(|error| source.placed(error))?;
         Ok(runs)
+    }
+
+    /// Those of the runs that are to be simulated.
+    fn chosen<'r>(&self, runs: &'r [P::Run]) -> Vec<&'r P::Run> {
+        let only = self.changes.only;
+        let is_chosen = |run: &&P::Run| {
+            let variant = run.variant();
+            only.is_empty() || only.iter().any(|asked| variant.includes(asked))
+        };
+        runs.iter().filter(is_chosen).collect()
+    }
+
+    /// Whether parameters make the runs that are to be simulated and break no rule of theirs.
+    fn holds(&self, parameters: &P) -> bool {
+        if parameters.check().is_err() {
+            return false;
+        }
+        let runs = parameters.runs();
+        let chosen = self.chosen(&runs);
+        !chosen.is_empty() && parameters.check_runs(&chosen).is_ok()
     }
 
     /// Lists that the user has emptied.
@@ -68,7 +90,7 @@ impl<'a, P: Parameters> Guard<'a, P> {
         if error.field_path().is_some_and(is_changed) {
             return error;
         }
-        let leads = |path: &str| self.restored(path).is_some_and(|parameters| parameters.check().is_ok());
+        let leads = |path: &str| self.restored(path).is_some_and(|parameters| self.holds(&parameters));
         match changed.iter().find(|(path, _)| leads(path)) {
             Some((field, value)) => ParameterError::Follows {
                 file: None,
@@ -92,7 +114,7 @@ impl<'a, P: Parameters> Guard<'a, P> {
     }
 
     /// Runs are known by their names: two of one name would be taken for each other.
-    fn told_apart(&self, runs: &[P::Run]) -> Result<(), ParameterError> {
+    fn told_apart(&self, runs: &[&P::Run]) -> Result<(), ParameterError> {
         let Some(twin) = twin(runs) else { return Ok(()) };
         let remedy = format!("two runs would both be called `{twin}`: name it once");
         let lists = leaves(&self.asked).into_iter().filter_map(|path| {
@@ -102,7 +124,7 @@ impl<'a, P: Parameters> Guard<'a, P> {
         });
         let is_cause = |(path, _): &(String, String)| {
             let field = path.split('[').next().unwrap_or(path);
-            self.restored(field).is_some_and(|parameters| twin_of(&parameters).is_none())
+            self.restored(field).is_some_and(|parameters| self.twin_of(&parameters).is_none())
         };
         let changed = self.changed();
         let cause = lists.chain(changed.iter().cloned()).find(is_cause).or_else(|| changed.first().cloned());
@@ -110,17 +132,22 @@ impl<'a, P: Parameters> Guard<'a, P> {
         Err(ParameterError::field(&field, value, "unlike the others", &remedy))
     }
 
+    /// The name that two runs of other parameters share.
+    fn twin_of(&self, parameters: &P) -> Option<String> {
+        if self.holds(parameters) { twin(&self.chosen(&parameters.runs())) } else { None }
+    }
+
     /// What the runs need must be there; the field is the one that, as the tier has it, saves most.
-    fn affordable(&self, runs: &[P::Run]) -> Result<(), ParameterError> {
+    fn affordable(&self, runs: &[&P::Run]) -> Result<(), ParameterError> {
         let limits = &self.changes.limits;
         let estimate = of_runs(runs);
         let Some((rule, remedy)) = estimate.problem(limits) else { return Ok(()) };
         let mut least: Option<(Estimate, (String, String))> = None;
         for field in self.changed() {
-            let Some(parameters) = self.restored(&field.0).filter(|parameters| parameters.check().is_ok()) else {
+            let Some(parameters) = self.restored(&field.0).filter(|parameters| self.holds(parameters)) else {
                 continue;
             };
-            let without = of_runs(&parameters.runs());
+            let without = of_runs(&self.chosen(&parameters.runs()));
             let best = least.as_ref().map_or(&estimate, |(best, _)| best);
             if without.is_less_than(best, limits) {
                 least = Some((without, field));
@@ -133,16 +160,12 @@ impl<'a, P: Parameters> Guard<'a, P> {
 }
 
 /// What runs need together.
-fn of_runs<R: Run>(runs: &[R]) -> Estimate {
-    runs.iter().map(Estimate::of).fold(Estimate::default(), Estimate::and)
-}
-
-fn twin_of<P: Parameters>(parameters: &P) -> Option<String> {
-    if parameters.check().is_err() { None } else { twin(&parameters.runs()) }
+fn of_runs<R: Run>(runs: &[&R]) -> Estimate {
+    runs.iter().map(|run| Estimate::of(*run)).fold(Estimate::default(), Estimate::and)
 }
 
 /// The name that two runs share.
-fn twin<R: Run>(runs: &[R]) -> Option<String> {
+fn twin<R: Run>(runs: &[&R]) -> Option<String> {
     let mut seen = BTreeMap::new();
     runs.iter().map(|run| run.variant().to_string()).find(|name| seen.insert(name.clone(), ()).is_some())
 }
@@ -174,6 +197,7 @@ mod tests {
     use super::super::pendulum::Pendulum;
     use super::super::{AnyCase, Changes, Limits, Tier};
     use super::*;
+    use crate::metric::Variant;
 
     const LIMITS: Limits = Limits { memory: 1e9, core_hours: 1.0 };
 
@@ -203,6 +227,26 @@ mod tests {
              particle-steps would take 0.00025 hours: ask for less, or allow more with --most-hours"
         );
         assert_eq!(refused(&["steps=[900000, 10]"], LIMITS), "taken");
+    }
+
+    #[test]
+    fn what_concerns_only_runs_that_are_not_chosen_is_not_refused() {
+        let settings = ["steps=[900000, 10, 10]".to_owned()];
+        let limits = Limits { core_hours: 1e-5, ..LIMITS };
+        let of = |only: &[Variant]| {
+            let changes = Changes { settings: &settings, limits, only, ..Changes::default() };
+            Pendulum.prepare(Tier::Quick, &changes).map(|_| ()).map_err(|error| error.to_string())
+        };
+        // two of one name, and one that takes too long
+        let small = of(&[Variant::of("steps", 10)]).expect_err("both of that name are chosen");
+        assert!(small.starts_with("`steps[2]` is 10, but must be unlike the others"), "{small}");
+        let large = of(&[Variant::of("steps", 900_000)]).expect_err("the long one is chosen");
+        assert!(large.contains("such that the runs take at most"), "{large}");
+        let settings = ["steps=[900000, 10]".to_owned()];
+        let only = [Variant::of("steps", 10)];
+        let changes = Changes { settings: &settings, limits, only: &only, ..Changes::default() };
+        assert!(Pendulum.prepare(Tier::Quick, &changes).is_ok(), "the long one is not chosen");
+        assert!(Pendulum.prepare(Tier::Quick, &Changes { only: &[], ..changes }).is_err());
     }
 
     #[test]

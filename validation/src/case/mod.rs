@@ -25,6 +25,7 @@ mod schedule;
 mod schema;
 
 pub use changes::Changes;
+pub(crate) use changes::twice_given;
 pub use erased::{AnyCase, PreparedCase};
 pub use error::{ParameterError, SettingError};
 pub use estimate::{Estimate, Limits};
@@ -92,6 +93,23 @@ pub trait Parameters: Serialize + DeserializeOwned + JsonSchema + Clone + Send +
     /// The first field that breaks a rule, by its dotted TOML path.
     fn check(&self) -> Result<(), ParameterError> {
         Ok(())
+    }
+    /// The rules that concern some runs only; `runs` are those that are to be simulated, all or those that the user has
+    /// chosen. Called after [`Self::check`]; until then [`Self::runs`] must not panic.
+    ///
+    /// # Errors
+    /// The first field that breaks a rule of one of these runs, by its dotted TOML path.
+    fn check_runs(&self, _runs: &[&Self::Run]) -> Result<(), ParameterError> {
+        Ok(())
+    }
+    /// The rules between fields and those of every run.
+    ///
+    /// # Errors
+    /// The first field that breaks a rule, by its dotted TOML path.
+    fn check_all(&self) -> Result<(), ParameterError> {
+        self.check()?;
+        let runs = self.runs();
+        self.check_runs(&runs.iter().collect::<Vec<_>>())
     }
     /// The independent simulations that these parameters ask for, in report order.
     fn runs(&self) -> Vec<Self::Run>;

@@ -52,6 +52,7 @@ impl Request<'_> {
             file: file.as_ref().map(|file| (file.path.as_path(), file.fields.clone())),
             settings: self.settings,
             limits: self.limits,
+            only: self.only,
         };
         let changed = file.is_some() || !self.settings.is_empty() || !self.only.is_empty();
         let prepared = only(case.prepare(tier, &changes)?, self.only)?;

@@ -128,8 +128,8 @@ pub enum Command {
     List,
     /// Print a case's parameters as a TOML file that `run` takes.
     Show(ShowArguments),
-    /// Print the JSON Schema of a case's TOML file, with which editors complete and check it.
-    Schema(ShowArguments),
+    /// Print the JSON Schema of a case's TOML file, or of a study's, with which editors complete and check it.
+    Schema(SchemaArguments),
     /// Simulate one case and judge it.
     Run(RunArguments),
     /// Judge other codes' results on a case as our own are judged.
@@ -158,7 +158,18 @@ pub enum Command {
     Mutate(MutateArguments),
 }
 
-/// `bagnold show` and `bagnold schema`
+/// `bagnold schema`
+#[derive(Debug, Args)]
+pub struct SchemaArguments {
+    /// Name of a case, see `bagnold list`, or `study` for the file of a study.
+    #[arg(value_name = "CASE|study")]
+    pub case: String,
+    /// Tier whose parameters are a case's defaults.
+    #[arg(long, value_enum, default_value_t = Tier::Quick)]
+    pub tier: Tier,
+}
+
+/// `bagnold show`
 #[derive(Debug, Args)]
 pub struct ShowArguments {
     /// Name of a case, see `bagnold list`.

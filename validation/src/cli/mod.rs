@@ -143,7 +143,12 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
             Ok(Exit::Held)
         }
         Command::Schema(show) => {
-            print(output, &format!("{:#}\n", registry.find(&show.case)?.schema(show.tier)));
+            let schema = match registry.find(&show.case) {
+                // a case goes before the file of the same name
+                Err(_) if show.case == "study" => crate::study::schema(),
+                case => case?.schema(show.tier),
+            };
+            print(output, &format!("{schema:#}\n"));
             Ok(Exit::Held)
         }
         Command::Run(command) => in_pool(&command.work, || match study::file(&command.target, registry) {

@@ -95,6 +95,9 @@ pub(super) fn report(
     let exit = Exit::of(&results, |result, metric| is_known(&known, result, metric));
     let drifted = drifted(&page);
     say(output, &drifted);
+    if exit == Exit::Held && command.deny.is_none() {
+        say(output, &not_denied(&drifted));
+    }
     if command.profile {
         tell(profile.in_words(&results, rayon::current_num_threads()).trim_end_matches('\n'));
     }
@@ -156,6 +159,16 @@ fn baseline(
 fn drifted(page: &Report) -> String {
     let moved = report::drift::moved(&report::judge(page), &page.history);
     moved.iter().filter(|moved| moved.has_drifted).map(|moved| format!("drifted: {moved}\n")).collect()
+}
+
+/// Why the exit code is 0 beside values that have drifted; nothing where none has.
+fn not_denied(drifted: &str) -> String {
+    let (values, change) = match drifted.lines().count() {
+        0 => return String::new(),
+        1 => ("1 value has".to_owned(), "it does"),
+        number => (format!("{number} values have"), "they do"),
+    };
+    format!("{values} drifted, but every gate holds: {change} not change the exit code unless --deny drift is given\n")
 }
 
 fn prepare(command: &ReportArguments, registry: Registry) -> Result<Vec<Box<dyn PreparedCase>>, ParameterError> {

@@ -63,7 +63,7 @@ impl CaseRequest {
         limits: Limits,
     ) -> Result<Box<dyn PreparedCase>, ParameterError> {
         let case = registry.find(&self.case).map_err(|error| error.in_file(file))?;
-        case.prepare(self.tier, &Changes { file: Some((file, self.with.clone())), settings, limits })
+        case.prepare(self.tier, &Changes { file: Some((file, self.with.clone())), settings, limits, only: &[] })
     }
 }
 

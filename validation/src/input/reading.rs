@@ -19,7 +19,10 @@ pub(crate) const STORED: u64 = 1 << 32;
 /// A text file of at most so many bytes. Links are followed: whoever names a file may name it by a link.
 pub(crate) fn read_text(path: &Path, most: u64) -> Result<String> {
     let bytes = read_all(open(path, false)?, most)?;
-    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "stream did not contain valid UTF-8"))
+    // what some editors and spreadsheets call Unicode begins with a mark of two bytes
+    let is_utf16 = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
+    let what = if is_utf16 { "text in UTF-16, not in UTF-8" } else { "no text in UTF-8" };
+    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, what))
 }
 
 /// Any file of at most so many bytes. Links are followed.

@@ -118,7 +118,7 @@ fn pictures(files: &ParticleFiles, plan: &ColumnAssignments, folder: &Path) -> R
         .into_iter()
         .map(|(time, file)| {
             let ending = file.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
-            let columns = if ["vtu", "vtp", "vtk"].contains(&ending.as_str()) {
+            let columns = if vtk::ENDINGS.contains(&ending.as_str()) {
                 of_points(&PointArrays::parse(&read_bytes(&file)?, &file)?, plan, &file)?
             } else {
                 of_table(&read_text_table(&file)?, plan, &file)?

@@ -1,7 +1,7 @@
 //! What another code submits: a TOML file that names its case, its runs, and what it gives of each.
 
 use super::column::{ColumnSource, ColumnText};
-use crate::case::Tier;
+use crate::case::{CaseFile, Tier};
 use crate::evaluation::{PlanError, read_plan};
 use crate::input::{FieldError, check_name};
 use crate::metric::Variant;
@@ -21,7 +21,10 @@ pub struct Submission {
     /// Tier whose runs are meant.
     #[serde(default = "quick")]
     pub tier: Tier,
-    /// Parameters that differ from the tier's, as in a case's file.
+    /// A case file with the parameters, beside this one: a scene of one's own.
+    #[serde(default)]
+    pub base: Option<PathBuf>,
+    /// Parameters that differ from the tier's, or from those of `base`, as in a case's file.
     #[serde(default)]
     pub with: toml::Table,
     /// The code.
@@ -96,7 +99,28 @@ impl Submission {
     pub fn read(path: &Path) -> Result<Self, PlanError> {
         let submission: Self = read_plan(path, "judge")?;
         submission.check().map_err(|error| error.in_file(path))?;
-        Ok(Self { path: path.to_owned(), ..submission })
+        let fields = submission.parameters(path)?;
+        Ok(Self { path: path.to_owned(), with: fields, ..submission })
+    }
+
+    /// The parameters: those of `base` with those of `with` laid over them.
+    fn parameters(&self, path: &Path) -> Result<toml::Table, PlanError> {
+        let own = CaseFile::of_parameters(path, &self.case, None, self.with.clone())?;
+        let Some(base) = &self.base else { return Ok(own.fields) };
+        let mut file = CaseFile::read(&path.parent().unwrap_or(Path::new("")).join(base))?;
+        let wrong = |field: &str, value: String, rule: String| {
+            let remedy = "name in both files what is judged";
+            Err(FieldError::new(field, value, &rule, remedy).in_file(path).into())
+        };
+        if file.case != self.case {
+            let rule = format!("the case of {}, \"{}\"", file.path.display(), file.case);
+            return wrong("case", format!("\"{}\"", self.case), rule);
+        }
+        if let Some(tier) = file.tier.filter(|tier| *tier != self.tier) {
+            return wrong("tier", self.tier.to_string(), format!("the tier of {}, {tier}", file.path.display()));
+        }
+        file.lay_over(&own.fields);
+        Ok(file.fields)
     }
 
     fn check(&self) -> Result<(), FieldError> {

@@ -40,7 +40,7 @@ pub enum Verdict {
 }
 
 /// How sure the project is of a reference.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Confidence {
     /// Exact for the model.
@@ -98,6 +98,17 @@ impl Limit {
     }
 }
 
+/// Who states a gate. The order is that of a page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GateOwner {
+    /// The user: a check of a study, or measurements with a limit.
+    User,
+    /// The case.
+    #[default]
+    Case,
+}
+
 /// A gate: the limit and the reason why it is where it is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Gate {
@@ -105,6 +116,9 @@ pub struct Gate {
     pub limit: Limit,
     /// Why the limit stands where it does, one sentence.
     pub reason: String,
+    /// Who states it.
+    #[serde(default)]
+    pub owner: GateOwner,
 }
 
 /// What a value is compared with.
@@ -168,8 +182,23 @@ impl Metric {
     /// Adds a gate with its reason.
     #[must_use]
     pub fn gated(mut self, limit: Limit, reason: &str) -> Self {
-        self.gate = Some(Gate { limit, reason: reason.to_owned() });
+        self.gate = Some(Gate { limit, reason: reason.to_owned(), owner: GateOwner::Case });
         self
+    }
+
+    /// Makes its gate, if it has one, one that the user states.
+    #[must_use]
+    pub fn of_user(mut self) -> Self {
+        if let Some(gate) = &mut self.gate {
+            gate.owner = GateOwner::User;
+        }
+        self
+    }
+
+    /// Who states its gate; the case where it has none.
+    #[must_use]
+    pub fn gate_owner(&self) -> GateOwner {
+        self.gate.as_ref().map_or(GateOwner::Case, |gate| gate.owner)
     }
 
     /// Adds a gate where there is a limit; else it stays observed.

@@ -18,13 +18,25 @@ pub struct EnergyBook {
     pub correction: f64,
     /// What was dissipated up to the last sample, by cause.
     pub dissipated: Vec<(String, f64)>,
+    /// Work of gravity and of walls from sample to sample, whichever way it went.
+    pub exchanged: (f64, f64),
+    /// Kinetic energy times the time it was there `[J s]`, in two dimensions `[J s/m]`.
+    pub motion: f64,
+    /// Time `[s]` and kinetic energy at the last sample.
+    pub last: (f64, f64),
 }
 
 impl EnergyBook {
-    /// Enters a sample, the last of which is the end.
-    pub fn enter(&mut self, account: &EnergyAccount) {
+    /// Enters a sample at a time `[s]`, the last of which is the end, with the energy that has left with particles.
+    pub fn enter(&mut self, time: f64, account: &EnergyAccount, left: f64) {
         let ledger = &account.ledger;
-        self.total.push(account.total());
+        if !self.total.is_empty() {
+            self.exchanged.0 += (ledger.gravity - self.gravity).abs();
+            self.exchanged.1 += (ledger.walls - self.walls).abs();
+            self.motion += 0.5 * (account.kinetic + self.last.1) * (time - self.last.0);
+        }
+        self.last = (time, account.kinetic);
+        self.total.push(account.total() + left);
         self.explained.push(ledger.walls + ledger.correction - ledger.dissipated());
         (self.gravity, self.walls, self.correction) = (ledger.gravity, ledger.walls, ledger.correction);
         let causes = [
@@ -47,6 +59,14 @@ impl EnergyBook {
         open.iter().fold(if start.is_nan() { f64::NAN } else { 0.0 }, |most, open| most.max((open - start).abs()))
     }
 
+    /// The work that a run is about: the largest of gravity's, of walls', and of what was dissipated. What swings to and
+    /// fro counts each time.
+    #[must_use]
+    pub fn turnover(&self) -> f64 {
+        let dissipated: f64 = self.dissipated.iter().map(|(_, energy)| energy.abs()).sum();
+        self.exchanged.0.max(self.exchanged.1).max(dissipated)
+    }
+
     /// Largest rise of the total energy above its least value before.
     #[must_use]
     pub fn rise(&self) -> f64 {
@@ -61,6 +81,7 @@ impl EnergyBook {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bagnold_solver::weakly_compressible::energy::EnergyLedger;
 
     #[test]
     fn residual_and_rise_are_the_worst_of_all_samples() {
@@ -72,5 +93,16 @@ mod tests {
         assert_eq!(book.residual(), 0.125);
         assert_eq!(book.rise(), 0.25);
         assert!(EnergyBook::default().residual().is_nan());
+    }
+
+    #[test]
+    fn what_swings_counts_each_time() {
+        let mut book = EnergyBook::default();
+        for (time, gravity, walls, kinetic) in [(0.0, 0.0, 0.0, 0.0), (1.0, 2.0, 0.5, 2.0), (3.0, -1.0, 1.5, 1.0)] {
+            let ledger = EnergyLedger { gravity, walls, viscous: 0.25, ..EnergyLedger::default() };
+            book.enter(time, &EnergyAccount { kinetic, elastic: 0.0, ledger }, 0.0);
+        }
+        assert_eq!((book.exchanged, book.motion), ((5.0, 1.5), 1.0 + 3.0));
+        assert_eq!(book.turnover(), 5.0);
     }
 }

@@ -7,12 +7,14 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// A file cannot be read.
-    #[error("{}: cannot be read ({reason}); check the path and its permissions", shown(.file))]
+    #[error("{}: cannot be read ({reason}); {remedy}", shown(.file))]
     Unreadable {
         /// The file.
         file: PathBuf,
         /// The system's reason.
         reason: String,
+        /// What to do about it.
+        remedy: &'static str,
     },
     /// Files cannot be written.
     #[error("{}: cannot be written ({reason}); choose a folder that you may write to with --out", shown(.path))]
@@ -38,7 +40,11 @@ impl FileError {
     /// A file that cannot be read, with the system's reason.
     #[must_use]
     pub fn unreadable(file: &Path, error: &std::io::Error) -> Self {
-        Self::Unreadable { file: file.to_owned(), reason: reason(error) }
+        let remedy = match error.kind() {
+            std::io::ErrorKind::InvalidData => "save it as plain text in UTF-8",
+            _ => "check the path and its permissions",
+        };
+        Self::Unreadable { file: file.to_owned(), reason: reason(error), remedy }
     }
 
     /// A file or folder that cannot be written, with the system's reason.

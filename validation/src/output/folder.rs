@@ -9,8 +9,10 @@ use std::ffi::OsStr;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What a fresh checkout holds in `reports/`, and the store that tests may have filled: they make no folder foreign.
-const COMMITTED: [&str; 4] = ["README.md", "gallery", "history.csv", "store"];
+/// What a fresh checkout holds in `reports/`, and what commands put there that were run before a report: they make no
+/// folder foreign.
+const COMMITTED: [&str; 10] =
+    ["README.md", "gallery", "history.csv", "store", "runs", "judged", "sweeps", "calibrations", "suites", "mutation"];
 
 /// Begins the names of all that Bagnold puts into a folder beside its results: marker, lock, staging, halves of them.
 const OWN_PREFIX: &str = MARKER;
@@ -181,6 +183,16 @@ mod tests {
         publish(&folder, &["index.html", "figures/b.svg"]);
         assert_eq!(names(&folder), [MARKER, "figures", "index.html", "notes.txt"]);
         assert_eq!(names(&folder.join("figures")), ["b.svg"]);
+    }
+
+    #[test]
+    fn runs_before_the_first_report_of_a_checkout_do_not_make_its_folder_foreign() {
+        let root = tempfile::tempdir().expect("temporary folder");
+        let folder = root.path().join("reports");
+        std::fs::create_dir_all(folder.join("gallery")).expect("writable");
+        publish(&folder.join("runs/bagnold-quick"), &["index.html"]);
+        publish(&folder, &["index.html"]);
+        assert_eq!(names(&folder), [MARKER, "gallery", "index.html", "runs"]);
     }
 
     #[test]

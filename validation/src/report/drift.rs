@@ -4,7 +4,7 @@ use super::Report;
 use super::accepted::{Drift, MetricKey};
 use super::history::History;
 use super::judgement::{JudgedMetric, Judgement};
-use super::rows::vanished;
+use super::rows::{value_and_baseline, vanished};
 use super::snapshot_text::word;
 use super::view::{VerdictMark, anchor};
 use crate::number::{two_digits, with_unit};
@@ -80,14 +80,15 @@ pub fn moved(judgement: &Judgement<'_>, history: &History) -> Vec<Moved> {
 
 fn of_metric(case: &str, judged: &JudgedMetric<'_>, history: &History) -> Option<Moved> {
     let metric = judged.metric;
-    let with_its_unit = |value: f64| with_unit(value, &metric.unit);
-    let baseline = match &judged.drift {
+    let value = with_unit(metric.value, &metric.unit);
+    let statement = match &judged.drift {
         Drift::New => return None,
         Drift::Unchanged { baseline, tolerance, .. } | Drift::Drifted { baseline, tolerance, .. } => {
-            format!("{} ± {}", with_its_unit(*baseline), two_digits(*tolerance))
+            let (value, was) = value_and_baseline(metric, *baseline);
+            (value, format!("{was} ± {}", two_digits(*tolerance)))
         }
-        Drift::UnitChanged { unit } => format!("in {unit}"),
-        Drift::VerdictChanged { verdict } => format!("{}, now {}", word(*verdict), word(judged.verdict)),
+        Drift::UnitChanged { unit } => (value, format!("in {unit}")),
+        Drift::VerdictChanged { verdict } => (value, format!("{}, now {}", word(*verdict), word(judged.verdict))),
     };
     let key = MetricKey::of(case, metric);
     let history = history.of(&key).iter().copied().chain([metric.value]).filter(|value| value.is_finite());
@@ -95,7 +96,7 @@ fn of_metric(case: &str, judged: &JudgedMetric<'_>, history: &History) -> Option
         tolerances: judged.drift.in_tolerances()?,
         has_drifted: judged.drift.is_failure(),
         is_measured: true,
-        statement: (with_its_unit(metric.value), baseline),
+        statement,
         history: history.collect(),
         key,
     })

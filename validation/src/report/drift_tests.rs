@@ -48,6 +48,21 @@ fn a_drift_of_a_fifth_of_a_tolerance_is_shown_and_not_denied() {
 }
 
 #[test]
+fn a_value_that_moved_within_its_fourth_digit_is_shown_with_the_digits_that_moved() {
+    let accepted = [Metric::observed("front_error", &Variant::default(), 12.345_671, "%")];
+    let now = Metric { value: 12.345_698, ..accepted[0].clone() };
+    let report = report(vec![now], Baseline::of("film", &accepted));
+    let judgement = judge(&report);
+    let all = moved(&judgement, &report.history);
+    assert_eq!(
+        all[0].to_string(),
+        "film front_error [] 12.345698\u{202f}% (+2.7×10⁻⁵), was 12.345671\u{202f}% ± 1.2×10⁻⁵: 2.2 tolerances"
+    );
+    let row = &table(&report, &judgement).rows[0];
+    assert_eq!((row.value.as_str(), &row.baseline[..9]), ("12.345698\u{202f}% (+2.7×10⁻⁵)", "12.345671"));
+}
+
+#[test]
 fn what_cannot_be_compared_comes_first() {
     let accepted = [metric("velocity_l2", 10.0), metric("gone", 1.0), metric("gci", 5.0)];
     let other_unit = Metric { unit: "m".to_owned(), ..metric("gci", 5.0) };

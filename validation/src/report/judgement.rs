@@ -50,8 +50,8 @@ impl JudgedMetric<'_> {
     }
 }
 
-/// One case, judged; metrics with the worst first, then what is measured against before the run's own account, those of one
-/// name together.
+/// One case, judged; metrics with the worst first, then the user's own gates before those of the case, what is measured
+/// against before the run's own account, those of one name together.
 #[derive(Debug, Clone)]
 pub struct JudgedCase<'r> {
     /// The case.
@@ -253,7 +253,10 @@ fn judge_case<'r>(report: &'r Report, case: &'r CaseReport) -> JudgedCase<'r> {
         MetricKind::Verification => 2,
         MetricKind::Bookkeeping => 3,
     };
-    metrics.sort_by_key(|judged| (judged.severity(), weight(judged.metric.kind), first_of_name(&judged.metric.name)));
+    metrics.sort_by_key(|judged| {
+        let metric = judged.metric;
+        (judged.severity(), metric.gate_owner(), weight(metric.kind), first_of_name(&metric.name))
+    });
     let diverged = case.runs.iter().filter_map(|run| match &run.outcome {
         Outcome::Diverged { message, expected: false } => Some((&run.variant, message.as_str())),
         _ => None,

@@ -6,15 +6,15 @@ use super::rows::{margin_share, mark, row, statement, whole, worst_mark};
 use super::view::picture;
 use super::view::{CaseLine, GateRow, Thumbnail, VerdictMark, WorstMetric, anchor};
 use super::{CaseReport, DrawnFigure};
-use crate::metric::MetricKind;
+use crate::metric::{GateOwner, MetricKind};
 
 /// Lines of a short list: so many fit beside the counts on a laptop's first screen.
 const LINES: usize = 6;
 
-/// Gates that fail, the known ones last, then those that hold by the least share of their limit. Bookkeeping is shown where
+/// Gates that fail, the user's own before those of the case and the known ones last, then those that hold by the least share of their limit. Bookkeeping is shown where
 /// it fails only: what is exact holds by nothing.
 pub(super) fn worst(judgement: &Judgement<'_>) -> Vec<WorstMetric> {
-    let mut all: Vec<(Severity, f64, WorstMetric)> = Vec::new();
+    let mut all: Vec<((Severity, GateOwner), f64, WorstMetric)> = Vec::new();
     for (case, judged) in metrics(judgement) {
         let fails = judged.severity() <= Severity::KnownFailure;
         let Some(share) =
@@ -22,7 +22,10 @@ pub(super) fn worst(judgement: &Judgement<'_>) -> Vec<WorstMetric> {
         else {
             continue;
         };
-        let order = if fails { judged.severity() } else { Severity::Pass };
+        let order = match fails {
+            true => (judged.severity(), judged.metric.gate_owner()),
+            false => (Severity::Pass, GateOwner::Case),
+        };
         let number = if share.is_finite() { format!("{} %", whole(100.0 * share)) } else { "–".to_owned() };
         all.push((order, share, line(case, judged, worst_mark(judged), number)));
     }

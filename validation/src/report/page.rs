@@ -13,6 +13,7 @@ use super::view::{
     Banner, BannerItem, CaseLine, GateRow, Thumbnail, VerdictCount, VerdictMark, WorstMetric, anchor, typed,
 };
 use super::{CaseReport, DrawnFigure, Report, drift, scatter};
+use crate::metric::GateOwner;
 use serde::Serialize;
 
 /// The first page: what a reader must know, and the way to everything else.
@@ -70,7 +71,7 @@ pub(super) fn pictures<'d>(report: &Report, drawn: &'d [Vec<DrawnFigure>], case:
 }
 
 fn banner(judgement: &Judgement<'_>) -> Banner {
-    let mut items: Vec<(Severity, BannerItem)> = Vec::new();
+    let mut items: Vec<((Severity, GateOwner), BannerItem)> = Vec::new();
     for case in &judgement.cases {
         for &(variant, message) in &case.diverged {
             let item = BannerItem {
@@ -84,7 +85,8 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
                 reason: String::new(),
                 reason_repeats: false,
             };
-            items.push((Severity::Failure, item));
+            // a run that diverged comes first of all
+            items.push(((Severity::Failure, GateOwner::User), item));
         }
         for judged in case.metrics.iter().filter(|judged| judged.severity() <= Severity::KnownFailure) {
             let reason = match &judged.standing {
@@ -102,10 +104,10 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
                 reason,
                 reason_repeats: false,
             };
-            items.push((judged.severity(), item));
+            items.push(((judged.severity(), judged.metric.gate_owner()), item));
         }
     }
-    items.sort_by_key(|(severity, _)| *severity);
+    items.sort_by_key(|(order, _)| *order);
     let mut items: Vec<BannerItem> = items.into_iter().map(|(_, item)| item).collect();
     for place in 1..items.len() {
         items[place].reason_repeats = !items[place].reason.is_empty() && items[place].reason == items[place - 1].reason;

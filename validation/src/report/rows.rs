@@ -7,7 +7,7 @@ use super::snapshot_text::word;
 use super::view::{MetricView, VerdictMark, anchor};
 use super::width::width;
 use crate::metric::{Confidence, Limit, Metric, MetricKind, Verdict};
-use crate::number::{four_digits, two_digits, with_unit};
+use crate::number::{distinct_digits, four_digits, in_unit, two_digits, with_unit};
 
 /// The mark of a severity.
 pub(super) fn mark(severity: Severity) -> VerdictMark {
@@ -123,13 +123,23 @@ pub(super) fn statement(judged: &JudgedMetric<'_>) -> String {
     let value = with_unit(metric.value, &metric.unit);
     match (judged.severity(), &metric.gate, &judged.drift) {
         (Severity::Drifted, _, Drift::Drifted { baseline, tolerance, .. }) => {
-            format!("{value}, baseline {} ± {}", with_unit(*baseline, &metric.unit), two_digits(*tolerance))
+            let (value, was) = value_and_baseline(metric, *baseline);
+            format!("{value}, baseline {was} ± {}", two_digits(*tolerance))
         }
         (Severity::Drifted, _, Drift::UnitChanged { unit }) => format!("{value}, baseline in {unit}"),
         (Severity::Drifted, _, Drift::VerdictChanged { verdict }) => format!("{value}, verdict was {}", word(*verdict)),
         (_, Some(gate), _) => format!("{value}, limit {}", limit(gate.limit, &metric.unit)),
         _ => value,
     }
+}
+
+/// A value with the difference from its baseline, and the baseline: with the digits that show the difference.
+pub(super) fn value_and_baseline(metric: &Metric, baseline: f64) -> (String, String) {
+    let (value, was) = distinct_digits(metric.value, baseline);
+    let difference = metric.value - baseline;
+    let sign = if difference > 0.0 { "+" } else { "" };
+    let change = if difference.is_finite() { format!(" ({sign}{})", two_digits(difference)) } else { String::new() };
+    (in_unit(&value, &metric.unit) + &change, in_unit(&was, &metric.unit))
 }
 
 /// A metric of the baseline that is gone.

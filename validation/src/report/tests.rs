@@ -64,7 +64,7 @@ fn place(text: &str, part: &str) -> usize {
 }
 
 pub(super) fn drawing(name: &str) -> Figure {
-    let axis = |label: &str| Axis { label: label.to_owned(), scale: Scale::Linear, limits: None };
+    let axis = |label: &str| Axis { label: label.to_owned(), scale: Scale::Linear, limits: None, ratio: None };
     let panel = Panel {
         title: String::new(),
         x: axis("u [m/s]"),
@@ -78,7 +78,7 @@ pub(super) fn drawing(name: &str) -> Figure {
 }
 
 fn moving(name: &str, frames: usize) -> Animation {
-    let axis = Axis { label: "x [m]".to_owned(), scale: Scale::Linear, limits: Some((0.0, 1.0)) };
+    let axis = Axis { label: "x [m]".to_owned(), scale: Scale::Linear, limits: Some((0.0, 1.0)), ratio: None };
     let frame = AnimationFrame {
         title: "t = 0 s".to_owned(),
         points: vec![[0.5, 0.5]],
@@ -262,4 +262,22 @@ fn empty_reports_and_escaping_names() {
         write(&report(vec![case("../film", Vec::new())]), folder.path(), &Drawings::default()),
         Err(ReportError::Name { .. })
     ));
+}
+
+#[test]
+fn the_users_own_failing_gates_stand_above_those_of_the_case() {
+    let of_case = gated("velocity_l2", 9.0).of_kind(MetricKind::Validation);
+    let own = gated("front_at_rest", 0.8).of_kind(MetricKind::Verification).of_user();
+    let held = gated("depth", 0.1).of_user();
+    let report = report(vec![case("film", vec![of_case.clone()]), case("my-flume", vec![of_case, held, own])]);
+    let judgement = judge(&report);
+    let mine = judgement.cases.iter().find(|judged| judged.case.name == "my-flume").expect("judged");
+    let names: Vec<&str> = mine.metrics.iter().map(|judged| judged.metric.name.as_str()).collect();
+    assert_eq!(names, ["front_at_rest", "velocity_l2", "depth"], "what fails before what holds, then the user's own");
+    // in the banner and among the worst margins too, although the case's gate fails by more
+    let page = html(&report);
+    let first = |part: &str| place(&page, part);
+    assert!(first("front_at_rest") < first("velocity_l2"));
+    let worst: Vec<String> = overview::worst(&judgement).into_iter().map(|line| line.metric).collect();
+    assert_eq!(worst, ["front_at_rest", "velocity_l2", "velocity_l2", "depth"]);
 }

@@ -93,7 +93,8 @@ impl StudyCheck {
                 _ if self.source.is_none() => MetricKind::Verification,
                 _ => MetricKind::Validation,
             })
-            .gated_by(self.limit, &self.reason);
+            .gated_by(self.limit, &self.reason)
+            .of_user();
         match &self.source {
             Some(source) => metric.against(self.expected(), source, self.confidence).known_to(
                 Origin::Experiment,

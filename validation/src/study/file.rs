@@ -4,6 +4,7 @@ use crate::case::Tier;
 use crate::figure::is_file_name;
 use crate::input::{FieldError, check_name, check_text};
 use crate::metric::{Confidence, Value as VariantValue, Variant};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use toml::{Table, Value};
@@ -12,7 +13,7 @@ use toml::{Table, Value};
 const MOST_VARIANTS: usize = 1000;
 
 /// The file, field by field.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StudyText {
     /// Name of the study, also of its folder and page.
@@ -33,6 +34,7 @@ pub(super) struct StudyText {
     pub(super) tier: Option<Tier>,
     /// Base values: the case's parameters, as in a case file.
     #[serde(default, skip_serializing_if = "Table::is_empty")]
+    #[schemars(with = "Fields")]
     pub(super) parameters: Table,
     /// Named changes of the base values.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -45,35 +47,54 @@ pub(super) struct StudyText {
     pub(super) checks: Vec<CheckText>,
 }
 
+/// For the schema: fields of any name and type.
+type Fields = std::collections::BTreeMap<String, serde_json::Value>;
+
+/// For the schema: what a varied parameter may be.
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "only its schema is used")]
+enum Scalar {
+    Number(f64),
+    Word(String),
+    Switch(bool),
+}
+
 /// Changes that have a name.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct NamedVariant {
+    /// Its name, as variants have it.
     pub(super) name: String,
     /// Values by the dotted paths of parameters.
     #[serde(default)]
+    #[schemars(with = "Fields")]
     pub(super) set: Table,
 }
 
 /// A parameter that takes several values.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "struct Varied")]
 pub(super) struct VariedParameter {
+    /// Dotted path of the parameter.
     pub(super) path: String,
     /// What it is called in variants; the last key of the path without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) name: Option<String>,
+    /// Its values: numbers or words.
+    #[schemars(with = "Vec<Scalar>")]
     pub(super) values: Vec<Value>,
 }
 
 /// A check: what is measured, and what it is judged by.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CheckText {
     /// snake_case name of the metric.
     pub(super) name: String,
     /// Variants that are meant; all without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<String>")]
     pub(super) only: Option<Variant>,
 
     /// A metric of the case itself.
@@ -140,7 +161,7 @@ pub(super) struct CheckText {
 }
 
 /// What is taken of a column.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Reduction {
     /// The first value.
@@ -158,7 +179,7 @@ pub(super) enum Reduction {
 }
 
 /// How far a column is from a measured series.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Distance {
     /// Root mean square of the differences in their standard uncertainties `[-]`.

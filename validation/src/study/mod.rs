@@ -28,11 +28,13 @@ mod check;
 mod figures;
 mod file;
 mod probe;
+mod schema;
 mod suite;
 
+pub use schema::schema;
 pub use suite::Suite;
 
-use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier};
+use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier, twice_given};
 use crate::evaluation::{PlanError, read_plan};
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::judge::Measurements;
@@ -112,7 +114,7 @@ impl Study {
             (Some(case), _) => CaseFile::of_parameters(file, case, text.tier, text.parameters.clone())?,
             (None, Some(path)) => {
                 let mut base = CaseFile::read(&beside.join(path))?;
-                lay_over(&mut base.fields, &text.parameters);
+                base.lay_over(&text.parameters);
                 base.tier = text.tier.or(base.tier);
                 base
             }
@@ -169,11 +171,14 @@ impl Study {
         settings: &[String],
         limits: Limits,
     ) -> Result<Vec<Box<dyn PreparedCase>>, PlanError> {
+        for setting in settings {
+            self.refuse_varied(setting)?;
+        }
         let case = registry.find(&self.base.case).map_err(|error| error.in_file(&self.base.path))?;
         let prepare = |changed: &ChangedSettings| {
             let settings: Vec<String> = changed.settings.iter().chain(settings).cloned().collect();
             let file = Some((self.base.path.as_path(), self.base.fields.clone()));
-            let changes = Changes { file, settings: &settings, limits };
+            let changes = Changes { file, settings: &settings, limits, only: &[] };
             case.prepare(tier.unwrap_or(self.tier()), &changes)
         };
         let refused = |error: ParameterError| match settings {
@@ -181,6 +186,25 @@ impl Study {
             _ => PlanError::Parameter(error.in_file(&self.file)),
         };
         self.changes.iter().map(|changed| prepare(changed).map_err(refused)).collect()
+    }
+
+    /// Refuses a setting of the command line for a parameter to which the study gives values itself.
+    fn refuse_varied(&self, setting: &str) -> Result<(), FieldError> {
+        let named = self.text.variants.iter().enumerate().flat_map(|(place, named)| {
+            named.set.iter().map(move |(path, value)| (format!("variants[{place}].set"), path, value))
+        });
+        let varied = self.text.vary.iter().enumerate().filter_map(|(place, varied)| {
+            varied.values.first().map(|value| (format!("vary[{place}].path"), &varied.path, value))
+        });
+        for (place, path, value) in named.chain(varied) {
+            if let Some(field) = twice_given(&format!("{path}={value}"), setting) {
+                let file = self.file.display();
+                let rule = format!("of another parameter: `{field}` is given twice, first by `{place}` in {file}");
+                let remedy = "change it there, or leave out --set";
+                return Err(FieldError::new("--set", setting, &rule, remedy));
+            }
+        }
+        Ok(())
     }
 
     /// The files with measurements that its checks compare with.
@@ -383,18 +407,6 @@ fn joined(own: &Variant, run: &Variant) -> Variant {
     all
 }
 
-/// Lays fields over others: tables field by field, everything else as a whole.
-fn lay_over(base: &mut Table, over: &Table) {
-    for (key, value) in over {
-        match (base.get_mut(key), value) {
-            (Some(toml::Value::Table(below)), toml::Value::Table(above)) => lay_over(below, above),
-            _ => {
-                base.insert(key.clone(), value.clone());
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -428,12 +440,5 @@ mod tests {
         };
         assert_eq!(joined("resolution=20,law=a", "fluid=x,resolution=20"), "resolution=20,law=a,fluid=x");
         assert_eq!(joined("resolution=20", "resolution=40"), "resolution=20,run-resolution=40");
-    }
-
-    #[test]
-    fn fields_are_laid_over_others_table_by_table() {
-        let mut base: Table = toml::from_str("a = 1\n[b]\nc = 1\nd = [1]").expect("TOML");
-        lay_over(&mut base, &toml::from_str("e = 2\n[b]\nd = [2, 3]").expect("TOML"));
-        assert_eq!(base, toml::from_str::<Table>("a = 1\ne = 2\n[b]\nc = 1\nd = [2, 3]").expect("TOML"));
     }
 }

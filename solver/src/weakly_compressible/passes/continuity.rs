@@ -5,6 +5,7 @@ use super::PairData;
 use super::layout;
 use super::new_state::{Advance, Extremes, Output, RateSums};
 use super::records::{self, LaneRecord};
+use super::single;
 use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, sum_of, zero_tensor};
 use crate::lanes::{LANES, LanePass, Lanes};
 use crate::vector::equivalent_shear_stress;
@@ -79,7 +80,11 @@ pub(crate) fn run<const D: usize>(
 ) -> Extremes {
     let flow = particles.flow_count();
     let gradient = model.gradient_use();
-    fill_records(model, particles, pairs, gradient);
+    if model.pairs_in_single() {
+        single::continuity::fill(model, particles, &mut pairs.single);
+    } else {
+        fill_records(model, particles, pairs, gradient);
+    }
     pairs.open_ledger(flow);
     let mut energy = std::mem::take(&mut pairs.energy);
     let shared_pairs = &*pairs;
@@ -165,12 +170,12 @@ impl<const D: usize> LanePass for Pass<'_, D> {
         let mut offset = 0;
         while offset < count {
             let group = advance.model.list.group((advance.block_start + offset) / LANES);
-            let sums = if advance.gradient == GradientUse::None {
-                divergence_only::<V, D>(pairs, &group)
-            } else if advance.model.stress_diffuses() {
-                all_sums::<V, D, true>(pairs, &group)
-            } else {
-                all_sums::<V, D, false>(pairs, &group)
+            let sums = match (advance.model.pairs_in_single(), advance.model.stress_diffuses()) {
+                (true, true) => single::continuity::pair_sums::<V, D, true>(advance.model, &pairs.single, &group),
+                (true, false) => single::continuity::pair_sums::<V, D, false>(advance.model, &pairs.single, &group),
+                (false, _) if advance.gradient == GradientUse::None => divergence_only::<V, D>(pairs, &group),
+                (false, true) => all_sums::<V, D, true>(pairs, &group),
+                (false, false) => all_sums::<V, D, false>(pairs, &group),
             };
             let end = (offset + LANES).min(count);
             advance.particles_at(offset..end, &sums, &mut out, &mut work, extremes);

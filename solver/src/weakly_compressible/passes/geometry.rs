@@ -4,6 +4,7 @@
 use super::PairData;
 use super::layout;
 use super::records;
+use super::single;
 use crate::lanes::algebra::{
     accumulate, deviatoric_rate, difference, dot, load, load_tensor, matrix_product, product, store_tensor,
     store_vector, zero_tensor, zero_vector,
@@ -29,17 +30,24 @@ struct Output<'a, const D: usize> {
 pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>, pairs: &mut PairData<D>) {
     let flow = particles.flow_count();
     let shared = &*particles;
-    pairs.geometry.fill(shared.position.len(), |index, record| {
-        record.vector(&shared.position[index]);
-        record.scalar(shared.volume[index]);
-        record.scalar(shared.pressure[index]);
-    });
-    let PairData { weights, geometry, .. } = pairs;
+    let in_single = model.pairs_in_single();
+    if in_single {
+        single::geometry::fill(model, shared, &mut pairs.single);
+    } else {
+        pairs.geometry.fill(shared.position.len(), |index, record| {
+            record.vector(&shared.position[index]);
+            record.scalar(shared.volume[index]);
+            record.scalar(shared.pressure[index]);
+        });
+    }
+    let PairData { weights, geometry, single, .. } = pairs;
+    let records = if in_single { GeometryRecords::Single(single) } else { GeometryRecords::Double(geometry) };
     let mut correction = std::mem::take(&mut particles.correction);
     let mut force_correction = std::mem::take(&mut particles.force_correction);
     let mut pressure_gradient = std::mem::take(&mut particles.pressure_gradient);
     let mut corrected_stress = std::mem::take(&mut particles.corrected_stress);
-    let region = model.list.region();
+    // in single precision none is stored: a chunk a block, so that the loop is the same
+    let region = if in_single { 1 } else { model.list.region() };
     weights.resize(flow.div_ceil(BLOCK) * region, [0.0; LANES]);
     let shared = &*particles;
     (
@@ -54,7 +62,7 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
         .with_min_len(4)
         .for_each(|(block, (correction, force_correction, pressure_gradient, corrected_stress, weights))| {
             let out = Output { correction, force_correction, pressure_gradient, corrected_stress, weights };
-            model.instruction_set.run(Pass { model, particles: shared, records: geometry, block, out });
+            model.instruction_set.run(Pass { model, particles: shared, records, block, out });
         });
     particles.correction = correction;
     particles.force_correction = force_correction;
@@ -62,10 +70,16 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
     particles.corrected_stress = corrected_stress;
 }
 
+#[derive(Clone, Copy)]
+enum GeometryRecords<'a> {
+    Double(&'a records::Records),
+    Single(&'a single::SingleRecords),
+}
+
 struct Pass<'a, const D: usize> {
     model: &'a Model<D>,
     particles: &'a Particles<D>,
-    records: &'a records::Records,
+    records: GeometryRecords<'a>,
     block: usize,
     out: Output<'a, D>,
 }
@@ -81,9 +95,17 @@ impl<const D: usize> LanePass for Pass<'_, D> {
         while offset < count {
             let first = self.block * BLOCK + offset;
             let group = list.group(first / LANES);
-            let weights = &mut self.out.weights[group.first_pair - region_start..];
-            let sums = pair_sums::<V, D>(self.model, self.records, &group, weights);
             let end = (offset + LANES).min(count);
+            let sums = match self.records {
+                GeometryRecords::Double(records) => {
+                    let weights = &mut self.out.weights[group.first_pair - region_start..];
+                    pair_sums::<V, D>(self.model, records, &group, weights)
+                }
+                GeometryRecords::Single(records) => {
+                    let pressure = load::<V>(&self.particles.pressure[first..first + end - offset]);
+                    single::geometry::pair_sums::<V, D>(self.model, records, &group, pressure)
+                }
+            };
             let (for_gradients, mut for_forces) = corrections(&sums.moment);
             if !corrects_forces {
                 for_forces = identity();
@@ -100,13 +122,13 @@ impl<const D: usize> LanePass for Pass<'_, D> {
 }
 
 /// The pair sums of eight particles.
-struct GeometrySums<V, const D: usize> {
+pub(super) struct GeometrySums<V, const D: usize> {
     /// M = −Σ V F r ⊗ r `[-]`.
-    moment: [[V; D]; D],
+    pub(super) moment: [[V; D]; D],
     /// Pressure gradient before its correction `[Pa/m]`.
-    gradient: [V; D],
+    pub(super) gradient: [V; D],
     /// Their own pressures `[Pa]`.
-    pressure: V,
+    pub(super) pressure: V,
 }
 
 /// Pair sums of a group; the weights are kept for the other passes.

@@ -12,6 +12,7 @@ mod pair_data;
 pub(crate) mod pairwise;
 pub(crate) mod records;
 pub(crate) mod shell_impulse;
+mod single;
 mod wall_partner;
 pub(crate) mod wall_stress;
 pub(crate) mod wall_velocity;

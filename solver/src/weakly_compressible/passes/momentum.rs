@@ -4,8 +4,9 @@
 use super::PairData;
 use super::flow_partner::{Constants, FlowPartner};
 use super::records::{Records, Writer};
+use super::single;
 use super::wall_partner::{WallPair, WallPartner};
-use crate::lanes::algebra::{accumulate, difference, dot, load_tensor, store_vector, zero_vector};
+use crate::lanes::algebra::{accumulate, difference, dot, load, load_tensor, store_vector, zero_vector};
 use crate::lanes::{LANES, LanePass, Lanes, gather};
 use crate::vector::Vector;
 use crate::weakly_compressible::model::Model;
@@ -36,7 +37,11 @@ fn write<const D: usize>(particles: &Particles<D>, inverse_density: f64, index: 
 pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>, pairs: &mut PairData<D>) {
     let shared = &*particles;
     let inverse_density = 1.0 / model.equation_of_state.reference_density;
-    pairs.momentum.fill(shared.position.len(), |index, record| write(shared, inverse_density, index, record));
+    if model.pairs_in_single() {
+        single::momentum::fill(model, shared, &mut pairs.single);
+    } else {
+        pairs.momentum.fill(shared.position.len(), |index, record| write(shared, inverse_density, index, record));
+    }
     let pairs = &*pairs;
     let mut acceleration = std::mem::take(&mut particles.acceleration);
     let mut support = std::mem::take(&mut particles.support);
@@ -85,15 +90,15 @@ struct Output<'a, const D: usize> {
 
 /// The pair sums of eight particles with the flow, images included, the part of them that images behind mirrors cause,
 /// and the pair sums with walls.
-struct Forces<V, const D: usize> {
+pub(super) struct Forces<V, const D: usize> {
     /// Σ V F traction `[N/m³]`.
-    divergence: [V; D],
+    pub(super) divergence: [V; D],
     /// Artificial viscosity and hourglass control `[m/s²]`.
-    damping: [V; D],
-    mirror_divergence: [V; D],
-    mirror_damping: [V; D],
-    wall_divergence: [V; D],
-    wall_control: [V; D],
+    pub(super) damping: [V; D],
+    pub(super) mirror_divergence: [V; D],
+    pub(super) mirror_damping: [V; D],
+    pub(super) wall_divergence: [V; D],
+    pub(super) wall_control: [V; D],
 }
 
 impl<const D: usize> LanePass for Pass<'_, D> {
@@ -102,9 +107,9 @@ impl<const D: usize> LanePass for Pass<'_, D> {
         let Self { model, particles, pairs, block, out } = self;
         let constants = Constants::of(model);
         let count = out.acceleration.len();
+        let in_single = model.pairs_in_single();
         for offset in 0..count.div_ceil(LANES) {
             let group = model.list.group(block * (BLOCK / LANES) + offset);
-            let own = FlowPartner::<V, D>::load(&pairs.momentum, &group.own);
             let none = zero_vector::<V, D>();
             let mut forces = Forces {
                 divergence: none,
@@ -114,19 +119,28 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                 wall_divergence: none,
                 wall_control: none,
             };
-            let (flow_weights, wall_weights) = pairs.weights[group.first_pair..].split_at(group.flow.len());
-            flow_forces(&constants, particles, &pairs.momentum, &group, flow_weights, &own, &mut forces);
             let places = offset * LANES..(offset * LANES + LANES).min(count);
             let first = block * BLOCK + places.start;
-            let correction = load_tensor::<V, D>(&particles.force_correction[first..first + places.len()]);
-            wall_forces(&constants, &pairs.momentum, &group, wall_weights, &own, &correction, &mut forces);
+            let here = first..first + places.len();
+            let density = if in_single {
+                single::momentum::flow_forces(model, &constants, particles, &pairs.single, &group, &mut forces);
+                let density = load::<V>(&particles.density[here.clone()]);
+                single::momentum::wall_forces(model, &constants, particles, &pairs.single, &group, here, &mut forces);
+                density
+            } else {
+                let own = FlowPartner::<V, D>::load(&pairs.momentum, &group.own);
+                let (flow_weights, wall_weights) = pairs.weights[group.first_pair..].split_at(group.flow.len());
+                flow_forces(&constants, particles, &pairs.momentum, &group, flow_weights, &own, &mut forces);
+                let correction = load_tensor::<V, D>(&particles.force_correction[here]);
+                wall_forces(&constants, &pairs.momentum, &group, wall_weights, &own, &correction, &mut forces);
+                own.density
+            };
             let (mut total, mut supported, mut by_walls) = (forces.damping, forces.damping, forces.damping);
             for i in 0..D {
-                by_walls[i] = forces.wall_divergence[i] / own.density;
+                by_walls[i] = forces.wall_divergence[i] / density;
                 let from_walls = by_walls[i] + forces.wall_control[i];
-                total[i] =
-                    forces.divergence[i] / own.density + forces.damping[i] + from_walls + V::splat(model.gravity[i]);
-                supported[i] = forces.mirror_divergence[i] / own.density + forces.mirror_damping[i] + from_walls;
+                total[i] = forces.divergence[i] / density + forces.damping[i] + from_walls + V::splat(model.gravity[i]);
+                supported[i] = forces.mirror_divergence[i] / density + forces.mirror_damping[i] + from_walls;
             }
             store_vector(&total, &mut out.acceleration[places.clone()]);
             store_vector(&supported, &mut out.support[places.clone()]);

@@ -162,7 +162,7 @@ impl<const D: usize> Advance<'_, D> {
                 time_step: self.time_step,
                 shear_modulus: law.is_plastic().then_some(modulus),
                 added_stress: &added,
-                pressure: pressure_before,
+                pressure: (pressure_before, pressure),
                 divergence: sums.wall_compression - sums.compression,
                 raw_gradient: &flow_gradient,
                 force_correction: &load_tensor::<V, D>(&self.particles.force_correction[particles_here]),

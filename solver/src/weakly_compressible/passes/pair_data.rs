@@ -2,6 +2,7 @@
 
 use super::layout;
 use super::records::Records;
+use super::single::SingleRecords;
 use crate::lanes::LANES;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::energy::EnergyLedger;
@@ -11,8 +12,10 @@ use crate::weakly_compressible::neighbours::BLOCK;
 #[derive(Debug)]
 pub(crate) struct PairData<const D: usize> {
     /// V_b F of every pair `[1/m²]`, chunk by chunk as in the neighbour list: made by the first pass of a step, used by
-    /// the others, so that a step takes one square root a pair.
+    /// the others, so that a step takes one square root a pair. Without meaning where pairs are in single precision.
     pub(crate) weights: Vec<[f64; LANES]>,
+    /// What the pass that runs reads of a neighbour, where pairs are in single precision.
+    pub(super) single: SingleRecords,
     /// What the geometry pass reads of a neighbour.
     pub(crate) geometry: Records,
     /// What the momentum pass reads of a neighbour.
@@ -31,6 +34,7 @@ impl<const D: usize> PairData<D> {
     pub(crate) fn new() -> Self {
         Self {
             weights: Vec::new(),
+            single: SingleRecords::default(),
             geometry: Records::new(layout::geometry(D)),
             momentum: Records::new(layout::momentum(D)),
             continuity: Records::new(layout::continuity(D)),

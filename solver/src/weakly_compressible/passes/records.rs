@@ -4,7 +4,7 @@
 //! lanes with plain loads, which is faster than gather instructions on every processor tried (some run those from
 //! slow microcode).
 
-use crate::lanes::{LaneIndices, Lanes};
+use crate::lanes::{LaneIndices, Lanes, Real};
 use crate::vector::{Tensor, Vector};
 use rayon::prelude::*;
 
@@ -133,13 +133,13 @@ impl Writer<'_> {
 
 /// The scalar at `place` of a record.
 #[inline(always)]
-pub(crate) fn scalar<V: Lanes>(record: &LaneRecord<V>, place: usize) -> V {
+pub(crate) fn scalar<V: Real>(record: &LaneRecord<V>, place: usize) -> V {
     record[place / 4][place % 4]
 }
 
 /// The vector that starts at `place` of a record.
 #[inline(always)]
-pub(crate) fn vector<V: Lanes, const D: usize>(record: &LaneRecord<V>, place: usize) -> [V; D] {
+pub(crate) fn vector<V: Real, const D: usize>(record: &LaneRecord<V>, place: usize) -> [V; D] {
     let mut lanes = [V::splat(0.0); D];
     for i in 0..D {
         lanes[i] = scalar(record, place + i);
@@ -149,7 +149,7 @@ pub(crate) fn vector<V: Lanes, const D: usize>(record: &LaneRecord<V>, place: us
 
 /// The tensor that starts at `place` of a record, indexed `[row][column]`.
 #[inline(always)]
-pub(crate) fn tensor<V: Lanes, const D: usize>(record: &LaneRecord<V>, place: usize) -> [[V; D]; D] {
+pub(crate) fn tensor<V: Real, const D: usize>(record: &LaneRecord<V>, place: usize) -> [[V; D]; D] {
     let mut lanes = [[V::splat(0.0); D]; D];
     for i in 0..D {
         lanes[i] = vector(record, place + D * i);
@@ -165,7 +165,7 @@ pub(crate) const fn deviator_values(dimension: usize) -> usize {
 /// The symmetric tensor without trace that starts at `place` of a record: its upper triangle except the last entry of
 /// the diagonal, the rest zero.
 #[inline(always)]
-pub(crate) fn deviator<V: Lanes, const D: usize>(record: &LaneRecord<V>, place: usize) -> [[V; D]; D] {
+pub(crate) fn deviator<V: Real, const D: usize>(record: &LaneRecord<V>, place: usize) -> [[V; D]; D] {
     let mut lanes = [[V::splat(0.0); D]; D];
     let mut next = place;
     for i in 0..D - 1 {

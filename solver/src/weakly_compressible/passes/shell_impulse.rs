@@ -3,12 +3,13 @@
 
 use super::PairData;
 use super::flow_partner::{Constants, FlowPartner};
+use super::single::momentum::WallGroup;
 use super::wall_partner::{WallPair, WallPartner};
 use crate::lanes::algebra::{load, load_tensor, scaled, store_vector};
 use crate::lanes::{LANES, LanePass, Lanes};
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::shell_contact::{Passed, Touch};
-use crate::weakly_compressible::energy::EnergyLedger;
+use crate::weakly_compressible::energy::{EnergyLedger, PushStep};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
@@ -55,26 +56,61 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             }
             let first = block * BLOCK + offset * LANES;
             let places = first..(first + LANES).min(block * BLOCK + count);
-            let own = FlowPartner::<V, D>::load(&pairs.momentum, &group.own);
-            let correction = load_tensor::<V, D>(&particles.force_correction[places.clone()]);
             let impulse = load::<V>(&particles.mass[places.clone()]) * V::splat(time_step);
+            let count = places.len();
+            if model.pairs_in_single() {
+                let density = load::<V>(&particles.density[places.clone()]);
+                let seen = WallGroup::of::<V>(particles, &pairs.single, &group, places);
+                for (w, partners) in group.wall.zip(owned) {
+                    let (weight, pair) = seen.pair(model, &constants, &pairs.single, &w);
+                    let WallPair { traction, drag, unexplained } = pair;
+                    let from_stress = widened::<V, D>(impulse / density, &scaled(weight, &traction));
+                    let from_control = widened::<V, D>(impulse, &scaled(weight * drag, &unexplained));
+                    book(owners, &partners[..count], &from_stress, &from_control, out);
+                }
+                continue;
+            }
+            let own = FlowPartner::<V, D>::load(&pairs.momentum, &group.own);
+            let correction = load_tensor::<V, D>(&particles.force_correction[places]);
             let (_, weights) = pairs.weights[group.first_pair..].split_at(group.flow.len());
             for ((w, weight), partners) in group.wall.zip(weights).zip(owned) {
                 let wall = WallPartner::<V, D>::load(&pairs.momentum, &w);
                 let WallPair { traction, drag, unexplained } = WallPair::of(&constants, &own, &wall, &correction);
                 let weight = impulse * V::load(weight);
-                let (from_stress, from_control) =
-                    (scaled(weight / own.density, &traction), scaled(weight * drag, &unexplained));
-                let (mut stress, mut control) = ([Vector::zeros(); LANES], [Vector::zeros(); LANES]);
-                store_vector(&from_stress, &mut stress);
-                store_vector(&from_control, &mut control);
-                for lane in 0..places.len() {
-                    let owner = owners[partners[lane] as usize];
-                    if owner != NO_SHELL {
-                        out[owner as usize] += stress[lane] + control[lane];
-                    }
-                }
+                let from_stress = scaled(weight / own.density, &traction);
+                let from_control = scaled(weight * drag, &unexplained);
+                book(owners, &partners[..count], &from_stress, &from_control, out);
             }
+        }
+    }
+}
+
+/// f a of a vector in single precision.
+#[inline(always)]
+fn widened<V: Lanes, const D: usize>(factor: V, vector: &[V::Single; D]) -> [V; D] {
+    let mut lanes = [V::splat(0.0); D];
+    for i in 0..D {
+        lanes[i] = factor * V::widen(vector[i]);
+    }
+    lanes
+}
+
+/// Adds what the wall particles `partners` give, lane by lane, to their shells.
+#[inline(always)]
+fn book<V: Lanes, const D: usize>(
+    owners: &[u32],
+    partners: &[u32],
+    from_stress: &[V; D],
+    from_control: &[V; D],
+    out: &mut [Vector<D>],
+) {
+    let (mut stress, mut control) = ([Vector::zeros(); LANES], [Vector::zeros(); LANES]);
+    store_vector(from_stress, &mut stress);
+    store_vector(from_control, &mut control);
+    for (lane, partner) in partners.iter().enumerate() {
+        let owner = owners[*partner as usize];
+        if owner != NO_SHELL {
+            out[owner as usize] += stress[lane] + control[lane];
         }
     }
 }
@@ -98,7 +134,9 @@ pub(crate) fn by_contacts<const D: usize>(
     impulses: &mut [Vector<D>],
 ) -> Extremes {
     let flow = particles.flow_count();
-    let (position, mass, by_walls) = (&particles.position[..flow], &particles.mass, &particles.by_walls);
+    let (position, mass, acceleration) = (&particles.position[..flow], &particles.mass, &particles.acceleration);
+    let (by_walls, by_damping, by_wall_control) =
+        (&particles.by_walls, &particles.by_damping, &particles.by_wall_control);
     (
         particles.velocity[..flow].par_chunks_mut(BLOCK),
         particles.support_impulse.par_chunks_mut(BLOCK),
@@ -116,12 +154,27 @@ pub(crate) fn by_contacts<const D: usize>(
                     continue;
                 }
                 let mass = mass[index];
-                match touch.respond(&position[index], velocity, |shell, push| out[shell] += push * mass) {
+                // what the shells do by moving
+                let mut given = 0.0;
+                let book = |shell: usize, push: Vector<D>| {
+                    out[shell] += push * mass;
+                    given += mass * push.dot(&touch.velocities[shell]);
+                };
+                match touch.respond(&position[index], velocity, book) {
                     Ok(push) => {
-                        // what the ledger has at the velocity without the push, and the loss
-                        energy.gravity += mass * time_step * model.gravity.dot(&push);
-                        energy.walls += mass * time_step * by_walls[index].dot(&push);
-                        energy.contact -= mass * push.dot(&(*velocity + 0.5 * push));
+                        PushStep {
+                            mass,
+                            time_step,
+                            gravity: &model.gravity,
+                            velocity: *velocity,
+                            push,
+                            given,
+                            acceleration: &acceleration[index],
+                            by_walls: &by_walls[index],
+                            by_damping: &by_damping[index],
+                            by_wall_control: &by_wall_control[index],
+                        }
+                        .add_to(energy);
                         *velocity += push;
                         *support_impulse += push * mass;
                         extremes.largest = extremes.largest.max(velocity.norm_squared());

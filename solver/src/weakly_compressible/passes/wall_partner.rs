@@ -5,24 +5,24 @@ use super::flow_partner::{Constants, FlowPartner};
 use super::layout;
 use super::records::{self, LaneRecord, Records};
 use crate::lanes::algebra::{difference, scaled};
-use crate::lanes::{LaneIndices, Lanes};
+use crate::lanes::{LaneIndices, Lanes, Real};
 use crate::weakly_compressible::numerics::HourglassDirection;
 use crate::weakly_compressible::terms::{hourglass, stress_divergence, wall_slip};
 
 /// What is read of a wall particle: records of the length of [`FlowPartner`]'s with a layout of their own.
 pub(super) struct WallPartner<V, const D: usize> {
-    position: [V; D],
+    pub(super) position: [V; D],
     /// Velocity of the wall itself.
-    velocity: [V; D],
+    pub(super) velocity: [V; D],
     /// Depth behind the surface `[m]`.
-    depth: V,
+    pub(super) depth: V,
     /// √(p/ρ0) `[m/s]`.
-    pressure_speed: V,
+    pub(super) pressure_speed: V,
     /// 1 if the wall is smooth `[-]`.
-    smoothness: V,
+    pub(super) smoothness: V,
     /// σ `[Pa]`.
-    stress: [[V; D]; D],
-    normal: [V; D],
+    pub(super) stress: [[V; D]; D],
+    pub(super) normal: [V; D],
 }
 
 impl<V: Lanes, const D: usize> WallPartner<V, D> {
@@ -51,7 +51,7 @@ pub(super) struct WallPair<V, const D: usize> {
     pub(super) unexplained: [V; D],
 }
 
-impl<V: Lanes, const D: usize> WallPair<V, D> {
+impl<V: Real, const D: usize> WallPair<V, D> {
     #[inline(always)]
     pub(super) fn of(
         constants: &Constants,
@@ -59,17 +59,28 @@ impl<V: Lanes, const D: usize> WallPair<V, D> {
         wall: &WallPartner<V, D>,
         correction: &[[V; D]; D],
     ) -> Self {
+        Self::at(constants, own, wall, correction, &difference(&own.position, &wall.position))
+    }
+
+    /// The same at a distance r `[m]` of its own.
+    #[inline(always)]
+    pub(super) fn at(
+        constants: &Constants,
+        own: &FlowPartner<V, D>,
+        wall: &WallPartner<V, D>,
+        correction: &[[V; D]; D],
+        r: &[V; D],
+    ) -> Self {
         let none = constants.hourglass_direction == HourglassDirection::Radial;
         let rough = constants.hourglass_direction == HourglassDirection::All;
-        let r = difference(&own.position, &wall.position);
-        let beta = wall_slip::factor(&r, &wall.normal, wall.depth, constants.smoothing_length, wall_slip::LIMIT);
+        let beta = wall_slip::factor(r, &wall.normal, wall.depth, constants.smoothing_length, wall_slip::LIMIT);
         let slip = scaled(beta, &difference(&own.velocity, &wall.velocity));
-        let traction = stress_divergence::wall_traction(&own.corrected_stress, &wall.stress, correction, &r);
+        let traction = stress_divergence::wall_traction(&own.corrected_stress, &wall.stress, correction, r);
         let speed_sum = own.pressure_speed + wall.pressure_speed;
         let strength = if none { 0.0 } else { constants.hourglass_strength };
         let drag = hourglass::twice_viscosity::<V>(strength, speed_sum);
         let normal_only = if rough { wall.smoothness } else { V::splat(1.0) };
-        let unexplained = hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, &r, &wall.normal, normal_only);
+        let unexplained = hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, r, &wall.normal, normal_only);
         Self { traction, drag, unexplained }
     }
 }

@@ -1,6 +1,6 @@
 //! Artificial viscosity (15) for approaching pairs and Morris & Monaghan's switch (16) of its coefficient.
 
-use crate::lanes::{Lanes, Real};
+use crate::lanes::Real;
 
 /// Smallest coefficient of the switch `[-]`.
 pub const SWITCH_LOWEST: f64 = 0.1;
@@ -11,7 +11,7 @@ const DECAY: f64 = 0.1;
 
 /// α h c `[m²/s]` of a pair whose particles have coefficients of their own, `speed_length` being h c `[m²/s]`.
 #[inline(always)]
-pub fn mean_strength<V: Lanes>(alpha_a: V, alpha_b: V, speed_length: f64) -> V {
+pub fn mean_strength<V: Real>(alpha_a: V, alpha_b: V, speed_length: f64) -> V {
     (alpha_b + alpha_a) * V::splat(0.5 * speed_length)
 }
 
@@ -19,7 +19,7 @@ pub fn mean_strength<V: Lanes>(alpha_a: V, alpha_b: V, speed_length: f64) -> V {
 ///
 /// `strength` is α h c `[m²/s]`, `approach` r_ab·v_ab `[m²/s]`, `inverse` 1/(ρ̄ (r² + δ²)) `[m/kg]`.
 #[inline(always)]
-pub fn pair_factor<V: Lanes>(strength: V, approach: V, inverse: V) -> V {
+pub fn pair_factor<V: Real>(strength: V, approach: V, inverse: V) -> V {
     let none = V::splat(0.0);
     strength * approach.min(none) * inverse
 }

@@ -5,11 +5,11 @@
 //! for a linear pressure also at free surfaces and walls, and antisymmetric up to V (so it makes no mass).
 //! Algebraically it is the density diffusion of Antuono et al. (2010) with δ = σ c Δt/h.
 
-use crate::lanes::Lanes;
+use crate::lanes::Real;
 use crate::lanes::algebra::dot;
 
 /// The bracket [2(p_a − p_b) − (G_a + G_b)·r_ab] `[Pa]`.
 #[inline(always)]
-pub fn bracket<V: Lanes, const D: usize>(pressure_difference: V, gradient_sum: &[V; D], r: &[V; D]) -> V {
+pub fn bracket<V: Real, const D: usize>(pressure_difference: V, gradient_sum: &[V; D], r: &[V; D]) -> V {
     pressure_difference + pressure_difference - dot(gradient_sum, r)
 }

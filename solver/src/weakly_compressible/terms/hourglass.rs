@@ -4,7 +4,7 @@
 //! a_a = Σ_b 2 ν_ab [2 m_b/(ρ_a + ρ_b)] F [v_ab − ½(∇v_a + ∇v_b) r_ab], ν_ab = k h ½(√(p_a/ρ0) + √(p_b/ρ0)):
 //! it vanishes with the pressure, so that a loose particle flies freely. Not in the paper; antisymmetric in a and b.
 
-use crate::lanes::Lanes;
+use crate::lanes::Real;
 use crate::lanes::algebra::{difference, dot, product, scaled, sum_of};
 
 /// √(p/ρ0) `[m/s]` of a pressure `[Pa]`, from 1/ρ0 `[m³/kg]`.
@@ -16,13 +16,13 @@ pub fn pressure_speed(pressure: f64, inverse_density: f64) -> f64 {
 
 /// 2 ν_ab `[m²/s]`: `strength` is k h `[m]`, `speed_sum` √(p_a/ρ0) + √(p_b/ρ0) `[m/s]`.
 #[inline(always)]
-pub fn twice_viscosity<V: Lanes>(strength: f64, speed_sum: V) -> V {
+pub fn twice_viscosity<V: Real>(strength: f64, speed_sum: V) -> V {
     speed_sum * V::splat(strength)
 }
 
 /// The unexplained velocity difference [v_ab − ½(∇v_a + ∇v_b) r_ab] `[m/s]`.
 #[inline(always)]
-pub fn unexplained<V: Lanes, const D: usize>(
+pub fn unexplained<V: Real, const D: usize>(
     velocity_difference: &[V; D],
     gradient_a: &[[V; D]; D],
     gradient_b: &[[V; D]; D],
@@ -38,14 +38,14 @@ pub fn unexplained<V: Lanes, const D: usize>(
 
 /// The part of a vector along r `[unit of the vector]`; `regular` is r² `[m²]`, kept from zero.
 #[inline(always)]
-pub fn along_pair<V: Lanes, const D: usize>(vector: &[V; D], r: &[V; D], regular: V) -> [V; D] {
+pub fn along_pair<V: Real, const D: usize>(vector: &[V; D], r: &[V; D], regular: V) -> [V; D] {
     scaled(dot(vector, r) / regular, r)
 }
 
 /// The same at a wall, whose gradient is that of a: `slip` is β (v_a − v_wall) `[m/s]`. A smooth wall (`smoothness` 1)
 /// resists along its normal only.
 #[inline(always)]
-pub fn unexplained_at_wall<V: Lanes, const D: usize>(
+pub fn unexplained_at_wall<V: Real, const D: usize>(
     slip: &[V; D],
     gradient_a: &[[V; D]; D],
     r: &[V; D],

@@ -12,6 +12,9 @@ const NO_FORCE: f64 = 0.6;
 /// Width of the blend of the force correction `[-]`.
 const FORCE_BLEND: f64 = 0.2;
 
+/// Above which both blends are 1, by more than rounding `[-]`.
+const NO_BLEND: f64 = NO_FORCE + FORCE_BLEND + 1e-9;
+
 /// L of (9) for gradients and E for forces, both shape `[D, D]` `[-]`, lane by lane.
 ///
 /// L = M⁻¹ blends linearly to the identity as the smallest eigenvalue λ of M falls from 0.3 to 0.1 (the paper has no
@@ -46,7 +49,8 @@ fn blended<V: Lanes, const D: usize>(inverse: &[[V; D]; D], share: V, smallest: 
     lanes
 }
 
-/// Smallest eigenvalue of a symmetric tensor; exact in 2-D, in 3-D by the trigonometric solution.
+/// Smallest eigenvalue of a symmetric tensor; exact in 2-D, in 3-D by the trigonometric solution, or where all its
+/// Gershgorin discs lie above both blends, a bound of it from below: the value is of no meaning there.
 #[inline(always)]
 fn smallest_eigenvalue<V: Lanes, const D: usize>(m: &[[V; D]; D]) -> V {
     if D == 2 {
@@ -54,6 +58,7 @@ fn smallest_eigenvalue<V: Lanes, const D: usize>(m: &[[V; D]; D]) -> V {
         let mean = V::splat(0.5) * (m[0][0] + m[1][1]);
         return mean - (half_difference * half_difference + m[0][1] * m[0][1]).sqrt();
     }
+    let bound = gershgorin_bound(m).to_array();
     let mut components = [[[0.0; LANES]; D]; D];
     for i in 0..D {
         for j in 0..D {
@@ -62,6 +67,10 @@ fn smallest_eigenvalue<V: Lanes, const D: usize>(m: &[[V; D]; D]) -> V {
     }
     let mut smallest = [0.0; LANES];
     for lane in 0..LANES {
+        if bound[lane] > NO_BLEND {
+            smallest[lane] = bound[lane];
+            continue;
+        }
         let mut matrix = Tensor::<D>::zeros();
         for i in 0..D {
             for j in 0..D {
@@ -71,6 +80,22 @@ fn smallest_eigenvalue<V: Lanes, const D: usize>(m: &[[V; D]; D]) -> V {
         smallest[lane] = smallest_eigenvalue_in_space(&matrix);
     }
     V::load(&smallest)
+}
+
+/// Bound of all eigenvalues of a symmetric tensor from below; not a number where an entry is none.
+#[inline(always)]
+fn gershgorin_bound<V: Lanes, const D: usize>(m: &[[V; D]; D]) -> V {
+    let (mut bound, mut sum) = (V::splat(f64::INFINITY), V::splat(0.0));
+    for i in 0..D {
+        let mut disc = m[i][i];
+        for j in 0..D {
+            if i != j {
+                disc = disc - m[i][j].max(-m[i][j]);
+            }
+        }
+        (bound, sum) = (disc.min(bound), sum + disc);
+    }
+    bound + V::splat(0.0) * sum
 }
 
 fn smallest_eigenvalue_in_space<const D: usize>(m: &Tensor<D>) -> f64 {

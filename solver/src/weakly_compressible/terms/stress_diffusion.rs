@@ -18,10 +18,13 @@ pub fn yielding<R: Real>(elasticity: R, pressure: R) -> R {
     (R::splat(1.0) - elasticity).where_less(R::splat(0.0), pressure)
 }
 
+/// Least sum of two pressures that divides `[Pa]`: a number of single precision too.
+const LEAST_PRESSURE: f64 = 1e-30;
+
 /// 4 w_a w_b/(p_a + p_b) `[1/Pa]`, the factor of s_a p_b − s_b p_a; 0 without pressure.
 #[inline(always)]
 pub fn pair_factor<V: Real>(yielding_a: V, yielding_b: V, pressure_sum: V) -> V {
-    V::splat(4.0) * yielding_a * yielding_b / pressure_sum.max(V::splat(f64::MIN_POSITIVE))
+    V::splat(4.0) * yielding_a * yielding_b / pressure_sum.max(V::splat(LEAST_PRESSURE))
 }
 
 /// Adds f (s_a p_b − s_b p_a) to the upper triangle of a sum, without the last entry of the diagonal.

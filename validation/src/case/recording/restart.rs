@@ -6,6 +6,7 @@ use crate::case::{ParameterError, Progress, StateOutput};
 use crate::checkpoint::{Checkpoints, count_stopped, is_interrupted};
 use bagnold_solver::run::{ContinueError, Course, Observer, SceneError, StopReason};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use std::fmt::Display;
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -107,10 +108,10 @@ pub fn resumed<C: DeserializeOwned>(progress: &dyn Progress) -> Option<C> {
 /// what it keeps, which `keep` makes at the start of a new run. An interrupted run resumes at its last checkpoint.
 ///
 /// # Errors
-/// A scene that breaks a rule; an interruption.
-pub fn follow<const D: usize, S, O, C>(
+/// A scene that breaks a rule or cannot be made; an interruption.
+pub fn follow<const D: usize, S, O, C, E>(
     stage: SimulationStage<'_, C>,
-    scene: impl Fn(Beginning) -> Result<S::Scene, SceneError>,
+    scene: impl Fn(Beginning) -> Result<S::Scene, E>,
     keep: impl FnOnce(&S) -> O,
     observe: impl FnMut(&mut O, &S) -> ControlFlow<()>,
 ) -> Result<Followed<S, O>, ParameterError>
@@ -118,6 +119,7 @@ where
     S: Restartable<D>,
     O: Serialize + DeserializeOwned,
     C: Serialize + DeserializeOwned,
+    E: Into<ParameterError> + Display,
 {
     let now = Instant::now();
     let SimulationStage { progress, end, interval, context } = stage;
@@ -139,7 +141,7 @@ where
             (simulation, course, kept, now.checked_sub(spent).unwrap_or(now))
         }
         None => {
-            let simulation = S::begin(scene(Beginning::New)?)?;
+            let simulation = S::begin(scene(Beginning::New).map_err(Into::into)?)?;
             // what comes before the start may have been cut short
             if is_interrupted() {
                 return Err(ParameterError::Interrupted);

@@ -54,7 +54,7 @@ pub(super) fn all(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> 
         }
         let variant = record.0.variant();
         metrics.push(layer::particles_lost(&variant, &record.1));
-        metrics.extend(energy_ledger::metrics(&variant, &record.1.data.energy, energy_ledger::EnergyScale::Gravity));
+        metrics.extend(energy_ledger::metrics(&variant, &record.1.data.energy, energy_ledger::EnergyScale::Work));
         metrics.extend(match record.0.purpose {
             BagnoldPurpose::Steady | BagnoldPurpose::Convergence => steady(record),
             BagnoldPurpose::OtherGrains => other_grains(record),

@@ -41,6 +41,7 @@ use crate::setup::Lattice;
 use bagnold_solver::incompressible::{
     Bed, IncompressibleSimulation, IncompressibleSnapshot, ProjectionNumerics, Sediment, SolidFraction, Turbulence,
 };
+use bagnold_solver::run::SceneError;
 use probe::ChannelProbe;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -176,7 +177,7 @@ impl<'a> Channel<'a> {
         };
         let followed = follow(
             stage,
-            |_| Ok(self.scene()),
+            |_| Ok::<_, SceneError>(self.scene()),
             begin,
             |seen: &mut ChannelObserver<O>, simulation| {
                 let ChannelObserver { probe, last_good, frames, beside } = seen;

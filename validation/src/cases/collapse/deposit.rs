@@ -89,7 +89,7 @@ impl Surveyor {
         collapse.rows_front.push(end_of_profile(&thickness, ROW_THICKNESS));
         collapse.height.push(thickness.first().map_or(0.0, |bin| bin.1));
         if let Some(account) = &snapshot.energy {
-            collapse.energy.enter(account);
+            collapse.energy.enter(snapshot.time, account, 0.0);
         }
         collapse.kinetic_energy.push(kinetic);
         collapse.potential_energy.push(potential);

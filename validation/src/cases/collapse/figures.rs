@@ -120,7 +120,9 @@ fn label(run: &ColumnRun) -> String {
 }
 
 fn deposits(records: &[&CollapseRecord]) -> Figure {
-    let mut panel = Panel::new("", Axis::linear("x/r0 [-]"), Axis::linear("thickness/r0 [-]"));
+    let [x, thickness] = [("x/r0 [-]", "x"), ("thickness/r0 [-]", "thickness")]
+        .map(|(label, name)| Axis::linear(label).over(name, "m", records.iter().map(|(run, _)| run.half_width)));
+    let mut panel = Panel::new("", x, thickness);
     for (slot, (run, record)) in records.iter().enumerate() {
         panel.line(&label(run), slot, record.data.drawn());
     }

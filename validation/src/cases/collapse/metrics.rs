@@ -66,7 +66,7 @@ pub(in crate::cases) fn conservation(variant: &Variant, collapse: &Collapse, num
             .exactly(0.0, "no particle passes the bed, the symmetry plane or the bed's end")
             .gated(Limit::AtMost(0.0), "grains do not vanish"),
     ];
-    metrics.extend(energy_ledger::metrics(variant, &collapse.energy, energy_ledger::EnergyScale::Gravity));
+    metrics.extend(energy_ledger::metrics(variant, &collapse.energy, energy_ledger::EnergyScale::Work));
     // an implicit step keeps no account of what the walls gave
     if numerics.viscous_step == ViscousStep::Explicit {
         metrics.push(

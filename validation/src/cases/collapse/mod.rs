@@ -67,7 +67,7 @@ pub(super) fn tables((run, record): &CollapseRecord) -> Vec<Table> {
 const MOST_PARTICLES: f64 = 5e6;
 
 /// Refuses columns of more than [`MOST_PARTICLES`] particles; `field` names the parameter that a run's resolution comes from.
-pub(super) fn check_size(runs: &[ColumnRun], field: impl Fn(&ColumnRun) -> String) -> Result<(), ParameterError> {
+pub(super) fn check_size(runs: &[&ColumnRun], field: impl Fn(&ColumnRun) -> String) -> Result<(), ParameterError> {
     let Some(run) = runs.iter().find(|run| run.particles() > MOST_PARTICLES) else { return Ok(()) };
     let rule = format!("such that no column has more than {MOST_PARTICLES:.0e} particles");
     let remedy = format!(

@@ -58,7 +58,9 @@ pub(super) fn figure(records: &[CollapseRecord]) -> Option<Figure> {
     if pairs.is_empty() {
         return None;
     }
-    let mut deposit = Panel::new("", Axis::linear("x/r0 [-]"), Axis::linear("thickness/r0 [-]"));
+    let [x, thickness] = [("x/r0 [-]", "x"), ("thickness/r0 [-]", "thickness")]
+        .map(|(label, name)| Axis::linear(label).over(name, "m", pairs.iter().map(|((run, _), _)| run.half_width)));
+    let mut deposit = Panel::new("", x, thickness);
     let mut front = Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("(front − r0)/r0 [-]"));
     for (slot, (regularised, mapped)) in pairs.into_iter().enumerate() {
         for ((run, record), kind, mark) in

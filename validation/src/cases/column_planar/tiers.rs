@@ -82,11 +82,6 @@ impl Parameters for ColumnPlanarParameters {
     }
 
     fn check(&self) -> Result<(), ParameterError> {
-        for (grains, columns) in self.materials() {
-            let name = grains.name();
-            rules::material(&format!("{name}.law"), &columns.law)?;
-            columns.bulk.check(&columns.law).map_err(|error| error.within(name))?;
-        }
         let altered = [
             ("sand", &self.sand, "sand_inertias", &self.sand_inertias),
             ("lagree", &self.lagree, "lagree_diameters", &self.lagree_diameters),
@@ -102,10 +97,20 @@ impl Parameters for ColumnPlanarParameters {
             rules::only_mu_i("sand.law", &self.sand.law, remedy)?;
             rules::implicit_runs("numerics", &self.release.numerics, "regularised.aspect_ratios")?;
         }
-        for (_, columns) in self.materials() {
+        Ok(())
+    }
+
+    fn check_runs(&self, runs: &[&ColumnRun]) -> Result<(), ParameterError> {
+        for (grains, columns) in self.materials() {
+            if !runs.iter().any(|run| run.material.grains == grains) {
+                continue;
+            }
+            let name = grains.name();
+            rules::material(&format!("{name}.law"), &columns.law)?;
+            columns.bulk.check(&columns.law).map_err(|error| error.within(name))?;
             rules::viscous_step("numerics", &self.release.numerics, &columns.law)?;
         }
-        collapse::check_size(&self.runs(), |run| match run.purpose {
+        collapse::check_size(runs, |run| match run.purpose {
             ColumnPurpose::Convergence => "sensitivity.resolutions".to_owned(),
             ColumnPurpose::Hourglass => "sensitivity.hourglass_resolutions".to_owned(),
             ColumnPurpose::Law | ColumnPurpose::Regularised => self.resolution_field(run.aspect_ratio).to_owned(),

@@ -64,8 +64,11 @@ impl Parameters for ColumnRoundParameters {
     fn check(&self) -> Result<(), ParameterError> {
         rules::material("sand", &self.sand)?;
         self.bulk.check(&self.sand)?;
-        rules::viscous_step("numerics", &self.release.numerics, &self.sand)?;
-        collapse::check_size(&self.runs(), |run| {
+        rules::viscous_step("numerics", &self.release.numerics, &self.sand)
+    }
+
+    fn check_runs(&self, runs: &[&ColumnRun]) -> Result<(), ParameterError> {
+        collapse::check_size(runs, |run| {
             let is_it =
                 |column: &RoundColumn| column.aspect_ratio == run.aspect_ratio && column.resolution == run.resolution;
             format!("columns[{}].resolution", self.columns.iter().position(is_it).unwrap_or(0))

@@ -10,7 +10,9 @@ pub(in crate::cases) fn all<S: Setting<D>, const D: usize>(
     records: &[SceneRecord<S, D>],
 ) -> Vec<Figure> {
     let of_run = |(_, record): &SceneRecord<S, D>| {
-        [Some(S::pictures(parameters, &record.frames)), gauges(parameters, &record.data)]
+        // another code's front comes without pictures
+        let pictures = (!record.frames.is_empty()).then(|| S::pictures(parameters, &record.frames));
+        [pictures, gauges(parameters, &record.data)]
     };
     records.iter().flat_map(of_run).flatten().collect()
 }

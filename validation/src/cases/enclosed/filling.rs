@@ -1,6 +1,7 @@
-//! Where particles start: on the sites of a lattice that bodies hold, as dense as the material above them makes them.
+//! Where particles start: on the sites of lattices that bodies hold, as dense as the material above them makes them.
 
 use super::behind_walls::{Permissions, Site};
+use super::lattice::{LatticeGroup, SiteLattice, groups};
 use super::parameters::Setting;
 use super::setting::{SceneBody, SceneWall, vector};
 use super::sides::SceneSides;
@@ -16,8 +17,8 @@ use bagnold_solver::weakly_compressible::scene::Flow;
 const STEPS: f64 = 8.0;
 
 impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
-    /// Particles on the sites of a lattice through the origin that bodies hold and that are free of walls, under the
-    /// pressure of the material above them; and the share of the sites of bodies that walls take `[-]`.
+    /// Particles on the sites of lattices that bodies hold and that are free of walls, under the pressure of the material above
+    /// them; and the share of the sites of bodies that walls take `[-]`.
     ///
     /// # Errors
     /// A body of which walls take more than they may.
@@ -27,75 +28,58 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         equation_of_state: &EquationOfState,
     ) -> Result<(Flow<D>, f64), ParameterError> {
         let Self { spacing, jitter, ref bodies, .. } = *self;
-        for remark in misfits(bodies, spacing) {
+        let groups = groups(bodies, &self.sides, spacing);
+        for remark in misfits(bodies, &groups, spacing) {
             tracing::warn!("{remark}");
         }
         let gravity = vector(&self.gravity);
         let (up, weight) = (-gravity.normalize(), equation_of_state.reference_density * gravity.norm());
-        let corners = bodies.iter().flat_map(|body| <[Vector<D>; 2]>::from(body.extent()));
-        let held = lattice(shapes::around(corners), spacing).filter_map(|(cell, place)| {
-            let body = holder(bodies, &place).filter(|_| self.sides.hold(&place))?;
-            Some(Site { cell, place, body, nearest: walls.nearest(&place) })
-        });
-        let sites: Vec<Site<D>> = held.collect();
-        let permissions = Permissions {
-            walls: self.walls.iter().map(|wall| (wall.name(), wall.may_have_two_sides())).collect(),
-            most: self.cut_at_most,
-            turn: S::Wall::TURN,
-        };
-        let behind = permissions.behind(&sites)?;
-        let is_free = |site: &Site<D>| !site.nearest.is_some_and(|nearest| is_taken(&nearest, spacing));
-        let free: Vec<&Site<D>> = sites
-            .iter()
-            .zip(&behind)
-            .filter(|(site, behind)| !**behind && is_free(site))
-            .map(|(site, _)| site)
-            .collect();
-        let share = (sites.len() - free.len()) as f64 / sites.len() as f64;
-        let flow = displaced_flow(
-            free.iter().map(|site| site.place),
+        let (mut all, mut free) = (0, Vec::new());
+        for LatticeGroup { lattice, bodies: members } in &groups {
+            let corners = members.iter().flat_map(|&body| <[Vector<D>; 2]>::from(bodies[body].extent()));
+            let held = lattice.sites(shapes::around(corners)).filter_map(|(cell, place)| {
+                let body = holder(bodies, &place).filter(|body| members.contains(body) && self.sides.hold(&place))?;
+                Some(Site { cell, place, body, nearest: walls.nearest(&place) })
+            });
+            let sites: Vec<Site<D>> = held.collect();
+            let permissions = Permissions {
+                walls: self.walls.iter().map(|wall| (wall.name(), wall.may_have_two_sides())).collect(),
+                most: self.cut_at_most,
+                turn: S::Wall::TURN,
+            };
+            let behind = permissions.behind(&sites)?;
+            let is_free = |site: &Site<D>| !site.nearest.is_some_and(|nearest| is_taken(&nearest, lattice.shortest()));
+            all += sites.len();
+            let pairs = sites.into_iter().zip(behind);
+            free.extend(pairs.filter(|(site, behind)| !behind && is_free(site)).map(|(site, _)| (site, *lattice)));
+        }
+        let share = (all - free.len()) as f64 / all as f64;
+        let mut flow = displaced_flow(
+            free.iter().map(|(site, _)| site.place),
             (jitter * spacing, self.seed),
             |site| equation_of_state.density(weight * depth(bodies, site, &up, spacing)),
-            |density| (0..D).fold(density, |mass, _| mass * spacing),
+            |_| 0.0,
         );
-        Ok((Flow { velocity: free.iter().map(|site| bodies[site.body].velocity()).collect(), ..flow }, share))
+        flow.mass = free.iter().zip(&flow.density).map(|((_, lattice), density)| lattice.mass(*density)).collect();
+        flow.velocity = free.iter().map(|(site, _)| bodies[site.body].velocity()).collect();
+        Ok((flow, share))
     }
-}
-
-/// Cells of a lattice through the origin that cover a box, and their middles `[m]`; the first axis runs fastest.
-fn lattice<const D: usize>(
-    (lower, upper): (Vector<D>, Vector<D>),
-    spacing: f64,
-) -> impl Iterator<Item = ([i64; D], Vector<D>)> {
-    let cell = |coordinate: f64| (coordinate / spacing).floor() as i64;
-    let (first, last) = (<[f64; D]>::from(lower).map(cell), <[f64; D]>::from(upper).map(cell));
-    let is_empty = (0..D).any(|axis| first[axis] > last[axis]);
-    std::iter::successors((!is_empty).then_some(first), move |cells| {
-        let mut next = *cells;
-        for axis in 0..D {
-            if next[axis] < last[axis] {
-                next[axis] += 1;
-                return Some(next);
-            }
-            next[axis] = first[axis];
-        }
-        None
-    })
-    .map(move |cells| (cells, Vector::<D>::from(cells.map(|cell| cell as f64 + 0.5)) * spacing))
 }
 
 /// Share of a body's mass that its particles may have too much or too little before it is said `[-]`.
 const MISFIT: f64 = 0.02;
 
-/// What is to be said of bodies that are no whole number of spacings: their particles have another mass than they.
-fn misfits<const D: usize>(bodies: &[impl SceneBody<D>], spacing: f64) -> Vec<String> {
+/// What is to be said of bodies on the common lattice that are no whole number of its spacings: their particles have another mass
+/// than they.
+fn misfits<const D: usize>(bodies: &[impl SceneBody<D>], groups: &[LatticeGroup<D>], spacing: f64) -> Vec<String> {
+    let common = SiteLattice::<D>::common(spacing);
     let of_cells = |body: &_| {
-        let cells = lattice(SceneBody::extent(body), spacing).filter(|(_, place)| SceneBody::holds(body, place));
-        cells.count() as f64 * spacing.powi(D as i32)
+        let cells = common.sites(SceneBody::extent(body)).filter(|(_, place)| SceneBody::holds(body, place));
+        cells.count() as f64 * common.mass(1.0)
     };
     let mut remarks = Vec::new();
-    for (number, body) in bodies.iter().enumerate() {
-        let share = of_cells(body) / body.volume();
+    for &number in groups.iter().filter(|group| group.lattice == common).flat_map(|group| &group.bodies) {
+        let share = of_cells(&bodies[number]) / bodies[number].volume();
         // a body without a particle is refused elsewhere
         if share > 0.0 && (share - 1.0).abs() > MISFIT {
             remarks.push(format!(
@@ -131,25 +115,55 @@ pub(in crate::cases) fn depth<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cases::scene::PlaneBody;
+    use crate::case::Tier;
+    use crate::cases::scene::{Plane, PlaneBody};
+    use crate::cases::scene_space::{Space, SpaceBody};
+    use bagnold_solver::material::equation_of_state::Tension;
 
     #[test]
     fn a_body_of_broken_spacings_is_said_to_lose_mass() {
-        let new = |height: f64| PlaneBody::Box { lower: (0.0, 0.0), upper: (0.1, height), velocity: (0.0, 0.0) };
-        assert_eq!(misfits(&[new(0.03)], 0.0025), Vec::<String>::new());
+        let velocity = (0.0, 0.0);
+        let misfits = |bodies: &[PlaneBody]| {
+            let sides = Plane::of_tier(Tier::Quick).sides;
+            misfits(bodies, &groups(bodies, &sides, 0.0025), 0.0025)
+        };
+        let new = |height: f64| PlaneBody::Polygon {
+            points: vec![(0.0, 0.0), (0.1, 0.0), (0.1, height), (0.0, height)],
+            velocity,
+        };
+        assert_eq!(misfits(&[new(0.03)]), Vec::<String>::new());
         // 12.5 rows: the middle of the last lies on the edge and is not held
-        let remarks = misfits(&[new(0.03), new(0.03125)], 0.0025);
+        let remarks = misfits(&[new(0.03), new(0.03125)]);
         assert!(remarks.len() == 1 && remarks[0].starts_with("`bodies[1]`: its particles have 96.0 %"), "{remarks:?}");
+        // a box has rows of its own
+        let cuboid = PlaneBody::Box { lower: (0.0, 0.0), upper: (0.1, 0.03125), velocity };
+        assert_eq!(misfits(&[cuboid]), Vec::<String>::new());
+    }
+
+    /// Volume of the particles that fill bodies without walls: their masses over their densities.
+    fn filled<S: Setting<D>, const D: usize>(bodies: Vec<S::Body>, spacing: f64) -> f64 {
+        let scene = SceneParameters { bodies, spacing, walls: Vec::new(), ..S::of_tier(Tier::Quick) };
+        let law = EquationOfState { reference_density: 1000.0, bulk_modulus: 1e6, tension: Tension::Cut };
+        let (flow, _) = scene.fill(&Surfaces::of(&[], spacing), &law).expect("filled");
+        flow.mass.iter().zip(&flow.density).map(|(mass, density)| mass / density).sum()
     }
 
     #[test]
-    fn the_sites_of_a_box_run_along_its_first_axis() {
-        let corners = (Vector::<3>::new(-0.1, 0.0, 0.25), Vector::<3>::new(0.15, 0.12, 0.32));
-        let sites: Vec<[f64; 3]> =
-            lattice(corners, 0.1).map(|(_, site)| (site * 20.0).map(f64::round).into()).collect();
-        let row = |y, z| [[-1.0, y, z], [1.0, y, z], [3.0, y, z]];
-        assert_eq!(sites, [row(1.0, 5.0), row(3.0, 5.0), row(1.0, 7.0), row(3.0, 7.0)].concat());
-        let none = shapes::around::<2>([]);
-        assert_eq!(lattice(none, 0.1).count(), 0);
+    fn boxes_have_their_mass_whatever_the_spacing_is() {
+        let flat = |lower, upper| PlaneBody::Box { lower, upper, velocity: (0.0, 0.0) };
+        let velocity = (0.0, 0.0, 0.0);
+        for spacing in [0.0025, 0.0031, 0.0047, 0.0063] {
+            let plane = filled::<Plane, 2>(vec![flat((0.01, 0.0), (0.11, 0.03125))], spacing) / (0.1 * 0.03125);
+            let two = vec![flat((0.01, 0.0), (0.11, 0.03125)), flat((0.01, 0.03125), (0.0701, 0.0523))];
+            let two = filled::<Plane, 2>(two, spacing) / (0.1 * 0.03125 + 0.0601 * (0.0523 - 0.03125));
+            let space = vec![SpaceBody::Box { lower: (0.0, 0.0, 0.0), upper: (0.04, 0.033, 0.03125), velocity }];
+            let space = filled::<Space, 3>(space, spacing) / (0.04 * 0.033 * 0.03125);
+            for share in [plane, two, space] {
+                assert!((share - 1.0).abs() < 1e-9, "{spacing} m: {plane}, {two} and {space}");
+            }
+        }
+        // what is beyond a side does not count: the tier's plane of symmetry is at 0
+        let cut = filled::<Plane, 2>(vec![flat((-0.013, 0.0), (0.0501, 0.03125))], 0.0025) / (0.0501 * 0.03125);
+        assert!((cut - 1.0).abs() < 1e-9, "{cut}");
     }
 }

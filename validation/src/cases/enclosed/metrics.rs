@@ -5,11 +5,11 @@ use super::series;
 use super::setting::vector;
 use super::sides::SceneSides;
 use super::{Measurand, MeasuredSeries, SceneObservation, SceneParameters, SceneRecord};
-use crate::cases::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};
+use crate::cases::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::statistics::{Beyond, interpolated};
 
-quantities! { shared
+quantities! { shared pub(super)
     MASS_RESIDUAL: accounted("mass_residual", "%", "mass in the scene and beyond its open sides, less that of the start"),
     MOMENTUM_RESIDUAL:
         accounted("momentum_residual", "%", "impulse without a cause among gravity, walls and sides, over that of gravity"),
@@ -24,9 +24,6 @@ quantities! { shared
     DEPTH: accounted("depth", "m", "thickness of the material at a gauge at the end"),
     GAUGE_ERROR: validated("gauge_error", "%", "root mean square of a gauge's relative error at the measured times"),
 }
-
-/// Share of the weight times the scene's height that energies are compared with at least `[-]`.
-const AT_REST: f64 = 0.1;
 
 /// All quantities of a case of scenes, of which two have units of its own: [`Setting::MEAN_FORCE`] and
 /// [`Setting::MASS_CROSSED`].
@@ -65,7 +62,7 @@ fn of_run<S: Setting<D>, const D: usize>(
 ) -> Vec<Metric> {
     let (variant, data) = (run.named(), &record.data);
     let mut metrics = balances(&variant, data, parameters.sides.has_mirror());
-    metrics.extend(energy(&variant, data, vector(&parameters.gravity).norm(), parameters.height()));
+    metrics.extend(energy(&variant, data, parameters));
     metrics.push(FINAL_RMS_SPEED.of(&variant, final_mean(&data.rms_speed)).with_snapshot_tolerance(0.1, 1e-3));
     for series in series::of_run(parameters, data) {
         let own = variant.clone().and("gauge", series.gauge);
@@ -124,23 +121,29 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
 }
 
 /// The energy's balance. What a wall of the scene gives may be meant, so that only what is not booked is judged.
-///
-/// Gravity `[m/s²]` and the height of the scene `[m]` give the scale of what stands still.
-fn energy<const D: usize>(variant: &Variant, data: &SceneObservation<D>, gravity: f64, height: f64) -> Vec<Metric> {
+/// Gravity, height and stiffness of the scene give the scales of energy and time.
+fn energy<S: Setting<D>, const D: usize>(
+    variant: &Variant,
+    data: &SceneObservation<D>,
+    parameters: &SceneParameters<S, D>,
+) -> Vec<Metric> {
     let book = &data.energy;
     if book.total.is_empty() {
         return Vec::new();
     }
-    // what stands still is judged by what it could do
+    let (gravity, height) = (vector(&parameters.gravity).norm(), parameters.height());
     let weight = data.mass.first().copied().unwrap_or(f64::NAN) * gravity;
-    let scale = book.gravity.abs().max(AT_REST * weight * height);
-    let share = |value: f64| 100.0 * value / scale;
+    let numerics = &parameters.numerics;
+    let smoothing_length = numerics.smoothing_ratio * parameters.spacing;
+    let sound_speed = (parameters.stiffness * gravity * height).sqrt();
+    let scale = EnergyScale::WorkOver {
+        fall_time: (height / gravity).sqrt(),
+        weight_by_height: weight * height,
+        time_step: numerics.acoustic_courant * smoothing_length / sound_speed,
+    };
+    let share = |value: f64| 100.0 * value / scale.of(book).0;
     vec![
-        ENERGY_RESIDUAL
-            .of(variant, share(book.residual()))
-            .exactly(0.0, "every term of the scheme books its work; in per cent of the work of gravity, or of a tenth of the weight times the scene's height where that is more")
-            .gated(Limit::AtMost(1.0), "what is left is the length of a step")
-            .with_snapshot_tolerance(0.2, 1e-2),
+        energy_ledger::residual(variant, book, scale),
         ENERGY_RISE.of(variant, share(book.rise())).with_snapshot_tolerance(0.5, 0.1),
         WALL_WORK.of(variant, share(book.walls)).with_snapshot_tolerance(0.2, 0.5),
         CORRECTION_WORK.of(variant, share(book.correction)).with_snapshot_tolerance(0.2, 0.5),

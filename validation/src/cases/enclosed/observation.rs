@@ -2,7 +2,6 @@
 
 use crate::observation::EnergyBook;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::energy::EnergyAccount;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
@@ -106,7 +105,7 @@ impl<const D: usize> SceneObservation<D> {
         self.gravity_impulse = given.norm();
         if let Some(account) = &snapshot.energy {
             let kept: f64 = sides.iter().map(|side| side.energy).sum();
-            self.energy.enter(&EnergyAccount { kinetic: account.kinetic + kept, ..*account });
+            self.energy.enter(snapshot.time, account, kept);
         }
     }
 }

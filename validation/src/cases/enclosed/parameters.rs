@@ -5,7 +5,7 @@ use super::given::PlainData;
 use super::measured::MeasuredSeries;
 use super::setting::{SceneBody, SceneGauge, SceneWall, vector};
 use super::sides::SceneSides;
-use super::{Measurand, shapes};
+use super::{BodyPreparation, Measurand, shapes};
 use crate::case::Tier;
 use crate::cases::Bulk;
 use crate::figure::Figure;
@@ -87,6 +87,11 @@ pub struct SceneParameters<S: Setting<D>, const D: usize> {
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
+    /// What happens before the clock starts.
+    pub preparation: BodyPreparation,
+    /// Root mean square of the speed at which settled bodies count as being at rest, over √(g H) with the scene's height H `[-]`.
+    #[schemars(transform = between(1e-6, 0.1, "1e-4 is 0.1 mm/s in a scene of 0.1 m"))]
+    pub rest_speed: f64,
     /// Largest share of a body that may stand behind walls, where it is left out `[-]`.
     #[schemars(transform = between(0.0, 1.0, "0.1 allows for what corners and curved walls cut off"))]
     pub cut_at_most: f64,
@@ -131,6 +136,8 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             tension: Tension::Cut,
             jitter: 0.05,
             seed: 1,
+            preparation: BodyPreparation::None,
+            rest_speed: 1e-4,
             material: Rheology::MuI(beads),
             bulk: Bulk::of_grains(0.6),
             sides,

@@ -4,21 +4,22 @@ use super::gauges::Memory;
 use super::parameters::Setting;
 use super::periods::Periods;
 use super::setting::{SceneBody, SceneWall, vector};
+use super::settling::{self, RestCriterion};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, behind};
-use super::{SceneObservation, SceneParameters};
-use crate::case::recording::{self, Ending, Followed, SimulationStage};
+use super::{BodyPreparation, SceneObservation, SceneParameters};
+use crate::case::recording::{self, Beginning, Ending, Followed, SimulationStage};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
-use crate::setup::{acoustic_step, wall_rows};
+use crate::setup::wall_rows;
 use bagnold_solver::domain::Domain;
 use bagnold_solver::material::equation_of_state::EquationOfState;
-use bagnold_solver::run::SceneError;
 use bagnold_solver::weakly_compressible::boundary::Enclosure;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::time_step::TimeStepBounds;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -49,22 +50,16 @@ where
     }
 
     fn particles(&self) -> f64 {
-        let volumes = self.scene.bodies.iter().map(|body| {
-            let (lower, upper) = body.extent();
-            (upper - lower).product()
-        });
-        let walls: f64 = self.scene.walls.iter().map(SceneWall::measure).sum();
-        let power = |axes: usize| (0..axes).map(|_| self.scene.spacing).product::<f64>();
-        volumes.sum::<f64>() / power(D) + walls / power(D - 1) * self.rows() as f64
+        self.flow_particles() + self.wall_particles()
     }
 
     fn particle_steps(&self) -> f64 {
-        let step = acoustic_step(&self.scene.numerics, self.scene.spacing, self.equation_of_state().sound_speed());
-        self.particles() * self.scene.duration / step
+        self.flow_particles() * (self.scene.duration + self.settling_time()) / self.step_bounds().step()
     }
 
     fn seconds_per_particle_step(&self) -> f64 {
-        S::COST * cost::WEAKLY_COMPRESSIBLE
+        let all_per_flow = self.particles() / self.flow_particles().max(1.0);
+        S::COST * cost::WEAKLY_COMPRESSIBLE * all_per_flow
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SceneObservation<D>>, ParameterError> {
@@ -87,7 +82,10 @@ where
         };
         let Followed { simulation, stop, kept: (last_good, watch), started } = recording::follow(
             stage,
-            |_| -> Result<Scene<D>, SceneError> { Ok(made.clone()) },
+            |beginning| match beginning {
+                Beginning::New => self.prepared(made.clone()),
+                Beginning::Continued => Ok(made.clone()),
+            },
             |simulation: &Simulation<D>| (simulation.snapshot(), begin(simulation)),
             |(last_good, watch): &mut (Snapshot<D>, SceneObserver<D>), simulation| {
                 *last_good = simulation.snapshot();
@@ -120,6 +118,73 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
     /// Rows of dummy particles.
     fn rows(&self) -> usize {
         wall_rows(self.scene.numerics.smoothing_ratio)
+    }
+
+    /// Particles of the bodies.
+    fn flow_particles(&self) -> f64 {
+        let volume: f64 = self.scene.bodies.iter().map(SceneBody::volume).sum();
+        volume / self.scene.spacing.powi(D as i32)
+    }
+
+    /// Dummy particles of the walls.
+    fn wall_particles(&self) -> f64 {
+        let walls: f64 = self.scene.walls.iter().map(SceneWall::measure).sum();
+        walls / self.scene.spacing.powi(D as i32 - 1) * self.rows() as f64
+    }
+
+    /// The solver's own bounds of a step, with the largest viscosity and speed that the scene can come to.
+    fn step_bounds(&self) -> TimeStepBounds {
+        let SceneParameters { numerics, spacing, material, .. } = &self.scene;
+        let equation_of_state = self.equation_of_state();
+        let (density, fall) = (equation_of_state.reference_density, self.fall_speed());
+        let walls = self.scene.walls.iter().map(|wall| wall.shell().motion.largest_speed()).fold(0.0, f64::max);
+        let speed = (2.0_f64.sqrt() * fall).max(self.fastest_body()) + walls;
+        let viscosity = material.largest_viscosity(density * fall * fall) / density;
+        let smoothing_length = numerics.smoothing_ratio * spacing;
+        TimeStepBounds::new(numerics, smoothing_length, equation_of_state.sound_speed(), speed, viscosity)
+    }
+
+    /// √(g H) with the height of the scene `[m/s]`.
+    fn fall_speed(&self) -> f64 {
+        (vector(&self.scene.gravity).norm() * self.scene.height()).sqrt()
+    }
+
+    /// Speed at the start of the fastest body `[m/s]`.
+    fn fastest_body(&self) -> f64 {
+        self.scene.bodies.iter().map(|body| body.velocity().norm()).fold(0.0, f64::max)
+    }
+
+    /// Time that sound needs across the height of the scene `[s]`.
+    fn crossing_time(&self) -> f64 {
+        self.scene.height() / self.equation_of_state().sound_speed()
+    }
+
+    /// Time that settling is expected to take `[s]`.
+    fn settling_time(&self) -> f64 {
+        match self.scene.preparation {
+            BodyPreparation::None => 0.0,
+            BodyPreparation::Settled => settling::USUAL * self.crossing_time(),
+        }
+    }
+
+    /// The scene as the clock finds it at the start.
+    ///
+    /// # Errors
+    /// Bodies that do not come to rest where they are to.
+    fn prepared(&self, scene: Scene<D>) -> Result<Scene<D>, ParameterError>
+    where
+        Simulation<D>: Compiled<D>,
+    {
+        match self.scene.preparation {
+            BodyPreparation::None => Ok(scene),
+            BodyPreparation::Settled => {
+                let fall = self.fall_speed();
+                let rest = RestCriterion { speed: self.scene.rest_speed * fall, fall, crossing: self.crossing_time() };
+                let (scene, elapsed) = settling::settled(scene, rest)?;
+                tracing::info!("bodies have settled within {elapsed:.4} s, before the clock starts");
+                Ok(scene)
+            }
+        }
     }
 
     fn equation_of_state(&self) -> EquationOfState {

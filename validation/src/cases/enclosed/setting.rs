@@ -18,6 +18,9 @@ pub trait SceneBody<const D: usize>: PlainData {
     /// Its area `[m²]` in the plane, its volume `[m³]` in space.
     fn volume(&self) -> f64;
 
+    /// Whether it is a box along the axes, so that it fills what [`SceneBody::extent`] gives.
+    fn is_box(&self) -> bool;
+
     /// Whether it holds a place.
     fn holds(&self, place: &Vector<D>) -> bool;
 

@@ -91,6 +91,15 @@ pub trait SceneSides<const D: usize>: PlainData {
         })
     }
 
+    /// What of a box, by its lower and upper corner `[m]`, lies between them.
+    fn clip(&self, (mut lower, mut upper): (Vector<D>, Vector<D>)) -> (Vector<D>, Vector<D>) {
+        for (axis, (below, above)) in self.pairs().into_iter().enumerate() {
+            lower[axis] = below.coordinate().map_or(lower[axis], |plane| lower[axis].max(plane));
+            upper[axis] = above.coordinate().map_or(upper[axis], |plane| upper[axis].min(plane));
+        }
+        (lower, upper)
+    }
+
     /// Refuses a period with one end, and ends in the wrong order.
     ///
     /// # Errors

@@ -59,7 +59,7 @@ fn of_run(record: &Record) -> Vec<Metric> {
         metric.with_snapshot_tolerance(1e-3, 1e-4).unless(unsteadiness(record).as_ref())
     });
     let mut common = vec![layer::particles_lost(&variant, recorded)];
-    common.extend(energy_ledger::metrics(&variant, &recorded.data.energy, energy_ledger::EnergyScale::Gravity));
+    common.extend(energy_ledger::metrics(&variant, &recorded.data.energy, energy_ledger::EnergyScale::Work));
     common.into_iter().chain(profile(record)).chain(compressible).chain(plug_edge(record)).collect()
 }
 
@@ -110,14 +110,15 @@ fn skin_difference(records: &[Record]) -> Option<Metric> {
     let (wide, own) = (&wide.data.profile, &own.data.profile);
     let velocities = wide.velocity.iter().copied().zip(own.velocity.iter().copied());
     let difference = 100.0 * relative_l2(velocities.filter(|(wide, own)| wide.is_finite() && own.is_finite()));
-    let reason =
-        "1e-8 %: rounding, which a laminar film on the lattice does not amplify; without wrong pairs it is 1e-13 %";
+    // pairs are single precision, and lists group the sums over them
+    let reason = "1e-4 %: rounding of pairs in single precision, which a laminar film on the lattice does not amplify; pairs in \
+                  double precision leave 1e-13 %";
     Some(
         SKIN_DIFFERENCE
             .of(&run.variant(), difference)
             .exactly(0.0, "the same film with lists that are renewed at other times")
-            .gated(Limit::AtMost(1e-8), reason)
-            .with_snapshot_tolerance(0.0, 1e-9),
+            .gated(Limit::AtMost(1e-4), reason)
+            .with_snapshot_tolerance(0.0, 1e-5),
     )
 }
 

@@ -138,31 +138,42 @@ impl Parameters for FilmParameters {
     fn check(&self) -> Result<(), ParameterError> {
         if self.comparison_resolution > 0 {
             rules::row_count("comparison_resolution", self.comparison_resolution)?;
-            let widest = NumericsSet::OTHERS.map(|set| set.numerics(self.layer.numerics));
-            for numerics in &widest {
-                rules::columns("columns", self.layer.columns, numerics)?;
-            }
         }
-        self.layer.check()?;
+        self.layer.check()
+    }
+
+    fn check_runs(&self, runs: &[&FilmRun]) -> Result<(), ParameterError> {
+        for run in runs {
+            rules::columns("columns", run.layer.columns, &run.layer.numerics)?;
+        }
+        let is_run = |kind: FluidKind| {
+            let (law, numerics) = (self.law(kind), self.numerics(kind));
+            let eddies = numerics.smagorinsky_constant;
+            self.fluids.contains(&kind)
+                && runs.iter().any(|run| run.law == law && run.layer.numerics.smagorinsky_constant == eddies)
+        };
         let base = self.incline().shear_stress(0.0);
         let fluids = [
-            ("bingham.yield_stress", self.bingham.yield_stress),
-            ("herschel_bulkley.yield_stress", self.herschel_bulkley.yield_stress),
+            (FluidKind::Bingham, "bingham.yield_stress", self.bingham.yield_stress),
+            (FluidKind::HerschelBulkley, "herschel_bulkley.yield_stress", self.herschel_bulkley.yield_stress),
         ];
-        for (field, yield_stress) in fluids {
+        for (_, field, yield_stress) in fluids.into_iter().filter(|(kind, ..)| is_run(*kind)) {
             let remedy = format!("the shear stress at the bed is {base:.3} Pa: above it nothing flows");
             rules::between(field, yield_stress, 0.0, 0.95 * base, &remedy)?;
         }
-        if self.fluids.contains(&FluidKind::Material) {
+        if is_run(FluidKind::Material) {
             self.check_material()?;
         }
         let (own, common) = (self.eddies.smagorinsky_constant, self.layer.numerics.smagorinsky_constant);
-        if self.fluids.contains(&FluidKind::Eddies) && own == common {
+        if is_run(FluidKind::Eddies) && own == common {
             let remedy = "the liquid with eddies is distinguished by it; or leave \"eddies\" out of `fluids`";
             let rule = "another than `numerics.smagorinsky_constant`";
             return Err(ParameterError::field("eddies.smagorinsky_constant", own, rule, remedy));
         }
-        rules::viscous_step("numerics", &self.layer.numerics, &Rheology::Newtonian(self.newtonian))
+        if is_run(FluidKind::Newtonian) {
+            rules::viscous_step("numerics", &self.layer.numerics, &Rheology::Newtonian(self.newtonian))?;
+        }
+        Ok(())
     }
 
     fn runs(&self) -> Vec<FilmRun> {
@@ -268,8 +279,8 @@ mod tests {
         };
         let fluids = film(quick.material).runs().into_iter().map(|run| run.law.name()).collect::<Vec<_>>();
         assert!(fluids.contains(&"coulomb-bingham"), "{fluids:?}");
-        assert!(film(quick.material).check().is_ok());
-        let message = |material| film(material).check().expect_err("refused").to_string();
+        assert!(film(quick.material).check_all().is_ok());
+        let message = |material| film(material).check_all().expect_err("refused").to_string();
         assert!(
             message(Rheology::Newtonian(quick.newtonian))
                 .starts_with("`material.law` is \"newtonian\", but must be another")
@@ -279,5 +290,20 @@ mod tests {
             "`material.law` is \"mu-i\", but must be a law that flows steadily at 10°; choose another `slope_angle`, or \
              other parameters of the law"
         );
+    }
+
+    #[test]
+    fn a_fluid_that_is_not_run_breaks_no_rule() {
+        // more than the shear stress at the bed: the Bingham film would rest
+        let quick = FilmParameters::of_tier(Tier::Quick);
+        let stiff = FilmParameters { bingham: Bingham { yield_stress: 100.0, ..quick.bingham }, ..quick };
+        let message = stiff.check_all().expect_err("at rest").to_string();
+        assert!(message.starts_with("`bingham.yield_stress` is 100, but must be"), "{message}");
+        let runs = stiff.runs();
+        let of = |name: &str| -> Vec<&FilmRun> { runs.iter().filter(|run| run.law.name() == name).collect() };
+        assert!(!of("newtonian").is_empty() && stiff.check_runs(&of("newtonian")).is_ok());
+        assert!(stiff.check_runs(&of("bingham")).is_err());
+        let without = FilmParameters { fluids: vec![FluidKind::Newtonian], ..stiff };
+        assert!(without.check_all().is_ok());
     }
 }

@@ -102,7 +102,7 @@ impl Parameters for FlowThicknessParameters {
 
     fn check(&self) -> Result<(), ParameterError> {
         let remedy = "the steady profiles that the layers start with are those of μ(I)";
-        let grains = rules::only_mu_i("collapse.material", &self.collapse.material, remedy)?;
+        rules::only_mu_i("collapse.material", &self.collapse.material, remedy)?;
         self.collapse.check().map_err(|error| error.within("collapse"))?;
         for (index, &station) in self.stations.iter().enumerate() {
             let field = format!("stations[{index}]");
@@ -112,13 +112,26 @@ impl Parameters for FlowThicknessParameters {
         rules::columns("columns", self.columns, &self.collapse.reservoir.numerics)?;
         let (lower, upper) = self.stopping_bracket;
         rules::between("stopping_bracket[1]", upper, lower, 89.0, "give the gentler slope first")?;
+        Ok(())
+    }
+
+    fn check_runs(&self, runs: &[&FlowThicknessRun]) -> Result<(), ParameterError> {
+        let Rheology::MuI(grains) = self.collapse.material else { return Ok(()) };
         let friction_angle = |friction: f64| libm::atan(friction).to_degrees();
         let (gentlest, steepest) = (friction_angle(grains.static_friction), friction_angle(grains.limiting_friction));
-        if !self.stopping_thicknesses.is_empty() {
+        if runs.iter().any(|run| matches!(run, FlowThicknessRun::StartStop(_))) {
             let remedy = "trials start with a steady flow, which is between arctan μ_s and arctan μ_2 only";
             rules::between("start_angle", self.start_angle, gentlest, steepest, remedy)?;
         }
-        for (index, &(_, angle)) in self.steady_flows.iter().enumerate() {
+        let is_run = |(thickness, angle): (f64, f64)| {
+            let is_it =
+                |steady: &SteadyRun| steady.layer.layer.layer_height == thickness && steady.slope_angle == angle;
+            runs.iter().any(|run| matches!(run, FlowThicknessRun::Steady(steady) if is_it(steady)))
+        };
+        for (index, &(thickness, angle)) in self.steady_flows.iter().enumerate() {
+            if !is_run((thickness, angle)) {
+                continue;
+            }
             let remedy = "a flow is steady between the friction angles arctan μ_s and arctan μ_2 only";
             rules::between(&format!("steady_flows[{index}][1]"), angle, gentlest, steepest, remedy)?;
         }

@@ -54,16 +54,23 @@ impl Parameters for HydrostaticParameters {
 
     fn check(&self) -> Result<(), ParameterError> {
         self.layer.check()?;
-        for (field, law) in [("liquid", &self.liquid), ("grains", &self.grains)] {
-            rules::material(field, law)?;
-            rules::viscous_step("numerics", &self.layer.numerics, law)?;
-        }
         if self.liquid.name() == self.grains.name() {
             let name = format!("\"{}\"", self.grains.name());
             let remedy = "the two layers are distinguished by their laws";
             return Err(ParameterError::field("grains.law", name, "another law than the liquid's", remedy));
         }
-        self.bulk.check(&self.grains)
+        Ok(())
+    }
+
+    fn check_runs(&self, runs: &[&HydrostaticRun]) -> Result<(), ParameterError> {
+        let is_run = |law: &Rheology| runs.iter().any(|run| run.law == *law);
+        for (field, law) in [("liquid", &self.liquid), ("grains", &self.grains)] {
+            if is_run(law) {
+                rules::material(field, law)?;
+                rules::viscous_step("numerics", &self.layer.numerics, law)?;
+            }
+        }
+        if is_run(&self.grains) { self.bulk.check(&self.grains) } else { Ok(()) }
     }
 
     fn runs(&self) -> Vec<HydrostaticRun> {
@@ -168,18 +175,18 @@ mod tests {
         assert_eq!(parameters.bulk.density(&parameters.grains), GLASS_BEADS.solid_fraction * 2500.0);
         parameters.grains =
             Rheology::Bingham(Bingham { yield_stress: 1.0, plastic_viscosity: 1.0, regularisation_rate: 1.0 });
-        let message = parameters.check().expect_err("no density").to_string();
+        let message = parameters.check_all().expect_err("no density").to_string();
         assert_eq!(
             message,
             "`bulk_density` is 0, but must be positive with the law \"bingham\"; the law has no grain density: give that of \
              the bulk in kg/m³, such as 1500"
         );
         parameters.bulk.bulk_density = 1500.0;
-        assert!(parameters.check().is_ok());
+        assert!(parameters.check_all().is_ok());
         let name = parameters.runs()[1].variant().get("material").map(ToString::to_string);
         assert_eq!(name.as_deref(), Some("bingham"));
         parameters.grains = Rheology::MuI(GLASS_BEADS.law);
-        let message = parameters.check().expect_err("two densities").to_string();
+        let message = parameters.check_all().expect_err("two densities").to_string();
         assert!(message.starts_with("`bulk_density` is 1500, but must be 0 with the law \"mu-i\"; "), "{message}");
     }
 }

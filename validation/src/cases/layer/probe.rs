@@ -153,7 +153,7 @@ impl LayerProbe {
             square += m * v.norm_squared();
         }
         if let Some(account) = &snapshot.energy {
-            self.energy.enter(account);
+            self.energy.enter(snapshot.time, account, 0.0);
         }
         self.series.time.push(snapshot.time);
         self.series.mean_velocity.push(momentum / mass);

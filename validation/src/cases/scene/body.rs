@@ -72,6 +72,10 @@ impl setting::SceneBody<2> for PlaneBody {
         }
     }
 
+    fn is_box(&self) -> bool {
+        matches!(self, Self::Box { .. })
+    }
+
     fn holds(&self, place: &Vector<2>) -> bool {
         match self {
             Self::Box { lower, upper, .. } => shapes::box_holds(&vector(lower), &vector(upper), place),

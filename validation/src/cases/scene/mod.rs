@@ -11,9 +11,10 @@ pub use gauge::PlaneGauge;
 pub use wall::{FlowSide, PlaneSides, WallLine};
 
 use super::enclosed::Setting;
-use super::enclosed::{self, metrics, series};
-use crate::case::{Case, RecordOf, Tier};
+use super::enclosed::{self, SceneObservation, foreign, metrics, series};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunOf, Tier};
 use crate::figure::Figure;
+use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::observation::Frame;
 use crate::output::Table;
@@ -79,6 +80,7 @@ impl Case for UserScene {
     type Parameters = PlaneParameters;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Plane, 2>();
     const STATED: &'static [&'static str] = &["bodies", "walls", "gauges", "measured"];
+    const FORM: ExternalSchema = foreign::FORM;
 
     fn metrics(parameters: &PlaneParameters, records: &[PlaneSceneRecord]) -> Vec<Metric> {
         metrics::all(parameters, records)
@@ -86,6 +88,13 @@ impl Case for UserScene {
 
     fn figures(parameters: &PlaneParameters, records: &[PlaneSceneRecord]) -> Vec<Figure> {
         enclosed::figures::all(parameters, records)
+    }
+
+    fn foreign(
+        run: &RunOf<PlaneParameters>,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<SceneObservation<2>>>, FieldError> {
+        foreign::observe(run, given)
     }
 
     fn tables(parameters: &PlaneParameters, records: &[PlaneSceneRecord]) -> Vec<Table> {

@@ -80,6 +80,10 @@ impl setting::SceneBody<3> for SpaceBody {
         }
     }
 
+    fn is_box(&self) -> bool {
+        matches!(self, Self::Box { .. })
+    }
+
     fn holds(&self, place: &Vector<3>) -> bool {
         match self {
             Self::Box { lower, upper, .. } => shapes::box_holds(&vector(lower), &vector(upper), place),

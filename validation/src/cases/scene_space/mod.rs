@@ -11,9 +11,10 @@ pub use gauge::SpaceGauge;
 pub use wall::{SpaceSides, SpaceWall};
 
 use super::enclosed::Setting;
-use super::enclosed::{self, metrics, series};
-use crate::case::{Case, RecordOf, Tier};
+use super::enclosed::{self, SceneObservation, foreign, metrics, series};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunOf, Tier};
 use crate::figure::Figure;
+use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::observation::Frame;
 use crate::output::Table;
@@ -80,6 +81,7 @@ impl Case for SpaceScene {
     type Parameters = SpaceParameters;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Space, 3>();
     const STATED: &'static [&'static str] = &["bodies", "walls", "gauges", "measured"];
+    const FORM: ExternalSchema = foreign::FORM;
 
     fn metrics(parameters: &SpaceParameters, records: &[SpaceSceneRecord]) -> Vec<Metric> {
         metrics::all(parameters, records)
@@ -87,6 +89,13 @@ impl Case for SpaceScene {
 
     fn figures(parameters: &SpaceParameters, records: &[SpaceSceneRecord]) -> Vec<Figure> {
         enclosed::figures::all(parameters, records)
+    }
+
+    fn foreign(
+        run: &RunOf<SpaceParameters>,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<SceneObservation<3>>>, FieldError> {
+        foreign::observe(run, given)
     }
 
     fn tables(parameters: &SpaceParameters, records: &[SpaceSceneRecord]) -> Vec<Table> {

@@ -10,6 +10,7 @@ use crate::statistics::block_average;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::incompressible::{IncompressibleScene, IncompressibleSimulation, IncompressibleSnapshot, Sediment};
 use bagnold_solver::kernel::{Kernel, KernelShape};
+use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::Vector;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -134,7 +135,7 @@ impl Probe {
         };
         let followed = follow(
             stage,
-            |_| Ok(scene.clone()),
+            |_| Ok::<_, SceneError>(scene.clone()),
             begin,
             |seen, simulation| {
                 if probe.observe(seen, simulation) {

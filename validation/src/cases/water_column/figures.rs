@@ -6,8 +6,10 @@ use crate::figure::{Axis, Figure, Panel};
 use crate::reference::WATER_FRONT;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
-    let mut front = Panel::new("", Axis::linear("t/√(a/(2g)) [-]"), Axis::linear("front x/a [-]"));
-    let mut energy = Panel::new("", Axis::linear("t/√(a/(2g)) [-]"), Axis::linear("energy change/work of gravity [%]"));
+    let time = || Axis::linear("t/√(a/(2g)) [-]").over("t", "s", records.iter().map(|(run, _)| run.time_scale()));
+    let widths = records.iter().map(|(run, _)| run.column.width);
+    let mut front = Panel::new("", time(), Axis::linear("front x/a [-]").over("front", "m", widths));
+    let mut energy = Panel::new("", time(), Axis::linear("energy change/work of gravity [%]"));
     front.reference("Martin & Moyce 1952", WATER_FRONT.points.iter().copied());
     for (slot, (run, record)) in records.iter().enumerate() {
         let data = &record.data;

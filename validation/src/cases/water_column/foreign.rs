@@ -4,6 +4,7 @@ use super::metrics::{DELAYED_FRONT_ERROR, FRONT_DELAY, FRONT_ERROR};
 use super::parameters::{ColumnObservation, WaterColumnRun};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
+use crate::reference::WATER_FRONT;
 
 /// What a run may yield.
 pub(super) const FORM: ExternalSchema = ExternalSchema {
@@ -17,14 +18,14 @@ pub(super) const FORM: ExternalSchema = ExternalSchema {
     profile: &[],
     description: "a is the column's width. Of time and of front one column each is enough. Where particles are at hand, the front \
         is the first place from the symmetry plane outwards where less than a fiftieth of the width stands on the bed; another \
-        definition moves it by that much. The front must reach as far in time as the measurement, t √(2g/a) = 2.5; front_error \
+        definition moves it by that much. The front must reach as far in time as the measurement, t √(2g/a) = 2.51; front_error \
         takes the times as they are, delayed_front_error less the delay that fits best, for a gate that takes its time.",
 };
 
 /// The observation from what another code gives; none where it gives no front.
 ///
 /// # Errors
-/// A time or a front that is missing beside the other.
+/// A time or a front that is missing beside the other, or a front that ends before the measurement.
 pub(super) fn observe(
     run: &WaterColumnRun,
     given: &ExternalData,
@@ -42,6 +43,7 @@ pub(super) fn observe(
     match (time.is_empty(), front.is_empty()) {
         (true, true) => Ok(None),
         (false, false) => {
+            as_long_as_measured(run, &time)?;
             let observation = ColumnObservation { time, front, ..ColumnObservation::default() };
             let measured = vec![FRONT_ERROR.name, FRONT_DELAY.name, DELAYED_FRONT_ERROR.name];
             Ok(Some(ExternalObservation { observation, measured }))
@@ -57,12 +59,31 @@ pub(super) fn observe(
     }
 }
 
+/// Refuses a front that ends before the last measured place: no error over all places follows from it, and with a delay only
+/// one over some.
+fn as_long_as_measured(run: &WaterColumnRun, time: &[f64]) -> Result<(), FieldError> {
+    let needed = WATER_FRONT.points.iter().fold(0.0, |last: f64, (time, _)| last.max(*time));
+    match time.last() {
+        Some(last) if *last < needed => {
+            let in_seconds = |time: f64| time * run.time_scale();
+            let value = format!("up to t √(2g/a) = {last} ({:.4} s)", in_seconds(*last));
+            let rule = format!(
+                "at least up to the last measured place, t √(2g/a) = {needed} ({:.4} s for this width)",
+                in_seconds(needed)
+            );
+            let remedy =
+                "give the front for longer, or leave the series out and give what the code has by [run.numbers]";
+            Err(FieldError::new("series.time", value, &rule, remedy))
+        }
+        _ => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::case::{NamedColumns, Parameters, Tier};
     use crate::cases::water_column::WaterColumnParameters;
-    use crate::reference::WATER_FRONT;
 
     fn seen(columns: &[(&str, Vec<f64>)]) -> Result<Option<ExternalObservation<ColumnObservation>>, FieldError> {
         let series: NamedColumns = columns.iter().map(|(name, values)| ((*name).to_owned(), values.clone())).collect();
@@ -90,5 +111,19 @@ mod tests {
         assert!(seen(&[]).expect("nothing").is_none());
         let error = seen(&[("front", vec![0.1])]).expect_err("no times").to_string();
         assert!(error.contains("`series.time` is absent"), "{error}");
+    }
+
+    #[test]
+    fn a_front_that_ends_before_the_measurement_is_refused_with_the_time_that_is_needed() {
+        let short = |last: f64| vec![("relative_time", vec![0.0, last]), ("relative_front", vec![1.0, 4.0])];
+        let needed = WATER_FRONT.points.last().expect("a table").0;
+        assert!(FORM.description.contains(&format!("t √(2g/a) = {needed};")), "the template names the same time");
+        assert!(seen(&short(needed)).expect("long enough").is_some());
+        assert_eq!(
+            seen(&short(2.4)).expect_err("too short").to_string(),
+            "`series.time` is up to t √(2g/a) = 2.4 (0.1295 s), but must be at least up to the last measured place, \
+             t √(2g/a) = 2.51 (0.1355 s for this width); give the front for longer, or leave the series out and give what \
+             the code has by [run.numbers]"
+        );
     }
 }

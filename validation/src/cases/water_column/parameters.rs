@@ -110,8 +110,12 @@ impl Parameters for WaterColumnParameters {
 
     fn check(&self) -> Result<(), ParameterError> {
         let law = Rheology::Newtonian(Newtonian { viscosity: self.viscosity });
-        rules::viscous_step("numerics", &self.numerics, &law)?;
-        if self.surfaces.contains(&BedSurface::Smooth) { rules::gate("numerics", &self.numerics) } else { Ok(()) }
+        rules::viscous_step("numerics", &self.numerics, &law)
+    }
+
+    fn check_runs(&self, runs: &[&WaterColumnRun]) -> Result<(), ParameterError> {
+        let is_smooth = runs.iter().any(|run| run.surface == BedSurface::Smooth);
+        if is_smooth { rules::gate("numerics", &self.numerics) } else { Ok(()) }
     }
 
     fn runs(&self) -> Vec<WaterColumnRun> {
@@ -187,7 +191,7 @@ impl Run for WaterColumnRun {
                 observation.time.push(snapshot.time / self.time_scale());
                 observation.front.push(self.front(snapshot) / self.column.width);
                 if let Some(account) = &snapshot.energy {
-                    observation.energy.enter(account);
+                    observation.energy.enter(snapshot.time, account, 0.0);
                 }
                 ControlFlow::Continue(())
             },

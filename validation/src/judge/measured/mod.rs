@@ -153,7 +153,7 @@ impl Measurements {
             .against(Some(0.0), &source, confidence)
             .of_kind(MetricKind::Validation);
         let reason = format!("the limit that {} states", self.path.display());
-        metric.gated_by(self.said.limit.map(Limit::AtMost), &reason)
+        metric.gated_by(self.said.limit.map(Limit::AtMost), &reason).of_user()
     }
 
     /// Copies the file into the folder of a run, from where its `case.toml` reads it.

@@ -125,12 +125,25 @@ fn is_ours(series: &Series) -> bool {
     series.mark != Mark::Reference && series.points.len() > 1
 }
 
-/// The factor from a column's unit to that of an axis of its name.
+/// The factor from a column's unit to that of an axis of its name; to a ratio also from the quantity that it is a ratio of.
 fn factor(column: &MeasuredColumn, axis: &Axis) -> Option<f64> {
     let label = axis.label.trim();
     let parted = label.strip_suffix(']').and_then(|label| label.rsplit_once('['));
     let (name, unit) = parted.map_or((label, "-"), |(name, unit)| (name.trim(), unit.trim()));
-    if name == column.name { same_kind(&column.unit, unit) } else { None }
+    if name == column.name {
+        return same_kind(&column.unit, unit);
+    }
+    let ratio = axis.ratio.as_ref().filter(|ratio| ratio.name == column.name)?;
+    let to_unit = same_kind("-", unit)?;
+    same_kind(&column.unit, &ratio.unit).map(|factor| factor * to_unit / ratio.scale)
+}
+
+/// An axis as columns may name it.
+fn named(axis: &Axis) -> String {
+    match &axis.ratio {
+        Some(ratio) => format!("{} or {} [{}]", axis.label, ratio.name, ratio.unit),
+        None => axis.label.clone(),
+    }
 }
 
 fn axes(measurements: &Measurements) -> String {
@@ -142,7 +155,7 @@ fn none(measurements: &Measurements, figures: &[Figure]) -> FieldError {
     let panels = figures.iter().flat_map(|figure| figure.panels.iter().map(move |panel| (figure, panel)));
     let drawn = panels.filter(|(_, panel)| panel.field.is_none() && panel.series.iter().any(is_ours));
     let there: BTreeSet<String> =
-        drawn.map(|(figure, panel)| format!("{}: {} and {}", figure.name, panel.x.label, panel.y.label)).collect();
+        drawn.map(|(figure, panel)| format!("{}: {} and {}", figure.name, named(&panel.x), named(&panel.y))).collect();
     let there: Vec<String> = there.into_iter().collect();
     let rule = format!("the axes of one of the case's figures, in names and kinds of units ({})", there.join("; "));
     let remedy = "name the columns as the axes are labelled, with any unit of the same kind";

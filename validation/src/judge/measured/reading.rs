@@ -25,6 +25,8 @@ pub(super) fn read(path: &Path) -> Result<Measurements, PlanError> {
 }
 
 fn parse(path: &Path, text: &str) -> Result<Measurements, FieldError> {
+    // a byte-order mark, as spreadsheets write it, would hide the first comment, and its limit with it
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let table = TextTable::parse(text, path)?;
     if table.headings.len() != 3 {
         return Err(FieldError::new(

@@ -81,6 +81,21 @@ fn a_residual_is_the_root_mean_square_in_uncertainties_and_a_stated_limit_judges
 }
 
 #[test]
+fn a_byte_order_mark_hides_no_limit() {
+    let text = "# limit: 1e-9\n# source: own flume\nt [s],front [m],uncertainty [m]\n0.1,0.22,0.01\n";
+    let mut plain = result();
+    read(text).expect("a table").draw(&mut plain).expect("drawn");
+    let mut marked = result();
+    read(&format!("\u{feff}{text}")).expect("a table").draw(&mut marked).expect("drawn");
+    let said = |own: &CaseResult| {
+        let source = own.metrics[0].reference.as_ref().map(|reference| reference.source.clone());
+        (own.metrics[0].verdict(), own.metrics[0].value, source)
+    };
+    assert_eq!(said(&marked).0, Verdict::Fail);
+    assert_eq!(said(&marked), said(&plain));
+}
+
+#[test]
 fn what_stands_on_the_horizontal_axis_is_compared_over_the_vertical_one_with_every_curve() {
     let table = "y/h [-],u [cm/s],uncertainty [cm/s]\n0.5,150,10\n1,300,10\n";
     let mut own = result();
@@ -95,6 +110,38 @@ fn what_stands_on_the_horizontal_axis_is_compared_over_the_vertical_one_with_eve
     let mut own = result();
     read(&format!("# curve: fine\n{table}")).expect("a table").draw(&mut own).expect("drawn");
     assert_eq!(own.metrics.len(), 1);
+}
+
+#[test]
+fn lengths_and_times_are_taken_where_the_axes_are_ratios_of_them() {
+    // x/r0 and thickness/r0 of r0 = 0.05 m, over times of 0.2 s
+    let with_scales = |half_widths: [f64; 2]| {
+        let axis = |label: &str, name: &str| Axis::linear(label).over(name, "m", half_widths);
+        let mut deposit = Panel::new("", axis("x/r0 [-]", "x"), axis("thickness/r0 [-]", "thickness"));
+        deposit.line("sand", 0, [(0.0, 1.0), (4.0, 0.0)]);
+        CaseResult { figures: vec![Figure::new("deposit", "", vec![deposit])], ..result() }
+    };
+    let table = "x [cm],thickness [mm],uncertainty [cm]\n5,37.5,0.5\n10,30,0.5\n";
+    let mut own = with_scales([0.05, 0.05]);
+    read(table).expect("a table").draw(&mut own).expect("drawn");
+    let series = own.figures[0].panels[0].series.last().expect("drawn");
+    let near = |found: f64, expected: f64| (found - expected).abs() < 1e-12;
+    assert!(series.points.iter().zip([(1.0, 0.75), (2.0, 0.6)]).all(|(a, b)| near(a.0, b.0) && near(a.1, b.1)));
+    assert!(near(series.error[0], 0.1), "{:?}", series.error);
+    // on the curve, then a tenth of r0 above it: one uncertainty
+    assert!(near(own.metrics[0].value, 0.5f64.sqrt()), "{}", own.metrics[0].value);
+    // the ratio itself may be given along one axis
+    let mixed = "x/r0 [-],thickness [mm],uncertainty [cm]\n1,37.5,0.5\n";
+    let mut own = with_scales([0.05, 0.05]);
+    read(mixed).expect("a table").draw(&mut own).expect("drawn");
+    assert!(near(own.metrics[0].value, 0.0));
+    let message =
+        |own: &mut CaseResult, table: &str| read(table).expect("a table").draw(own).expect_err("refused").to_string();
+    let kind = message(&mut with_scales([0.05, 0.05]), "x [s],thickness [mm],uncertainty [cm]\n5,37.5,0.5\n");
+    assert!(kind.contains("(deposit: x/r0 [-] or x [m] and thickness/r0 [-] or thickness [m])"), "{kind}");
+    // curves of several scales share no length
+    let several = message(&mut with_scales([0.05, 0.1]), table);
+    assert!(several.contains("(deposit: x/r0 [-] and thickness/r0 [-])"), "{several}");
 }
 
 #[test]

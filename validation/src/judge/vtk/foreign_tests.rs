@@ -84,3 +84,29 @@ fn pieces_follow_each_other() {
     let written: Vec<f64> = (0..7).chain(0..7).map(|index| expected("velocity [m/s]:1", index)).collect();
     assert_eq!(points.arrays["velocity [m/s]:1"], written);
 }
+
+/// A mark of the byte order before the document, as editors leave it, moves no offset of appended data.
+#[test]
+fn a_byte_order_mark_before_the_document_changes_nothing() {
+    for name in ["vtk-ascii.vtu", "vtk-raw-64.vtu", "vtk-base64-zlib-32.vtu"] {
+        let bytes = std::fs::read(folder().join(name)).expect("a file");
+        let plain = PointArrays::parse(&bytes, Path::new(name)).expect("readable");
+        let marked = [&b"\xef\xbb\xbf"[..], &bytes].concat();
+        assert_eq!(PointArrays::parse(&marked, Path::new(name)).expect("readable"), plain, "{name}");
+    }
+}
+
+#[test]
+fn what_vtk_writes_in_other_forms_is_refused_by_its_form() {
+    let parallel = "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid/></VTKFile>";
+    let blocks = "<VTKFile type=\"vtkMultiBlockDataSet\"><vtkMultiBlockDataSet/></VTKFile>";
+    for (bytes, name, said) in [
+        (&b"\x89HDF\r\n\x1a\n\0\0"[..], "a.vtkhdf", "`file` is in HDF5"),
+        (&b"\x89HDF\r\n\x1a\n\0\0"[..], "a.vtu", "`file` is in HDF5"),
+        (parallel.as_bytes(), "a.pvtu", "`file` is in several files"),
+        (blocks.as_bytes(), "a.vtm", "`file` is a collection of grids, vtkMultiBlockDataSet"),
+    ] {
+        let message = PointArrays::parse(bytes, Path::new(name)).expect_err("refused").to_string();
+        assert!(message.contains(said), "{message}");
+    }
+}

@@ -29,6 +29,12 @@ pub(super) struct PointArrays {
 /// Name of the places among the arrays.
 pub(super) const PLACES: &str = "Points";
 
+/// What a file of HDF5 begins with.
+const HDF5: &[u8] = b"\x89HDF";
+
+/// Endings of files that are read as VTK's, or refused as such: grids in several files and in HDF5 are no tables.
+pub(super) const ENDINGS: [&str; 8] = ["vtu", "vtp", "vtk", "pvtu", "pvtp", "vtm", "vtpd", "vtkhdf"];
+
 /// Why a file is not read; completes "`file` is …".
 #[derive(Debug, Clone, PartialEq)]
 struct Refusal {
@@ -57,7 +63,15 @@ impl PointArrays {
     /// A file that is none of VTK's, is damaged, or holds no points.
     pub(super) fn parse(bytes: &[u8], file: &Path) -> Result<Self, FieldError> {
         let is_legacy = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("vtk"));
-        let read = if is_legacy { legacy::read(bytes) } else { xml::read(bytes) };
+        let read = if bytes.starts_with(HDF5) {
+            let remedy = "write it as .vtu or .vtp, in ParaView by Save Data";
+            let rule = "an unstructured grid or polygonal data of VTK";
+            Err(Refusal { value: "in HDF5".to_owned(), rule, remedy })
+        } else if is_legacy {
+            legacy::read(bytes)
+        } else {
+            xml::read(bytes)
+        };
         read.and_then(Self::checked).map_err(|refusal| {
             let Refusal { value, rule, remedy } = refusal;
             FieldError::new("file", value, rule, remedy).in_file(file)

@@ -35,6 +35,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointArrays, Refusal> {
     match kind {
         "UnstructuredGrid" | "PolyData" => {}
         "PUnstructuredGrid" | "PPolyData" => return Err("in several files".into()),
+        "vtkMultiBlockDataSet" | "vtkPartitionedDataSet" | "vtkPartitionedDataSetCollection" => {
+            return Err(format!("a collection of grids, {kind}").into());
+        }
         _ => return Err("a grid of another kind".into()),
     }
     let appended = match (section, child(root, "AppendedData")) {

@@ -1,0 +1,167 @@
+//! How bodies come to rest before the clock of a run starts.
+//!
+//! Displaced particles do not bear each other as the lattice did. Released at once they drop until they do, are weightless
+//! meanwhile, and so without friction, and some of that stays as a slow motion for good. Settled bodies start at rest, with the
+//! stress that bears them: they move under their own law and between the walls as these are at the start, and whenever their kinetic energy
+//! passes a peak, all velocities are set to zero (dynamic relaxation), until a peak is so low that it counts as rest.
+//!
+//! Bodies that neither walls nor their friction hold never come to that. They are refused by how far a particle has moved.
+
+use super::periods::Periods;
+use crate::case::ParameterError;
+use crate::checkpoint::is_interrupted;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::shell::Motion;
+use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What happens before the clock starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BodyPreparation {
+    /// Nothing: the run starts with the particles as they were displaced.
+    None,
+    /// Bodies come to rest on walls, which stay where they are at the start meanwhile, and by their friction; they then get their
+    /// velocities.
+    Settled,
+}
+
+/// Way of a particle from its start after which a body is not held, in spacings `[-]`.
+const FARTHEST: f64 = 1.0;
+/// Peaks in a row that have to be low, so that a short swing of some particles is not taken for rest.
+const LOW_PEAKS: usize = 3;
+/// Time without a peak after which a speed below that of rest is taken for creep, in times that sound needs across the scene `[-]`.
+const LONGEST_SWING: f64 = 10.0;
+/// Usual settling, in times that sound needs across the scene `[-]`: for estimates.
+pub(super) const USUAL: f64 = 40.0;
+/// Longest settling, in times that sound needs across the scene `[-]`.
+const LONGEST: f64 = 400.0;
+
+/// When bodies rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct RestCriterion {
+    /// Root mean square of the speed at a peak of the kinetic energy `[m/s]`.
+    pub(super) speed: f64,
+    /// √(g H), by which the speed is given `[m/s]`.
+    pub(super) fall: f64,
+    /// Time that sound needs across the scene `[s]`.
+    pub(super) crossing: f64,
+}
+
+impl RestCriterion {
+    /// Longest time of settling `[s]`.
+    fn longest(&self) -> f64 {
+        LONGEST * self.crossing
+    }
+}
+
+/// The scene with its bodies settled, each particle with the velocity of its body, and the time that it took `[s]`.
+///
+/// # Errors
+/// Bodies that are not held or do not come to rest, and a scene that breaks a rule of the solver.
+pub(super) fn settled<const D: usize>(scene: Scene<D>, rest: RestCriterion) -> Result<(Scene<D>, f64), ParameterError>
+where
+    Simulation<D>: Compiled<D>,
+{
+    let mut resting = scene.clone();
+    for shell in &mut resting.enclosure.shells {
+        shell.motion = Motion::default();
+    }
+    let (mut elapsed, mut low) = (0.0, 0);
+    loop {
+        resting.flow.velocity.fill(Vector::zeros());
+        let mut simulation = Simulation::new(resting.clone())?;
+        let mut peak = 0.0_f64;
+        loop {
+            // a run does not begin where the program is to end
+            if is_interrupted() {
+                return Ok((scene, elapsed));
+            }
+            if let Err(divergence) = simulation.step() {
+                return Err(refused(&divergence.to_string()));
+            }
+            let speed = rms_speed(&simulation);
+            let creeps = speed <= rest.speed && simulation.time() > LONGEST_SWING * rest.crossing;
+            if speed <= peak || creeps {
+                break;
+            }
+            peak = speed;
+            if elapsed + simulation.time() > rest.longest() {
+                return Err(not_at_rest(peak, rest));
+            }
+        }
+        elapsed += simulation.time();
+        let snapshot = simulation.snapshot();
+        check_held(&scene, &snapshot.position)?;
+        let flow = &mut resting.flow;
+        (flow.position, flow.density, flow.stress) = (snapshot.position, snapshot.density, snapshot.stress);
+        low = if peak <= rest.speed { low + 1 } else { 0 };
+        if low == LOW_PEAKS {
+            resting.flow.velocity = scene.flow.velocity.clone();
+            return Ok((Scene { flow: resting.flow, ..scene }, elapsed));
+        }
+    }
+}
+
+/// Root mean square of the speed of the flow `[m/s]`.
+fn rms_speed<const D: usize>(simulation: &Simulation<D>) -> f64 {
+    let particles = simulation.particles();
+    let flow = particles.flow_count();
+    let (mass, velocity) = (&particles.mass[..flow], &particles.velocity[..flow]);
+    let squares: f64 = mass.iter().zip(velocity).map(|(m, v)| m * v.norm_squared()).sum();
+    (squares / mass.iter().sum::<f64>()).sqrt()
+}
+
+/// Refuses bodies of which a particle has left or gone farther than a spacing.
+fn check_held<const D: usize>(scene: &Scene<D>, places: &[Vector<D>]) -> Result<(), ParameterError> {
+    let starts = &scene.flow.position;
+    if places.len() < starts.len() {
+        let left = starts.len() - places.len();
+        return Err(not_held(&format!("settled, while {left} particles leave by open sides")));
+    }
+    let periods = Periods::of(&scene.domain.axes);
+    // what has wrapped at periodic sides is near its start beyond them
+    let way = |(start, place): (&Vector<D>, &Vector<D>)| (periods.unwrapped(place, start).0 - start).norm();
+    let (index, farthest) = starts
+        .iter()
+        .zip(places)
+        .map(way)
+        .enumerate()
+        .fold((0, 0.0), |most, one| if one.1 > most.1 { one } else { most });
+    if farthest <= FARTHEST * scene.spacing {
+        return Ok(());
+    }
+    let parts: Vec<String> = starts[index].iter().map(|part| format!("{part:.4}")).collect();
+    let place = parts.join(", ");
+    Err(not_held(&format!(
+        "settled, while the particle from ({place}) m goes farther than a spacing, {} m",
+        scene.spacing
+    )))
+}
+
+fn not_held(value: &str) -> ParameterError {
+    refused_for(
+        value,
+        "\"none\" for bodies that neither walls nor their friction hold",
+        "bodies that fall or flow cannot come to rest: hold them by walls (one with `motion` stays where it is at the start meanwhile), or leave \
+         the preparation out",
+    )
+}
+
+fn not_at_rest(speed: f64, rest: RestCriterion) -> ParameterError {
+    let value = format!("settled, while the bodies still move at {speed:.1e} m/s after {:.2} s", rest.longest());
+    let rule = format!("such that they rest, at {:.1e} m/s (`rest_speed` times √(g H))", rest.speed);
+    let enough = 1.1 * speed / rest.fall;
+    refused_for(&value, &rule, &format!("raise `rest_speed` to {enough:.0e}, or leave the preparation out"))
+}
+
+fn refused(divergence: &str) -> ParameterError {
+    let remedy = "leave the preparation out to see what goes wrong at the start";
+    refused_for(&format!("settled, and diverges meanwhile ({divergence})"), "\"none\" for this start", remedy)
+}
+
+fn refused_for(value: &str, rule: &str, remedy: &str) -> ParameterError {
+    ParameterError::field("preparation", value, rule, remedy)
+}
