@@ -3,6 +3,7 @@
 mod advisories;
 mod circles;
 mod commit;
+mod coverage;
 mod dependencies;
 mod documents;
 mod examples;

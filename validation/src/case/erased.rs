@@ -35,6 +35,8 @@ pub trait AnyCase: Sync {
     fn show(&self, tier: Tier) -> String;
     /// The JSON Schema (2020-12) of a case file, with the tier's parameters as defaults.
     fn schema(&self, tier: Tier) -> serde_json::Value;
+    /// The schema of its parameters, as their type has it.
+    fn parameter_schema(&self) -> &'static serde_json::Value;
     /// What another code may give of a run, beside single numbers.
     fn form(&self) -> &'static ExternalSchema;
     /// Types and checks a tier's parameters with the user's changes.
@@ -56,6 +58,8 @@ pub trait PreparedCase: Send + Sync {
     fn run_count(&self) -> usize;
     /// Full name of a run; empty where the case has a single one.
     fn variant(&self, run: usize) -> Variant;
+    /// Everything that a run depends on, by the names of its fields; null if it cannot be written as JSON.
+    fn run_parameters(&self, run: usize) -> serde_json::Value;
     /// Expected cost of a run in particle-steps.
     fn particle_steps(&self, run: usize) -> f64;
     /// Time of a run on one core that follows from its parameters alone `[s]`; limits are counted by it.
@@ -108,6 +112,10 @@ impl<C: Case> AnyCase for C {
     fn schema(&self, tier: Tier) -> serde_json::Value {
         let defaults = table_of(&C::Parameters::of_tier(tier));
         schema::of_file(C::NAME, C::SUMMARY, tier, schema_of::<C::Parameters>(), &defaults)
+    }
+
+    fn parameter_schema(&self) -> &'static serde_json::Value {
+        schema_of::<C::Parameters>()
     }
 
     fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn PreparedCase>, ParameterError> {
@@ -194,6 +202,10 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         self.slots[run].0.variant()
     }
 
+    fn run_parameters(&self, run: usize) -> serde_json::Value {
+        as_json(&self.slots[run].0)
+    }
+
     fn particle_steps(&self, run: usize) -> f64 {
         self.slots[run].0.particle_steps()
     }
@@ -278,6 +290,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         let figures = C::figures(&plan.parameters, &records);
         let animations = C::animations(&plan.parameters, &records);
         let tables = C::tables(&plan.parameters, &records);
+        let run_parameters = records.iter().map(|(run, _)| as_json(run)).collect();
         let (frames, first_bad) = records.into_iter().map(|(_, record)| (record.frames, record.first_bad)).unzip();
         fail_broken_profiles(&mut summaries, &tables);
         CaseResult {
@@ -294,10 +307,15 @@ impl<C: Case> PreparedCase for CasePlan<C> {
             tables,
             state_hash: hash_of_states(&summaries),
             runs: summaries,
+            run_parameters,
             frames,
             first_bad,
         }
     }
+}
+
+fn as_json(run: &impl Run) -> serde_json::Value {
+    serde_json::to_value(run).unwrap_or_default()
 }
 
 fn file_text<C: Case>(tier: Tier, parameters: &C::Parameters) -> String {

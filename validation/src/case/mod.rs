@@ -8,6 +8,7 @@ mod error;
 mod estimate;
 mod expectation;
 mod fault;
+mod features;
 mod file;
 mod finite;
 mod foreign;
@@ -30,6 +31,7 @@ pub use erased::{AnyCase, PreparedCase};
 pub use error::{ParameterError, SettingError};
 pub use estimate::{Estimate, Limits};
 pub use expectation::{speed_up, wall_time};
+pub use features::{FeatureOption, Features};
 pub use file::CaseFile;
 pub use foreign::{
     ExternalColumn, ExternalData, ExternalObservation, ExternalResult, ExternalSchema, NamedColumns, ParticleFrame,

@@ -74,6 +74,8 @@ pub struct CaseResult {
     pub tables: Vec<Table>,
     /// The runs in the case's order.
     pub runs: Vec<RunSummary>,
+    /// What each run depends on, by the names of its fields, in the order of `runs`; null for what cannot be written as JSON.
+    pub run_parameters: Vec<serde_json::Value>,
     /// Snapshots of each run, in the order of `runs`.
     pub frames: Vec<Vec<Frame>>,
     /// The state in which each run was found to have diverged, in the order of `runs`.

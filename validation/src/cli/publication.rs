@@ -67,6 +67,7 @@ impl ResultPublication<'_> {
             history: History::default(),
             known_failures: known.clone(),
             papers: &[],
+            features: None,
         };
         report::write_alone(&page, claimed.staging(), &store.drawings())?;
         claimed.publish()?;
@@ -106,6 +107,7 @@ pub(super) fn case_report(result: &CaseResult) -> CaseReport {
         figures: result.figures.clone(),
         animations: result.animations.clone(),
         runs: result.runs.clone(),
+        run_parameters: result.run_parameters.clone(),
         metrics_json: MetricsDocument::of(result, rayon::current_num_threads()).text(),
     }
 }

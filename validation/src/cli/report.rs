@@ -7,7 +7,7 @@ use super::profile::StageTimer;
 use super::publication::{case_report, is_known};
 use super::simulation::{announce, simulate};
 use super::{Exit, say, summary, tell};
-use crate::case::{CaseResult, Changes, ParameterError, PreparedCase, Registry, Tier};
+use crate::case::{CaseResult, Changes, Features, ParameterError, PreparedCase, Registry, Tier};
 use crate::output::{FileError, FolderError, OutputFolder};
 use crate::report::{self, Baseline, CaseReport, History, Report, ReportProvenance, history};
 use crate::store::provenance;
@@ -63,6 +63,7 @@ pub(super) fn report(
         title: command.suite.as_ref().map_or_else(|| "Bagnold validation report".to_owned(), |folder| name_of(folder)),
         tier,
         generated: ReportProvenance::of_this_program(started.elapsed(), repeated(command)),
+        features: suite.is_none().then(|| Features::of(registry)),
         papers: if suite.is_none() { report::papers::accounted(&cases) } else { &[] },
         cases,
         baseline,

@@ -2,6 +2,8 @@
 
 pub mod accepted;
 mod case_page;
+pub mod coverage;
+mod coverage_page;
 mod drawing;
 pub mod drift;
 mod earlier;
@@ -36,7 +38,7 @@ pub use judgement::{Judgement, judge};
 pub use known_failures::{KnownFailure, KnownFailureStatus, KnownFailures};
 pub use snapshot_text::description;
 
-use crate::case::Tier;
+use crate::case::{Features, Tier};
 use crate::figure::{self, Animation, Figure, FigureError};
 use crate::metric::Metric;
 use crate::reference::Paper;
@@ -66,6 +68,8 @@ pub struct Report {
     pub known_failures: KnownFailures,
     /// The papers whose elements are accounted for; none for no page of them.
     pub papers: &'static [Paper],
+    /// The options whose coverage is shown; none for no page of them.
+    pub features: Option<Features>,
 }
 
 /// How a report came about.
@@ -121,6 +125,8 @@ pub struct CaseReport {
     pub animations: Vec<Animation>,
     /// The simulations behind the metrics.
     pub runs: Vec<crate::case::RunSummary>,
+    /// What each of them depends on, by the names of its fields.
+    pub run_parameters: Vec<serde_json::Value>,
     /// The text of `metrics.json`, written as it is.
     pub metrics_json: String,
 }
@@ -138,7 +144,7 @@ struct DrawnFigure {
     failure: Option<String>,
 }
 
-/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `figures/CASE/NAME.{svg,png,gif}`, in
+/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `figures/CASE/NAME.{svg,png,gif}`, in
 /// `cases/CASE/` the case's page `index.html`, `metrics.json`, `case.toml` and `reference/NAME.csv`, and what the cases say
 /// together as `metrics.json` and `figures/scatter/QUANTITY.{svg,png}`. Files of the same names are replaced, others are left
 /// alone.
@@ -169,6 +175,9 @@ pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), 
     if !judgement.papers.is_empty() {
         put(folder.join("papers.html"), &papers_page::render(report, &judgement.papers)?)?;
         put(folder.join("papers.json"), &papers_page::json(report.tier, &judgement.papers))?;
+    }
+    if let Some(features) = &report.features {
+        put(folder.join("coverage.html"), &coverage_page::render(report, features)?)?;
     }
     let quantities = scatter::quantities(report);
     let compared =

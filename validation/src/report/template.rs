@@ -3,7 +3,7 @@
 use crate::page;
 use serde::Serialize;
 
-const TEMPLATES: [(&str, &str); 9] = [
+const TEMPLATES: [(&str, &str); 10] = [
     ("head.html", include_str!("template/head.html")),
     ("index.html", include_str!("template/index.html")),
     ("drift.html", include_str!("template/drift.html")),
@@ -12,6 +12,7 @@ const TEMPLATES: [(&str, &str); 9] = [
     ("case.html", include_str!("template/case.html")),
     ("metrics.html", include_str!("template/metrics.html")),
     ("width.html", include_str!("template/width.html")),
+    ("coverage.html", include_str!("template/coverage.html")),
     ("papers.html", include_str!("template/papers.html")),
 ];
 

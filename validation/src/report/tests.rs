@@ -24,6 +24,7 @@ pub(super) fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {
         figures: Vec::new(),
         animations: Vec::new(),
         runs: Vec::new(),
+        run_parameters: Vec::new(),
         metrics_json: "{}\n".to_owned(),
     }
 }
@@ -39,6 +40,7 @@ pub(super) fn report(cases: Vec<CaseReport>) -> Report {
         history: History::default(),
         known_failures: KnownFailures::default(),
         papers: &[],
+        features: None,
     }
 }
 

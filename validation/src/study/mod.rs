@@ -278,6 +278,7 @@ impl Study {
                 animation.name += &suffix;
                 animation
             }));
+            judged.run_parameters.extend(result.run_parameters);
             judged.frames.extend(result.frames);
             judged.first_bad.extend(result.first_bad);
         }
@@ -299,6 +300,7 @@ impl Study {
             animations: Vec::new(),
             tables: Vec::new(),
             runs: Vec::new(),
+            run_parameters: Vec::new(),
             frames: Vec::new(),
             first_bad: Vec::new(),
             state_hash: String::new(),

@@ -125,3 +125,38 @@ impl sides::SceneSides<2> for PlaneSides {
         [(self.left, self.right), (self.bottom, self.top)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases::enclosed::setting::SceneWall;
+
+    #[test]
+    fn a_wall_whose_points_run_the_other_way_has_its_flow_on_the_right() {
+        let points = vec![(0.0, 0.0), (0.2, 0.1), (0.3, 0.4)];
+        let wall = |points: Vec<PlaneVector>, flow| WallLine {
+            name: "bed".to_owned(),
+            points,
+            closed: false,
+            flow,
+            surface: Surface::Rough,
+            both_sides: false,
+            motion: Vec::new(),
+        };
+        let normals = |points, flow| -> Vec<Vector<2>> {
+            let mut normals: Vec<Vector<2>> =
+                wall(points, flow).shell().facets.iter().map(|facet| facet.normal).collect();
+            normals.sort_by(|one, other| one[1].abs().total_cmp(&other[1].abs()));
+            normals
+        };
+        let reversed: Vec<PlaneVector> = points.iter().rev().copied().collect();
+        let left = normals(points.clone(), FlowSide::Left);
+        let (right, turned) = (normals(reversed, FlowSide::Right), normals(points, FlowSide::Right));
+        assert_eq!((left.len(), right.len(), turned.len()), (2, 2, 2));
+        for ((left, right), turned) in left.iter().zip(&right).zip(&turned) {
+            assert!((left - right).norm() < 1e-15, "{left:?} and {right:?}");
+            // it is another wall if its side alone changes
+            assert!((left + turned).norm() < 1e-15, "{left:?} and {turned:?}");
+        }
+    }
+}

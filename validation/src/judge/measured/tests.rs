@@ -33,6 +33,7 @@ fn result() -> CaseResult {
         animations: Vec::new(),
         tables: Vec::new(),
         runs: Vec::new(),
+        run_parameters: Vec::new(),
         frames: Vec::new(),
         first_bad: Vec::new(),
         state_hash: String::new(),

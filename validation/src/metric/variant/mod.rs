@@ -61,6 +61,16 @@ impl Variant {
         other.parts().all(|(key, value)| self.get(key) == Some(value))
     }
 
+    /// Whether a number of this variant may come from a run of another: what both name has a value in common.
+    #[must_use]
+    pub fn concerns(&self, run: &Self) -> bool {
+        let in_common = |own: &Value, other: &Value| match (own, other.number()) {
+            (Value::Range(lower, upper), Some(number)) => (*lower..=*upper).contains(&number),
+            _ => own.joined().iter().any(|value| other.joined().contains(value)),
+        };
+        run.parts().all(|(key, other)| self.get(key).is_none_or(|own| in_common(own, other)))
+    }
+
     /// Keys and values in order.
     pub fn parts(&self) -> impl Iterator<Item = (&str, &Value)> {
         self.parts.iter().map(|(key, value)| (key.as_str(), value))
