@@ -1,6 +1,8 @@
 //! Observed orders of convergence of the discrete operators, on fields whose derivatives are known.
 
 mod implicit_viscosity;
+mod manufactured;
+mod projection;
 mod taylor_green;
 mod velocity_gradient;
 

@@ -3,6 +3,7 @@
 mod density_coupling;
 mod determinism;
 mod energy_ledger;
+mod frames;
 mod free_fall;
 mod incompressible;
 mod meshes;
