@@ -119,6 +119,7 @@ fn result(value: f64, outcome: Outcome) -> CaseResult {
         figures: Vec::new(),
         animations: Vec::new(),
         tables: Vec::new(),
+        run_parameters: vec![serde_json::Value::Null],
         runs: vec![RunSummary {
             variant,
             outcome,
