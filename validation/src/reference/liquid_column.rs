@@ -1,4 +1,4 @@
-//! The front of a collapsing column of water (Martin & Moyce 1952).
+//! Fronts of collapsing columns of water: released at once (Martin & Moyce 1952), or by a gate (Lobovský et al. 2014).
 
 use super::shipped::read_shipped;
 use crate::metric::Confidence;
@@ -13,17 +13,23 @@ pub struct MeasuredFront {
     pub source: String,
     /// How sure the project is of it.
     pub confidence: Confidence,
+    /// What figures call it.
+    pub name: &'static str,
+    /// Half width of an even spread of readings, in x/a `[-]`.
+    reading: f64,
 }
 
-/// Largest difference between readings of the figure, in x/a `[-]`; `reference-data/water-column/README.md` has it.
+/// Largest difference between readings of Martin & Moyce's figure, in x/a `[-]`; `reference-data/water-column/README.md` has it.
 const READING: f64 = 0.03;
+/// Half a stroke of the vector figure, in x/a `[-]`: its points lie a hundredth apart.
+const VECTOR_READING: f64 = 0.005;
 
 impl MeasuredFront {
     /// Standard uncertainty of reading the figure, relative to the place, root mean square over the points `[-]`: that of an
     /// even spread within the difference between readings.
     #[must_use]
     pub fn relative_reading(&self) -> f64 {
-        let square = |&(_, place): &(f64, f64)| (READING / place).powi(2) / 3.0;
+        let square = |&(_, place): &(f64, f64)| (self.reading / place).powi(2) / 3.0;
         (self.points.iter().map(square).sum::<f64>() / self.points.len() as f64).sqrt()
     }
 }
@@ -33,6 +39,35 @@ pub static WATER_FRONT: LazyLock<MeasuredFront> = LazyLock::new(|| {
     read_shipped("water-column/front.csv", |table| {
         let points = table.numbers("time")?.iter().copied().zip(table.numbers("front")?.iter().copied()).collect();
         let (source, confidence) = (table.metadata.source.clone(), table.metadata.confidence);
-        Ok(MeasuredFront { points, source, confidence })
+        Ok(MeasuredFront { points, source, confidence, name: "Martin & Moyce 1952", reading: READING })
     })
 });
+
+/// That of a square column behind a gate; its time in √(H/g) becomes one in √(a/(2g)).
+pub static GATED_WATER_FRONT: LazyLock<MeasuredFront> = LazyLock::new(|| {
+    read_shipped("water-column/front-gate.csv", |table| {
+        let time = table.numbers("time")?.iter().map(|time| time * std::f64::consts::SQRT_2);
+        let points = time.zip(table.numbers("front")?.iter().copied()).collect();
+        let (source, confidence) = (table.metadata.source.clone(), table.metadata.confidence);
+        Ok(MeasuredFront { points, source, confidence, name: "Lobovský et al. 2014", reading: VECTOR_READING })
+    })
+});
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// After the release the front of a square column tends to a constant speed, 1.3 to 1.6 √(g H) in experiments; twice that is
+    /// the bound of shallow water.
+    #[test]
+    fn fronts_are_in_the_units_that_they_say() {
+        for (front, height_over_width) in [(&WATER_FRONT, 2.0_f64), (&GATED_WATER_FRONT, 1.0)] {
+            let last = &front.points[front.points.len() - 3..];
+            let slope = (last[2].1 - last[0].1) / (last[2].0 - last[0].0);
+            // x/a over t/√(a/2g), in √(g H)
+            let speed = slope * (2.0 / height_over_width).sqrt();
+            assert!((1.0..2.0).contains(&speed), "{}: {speed} √(g H)", front.name);
+            assert!(front.points.is_sorted_by(|one, other| one.0 < other.0));
+        }
+    }
+}

@@ -44,7 +44,7 @@ pub use film::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
 pub use grains::{FlowRule, GLASS_BEADS, GLASS_BEADS_FLOW_RULE, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};
 pub use law_film::LawFilm;
 pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
-pub use liquid_column::{MeasuredFront, WATER_FRONT};
+pub use liquid_column::{GATED_WATER_FRONT, MeasuredFront, WATER_FRONT};
 pub use measured::{MeasuredData, Metadata, ReferenceKind};
 pub use measured_table::ReferenceColumn;
 pub use papers::{Element, FigureName, MetricName, PAPERS, Paper, PaperError, Printed, RunName, Settled, TestName};

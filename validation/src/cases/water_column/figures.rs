@@ -3,14 +3,20 @@
 use super::Record;
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Panel};
-use crate::reference::WATER_FRONT;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let time = || Axis::linear("t/√(a/(2g)) [-]").over("t", "s", records.iter().map(|(run, _)| run.time_scale()));
     let widths = records.iter().map(|(run, _)| run.column.width);
     let mut front = Panel::new("", time(), Axis::linear("front x/a [-]").over("front", "m", widths));
     let mut energy = Panel::new("", time(), Axis::linear("energy change/work of gravity [%]"));
-    front.reference("Martin & Moyce 1952", WATER_FRONT.points.iter().copied());
+    let mut drawn: Vec<&str> = Vec::new();
+    for (run, _) in records {
+        let measured = run.measured();
+        if !drawn.contains(&measured.name) {
+            front.reference(measured.name, measured.points.iter().copied());
+            drawn.push(measured.name);
+        }
+    }
     for (slot, (run, record)) in records.iter().enumerate() {
         let data = &record.data;
         let points = || data.time.iter().copied();
@@ -25,8 +31,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     }
     vec![Figure::new(
         "front-and-energy",
-        "The front, where a fiftieth of the column's width stands on the bed, against the measured one, which starts \
-         later; and the change of kinetic, elastic and potential energy together, which may only fall.",
+        "The front, where a fiftieth of the column's width stands on the bed, against the measured ones: behind a gate that is \
+         lifted as in the experiment, and released at once, where the experiment starts later; and the change of kinetic, elastic and potential energy together, which may only fall.",
         vec![front, energy],
     )]
 }

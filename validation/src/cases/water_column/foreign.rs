@@ -4,7 +4,6 @@ use super::metrics::{DELAYED_FRONT_ERROR, FRONT_DELAY, FRONT_ERROR};
 use super::parameters::{ColumnObservation, WaterColumnRun};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
-use crate::reference::WATER_FRONT;
 
 /// What a run may yield.
 pub(super) const FORM: ExternalSchema = ExternalSchema {
@@ -62,7 +61,7 @@ pub(super) fn observe(
 /// Refuses a front that ends before the last measured place: no error over all places follows from it, and with a delay only
 /// one over some.
 fn as_long_as_measured(run: &WaterColumnRun, time: &[f64]) -> Result<(), FieldError> {
-    let needed = WATER_FRONT.points.iter().fold(0.0, |last: f64, (time, _)| last.max(*time));
+    let needed = run.measured().points.iter().fold(0.0, |last: f64, (time, _)| last.max(*time));
     match time.last() {
         Some(last) if *last < needed => {
             let in_seconds = |time: f64| time * run.time_scale();
@@ -84,6 +83,7 @@ mod tests {
     use super::*;
     use crate::case::{NamedColumns, Parameters, Tier};
     use crate::cases::water_column::WaterColumnParameters;
+    use crate::reference::WATER_FRONT;
 
     fn seen(columns: &[(&str, Vec<f64>)]) -> Result<Option<ExternalObservation<ColumnObservation>>, FieldError> {
         let series: NamedColumns = columns.iter().map(|(name, values)| ((*name).to_owned(), values.clone())).collect();

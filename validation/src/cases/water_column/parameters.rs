@@ -6,12 +6,14 @@ use crate::cases::front::FrontLine;
 use crate::cases::rules;
 use crate::metric::Variant;
 use crate::observation::{EnergyBook, Recorded};
+use crate::reference::{GATED_WATER_FRONT, MeasuredFront, WATER_FRONT};
 use crate::setup::{Lattice, displaced_flow, wall_rows};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::parameter::{between, each, filled, not_negative, positive, unique};
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::gate::Gate;
 use bagnold_solver::weakly_compressible::boundary::wall::fill;
 use bagnold_solver::weakly_compressible::boundary::{Surface, Wall};
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
@@ -36,6 +38,21 @@ pub enum BedSurface {
     Smooth,
     /// The water sticks to it, in a layer that may be thinner than a spacing.
     Rough,
+}
+
+/// A square column behind a gate that is lifted.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GatedColumn {
+    /// Width and height of the column `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.6"))]
+    pub width: f64,
+    /// Speed at which the gate is lifted `[m/s]`.
+    #[schemars(transform = positive("give it in m/s, such as 4.53"))]
+    pub gate_speed: f64,
+    /// Numbers of particles over the width; none for no such column.
+    #[schemars(transform = each(rules::rows()))]
+    #[schemars(transform = unique("name every resolution once"))]
+    pub resolutions: Vec<usize>,
 }
 
 /// Parameters of the case.
@@ -69,6 +86,8 @@ pub struct WaterColumnParameters {
     pub surfaces: Vec<BedSurface>,
     /// Whether the coarsest columns are repeated with a pressure that may become negative.
     pub with_tension: bool,
+    /// The column behind a gate, on a smooth bed.
+    pub gated: GatedColumn,
     /// Largest random displacement of a particle in spacings `[-]`.
     #[schemars(transform = between(0.0, 0.3, "0.05 breaks the lattice without overlaps"))]
     pub jitter: f64,
@@ -96,6 +115,7 @@ impl Parameters for WaterColumnParameters {
             resolutions: vec![20],
             surfaces: vec![BedSurface::Smooth, BedSurface::Rough],
             with_tension: true,
+            gated: GatedColumn { width: 0.6, gate_speed: 4.53, resolutions: vec![40] },
             jitter: 0.05,
             seed: 1,
             duration: 2.8,
@@ -103,8 +123,16 @@ impl Parameters for WaterColumnParameters {
         };
         match tier {
             Tier::Quick => quick,
-            Tier::Paper => Self { resolutions: vec![20, 40], ..quick },
-            Tier::Fine => Self { resolutions: vec![20, 40, 80], ..quick },
+            Tier::Paper => Self {
+                resolutions: vec![20, 40],
+                gated: GatedColumn { resolutions: vec![40, 80], ..quick.gated.clone() },
+                ..quick
+            },
+            Tier::Fine => Self {
+                resolutions: vec![20, 40, 80],
+                gated: GatedColumn { resolutions: vec![40, 80, 160], ..quick.gated.clone() },
+                ..quick
+            },
         }
     }
 
@@ -119,7 +147,13 @@ impl Parameters for WaterColumnParameters {
     }
 
     fn runs(&self) -> Vec<WaterColumnRun> {
-        let new = |resolution, surface, tension| WaterColumnRun { column: self.clone(), resolution, surface, tension };
+        let new = |resolution, surface, tension| WaterColumnRun {
+            column: self.clone(),
+            resolution,
+            surface,
+            tension,
+            gate_speed: 0.0,
+        };
         let coarsest = self.resolutions.iter().copied().min();
         let mut runs = Vec::new();
         for &resolution in &self.resolutions {
@@ -128,6 +162,14 @@ impl Parameters for WaterColumnParameters {
         if let Some(resolution) = coarsest.filter(|_| self.with_tension) {
             runs.extend(self.surfaces.iter().map(|&surface| new(resolution, surface, Tension::Kept)));
         }
+        let gated = Self { width: self.gated.width, aspect_ratio: 1.0, ..self.clone() };
+        runs.extend(self.gated.resolutions.iter().map(|&resolution| WaterColumnRun {
+            column: gated.clone(),
+            resolution,
+            surface: BedSurface::Smooth,
+            tension: Tension::Cut,
+            gate_speed: self.gated.gate_speed,
+        }));
         runs
     }
 }
@@ -143,6 +185,8 @@ pub struct WaterColumnRun {
     pub surface: BedSurface,
     /// What becomes of a negative pressure.
     pub tension: Tension,
+    /// Speed at which a gate is lifted `[m/s]`; 0 without one.
+    pub gate_speed: f64,
 }
 
 /// What a run leaves behind; every array has the shape `[samples]`.
@@ -162,7 +206,8 @@ impl Run for WaterColumnRun {
     fn variant(&self) -> Variant {
         let surface = if self.surface == BedSurface::Smooth { "smooth" } else { "rough" };
         let tension = if self.tension == Tension::Kept { "kept" } else { "cut" };
-        Variant::of("bed", surface).and("tension", tension).and("resolution", self.resolution)
+        let start = if self.gate_speed > 0.0 { Variant::of("release", "gate") } else { Variant::default() };
+        start.and("bed", surface).and("tension", tension).and("resolution", self.resolution)
     }
 
     fn particles(&self) -> f64 {
@@ -202,6 +247,11 @@ impl Run for WaterColumnRun {
 }
 
 impl WaterColumnRun {
+    /// The front that it is compared with.
+    pub(super) fn measured(&self) -> &'static MeasuredFront {
+        if self.gate_speed > 0.0 { &GATED_WATER_FRONT } else { &WATER_FRONT }
+    }
+
     /// √(a/(2g)) `[s]`.
     pub(super) fn time_scale(&self) -> f64 {
         (self.column.width / (2.0 * self.column.gravity)).sqrt()
@@ -229,9 +279,26 @@ impl WaterColumnRun {
         bed.roughness = if self.surface == BedSurface::Smooth { Surface::Smooth } else { Surface::Rough };
         let extent = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.column.width, height));
         let rheology = Rheology::Newtonian(Newtonian { viscosity: self.column.viscosity });
+        let rows = wall_rows(numerics.smoothing_ratio);
+        let mut walls = vec![bed];
+        let mut wall_particles = fill(&walls, &domain, extent, spacing, rows);
+        if self.gate_speed > 0.0 {
+            let above = rows as f64 * spacing;
+            let gate = Gate {
+                position: self.column.width,
+                edge: 0.0,
+                height: height + above,
+                speed: self.gate_speed,
+                lift: height + 2.0 * above,
+                rows,
+            };
+            let (faces, particles) = gate.build(spacing, walls.len());
+            walls.extend(faces);
+            wall_particles.extend(particles);
+        }
         Scene {
-            wall_particles: fill(&[bed], &domain, extent, spacing, wall_rows(numerics.smoothing_ratio)),
-            walls: vec![bed],
+            wall_particles,
+            walls,
             domain,
             gravity: Vector::<2>::new(0.0, -gravity),
             numerics,
