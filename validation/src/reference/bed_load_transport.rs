@@ -21,9 +21,38 @@ pub enum TransportFormula {
     FernandezLuque,
 }
 
-/// Factors below and above Wong & Parker's 1.6 form between which measurements lie: over 33 runs of Meyer-Peter and
-/// Müller with grains of 4 to 5.2 mm the median of measured over computed transport is 0.92.
-pub const HONEST_BAND: (f64, f64) = (0.5, 2.0);
+/// Shields number from which runs count for [`MEASURED_BAND`] `[-]`: below it they are near the threshold of motion, where a formula with
+/// any critical number is off by any factor.
+const WELL_ABOVE_THRESHOLD: f64 = 0.1;
+
+/// Shields number and transport q* of every measured run of `reference-data/bed-load/measured-transport.csv` `[-]`.
+pub static MEASURED_TRANSPORT: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    read_shipped("bed-load/measured-transport.csv", |table| {
+        let (shields, transport) = (table.numbers("Shields number")?, table.numbers("transport")?);
+        Ok(shields.iter().copied().zip(transport.iter().copied()).collect())
+    })
+});
+
+/// Factors on Wong & Parker's 1.6 form between which nine tenths of the measured runs well above the threshold of motion lie: the
+/// width that a comparison with a formula can claim.
+pub static MEASURED_BAND: LazyLock<(f64, f64)> = LazyLock::new(|| {
+    let own = TransportFormula::WongParker;
+    let runs = MEASURED_TRANSPORT.iter().filter(|(shields, _)| *shields >= WELL_ABOVE_THRESHOLD);
+    let mut ratios: Vec<f64> = runs.map(|(shields, transport)| transport / own.transport(*shields)).collect();
+    ratios.sort_by(f64::total_cmp);
+    (quantile(&ratios, 0.05), quantile(&ratios, 0.95))
+});
+
+/// The quantile of values in ascending order, linear between them; NaN without values.
+fn quantile(ascending: &[f64], share: f64) -> f64 {
+    let place = share * ascending.len().saturating_sub(1) as f64;
+    let (below, part) = (place as usize, place.fract());
+    match (ascending.get(below), ascending.get(below + 1)) {
+        (Some(low), Some(high)) => low + part * (high - low),
+        (Some(only), None) => *only,
+        _ => f64::NAN,
+    }
+}
 
 /// What the table says of a formula.
 #[derive(Debug, Clone, PartialEq)]
@@ -140,5 +169,25 @@ mod tests {
             assert_eq!(formula.origin().kind(), crate::metric::MetricKind::Validation);
             assert!(formula.confidence() != Confidence::Unverified, "{}", formula.name());
         }
+    }
+
+    #[test]
+    fn quantiles_lie_between_the_values() {
+        assert_eq!([0.0, 0.25, 0.5, 1.0].map(|share| quantile(&[1.0, 2.0, 4.0], share)), [1.0, 1.5, 2.0, 4.0]);
+        assert_eq!(quantile(&[3.0], 0.7), 3.0);
+        assert!(quantile(&[], 0.5).is_nan());
+    }
+
+    #[test]
+    fn the_band_holds_nine_tenths_of_the_runs_well_above_the_threshold() {
+        assert_eq!(MEASURED_TRANSPORT.len(), 105);
+        let own = TransportFormula::WongParker;
+        let ratio = |&(shields, transport): &(f64, f64)| transport / own.transport(shields);
+        let well_above: Vec<f64> = MEASURED_TRANSPORT.iter().filter(|run| run.0 >= 0.1).map(ratio).collect();
+        let inside = well_above.iter().filter(|ratio| (MEASURED_BAND.0..=MEASURED_BAND.1).contains(*ratio)).count();
+        println!("{MEASURED_BAND:?}: {inside} of {}", well_above.len());
+        assert_eq!((well_above.len(), inside), (32, 28));
+        // and it is no wider than the factor of two by which the formula is said to scatter
+        assert!(MEASURED_BAND.0 > 0.45 && MEASURED_BAND.1 < 2.0);
     }
 }

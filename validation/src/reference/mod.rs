@@ -35,7 +35,7 @@ pub use bagnold_layer::{
 };
 pub use bed_load_onset::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence};
 pub use bed_load_profiles::MeasuredBedLoad;
-pub use bed_load_transport::{HONEST_BAND, TransportFormula};
+pub use bed_load_transport::{MEASURED_BAND, MEASURED_TRANSPORT, TransportFormula};
 pub use collapse_laws::{Author, COLLAPSE_DURATION, CollapseLaw, CollapseLaws, DRAWN, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 pub use drag_tables::{HINDERED_SLIPS, HinderedSlip, STANDARD_DRAG, StandardDrag};
 pub use eddy_film::EddyFilm;

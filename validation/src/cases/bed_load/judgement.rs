@@ -7,7 +7,7 @@ use super::quantities::{FIT_AT_BORDER, FIT_MISFIT, FITTED_VISCOSITY, FITTED_YIEL
 use super::run::BedLoadFormulation;
 use super::statements;
 use crate::metric::{Limit, Metric};
-use crate::reference::{HONEST_BAND, TransportFormula};
+use crate::reference::{MEASURED_BAND, TransportFormula};
 
 pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Metric> {
     let mut metrics = Vec::new();
@@ -28,7 +28,7 @@ pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Metric> {
                 .of(&variant, held.ratio)
                 .against(Some(1.0), TransportFormula::WongParker.name(), TransportFormula::WongParker.confidence())
                 .gated(
-                    Limit::Within(HONEST_BAND.0, HONEST_BAND.1),
+                    Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1),
                     "yield stress and viscosity are those that fit the two other slopes",
                 )
                 .with_snapshot_tolerance(0.05, 0.0),

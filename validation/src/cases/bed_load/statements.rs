@@ -15,7 +15,7 @@ use crate::case::Run;
 use crate::cases::channel;
 use crate::metric::{Confidence, Limit, Metric, MetricKind, Value, Variant};
 use crate::observation::Recorded;
-use crate::reference::{HONEST_BAND, LAYER_STATEMENTS, TransportFormula};
+use crate::reference::{LAYER_STATEMENTS, MEASURED_BAND, TransportFormula};
 use crate::statistics::Segmented;
 use bagnold_solver::material::rheology::Rheology;
 
@@ -79,7 +79,7 @@ pub(super) fn stabilised(
         let ratio = observed(TRANSPORT_RATIO, data.channel.average(&data.transport), 1.0 / reference);
         let reason = "yield stress and viscosity are fitted to the two other slopes";
         let metric = ratio.against(Some(1.0), formula.name(), formula.confidence()).of_kind(MetricKind::Validation);
-        metrics.push(metric.gated(Limit::Within(HONEST_BAND.0, HONEST_BAND.1), reason));
+        metrics.push(metric.gated(Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1), reason));
     }
     let gate = |limit: Limit| judged.then_some(limit);
     let profile = &data.channel.profile;
@@ -190,7 +190,7 @@ pub(super) fn growth(metrics: &mut Vec<Metric>, records: &[BedLoadRecord]) {
             TRANSPORT_GROWTH,
             transport(high) / transport(low),
             Some(expected),
-            Limit::Within(HONEST_BAND.0 * expected, HONEST_BAND.1 * expected),
+            Limit::Within(MEASURED_BAND.0 * expected, MEASURED_BAND.1 * expected),
             "a factor of two about the growth of the formula, by which measured rates scatter",
         ),
         (

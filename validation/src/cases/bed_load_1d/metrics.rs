@@ -8,7 +8,7 @@ use crate::case::Run;
 use crate::cases::printed_laws;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::reference::bed_load_layer::{LayerState, SAME_STATE};
-use crate::reference::{HONEST_BAND, ORIGIN_DEPTH, TransportFormula, roughness_ratio};
+use crate::reference::{MEASURED_BAND, ORIGIN_DEPTH, TransportFormula, roughness_ratio};
 
 quantities! {
     [
@@ -158,7 +158,7 @@ fn similar(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord]) {
                 formula.confidence(),
             ));
             if expected > 0.0 {
-                let limit = Limit::Within(HONEST_BAND.0, HONEST_BAND.1);
+                let limit = Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1);
                 metrics.push(
                     TRANSPORT_RATIO
                         .of(variant, state.transport() / expected)
