@@ -17,6 +17,8 @@ pub enum Origin {
     Numerical,
     /// Repetition with other seeds.
     Repeat,
+    /// Inputs that are known within a range.
+    Input,
 }
 
 impl Origin {
@@ -28,6 +30,7 @@ impl Origin {
             Self::Digitisation => "digitisation",
             Self::Numerical => "spacing",
             Self::Repeat => "repetition",
+            Self::Input => "input",
         }
     }
 
@@ -73,6 +76,12 @@ impl Uncertainty {
     #[must_use]
     pub fn standard(&self) -> Option<f64> {
         root_of_squares(self.parts.iter())
+    }
+
+    /// The same of the parts of these origins.
+    #[must_use]
+    pub fn of(&self, origins: &[Origin]) -> Option<f64> {
+        root_of_squares(self.parts.iter().filter(|part| origins.contains(&part.origin)))
     }
 
     /// The same of the parts that belong to the reference.

@@ -2,6 +2,8 @@
 
 pub mod accepted;
 mod case_page;
+pub mod comparison;
+mod comparison_page;
 pub mod coverage;
 mod coverage_page;
 mod drawing;
@@ -144,7 +146,7 @@ struct DrawnFigure {
     failure: Option<String>,
 }
 
-/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `figures/CASE/NAME.{svg,png,gif}`, in
+/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `comparisons.html`, `figures/CASE/NAME.{svg,png,gif}`, in
 /// `cases/CASE/` the case's page `index.html`, `metrics.json`, `case.toml` and `reference/NAME.csv`, and what the cases say
 /// together as `metrics.json` and `figures/scatter/QUANTITY.{svg,png}`. Files of the same names are replaced, others are left
 /// alone.
@@ -178,6 +180,9 @@ pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), 
     }
     if let Some(features) = &report.features {
         put(folder.join("coverage.html"), &coverage_page::render(report, features)?)?;
+    }
+    if let Some(text) = comparison_page::render(report) {
+        put(folder.join("comparisons.html"), &text?)?;
     }
     let quantities = scatter::quantities(report);
     let compared =

@@ -12,7 +12,7 @@ use super::template::fill;
 use super::view::{
     Banner, BannerItem, CaseLine, GateRow, Thumbnail, VerdictCount, VerdictMark, WorstMetric, anchor, typed,
 };
-use super::{CaseReport, DrawnFigure, Report, drift, scatter};
+use super::{CaseReport, DrawnFigure, Report, comparison, drift, scatter};
 use crate::metric::GateOwner;
 use serde::Serialize;
 
@@ -32,6 +32,7 @@ struct Overview {
     scatter: Vec<scatter::ScatterRow>,
     has_papers: bool,
     has_coverage: bool,
+    has_comparisons: bool,
     provenance: Vec<(&'static str, String)>,
     command: String,
     date: Option<String>,
@@ -58,6 +59,7 @@ pub(super) fn render(
         scatter,
         has_papers: !judgement.papers.is_empty(),
         has_coverage: report.features.is_some(),
+        has_comparisons: !comparison::comparisons(report).is_empty(),
         provenance: provenance(&report.generated),
         command: typed(&report.generated.command),
         date: report.generated.date.clone(),

@@ -3,7 +3,7 @@
 use crate::page;
 use serde::Serialize;
 
-const TEMPLATES: [(&str, &str); 10] = [
+const TEMPLATES: [(&str, &str); 11] = [
     ("head.html", include_str!("template/head.html")),
     ("index.html", include_str!("template/index.html")),
     ("drift.html", include_str!("template/drift.html")),
@@ -13,6 +13,7 @@ const TEMPLATES: [(&str, &str); 10] = [
     ("metrics.html", include_str!("template/metrics.html")),
     ("width.html", include_str!("template/width.html")),
     ("coverage.html", include_str!("template/coverage.html")),
+    ("comparisons.html", include_str!("template/comparisons.html")),
     ("papers.html", include_str!("template/papers.html")),
 ];
 

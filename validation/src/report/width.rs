@@ -67,6 +67,7 @@ fn class(origin: Origin) -> &'static str {
         Origin::Digitisation => "digitisation",
         Origin::Numerical => "numerical",
         Origin::Repeat => "repeat",
+        Origin::Input => "input",
     }
 }
 

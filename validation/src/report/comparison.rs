@@ -1,0 +1,130 @@
+//! Comparisons with measurements after ASME V&V 20: the error E of a prediction beside the uncertainty u_val with which it is known, from the
+//! spacing and repetitions (u_num), the inputs (u_input) and the reference (u_D).
+//!
+//! |E| ≤ u_val: the model is validated at the level u_val, and nothing finer can be said. Beyond it the model's own error is
+//! |E| − u_val at least. What is not known is not zero: it is named, and u_val is then a lower bound.
+
+use super::Report;
+use crate::metric::{Confidence, Metric, MetricKind, Origin};
+use std::collections::BTreeMap;
+
+/// A prediction beside a measurement or a published fit, in the metric's unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison<'r> {
+    /// Name of the case.
+    pub case: &'r str,
+    /// What is compared.
+    pub metric: &'r Metric,
+    /// Prediction less reference.
+    pub error: f64,
+    /// Standard uncertainty by spacing and repetitions; none where it is not known.
+    pub numerical: Option<f64>,
+    /// By the inputs; none where it is not known.
+    pub input: Option<f64>,
+    /// Of the reference; none where it is not known.
+    pub reference: Option<f64>,
+}
+
+/// What a comparison says of the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ModelError {
+    /// The error is within the uncertainty.
+    Within(f64),
+    /// The model is off by this at least.
+    AtLeast(f64),
+    /// Nothing is known of the uncertainty.
+    Unknown,
+}
+
+impl<'r> Comparison<'r> {
+    /// The comparison that a metric is; none of a metric that is not compared with a number from outside.
+    fn of(case: &'r str, metric: &'r Metric) -> Option<Self> {
+        let reference = metric.reference.as_ref().filter(|_| metric.kind == MetricKind::Validation)?;
+        if matches!(reference.confidence, Confidence::Exact | Confidence::Unverified) {
+            return None;
+        }
+        let error = metric.value - reference.value?;
+        let part = |origins: &[Origin]| metric.uncertainty.of(origins);
+        error.is_finite().then(|| Self {
+            case,
+            metric,
+            error,
+            numerical: part(&[Origin::Numerical, Origin::Repeat]),
+            input: part(&[Origin::Input]),
+            reference: part(&[Origin::Experiment, Origin::Digitisation]),
+        })
+    }
+
+    /// u_val: the root of the sum of squares of what is known.
+    #[must_use]
+    pub fn uncertainty(&self) -> Option<f64> {
+        self.metric.uncertainty.standard()
+    }
+
+    /// What is not known, in words.
+    #[must_use]
+    pub fn unknown(&self) -> Vec<&'static str> {
+        let parts = [(self.numerical, "u_num"), (self.input, "u_input"), (self.reference, "u_D")];
+        parts.into_iter().filter(|(part, _)| part.is_none()).map(|(_, name)| name).collect()
+    }
+
+    /// What it says of the model.
+    #[must_use]
+    pub fn model_error(&self) -> ModelError {
+        match self.uncertainty() {
+            None => ModelError::Unknown,
+            Some(uncertainty) if self.error.abs() <= uncertainty => ModelError::Within(uncertainty),
+            Some(uncertainty) => ModelError::AtLeast(self.error.abs() - uncertainty),
+        }
+    }
+}
+
+/// Comparisons of one quantity: its name and unit, and each case's in the order of the report.
+pub type QuantityComparisons<'r> = ((&'r str, &'r str), Vec<Comparison<'r>>);
+
+/// All comparisons of a report, by quantity.
+#[must_use]
+pub fn comparisons(report: &Report) -> Vec<QuantityComparisons<'_>> {
+    let mut groups: BTreeMap<(&str, &str), Vec<Comparison<'_>>> = BTreeMap::new();
+    for case in &report.cases {
+        for compared in case.metrics.iter().filter_map(|metric| Comparison::of(&case.name, metric)) {
+            groups.entry((&compared.metric.name, &compared.metric.unit)).or_default().push(compared);
+        }
+    }
+    groups.into_iter().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::metric::{Limit, Variant};
+    use crate::report::tests::{case, report};
+
+    fn run_out(value: f64) -> Metric {
+        Metric::observed("run_out", &Variant::default(), value, "m")
+            .of_kind(MetricKind::Validation)
+            .against(Some(2.0), "an experiment", Confidence::Medium)
+            .gated(Limit::Within(1.0, 3.0), "a reason")
+    }
+
+    #[test]
+    fn an_error_is_compared_with_what_is_known_and_the_rest_is_named() {
+        let known = |value| {
+            run_out(value).known_to(Origin::Repeat, Some(0.3), "seeds").known_to(
+                Origin::Experiment,
+                Some(0.4),
+                "theirs",
+            )
+        };
+        let metrics = vec![known(2.4), known(2.9), run_out(2.4), known(2.4).of_kind(MetricKind::Verification)];
+        let report = report(vec![case("column", metrics)]);
+        let found = comparisons(&report);
+        assert_eq!(found.len(), 1);
+        let (name, own) = &found[0];
+        assert_eq!((*name, own.len()), (("run_out", "m"), 3));
+        assert!(matches!(own[0].model_error(), ModelError::Within(level) if (level - 0.5).abs() < 1e-12));
+        assert!(matches!(own[1].model_error(), ModelError::AtLeast(least) if (least - 0.4).abs() < 1e-12));
+        assert_eq!(own[2].model_error(), ModelError::Unknown);
+        assert_eq!((own[0].unknown(), own[2].unknown()), (vec!["u_input"], vec!["u_num", "u_input", "u_D"]));
+    }
+}
