@@ -2,7 +2,8 @@
 //! spacing and repetitions (u_num), the inputs (u_input) and the reference (u_D).
 //!
 //! |E| ≤ u_val: the model is validated at the level u_val, and nothing finer can be said. Beyond it the model's own error is
-//! |E| − u_val at least. What is not known is not zero: it is named, and u_val is then a lower bound.
+//! |E| − u_val at least. What is not known is not zero: it is named, u_val is then a lower bound, and an error beyond it proves nothing
+//! of the model yet.
 
 use super::Report;
 use crate::metric::{Confidence, Metric, MetricKind, Origin};
@@ -32,6 +33,8 @@ pub enum ModelError {
     Within(f64),
     /// The model is off by this at least.
     AtLeast(f64),
+    /// The error exceeds what is known of the uncertainty by this, and a part of that is not known.
+    BeyondKnown(f64),
     /// Nothing is known of the uncertainty.
     Unknown,
 }
@@ -74,7 +77,8 @@ impl<'r> Comparison<'r> {
         match self.uncertainty() {
             None => ModelError::Unknown,
             Some(uncertainty) if self.error.abs() <= uncertainty => ModelError::Within(uncertainty),
-            Some(uncertainty) => ModelError::AtLeast(self.error.abs() - uncertainty),
+            Some(uncertainty) if self.unknown().is_empty() => ModelError::AtLeast(self.error.abs() - uncertainty),
+            Some(uncertainty) => ModelError::BeyondKnown(self.error.abs() - uncertainty),
         }
     }
 }
@@ -123,7 +127,10 @@ mod tests {
         let (name, own) = &found[0];
         assert_eq!((*name, own.len()), (("run_out", "m"), 3));
         assert!(matches!(own[0].model_error(), ModelError::Within(level) if (level - 0.5).abs() < 1e-12));
-        assert!(matches!(own[1].model_error(), ModelError::AtLeast(least) if (least - 0.4).abs() < 1e-12));
+        assert!(matches!(own[1].model_error(), ModelError::BeyondKnown(least) if (least - 0.4).abs() < 1e-12));
+        let all = known(2.9).known_to(Origin::Input, Some(1e-9), "hardly any");
+        let all = Comparison::of("column", &all).expect("a comparison").model_error();
+        assert!(matches!(all, ModelError::AtLeast(least) if (least - 0.4).abs() < 1e-6), "{all:?}");
         assert_eq!(own[2].model_error(), ModelError::Unknown);
         assert_eq!((own[0].unknown(), own[2].unknown()), (vec!["u_input"], vec!["u_num", "u_input", "u_D"]));
     }

@@ -14,6 +14,7 @@ struct ComparisonPage {
     tier: &'static str,
     within: usize,
     beyond: usize,
+    partly: usize,
     unknown: usize,
     quantities: Vec<QuantityView>,
 }
@@ -67,6 +68,7 @@ pub(super) fn render(report: &Report) -> Option<Result<String, minijinja::Error>
         tier: tier_name(report.tier),
         within: count(|error| matches!(error, ModelError::Within(_))),
         beyond: count(|error| matches!(error, ModelError::AtLeast(_))),
+        partly: count(|error| matches!(error, ModelError::BeyondKnown(_))),
         unknown: count(|error| error == ModelError::Unknown),
         quantities: groups.iter().map(|((name, _), own)| quantity(name, own)).collect(),
     };
@@ -91,6 +93,10 @@ fn row(compared: &Comparison<'_>, widest: f64) -> RowView {
             VerdictMark { word: "model error", ..VerdictMark::KNOWN },
             format!("model error of at least {}", unit(least)),
         ),
+        ModelError::BeyondKnown(by) => {
+            let mark = VerdictMark { word: "beyond what is known", ..VerdictMark::OBSERVED };
+            (mark, format!("by {}", unit(by)))
+        }
         ModelError::Unknown => {
             (VerdictMark { word: "open", ..VerdictMark::OBSERVED }, "no uncertainty is known".to_owned())
         }
@@ -99,7 +105,7 @@ fn row(compared: &Comparison<'_>, widest: f64) -> RowView {
     let lower_bound = if unknown.is_empty() || unknown.len() == 3 {
         String::new()
     } else {
-        format!("; without {}", unknown.join(", "))
+        format!("; {} not known", unknown.join(" and "))
     };
     let reference = metric.reference.as_ref();
     RowView {

@@ -19,6 +19,7 @@ mod overview;
 mod page;
 pub mod papers;
 mod papers_page;
+mod print;
 
 mod rows;
 pub mod scatter;
@@ -32,6 +33,8 @@ mod width;
 mod pages_tests;
 #[cfg(test)]
 mod tests;
+
+use print::Chapter;
 
 pub use accepted::{Baseline, Drift, MetricKey};
 pub use error::{BaselineError, EarlierError, ReportError};
@@ -146,7 +149,7 @@ struct DrawnFigure {
     failure: Option<String>,
 }
 
-/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `comparisons.html`, `figures/CASE/NAME.{svg,png,gif}`, in
+/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `comparisons.html`, `print.html` with all pages as one, `figures/CASE/NAME.{svg,png,gif}`, in
 /// `cases/CASE/` the case's page `index.html`, `metrics.json`, `case.toml` and `reference/NAME.csv`, and what the cases say
 /// together as `metrics.json` and `figures/scatter/QUANTITY.{svg,png}`. Files of the same names are replaced, others are left
 /// alone.
@@ -166,30 +169,39 @@ pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), 
         .map(|case| draw(case, &folder.join("figures").join(&case.name), drawings))
         .collect::<Result<_, _>>()?;
     let judgement = judge(report);
+    let mut chapters = Vec::new();
     for judged in &judgement.cases {
         let name = &judged.case.name;
         let place = folder.join("cases").join(name);
         put_case(judged.case, &place)?;
         let pictures = page::pictures(report, &drawn, judged.case);
         let text = case_page::render(report, judged, pictures, Some(neighbours(report, name)))?;
+        chapters.push(Chapter::of(format!("case-{name}"), &text));
         put(place.join("index.html"), &text)?;
     }
+    let mut add = |name: &str, text: String| {
+        chapters.push(Chapter::of(name, &text));
+        put(folder.join(format!("{name}.html")), &text)
+    };
     if !judgement.papers.is_empty() {
-        put(folder.join("papers.html"), &papers_page::render(report, &judgement.papers)?)?;
+        add("papers", papers_page::render(report, &judgement.papers)?)?;
         put(folder.join("papers.json"), &papers_page::json(report.tier, &judgement.papers))?;
     }
     if let Some(features) = &report.features {
-        put(folder.join("coverage.html"), &coverage_page::render(report, features)?)?;
+        add("coverage", coverage_page::render(report, features)?)?;
     }
     if let Some(text) = comparison_page::render(report) {
-        put(folder.join("comparisons.html"), &text?)?;
+        add("comparisons", text?)?;
     }
     let quantities = scatter::quantities(report);
     let compared =
         draw_figures(&scatter::figures(&quantities), &folder.join("figures").join(scatter::FOLDER), drawings)?;
     put(folder.join("metrics.json"), &scatter::json(&quantities))?;
     let comparisons = scatter::rows(&quantities, &compared);
-    put(folder.join("index.html"), &page::render(report, &judgement, &drawn, comparisons)?)
+    let overview = page::render(report, &judgement, &drawn, comparisons)?;
+    chapters.insert(0, Chapter::of("index", &overview));
+    put(folder.join("print.html"), &print::render(&report.title, &chapters)?)?;
+    put(folder.join("index.html"), &overview)
 }
 
 /// Writes the page of each case of `report`, which is one as a rule, straight into `folder`: what [`write()`] puts into

@@ -1,0 +1,120 @@
+//! All pages of a report as one, to be printed or saved as PDF by a browser.
+
+use super::template::fill;
+use serde::Serialize;
+
+/// What a page has for the screen alone, from its beginning to its end.
+const FOR_THE_SCREEN: [(&str, &str); 5] = [
+    ("<script", "</script>"),
+    ("<nav", "</nav>"),
+    ("<p class=\"jumps\">", "</p>"),
+    ("<a class=\"skip\"", "</a>"),
+    ("<form", "</form>"),
+];
+
+/// A page with the name by which links of the others find it, such as `papers` or `case-film`.
+#[derive(Serialize)]
+pub(super) struct Chapter {
+    name: String,
+    body: String,
+}
+
+impl Chapter {
+    /// What a finished page has for paper.
+    pub(super) fn of(name: impl Into<String>, page: &str) -> Self {
+        Self { name: name.into(), body: relinked(&for_paper(between(page, "<body>", "</body>"))) }
+    }
+}
+
+#[derive(Serialize)]
+struct PrintPage<'c> {
+    title: &'c str,
+    chapters: &'c [Chapter],
+}
+
+/// The pages one after the other, each beginning on a sheet of its own, with links that stay among them.
+pub(super) fn render(title: &str, chapters: &[Chapter]) -> Result<String, minijinja::Error> {
+    fill("print.html", &PrintPage { title, chapters })
+}
+
+fn between<'t>(text: &'t str, start: &str, end: &str) -> &'t str {
+    let from = text.find(start).map_or(0, |place| place + start.len());
+    let to = text.rfind(end).unwrap_or(text.len()).max(from);
+    &text[from..to]
+}
+
+/// Without what only a screen has.
+fn for_paper(body: &str) -> String {
+    let mut text = body.to_owned();
+    for (start, end) in FOR_THE_SCREEN {
+        while let Some(from) = text.find(start) {
+            let length = text[from..].find(end).map_or(text.len() - from, |place| place + end.len());
+            text.replace_range(from..from + length, "");
+        }
+    }
+    text
+}
+
+/// With links between the pages as links within one, and files found from its folder.
+fn relinked(body: &str) -> String {
+    let mut text = String::with_capacity(body.len());
+    let mut rest = body;
+    while let Some(place) = rest.find("href=\"") {
+        let (before, link) = rest.split_at(place + "href=\"".len());
+        let end = link.find('"').unwrap_or(link.len());
+        text += before;
+        text += &target(&link[..end]);
+        rest = &link[end..];
+    }
+    (text + rest).replace("src=\"../../", "src=\"")
+}
+
+fn target(link: &str) -> String {
+    let link = link.trim_start_matches("../");
+    let (page, anchor) = link.split_once('#').unwrap_or((link, ""));
+    let own = match page.strip_suffix(".html") {
+        None if page.is_empty() => return format!("#{anchor}"),
+        None => return link.to_owned(),
+        Some(own) => own,
+    };
+    if !anchor.is_empty() {
+        return format!("#{anchor}");
+    }
+    match own.strip_prefix("cases/").and_then(|case| case.strip_suffix("/index")) {
+        Some(case) => format!("#case-{case}"),
+        None => format!("#{own}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn links_stay_within_the_page_and_files_are_found() {
+        for (link, expected) in [
+            ("../../index.html", "#index"),
+            ("index.html#gates", "#gates"),
+            ("cases/film/index.html#metric-film-velocity_l2-", "#metric-film-velocity_l2-"),
+            ("cases/film/index.html", "#case-film"),
+            ("papers.html", "#papers"),
+            ("../../figures/film/profile.svg", "figures/film/profile.svg"),
+            ("#verdicts", "#verdicts"),
+            ("metrics.json", "metrics.json"),
+        ] {
+            assert_eq!(target(link), expected, "{link}");
+        }
+    }
+
+    #[test]
+    fn a_chapter_has_what_paper_can_show() {
+        let page = "<html><head><title>x</title></head><body>\n<a class=\"skip\" href=\"#x\">skip</a><nav>a</nav><p>kept</p>\
+                    <img src=\"../../figures/a.png\"><p class=\"jumps\">b</p><script>c</script></body></html>";
+        let text = render("A <report>", &[Chapter::of("index", page), Chapter::of("case-film", page)]).expect("filled");
+        assert_eq!((text.matches("<p>kept</p>").count(), text.matches("src=\"figures/a.png\"").count()), (2, 2));
+        for gone in ["skip", "<nav", "jumps", "<script", "<title>x"] {
+            assert!(!between(&text, "<body>", "</body>").contains(gone), "{gone}");
+        }
+        assert!(text.contains("<title>A &lt;report&gt;: all pages</title>") && text.contains("id=\"case-film\""));
+    }
+}
