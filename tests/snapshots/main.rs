@@ -7,7 +7,7 @@
 use bagnold_validation::case::{Changes, Silent, Tier, execute};
 use bagnold_validation::cases::REGISTRY;
 use bagnold_validation::metric::{Metric, undeclared};
-use bagnold_validation::report::{Baseline, description};
+use bagnold_validation::report::{Baseline, GateList, description};
 use bagnold_validation::store::{Store, StorePolicy};
 use insta::comparator::Comparator;
 use insta::{Settings, Snapshot};
@@ -69,6 +69,22 @@ fn the_metrics_of_every_case_are_as_accepted() {
         .filter(|name| std::panic::catch_unwind(|| assert_as_accepted(name)).is_err())
         .collect();
     assert!(failed.is_empty(), "not as accepted, see above: {}", failed.join(", "));
+}
+
+#[test]
+fn no_gate_is_lost_without_a_word_in_the_changelog() {
+    let changelog = folder().join("../../CHANGELOG.md");
+    let changelog = std::fs::read_to_string(changelog).expect("the CHANGELOG");
+    for tier in [Tier::Quick, Tier::Paper] {
+        let mut accepted = Baseline::default();
+        for case in REGISTRY.iter() {
+            let own = Baseline::read(&folder(), case.name(), tier).unwrap_or_else(|error| panic!("failed to {error}"));
+            accepted.extend(own);
+        }
+        let list = GateList::read(&folder(), tier).unwrap_or_else(|error| panic!("failed to {error}"));
+        let differences = list.differences(&accepted, &changelog);
+        assert!(differences.is_empty(), "{tier} tier:\n{}", differences.join("\n"));
+    }
 }
 
 #[test]

@@ -9,7 +9,7 @@ use super::simulation::{announce, simulate};
 use super::{Exit, say, summary, tell};
 use crate::case::{CaseResult, Changes, Features, ParameterError, PreparedCase, Registry, Tier};
 use crate::output::{FileError, FolderError, OutputFolder};
-use crate::report::{self, Baseline, CaseReport, History, Report, ReportProvenance, history};
+use crate::report::{self, Baseline, CaseReport, GateList, History, Report, ReportProvenance, history};
 use crate::store::provenance;
 use crate::study::{Study, Suite};
 use std::io::Write;
@@ -133,6 +133,11 @@ fn accept(places: &CommittedValues, results: &[CaseResult]) -> Result<Baseline, 
         fresh.write(&places.accepted_folder(), &result.name, result.tier)?;
         let made_by = (provenance::version(), provenance::commit());
         history::append(&places.history_file(), made_by, result.tier, &result.name, &result.metrics)?;
+        if *places == CommittedValues::OfCases {
+            let mut gates = GateList::read(&places.accepted_folder(), result.tier)?;
+            gates.add(&fresh);
+            gates.write(&places.accepted_folder(), result.tier)?;
+        }
         baseline.extend(fresh);
     }
     Ok(baseline)

@@ -126,6 +126,11 @@ impl Baseline {
         self.values.extend(other.values);
     }
 
+    /// The keys of all values that a gate judged, whether it held or not.
+    pub fn gates(&self) -> impl Iterator<Item = &MetricKey> {
+        self.values.iter().filter(|(_, entry)| entry.verdict != Verdict::Observed).map(|(key, _)| key)
+    }
+
     /// Whether it holds no value.
     #[must_use]
     pub fn is_empty(&self) -> bool {

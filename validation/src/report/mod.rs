@@ -10,6 +10,7 @@ mod drawing;
 pub mod drift;
 mod earlier;
 mod error;
+mod gate_list;
 pub mod history;
 pub mod judgement;
 mod junit;
@@ -38,6 +39,7 @@ use print::Chapter;
 
 pub use accepted::{Baseline, Drift, MetricKey};
 pub use error::{BaselineError, EarlierError, ReportError};
+pub use gate_list::GateList;
 pub use history::History;
 pub use judgement::{Judgement, judge};
 pub use known_failures::{KnownFailure, KnownFailureStatus, KnownFailures};

@@ -4,10 +4,10 @@ use super::column::{ColumnRun, Geometry};
 use super::deposit::{BIN_WIDTH, Collapse};
 use super::quantities::{
     ENERGY_GAIN, FAILURE_SURFACE_ANGLE, FLOWING_LAYER_R_SQUARED, FLOWING_LAYER_SHEAR_RATE,
-    TAIL_DECAY_LENGTH_OVER_DIAMETER, TAIL_DECAY_LENGTH_OVER_SPACING, TAIL_DECAY_LENGTH_STANDARD_ERROR,
+    LINEAR_MISFIT_RATIO, TAIL_DECAY_LENGTH_OVER_DIAMETER, TAIL_DECAY_LENGTH_OVER_SPACING, TAIL_DECAY_LENGTH_STANDARD_ERROR,
     UNDISTURBED_SHARE,
 };
-use super::velocity_profile::{Station, decay_length};
+use super::velocity_profile::{Station, decay_length, linear_misfit_ratio};
 use super::wedge::Wedge;
 use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Quantity};
@@ -63,11 +63,14 @@ pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric
     let stations = stations(run, record);
     if let Some(shear) = stations.get(1).and_then(|edge| edge.shear) {
         metrics.push(observed(FLOWING_LAYER_SHEAR_RATE, shear.slope));
-        metrics.push(observed(FLOWING_LAYER_R_SQUARED, shear.r_squared).against(
-            None,
-            LINEAR_LAYER,
-            Confidence::Unverified,
+        let linear = observed(FLOWING_LAYER_R_SQUARED, shear.r_squared).against(None, LINEAR_LAYER, Confidence::Medium);
+        metrics.push(linear.gated_by(
+            run.material.is_published().then_some(Limit::AtLeast(0.9)),
+            "what the paper calls linear is taken as a line that explains nine tenths of the variance at least",
         ));
+    }
+    if let Some(ratio) = stations.get(1).and_then(|edge| linear_misfit_ratio(edge, run.spacing())) {
+        metrics.push(observed(LINEAR_MISFIT_RATIO, ratio).against(Some(1.0), LINEAR_LAYER, Confidence::Medium));
     }
     if let Some(decay) = decay_length(&stations) {
         let spacing = run.spacing();

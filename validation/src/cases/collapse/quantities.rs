@@ -20,7 +20,11 @@ quantities! {
         accounted("energy_gain", "%", "largest excess of the energy over that of the start, over the potential one"),
     FLOWING_LAYER_SHEAR_RATE:
         validated("flowing_layer_shear_rate", "1/s", "slope of a line through the flowing layer's velocity"),
-    FLOWING_LAYER_R_SQUARED: validated("flowing_layer_r_squared", "-", "share of the variance that this line explains"),
+    FLOWING_LAYER_R_SQUARED: stated("flowing_layer_r_squared", "-", "share of the variance that this line explains"),
+    LINEAR_MISFIT_RATIO: stated(
+        "linear_misfit_ratio", "-",
+        "rms misfit of this line over that of the better of Bagnold's profile and a parabola, of two constants each",
+    ),
     TAIL_DECAY_LENGTH_OVER_DIAMETER: validated(
         "tail_decay_length_over_diameter", "-",
         "length over which the velocity below the flowing layer decays, over the grain diameter",
