@@ -49,7 +49,7 @@ pub(in crate::cases) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
 }
 
 /// The laws of run-out and height whose geometry a run has, and whose material it has or comes closest to.
-fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static CollapseLaw) {
+pub(super) fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static CollapseLaw) {
     let (laws, author) = match run.geometry {
         Geometry::Planar if run.material.grains == ExperimentGrains::Lagree => (&*PLANAR_COLLAPSE, Author::Lagree),
         Geometry::Planar => (&*PLANAR_COLLAPSE, Author::Lube),
@@ -140,12 +140,12 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
     let mut metrics = conservation(&variant, collapse, &run.release.numerics);
     metrics.extend([
         with_uncertainty(
-            by_law(RUN_OUT, collapse.run_out(), run_out_law, bands::run_out(run, run_out_law, spread.run_out)),
+            by_law(RUN_OUT, collapse.run_out(), run_out_law, bands::run_out(run, run_out_law)),
             known.numerical_run_out,
             spread.run_out,
         ),
         with_uncertainty(
-            by_law(FINAL_HEIGHT, collapse.final_height(), height_law, bands::height(run, height_law, spread.height)),
+            by_law(FINAL_HEIGHT, collapse.final_height(), height_law, bands::height(run, height_law)),
             known.numerical_height,
             spread.height,
         ),
