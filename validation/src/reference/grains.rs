@@ -107,6 +107,43 @@ mod tests {
     }
 
     #[test]
+    fn the_grains_have_the_numbers_that_the_paper_prints() {
+        let glass = MuI {
+            static_friction: 0.382,
+            limiting_friction: 0.643,
+            // lost in the scan, by (41)
+            reference_inertia: 0.279,
+            grain_diameter: 0.5e-3,
+            grain_density: 2500.0,
+        };
+        let sand = MuI {
+            static_friction: 0.589,
+            limiting_friction: 1.248,
+            reference_inertia: 2.65,
+            grain_diameter: 0.32e-3,
+            grain_density: 2600.0,
+        };
+        assert_eq!((GLASS_BEADS.law, GLASS_BEADS.solid_fraction), (glass, 0.6));
+        assert_eq!((TABLE_2_SAND.law, TABLE_2_SAND.solid_fraction), (sand, 0.62));
+        assert_eq!(GLASS_BEADS.solid_fraction * GLASS_BEADS.law.grain_density, 1500.0, "the bulk density");
+        assert_eq!((GLASS_BEADS_FLOW_RULE.deposit_length, GLASS_BEADS_FLOW_RULE.flow_coefficient), (1.65, 0.136));
+        // the coarse sand of Table 1, which no case runs at a tier
+        let friction = shipped_table("bagnold/friction.csv").expect("readable");
+        let columns = [
+            ("grain diameter", 0.8e-3),
+            ("length scale over diameter", 2.03),
+            ("flow-rule offset", 0.77),
+            ("flow-rule slope", 0.65),
+            ("static friction", 0.509),
+            ("limiting friction", 0.945),
+        ];
+        for (column, printed) in columns {
+            assert_eq!(friction.number_of("material", "sand", column).expect(column), printed, "{column}");
+        }
+        assert_eq!(friction.number_of("material", "glass beads", "flow-rule offset").expect("γ"), 0.0);
+    }
+
+    #[test]
     fn every_material_is_read_to_the_last_bit() {
         let read = [*GLASS_BEADS, *TABLE_2_SAND, *LAGREE_GRAINS].map(|grains| grains.law.grain_diameter);
         assert_eq!(read, [0.5e-3, 0.32e-3, 2e-3]);

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 /// What a bullet of the CHANGELOG that names gates begins with; the gates follow in backquotes, as `CASE METRIC` for all of a
 /// metric's or `CASE METRIC [VARIANT]` for those of some runs.
-pub const REMOVED: &str = "- Gates removed:";
+const REMOVED: &str = "- Gates removed:";
 
 const HEAD: &str = "# Every gate that this tier has ever had: case | metric | variant. `bagnold report --accept` adds to it. No line is taken\n\
     # away: a gate that went is named in the CHANGELOG, in a bullet that begins with `- Gates removed:`.\n";

@@ -125,13 +125,23 @@ impl<'r> ElementOutcome<'r> {
             Some((Settled::NotStatedClearly, _)) => Status::NotStatedClearly,
             Some((Settled::NotCovered, _)) => Status::NotCovered,
             None if element.metrics.is_empty() && element.runs.is_empty() => Status::Reproduced,
-            None => {
-                let judged =
-                    shown.iter().filter_map(|shown| shown.status).chain(ended.iter().map(|ended| ended.status));
-                judged.min().unwrap_or(Status::NotInThisTier)
-            }
+            None => Self::computed(element, &shown, &ended),
         };
         Self { element, status, shown, ended }
+    }
+
+    /// The worst of all that the element names; where none of it is bad and some of it is not run, or not judged, at this tier, that
+    /// is what is said: half of a statement does not reproduce it.
+    fn computed(element: &Element, shown: &[Shown<'_>], ended: &[Ended<'_>]) -> Status {
+        let judged = shown.iter().filter_map(|shown| shown.status).chain(ended.iter().map(|ended| ended.status));
+        let is_judged = |name: &MetricName| shown.iter().any(|shown| shown.name == name && shown.status.is_some());
+        let has_run = |name: &RunName| ended.iter().any(|ended| ended.name == name);
+        let is_whole = element.metrics.iter().all(is_judged) && element.runs.iter().all(has_run);
+        match judged.min() {
+            Some(Status::Reproduced) | None if !is_whole => Status::NotInThisTier,
+            Some(worst) => worst,
+            None => Status::NotInThisTier,
+        }
     }
 
     /// Whether tests alone hold it: nothing of it is computed in a report.

@@ -182,3 +182,35 @@ fn fine(quick: BedLoadParameters) -> BedLoadParameters {
         ..quick
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_set_up_has_the_numbers_that_the_paper_prints() {
+        let BedLoadParameters { materials, paper, stabilised, .. } = BedLoadParameters::of_tier(Tier::Paper);
+        for grains in [&paper, &stabilised] {
+            assert_eq!(grains.spacing, 2e-3);
+            assert!((materials.depth / grains.spacing - 23.0).abs() < 1e-9, "23 particles over the depth");
+            assert_eq!((grains.numerics.smoothing_ratio, grains.numerics.surface_threshold), (1.2, 0.95));
+        }
+        assert!((paper.bed_depth / materials.grain_diameter - 16.0).abs() < 1e-9, "16 rows of grains");
+        assert!((paper.length / materials.grain_diameter - 8.0).abs() < 1e-9, "8 grains along the flow");
+        assert_eq!((materials.fluid_density, materials.grain_density), (1000.0, 2600.0));
+    }
+
+    #[test]
+    fn the_printed_shields_numbers_follow_from_the_set_up_and_from_no_other_density() {
+        let Materials { depth, fluid_density, grain_diameter, grain_density, .. } =
+            BedLoadParameters::of_tier(Tier::Paper).materials;
+        let shields = |slope: f64, density: f64| depth * slope / ((density / fluid_density - 1.0) * grain_diameter);
+        // three digits are printed
+        for (slope, printed) in [(0.03, 0.173), (0.05, 0.288)] {
+            assert!((shields(slope, grain_density) - printed).abs() <= 5.01e-4, "{}", shields(slope, grain_density));
+            for other in [2590.0, 2650.0] {
+                assert!((shields(slope, other) - printed).abs() > 5.01e-4, "{other} kg/m³ would do as well");
+            }
+        }
+    }
+}

@@ -3,7 +3,7 @@
 use super::column::{ColumnRun, Geometry};
 use super::deposit::{BIN_WIDTH, Collapse};
 use super::quantities::{
-    ENERGY_GAIN, FAILURE_SURFACE_ANGLE, FLOWING_LAYER_R_SQUARED, FLOWING_LAYER_SHEAR_RATE,
+    ENERGY_GAIN, FAILURE_SURFACE_ANGLE, FASTEST_HEIGHT, FLOWING_LAYER_R_SQUARED, FLOWING_LAYER_SHEAR_RATE,
     LINEAR_MISFIT_RATIO, TAIL_DECAY_LENGTH_OVER_DIAMETER, TAIL_DECAY_LENGTH_OVER_SPACING, TAIL_DECAY_LENGTH_STANDARD_ERROR,
     UNDISTURBED_SHARE,
 };
@@ -17,6 +17,9 @@ use crate::observation::{Frame, Recorded};
 /// What the collapse paper says of its velocity profiles.
 const LINEAR_LAYER: &str =
     "statement of the collapse paper: the velocity is linear over the depth of the flowing layer";
+const AT_THE_SURFACE: &str = "statement of the collapse paper: the velocity is largest at the free surface";
+/// Aspect ratio up to which a column is shallow, and part of it has to stay where it was `[-]`.
+const SHALLOW: f64 = 1.0;
 /// Time of the velocity profiles over √(h_0/g) `[-]`: in mid-collapse.
 const PROFILE_TIME: f64 = 1.5;
 
@@ -69,6 +72,9 @@ pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric
             "what the paper calls linear is taken as a line that explains nine tenths of the variance at least",
         ));
     }
+    if let Some(height) = stations.get(1).and_then(|edge| edge.fastest_height(run.spacing())) {
+        metrics.push(observed(FASTEST_HEIGHT, height).against(Some(1.0), AT_THE_SURFACE, Confidence::Medium));
+    }
     if let Some(ratio) = stations.get(1).and_then(|edge| linear_misfit_ratio(edge, run.spacing())) {
         metrics.push(observed(LINEAR_MISFIT_RATIO, ratio).against(Some(1.0), LINEAR_LAYER, Confidence::Medium));
     }
@@ -82,7 +88,8 @@ pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric
     }
     if let Some(wedge) = wedge(run, &record.frames) {
         metrics.push(observed(UNDISTURBED_SHARE, 100.0 * wedge.undisturbed));
-        if let Some(angle) = wedge.angle() {
+        // of a shallow column no surface is an answer too
+        if let Some(angle) = wedge.angle().or((run.aspect_ratio <= SHALLOW).then_some(f64::NAN)) {
             let active = 45.0 + 0.5 * libm::atan(run.law.contact_friction()).to_degrees();
             metrics.push(observed(FAILURE_SURFACE_ANGLE, angle).against(
                 Some(active),

@@ -156,3 +156,20 @@ impl InclineCollapseParameters {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reservoir_channel_and_gate_are_those_of_the_experiment() {
+        for (tier, slopes) in [(Tier::Quick, vec![22.0]), (Tier::Paper, vec![22.0, 23.0, 24.0, 25.0])] {
+            let parameters = InclineCollapseParameters::of_tier(tier);
+            let Reservoir { initial_height, reservoir_length, channel_length, .. } = parameters.reservoir;
+            assert_eq!((initial_height, reservoir_length, channel_length), (0.14, 0.2, 3.0));
+            assert!((initial_height / reservoir_length - 0.7).abs() < 1e-12);
+            assert_eq!(parameters.gate_speed, 1.3);
+            assert!(slopes.iter().all(|slope| parameters.slope_angles.contains(slope)), "{:?}", parameters.slope_angles);
+        }
+    }
+}

@@ -58,6 +58,13 @@ impl Station {
         Self::fitted(x, profile)
     }
 
+    /// Height of the fastest row over that of the surface `[-]`, for rows one `layer` high `[m]`; none where nothing moves outwards.
+    pub(in crate::cases) fn fastest_height(&self, layer: f64) -> Option<f64> {
+        let surface = self.profile.last()?.0 + 0.5 * layer;
+        let fastest = self.profile.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        (fastest.1 > 0.0).then(|| fastest.0 / surface)
+    }
+
     /// Divides a profile into flowing layer and tail.
     pub(in crate::cases) fn fitted(x: f64, profile: Vec<(f64, f64)>) -> Self {
         let fastest = profile.iter().map(|point| point.1).fold(0.0, f64::max);
@@ -167,6 +174,16 @@ mod tests {
         let station = Station { tail, ..station };
         let decay = decay_length(&[station.clone(), station]).expect("a tail");
         assert!((decay.value - 0.05).abs() < 1e-12 && decay.standard_error < 1e-12);
+    }
+
+    #[test]
+    fn a_jet_within_the_heap_is_not_fastest_at_its_surface() {
+        let station = |speeds: [f64; 4]| {
+            Station::fitted(1.0, speeds.iter().enumerate().map(|(row, &u)| (row as f64 + 0.5, u)).collect())
+        };
+        assert_eq!(station([0.1, 0.2, 0.4, 0.8]).fastest_height(1.0), Some(3.5 / 4.0));
+        assert_eq!(station([0.1, 0.9, 0.4, 0.8]).fastest_height(1.0), Some(1.5 / 4.0));
+        assert_eq!(station([0.0; 4]).fastest_height(1.0), None);
     }
 
     #[test]

@@ -121,3 +121,24 @@ impl Parameters for ColumnPlanarParameters {
         runs::all(self)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases::collapse::Material;
+
+    #[test]
+    fn columns_are_as_wide_as_the_paper_prints() {
+        let mut tall = 0;
+        for tier in [Tier::Quick, Tier::Paper, Tier::Fine] {
+            let parameters = ColumnPlanarParameters::of_tier(tier);
+            let of_the_paper = |run: &&ColumnRun| [Material::SAND, Material::GLASS].contains(&run.material);
+            for run in parameters.runs().iter().filter(of_the_paper) {
+                let expected = if run.aspect_ratio > 3.0 { 0.0292 } else { 0.0972 };
+                assert_eq!(run.half_width, expected, "{tier}, a = {}", run.aspect_ratio);
+                tall += usize::from(run.aspect_ratio > 3.0);
+            }
+        }
+        assert!(tall > 0, "a tier has tall columns");
+    }
+}
