@@ -23,7 +23,7 @@ pub(in crate::cases) enum EnergyScale {
     /// what the last step has changed. What stands
     /// still does hardly any: a tenth of the weight times H `[J]`, in two dimensions `[J/m]`, is the least that counts.
     WorkOver { fall_time: f64, weight_by_height: f64, time_step: f64 },
-    /// An energy `[J]`, in two dimensions `[J/m]`, of a layer at rest, in which hardly any work is done: 1e-4 of it may stay
+    /// An energy `[J]`, in two dimensions `[J/m]`, of a layer at rest, in which hardly any work is done: 1e-5 of it may stay
     /// open.
     AtRest(f64),
 }
@@ -46,7 +46,7 @@ impl EnergyScale {
 
 /// What may stay open of the work, and of a layer's energy at rest `[%]`.
 const OPEN: f64 = 0.5;
-const OPEN_AT_REST: f64 = 0.01;
+const OPEN_AT_REST: f64 = 1e-3;
 
 const WORK: &str = "of the largest work done: by gravity, by walls, or dissipated";
 
@@ -94,7 +94,8 @@ pub(in crate::cases) fn metrics(variant: &Variant, book: &EnergyBook, scale: Ene
             .exactly(0.0, &format!("no wall and no term may feed energy into the flow; in per cent {named}"))
             .gated(
                 Limit::AtMost(0.1),
-                "a thousandth for waves of sound, whose energy a symplectic step only keeps on average",
+                "a thousandth for waves of sound, whose energy a symplectic step only keeps on average: of all runs a collapse behind a gate has most, \
+                 a quarter of it, and what has no waves has none",
             )
             .with_snapshot_tolerance(0.2, 1e-3),
         WALL_WORK

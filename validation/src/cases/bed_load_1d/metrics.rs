@@ -185,16 +185,24 @@ fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
             "K (u_f − u_s) = −∂τ_s/∂z − φ ρ_s g sinθ, error over the largest drag",
         ),
     ];
-    for (quantity, error, identity) in errors {
+    for ((quantity, error, identity), largest) in errors.into_iter().zip([1e-7, 1e-6]) {
         metrics.push(
             quantity
                 .of(&run.variant(), error)
                 .against(Some(0.0), identity, Confidence::Exact)
-                .gated(Limit::AtMost(1e-5), "holds in any steady state whatever the closures are")
-                .with_snapshot_tolerance(1.0, 1e-5),
+                .gated(
+                    Limit::AtMost(largest),
+                    "holds in any steady state whatever the closures are: what is left is how near to steady a layer counts as",
+                )
+                .with_snapshot_tolerance(1.0, 0.1 * largest),
         );
     }
 }
+
+/// Largest difference between the steady states from two starts `[-]`, and why.
+pub(super) const ONE_STATE: f64 = 1e-6;
+pub(super) const ONE_STATE_REASON: &str =
+    "a steady state does not remember its start: what is left is how near to steady both are, at most 8e-8 of all layers";
 
 /// Two starts, one state.
 fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast: &LayerState) {
@@ -208,8 +216,8 @@ fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast:
         START_DIFFERENCE
             .of(&variant, difference)
             .against(Some(0.0), "the layer from rest: q*, u_f and φ u_s", Confidence::Exact)
-            .gated(Limit::AtMost(SAME_STATE), "a steady state does not remember its start")
-            .with_snapshot_tolerance(1.0, 1e-5),
+            .gated(Limit::AtMost(ONE_STATE), ONE_STATE_REASON)
+            .with_snapshot_tolerance(1.0, 0.1 * ONE_STATE),
     );
 }
 

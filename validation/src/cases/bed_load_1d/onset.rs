@@ -11,7 +11,7 @@ use super::run::{BedLoad1dRun, LayerPurpose};
 use crate::case::Run;
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
 use crate::metric::{Limit, Metric, Quantity};
-use crate::reference::bed_load_layer::SAME_STATE;
+use super::metrics::{ONE_STATE, ONE_STATE_REASON};
 use crate::reference::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence};
 
 /// A transport that counts as motion.
@@ -94,8 +94,8 @@ pub(super) fn metrics(records: &[BedLoad1dRecord], ratio: Quantity, onset: Quant
             start
                 .of(&run.variant(), difference)
                 .against(Some(0.0), "the layers from rest, all Shields numbers", crate::metric::Confidence::Exact)
-                .gated(Limit::AtMost(SAME_STATE), "a steady state does not remember its start")
-                .with_snapshot_tolerance(1.0, 1e-5),
+                .gated(Limit::AtMost(ONE_STATE), ONE_STATE_REASON)
+                .with_snapshot_tolerance(1.0, 0.1 * ONE_STATE),
         );
     }
     metrics

@@ -62,10 +62,11 @@ pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation
         .of(variant, record.data.momentum.residual())
         .exactly(0.0, "change of momentum = gravity − friction of the bed, summed over every step")
         .gated(
-            Limit::Within(-1e-6, 1e-6),
-            "pairs exchange equal and opposite impulses: rounding, not a tolerance of a solve",
+            Limit::Within(-1e-11, 1e-11),
+            "pairs exchange equal and opposite impulses: the rounding of double precision, 1e-16 of each of the terms of ten thousand \
+             steps, not a tolerance of a solve",
         )
-        .with_snapshot_tolerance(0.0, 1e-9)
+        .with_snapshot_tolerance(0.0, 1e-11)
 }
 
 /// Mean height over half the depth, less 1 `[%]`, with why it matters.

@@ -18,6 +18,9 @@ pub(super) const SAME_LAW_REASON: &str = "the same material law solved by anothe
     digits, and with 20 particles over r_0 the front's thickness of 0.02 r_0 is less than a row, so that the run-out is 5 % longer than \
     with 80";
 
+/// How far the height of the sand's heaps may lie from Lube's law `[-]`.
+pub(super) const HEIGHT: f64 = 0.15;
+
 /// Where a result must lie, and why there.
 pub(super) type AcceptanceBand = Option<(Limit, &'static str)>;
 
@@ -61,7 +64,7 @@ pub(super) fn height(run: &ColumnRun, law: &CollapseLaw) -> AcceptanceBand {
             (0.03, "undisturbed within 3 % up to a = 0.7")
         }
         (Material::SAND, _) if !is_round || a > 1.15 => (
-            0.15,
+            HEIGHT,
             "15 %: by how much the two planar experiments' exponents, 0.4 and 1/3, differ up to a = 10",
         ),
         (Material::LAGREE, _) if run.is_resolved() => (

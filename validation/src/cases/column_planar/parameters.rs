@@ -52,7 +52,7 @@ pub struct Sensitivity {
     /// Hourglass coefficients at which the columns are repeated `[-]`; empty for none.
     #[schemars(transform = each(between(0.0, 2.0, "0.4 is the default of the numerics")))]
     pub hourglass: Vec<f64>,
-    /// Seeds of each coefficient where fewer than 40 particles lie over the half width; one with more.
+    /// Seeds of each coefficient where fewer than 80 particles lie over the half width, whose mean is judged; one with more.
     pub hourglass_seeds: Vec<u64>,
     /// Particles over the half width of these.
     #[schemars(transform = each(rules::rows()))]

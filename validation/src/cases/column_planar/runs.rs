@@ -7,8 +7,8 @@ use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 
 /// Seeds at the finest resolution of a study.
 const FINEST_SEEDS: usize = 3;
-/// Particles over the half width from which one seed serves: the scatter is below 1 % there.
-const SINGLE_SEED_RESOLUTION: usize = 40;
+/// Particles over the half width from which one seed serves: below, the scatter is of the size of the limits of half a per cent.
+const SINGLE_SEED_RESOLUTION: usize = 80;
 /// Longest time of a regularised column over √(h_0/g) `[-]`: it never rests.
 const REGULARISED_DURATION: f64 = 5.0;
 

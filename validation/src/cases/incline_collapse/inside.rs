@@ -9,7 +9,7 @@ const FASTEST: f64 = 0.05;
 /// How far behind the front its viscosity is taken, over the reservoir's length `[-]`.
 const BEHIND_FRONT: f64 = 0.1;
 /// A picture that is later or earlier by more is none of the time `[s]`.
-const NEAR: f64 = 0.02;
+pub(super) const NEAR: f64 = 0.02;
 
 /// What one picture shows.
 #[derive(Debug, Clone, PartialEq)]

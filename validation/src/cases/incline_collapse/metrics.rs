@@ -1,7 +1,7 @@
 //! How a collapse on a slope is judged.
 
 use super::InclineCollapseRecord;
-use super::inside::Inside;
+use super::inside::{self, Inside};
 use crate::case::Run;
 use crate::cases::collapse::metrics::{at_rest, conservation};
 use crate::cases::collapse::quantities::{
@@ -25,6 +25,8 @@ quantities! {
 const FIELD_TIMES: [f64; 3] = [0.12, 0.2, 0.4];
 /// Slope of those figures `[°]`.
 const FIELD_SLOPE: f64 = 22.0;
+/// Earliest time that the paper speaks of `[s]`.
+const EARLIEST_STATED: f64 = 0.11;
 /// "Near the surface", of the local thickness `[-]`: the upper third.
 const NEAR_SURFACE: f64 = 1.0 / 3.0;
 
@@ -71,7 +73,7 @@ pub(super) fn of_run((run, record): &InclineCollapseRecord) -> Vec<Metric> {
         }
     }
     if is_of_the_figures(run) {
-        metrics.extend(FIELD_TIMES.iter().filter_map(|&time| inside(time, run, record)).flatten());
+        metrics.extend(FIELD_TIMES.iter().filter_map(|&time| of_fields(time, run, record)).flatten());
     }
     metrics
 }
@@ -82,17 +84,19 @@ fn is_of_the_figures(run: &SlopeRun) -> bool {
 }
 
 /// What the paper says of velocity and viscosity inside the collapse, at a time.
-fn inside(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Option<Vec<Metric>> {
+fn of_fields(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Option<Vec<Metric>> {
     let inside = Inside::at(time, run, record)?;
     let variant = Variant::of("time", time).followed_by(&run.variant());
     let is_judged = run.is_resolved() && run.law.is_plastic();
     let of = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-2, 1e-2);
+    let since_clearance = time - run.gate_clearance();
     let mut metrics = vec![
         of(FASTEST_DEPTH, inside.fastest_depth)
-            .against(None, "statement: the largest velocity is near the surface, in a shallow region", Confidence::Medium)
+            .against(None, "statement: from 0.11 s on the largest velocity is near the surface, in a shallow region", Confidence::Medium)
             .gated_by(
-                is_judged.then_some(Limit::AtMost(NEAR_SURFACE)),
-                "near the surface means in the upper third of the local thickness; grains that are as fast at every depth have 1/2",
+                (is_judged && since_clearance >= EARLIEST_STATED - inside::NEAR).then_some(Limit::AtMost(NEAR_SURFACE)),
+                "near the surface means in the upper third of the local thickness, and grains that are as fast at every depth have 1/2; \
+                 the times count from where the gate has cleared the grains, for until then it holds the upper ones back",
             ),
     ];
     let rises = "statement: the viscosity grows with the distance from the free surface, mainly through the pressure";
