@@ -149,6 +149,9 @@ pub struct Metric {
     pub kind: MetricKind,
     /// The gate, if there is one; a metric without a gate is observed.
     pub gate: Option<Gate>,
+    /// Whether a page opens with it, right behind what fails: what its reader asked for, where nothing judges it.
+    #[serde(default)]
+    pub leads: bool,
     /// Why it is no value of a steady state, although it should be one: it then has no value.
     pub not_steady: Option<String>,
     /// What value and reference are known to, as far as it is known.
@@ -172,6 +175,7 @@ impl Metric {
             reference: None,
             kind: MetricKind::Verification,
             gate: None,
+            leads: false,
             not_steady: None,
             uncertainty: Uncertainty::default(),
             snapshot_tolerance: 1e-6,
@@ -228,6 +232,13 @@ impl Metric {
     #[must_use]
     pub fn known_to(mut self, origin: Origin, standard: Option<f64>, source: &str) -> Self {
         self.uncertainty.add(origin, standard, source);
+        self
+    }
+
+    /// Lets a page open with it.
+    #[must_use]
+    pub fn leading(mut self) -> Self {
+        self.leads = true;
         self
     }
 

@@ -123,6 +123,20 @@ impl CollapseLaw {
         Some(branch.coefficient * libm::pow(aspect_ratio, branch.exponent))
     }
 
+    /// The law's value at an aspect ratio in words, or the gap in which it has none.
+    #[must_use]
+    pub fn in_words(&self, aspect_ratio: f64) -> String {
+        if let Some(value) = self.value(aspect_ratio) {
+            return format!("{} {value:.2}", self.source);
+        }
+        let below = self.branches.iter().map(|branch| branch.to).filter(|&to| to <= aspect_ratio).fold(0.0, f64::max);
+        let above = self.branches.iter().map(|branch| branch.from).filter(|&from| from > aspect_ratio);
+        match above.fold(f64::INFINITY, f64::min) {
+            above if above.is_finite() => format!("{} none from a = {below} to {above}", self.source),
+            _ => format!("{} none beyond a = {below}", self.source),
+        }
+    }
+
     /// Points of its branches in the drawn range, branch by branch.
     #[must_use]
     pub fn curves(&self) -> Vec<Vec<(f64, f64)>> {
@@ -146,6 +160,8 @@ mod tests {
         assert_eq!(lube.value(2.0), None);
         assert!((lube.value(8.0).unwrap() - 7.6).abs() < 1e-12);
         assert_eq!(lube.curves().len(), 2);
+        assert_eq!(lube.in_words(1.0), "Lube et al. 2005, planar experiment 1.20");
+        assert_eq!(lube.in_words(2.0), "Lube et al. 2005, planar experiment none from a = 1.8 to 2.8");
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::judgement::{JudgedCase, Severity};
 use super::origin::{provenance, seconds};
 use super::rows::{mark, rows, vanished};
 use super::template::fill;
-use super::view::{CasePage, CaseView, MetricView, Neighbours, RunView, VerdictMark, picture, typed};
+use super::view::{CasePage, CaseView, FigureView, MetricView, Neighbours, RunView, VerdictMark, picture, typed};
 use super::{DrawnFigure, Report};
 use crate::case::RunSummary;
 use crate::metric::{MetricKind, Verdict};
@@ -55,6 +55,7 @@ fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> CaseView {
         description: case.description.split("\n\n").map(str::to_owned).collect(),
         mark: if case.metrics.is_empty() { VerdictMark::OBSERVED } else { mark(judged.severity()) },
         statement: case_statement(judged),
+        opening: if judged.metrics.iter().any(|judged| judged.metric.leads) { opening(drawn) } else { Vec::new() },
         rows,
         vanished: judged.vanished.iter().map(vanished).collect(),
         figures: drawn.iter().map(picture).collect(),
@@ -63,6 +64,13 @@ fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> CaseView {
         command: typed(&case.command),
         runs: case.runs.iter().map(run).collect(),
     }
+}
+
+/// The figures beside the metrics that a page opens with: the case's first, and its first that moves.
+fn opening(drawn: &[DrawnFigure]) -> Vec<FigureView> {
+    let shown: Vec<FigureView> = drawn.iter().filter(|drawn| drawn.failure.is_none()).map(picture).collect();
+    let moves = shown.iter().skip(1).find(|figure| figure.moves).cloned();
+    shown.into_iter().take(1).chain(moves).collect()
 }
 
 /// The figure that shares most words with a metric's name; nothing where none does.

@@ -50,7 +50,7 @@ impl JudgedMetric<'_> {
     }
 }
 
-/// One case, judged; metrics with the worst first, then the user's own gates before those of the case, what is measured
+/// One case, judged; metrics with the worst first, then those that a page opens with, then the user's own gates before those of the case, what is measured
 /// against before the run's own account, those of one name together.
 #[derive(Debug, Clone)]
 pub struct JudgedCase<'r> {
@@ -255,7 +255,9 @@ fn judge_case<'r>(report: &'r Report, case: &'r CaseReport) -> JudgedCase<'r> {
     };
     metrics.sort_by_key(|judged| {
         let metric = judged.metric;
-        (judged.severity(), metric.gate_owner(), weight(metric.kind), first_of_name(&metric.name))
+        let severity = judged.severity();
+        let is_behind = severity > Severity::KnownFailure && !metric.leads;
+        (is_behind, severity, metric.gate_owner(), weight(metric.kind), first_of_name(&metric.name))
     });
     let diverged = case.runs.iter().filter_map(|run| match &run.outcome {
         Outcome::Diverged { message, expected: false } => Some((&run.variant, message.as_str())),

@@ -138,6 +138,8 @@ pub(super) struct CaseView {
     pub(super) rows: Vec<MetricView>,
     pub(super) vanished: Vec<String>,
     pub(super) figures: Vec<FigureView>,
+    /// Those of them that the page opens with, where a metric leads.
+    pub(super) opening: Vec<FigureView>,
     /// Tables of reference data that are written beside the page.
     pub(super) tables: Vec<&'static str>,
     pub(super) parameters: String,

@@ -175,7 +175,13 @@ impl ColumnRun {
     /// do not gate.
     #[must_use]
     pub fn has_published_law(&self) -> bool {
-        matches!(self.law, Rheology::MuI(_))
+        matches!(self.law, Rheology::MuI(_)) && !self.material.is_own(&self.law)
+    }
+
+    /// Whether the grains are a user's own: those of a published law with another law, whatever that is.
+    #[must_use]
+    pub fn is_of_own_grains(&self) -> bool {
+        self.regularisation_rate.is_none() && self.material.is_own(&self.law)
     }
 
     /// Particles, about.

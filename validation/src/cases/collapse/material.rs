@@ -83,11 +83,16 @@ impl Material {
         self.alteration.is_none()
     }
 
+    /// Whether a law is a user's own, in the place of the published one; grains that the case itself alters are none.
+    #[must_use]
+    pub fn is_own(self, law: &Rheology) -> bool {
+        self.is_published() && *law != Rheology::MuI(self.grains.as_published().law)
+    }
+
     /// What a legend calls them where they have this law: one of a user's own makes grains of his own.
     #[must_use]
     pub fn title_with(self, law: &Rheology) -> String {
-        let is_own = self.is_published() && *law != Rheology::MuI(self.grains.as_published().law);
-        if is_own { format!("own grains as {}", self.grains.name()) } else { self.title() }
+        if self.is_own(law) { format!("own grains as {}", self.grains.name()) } else { self.title() }
     }
 
     /// What a legend calls them.

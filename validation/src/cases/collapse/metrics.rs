@@ -145,10 +145,25 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
     let (variant, a) = (run.variant(), run.initial_height());
     let observed = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
     let by_law = |quantity: Quantity, value: f64, law: &CollapseLaw, band: AcceptanceBand| {
-        let metric = observed(quantity, value).against(law.value(a), &law.source, law.confidence);
+        // in a gap between its branches a law judges nothing, and says so
+        let source = if law.value(a).is_some() { law.source.clone() } else { law.in_words(a) };
+        let metric = observed(quantity, value).against(law.value(a), &source, law.confidence);
         metric.gated_by(band.map(|band| band.0), band.map_or("", |band| band.1))
     };
     let (run_out_law, height_law) = laws_of(run);
+    let laws = if run.geometry == Geometry::Planar { &*PLANAR_COLLAPSE } else { &*ROUND_COLLAPSE };
+    // beside all laws, gaps included, and before all else
+    let of_own_grains = |metric: Metric, laws: &[CollapseLaw]| {
+        if !run.is_of_own_grains() {
+            return metric;
+        }
+        let beside: Vec<String> = laws.iter().map(|law| law.in_words(a)).collect();
+        let source = format!(
+            "{}. None of them judges it: each holds for the grains of its own experiment or simulation, and these have another law",
+            beside.join("; ")
+        );
+        Metric { gate: None, ..metric.against(None, &source, Confidence::Medium) }.leading()
+    };
     let (duration, source, confidence) = &*COLLAPSE_DURATION;
     let of_sand = run.material == Material::SAND && run.has_published_law();
     let slope = observed(DEPOSIT_SLOPE_ANGLE, collapse.slope_angle());
@@ -157,12 +172,18 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
     let mut metrics = conservation(&variant, collapse, &run.release.numerics);
     metrics.extend([
         with_uncertainty(
-            by_law(RUN_OUT, collapse.run_out(), run_out_law, bands::run_out(run, run_out_law)),
+            of_own_grains(
+                by_law(RUN_OUT, collapse.run_out(), run_out_law, bands::run_out(run, run_out_law)),
+                &laws.run_out,
+            ),
             known.numerical_run_out,
             spread.run_out,
         ),
         with_uncertainty(
-            by_law(FINAL_HEIGHT, collapse.final_height(), height_law, bands::height(run, height_law)),
+            of_own_grains(
+                by_law(FINAL_HEIGHT, collapse.final_height(), height_law, bands::height(run, height_law)),
+                &laws.height,
+            ),
             known.numerical_height,
             spread.height,
         ),
