@@ -18,6 +18,7 @@ mod scene_errors;
 mod shells;
 mod stopping;
 mod supports;
+mod surface_operators;
 mod symmetries;
 mod two_phases;
 mod viscous_step;

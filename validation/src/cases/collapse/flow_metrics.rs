@@ -68,7 +68,7 @@ pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric
         metrics.push(observed(FLOWING_LAYER_SHEAR_RATE, shear.slope));
         let linear = observed(FLOWING_LAYER_R_SQUARED, shear.r_squared).against(None, LINEAR_LAYER, Confidence::Medium);
         metrics.push(linear.gated_by(
-            run.material.is_published().then_some(Limit::AtLeast(0.9)),
+            (run.material.is_published() && run.has_published_law()).then_some(Limit::AtLeast(0.9)),
             "what the paper calls linear is taken as a line that explains nine tenths of the variance at least",
         ));
     }

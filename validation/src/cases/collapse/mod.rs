@@ -32,6 +32,8 @@ pub use release::Release;
 pub use reservoir::Reservoir;
 pub use slope::{SlopeCollapse, SlopeRun};
 
+pub(super) use velocity_profile::{Station, linear_misfit_ratio};
+
 use crate::case::{ParameterError, Run};
 use crate::observation::Recorded;
 use crate::output::Table;

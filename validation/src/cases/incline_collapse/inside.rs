@@ -6,6 +6,8 @@ use crate::statistics::{mean, rank_correlation};
 
 /// Share of the grains that count as the fastest `[-]`.
 const FASTEST: f64 = 0.05;
+/// Part of the local thickness that is the surface, or the bed `[-]`.
+const FIFTH: f64 = 0.2;
 /// How far behind the front its viscosity is taken, over the reservoir's length `[-]`.
 const BEHIND_FRONT: f64 = 0.1;
 /// A picture that is later or earlier by more is none of the time `[s]`.
@@ -24,6 +26,12 @@ pub(super) struct Inside {
     pub(super) viscosity_and_shear_rate: Option<f64>,
     /// Median of the apparent viscosity just behind the front `[Pa·s]`.
     pub(super) front_viscosity: Option<f64>,
+    /// Medians of it in the uppermost and in the lowest fifth of the local thickness `[Pa·s]`.
+    pub(super) surface_and_bed_viscosity: (Option<f64>, Option<f64>),
+    /// Mean depth of the grains that are sheared fastest, over the local thickness `[-]`.
+    pub(super) sheared_depth: f64,
+    /// Range between the quartiles of the inertial number among the faster half of the grains over that among the slower `[-]`.
+    pub(super) inertia_contrast: Option<f64>,
 }
 
 impl Inside {
@@ -43,14 +51,33 @@ impl Inside {
         let depths: Vec<f64> = frame.position.iter().map(|x| surface(x[0]) - x[1]).collect();
         let (viscosity, pressure) = (frame.scalar("viscosity"), frame.scalar("pressure"));
         let velocity = frame.vector("velocity");
-        if depths.is_empty() || viscosity.len() != depths.len() || velocity.len() != depths.len() {
+        let known = [viscosity.len(), velocity.len(), pressure.len(), frame.scalar("shear_rate").len()];
+        if depths.is_empty() || known.iter().any(|&number| number != depths.len()) {
             return None;
         }
-        let mut order: Vec<usize> = (0..depths.len()).collect();
-        order.sort_by(|&a, &b| velocity[b][0].total_cmp(&velocity[a][0]).then(a.cmp(&b)));
-        order.truncate(((FASTEST * depths.len() as f64) as usize).max(1));
-        let relative =
-            order.iter().map(|&k| (depths[k] / surface(frame.position[k][0]).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0));
+        let all = || (0..depths.len()).collect::<Vec<usize>>();
+        let relative = |k: usize| (depths[k] / surface(frame.position[k][0]).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let order = |by: &dyn Fn(usize) -> f64| {
+            let mut order = all();
+            order.sort_by(|&a, &b| by(b).total_cmp(&by(a)).then(a.cmp(&b)));
+            order
+        };
+        let most = ((FASTEST * depths.len() as f64) as usize).max(1);
+        let depth_of_most = |by: &dyn Fn(usize) -> f64| {
+            mean(&order(by)[..most].iter().map(|&k| relative(k)).collect::<Vec<f64>>())
+        };
+        let by_speed = order(&|k| velocity[k][0]);
+        let shear_rate = frame.scalar("shear_rate");
+        let median = |inside: &dyn Fn(usize) -> bool| {
+            quartiles(all().into_iter().filter(|&k| inside(k)).map(|k| viscosity[k]).collect()).map(|found| found[1])
+        };
+        // I over D √ρ_s, which a ratio does not need; grains without pressure fly
+        let inertia = |grains: &[usize]| {
+            let pressed = grains.iter().filter(|&&k| pressure[k] > 0.0);
+            let [low, _, high] = quartiles(pressed.map(|&k| shear_rate[k] / pressure[k].sqrt()).collect())?;
+            Some(high - low)
+        };
+        let (fast, slow) = by_speed.split_at(by_speed.len() / 2);
         let with = |other: &[f64]| {
             let pairs: Vec<(f64, f64)> = viscosity.iter().copied().zip(other.iter().copied()).collect();
             rank_correlation(&pairs)
@@ -61,13 +88,23 @@ impl Inside {
             .collect();
         at_front.sort_by(f64::total_cmp);
         Some(Self {
-            fastest_depth: mean(&relative.collect::<Vec<f64>>()),
+            fastest_depth: depth_of_most(&|k| velocity[k][0]),
             viscosity_and_depth: with(&depths),
             viscosity_and_pressure: with(pressure),
             viscosity_and_shear_rate: with(frame.scalar("shear_rate")),
             front_viscosity: at_front.get(at_front.len() / 2).copied(),
+            surface_and_bed_viscosity: (median(&|k| relative(k) < FIFTH), median(&|k| relative(k) > 1.0 - FIFTH)),
+            sheared_depth: depth_of_most(&|k| shear_rate[k]),
+            inertia_contrast: inertia(fast).zip(inertia(slow)).map(|(fast, slow)| fast / slow),
         })
     }
+}
+
+/// Lower quartile, median and upper quartile; none of fewer than four values.
+fn quartiles(mut values: Vec<f64>) -> Option<[f64; 3]> {
+    values.sort_by(f64::total_cmp);
+    let at = |quarters: usize| values[(quarters * (values.len() - 1) + 2) / 4];
+    (values.len() >= 4).then(|| [at(1), at(2), at(3)])
 }
 
 /// Height of the surface at a place, linear between the centres of bins `[m]`.
@@ -113,8 +150,21 @@ mod tests {
         assert!((inside.viscosity_and_depth.expect("a value") - 1.0).abs() < 1e-12);
         assert!((inside.viscosity_and_pressure.expect("a value") - 1.0).abs() < 1e-12);
         assert!((inside.viscosity_and_shear_rate.expect("a value") + 1.0).abs() < 1e-12);
+        // the fastest sheared row is the uppermost; fifths of twenty rows are four, whose middle depths lie 0.125 from an end
+        assert!((inside.sheared_depth - 0.025).abs() < 1e-12, "{inside:?}");
+        let (surface, bed) = inside.surface_and_bed_viscosity;
+        let near = |value: Option<f64>, depth: f64| (value.expect("a value").sqrt() - depth).abs() < 0.03;
+        assert!(near(surface, 0.1) && near(bed, 0.9), "{inside:?}");
+        // (1 − x)/√(3x) varies much more in the upper half, which is the faster
+        assert!(inside.inertia_contrast.expect("a value") > 2.0, "{inside:?}");
         // two columns of twenty grains lie behind the front; the median depth of twenty rows is 0.525 from above
         assert!((inside.front_viscosity.expect("a value") - 0.525 * 0.525).abs() < 1e-12, "{inside:?}");
+    }
+
+    #[test]
+    fn quartiles_are_those_of_the_sorted_values() {
+        assert_eq!(quartiles(vec![5.0, 1.0, 3.0, 2.0, 4.0]), Some([2.0, 3.0, 4.0]));
+        assert_eq!(quartiles(vec![1.0; 3]), None);
     }
 
     #[test]

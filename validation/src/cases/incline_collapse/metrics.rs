@@ -5,19 +5,25 @@ use super::inside::{self, Inside};
 use crate::case::Run;
 use crate::cases::collapse::metrics::{at_rest, conservation};
 use crate::cases::collapse::quantities::{
-    DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
+    DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, LINEAR_MISFIT_RATIO, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
 };
-use crate::cases::collapse::{SlopeCollapse, SlopeRun};
+use crate::cases::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun, Station, linear_misfit_ratio};
 use crate::cases::energy_ledger;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
-use crate::observation::Recorded;
+use crate::observation::{Frame, Recorded};
 use crate::reference::{SLOPE_EXPERIMENT, slope_run_out};
+use crate::statistics::mean;
 
 quantities! {
-    [PARTICLES_LOST, MOMENTUM_RESIDUAL, REST_TIME, DEPOSIT_SLOPE_ANGLE, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK, FRONT_DISPLACEMENT, FRONT]
+    [PARTICLES_LOST, MOMENTUM_RESIDUAL, REST_TIME, DEPOSIT_SLOPE_ANGLE, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK, FRONT_DISPLACEMENT, FRONT, LINEAR_MISFIT_RATIO]
     FASTEST_DEPTH: stated("fastest_depth", "-", "mean depth of the fastest twentieth of the grains along the slope, over the local thickness, at a time"),
     VISCOSITY_AND_DEPTH: stated("viscosity_and_depth", "-", "rank correlation of the apparent viscosity and the depth below the surface, at a time"),
     VISCOSITY_LIKE_PRESSURE: stated("viscosity_like_pressure", "-", "rank correlation of the apparent viscosity with the pressure less that with the shear rate, both as sizes, at a time"),
+    SURFACE_VISCOSITY: stated("surface_viscosity", "Pa·s", "median apparent viscosity of the uppermost fifth of the thickness, at a time"),
+    BED_VISCOSITY: stated("bed_viscosity", "Pa·s", "the same of the lowest fifth"),
+    SHEARED_DEPTH: stated("sheared_depth", "-", "mean depth of the twentieth of the grains that is sheared fastest, over the local thickness, at a time"),
+    INERTIA_CONTRAST: stated("inertia_contrast", "-", "range between the quartiles of the inertial number among the faster half of the grains over that among the slower, at a time"),
+    UNIFORMITY: stated("uniformity", "-", "least over largest depth mean of the velocity at three places behind the front, at a time"),
     FRONT_VISCOSITY: stated("front_viscosity", "Pa·s", "median apparent viscosity of the last tenth of the reservoir's length behind the front, at a time"),
 }
 
@@ -83,6 +89,24 @@ fn is_of_the_figures(run: &SlopeRun) -> bool {
     run.slope_angle == FIELD_SLOPE && run.regularisation_rate.is_none()
 }
 
+/// Velocity over depth at a quarter, half and three quarters of the way from the gate to the front; none before the front has
+/// come two stations' widths.
+fn stations(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Vec<Station> {
+    let (unit, data) = (run.reservoir.reservoir_length, &record.data.collapse);
+    let Some(frame) = Frame::nearest(&record.frames, time) else { return Vec::new() };
+    let Some(front) = data.time.iter().position(|&t| t >= time).map(|index| data.front[index]) else { return Vec::new() };
+    if front - 1.0 < 2.0 * BIN_WIDTH {
+        return Vec::new();
+    }
+    let at = |part: f64| Station::of(frame, (1.0 + part * (front - 1.0)) * unit, BIN_WIDTH * unit, run.spacing());
+    [0.25, 0.5, 0.75].map(at).to_vec()
+}
+
+/// Mean over the depth `[m/s]`.
+fn mean_velocity(station: &Station) -> f64 {
+    mean(&station.profile.iter().map(|point| point.1).collect::<Vec<f64>>())
+}
+
 /// What the paper says of velocity and viscosity inside the collapse, at a time.
 fn of_fields(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Option<Vec<Metric>> {
     let inside = Inside::at(time, run, record)?;
@@ -114,6 +138,20 @@ fn of_fields(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Opt
                 "it goes with the pressure more than with the rate",
             ),
         );
+    }
+    let (surface, bed) = inside.surface_and_bed_viscosity;
+    metrics.extend(surface.map(|viscosity| of(SURFACE_VISCOSITY, viscosity)));
+    metrics.extend(bed.map(|viscosity| of(BED_VISCOSITY, viscosity)));
+    metrics.push(of(SHEARED_DEPTH, inside.sheared_depth));
+    metrics.extend(inside.inertia_contrast.map(|contrast| of(INERTIA_CONTRAST, contrast)));
+    let stations = stations(time, run, record);
+    if let [_, middle, _] = stations.as_slice()
+        && let Some(ratio) = linear_misfit_ratio(middle, run.spacing())
+    {
+        metrics.push(of(LINEAR_MISFIT_RATIO, ratio));
+        let means: Vec<f64> = stations.iter().map(|station| mean_velocity(station)).collect();
+        let (least, most) = means.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &mean| (a.min(mean), b.max(mean)));
+        metrics.push(of(UNIFORMITY, least / most));
     }
     metrics.extend(inside.front_viscosity.map(|viscosity| {
         of(FRONT_VISCOSITY, viscosity).against(
