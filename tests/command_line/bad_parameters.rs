@@ -32,8 +32,8 @@ fn a_layer_of_water_and_grains_that_cannot_be() {
             "`onset.relative_depth` is 12.33, but must be a whole multiple of a cell; choose whole numbers",
         ),
         (
-            "closures.grain_roughness.joining_room=0.0",
-            "`closures.grain_roughness.joining_room` is 0, but must be positive and finite; a few hundredths: a layer of grains that moves has more",
+            "closures.grain_roughness.bed_roughness_fade_length=0.0",
+            "`closures.grain_roughness.bed_roughness_fade_length` is 0, but must be positive and finite; a few hundredths: a layer of grains that moves has more",
         ),
         (
             "closures.largest_fraction=1.0",

@@ -3,6 +3,8 @@
 //!
 //! r = r_0 d exp(−D/(s d)), D = ∫ x (1 − x) dz, x = φ/φ_max, both from the base up.
 //!
+//! s is this project's and stands in no literature: no measurement says how fast the roughness of a bed fades as its grains loosen.
+//!
 //! Over packed grains R is the height above them, and l = κ (z + r_0 d) is that of a rough wall whose origin lies r_0 d
 //! below the tops of its grains (0.15 to 0.3 for beds of spheres; Nezu & Nakagawa 1993). Grains that move have loosened;
 //! the room between them carries the eddies then, and the roughness, which it replaces, fades with it. D counts only
@@ -19,14 +21,15 @@ pub struct GrainRoughness {
     /// Depth r_0 of the origin below the tops of resting grains, in grain diameters `[-]`; 0 for a smooth bed.
     #[schemars(transform = between(0.0, 1.0, "0.15 to 0.3 for beds of spheres, 0 for a smooth bed"))]
     pub origin_depth: f64,
-    /// Room s between loosened grains over which the roughness falls by e, in grain diameters `[-]`.
+    /// Room s between loosened grains over which the bed's roughness falls by e, in grain diameters `[-]`; chosen, not measured:
+    /// 0.01 to 0.3 are plausible, and transport depends on it.
     #[schemars(transform = positive("a few hundredths: a layer of grains that moves has more"))]
-    pub joining_room: f64,
+    pub bed_roughness_fade_length: f64,
 }
 
 impl Default for GrainRoughness {
     fn default() -> Self {
-        Self { origin_depth: 0.2, joining_room: 0.03 }
+        Self { origin_depth: 0.2, bed_roughness_fade_length: 0.03 }
     }
 }
 
@@ -43,7 +46,7 @@ impl GrainRoughness {
     #[inline]
     #[must_use]
     pub fn room(&self, loosened: f64, grain_diameter: f64) -> f64 {
-        self.origin_depth * grain_diameter * libm::exp(-loosened / (self.joining_room * grain_diameter))
+        self.origin_depth * grain_diameter * libm::exp(-loosened / (self.bed_roughness_fade_length * grain_diameter))
     }
 
     /// The first parameter outside its range, if any.
@@ -96,7 +99,7 @@ mod tests {
         let roughness = GrainRoughness::default();
         assert!(roughness.parameter_problem().is_none());
         let field = |roughness: GrainRoughness| roughness.parameter_problem().map(|problem| problem.field);
-        assert_eq!(field(GrainRoughness { joining_room: 0.0, ..roughness }), Some("joining_room".to_owned()));
+        assert_eq!(field(GrainRoughness { bed_roughness_fade_length: 0.0, ..roughness }), Some("bed_roughness_fade_length".to_owned()));
         assert_eq!(field(GrainRoughness { origin_depth: -0.1, ..roughness }), Some("origin_depth".to_owned()));
     }
 }

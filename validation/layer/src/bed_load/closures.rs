@@ -99,7 +99,7 @@ static LITERATURE: LazyLock<Closures> = LazyLock::new(|| {
         turbulent_schmidt: 0.0,
         grain_roughness: GrainRoughness {
             origin_depth: value("origin below resting grains"),
-            joining_room: value("room that replaces the roughness"),
+            bed_roughness_fade_length: value("fade length of the bed roughness"),
         },
         suspension_viscosity: SuspensionViscosity {
             intrinsic: value("suspension viscosity coefficient"),

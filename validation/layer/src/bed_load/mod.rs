@@ -223,7 +223,7 @@ impl BedLoadLayer {
             ("regularisation_rate", closures.regularisation_rate),
             ("largest_fraction", closures.largest_fraction),
             ("karman", closures.karman),
-            ("joining_room", closures.grain_roughness.joining_room),
+            ("bed_roughness_fade_length", closures.grain_roughness.bed_roughness_fade_length),
         ];
         for (field, value) in positive {
             if !(value > 0.0 && value.is_finite()) {

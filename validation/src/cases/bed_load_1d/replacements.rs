@@ -2,6 +2,7 @@
 
 use crate::reference::bed_load_layer::{Closures, MixingLengthClosure};
 use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::turbulence::GrainRoughness;
 use bagnold_solver::parameter::{between, each, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -27,6 +28,9 @@ pub struct Sensitivities {
     /// Heights of cells `[m]`.
     #[schemars(transform = each(positive("give it in metres, such as 2.5e-4")))]
     pub cell_height: Vec<f64>,
+    /// Length over which the roughness of the bed fades, in grain diameters `[-]`.
+    #[schemars(transform = each(positive("give it in grain diameters, such as 0.03")))]
+    pub bed_roughness_fade_length: Vec<f64>,
     /// Drag laws.
     pub drag: Vec<DragLaw>,
     /// Mixing lengths.
@@ -49,6 +53,8 @@ pub enum Replaced {
     Dilation(f64),
     /// Height of a cell `[m]`.
     CellHeight(f64),
+    /// Length over which the roughness of the bed fades, in grain diameters `[-]`.
+    BedRoughnessFadeLength(f64),
     /// Drag law.
     Drag(DragLaw),
     /// Mixing length.
@@ -56,8 +62,14 @@ pub enum Replaced {
 }
 
 impl Sensitivities {
+    /// The one closure that is no literature's, over the range in which it may lie: a hundredth of a grain, and as much room as a layer
+    /// of moving grains has.
+    pub(super) fn chosen() -> Self {
+        Self { bed_roughness_fade_length: vec![0.01, 0.1, 0.3], ..Self::none() }
+    }
+
     /// None.
-    pub(super) fn none() -> Self {
+    fn none() -> Self {
         Self {
             limiting_friction: Vec::new(),
             static_friction: Vec::new(),
@@ -65,6 +77,7 @@ impl Sensitivities {
             largest_fraction: Vec::new(),
             dilation: Vec::new(),
             cell_height: Vec::new(),
+            bed_roughness_fade_length: Vec::new(),
             drag: Vec::new(),
             mixing_length: Vec::new(),
         }
@@ -79,6 +92,7 @@ impl Sensitivities {
             largest_fraction: vec![0.55, 0.64],
             dilation: vec![0.0, 0.15, 0.62],
             cell_height: vec![1e-3, 5e-4, 1.25e-4],
+            bed_roughness_fade_length: Self::chosen().bed_roughness_fade_length,
             drag: vec![DragLaw::SchillerNaumann, DragLaw::MorsiAlexander, DragLaw::WenYu, DragLaw::Ergun],
             mixing_length: vec![MixingLengthClosure::Root, MixingLengthClosure::Linear],
         }
@@ -94,6 +108,7 @@ impl Sensitivities {
         all.extend(values(&self.largest_fraction, Replaced::LargestFraction));
         all.extend(values(&self.dilation, Replaced::Dilation));
         all.extend(values(&self.cell_height, Replaced::CellHeight));
+        all.extend(values(&self.bed_roughness_fade_length, Replaced::BedRoughnessFadeLength));
         all.extend(self.drag.iter().map(|law| Replaced::Drag(*law)));
         all.extend(self.mixing_length.iter().map(|length| Replaced::MixingLength(*length)));
         all
@@ -110,6 +125,10 @@ impl Replaced {
             Self::LargestFraction(largest_fraction) => Closures { largest_fraction, ..closures },
             Self::Dilation(dilation) => Closures { dilation, ..closures },
             Self::CellHeight(_) => closures,
+            Self::BedRoughnessFadeLength(bed_roughness_fade_length) => Closures {
+                grain_roughness: GrainRoughness { bed_roughness_fade_length, ..closures.grain_roughness },
+                ..closures
+            },
             Self::Drag(drag) => Closures { drag, ..closures },
             Self::MixingLength(mixing_length) => Closures { mixing_length, ..closures },
         };
@@ -125,6 +144,7 @@ impl Replaced {
             Self::LargestFraction(_) => "largest_fraction",
             Self::Dilation(_) => "dilation",
             Self::CellHeight(_) => "cell_height",
+            Self::BedRoughnessFadeLength(_) => "bed_roughness_fade_length",
             Self::Drag(_) => "drag",
             Self::MixingLength(_) => "mixing_length",
         }
@@ -138,7 +158,8 @@ impl Replaced {
             | Self::ReferenceInertia(value)
             | Self::LargestFraction(value)
             | Self::Dilation(value)
-            | Self::CellHeight(value) => Some(value),
+            | Self::CellHeight(value)
+            | Self::BedRoughnessFadeLength(value) => Some(value),
             Self::Drag(_) | Self::MixingLength(_) => None,
         }
     }

@@ -5,12 +5,13 @@ use super::records::of;
 use super::replacements::Replaced;
 use super::run::{BedLoad1dRun, LayerPurpose, percent};
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
-use crate::reference::TransportFormula;
+use crate::reference::{MEASURED_BAND, TransportFormula};
 use crate::reference::bed_load_layer::{LayerState, MixingLengthClosure};
 use bagnold_solver::material::drag::DragLaw;
 
 /// Closures in the order of the figure, with their labels.
-const DRAWN: [(&str, &str); 8] = [
+const DRAWN: [(&str, &str); 9] = [
+    ("bed_roughness_fade_length", "fade length of the bed's roughness/d [-]"),
     ("limiting_friction", "μ_2 [-]"),
     ("static_friction", "μ_s [-]"),
     ("reference_inertia", "I_0 [-]"),
@@ -48,9 +49,42 @@ fn own(name: &str, run: &BedLoad1dRun) -> Replaced {
         "largest_fraction" => Replaced::LargestFraction(closures.largest_fraction),
         "dilation" => Replaced::Dilation(closures.dilation),
         "cell_height" => Replaced::CellHeight(run.cell_height),
+        "bed_roughness_fade_length" => {
+            Replaced::BedRoughnessFadeLength(closures.grain_roughness.bed_roughness_fade_length)
+        }
         "drag" => Replaced::Drag(closures.drag),
         _ => Replaced::MixingLength(closures.mixing_length),
     }
+}
+
+/// Standard uncertainty of a layer's transport over the formula's from its closures, each over the values that it was replaced by, taken
+/// for the ends of an even spread `[-]`, with what they are; none where none was.
+pub(super) fn model_input_uncertainty(
+    records: &[BedLoad1dRecord],
+    run: &BedLoad1dRun,
+    own: &LayerState,
+) -> Option<(f64, String)> {
+    let expected = TransportFormula::WongParker.transport(run.stream.shields_number());
+    let mut ranges: Vec<(&str, f64, f64)> = Vec::new();
+    for (other, state) in of(records, |purpose| matches!(purpose, LayerPurpose::Sensitivity(_))) {
+        let LayerPurpose::Sensitivity(replaced) = other.purpose else { continue };
+        // the height of a cell is no closure
+        if other.stream.slope != run.stream.slope || matches!(replaced, Replaced::CellHeight(_)) {
+            continue;
+        }
+        let ratio = state.transport() / expected;
+        match ranges.iter_mut().find(|range| range.0 == replaced.closure()) {
+            Some(range) => (range.1, range.2) = (range.1.min(ratio), range.2.max(ratio)),
+            None => {
+                let ratio_of_own = own.transport() / expected;
+                ranges.push((replaced.closure(), ratio.min(ratio_of_own), ratio.max(ratio_of_own)));
+            }
+        }
+    }
+    let squares: f64 = ranges.iter().map(|(_, low, high)| (high - low).powi(2) / 12.0).sum();
+    let words: Vec<String> =
+        ranges.iter().map(|(name, low, high)| format!("{name} {low:.2} to {high:.2}")).collect();
+    (!ranges.is_empty()).then(|| (squares.sqrt(), format!("the ratio over the plausible range of each closure: {}", words.join(", "))))
 }
 
 /// Transport over the value of each closure.
@@ -84,7 +118,7 @@ pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[(&BedLoad1dRun, &Lay
         let places = || panel.series.iter().flat_map(|series| series.points.iter().map(|point| point.0));
         let (from, to) = (places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max));
         let entry = if panels.is_empty() { "gate of the transport" } else { "" };
-        panel.bands.push(Band { label: entry.to_owned(), points: vec![(from, 0.8, 1.25), (to, 0.8, 1.25)] });
+        panel.bands.push(Band { label: entry.to_owned(), points: vec![(from, MEASURED_BAND.0, MEASURED_BAND.1), (to, MEASURED_BAND.0, MEASURED_BAND.1)] });
         panels.push(panel);
     }
     (!panels.is_empty()).then(|| Figure {
@@ -92,7 +126,8 @@ pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[(&BedLoad1dRun, &Lay
         caption: "Transport over that of Wong & Parker's formula when one closure is replaced, the others kept. Drag laws: \
                   1 Morsi–Alexander, 2 Schiller–Naumann, 3 Wen–Yu, 4 Ergun, 5 Gidaspow, 6 Di Felice; mixing lengths: 1 \
                   integral over the room between the grains, 2 κ z √(1 − z/h), 3 κ z. The mixing length decides: eddies \
-                  that do not feel the grains triple the transport; limiting friction and dilation follow."
+                  that do not feel the grains triple the transport; limiting friction and dilation follow. So does the length over \
+                  which the roughness of the bed fades, which no literature gives, at 2 % above all."
             .to_owned(),
         panels,
         columns: 2,

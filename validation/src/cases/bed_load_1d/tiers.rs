@@ -24,7 +24,7 @@ impl Parameters for BedLoad1dParameters {
             water: WaterStream { depth: 0.046, density: 1000.0, kinematic_viscosity: 1e-6 },
             grains: BedGrains { bed_depth: 0.04, held_depth: 0.0, density: 2600.0, diameter: 5e-3 },
             closures: Closures::default(),
-            sensitivities: Sensitivities::none(),
+            sensitivities: Sensitivities::chosen(),
             similar: Similar::NONE,
             onset: Onset::of(&[5e-4, 1e-3, 2e-3, 6e-3], GrainUnits::SHALLOW),
             measured: vec![MeasuredBedLoad::GrainSimulation, MeasuredBedLoad::SheetFlow],

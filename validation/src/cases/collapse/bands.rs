@@ -3,9 +3,9 @@
 //! whichever runs were made, and a law's own value lies within its band.
 
 use super::column::{ColumnRun, Geometry};
-use super::material::Material;
+use super::material::{ExperimentGrains, Material};
 use crate::metric::Limit;
-use crate::reference::{Author, CollapseLaw, PLANAR_COLLAPSE};
+use crate::reference::{Author, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
 /// The band of a relative `tolerance` around a value.
 pub(super) fn band(expected: f64, tolerance: f64) -> Limit {
@@ -20,6 +20,16 @@ pub(super) const SAME_LAW_REASON: &str = "the same material law solved by anothe
 
 /// How far the height of the sand's heaps may lie from Lube's law `[-]`.
 pub(super) const HEIGHT: f64 = 0.15;
+
+/// The laws of run-out and height whose geometry a run has, and whose material it has or comes closest to.
+pub(super) fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static CollapseLaw) {
+    let (laws, author) = match run.geometry {
+        Geometry::Planar if run.material.grains == ExperimentGrains::Lagree => (&*PLANAR_COLLAPSE, Author::Lagree),
+        Geometry::Planar => (&*PLANAR_COLLAPSE, Author::Lube),
+        Geometry::Round => (&*ROUND_COLLAPSE, Author::Lube),
+    };
+    (author.law(&laws.run_out), author.law(&laws.height))
+}
 
 /// Where a result must lie, and why there.
 pub(super) type AcceptanceBand = Option<(Limit, &'static str)>;
@@ -79,7 +89,6 @@ pub(super) fn height(run: &ColumnRun, law: &CollapseLaw) -> AcceptanceBand {
 #[cfg(test)]
 mod tests {
     use super::super::column::ColumnPurpose;
-    use super::super::metrics::laws_of;
     use super::super::release::Release;
     use super::*;
     use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, TABLE_2_SAND};

@@ -5,7 +5,7 @@ use super::bands::{self, AcceptanceBand};
 use super::column::{ColumnPurpose, ColumnRun, Geometry};
 use super::convergence::{numerical_uncertainty, relative_spread};
 use super::deposit::Collapse;
-use super::material::{ExperimentGrains, Material};
+use super::material::Material;
 use super::quantities::{
     DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, FLANK_R_SQUARED, HEIGHT_BY_TOP, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
     RUN_OUT, STOPPING_TIME,
@@ -46,16 +46,6 @@ pub(in crate::cases) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
     metrics.extend(super::stress_updates::metrics(records));
     metrics.extend(super::scaling::metrics(records));
     metrics
-}
-
-/// The laws of run-out and height whose geometry a run has, and whose material it has or comes closest to.
-pub(super) fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static CollapseLaw) {
-    let (laws, author) = match run.geometry {
-        Geometry::Planar if run.material.grains == ExperimentGrains::Lagree => (&*PLANAR_COLLAPSE, Author::Lagree),
-        Geometry::Planar => (&*PLANAR_COLLAPSE, Author::Lube),
-        Geometry::Round => (&*ROUND_COLLAPSE, Author::Lube),
-    };
-    (author.law(&laws.run_out), author.law(&laws.height))
 }
 
 /// Nothing is lost: no particle and, where the numerics keep account of it, no momentum.
@@ -150,7 +140,7 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
         let metric = observed(quantity, value).against(law.value(a), &source, law.confidence);
         metric.gated_by(band.map(|band| band.0), band.map_or("", |band| band.1))
     };
-    let (run_out_law, height_law) = laws_of(run);
+    let (run_out_law, height_law) = bands::laws_of(run);
     let laws = if run.geometry == Geometry::Planar { &*PLANAR_COLLAPSE } else { &*ROUND_COLLAPSE };
     // beside all laws, gaps included, and before all else
     let of_own_grains = |metric: Metric, laws: &[CollapseLaw]| {
