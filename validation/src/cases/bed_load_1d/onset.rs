@@ -2,7 +2,8 @@
 //!
 //! A layer has no threshold but a transport that falls steeply, so the onset is where it falls below a rate. Three are
 //! given: W* = q*/τ*^{3/2} = 0.002, the literature's own definition of a reference transport (Parker, Klingeman & McLean 1982),
-//! q* = 10⁻⁴ and q* = 10⁻³. The first is judged: it is no choice of ours. The two others are shown beside it.
+//! q* = 10⁻⁴ and q* = 10⁻³. None is judged: W* = 0.002 is some 10⁻⁵ of q*, within the creep of a resting bed whose yield is regularised,
+//! and which of the two others would count as motion is no literature's choice; between them lies a factor of two.
 
 use super::BedLoad1dRecord;
 use super::run::{BedLoad1dRun, LayerPurpose, ONE_STATE, ONE_STATE_REASON};
@@ -25,12 +26,6 @@ const CRITERIA: [(OnsetCriterion, &str); 3] = [
     (OnsetCriterion::Transport(1e-4), "q=1e-4"),
     (OnsetCriterion::Transport(1e-3), "q=1e-3"),
 ];
-
-/// The criterion that is judged.
-const JUDGED: OnsetCriterion = OnsetCriterion::DimensionlessRate(0.002);
-
-const JUDGED_REASON: &str = "the layer has no threshold: motion counts from the literature's reference transport on, W* = 0.002. \
-    Experiments scatter about the curve by this factor; two other rates are shown beside it";
 
 impl OnsetCriterion {
     /// Transport over that of the criterion `[-]`.
@@ -70,12 +65,10 @@ pub(super) fn metrics(records: &[BedLoad1dRecord], ratio: Quantity, onset: Quant
         for (criterion, name) in CRITERIA {
             let variant = run.variant().and("criterion", name);
             let found = criterion.onset(scan);
-            let within = Limit::Within(1.0 / ONSET_SCATTER, ONSET_SCATTER);
             metrics.push(
                 ratio
                     .of(&variant, found / expected(run))
                     .against(Some(1.0), ONSET_SOURCE, onset_confidence())
-                    .gated_by((criterion == JUDGED).then_some(within), JUDGED_REASON)
                     .with_snapshot_tolerance(0.01, 0.0),
             );
             metrics.push(
