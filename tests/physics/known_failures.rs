@@ -3,7 +3,7 @@
 use crate::verdict::complaints;
 use bagnold_validation::case::{CaseResult, Changes, RunSummary, Tier};
 use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::metric::{Limit, Metric, Variant};
+use bagnold_validation::metric::{Confidence, Limit, Metric, Variant};
 use bagnold_validation::observation::Outcome;
 use bagnold_validation::report::{KnownFailure, KnownFailures};
 use std::path::Path;
@@ -152,6 +152,9 @@ fn the_verdict_can_fail_in_every_way() {
         [format!("  velocity_l2 [{variant}] = 2.500000e0 %, limit ≤ 1 %, margin -1.5000e0 %: the gate fails")]
     );
     let one = |lines: Vec<String>, words: &str| assert!(lines.len() == 1 && lines[0].contains(words), "{lines:?}");
+    let mut beside = result(0.9, Outcome::Finished);
+    beside.metrics[0] = beside.metrics[0].clone().against(Some(1.5), "a law", Confidence::High);
+    one(complaints(&beside, &none, Tier::Quick), "its reference, 1.5, lies outside of its own limit, ≤ 1");
     one(judged(f64::NAN, &none), "the gate fails");
     one(judged(0.9, &listed), "now passes");
     one(judged(2.5, &listed), "became worse");

@@ -43,6 +43,7 @@ pub(crate) fn complaints(result: &CaseResult, list: &KnownFailures, tier: Tier) 
         outcome => format!("  [{}] counts as diverged, but ended as {outcome:?}", run.variant),
     });
     let gates = result.metrics.iter().filter_map(|metric| complaint(metric, &list.standing(&result.name, metric)));
+    let references = result.metrics.iter().filter_map(excluded_reference);
     let stale = list
         .failures
         .iter()
@@ -53,7 +54,21 @@ pub(crate) fn complaints(result: &CaseResult, list: &KnownFailures, tier: Tier) 
         .map(|entry| {
             format!("  {} [{}] is a known failure, but is not measured: remove the entry", entry.metric, entry.variant)
         });
-    diverged.chain(gates).chain(stale).collect()
+    diverged.chain(gates).chain(references).chain(stale).collect()
+}
+
+/// A gate that the value it is compared with would not pass: no band may lie beside its own reference.
+fn excluded_reference(metric: &Metric) -> Option<String> {
+    let (gate, value) = (metric.gate.as_ref()?, metric.reference.as_ref()?.value?);
+    let limit = gate.limit;
+    (!limit.holds(value)).then(|| {
+        format!(
+            "  {} [{}]: its reference, {value}, lies outside of its own limit, {}",
+            metric.name,
+            metric.variant,
+            rule(limit)
+        )
+    })
 }
 
 fn complaint(metric: &Metric, standing: &KnownFailureStatus) -> Option<String> {

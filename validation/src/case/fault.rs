@@ -43,9 +43,10 @@ const RENAMED: [(&str, &str); 1] = [("joining_room", "bed_roughness_fade_length"
 /// parameter.
 pub(super) fn nearest_path(path: &str, known: &[&[String]]) -> Option<String> {
     let (above, name) = path.rsplit_once('.').map_or(("", path), |(above, name)| (above, name));
-    let now = RENAMED.iter().find(|(old, _)| *old == name).map(|(_, now)| {
-        if above.is_empty() { (*now).to_owned() } else { format!("{above}.{now}") }
-    });
+    let now = RENAMED
+        .iter()
+        .find(|(old, _)| *old == name)
+        .map(|(_, now)| if above.is_empty() { (*now).to_owned() } else { format!("{above}.{now}") });
     if let Some(now) = now.filter(|now| known.iter().any(|paths| paths.contains(now))) {
         return Some(now);
     }

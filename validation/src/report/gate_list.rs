@@ -80,10 +80,14 @@ impl GateList {
         let name = |gate: &MetricKey| format!("{} {} [{}]", gate.case, gate.metric, gate.variant);
         let gone = self.gates.iter().filter(|gate| !now.contains(gate) && !is_explained(gate));
         let gone = gone.map(|gate| {
-            format!("{} is no longer judged: restore the gate, or say in CHANGELOG.md why it went (`{REMOVED} ...`)", name(gate))
+            format!(
+                "{} is no longer judged: restore the gate, or say in CHANGELOG.md why it went (`{REMOVED} ...`)",
+                name(gate)
+            )
         });
         let new = now.iter().filter(|gate| !self.gates.contains(**gate));
-        let new = new.map(|gate| format!("{} is not in the list of gates: `bagnold report --accept` adds it", name(gate)));
+        let new =
+            new.map(|gate| format!("{} is not in the list of gates: `bagnold report --accept` adds it", name(gate)));
         gone.chain(new).collect()
     }
 }
@@ -145,22 +149,31 @@ mod tests {
 
     #[test]
     fn a_gate_that_goes_without_a_word_is_found() {
-        let (one, other) = (metric("flux", "fluid=water,resolution=20"), metric("velocity", "fluid=water,resolution=20"));
+        let (one, other) =
+            (metric("flux", "fluid=water,resolution=20"), metric("velocity", "fluid=water,resolution=20"));
         let mut list = GateList::default();
         list.add(&accepted(&[one.clone(), other.clone()]));
         assert_eq!(list.differences(&accepted(&[one.clone(), other.clone()]), ""), [""; 0]);
 
         // a metric that vanishes, one that keeps its value and loses its limit, and one whose reference loses its confidence
         let unverified = other.clone().against(None, "a source", crate::metric::Confidence::Unverified);
-        for without in [vec![one.clone()], vec![one.clone(), Metric { gate: None, ..other }], vec![one.clone(), unverified]] {
+        for without in
+            [vec![one.clone()], vec![one.clone(), Metric { gate: None, ..other }], vec![one.clone(), unverified]]
+        {
             let lost = |changelog: &str| list.differences(&accepted(&without), changelog);
-            let said = lost("- Gates removed: `film flux`, no longer of use\n  `other velocity`, `film velocity [fluid=honey]`\n");
-            assert!(said.len() == 1 && said[0].starts_with("film velocity [fluid=water,resolution=20] is no longer judged"), "{said:?}");
+            let said = lost(
+                "- Gates removed: `film flux`, no longer of use\n  `other velocity`, `film velocity [fluid=honey]`\n",
+            );
+            assert!(
+                said.len() == 1 && said[0].starts_with("film velocity [fluid=water,resolution=20] is no longer judged"),
+                "{said:?}"
+            );
             assert_eq!(lost("- Other.\n  `film velocity`\n").len(), 1, "another bullet names no gates");
             assert_eq!(lost("- Gates removed: it was\n  `film velocity [resolution=20]`\n"), [""; 0]);
             assert_eq!(lost("- Gates removed: `film velocity`: it was wrong\n"), [""; 0]);
         }
-        let new = list.differences(&accepted(&[one, metric("velocity", "fluid=water,resolution=20"), metric("drift", "")]), "");
+        let new = list
+            .differences(&accepted(&[one, metric("velocity", "fluid=water,resolution=20"), metric("drift", "")]), "");
         assert!(new.len() == 1 && new[0].starts_with("film drift [] is not in the list"), "{new:?}");
     }
 

@@ -92,7 +92,11 @@ fn statuses_are_computed_from_gates_and_printed_numbers() {
         ["not in this tier", "not in this tier", "not in this tier", "not in this tier", "reproduced", "replaced"];
     assert_eq!(statuses(Vec::new()), absent);
     let half = statuses(vec![gated(0.5)]);
-    assert_eq!((half[0], half[3]), ("reproduced", "not in this tier"), "half of what a row names does not reproduce it");
+    assert_eq!(
+        (half[0], half[3]),
+        ("reproduced", "not in this tier"),
+        "half of what a row names does not reproduce it"
+    );
     assert_eq!(statuses(vec![gated(2.0)])[3], "not reproduced", "but half of it can fail it");
     let observed = Metric { gate: None, ..gated(0.5) };
     assert_eq!(statuses(vec![observed])[0], "not in this tier", "what is only observed judges nothing");

@@ -99,7 +99,10 @@ mod tests {
         let roughness = GrainRoughness::default();
         assert!(roughness.parameter_problem().is_none());
         let field = |roughness: GrainRoughness| roughness.parameter_problem().map(|problem| problem.field);
-        assert_eq!(field(GrainRoughness { bed_roughness_fade_length: 0.0, ..roughness }), Some("bed_roughness_fade_length".to_owned()));
+        assert_eq!(
+            field(GrainRoughness { bed_roughness_fade_length: 0.0, ..roughness }),
+            Some("bed_roughness_fade_length".to_owned())
+        );
         assert_eq!(field(GrainRoughness { origin_depth: -0.1, ..roughness }), Some("origin_depth".to_owned()));
     }
 }

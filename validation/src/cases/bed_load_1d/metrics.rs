@@ -111,7 +111,7 @@ fn transport(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord], run: &BedLo
             .against(Some(1.0), formula.name(), formula.confidence())
             .gated_by(
                 is_bed_load(run).then_some(Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1)),
-                "a factor of 2, by which measured rates scatter about the formula, and which the closures leave open as well: the length \
+                "nine tenths of measured rates lie so about the formula, and the closures leave as much open: the length \
                  over which the bed's roughness fades is no literature's, and from 0.01 to 0.3 grain diameters takes the ratio at 2 % \
                  from 1.15 to 0.33",
             )

@@ -15,8 +15,7 @@ use std::time::Instant;
 
 /// Largest difference between the steady states from two starts `[-]`, and why.
 pub(super) const ONE_STATE: f64 = 1e-6;
-pub(super) const ONE_STATE_REASON: &str =
-    "a steady state does not remember its start: what is left is how near to steady both are, at most 8e-8 of all layers";
+pub(super) const ONE_STATE_REASON: &str = "a steady state does not remember its start: what is left is how near to steady both are, at most 8e-8 of all layers";
 
 /// Half the height over which the given fraction falls from φ_max to 0 in studies of the order, in grain diameters.
 const TRANSITION: f64 = 1.2;

@@ -5,8 +5,8 @@ use super::records::of;
 use super::replacements::Replaced;
 use super::run::{BedLoad1dRun, LayerPurpose, percent};
 use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
-use crate::reference::{MEASURED_BAND, TransportFormula};
 use crate::reference::bed_load_layer::{LayerState, MixingLengthClosure};
+use crate::reference::{MEASURED_BAND, TransportFormula};
 use bagnold_solver::material::drag::DragLaw;
 
 /// Closures in the order of the figure, with their labels.
@@ -82,9 +82,9 @@ pub(super) fn model_input_uncertainty(
         }
     }
     let squares: f64 = ranges.iter().map(|(_, low, high)| (high - low).powi(2) / 12.0).sum();
-    let words: Vec<String> =
-        ranges.iter().map(|(name, low, high)| format!("{name} {low:.2} to {high:.2}")).collect();
-    (!ranges.is_empty()).then(|| (squares.sqrt(), format!("the ratio over the plausible range of each closure: {}", words.join(", "))))
+    let words: Vec<String> = ranges.iter().map(|(name, low, high)| format!("{name} {low:.2} to {high:.2}")).collect();
+    (!ranges.is_empty())
+        .then(|| (squares.sqrt(), format!("the ratio over the plausible range of each closure: {}", words.join(", "))))
 }
 
 /// Transport over the value of each closure.
@@ -118,7 +118,10 @@ pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[(&BedLoad1dRun, &Lay
         let places = || panel.series.iter().flat_map(|series| series.points.iter().map(|point| point.0));
         let (from, to) = (places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max));
         let entry = if panels.is_empty() { "gate of the transport" } else { "" };
-        panel.bands.push(Band { label: entry.to_owned(), points: vec![(from, MEASURED_BAND.0, MEASURED_BAND.1), (to, MEASURED_BAND.0, MEASURED_BAND.1)] });
+        panel.bands.push(Band {
+            label: entry.to_owned(),
+            points: vec![(from, MEASURED_BAND.0, MEASURED_BAND.1), (to, MEASURED_BAND.0, MEASURED_BAND.1)],
+        });
         panels.push(panel);
     }
     (!panels.is_empty()).then(|| Figure {

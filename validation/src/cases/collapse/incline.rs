@@ -169,7 +169,11 @@ mod tests {
             assert_eq!((initial_height, reservoir_length, channel_length), (0.14, 0.2, 3.0));
             assert!((initial_height / reservoir_length - 0.7).abs() < 1e-12);
             assert_eq!(parameters.gate_speed, 1.3);
-            assert!(slopes.iter().all(|slope| parameters.slope_angles.contains(slope)), "{:?}", parameters.slope_angles);
+            assert!(
+                slopes.iter().all(|slope| parameters.slope_angles.contains(slope)),
+                "{:?}",
+                parameters.slope_angles
+            );
         }
     }
 }

@@ -86,7 +86,11 @@ fn flattest(run: &ColumnRun) -> Option<f64> {
 /// rests.
 pub(in crate::cases) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rheology, longest: f64) -> Metric {
     let stop = collapse.stopping_time();
-    let limit = law.is_plastic().then_some(if stop.is_finite() { Limit::Within(stop, longest) } else { Limit::AtMost(longest) });
+    let limit = law.is_plastic().then_some(if stop.is_finite() {
+        Limit::Within(stop, longest)
+    } else {
+        Limit::AtMost(longest)
+    });
     REST_TIME
         .of(variant, collapse.rest_time())
         .against(None, "grains with a yield stress come to rest", Confidence::Exact)

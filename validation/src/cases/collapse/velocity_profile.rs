@@ -199,7 +199,13 @@ mod tests {
             assert!(station.shear.is_some_and(|line| line.r_squared > 0.93), "{power}");
             linear_misfit_ratio(&station, layer).expect("twenty points")
         };
-        assert!(ratio(1.0) < 0.1 && ratio(1.5) > 10.0 && ratio(2.0) > 10.0, "{} {} {}", ratio(1.0), ratio(1.5), ratio(2.0));
+        assert!(
+            ratio(1.0) < 0.1 && ratio(1.5) > 10.0 && ratio(2.0) > 10.0,
+            "{} {} {}",
+            ratio(1.0),
+            ratio(1.5),
+            ratio(2.0)
+        );
     }
 
     #[test]

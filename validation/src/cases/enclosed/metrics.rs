@@ -92,7 +92,10 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
         MASS_RESIDUAL
             .of(variant, 100.0 * data.missing_mass / mass)
             .exactly(0.0, "no particle is lost: it is inside, or has left by an open side")
-            .gated(Limit::AtMost(1e-9), "rounding of a sum over all particles, of which a scene may have millions; of thousands it is 1e-14")
+            .gated(
+                Limit::AtMost(1e-9),
+                "rounding of a sum over all particles, of which a scene may have millions; of thousands it is 1e-14",
+            )
             .with_snapshot_tolerance(1.0, 1e-9),
         MOMENTUM_RESIDUAL
             .of(variant, 100.0 * data.missing_impulse / data.gravity_impulse)

@@ -23,7 +23,10 @@ pub(super) fn all(law: &Rheology) -> Vec<Metric> {
         ELASTIC_SHEAR_ERROR
             .of(&variant, 100.0 * (sheared(law) - 1.0))
             .exactly(0.0, "τ = G γ in simple shear below the yield")
-            .gated(Limit::Within(-1e-6, 1e-6), "1e-6 %: one small step of Hooke's law, exact to γ², which is 1e-8 %, and to rounding")
+            .gated(
+                Limit::Within(-1e-6, 1e-6),
+                "1e-6 %: one small step of Hooke's law, exact to γ², which is 1e-8 %, and to rounding",
+            )
             .with_snapshot_tolerance(0.0, 1e-6),
         STRESS_ROTATION_ERROR
             .of(&variant, 100.0 * turned(law))

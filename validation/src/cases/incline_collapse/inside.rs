@@ -63,9 +63,8 @@ impl Inside {
             order
         };
         let most = ((FASTEST * depths.len() as f64) as usize).max(1);
-        let depth_of_most = |by: &dyn Fn(usize) -> f64| {
-            mean(&order(by)[..most].iter().map(|&k| relative(k)).collect::<Vec<f64>>())
-        };
+        let depth_of_most =
+            |by: &dyn Fn(usize) -> f64| mean(&order(by)[..most].iter().map(|&k| relative(k)).collect::<Vec<f64>>());
         let by_speed = order(&|k| velocity[k][0]);
         let shear_rate = frame.scalar("shear_rate");
         let median = |inside: &dyn Fn(usize) -> bool| {

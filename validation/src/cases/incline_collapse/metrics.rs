@@ -94,7 +94,9 @@ fn is_of_the_figures(run: &SlopeRun) -> bool {
 fn stations(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Vec<Station> {
     let (unit, data) = (run.reservoir.reservoir_length, &record.data.collapse);
     let Some(frame) = Frame::nearest(&record.frames, time) else { return Vec::new() };
-    let Some(front) = data.time.iter().position(|&t| t >= time).map(|index| data.front[index]) else { return Vec::new() };
+    let Some(front) = data.time.iter().position(|&t| t >= time).map(|index| data.front[index]) else {
+        return Vec::new();
+    };
     if front - 1.0 < 2.0 * BIN_WIDTH {
         return Vec::new();
     }
@@ -149,7 +151,7 @@ fn of_fields(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Opt
         && let Some(ratio) = linear_misfit_ratio(middle, run.spacing())
     {
         metrics.push(of(LINEAR_MISFIT_RATIO, ratio));
-        let means: Vec<f64> = stations.iter().map(|station| mean_velocity(station)).collect();
+        let means: Vec<f64> = stations.iter().map(mean_velocity).collect();
         let (least, most) = means.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &mean| (a.min(mean), b.max(mean)));
         metrics.push(of(UNIFORMITY, least / most));
     }
