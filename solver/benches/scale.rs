@@ -5,9 +5,12 @@
 
 mod scenes;
 
+use bagnold_solver::weakly_compressible::SavedSimulation;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use cpu_time::ProcessTime;
 use scenes::Law;
+use std::fs::File;
+use std::io::{BufReader, BufWriter, Read, Write};
 use std::time::Instant;
 
 /// Sizes that are taken if none is named `[-]`.
@@ -59,6 +62,31 @@ fn of_size(size: usize) {
             );
         }
     }
+    checkpoint(&simulation, particles);
+}
+
+/// Writes the simulation to a file as a checkpoint holds it, reads it back, and takes it away.
+fn checkpoint(simulation: &Simulation<3>, particles: f64) {
+    let path = std::env::temp_dir().join(format!("bagnold-scale-{}.postcard", std::process::id()));
+    let start = Instant::now();
+    let file = BufWriter::with_capacity(1 << 20, File::create(&path).expect("a file"));
+    let file = postcard::to_io(&simulation.save(), file).expect("written").into_inner().expect("written");
+    file.sync_all().expect("on the disk");
+    let (written, size) = (start.elapsed().as_secs_f64(), file.metadata().expect("its size").len() as f64);
+    drop(file);
+    let start = Instant::now();
+    let mut bytes = Vec::new();
+    BufReader::new(File::open(&path).expect("the file")).read_to_end(&mut bytes).expect("read");
+    let read: SavedSimulation<'_, 3> = postcard::from_bytes(&bytes).expect("what was written");
+    println!(
+        "  a checkpoint: {:.2} GB, {:.0} B a particle, written in {written:.1} s, read in {:.1} s",
+        size * 1e-9,
+        size / particles,
+        start.elapsed().as_secs_f64()
+    );
+    drop(read);
+    std::fs::remove_file(&path).expect("gone");
+    std::io::stdout().flush().expect("printed");
 }
 
 /// Memory that the process has in use `[B]`; none that is known outside of Linux.

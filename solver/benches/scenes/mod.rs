@@ -98,6 +98,22 @@ pub(crate) fn dam_break<const D: usize>(size: usize, law: Law) -> Scene<D> {
     }
 }
 
+/// The same block on its way: its particles disordered, spreading along the bed as fast as its top sinks, so that the
+/// fastest particle has about a fourteenth of the speed of sound and the list is searched every few steps.
+pub(crate) fn spreading<const D: usize>(size: usize, law: Law) -> Scene<D> {
+    let mut scene = dam_break::<D>(size, law);
+    let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(11);
+    let sinking = 1.3 / HEIGHT;
+    for (position, velocity) in scene.flow.position.iter_mut().zip(&mut scene.flow.velocity) {
+        for axis in 0..D {
+            position[axis] += 0.4 * (random.random::<f64>() - 0.5) * scene.spacing;
+            // without divergence
+            velocity[axis] = if axis == 1 { -sinking } else { sinking / (D - 1) as f64 } * position[axis];
+        }
+    }
+    scene
+}
+
 /// A periodic block of about `size` particles that moves by more than half a list skin in every step, and the same
 /// block at rest.
 pub(crate) fn drifting_and_resting(size: usize, smoothing_ratio: f64) -> [Scene<2>; 2] {
