@@ -170,6 +170,9 @@ const FIRST: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7];
 /// One value a lane, at most eight; zero in the lanes that are left.
 #[inline(always)]
 pub fn load<V: Lanes>(values: &[f64]) -> V {
+    if let Some(all) = values.first_chunk() {
+        return V::load(all);
+    }
     let mut lanes = [0.0; LANES];
     for (lane, value) in lanes.iter_mut().zip(values) {
         *lane = *value;
@@ -180,6 +183,18 @@ pub fn load<V: Lanes>(values: &[f64]) -> V {
 /// One vector a lane, at most eight; zero in the lanes that are left.
 #[inline(always)]
 pub fn load_vector<V: Lanes, const D: usize>(vectors: &[Vector<D>]) -> [V; D] {
+    // eight of them stay in registers
+    if let Some(all) = vectors.first_chunk::<LANES>() {
+        let mut lanes = zero_vector::<V, D>();
+        for i in 0..D {
+            let mut values = [0.0; LANES];
+            for lane in 0..LANES {
+                values[lane] = all[lane][i];
+            }
+            lanes[i] = V::load(&values);
+        }
+        return lanes;
+    }
     let mut quads = [[0.0; 4]; LANES];
     for (quad, vector) in quads.iter_mut().zip(vectors) {
         for i in 0..D {
@@ -196,6 +211,16 @@ pub fn load_vector<V: Lanes, const D: usize>(vectors: &[Vector<D>]) -> [V; D] {
 #[inline(always)]
 pub fn load_tensor<V: Lanes, const D: usize>(tensors: &[Tensor<D>]) -> [[V; D]; D] {
     let mut lanes = zero_tensor::<V, D>();
+    if let Some(all) = tensors.first_chunk::<LANES>() {
+        for place in 0..D * D {
+            let mut values = [0.0; LANES];
+            for lane in 0..LANES {
+                values[lane] = all[lane][place];
+            }
+            lanes[place % D][place / D] = V::load(&values);
+        }
+        return lanes;
+    }
     // a quad holds all four components in the plane, a column in space
     for first in (0..D * D).step_by(if D == 2 { 4 } else { D }) {
         let width = if D == 2 { 4 } else { D };
@@ -217,6 +242,10 @@ pub fn load_tensor<V: Lanes, const D: usize>(tensors: &[Tensor<D>]) -> [[V; D]; 
 #[inline(always)]
 pub fn store<V: Lanes>(lanes: V, out: &mut [f64]) {
     let values = lanes.to_array();
+    if let Some(all) = out.first_chunk_mut() {
+        *all = values;
+        return;
+    }
     for (out, value) in out.iter_mut().zip(values) {
         *out = value;
     }
@@ -225,6 +254,15 @@ pub fn store<V: Lanes>(lanes: V, out: &mut [f64]) {
 /// Writes a vector a lane as far as `out` goes, at most eight.
 #[inline(always)]
 pub fn store_vector<V: Lanes, const D: usize>(lanes: &[V; D], out: &mut [Vector<D>]) {
+    if let Some(all) = out.first_chunk_mut::<LANES>() {
+        for i in 0..D {
+            let values = lanes[i].to_array();
+            for lane in 0..LANES {
+                all[lane][i] = values[lane];
+            }
+        }
+        return;
+    }
     let mut values = [V::splat(0.0); 4];
     values[..D].copy_from_slice(lanes);
     let mut quads = [[0.0; 4]; LANES];
@@ -239,6 +277,15 @@ pub fn store_vector<V: Lanes, const D: usize>(lanes: &[V; D], out: &mut [Vector<
 /// Writes a tensor a lane as far as `out` goes, at most eight.
 #[inline(always)]
 pub fn store_tensor<V: Lanes, const D: usize>(lanes: &[[V; D]; D], out: &mut [Tensor<D>]) {
+    if let Some(all) = out.first_chunk_mut::<LANES>() {
+        for place in 0..D * D {
+            let values = lanes[place % D][place / D].to_array();
+            for lane in 0..LANES {
+                all[lane][place] = values[lane];
+            }
+        }
+        return;
+    }
     for first in (0..D * D).step_by(if D == 2 { 4 } else { D }) {
         let width = if D == 2 { 4 } else { D };
         let mut values = [V::splat(0.0); 4];

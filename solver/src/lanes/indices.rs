@@ -25,6 +25,43 @@ impl<'a> LaneIndices<'a> {
         assert!(all_below(std::slice::from_ref(raw), bound), "neighbour index out of range");
         Self { raw, bound }
     }
+
+    /// The bare indices.
+    #[inline(always)]
+    #[must_use]
+    pub fn raw(&self) -> &'a [u32; LANES] {
+        self.raw
+    }
+
+    /// The same particles in arrays that leave out the first few, none of which they may be.
+    #[inline(always)]
+    #[must_use]
+    pub fn places_from(&self, first: usize) -> LanePlaces {
+        let mut raw = *self.raw;
+        for lane in 0..LANES {
+            raw[lane] = raw[lane].wrapping_sub(first as u32);
+        }
+        LanePlaces { raw, bound: self.bound - first }
+    }
+}
+
+/// Eight places to be checked when they are used.
+#[derive(Debug, Clone, Copy)]
+pub struct LanePlaces {
+    raw: [u32; LANES],
+    bound: usize,
+}
+
+impl LanePlaces {
+    /// The places as indices.
+    ///
+    /// # Panics
+    /// If one is not below the bound.
+    #[inline(always)]
+    #[must_use]
+    pub fn indices(&self) -> LaneIndices<'_> {
+        LaneIndices::new(&self.raw, self.bound)
+    }
 }
 
 /// Whether every index is below the bound.
@@ -45,29 +82,69 @@ fn all_below(chunks: &[[u32; LANES]], bound: usize) -> bool {
     bits.iter().fold(0, |all, bits| all | bits) >> 31 == 0
 }
 
-/// Chunks of eight indices, all below one bound. They change only by [`CheckedIndices::refill`], which checks them, and are
-/// checked when they are read back.
+/// Chunks of eight indices, all below one bound. They change only by [`CheckedIndices::refill`] and
+/// [`CheckedIndices::refill_regions`], which check them, and are checked when they are read back.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedIndices")]
+#[serde(try_from = "PackedIndices", into = "PackedIndices")]
 pub struct CheckedIndices {
     chunks: Vec<[u32; LANES]>,
+    /// Chunks of a region, if there are regions, and at the start of each those that are not all zero.
+    region: usize,
+    used: Vec<usize>,
     bound: usize,
 }
 
-/// Chunks as they were written.
-#[derive(Deserialize)]
-struct UncheckedIndices {
+/// Chunks as they are written: of regions only what is used.
+#[derive(Serialize, Deserialize)]
+struct PackedIndices {
     chunks: Vec<[u32; LANES]>,
+    region: usize,
+    used: Vec<usize>,
     bound: usize,
 }
 
-impl TryFrom<UncheckedIndices> for CheckedIndices {
-    type Error = &'static str;
-
-    fn try_from(UncheckedIndices { chunks, bound }: UncheckedIndices) -> Result<Self, Self::Error> {
-        if all_below(&chunks, bound) { Ok(Self { chunks, bound }) } else { Err("neighbour index out of range") }
+impl From<CheckedIndices> for PackedIndices {
+    fn from(CheckedIndices { mut chunks, region, used, bound }: CheckedIndices) -> Self {
+        if region > 0 {
+            let mut end = 0;
+            for (index, &used) in used.iter().enumerate() {
+                chunks.copy_within(index * region..index * region + used, end);
+                end += used;
+            }
+            chunks.truncate(end);
+        }
+        Self { chunks, region, used, bound }
     }
 }
+
+impl TryFrom<PackedIndices> for CheckedIndices {
+    type Error = &'static str;
+
+    fn try_from(PackedIndices { chunks, region, used, bound }: PackedIndices) -> Result<Self, Self::Error> {
+        if !all_below(&chunks, bound) || bound > LARGEST_BOUND {
+            return Err("neighbour index out of range");
+        }
+        if region == 0 {
+            return Ok(Self { chunks, region, used: Vec::new(), bound });
+        }
+        let total = used.iter().try_fold(0_usize, |total, &used| total.checked_add(used));
+        let room = region.checked_mul(used.len()).filter(|&room| room / LARGEST_SPARSITY <= chunks.len());
+        let (Some(room), true) = (room, total == Some(chunks.len()) && used.iter().all(|&used| used <= region)) else {
+            return Err("a neighbour list whose parts do not fit together");
+        };
+        let mut spread = vec![[0; LANES]; room];
+        let mut rest = &chunks[..];
+        for (target, &used) in spread.chunks_mut(region).zip(&used) {
+            let (part, later) = rest.split_at(used);
+            target[..used].copy_from_slice(part);
+            rest = later;
+        }
+        Ok(Self { chunks: spread, region, used, bound })
+    }
+}
+
+/// How much longer than what it holds the room for a list may be: a file must not buy all memory.
+const LARGEST_SPARSITY: usize = 1 << 12;
 
 impl CheckedIndices {
     /// What every index is below.
@@ -85,7 +162,61 @@ impl CheckedIndices {
         let mut chunks = std::mem::take(&mut self.chunks);
         let result = fill(&mut chunks);
         assert!(chunks.par_chunks(4096).all(|part| all_below(part, bound)), "neighbour index out of range");
-        (self.chunks, self.bound) = (chunks, bound);
+        self.used.clear();
+        (self.region, self.chunks, self.bound) = (0, chunks, bound);
+        result
+    }
+
+    /// Lets `fill` rewrite regions of equal length, one for each of `items`, and checks that every index is below `bound`
+    /// afterwards. `fill` gets an item with its region and returns how many chunks it wants and another result; both are joined
+    /// over all regions, the former by their largest. A region that is too short is left empty. Memory beyond what was ever
+    /// written is not touched, so that it costs nothing.
+    ///
+    /// # Panics
+    /// If an index is not below the bound.
+    pub fn refill_regions<T: Send, R: Send>(
+        &mut self,
+        (bound, region): (usize, usize),
+        items: impl IndexedParallelIterator<Item = T>,
+        fill: impl Fn(usize, T, &mut [[u32; LANES]]) -> (usize, R) + Sync,
+        (none, join): (R, impl Fn(R, R) -> R + Sync + Send),
+    ) -> (usize, R)
+    where
+        R: Clone + Sync,
+    {
+        // taken out, so that unchecked chunks cannot stay behind a panic
+        let (mut chunks, mut used) = (std::mem::take(&mut self.chunks), std::mem::take(&mut self.used));
+        let regions = items.len();
+        if chunks.capacity() < regions * region {
+            // zeros that the system hands out when they are first written; some head room costs nothing
+            drop(chunks);
+            chunks = vec![[0; LANES]; (regions + regions / 8) * region];
+            used.clear();
+        } else if self.region != region {
+            chunks.clear();
+            used.clear();
+        }
+        chunks.resize(regions * region, [0; LANES]);
+        used.resize(regions, 0);
+        let result = (chunks.par_chunks_mut(region), &mut used, items)
+            .into_par_iter()
+            .enumerate()
+            .map(|(index, (chunks, used, item))| {
+                let (wanted, result) = fill(index, item, chunks);
+                // what does not fit is left out and filled again
+                let written = if wanted <= chunks.len() { wanted } else { 0 };
+                if wanted > chunks.len() {
+                    *used = chunks.len();
+                }
+                if written < *used {
+                    chunks[written..*used].fill([0; LANES]);
+                }
+                *used = written;
+                assert!(all_below(&chunks[..written], bound), "neighbour index out of range");
+                (wanted, result)
+            })
+            .reduce(|| (0, none.clone()), |a, b| (a.0.max(b.0), join(a.1, b.1)));
+        *self = Self { chunks, region, used, bound };
         result
     }
 
@@ -162,6 +293,39 @@ impl<'a> Iterator for LaneChunks<'a> {
 mod tests {
     use super::*;
 
+    /// Chunks as one region.
+    fn filled(bound: usize, chunks: &[[u32; LANES]]) -> CheckedIndices {
+        let mut indices = CheckedIndices::default();
+        refill(&mut indices, bound, &[chunks], chunks.len());
+        indices
+    }
+
+    /// Parts as regions of a length; returns the longest part.
+    fn refill(indices: &mut CheckedIndices, bound: usize, parts: &[&[[u32; LANES]]], region: usize) -> usize {
+        let fill = |_, part: &&[[u32; LANES]], chunks: &mut [[u32; LANES]]| {
+            for (chunk, value) in chunks.iter_mut().zip(*part) {
+                *chunk = *value;
+            }
+            (part.len(), ())
+        };
+        indices.refill_regions((bound, region), parts.par_iter(), fill, ((), |(), ()| ())).0
+    }
+
+    #[test]
+    fn what_a_region_held_before_is_gone() {
+        let mut indices = CheckedIndices::default();
+        assert_eq!(refill(&mut indices, 9, &[&[[8; LANES]; 3], &[[7; LANES]; 2]], 4), 3);
+        // fewer particles: an index of before would now be out of range
+        assert_eq!(refill(&mut indices, 4, &[&[[3; LANES]; 1], &[[2; LANES]; 2]], 4), 2);
+        let expected = [3, 0, 0, 0, 2, 2, 0, 0].map(|index| [index; LANES]);
+        assert_eq!(indices.part(0..8).raw(), expected);
+        // what does not fit is told and left out
+        assert_eq!(refill(&mut indices, 4, &[&[[9; LANES]; 6]], 4), 6);
+        assert_eq!(indices.part(0..4).raw(), [[0; LANES]; 4]);
+        assert_eq!(refill(&mut indices, 4, &[&[[1; LANES]; 5], &[[3; LANES]; 1]], 5), 5);
+        assert_eq!(indices.part(3..7).raw(), [1, 1, 3, 0].map(|index| [index; LANES]));
+    }
+
     #[test]
     #[should_panic(expected = "out of range")]
     fn an_index_beyond_the_arrays_is_refused() {
@@ -171,7 +335,7 @@ mod tests {
     #[test]
     #[should_panic(expected = "out of range")]
     fn a_list_with_an_index_beyond_the_arrays_is_refused() {
-        CheckedIndices::default().refill(7, |chunks| *chunks = vec![[0; LANES], [3, 1, 7, 2, 0, 0, 0, 0]]);
+        let _ = filled(7, &[[0; LANES], [3, 1, 7, 2, 0, 0, 0, 0]]);
     }
 
     #[test]
@@ -186,9 +350,23 @@ mod tests {
     }
 
     #[test]
-    fn a_part_is_walked_in_order() {
+    fn what_is_read_back_is_what_was_written_and_checked() {
         let mut indices = CheckedIndices::default();
-        indices.refill(5, |chunks| chunks.extend([[0; LANES], [1; LANES], [2; LANES], [4; LANES]]));
+        refill(&mut indices, 9, &[&[[8; LANES]; 3], &[], &[[7; LANES]; 1]], 4);
+        let packed = PackedIndices::from(indices.clone());
+        assert_eq!(packed.chunks, [8, 8, 8, 7].map(|index| [index; LANES]));
+        let read = CheckedIndices::try_from(packed).expect("whole");
+        assert_eq!(read.part(0..12).raw(), indices.part(0..12).raw());
+        let packed = || PackedIndices::from(indices.clone());
+        assert!(CheckedIndices::try_from(PackedIndices { bound: 8, ..packed() }).is_err());
+        assert!(CheckedIndices::try_from(PackedIndices { region: 2, ..packed() }).is_err());
+        assert!(CheckedIndices::try_from(PackedIndices { used: vec![3, 0, 2], ..packed() }).is_err());
+        assert!(CheckedIndices::try_from(PackedIndices { region: usize::MAX / 3, ..packed() }).is_err());
+    }
+
+    #[test]
+    fn a_part_is_walked_in_order() {
+        let indices = filled(5, &[[0; LANES], [1; LANES], [2; LANES], [4; LANES]]);
         let seen: Vec<u32> = indices.part(1..4).map(|chunk| chunk.raw[3]).collect();
         assert_eq!(seen, [1, 2, 4]);
     }

@@ -10,14 +10,16 @@ mod indices;
 mod portable;
 mod real;
 mod single;
+mod symmetric;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 #[cfg(target_arch = "x86_64")]
 mod x86_single;
 
-pub use indices::{CheckedIndices, LaneChunks, LaneIndices};
+pub use indices::{CheckedIndices, LaneChunks, LaneIndices, LanePlaces};
 pub use real::Real;
 pub use single::SingleLanes;
+pub use symmetric::{LaneTensors, LaneTensorsMut};
 
 use crate::vector::{Tensor, Vector};
 
@@ -164,9 +166,13 @@ impl Level {
         match self {
             Self::Portable => true,
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => is_x86_feature_detected!("avx2"),
+            Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("popcnt"),
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl"),
+            Self::Avx512 => {
+                is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("popcnt")
+            }
         }
     }
 }
@@ -255,6 +261,7 @@ mod tests {
                 let k = (e * f - g / h).max(e).min(h + f).sqrt().where_less(e, -g);
                 self.out.extend(V::widen(k.fixed_difference(b.narrow())).to_array().map(f64::to_bits));
                 self.out.extend(V::widen(k - b.narrow()).to_array().map(f64::to_bits));
+                self.out.push(u64::from(e.less_mask(h)));
             }
         }
     }

@@ -12,6 +12,8 @@ pub trait SingleLanes: Real {
     fn load(values: &[f32; LANES]) -> Self;
     /// The lanes in order.
     fn to_array(self) -> [f32; LANES];
+    /// Bit k is set where `self < other` in lane k.
+    fn less_mask(self, other: Self) -> u32;
     /// The lanes' bits taken as integers of 32 bits: their difference, which wraps, as f32.
     fn fixed_difference(self, other: Self) -> Self;
 }
@@ -121,6 +123,15 @@ impl SingleLanes for PortableSingle {
     #[inline(always)]
     fn to_array(self) -> [f32; LANES] {
         self.0
+    }
+
+    #[inline(always)]
+    fn less_mask(self, other: Self) -> u32 {
+        let mut mask = 0;
+        for k in 0..LANES {
+            mask |= u32::from(self.0[k] < other.0[k]) << k;
+        }
+        mask
     }
 
     #[inline(always)]

@@ -9,7 +9,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// Runs a pass with AVX-512.
 #[inline]
 pub(super) fn run_avx512<P: LanePass>(pass: P, set: InstructionSet) {
-    #[target_feature(enable = "avx512f,avx512vl")]
+    #[target_feature(enable = "avx512f,avx512vl,popcnt")]
     fn inner<P: LanePass>(pass: P) {
         pass.run::<Avx512>();
     }
@@ -21,7 +21,7 @@ pub(super) fn run_avx512<P: LanePass>(pass: P, set: InstructionSet) {
 /// Runs a pass with AVX2.
 #[inline]
 pub(super) fn run_avx2<P: LanePass>(pass: P, set: InstructionSet) {
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,popcnt")]
     fn inner<P: LanePass>(pass: P) {
         pass.run::<Avx2>();
     }
@@ -343,6 +343,19 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
+    fn pack(indices: &[u32; LANES], mask: u32, excluded: u32, out: &mut [u32; LANES]) -> usize {
+        // SAFETY: called from passes inside run_avx2 only; both arrays hold eight values, and an entry of the table eight bytes.
+        unsafe {
+            let all = _mm256_loadu_si256(indices.as_ptr().cast());
+            let same = _mm256_cmpeq_epi32(all, _mm256_set1_epi32(excluded.cast_signed()));
+            let kept = mask as u8 & !_mm256_movemask_ps(_mm256_castsi256_ps(same)) as u8;
+            let order = _mm256_cvtepu8_epi32(_mm_loadl_epi64(FIRST_BITS[usize::from(kept)].as_ptr().cast()));
+            _mm256_storeu_si256(out.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(all, order));
+            kept.count_ones() as usize
+        }
+    }
+
+    #[inline(always)]
     fn to_array(self) -> [f64; LANES] {
         let mut lanes = [0.0; LANES];
         // SAFETY: the array holds eight values, four a store.
@@ -367,6 +380,24 @@ impl Lanes for Avx2 {
         }
     }
 }
+
+/// For each mask of eight lanes, those whose bit is set, in order; zeros behind them.
+static FIRST_BITS: [[u8; LANES]; 256] = {
+    let mut table = [[0; LANES]; 256];
+    let mut mask = 0;
+    while mask < table.len() {
+        let (mut lane, mut count) = (0, 0);
+        while lane < LANES {
+            if (mask >> lane) & 1 == 1 {
+                table[mask][count] = lane as u8;
+                count += 1;
+            }
+            lane += 1;
+        }
+        mask += 1;
+    }
+    table
+};
 
 /// The transpose of four rows.
 ///

@@ -105,6 +105,12 @@ impl SingleLanes for Single {
     }
 
     #[inline(always)]
+    fn less_mask(self, other: Self) -> u32 {
+        // SAFETY: values of this type exist only inside run_avx2 and run_avx512.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)).cast_unsigned() }
+    }
+
+    #[inline(always)]
     fn fixed_difference(self, other: Self) -> Self {
         // SAFETY: values of this type exist only inside run_avx2 and run_avx512.
         unsafe {

@@ -125,7 +125,7 @@ impl<const D: usize> State<D> {
             fastest = fastest.max(last.norm() / time_step);
         }
         self.particles.move_walls(self.walls.len(), last, |shell| shells[shell].motion.velocity(end));
-        self.images.copy_vectors(&mut self.particles.wall_velocity);
+        self.images.copy_wall_vectors(&mut self.particles.walls.velocity);
         fastest
     }
 }

@@ -21,7 +21,7 @@
 //! velocity at 24°. E varies as particles pass each other, so that what it adds does not come back.)
 
 use crate::lanes::Lanes;
-use crate::lanes::algebra::{accumulate, contraction, matrix_product, zero_tensor};
+use crate::lanes::algebra::{accumulate, contraction, dot, matrix_product, scaled, splat_vector, sum_of, zero_tensor};
 use crate::material::equation_of_state::{EquationOfState, Tension};
 use crate::vector::{Tensor, Vector, double_contraction};
 use crate::weakly_compressible::particles::Particles;
@@ -151,37 +151,72 @@ fn compression_energy(equation_of_state: &EquationOfState, density: f64) -> f64 
     if free { 0.0 } else { specific_modulus * (libm::log1p(strain) - strain / (1.0 + strain)) }
 }
 
-/// What one particle's velocity step adds to the ledger.
+/// What the velocity step of eight particles adds to the ledger.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct VelocityStep<'a, const D: usize> {
-    pub(crate) mass: f64,
+pub(crate) struct VelocityStep<'a, V, const D: usize> {
+    /// Masses, zero where there is no particle.
+    pub(crate) mass: V,
     pub(crate) time_step: f64,
     pub(crate) gravity: &'a Vector<D>,
     /// Before the step.
-    pub(crate) before: Vector<D>,
-    /// After it, without the contact.
-    pub(crate) after: Vector<D>,
+    pub(crate) before: &'a [V; D],
+    /// After it, with the contact.
+    pub(crate) end: &'a [V; D],
     /// What a contact changed.
-    pub(crate) contact: Vector<D>,
+    pub(crate) contact: &'a [V; D],
     /// Accelerations by walls' tractions, artificial terms, and hourglass control at walls `[m/s²]`.
-    pub(crate) by_walls: &'a Vector<D>,
-    pub(crate) by_damping: &'a Vector<D>,
-    pub(crate) by_wall_control: &'a Vector<D>,
+    pub(crate) by_walls: &'a [V; D],
+    pub(crate) by_damping: &'a [V; D],
+    pub(crate) by_wall_control: &'a [V; D],
 }
 
-impl<const D: usize> VelocityStep<'_, D> {
+impl<V: Lanes, const D: usize> VelocityStep<'_, V, D> {
     /// Adds the step to a sum.
     #[inline(always)]
-    pub(crate) fn add_to(&self, sum: &mut EnergyLedger) {
-        let end = self.after + self.contact;
-        let mean = 0.5 * (self.before + end);
-        let impulse = self.mass * self.time_step * mean;
-        sum.gravity += self.mass * self.time_step * self.gravity.dot(&end);
-        sum.walls += impulse.dot(self.by_walls);
-        sum.artificial -= impulse.dot(self.by_damping);
-        sum.wall_control -= impulse.dot(self.by_wall_control);
-        sum.contact -= self.mass * mean.dot(&self.contact);
+    pub(crate) fn add_to(&self, sum: &mut VelocityWork<V>) {
+        let mean = scaled(V::splat(0.5), &sum_of(self.before, self.end));
+        let mass_time = self.mass * V::splat(self.time_step);
+        sum.gravity = sum.gravity + mass_time * dot(&splat_vector(self.gravity), self.end);
+        sum.walls = sum.walls + mass_time * dot(&mean, self.by_walls);
+        sum.artificial = sum.artificial - mass_time * dot(&mean, self.by_damping);
+        sum.wall_control = sum.wall_control - mass_time * dot(&mean, self.by_wall_control);
+        sum.contact = sum.contact - self.mass * dot(&mean, self.contact);
     }
+}
+
+/// Entries of the ledger that the velocity step makes, lane by lane.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct VelocityWork<V> {
+    gravity: V,
+    walls: V,
+    artificial: V,
+    wall_control: V,
+    contact: V,
+}
+
+impl<V: Lanes> VelocityWork<V> {
+    /// Nothing yet.
+    #[inline(always)]
+    pub(crate) fn new() -> Self {
+        let zero = V::splat(0.0);
+        Self { gravity: zero, walls: zero, artificial: zero, wall_control: zero, contact: zero }
+    }
+
+    /// Adds the lanes, in their order, to a block's ledger.
+    #[inline(always)]
+    pub(crate) fn add_to(self, ledger: &mut EnergyLedger) {
+        ledger.gravity += sum_of_lanes(self.gravity);
+        ledger.walls += sum_of_lanes(self.walls);
+        ledger.artificial += sum_of_lanes(self.artificial);
+        ledger.wall_control += sum_of_lanes(self.wall_control);
+        ledger.contact += sum_of_lanes(self.contact);
+    }
+}
+
+/// The lanes added in their order.
+#[inline(always)]
+fn sum_of_lanes<V: Lanes>(lanes: V) -> f64 {
+    lanes.to_array().iter().sum()
 }
 
 /// What a push adds that follows the velocity step of a particle.
@@ -330,11 +365,10 @@ impl<V: Lanes> StressWork<V> {
     /// Adds the lanes, in their order, to a block's ledger.
     #[inline(always)]
     pub(crate) fn add_to(self, ledger: &mut EnergyLedger) {
-        let sum = |lanes: V| lanes.to_array().iter().sum::<f64>();
-        ledger.walls += sum(self.walls);
-        ledger.viscous += sum(self.viscous);
-        ledger.plastic += sum(self.plastic);
-        ledger.density_coupling += sum(self.density_coupling);
-        ledger.correction += sum(self.correction);
+        ledger.walls += sum_of_lanes(self.walls);
+        ledger.viscous += sum_of_lanes(self.viscous);
+        ledger.plastic += sum_of_lanes(self.plastic);
+        ledger.density_coupling += sum_of_lanes(self.density_coupling);
+        ledger.correction += sum_of_lanes(self.correction);
     }
 }

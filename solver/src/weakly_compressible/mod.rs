@@ -25,5 +25,6 @@ pub mod terms;
 pub mod time_step;
 mod velocity_step;
 pub(crate) mod viscous_solve;
+mod wall_fields;
 
 pub use saved::SavedSimulation;

@@ -1,8 +1,10 @@
 //! The particles as a structure of arrays: flow, walls, images and the sentinel, in this order.
 
+use crate::lanes::LaneTensors;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::boundary::{Images, Surface};
 use crate::weakly_compressible::scene::Scene;
+use crate::weakly_compressible::wall_fields::{WallFields, resize};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +14,8 @@ const FAR: f64 = 1e9;
 /// All particle arrays.
 ///
 /// Arrays of the first group have an entry for every particle (shape `[flow + wall + images + 1]`), arrays of the
-/// second for every flow particle (shape `[flow]`). The flow particles are kept sorted by cell.
+/// second for every flow particle (shape `[flow]`). The flow particles are kept sorted by cell. Pressures, corrected stresses,
+/// pressure gradients and accelerations are made anew in every step before they are read, so a search uses their arrays as room.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Particles<const D: usize> {
     /// Positions `[m]`.
@@ -37,17 +40,9 @@ pub struct Particles<const D: usize> {
     pub(crate) pressure_gradient: Vec<Vector<D>>,
     /// Apparent viscosities `[Pa·s]`, for the pairwise operators.
     pub(crate) viscosity: Vec<f64>,
-    /// Normals of the walls into the flow `[-]`, zero on flow particles.
-    pub(crate) wall_normal: Vec<Vector<D>>,
-    /// Depths of wall particles behind their surface `[m]`.
-    pub(crate) wall_depth: Vec<f64>,
-    /// Velocities of the walls `[m/s]`.
-    pub(crate) wall_velocity: Vec<Vector<D>>,
-    /// Velocities of walls as the continuity of a sliding liquid takes them `[m/s]`.
-    pub(crate) sliding_velocity: Vec<Vector<D>>,
-    /// 1 on particles of smooth walls, 0 elsewhere `[-]`.
-    pub(crate) wall_smoothness: Vec<f64>,
-    /// 1 on images behind a mirror, 0 elsewhere `[-]`.
+    /// What only wall particles have.
+    pub(crate) walls: WallFields<D>,
+    /// 0 for all real particles together, then for every image 1 if it is behind a mirror, and the sentinel `[-]`.
     pub(crate) mirrored: Vec<f64>,
 
     /// Which particle this is: its place in the scene.
@@ -55,9 +50,9 @@ pub struct Particles<const D: usize> {
     /// Masses `[kg]` (per metre of depth in 2-D).
     pub mass: Vec<f64>,
     /// Correction L for gradients `[-]`.
-    pub(crate) correction: Vec<Tensor<D>>,
+    pub(crate) correction: LaneTensors<D>,
     /// Correction E for forces `[-]`.
-    pub(crate) force_correction: Vec<Tensor<D>>,
+    pub(crate) force_correction: LaneTensors<D>,
     /// Accelerations `[m/s²]`.
     pub(crate) acceleration: Vec<Vector<D>>,
     /// The part of the accelerations that walls and mirrors cause `[m/s²]`.
@@ -83,8 +78,7 @@ macro_rules! for_each_shared_array {
     };
     ($particles:ident, $array:ident => $body:expr, in $($reference:tt)+) => {
         for_each_shared_array!($particles, $array => $body, of position velocity velocity_gradient stress density
-            pressure volume artificial_viscosity corrected_stress pressure_gradient viscosity wall_normal wall_depth
-            wall_velocity sliding_velocity wall_smoothness mirrored; $($reference)+)
+            pressure volume artificial_viscosity corrected_stress pressure_gradient viscosity; $($reference)+)
     };
     ($particles:ident, $array:ident => $body:expr, of $($field:ident)*; &mut) => {
         $({
@@ -120,16 +114,12 @@ impl<const D: usize> Particles<D> {
             corrected_stress: vec![Tensor::zeros(); real],
             pressure_gradient: vec![Vector::zeros(); real],
             viscosity: vec![0.0; real],
-            wall_normal: vec![Vector::zeros(); n],
-            wall_depth: vec![0.0; n],
-            wall_velocity: vec![Vector::zeros(); n],
-            sliding_velocity: vec![Vector::zeros(); real],
-            wall_smoothness: vec![0.0; n],
-            mirrored: vec![0.0; real],
+            walls: WallFields::default(),
+            mirrored: Vec::new(),
             identity: (0..n as u32).collect(),
             mass: flow.mass.clone(),
-            correction: vec![Tensor::identity(); n],
-            force_correction: vec![Tensor::identity(); n],
+            correction: LaneTensors::new(n),
+            force_correction: LaneTensors::new(n),
             acceleration: vec![Vector::zeros(); n],
             support: vec![Vector::zeros(); n],
             by_walls: vec![Vector::zeros(); n],
@@ -146,18 +136,14 @@ impl<const D: usize> Particles<D> {
         particles.volume.extend(backing().map(|particle| particle.volume));
         for particle in wall_particles {
             let wall = &walls[particle.wall];
-            particles.wall_normal.push(wall.normal());
-            particles.wall_depth.push(-wall.distance(&particle.position));
-            particles.wall_velocity.push(wall.velocity);
-            particles.wall_smoothness.push(if wall.roughness == Surface::Smooth { 1.0 } else { 0.0 });
+            let depth = -wall.distance(&particle.position);
+            particles.walls.push(wall.normal(), depth, wall.velocity, wall.roughness == Surface::Smooth);
             particles.wall.push(particle.wall as u32);
         }
         for (index, shell) in scene.enclosure.shells.iter().enumerate() {
             for particle in &shell.backing {
-                particles.wall_normal.push(particle.normal);
-                particles.wall_depth.push(particle.depth);
-                particles.wall_velocity.push(shell.motion.velocity(0.0));
-                particles.wall_smoothness.push(if shell.roughness == Surface::Smooth { 1.0 } else { 0.0 });
+                let is_smooth = shell.roughness == Surface::Smooth;
+                particles.walls.push(particle.normal, particle.depth, shell.motion.velocity(0.0), is_smooth);
                 particles.wall.push((walls.len() + index) as u32);
             }
         }
@@ -177,8 +163,14 @@ impl<const D: usize> Particles<D> {
                 continue;
             };
             self.position[self.flow + offset] += displacements[wall];
-            self.wall_velocity[self.flow + offset] = velocity(wall);
+            self.walls.velocity[offset] = velocity(wall);
         }
+    }
+
+    /// Whether a storage index is that of a wall particle or of its image.
+    #[inline(always)]
+    pub(crate) fn is_wall(&self, index: usize) -> bool {
+        index >= self.flow && self.walls.depth[index - self.flow] > 0.0
     }
 
     /// Which wall, then which shell, the wall particle at a place among them belongs to.
@@ -193,8 +185,9 @@ impl<const D: usize> Particles<D> {
         let Self { identity, mass, correction, force_correction, acceleration, support, .. } = self;
         retain(identity, |index| !gone[index]);
         retain(mass, |index| !gone[index]);
-        retain(correction, |index| !gone[index]);
-        retain(force_correction, |index| !gone[index]);
+        let left = mass.len();
+        correction.resize(left);
+        force_correction.resize(left);
         let Self { by_walls, by_damping, by_wall_control, support_impulse, .. } = self;
         for array in [acceleration, support, by_walls, by_damping, by_wall_control, support_impulse] {
             retain(array, |index| !gone[index]);
@@ -229,13 +222,8 @@ impl<const D: usize> Particles<D> {
     /// Makes room for images and sentinel and fills what never changes between two neighbour searches.
     pub(crate) fn append_images(&mut self, images: &Images<D>) {
         let total = self.real_count() + images.len() + 1;
-        // some head room, so that a slowly changing number of images does not allocate
-        for_each_shared_array!(self, array => {
-            if array.capacity() < total {
-                array.reserve_exact(total + total / 8 + 64 - array.len());
-            }
-            array.resize(total, nalgebra::zero());
-        });
+        let real = self.real_count();
+        for_each_shared_array!(self, array => resize(array, real, total, nalgebra::zero()));
         images.copy_positions(&mut self.position);
         images.copy_vectors(&mut self.velocity);
         images.copy_tensors(&mut self.velocity_gradient);
@@ -243,30 +231,33 @@ impl<const D: usize> Particles<D> {
         images.copy_scalars(&mut self.density);
         images.copy_scalars(&mut self.volume);
         images.copy_scalars(&mut self.artificial_viscosity);
-        images.copy_vectors(&mut self.wall_normal);
-        images.copy_scalars(&mut self.wall_depth);
-        images.copy_vectors(&mut self.wall_velocity);
-        images.copy_scalars(&mut self.wall_smoothness);
-        images.mark_mirrored(&mut self.mirrored);
+        self.walls.append_images(images, self.wall.len());
+        resize(&mut self.mirrored, 0, images.len() + 2, 0.0);
+        images.mark_mirrored(&mut self.mirrored[1..]);
         let sentinel = total - 1;
         self.position[sentinel] = Vector::repeat(FAR);
         self.density[sentinel] = 1.0;
         self.viscosity[sentinel] = 1.0;
     }
 
-    /// Sorts the flow particles into the given order: `order[new] = old`.
-    pub(crate) fn sort_flow(&mut self, order: &[u32], scratch: &mut SortScratch<D>) {
-        permute(&mut self.position, order, &mut scratch.vectors);
-        permute(&mut self.velocity, order, &mut scratch.vectors);
-        permute(&mut self.velocity_gradient, order, &mut scratch.tensors);
-        permute(&mut self.stress, order, &mut scratch.tensors);
-        permute(&mut self.density, order, &mut scratch.scalars);
-        permute(&mut self.volume, order, &mut scratch.scalars);
-        permute(&mut self.artificial_viscosity, order, &mut scratch.scalars);
-        permute(&mut self.viscosity, order, &mut scratch.scalars);
-        permute(&mut self.mass, order, &mut scratch.scalars);
-        permute(&mut self.support_impulse, order, &mut scratch.vectors);
-        permute(&mut self.identity, order, &mut scratch.identities);
+    /// Sorts the flow particles into the given order: `order[new] = old`. There are no images now.
+    pub(crate) fn sort_flow(&mut self, order: &[u32], identities: &mut Vec<u32>) {
+        let Self { position, velocity, velocity_gradient, stress, density, volume, artificial_viscosity, .. } = self;
+        let Self { viscosity, corrected_stress, pressure_gradient, pressure, acceleration, .. } = self;
+        for vectors in [position, velocity] {
+            permute(vectors, order, pressure_gradient);
+        }
+        for tensors in [velocity_gradient, stress] {
+            permute(tensors, order, corrected_stress);
+        }
+        for scalars in [density, volume, artificial_viscosity, viscosity] {
+            permute(scalars, order, pressure);
+        }
+        permute(&mut self.support_impulse, order, acceleration);
+        gather(&self.mass, order, &mut pressure[..order.len()]);
+        self.mass.copy_from_slice(&pressure[..order.len()]);
+        identities.resize(order.len(), 0);
+        permute(&mut self.identity, order, identities);
     }
 
     /// Whether every array has its length, with so many images, and every particle one identity of those that the scene
@@ -275,11 +266,13 @@ impl<const D: usize> Particles<D> {
         let Self { identity, mass, correction, force_correction, acceleration, support, by_walls, by_damping, .. } =
             self;
         let Self { by_wall_control, support_impulse, flow, .. } = self;
-        let of_flow = [identity.len(), mass.len(), correction.len(), force_correction.len(), acceleration.len()];
+        let of_flow = [identity.len(), mass.len(), acceleration.len()];
         let beside = [support.len(), by_walls.len(), by_damping.len(), by_wall_control.len(), support_impulse.len()];
         let mut complete = of_flow.into_iter().chain(beside).all(|length| length == *flow);
+        complete &= correction.is_for(*flow) && force_correction.is_for(*flow);
         let total = self.real_count() + images + 1;
         for_each_shared_array!(self, array => complete &= array.len() == total, in &);
+        complete &= self.walls.are_as_long_as(total - flow) && self.mirrored.len() == images + 2;
         let mut seen = vec![false; begun];
         for &identity in identity {
             complete &= seen.get_mut(identity as usize).is_some_and(|seen| !std::mem::replace(seen, true));
@@ -310,24 +303,13 @@ fn retain<T>(array: &mut Vec<T>, keep: impl Fn(usize) -> bool) {
     });
 }
 
-/// Buffers of the sort, reused.
-#[derive(Debug)]
-pub(crate) struct SortScratch<const D: usize> {
-    vectors: Vec<Vector<D>>,
-    tensors: Vec<Tensor<D>>,
-    scalars: Vec<f64>,
-    identities: Vec<u32>,
+/// Brings the first values of an array into an order; the others stay. What `room`, an array of the same length, held is lost.
+fn permute<T: Copy + Send + Sync>(array: &mut Vec<T>, order: &[u32], room: &mut Vec<T>) {
+    gather(array, order, &mut room[..order.len()]);
+    room[order.len()..].copy_from_slice(&array[order.len()..]);
+    std::mem::swap(array, room);
 }
 
-impl<const D: usize> SortScratch<D> {
-    pub(crate) fn new() -> Self {
-        Self { vectors: Vec::new(), tensors: Vec::new(), scalars: Vec::new(), identities: Vec::new() }
-    }
-}
-
-fn permute<T: Copy + Send + Sync>(array: &mut [T], order: &[u32], scratch: &mut Vec<T>) {
-    let Some(&first) = array.first() else { return };
-    scratch.resize(order.len(), first);
-    (&mut scratch[..], order).into_par_iter().with_min_len(8192).for_each(|(new, &old)| *new = array[old as usize]);
-    array[..order.len()].copy_from_slice(scratch);
+fn gather<T: Copy + Send + Sync>(array: &[T], order: &[u32], out: &mut [T]) {
+    (out, order).into_par_iter().with_min_len(4096).for_each(|(new, &old)| *new = array[old as usize]);
 }

@@ -4,7 +4,8 @@ use crate::domain::Domain;
 use crate::weakly_compressible::boundary::Images;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::CellGrid;
-use crate::weakly_compressible::particles::{Particles, SortScratch};
+use crate::weakly_compressible::particles::Particles;
+use rayon::prelude::*;
 
 /// The domain, the grids and the buffers of the sort, reused from search to search.
 #[derive(Debug)]
@@ -12,7 +13,11 @@ pub(crate) struct Search<const D: usize> {
     domain: Domain<D>,
     flow_grid: CellGrid<D>,
     wall_grid: CellGrid<D>,
-    scratch: SortScratch<D>,
+    /// Images of the flow and of walls.
+    flow_images: Vec<u32>,
+    wall_images: Vec<u32>,
+    /// Room for the sort of identities.
+    identities: Vec<u32>,
     count: u64,
 }
 
@@ -25,7 +30,15 @@ pub(crate) struct Crowded {
 
 impl<const D: usize> Search<D> {
     pub(crate) fn new(domain: Domain<D>) -> Self {
-        Self { domain, flow_grid: CellGrid::new(), wall_grid: CellGrid::new(), scratch: SortScratch::new(), count: 0 }
+        Self {
+            domain,
+            flow_grid: CellGrid::new(),
+            wall_grid: CellGrid::new(),
+            flow_images: Vec::new(),
+            wall_images: Vec::new(),
+            identities: Vec::new(),
+            count: 0,
+        }
     }
 
     /// Goes on counting from so many searches.
@@ -52,21 +65,30 @@ impl<const D: usize> Search<D> {
         let (flow, real) = (particles.flow_count(), particles.real_count());
         particles.keep_real();
         self.keep_inside(particles);
-        self.flow_grid.cover(particles.position[..flow].iter(), radius);
-        self.flow_grid.sort(particles.position[..flow].iter().enumerate().map(|(index, x)| (index as u32, x)));
-        particles.sort_flow(&self.flow_grid.index[..flow], &mut self.scratch);
+        self.flow_grid.cover(&particles.position[..flow], radius);
+        self.flow_grid.sort(&particles.position, flow, |entry| entry);
+        particles.sort_flow(&self.flow_grid.index[..flow], &mut self.identities);
         images.rebuild(&self.domain, &particles.position, radius);
         particles.append_images(images);
-        let total = real + images.len();
-        let entry = |index: usize| (index as u32, &particles.position[index]);
-        let from_flow = |&k: &usize| images.source(k) < flow;
-        let flow_images = (0..images.len()).filter(from_flow).map(|k| real + k);
-        let wall_images = (0..images.len()).filter(|k| !from_flow(k)).map(|k| real + k);
-        for grid in [&mut self.flow_grid, &mut self.wall_grid] {
-            grid.cover(particles.position[..total].iter(), radius);
+        self.flow_images.clear();
+        self.wall_images.clear();
+        for k in 0..images.len() {
+            let list = if images.source(k) < flow { &mut self.flow_images } else { &mut self.wall_images };
+            list.push((real + k) as u32);
         }
-        self.flow_grid.sort((0..flow).chain(flow_images).map(entry));
-        self.wall_grid.sort((flow..real).chain(wall_images).map(entry));
+        let positions = &particles.position;
+        for grid in [&mut self.flow_grid, &mut self.wall_grid] {
+            grid.cover(&positions[..real + images.len()], radius);
+        }
+        let (flow_images, wall_images) = (&self.flow_images, &self.wall_images);
+        let of_flow = |entry: usize| if entry < flow { entry } else { flow_images[entry - flow] as usize };
+        let walls = real - flow;
+        let of_walls = |entry: usize| if entry < walls { flow + entry } else { wall_images[entry - walls] as usize };
+        self.flow_grid.sort(positions, flow + flow_images.len(), of_flow);
+        self.wall_grid.sort(positions, walls + wall_images.len(), of_walls);
+        for grid in [&mut self.flow_grid, &mut self.wall_grid] {
+            grid.take_coordinates(positions);
+        }
         let grids = (&self.flow_grid, &self.wall_grid);
         self.count += 1;
         model
@@ -77,17 +99,24 @@ impl<const D: usize> Search<D> {
 
     /// Brings the flow back through periods and mirrors; what a mirror pushes back is support.
     fn keep_inside(&self, particles: &mut Particles<D>) {
-        for index in 0..particles.flow_count() {
-            self.domain.wrap(&mut particles.position[index]);
-            let before = particles.velocity[index];
-            self.domain.reflect(
-                &mut particles.position[index],
-                &mut particles.velocity[index],
-                &mut particles.velocity_gradient[index],
-                &mut particles.stress[index],
-            );
-            let pushed_back = (particles.velocity[index] - before) * particles.mass[index];
-            particles.support_impulse[index] += pushed_back;
-        }
+        let flow = particles.flow_count();
+        let Particles { position, velocity, velocity_gradient, stress, mass, support_impulse, .. } = particles;
+        let moved = (
+            &mut position[..flow],
+            &mut velocity[..flow],
+            &mut velocity_gradient[..flow],
+            &mut stress[..flow],
+            &mass[..],
+            support_impulse,
+        );
+        moved.into_par_iter().with_min_len(4096).for_each(
+            |(position, velocity, velocity_gradient, stress, &mass, support_impulse)| {
+                self.domain.wrap(position);
+                let before = *velocity;
+                self.domain.reflect(position, velocity, velocity_gradient, stress);
+                let pushed_back = (*velocity - before) * mass;
+                *support_impulse += pushed_back;
+            },
+        );
     }
 }

@@ -61,7 +61,7 @@ impl<const D: usize> State<D> {
         self.images.copy_vectors(&mut self.particles.velocity);
         wall_velocity::run(&self.model, &mut self.particles, &mut self.pairs);
         self.images.copy_vectors(&mut self.particles.velocity);
-        self.images.copy_vectors(&mut self.particles.sliding_velocity);
+        self.images.copy_wall_vectors(&mut self.particles.walls.sliding_velocity);
     }
 
     fn update_density_and_stress(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
@@ -93,7 +93,7 @@ impl<const D: usize> State<D> {
         }
         let walls = &self.walls;
         self.particles.move_walls(0, &self.wall_displacements, |wall| walls[wall].velocity);
-        self.images.copy_vectors(&mut self.particles.wall_velocity);
+        self.images.copy_wall_vectors(&mut self.particles.walls.velocity);
         fastest
     }
 

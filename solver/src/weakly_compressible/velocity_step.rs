@@ -1,11 +1,15 @@
-//! Velocities in a step: the kick, the contact with walls, and the work of both.
+//! Velocities in a step: the kick, the contact with walls, and the work of both. Eight particles at once, as in the passes.
 
+use crate::lanes::algebra::{accumulate, dot, load, load_vector, scaled, store_vector, sum_of, zero_vector};
+use crate::lanes::{LANES, LanePass, Lanes};
 use crate::run::Divergence;
-use crate::weakly_compressible::boundary::contact;
+use crate::vector::Vector;
+use crate::weakly_compressible::boundary::{Wall, contact};
 use crate::weakly_compressible::divergence::{LARGEST_MACH_NUMBER, Quantity};
-use crate::weakly_compressible::energy::VelocityStep;
+use crate::weakly_compressible::energy::{EnergyLedger, VelocityStep, VelocityWork};
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::numerics::Contact;
+use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::state::State;
 use rayon::prelude::*;
 
@@ -22,50 +26,26 @@ impl<const D: usize> State<D> {
             Contact::HalfSpacing => 0.5 * self.model.spacing,
             Contact::None => f64::NEG_INFINITY,
         };
-        let (walls, friction) = (&self.walls, self.model.contact_friction);
+        let contact = Touch { walls: &self.walls, range, friction: self.model.contact_friction };
         self.pairs.open_ledger(flow);
-        let (particles, gravity) = (&mut self.particles, &self.model.gravity);
-        let (acceleration, support) = (&particles.acceleration, &particles.support);
-        let (position, mass) = (&particles.position[..flow], &particles.mass);
-        let (by_walls, by_damping) = (&particles.by_walls, &particles.by_damping);
-        let by_wall_control = &particles.by_wall_control;
-        let (largest, bad) = (
-            particles.velocity[..flow].par_chunks_mut(BLOCK),
-            particles.support_impulse.par_chunks_mut(BLOCK),
-            &mut self.pairs.energy,
-        )
-            .into_par_iter()
-            .with_min_len(16)
-            .enumerate()
-            .map(|(block, (velocities, support_impulses, energy))| {
-                let mut extremes = (0.0_f64, usize::MAX);
-                for (offset, (velocity, support_impulse)) in velocities.iter_mut().zip(support_impulses).enumerate() {
-                    let index = block * BLOCK + offset;
-                    let before = *velocity;
-                    let after = before + acceleration[index] * time_step;
-                    let contact = contact::impulse(walls, &position[index], &after, range, friction);
-                    *velocity = after + contact;
-                    *support_impulse += (support[index] * time_step + contact) * mass[index];
-                    VelocityStep {
-                        mass: mass[index],
-                        time_step,
-                        gravity,
-                        before,
-                        after,
-                        contact,
-                        by_walls: &by_walls[index],
-                        by_damping: &by_damping[index],
-                        by_wall_control: &by_wall_control[index],
-                    }
-                    .add_to(energy);
-                    let square = velocity.norm_squared();
-                    // written so that a NaN is bad
-                    extremes =
-                        (extremes.0.max(square), extremes.1.min(if square <= limit { usize::MAX } else { index }));
-                }
-                extremes
-            })
-            .reduce(|| (0.0, usize::MAX), |a, b| (a.0.max(b.0), a.1.min(b.1)));
+        let (gravity, set) = (self.model.gravity, self.model.instruction_set);
+        let mut velocity = std::mem::take(&mut self.particles.velocity);
+        let mut support_impulse = std::mem::take(&mut self.particles.support_impulse);
+        let particles = &self.particles;
+        let (largest, bad) =
+            (velocity[..flow].par_chunks_mut(BLOCK), support_impulse.par_chunks_mut(BLOCK), &mut self.pairs.energy)
+                .into_par_iter()
+                .with_min_len(16)
+                .enumerate()
+                .map(|(block, (velocity, support_impulse, energy))| {
+                    let mut extremes = (0.0_f64, usize::MAX);
+                    let (first, extremes_of_block) = (block * BLOCK, &mut extremes);
+                    let out = Output { velocity, support_impulse, energy, extremes: extremes_of_block };
+                    set.run(Kick { particles, contact, gravity, time_step, limit, first, out });
+                    extremes
+                })
+                .reduce(|| (0.0, usize::MAX), |a, b| (a.0.max(b.0), a.1.min(b.1)));
+        (self.particles.velocity, self.particles.support_impulse) = (velocity, support_impulse);
         self.pairs.close_ledger(&mut self.energy);
         self.largest_speed = largest.sqrt();
         if bad != usize::MAX {
@@ -73,5 +53,117 @@ impl<const D: usize> State<D> {
             return Err(self.divergence(bad, Quantity::Speed { limit: largest_speed }, speed));
         }
         Ok(())
+    }
+}
+
+/// What particles meet at plane walls.
+#[derive(Clone, Copy)]
+struct Touch<'a, const D: usize> {
+    walls: &'a [Wall<D>],
+    /// Distance within which a wall is touched `[m]`.
+    range: f64,
+    friction: f64,
+}
+
+impl<const D: usize> Touch<'_, D> {
+    /// Changes of the velocities `[m/s]` of particles that the walls touch; nothing if there are none.
+    #[inline(always)]
+    fn impulses<V: Lanes>(&self, position: &[V; D], velocity: &[V; D], count: usize) -> Option<[V; D]> {
+        let mut near = 0;
+        for wall in self.walls {
+            let distance = V::splat(wall.side) * (position[wall.axis] - V::splat(wall.surface));
+            near |= distance.less_mask(V::splat(self.range));
+        }
+        near &= (1 << count) - 1;
+        if near == 0 {
+            return None;
+        }
+        let (mut positions, mut velocities) = ([Vector::zeros(); LANES], [Vector::zeros(); LANES]);
+        store_vector(position, &mut positions);
+        store_vector(velocity, &mut velocities);
+        let mut changes = [Vector::zeros(); LANES];
+        for lane in 0..count {
+            if (near >> lane) & 1 == 1 {
+                let (position, velocity) = (&positions[lane], &velocities[lane]);
+                changes[lane] = contact::impulse(self.walls, position, velocity, self.range, self.friction);
+            }
+        }
+        Some(load_vector::<V, D>(&changes))
+    }
+}
+
+struct Output<'a, const D: usize> {
+    velocity: &'a mut [Vector<D>],
+    support_impulse: &'a mut [Vector<D>],
+    energy: &'a mut EnergyLedger,
+    /// Largest speed squared `[m²/s²]`, and the first particle beyond the limit.
+    extremes: &'a mut (f64, usize),
+}
+
+/// A block of particles from `first` on.
+struct Kick<'a, const D: usize> {
+    particles: &'a Particles<D>,
+    contact: Touch<'a, D>,
+    gravity: Vector<D>,
+    time_step: f64,
+    /// Largest speed squared that is no divergence `[m²/s²]`.
+    limit: f64,
+    first: usize,
+    out: Output<'a, D>,
+}
+
+impl<const D: usize> LanePass for Kick<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let Self { particles, contact, gravity, time_step, limit, first, out } = self;
+        let step = V::splat(time_step);
+        let mut work = VelocityWork::<V>::new();
+        let mut largest = V::splat(0.0);
+        for (group, (velocity, support_impulse)) in
+            out.velocity.chunks_mut(LANES).zip(out.support_impulse.chunks_mut(LANES)).enumerate()
+        {
+            let start = first + group * LANES;
+            let here = start..start + velocity.len();
+            let mass = load::<V>(&particles.mass[here.clone()]);
+            let before = load_vector::<V, D>(velocity);
+            let mut after = before;
+            accumulate(&mut after, step, &load_vector::<V, D>(&particles.acceleration[here.clone()]));
+            let position = load_vector::<V, D>(&particles.position[here.clone()]);
+            let change = contact.impulses(&position, &after, velocity.len());
+            let change = match change {
+                Some(change) => change,
+                None => zero_vector(),
+            };
+            let end = sum_of(&after, &change);
+            store_vector(&end, velocity);
+            let support = load_vector::<V, D>(&particles.support[here.clone()]);
+            let given = scaled(mass, &sum_of(&scaled(step, &support), &change));
+            store_vector(&sum_of(&load_vector::<V, D>(support_impulse), &given), support_impulse);
+            VelocityStep {
+                mass,
+                time_step,
+                gravity: &gravity,
+                before: &before,
+                end: &end,
+                contact: &change,
+                by_walls: &load_vector::<V, D>(&particles.by_walls[here.clone()]),
+                by_damping: &load_vector::<V, D>(&particles.by_damping[here.clone()]),
+                by_wall_control: &load_vector::<V, D>(&particles.by_wall_control[here]),
+            }
+            .add_to(&mut work);
+            let square = dot(&end, &end);
+            largest = square.max(largest);
+            // a NaN is bad as well
+            let fine = square.less_mask(V::splat(limit)) | ((1 << LANES) - (1 << velocity.len()));
+            if fine != (1 << LANES) - 1 && out.extremes.1 == usize::MAX {
+                let squares = square.to_array();
+                let bad = (0..velocity.len()).find(|&lane| squares[lane].is_nan() || squares[lane] > limit);
+                out.extremes.1 = bad.map_or(usize::MAX, |lane| start + lane);
+            }
+        }
+        work.add_to(out.energy);
+        for square in largest.to_array() {
+            out.extremes.0 = out.extremes.0.max(square);
+        }
     }
 }

@@ -3,9 +3,9 @@
 use super::Run;
 use std::fmt;
 
-/// Memory per particle during its run: state, neighbours, pair weights, solves `[bytes]`. A film of 200 000
-/// particles takes 1.8 kB each, still water of 160 000 some 2.3 kB.
-const BYTES_WHILE_RUNNING: f64 = 3e3;
+/// Memory per particle during its run: state, neighbours, pair weights, solves `[bytes]`. Still water of 160 000 particles
+/// takes some 2.3 kB each.
+pub(super) const BYTES_WHILE_RUNNING: f64 = 3e3;
 
 /// Memory of a particle in the snapshots of a run that is done `[bytes]`.
 const BYTES_KEPT: f64 = 700.0;
@@ -24,8 +24,10 @@ const USUAL_CORE_HOURS: f64 = 10_000.0;
 pub struct Estimate {
     /// Number of runs.
     pub runs: usize,
-    /// Particles of the largest run `[-]`.
-    pub particles: f64,
+    /// Memory of the run that needs most of it, while it runs `[bytes]`.
+    pub running: f64,
+    /// Memory of all runs, if they ran at once `[bytes]`.
+    pub all_running: f64,
     /// Particles of all runs `[-]`.
     pub all_particles: f64,
     /// Particle-steps of all runs `[-]`.
@@ -39,9 +41,11 @@ impl Estimate {
     /// Of one run.
     pub(super) fn of(run: &impl Run) -> Self {
         let (particles, particle_steps) = (run.particles(), run.particle_steps());
+        let running = particles * run.bytes_per_particle();
         Self {
             runs: 1,
-            particles,
+            running,
+            all_running: running,
             all_particles: particles,
             particle_steps,
             core_seconds: particle_steps * run.seconds_per_particle_step(),
@@ -54,7 +58,8 @@ impl Estimate {
         Self {
             runs: self.runs + other.runs,
             // whichever is larger; NaN, which is refused, stays
-            particles: if other.particles <= self.particles { self.particles } else { other.particles },
+            running: if other.running <= self.running { self.running } else { other.running },
+            all_running: self.all_running + other.all_running,
             all_particles: self.all_particles + other.all_particles,
             particle_steps: self.particle_steps + other.particle_steps,
             core_seconds: self.core_seconds + other.core_seconds,
@@ -65,7 +70,7 @@ impl Estimate {
     #[must_use]
     pub fn memory(&self, threads: usize) -> f64 {
         let at_once = threads.clamp(1, self.runs.max(1)) as f64;
-        (self.particles * at_once).min(self.all_particles) * BYTES_WHILE_RUNNING + self.all_particles * BYTES_KEPT
+        (self.running * at_once).min(self.all_running) + self.all_particles * BYTES_KEPT
     }
 
     /// How far it is beyond what is allowed: above 1 if it is. One run at a time must fit into the memory.

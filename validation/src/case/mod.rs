@@ -135,6 +135,10 @@ pub trait Run: Serialize + Clone + Send + Sync {
     fn particles(&self) -> f64 {
         0.0
     }
+    /// Memory that one of them takes while the run goes on `[bytes]`.
+    fn bytes_per_particle(&self) -> f64 {
+        estimate::BYTES_WHILE_RUNNING
+    }
     /// What a particle-step costs on one core `[s]`, for estimates.
     fn seconds_per_particle_step(&self) -> f64 {
         1e-6

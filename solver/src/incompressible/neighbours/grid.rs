@@ -47,11 +47,11 @@ impl<const D: usize> Grid<D> {
         }
         // taken out while the cells of particles are asked for
         let mut order = std::mem::take(&mut self.order);
-        let cells = positions.iter().map(|position| self.cell(&self.coordinates(position)));
-        let count = order.count(self.cells.iter().product(), cells);
-        self.index.resize(count, 0);
-        order.place(|particle, place| self.index[place] = particle as u32);
-        self.order = order;
+        let mut index = std::mem::take(&mut self.index);
+        index.resize(positions.len(), 0);
+        let cell_of = |particle: usize| self.cell(&self.coordinates(&positions[particle]));
+        order.sort(self.cells.iter().product(), cell_of, &mut index);
+        (self.order, self.index) = (order, index);
     }
 
     /// Calls `visit` for every particle in the cells around a position, each once.

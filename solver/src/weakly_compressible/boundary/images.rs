@@ -5,6 +5,7 @@
 
 use crate::domain::{AxisBoundary, Domain};
 use crate::vector::{Tensor, Vector};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// One image: x = sign ∘ x_source + shift.
@@ -20,11 +21,100 @@ struct Image<const D: usize> {
 pub(crate) struct Images<const D: usize> {
     images: Vec<Image<D>>,
     first: usize,
+    /// New images of every block of sources, while they are found.
+    #[serde(skip)]
+    counts: Vec<usize>,
+}
+
+/// Sources a task of the search for images.
+const BLOCK: usize = 1024;
+/// Images a task of the copies.
+const COPIED: usize = 4096;
+
+/// What may have images along an axis: real particles, then images along the axes before.
+#[derive(Clone, Copy)]
+struct Sources<'a, const D: usize> {
+    positions: &'a [Vector<D>],
+    images: &'a [Image<D>],
+    axis: usize,
+    boundary: AxisBoundary,
+    reach: f64,
+}
+
+impl<const D: usize> Sources<'_, D> {
+    fn len(&self) -> usize {
+        self.positions.len() + self.images.len()
+    }
+
+    /// Shows the images of a block of sources in their order.
+    fn visit(&self, block: usize, mut show: impl FnMut(Image<D>)) {
+        let (axis, reach) = (self.axis, self.reach);
+        for index in block * BLOCK..(block * BLOCK + BLOCK).min(self.len()) {
+            let image = match index.checked_sub(self.positions.len()) {
+                None => Image { source: index as u32, sign: Vector::repeat(1.0), shift: Vector::zeros() },
+                Some(image) => self.images[image],
+            };
+            let coordinate = image.sign[axis] * self.positions[image.source as usize][axis] + image.shift[axis];
+            let mut add = |sign: f64, shift: f64| {
+                let mut other = image;
+                other.sign[axis] *= sign;
+                other.shift[axis] = sign * other.shift[axis] + shift;
+                show(other);
+            };
+            match self.boundary {
+                AxisBoundary::Open => {}
+                AxisBoundary::Periodic { lower, upper } => {
+                    if coordinate < lower + reach {
+                        add(1.0, upper - lower);
+                    }
+                    if coordinate > upper - reach {
+                        add(1.0, lower - upper);
+                    }
+                }
+                AxisBoundary::Mirror { lower, upper } => {
+                    if let Some(plane) = lower
+                        && coordinate < plane + reach
+                    {
+                        add(-1.0, 2.0 * plane);
+                    }
+                    if let Some(plane) = upper
+                        && coordinate > plane - reach
+                    {
+                        add(-1.0, 2.0 * plane);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Writes the images of the blocks from `first` on, of which there are so many in each.
+fn write<const D: usize>(sources: Sources<'_, D>, first: usize, counts: &[usize], out: &mut [Image<D>]) {
+    if out.is_empty() {
+        return;
+    }
+    if counts.len() > 4 {
+        let (counts, later_counts) = counts.split_at(counts.len() / 2);
+        let (out, later_out) = out.split_at_mut(counts.iter().sum());
+        rayon::join(
+            || write(sources, first, counts, out),
+            || write(sources, first + counts.len(), later_counts, later_out),
+        );
+        return;
+    }
+    let mut slots = out.iter_mut();
+    for block in first..first + counts.len() {
+        sources.visit(block, |image| {
+            if let Some(slot) = slots.next() {
+                *slot = image;
+            }
+        });
+    }
 }
 
 impl<const D: usize> Images<D> {
     pub(crate) fn new() -> Self {
-        Self { images: Vec::new(), first: 0 }
+        Self { images: Vec::new(), first: 0, counts: Vec::new() }
     }
 
     /// Whether all are images of the first `real` particles and stand behind them.
@@ -47,50 +137,36 @@ impl<const D: usize> Images<D> {
         self.first = positions.len();
         self.images.clear();
         for (axis, boundary) in domain.axes.iter().enumerate() {
-            let before = self.images.len();
-            for index in 0..self.first + before {
-                let image = if index < self.first {
-                    Image { source: index as u32, sign: Vector::repeat(1.0), shift: Vector::zeros() }
-                } else {
-                    self.images[index - self.first]
-                };
-                let coordinate = image.sign[axis] * positions[image.source as usize][axis] + image.shift[axis];
-                let mut add = |sign: f64, shift: f64| {
-                    let mut other = image;
-                    other.sign[axis] *= sign;
-                    other.shift[axis] = sign * other.shift[axis] + shift;
-                    self.images.push(other);
-                };
-                match *boundary {
-                    AxisBoundary::Open => {}
-                    AxisBoundary::Periodic { lower, upper } => {
-                        if coordinate < lower + reach {
-                            add(1.0, upper - lower);
-                        }
-                        if coordinate > upper - reach {
-                            add(1.0, lower - upper);
-                        }
-                    }
-                    AxisBoundary::Mirror { lower, upper } => {
-                        if let Some(plane) = lower
-                            && coordinate < plane + reach
-                        {
-                            add(-1.0, 2.0 * plane);
-                        }
-                        if let Some(plane) = upper
-                            && coordinate > plane - reach
-                        {
-                            add(-1.0, 2.0 * plane);
-                        }
-                    }
-                }
+            if *boundary == AxisBoundary::Open {
+                continue;
             }
+            let before = self.images.len();
+            let boundary = *boundary;
+            let sources = Sources { positions, images: &self.images, axis, boundary, reach };
+            // as many are counted block by block as are then written
+            let blocks = sources.len().div_ceil(BLOCK);
+            self.counts.resize(blocks, 0);
+            let counts = self.counts.par_iter_mut().with_min_len(4).enumerate();
+            counts.for_each(|(block, count)| {
+                *count = 0;
+                sources.visit(block, |_| *count += 1);
+            });
+            let added = self.counts.iter().sum::<usize>();
+            let total = before + added;
+            if self.images.capacity() < total {
+                // some head room, so that a slowly changing number of images does not allocate
+                self.images.reserve_exact(total + total / 8 + 64 - before);
+            }
+            let none = Image { source: 0, sign: Vector::repeat(1.0), shift: Vector::zeros() };
+            self.images.resize(total, none);
+            let (images, added) = self.images.split_at_mut(before);
+            write(Sources { positions, images, axis, boundary, reach }, 0, &self.counts, added);
         }
     }
 
     /// 1 for images with a change of sign, that is behind a mirror, 0 for others.
     pub(crate) fn mark_mirrored(&self, field: &mut [f64]) {
-        for (slot, image) in field[self.first..].iter_mut().zip(&self.images) {
+        for (slot, image) in field.iter_mut().zip(&self.images) {
             *slot = if image.sign.min() < 0.0 { 1.0 } else { 0.0 };
         }
     }
@@ -119,17 +195,40 @@ impl<const D: usize> Images<D> {
         });
     }
 
+    /// Fills in the images of wall particles in an array that leaves out the flow: walls, images and sentinel.
+    pub(crate) fn copy_wall_vectors(&self, field: &mut [Vector<D>]) {
+        self.copy_of_walls(field, |value, image| image.sign.component_mul(value));
+    }
+
+    pub(crate) fn copy_wall_scalars(&self, field: &mut [f64]) {
+        self.copy_of_walls(field, |value, _| *value);
+    }
+
+    fn copy_of_walls<T: Copy>(&self, field: &mut [T], map: impl Fn(&T, &Image<D>) -> T) {
+        let walls = field.len() - self.images.len() - 1;
+        let flow = self.first - walls;
+        let (walls, images) = field.split_at_mut(walls);
+        for (slot, image) in images.iter_mut().zip(&self.images) {
+            if let Some(wall) = (image.source as usize).checked_sub(flow) {
+                *slot = map(&walls[wall], image);
+            }
+        }
+    }
+
     /// Place, source and sign of every image.
     pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, usize, &Vector<D>)> {
         let first = self.first;
         self.images.iter().enumerate().map(move |(k, image)| (first + k, image.source as usize, &image.sign))
     }
 
-    fn copy<T: Copy>(&self, field: &mut [T], map: impl Fn(&T, &Image<D>) -> T) {
+    fn copy<T: Copy + Send + Sync>(&self, field: &mut [T], map: impl Fn(&T, &Image<D>) -> T + Sync) {
         let (real, images) = field.split_at_mut(self.first);
-        for (slot, image) in images.iter_mut().zip(&self.images) {
-            *slot = map(&real[image.source as usize], image);
-        }
+        let slots = images.par_chunks_mut(COPIED).zip(self.images.par_chunks(COPIED));
+        slots.for_each(|(slots, images)| {
+            for (slot, image) in slots.iter_mut().zip(images) {
+                *slot = map(&real[image.source as usize], image);
+            }
+        });
     }
 }
 

@@ -1,7 +1,7 @@
 //! The search that fills a block of groups of the neighbour list.
 
 use super::CellGrid;
-use crate::lanes::{LANES, LanePass, Lanes};
+use crate::lanes::{LANES, LanePass, Lanes, Real, SingleLanes};
 use crate::vector::Vector;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -38,6 +38,17 @@ pub(super) struct Search<'a, const D: usize> {
     pub(super) grids: (&'a CellGrid<D>, &'a CellGrid<D>),
     pub(super) sentinel: u32,
 }
+
+/// For a number of lanes the mask of so many first ones.
+static FIRST_LANES: [u32; LANES + 1] = {
+    let mut masks = [0; LANES + 1];
+    let mut lane = 0;
+    while lane < LANES {
+        masks[lane + 1] = masks[lane] << 1 | 1;
+        lane += 1;
+    }
+    masks
+};
 
 /// Neighbours of one particle as they are found; what is packed last may reach a chunk beyond the largest row.
 type FoundRow = [u32; LARGEST_ROW + LANES];
@@ -95,9 +106,6 @@ impl<const D: usize> LanePass for BlockSearch<'_, D> {
                 has_images,
             };
         }
-        // nothing of an older list stays behind; a block that did not fit is filled again
-        let rest = if used <= chunks.len() { used } else { 0 };
-        chunks[rest..].fill([search.sentinel; LANES]);
         *result = (used, crowded);
     }
 }
@@ -151,32 +159,55 @@ impl<const D: usize> Search<'_, D> {
     }
 
     /// Writes the neighbours of one particle in a grid and returns their number; what does not fit is counted but
-    /// not kept.
+    /// not kept. Distances are taken in single precision, so that of what is beyond the radius by less than a millionth of it
+    /// some is a neighbour.
     #[inline(always)]
     fn row<V: Lanes>(&self, particle: u32, grid: &CellGrid<D>, row: &mut FoundRow) -> usize {
         let centre = self.positions[particle as usize];
-        let limit = V::splat(self.radius * self.radius);
+        let mut place = [V::Single::splat(0.0); D];
+        for axis in 0..D {
+            place[axis] = V::Single::load(&[grid.fixed(&centre, axis); LANES]);
+        }
+        let limit = V::Single::splat(CellGrid::<D>::limit());
         let mut found = 0usize;
         let (ranges, count) = grid.ranges(&centre);
         for range in &ranges[..count] {
             let mut start = range.start;
             while start < range.end {
-                let mut distance_squared = V::splat(0.0);
+                let mut distance_squared = V::Single::splat(0.0);
                 for axis in 0..D {
                     let Some(coordinates) = grid.coordinates[axis][start..].first_chunk() else { unreachable!() };
-                    let difference = V::splat(centre[axis]) - V::load(coordinates);
+                    let difference = place[axis].fixed_difference(V::Single::load(coordinates));
                     distance_squared = distance_squared + difference * difference;
                 }
                 let Some(indices) = grid.index[start..].first_chunk() else { unreachable!() };
                 let near = distance_squared.less_mask(limit);
                 let left = range.end - start;
-                let inside = if left < LANES { (1 << left) - 1 } else { (1 << LANES) - 1 };
+                let inside = FIRST_LANES[if left < LANES { left } else { LANES }];
                 let slot = if found < LARGEST_ROW { found } else { LARGEST_ROW };
                 let Some(out) = row[slot..].first_chunk_mut() else { unreachable!() };
                 found += V::pack(indices, near & inside, particle, out);
                 start += LANES;
             }
         }
-        found
+        if grid.holds_strays() && found <= LARGEST_ROW {
+            self.without_strays(&centre, &mut row[..found])
+        } else {
+            found
+        }
+    }
+
+    /// Moves those within the radius to the front and returns their number: coordinates that wrap make neighbours of particles
+    /// that are many cells apart, if a cell holds both.
+    fn without_strays(&self, centre: &Vector<D>, row: &mut [u32]) -> usize {
+        let mut near = 0;
+        for k in 0..row.len() {
+            let distance_squared = (self.positions[row[k] as usize] - centre).norm_squared();
+            if distance_squared < self.radius * self.radius {
+                row[near] = row[k];
+                near += 1;
+            }
+        }
+        near
     }
 }

@@ -111,7 +111,8 @@ impl VerletList {
     }
 
     /// Fills the list for the first `real` positions, of which the first `flow` are the flow's, with all neighbours
-    /// nearer than `radius` `[m]`.
+    /// nearer than `radius` `[m]`, which is the size of the cells. Of those farther by less than a millionth some are listed
+    /// too, since distances are taken in single precision.
     ///
     /// # Errors
     /// The particle that has more neighbours than a row can hold: the flow has collapsed onto itself.
@@ -133,20 +134,16 @@ impl VerletList {
             self.region = GROUPS * if D == 2 { 40 } else { 130 };
         }
         loop {
-            let (region, extents) = (self.region, &mut self.extents);
-            let (needed, crowded) = self.indices.refill(positions.len(), |chunks| {
-                chunks.resize(groups.div_ceil(GROUPS) * region, [0; LANES]);
-                (chunks.par_chunks_mut(region), extents.par_chunks_mut(GROUPS))
-                    .into_par_iter()
-                    .enumerate()
-                    .map(|(block, (chunks, extents))| {
-                        let mut result = (0, usize::MAX);
-                        let result_of_block = &mut result;
-                        set.run(BlockSearch { search, block, region, chunks, extents, result: result_of_block });
-                        result
-                    })
-                    .reduce(|| (0, usize::MAX), |a, b| (a.0.max(b.0), a.1.min(b.1)))
-            });
+            let region = self.region;
+            let fill = |block, extents: &mut [Extent], chunks: &mut [[u32; LANES]]| {
+                let mut result = (0, usize::MAX);
+                let result_of_block = &mut result;
+                set.run(BlockSearch { search, block, region, chunks, extents, result: result_of_block });
+                result
+            };
+            let first_crowded = (usize::MAX, |a: usize, b: usize| a.min(b));
+            let blocks = self.extents.par_chunks_mut(GROUPS);
+            let (needed, crowded) = self.indices.refill_regions((positions.len(), region), blocks, fill, first_crowded);
             if crowded != usize::MAX {
                 // what was cut short is not to be read
                 self.extents.fill(Extent::default());
@@ -168,11 +165,26 @@ mod tests {
         let real = positions.len() - 1;
         let mut grids = (CellGrid::new(), CellGrid::new());
         for grid in [&mut grids.0, &mut grids.1] {
-            grid.cover(positions[..real].iter(), radius);
+            grid.cover(&positions[..real], radius);
         }
-        grids.0.sort((0..real).map(|index| (index as u32, &positions[index])));
-        grids.1.sort(std::iter::empty());
+        grids.0.sort(positions, real, |entry| entry);
+        grids.1.sort(positions, 0, |entry| entry);
+        for grid in [&mut grids.0, &mut grids.1] {
+            grid.take_coordinates(positions);
+        }
         list.rebuild(positions, real, real, radius, (&grids.0, &grids.1), InstructionSet::best()).expect("room");
+    }
+
+    #[test]
+    fn strays_that_share_a_cell_are_no_neighbours_unless_they_are_near() {
+        let mut list = VerletList::default();
+        // so far away that they share the last cell; coordinates wrap after 32 cells of the radius
+        let far = 1e7;
+        let places = (0..500).map(f64::from).chain([far, far + 32.0 * 1.5, far + 64.0 * 1.5, far + 64.0 * 1.5 + 1.0]);
+        let positions: Vec<_> = places.map(|x| Vector::<2>::new(x, 0.0)).chain([Vector::<2>::repeat(1e9)]).collect();
+        rebuilt(&mut list, &positions, 1.5);
+        assert_eq!(list.row(250).flow, [249, 251]);
+        assert_eq!([500, 501, 502, 503].map(|stray| list.row(stray).flow), [vec![], vec![], vec![503], vec![502]]);
     }
 
     #[test]

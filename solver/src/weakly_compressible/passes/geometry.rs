@@ -9,7 +9,7 @@ use crate::lanes::algebra::{
     accumulate, deviatoric_rate, difference, dot, load, load_tensor, matrix_product, product, store_tensor,
     store_vector, zero_tensor, zero_vector,
 };
-use crate::lanes::{LANES, LanePass, Lanes};
+use crate::lanes::{LANES, LanePass, LaneTensorsMut, Lanes};
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
@@ -19,8 +19,8 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 struct Output<'a, const D: usize> {
-    correction: &'a mut [Tensor<D>],
-    force_correction: &'a mut [Tensor<D>],
+    correction: LaneTensorsMut<'a, D>,
+    force_correction: LaneTensorsMut<'a, D>,
     pressure_gradient: &'a mut [Vector<D>],
     corrected_stress: &'a mut [Tensor<D>],
     weights: &'a mut [[f64; LANES]],
@@ -44,6 +44,8 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
     let records = if in_single { GeometryRecords::Single(single) } else { GeometryRecords::Double(geometry) };
     let mut correction = std::mem::take(&mut particles.correction);
     let mut force_correction = std::mem::take(&mut particles.force_correction);
+    correction.resize(flow);
+    force_correction.resize(flow);
     let mut pressure_gradient = std::mem::take(&mut particles.pressure_gradient);
     let mut corrected_stress = std::mem::take(&mut particles.corrected_stress);
     // in single precision none is stored: a chunk a block, so that the loop is the same
@@ -51,8 +53,8 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
     weights.resize(flow.div_ceil(BLOCK) * region, [0.0; LANES]);
     let shared = &*particles;
     (
-        correction.par_chunks_mut(BLOCK),
-        force_correction.par_chunks_mut(BLOCK),
+        correction.blocks_mut(BLOCK / LANES),
+        force_correction.blocks_mut(BLOCK / LANES),
         pressure_gradient[..flow].par_chunks_mut(BLOCK),
         corrected_stress[..flow].par_chunks_mut(BLOCK),
         weights.par_chunks_mut(region),
@@ -112,8 +114,8 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             }
             let stress = self.stress(first..first + end - offset, sums.pressure);
             let out = &mut self.out;
-            store_tensor(&for_gradients, &mut out.correction[offset..end]);
-            store_tensor(&for_forces, &mut out.force_correction[offset..end]);
+            out.correction.store(offset / LANES, &for_gradients);
+            out.force_correction.store(offset / LANES, &for_forces);
             store_vector(&product(&for_gradients, &sums.gradient), &mut out.pressure_gradient[offset..end]);
             store_tensor(&matrix_product(&stress, &for_forces), &mut out.corrected_stress[offset..end]);
             offset = end;

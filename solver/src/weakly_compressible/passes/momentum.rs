@@ -6,30 +6,31 @@ use super::flow_partner::{Constants, FlowPartner};
 use super::records::{Records, Writer};
 use super::single;
 use super::wall_partner::{WallPair, WallPartner};
-use crate::lanes::algebra::{accumulate, difference, dot, load, load_tensor, store_vector, zero_vector};
-use crate::lanes::{LANES, LanePass, Lanes, gather};
+use crate::lanes::algebra::{accumulate, difference, dot, load, store_vector, zero_vector};
+use crate::lanes::{LANES, LanePass, Lanes};
 use crate::vector::Vector;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::numerics::{HourglassDirection, ViscositySwitch};
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{artificial_viscosity, hourglass, pair_distance, stress_divergence};
+use crate::weakly_compressible::wall_fields::mirrored_lanes;
 use rayon::prelude::*;
 
 /// Writes a record in the layout of [`FlowPartner`] or, for wall particles, of [`WallPartner`].
 #[inline(always)]
 fn write<const D: usize>(particles: &Particles<D>, inverse_density: f64, index: usize, record: &mut Writer<'_>) {
-    let wall = particles.wall_depth[index] > 0.0;
+    let wall = particles.is_wall(index).then(|| index - particles.flow_count());
+    let walls = &particles.walls;
     record.vector(&particles.position[index]);
-    record.vector(if wall { &particles.wall_velocity[index] } else { &particles.velocity[index] });
-    record.scalar(if wall { particles.wall_depth[index] } else { particles.density[index] });
+    record.vector(wall.map_or(&particles.velocity[index], |wall| &walls.velocity[wall]));
+    record.scalar(wall.map_or(particles.density[index], |wall| walls.depth[wall]));
     record.scalar(hourglass::pressure_speed(particles.pressure[index], inverse_density));
-    record.scalar(if wall { particles.wall_smoothness[index] } else { particles.artificial_viscosity[index] });
+    record.scalar(wall.map_or(particles.artificial_viscosity[index], |wall| walls.smoothness[wall]));
     record.tensor(&particles.corrected_stress[index]);
-    if wall {
-        record.vector(&particles.wall_normal[index]);
-    } else {
-        record.tensor(&particles.velocity_gradient[index]);
+    match wall {
+        Some(wall) => record.vector(&walls.normal[wall]),
+        None => record.tensor(&particles.velocity_gradient[index]),
     }
 }
 
@@ -131,7 +132,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                 let own = FlowPartner::<V, D>::load(&pairs.momentum, &group.own);
                 let (flow_weights, wall_weights) = pairs.weights[group.first_pair..].split_at(group.flow.len());
                 flow_forces(&constants, particles, &pairs.momentum, &group, flow_weights, &own, &mut forces);
-                let correction = load_tensor::<V, D>(&particles.force_correction[here]);
+                let correction = particles.force_correction.load::<V>(first / LANES);
                 wall_forces(&constants, &pairs.momentum, &group, wall_weights, &own, &correction, &mut forces);
                 own.density
             };
@@ -189,7 +190,7 @@ fn flow_forces<V: Lanes, const D: usize>(
         accumulate(&mut forces.damping, mass_weight * push, &r);
         accumulate(&mut forces.damping, mass_weight * drag, &unexplained);
         if group.has_images {
-            let mirrored: V = gather(&particles.mirrored, &b);
+            let mirrored: V = mirrored_lanes(&particles.mirrored, particles.real_count(), &b);
             accumulate(&mut forces.mirror_divergence, mirrored * weight, &traction);
             accumulate(&mut forces.mirror_damping, mirrored * (mass_weight * push), &r);
             accumulate(&mut forces.mirror_damping, mirrored * (mass_weight * drag), &unexplained);

@@ -1,10 +1,10 @@
 //! The new state of particles whose pair sums are known: density, artificial viscosity, velocity gradient and stress, and
 //! what that adds to the energy ledger. Only here does the weakly compressible model ask the law for a stress.
 
-use crate::lanes::Lanes;
 use crate::lanes::algebra::{
     accumulate, deviatoric_rate, load, load_tensor, matrix_product, store, store_tensor, zero_tensor,
 };
+use crate::lanes::{LANES, Lanes};
 use crate::vector::{Tensor, shear_rate};
 use crate::weakly_compressible::divergence::DENSITY_RANGE;
 use crate::weakly_compressible::energy::{CompressionStep, DeformationStep, EnergyLedger, StressWork};
@@ -128,7 +128,7 @@ impl<const D: usize> Advance<'_, D> {
     ) {
         let law = &self.model.rheology;
         let particles_here = self.block_start + places.start..self.block_start + places.end;
-        let correction = load_tensor::<V, D>(&self.particles.correction[particles_here.clone()]);
+        let correction = self.particles.correction.load::<V>(particles_here.start / LANES);
         let gradient = matrix_product(&sums.gradient, &correction);
         let pressure = self.model.equation_of_state.pressure(density);
         let gradient_before = load_tensor::<V, D>(&out.velocity_gradient[places.clone()]);
@@ -165,7 +165,7 @@ impl<const D: usize> Advance<'_, D> {
                 pressure: (pressure_before, pressure),
                 divergence: sums.wall_compression - sums.compression,
                 raw_gradient: &flow_gradient,
-                force_correction: &load_tensor::<V, D>(&self.particles.force_correction[particles_here]),
+                force_correction: &self.particles.force_correction.load::<V>(particles_here.start / LANES),
                 rate: &deviatoric_rate(&gradient),
                 rate_by_walls: &deviatoric_rate(&matrix_product(&sums.wall_gradient, &correction)),
                 stress_before: &before,

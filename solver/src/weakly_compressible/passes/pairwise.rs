@@ -4,7 +4,7 @@
 use super::PairData;
 use super::records::{self, LaneRecord, Records};
 use crate::lanes::algebra::{
-    accumulate, accumulate_outer, difference, dot, load_tensor, scaled, store_vector, zero_tensor, zero_vector,
+    accumulate, accumulate_outer, difference, dot, scaled, store_vector, zero_tensor, zero_vector,
 };
 use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, gather, gather_vectors};
 use crate::vector::Vector;
@@ -119,7 +119,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             if model.numerics.momentum_operator == MomentumOperator::PairwiseCorrected {
                 let first = block * BLOCK + offset * LANES;
                 // Γ of (14) is the moment matrix, whose blended inverse is the gradient correction
-                let correction = load_tensor::<V, D>(&particles.correction[first..first + out.len()]);
+                let correction = particles.correction.load::<V>(first / LANES);
                 let (gradient, deficit) = viscous_sums(inputs, weights, &own);
                 forces.viscous = pair_viscosity::corrected(&forces.viscous, &gradient, &deficit, &correction);
             }
@@ -211,9 +211,11 @@ fn wall_difference<V: Lanes, const D: usize>(
     velocity_a: &[V; D],
 ) -> [V; D] {
     let Inputs { model, particles, .. } = inputs;
-    let normal = gather_vectors::<V, D>(&particles.wall_normal, w);
-    let wall_velocity = gather_vectors::<V, D>(&particles.wall_velocity, w);
-    let depth: V = gather(&particles.wall_depth, w);
+    let places = w.places_from(particles.flow_count());
+    let w = &places.indices();
+    let normal = gather_vectors::<V, D>(&particles.walls.normal, w);
+    let wall_velocity = gather_vectors::<V, D>(&particles.walls.velocity, w);
+    let depth: V = gather(&particles.walls.depth, w);
     let beta = wall_slip::factor(r, &normal, depth, model.kernel.smoothing_length(), wall_slip::PAPER_LIMIT);
     scaled(beta, &difference(velocity_a, &wall_velocity))
 }

@@ -5,7 +5,7 @@ use super::PairData;
 use super::flow_partner::{Constants, FlowPartner};
 use super::single::momentum::WallGroup;
 use super::wall_partner::{WallPair, WallPartner};
-use crate::lanes::algebra::{load, load_tensor, scaled, store_vector};
+use crate::lanes::algebra::{load, scaled, store_vector};
 use crate::lanes::{LANES, LanePass, Lanes};
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::shell_contact::{Passed, Touch};
@@ -71,7 +71,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                 continue;
             }
             let own = FlowPartner::<V, D>::load(&pairs.momentum, &group.own);
-            let correction = load_tensor::<V, D>(&particles.force_correction[places]);
+            let correction = particles.force_correction.load::<V>(first / LANES);
             let (_, weights) = pairs.weights[group.first_pair..].split_at(group.flow.len());
             for ((w, weight), partners) in group.wall.zip(weights).zip(owned) {
                 let wall = WallPartner::<V, D>::load(&pairs.momentum, &w);

@@ -55,9 +55,11 @@ impl<const D: usize> LanePass for Pass<'_, D> {
         let Self { model, particles, first_group, out } = self;
         for (offset, out) in out.chunks_mut(LANES).enumerate() {
             let group = model.list.group(first_group + offset);
-            let normal = gather_vectors::<V, D>(&particles.wall_normal, &group.own);
+            let places = group.own.places_from(particles.flow_count());
+            let places = places.indices();
+            let normal = gather_vectors::<V, D>(&particles.walls.normal, &places);
             let sums = sums::<V, D>(model, particles, &group, &normal);
-            let smoothness: V = gather(&particles.wall_smoothness, &group.own);
+            let smoothness: V = gather(&particles.walls.smoothness, &places);
             let stresses = terms::mirrored(&sums.stress, smoothness, &normal);
             let wet = terms::wet_inverse(sums.weight);
             let pressure = (wet * sums.pressure).max(V::splat(0.0)).to_array();

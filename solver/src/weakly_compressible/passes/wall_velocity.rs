@@ -30,7 +30,7 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
     });
     for (offset, (velocity, sliding)) in result.iter().enumerate() {
         particles.velocity[first + offset] = *velocity;
-        particles.sliding_velocity[first + offset] = *sliding;
+        particles.walls.sliding_velocity[offset] = *sliding;
     }
 }
 
@@ -51,10 +51,12 @@ impl<const D: usize> LanePass for Pass<'_, D> {
         for (offset, out) in out.chunks_mut(LANES).enumerate() {
             let group = model.list.group(first_group + offset);
             let place = gather_vectors::<V, D>(&particles.position, &group.own);
-            let normal = gather_vectors::<V, D>(&particles.wall_normal, &group.own);
-            let wall_velocity = gather_vectors::<V, D>(&particles.wall_velocity, &group.own);
-            let depth: V = gather(&particles.wall_depth, &group.own);
-            let smoothness: V = gather(&particles.wall_smoothness, &group.own);
+            let places = group.own.places_from(particles.flow_count());
+            let places = places.indices();
+            let normal = gather_vectors::<V, D>(&particles.walls.normal, &places);
+            let wall_velocity = gather_vectors::<V, D>(&particles.walls.velocity, &places);
+            let depth: V = gather(&particles.walls.depth, &places);
+            let smoothness: V = gather(&particles.walls.smoothness, &places);
             let (mut moment, mut first_moment, mut weights) = (V::splat(0.0), V::splat(0.0), V::splat(0.0));
             let (mut sums, mut means) = (zero_vector::<V, D>(), zero_vector::<V, D>());
             for f in group.flow {

@@ -102,17 +102,19 @@ impl<const D: usize> LanePass for CoefficientPass<'_, D> {
             for (w, weight) in group.wall.zip(wall_weights) {
                 let record = constants.pairs.geometry.load_start::<V>(places, const { D.div_ceil(4) }, &w);
                 let position = records::vector::<V, D>(&record, 0);
-                let normal = gather_vectors::<V, D>(&particles.wall_normal, &w);
-                let depth: V = gather(&particles.wall_depth, &w);
+                let places = w.places_from(particles.flow_count());
+                let w = places.indices();
+                let normal = gather_vectors::<V, D>(&particles.walls.normal, &w);
+                let depth: V = gather(&particles.walls.depth, &w);
                 let r = difference(&place, &position);
                 let factor = wall_slip::factor(&r, &normal, depth, smoothing_length, wall_slip::LIMIT);
                 // a smooth wall has no traction along it, and across it the pressure alone
-                let smoothness: V = gather(&particles.wall_smoothness, &w);
+                let smoothness: V = gather(&particles.walls.smoothness, &w);
                 accumulate(&mut closure, V::load(weight) * factor * (V::splat(1.0) - smoothness), &r);
             }
             let first = block * BLOCK + offset * LANES;
             let last = (first + LANES).min(particles.flow_count());
-            let correction = load_tensor::<V, D>(&particles.correction[first..last]);
+            let correction = particles.correction.load::<V>(first / LANES);
             let mut viscosity = load::<V>(&particles.viscosity[first..last]);
             if mixing_area > 0.0 {
                 let rate = deviatoric_rate(&load_tensor::<V, D>(&particles.velocity_gradient[first..last]));

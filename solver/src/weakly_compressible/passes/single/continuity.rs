@@ -38,8 +38,12 @@ pub(in super::super) fn fill<const D: usize>(model: &Model<D>, particles: &Parti
         record.vector(&particles.velocity[index]);
         let pressure = particles.pressure[index];
         record.scalar(pressure);
-        let wall = particles.wall_depth[index] > 0.0;
-        record.vector(if wall { &particles.sliding_velocity[index] } else { &particles.pressure_gradient[index] });
+        let wall = particles.is_wall(index);
+        record.vector(if wall {
+            &particles.walls.sliding_velocity[index - particles.flow_count()]
+        } else {
+            &particles.pressure_gradient[index]
+        });
         if diffuses {
             let stress = &particles.stress[index];
             let elasticity = model.rheology.elasticity(equivalent_shear_stress(stress), pressure);

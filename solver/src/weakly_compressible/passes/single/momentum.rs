@@ -6,12 +6,14 @@ use super::super::momentum::Forces;
 use super::super::records::{self, LaneRecord};
 use super::super::wall_partner::{WallPair, WallPartner};
 use super::{Near, PART, SingleRecords, apart, flush_vector, narrow_tensor, nearness};
+use crate::lanes::LANES;
 use crate::lanes::algebra::{accumulate, difference, dot, load_tensor, zero_vector};
-use crate::lanes::{LaneIndices, Lanes, Real, SingleLanes, gather};
+use crate::lanes::{LaneIndices, Lanes, Real, SingleLanes};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::NeighbourGroup;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{artificial_viscosity, hourglass, pair_distance, stress_divergence};
+use crate::weakly_compressible::wall_fields::mirrored_lanes;
 use std::ops::Range;
 
 /// Places in a record: of the flow position, volume, density, velocity, √(p/ρ0), σE and the half form of the velocity
@@ -33,18 +35,20 @@ pub(in super::super) fn fill<const D: usize>(model: &Model<D>, particles: &Parti
     let inverse_density = 1.0 / model.equation_of_state.reference_density;
     let smoothing_length = model.kernel.smoothing_length();
     records.fill(particles.position.len(), Place::<D>::QUADS, smoothing_length, |index, record| {
-        let wall = particles.wall_depth[index] > 0.0;
+        let wall = particles.is_wall(index).then(|| index - particles.flow_count());
+        let walls = &particles.walls;
         record.position(&particles.position[index]);
         record.scalar(particles.volume[index]);
-        record.scalar(if wall { particles.wall_depth[index] } else { particles.density[index] });
-        record.vector(if wall { &particles.wall_velocity[index] } else { &particles.velocity[index] });
+        record.scalar(wall.map_or(particles.density[index], |wall| walls.depth[wall]));
+        record.vector(wall.map_or(&particles.velocity[index], |wall| &walls.velocity[wall]));
         record.scalar(hourglass::pressure_speed(particles.pressure[index], inverse_density));
         record.tensor(&particles.corrected_stress[index]);
-        if wall {
-            record.vector(&particles.wall_normal[index]);
-            record.scalar(particles.wall_smoothness[index]);
-        } else {
-            record.half_form(&particles.velocity_gradient[index]);
+        match wall {
+            Some(wall) => {
+                record.vector(&walls.normal[wall]);
+                record.scalar(walls.smoothness[wall]);
+            }
+            None => record.half_form(&particles.velocity_gradient[index]),
         }
     });
 }
@@ -97,7 +101,7 @@ pub(in super::super) fn flow_forces<V: Lanes, const D: usize>(
             accumulate(&mut divergence, weight, &traction);
             accumulate(&mut damping, pull, &r);
             if group.has_images {
-                let mirrored = gather::<V>(&particles.mirrored, &b).narrow();
+                let mirrored = mirrored_lanes::<V>(&particles.mirrored, particles.real_count(), &b).narrow();
                 accumulate(&mut mirror_divergence, mirrored * weight, &traction);
                 accumulate(&mut mirror_damping, mirrored * pull, &r);
             }
@@ -155,7 +159,7 @@ impl<S: SingleLanes, const D: usize> WallGroup<S, D> {
             corrected_stress: records::tensor(&record, Place::<D>::STRESS),
             velocity_gradient: narrow_tensor(&load_tensor::<V, D>(&particles.velocity_gradient[places.clone()])),
         };
-        let correction = narrow_tensor(&load_tensor::<V, D>(&particles.force_correction[places]));
+        let correction = narrow_tensor(&particles.force_correction.load::<V>(places.start / LANES));
         Self { own, correction, unit: S::splat(records.unit) }
     }
 
