@@ -174,16 +174,13 @@ impl CheckedIndices {
     ///
     /// # Panics
     /// If an index is not below the bound.
-    pub fn refill_regions<T: Send, R: Send>(
+    pub fn refill_regions<T: Send, R: Send + Sync + Clone>(
         &mut self,
         (bound, region): (usize, usize),
         items: impl IndexedParallelIterator<Item = T>,
         fill: impl Fn(usize, T, &mut [[u32; LANES]]) -> (usize, R) + Sync,
         (none, join): (R, impl Fn(R, R) -> R + Sync + Send),
-    ) -> (usize, R)
-    where
-        R: Clone + Sync,
-    {
+    ) -> (usize, R) {
         // taken out, so that unchecked chunks cannot stay behind a panic
         let (mut chunks, mut used) = (std::mem::take(&mut self.chunks), std::mem::take(&mut self.used));
         let regions = items.len();
