@@ -5,6 +5,7 @@
 mod known_failures;
 mod long_runs;
 mod perturbation;
+mod run_out;
 mod scene_preparation;
 mod scene_texts;
 mod scenes;

@@ -119,6 +119,10 @@ pub struct Gate {
     /// Who states it.
     #[serde(default)]
     pub owner: GateOwner,
+    /// Half width in the metric's unit where scatter alone sets it, of repetitions or of a measurement; none for a limit
+    /// that has another reason.
+    #[serde(default)]
+    pub statistical: Option<f64>,
 }
 
 /// What a value is compared with.
@@ -131,6 +135,9 @@ pub struct Reference {
     /// How sure the project is of it.
     pub confidence: Confidence,
 }
+
+/// Standard uncertainties that an expanded one has, for 95 % `[-]`.
+pub const COVERAGE: f64 = 2.0;
 
 /// One judged or observed number.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -186,8 +193,26 @@ impl Metric {
     /// Adds a gate with its reason.
     #[must_use]
     pub fn gated(mut self, limit: Limit, reason: &str) -> Self {
-        self.gate = Some(Gate { limit, reason: reason.to_owned(), owner: GateOwner::Case });
+        self.gate = Some(Gate { limit, reason: reason.to_owned(), owner: GateOwner::Case, statistical: None });
         self
+    }
+
+    /// Says that its gate, if it has one, is as wide as scatter alone makes it: half its width, in the metric's unit. Where the
+    /// spacing is known to move the value by more, the gate does not judge it.
+    #[must_use]
+    pub fn as_wide_as_scatter(mut self, half_width: Option<f64>) -> Self {
+        if let Some(gate) = &mut self.gate {
+            gate.statistical = half_width;
+        }
+        self
+    }
+
+    /// Whether the spacing may move the value, twice its standard uncertainty, by more than the scatter that its gate is as
+    /// wide as: the gate then says nothing of the physics.
+    #[must_use]
+    pub fn is_coarser_than_gate(&self) -> bool {
+        let width = self.gate.as_ref().and_then(|gate| gate.statistical);
+        width.zip(self.uncertainty.of_spacing()).is_some_and(|(width, spacing)| COVERAGE * spacing > width)
     }
 
     /// Makes its gate, if it has one, one that the user states.
@@ -242,6 +267,15 @@ impl Metric {
         self
     }
 
+    /// Adds all that is known of the uncertainty of a metric that this one is read from.
+    #[must_use]
+    pub fn known_as(mut self, other: &Uncertainty) -> Self {
+        for part in other.parts() {
+            self.uncertainty.add(part.origin, Some(part.standard), &part.source);
+        }
+        self
+    }
+
     /// Takes its value away where there is a reason why it is not that of a steady state: a gate then does not hold.
     #[must_use]
     pub fn unless(mut self, not_steady: Option<&String>) -> Self {
@@ -266,13 +300,13 @@ impl Metric {
         self
     }
 
-    /// The gate's outcome. An unverified reference never gates.
+    /// The gate's outcome. An unverified reference never gates, nor does a width of scatter that the spacing exceeds.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         let unverified =
             self.reference.as_ref().is_some_and(|reference| reference.confidence == Confidence::Unverified);
         match &self.gate {
-            Some(gate) if !unverified => {
+            Some(gate) if !unverified && !self.is_coarser_than_gate() => {
                 if gate.limit.holds(self.value) {
                     Verdict::Pass
                 } else {
@@ -301,6 +335,22 @@ mod tests {
                 assert_eq!(metric.verdict(), Verdict::Fail);
             }
         }
+    }
+
+    #[test]
+    fn a_width_of_scatter_does_not_judge_what_the_spacing_moves_by_more() {
+        let metric = |spacing: Option<f64>| {
+            Metric::observed("run_out", &Variant::default(), 1.3, "-")
+                .gated(Limit::Within(0.8, 1.2), "twice the scatter")
+                .as_wide_as_scatter(Some(0.2))
+                .known_to(Origin::Repeat, Some(0.5), "five seeds")
+                .known_to(Origin::Numerical, spacing, "a study")
+        };
+        assert_eq!(metric(None).verdict(), Verdict::Fail);
+        assert_eq!(metric(Some(0.09)).verdict(), Verdict::Fail);
+        assert_eq!(metric(Some(0.11)).verdict(), Verdict::Observed);
+        // a limit of physics holds for every spacing
+        assert_eq!(metric(Some(0.11)).as_wide_as_scatter(None).verdict(), Verdict::Fail);
     }
 
     #[test]

@@ -90,6 +90,12 @@ impl Uncertainty {
         root_of_squares(self.parts.iter().filter(|part| part.origin.is_of_reference()))
     }
 
+    /// The same of the spacing.
+    #[must_use]
+    pub fn of_spacing(&self) -> Option<f64> {
+        root_of_squares(self.parts.iter().filter(|part| part.origin == Origin::Numerical))
+    }
+
     pub(super) fn add(&mut self, origin: Origin, standard: Option<f64>, source: &str) {
         if let Some(standard) = standard.filter(|standard| standard.is_finite() && *standard > 0.0) {
             self.parts.push(UncertaintyComponent { origin, standard, source: source.to_owned() });

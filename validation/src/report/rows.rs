@@ -6,7 +6,7 @@ use super::known_failures::KnownFailureStatus;
 use super::snapshot_text::word;
 use super::view::{MetricView, VerdictMark, anchor};
 use super::width::width;
-use crate::metric::{Confidence, Limit, Metric, MetricKind, Verdict};
+use crate::metric::{Confidence, Gate, Limit, Metric, MetricKind, Verdict};
 use crate::number::{distinct_digits, four_digits, in_unit, two_digits, with_unit};
 
 /// The mark of a severity.
@@ -63,7 +63,7 @@ pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> MetricView {
         confidence: reference.map_or("", |reference| confidence(reference.confidence)),
         kind: kind(metric.kind),
         limit: gate.map(|gate| limit(gate.limit, &metric.unit)).unwrap_or_default(),
-        reason: metric.not_steady.clone().or_else(|| gate.map(|gate| gate.reason.clone())).unwrap_or_default(),
+        reason: metric.not_steady.clone().or_else(|| gate.map(|gate| reason(metric, gate))).unwrap_or_default(),
         reason_repeats: false,
         source_repeats: false,
         margin: gate.map(|gate| margin(metric, gate.limit)).unwrap_or_default(),
@@ -76,6 +76,14 @@ pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> MetricView {
         relative_change,
         note: note(judged),
     }
+}
+
+/// Why the gate stands where it does, and why it does not judge where the spacing is too coarse for it.
+fn reason(metric: &Metric, gate: &Gate) -> String {
+    if metric.is_coarser_than_gate() {
+        return format!("not judged, for the spacing moves the value by more than the gate is wide: {}", gate.reason);
+    }
+    gate.reason.clone()
 }
 
 /// The mark of the worst verdict; a statement of a paper that is known not to hold is not reproduced.

@@ -1,11 +1,8 @@
 //! The width of a gate as a stacked bar: what is known of the uncertainty of value and reference, over the gate's half width.
 
-use crate::metric::{Gate, Limit, Metric, Origin};
+use crate::metric::{COVERAGE, Gate, Limit, Metric, Origin};
 use crate::number::{two_digits, with_unit};
 use serde::Serialize;
-
-/// Standard uncertainties that an expanded one has, for 95 %.
-const COVERAGE: f64 = 2.0;
 
 /// Length of a bar that fills the gate `[px]`.
 const LENGTH: f64 = 120.0;

@@ -38,6 +38,8 @@ pub(super) struct StudyCheck {
     confidence: Confidence,
     limit: Option<Limit>,
     reason: String,
+    /// Half width of the limit where the reference's own uncertainty sets it.
+    scatter: Option<f64>,
 }
 
 impl StudyCheck {
@@ -77,6 +79,7 @@ impl StudyCheck {
             confidence,
             limit,
             reason,
+            scatter: text.within_uncertainties.zip(text.standard_uncertainty).map(|(factor, one)| factor * one),
         })
     }
 
@@ -94,6 +97,7 @@ impl StudyCheck {
                 _ => MetricKind::Validation,
             })
             .gated_by(self.limit, &self.reason)
+            .as_wide_as_scatter(self.scatter)
             .of_user();
         match &self.source {
             Some(source) => metric.against(self.expected(), source, self.confidence).known_to(

@@ -38,7 +38,7 @@ use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, Prepare
 use crate::evaluation::{PlanError, read_plan};
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::judge::Measurements;
-use crate::metric::{Metric, Value, Variant};
+use crate::metric::{Metric, Uncertainty, Value, Variant};
 use crate::statistics::log_log_slope;
 use check::{CheckedQuantity, StudyCheck};
 use file::{ChangedSettings, StudyText};
@@ -65,6 +65,8 @@ struct Reading {
     unit: String,
     /// Where it was read from; none for a metric of the case.
     curve: Option<RunCurve>,
+    /// What the case knows of its uncertainty.
+    uncertainty: Uncertainty,
 }
 
 impl Reading {
@@ -242,7 +244,9 @@ impl Study {
                     reading.why_there_is_none()
                 );
             }
-            let metric = |reading: &Reading| check.metric(&reading.variant, reading.value, &reading.unit);
+            let metric = |reading: &Reading| {
+                check.metric(&reading.variant, reading.value, &reading.unit).known_as(&reading.uncertainty)
+            };
             judged.metrics.extend(readings.iter().map(metric));
             figures::add(&mut judged.figures, check, &readings).map_err(wrong)?;
         }
@@ -340,13 +344,15 @@ impl Study {
                 value,
                 unit: unit.to_owned(),
                 curve,
+                uncertainty: Uncertainty::default(),
             };
             match &check.read {
                 CheckedQuantity::Metric(name) => {
                     let metrics = probe::metrics(result, name)?;
-                    readings.extend(
-                        metrics.into_iter().map(|metric| new(&metric.variant, metric.value, &metric.unit, None)),
-                    );
+                    readings.extend(metrics.into_iter().map(|metric| Reading {
+                        uncertainty: metric.uncertainty.clone(),
+                        ..new(&metric.variant, metric.value, &metric.unit, None)
+                    }));
                 }
                 CheckedQuantity::Value(column, reduction) => {
                     for curve in column.curves(result)? {
@@ -392,6 +398,7 @@ fn orders(earlier: &[Metric], of: &str, in_parameter: &str, only: &Variant) -> V
         value: log_log_slope(&points).unwrap_or(f64::NAN),
         unit: "-".to_owned(),
         curve: None,
+        uncertainty: Uncertainty::default(),
     };
     groups.into_iter().map(order).collect()
 }

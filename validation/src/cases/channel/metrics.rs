@@ -1,7 +1,7 @@
 //! Quantities and metrics that the cases of a channel share.
 
 use super::ChannelObservation;
-use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
+use crate::metric::{Limit, Metric, Origin, Quantity, Variant, quantities};
 use crate::observation::Recorded;
 use crate::statistics::{Average, FittedValue, block_average, linear_fit};
 
@@ -43,7 +43,12 @@ impl ChannelObservation {
 #[must_use]
 pub fn observed(quantity: Quantity, variant: &Variant, estimate: FittedValue, factor: f64) -> Metric {
     let noise = (SNAPSHOT_ERRORS * factor * estimate.standard_error).abs();
-    quantity.of(variant, factor * estimate.value).with_snapshot_tolerance(1e-3, noise)
+    let scatter = (factor * estimate.standard_error).abs();
+    quantity.of(variant, factor * estimate.value).with_snapshot_tolerance(1e-3, noise).known_to(
+        Origin::Repeat,
+        Some(scatter),
+        "standard error of the mean over blocks of the averaging window",
+    )
 }
 
 /// The number of particles that ended below the floor or far above the surface, gated at 0.

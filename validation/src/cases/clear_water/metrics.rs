@@ -5,7 +5,7 @@ use super::parameters::Period;
 use crate::case::Run;
 use crate::cases::channel::{self, ProfilePoint};
 use crate::cases::printed_laws;
-use crate::metric::{Confidence, Limit, Metric, quantities};
+use crate::metric::{Confidence, Limit, Metric, Origin, quantities};
 use crate::reference::RoughChannel;
 use crate::statistics::linear_fit;
 
@@ -19,6 +19,18 @@ quantities! {
     SEMI_LOG_SLOPE:
         verified("semi_log_slope", "-", "slope of the velocity over the logarithm of the height, over u_*/κ"),
     MEAN_VELOCITY: verified("mean_velocity", "-", "depth mean of the velocity over that of the logarithmic law"),
+}
+
+/// What the spacing moves a quantity by, times the rows over the depth: of first order, from 3 % runs of 23, 33 and 46 rows
+/// and in the quantity's unit. The depth mean was 0.9905, 0.9932 and 0.9967 of the law's, the root mean square 0.129, 0.090
+/// and 0.048 u_*, the slope 1.008, 1.009 and 1.008, the friction of the bed 1.010, 1.007 and 1.003.
+const MOVED: SpacingErrors = SpacingErrors { mean: 0.29, rms: 3.7, slope: 0.05, shear: 0.34 };
+
+struct SpacingErrors {
+    mean: f64,
+    rms: f64,
+    slope: f64,
+    shear: f64,
 }
 
 /// Heights over the depth between which the profile is compared `[-]`.
@@ -42,18 +54,26 @@ pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
     // a flow that started with the law is to keep it; one that started slower is judged once it is stationary
     let judged = |limit: Limit| (stationary || run.flow.start_share == 1.0).then_some(limit);
     let observed = |quantity, estimate, factor| channel::observed(quantity, &variant, estimate, factor);
+    let known = |metric: Metric, moved: f64| {
+        let standard = 0.5 * moved / run.water.resolution as f64;
+        metric.known_to(
+            Origin::Numerical,
+            Some(standard),
+            "first order in the spacing, from runs of 23, 33 and 46 rows",
+        )
+    };
     let mean = data.average(&data.series.mean_velocity);
     let change = data.trend(&data.series.mean_velocity) * law.adjustment_time() / law.mean_velocity();
     metrics.extend([
-        observed(VELOCITY_RMS, data.profile.estimate(|points| rms(&law, points)), 1.0)
+        known(observed(VELOCITY_RMS, data.profile.estimate(|points| rms(&law, points)), 1.0), MOVED.rms)
             .exactly(0.0, "logarithmic law, over 0.1 h … 0.9 h")
             .gated_by(judged(Limit::AtMost(0.25)), "a quarter of u_*, 2 % of the depth mean"),
-        observed(SEMI_LOG_SLOPE, data.profile.estimate(|points| slope(&law, points)), 1.0)
+        known(observed(SEMI_LOG_SLOPE, data.profile.estimate(|points| slope(&law, points)), 1.0), MOVED.slope)
             .exactly(1.0, "u_*/κ, fitted to u over ln z′ in 0.1 h … 0.9 h")
             .gated_by(judged(Limit::Within(0.97, 1.03)), "3 % of the slope of the logarithmic law"),
-        channel::bed_shear(&variant, data, law.bed_shear_stress())
+        known(channel::bed_shear(&variant, data, law.bed_shear_stress()), MOVED.shear)
             .gated_by(judged(Limit::Within(0.97, 1.03)), "3 %: the bed carries the weight along the slope"),
-        observed(MEAN_VELOCITY, mean, 1.0 / law.mean_velocity())
+        known(observed(MEAN_VELOCITY, mean, 1.0 / law.mean_velocity()), MOVED.mean)
             .exactly(1.0, "depth mean of the logarithmic law")
             .gated_by(judged(Limit::Within(0.97, 1.03)), "3 % of the depth mean of the logarithmic law"),
         channel::velocity_drift(&variant, change, "depth mean"),

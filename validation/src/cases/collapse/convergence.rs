@@ -4,6 +4,7 @@ use super::CollapseRecord;
 use super::bands::{SAME_LAW, SAME_LAW_REASON, band};
 use super::column::{ColumnPurpose, ColumnRun};
 use super::deposit::Collapse;
+use super::fronts::with_resolution;
 use super::material::Material;
 use super::quantities::{
     ENSEMBLE_MEAN, ENSEMBLE_RUN_OUT, ENSEMBLE_SPREAD, ENSEMBLE_STANDARD_ERROR, FINAL_HEIGHT, GRID_CONVERGENCE_INDEX,
@@ -83,6 +84,18 @@ impl<'a> ConvergenceStudy<'a> {
         runs.filter_map(|(resolution, runs)| Mean::of(resolution, &values(runs))).collect()
     }
 
+    /// Relative standard uncertainty of a measure from the spacing at a resolution of the study `[-]`.
+    fn numerical_uncertainty(&self, resolution: usize, measure: fn(&Collapse) -> f64) -> Option<f64> {
+        uncertainty_at(&self.means(measure), resolution)
+    }
+
+    /// What a share of a row makes of the run-out at a resolution, over r_0 `[-]`: the largest of the seeds.
+    fn row(&self, resolution: usize) -> Option<f64> {
+        let runs = self.by_resolution(&[ColumnPurpose::Law, ColumnPurpose::Convergence]);
+        let (_, own) = runs.into_iter().find(|(rows, _)| *rows == resolution)?;
+        own.iter().filter_map(|(_, record)| record.data.front_uncertainty()).reduce(f64::max)
+    }
+
     /// Resolutions at which the hourglass coefficient was varied, with (coefficient, mean over the seeds) in ascending
     /// order.
     fn hourglasses(&self, measure: fn(&Collapse) -> f64) -> Vec<(usize, Vec<(f64, f64)>)> {
@@ -129,14 +142,20 @@ pub(super) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
 }
 
 /// An ensemble's mean run-out against the law of the same material: one run alone scatters too much to be judged by it.
+/// Its seeds share the error of the spacing.
 fn against_law(study: &ConvergenceStudy<'_>, variant: &Variant, mean: &Mean) -> Metric {
     let law = Author::Lagree.law(&PLANAR_COLLAPSE.run_out);
     let expected = law.value(study.aspect_ratio);
     let metric = ENSEMBLE_RUN_OUT.of(&variant.clone().and("resolution", mean.resolution), mean.value);
     let limit = expected.map(|expected| band(expected, SAME_LAW));
+    let metric = with_resolution(
+        metric,
+        study.numerical_uncertainty(mean.resolution, Collapse::run_out),
+        study.row(mean.resolution),
+    );
     metric
-        .against(expected, &law.source, law.confidence)
         .known_to(Origin::Repeat, Some(mean.standard_error), "standard error of the mean over the seeds")
+        .against(expected, &law.source, law.confidence)
         .with_snapshot_tolerance(1e-3, 1e-3)
         .gated_by(limit.filter(|_| study.is_published()), SAME_LAW_REASON)
 }
@@ -200,17 +219,24 @@ fn finest(means: &[Mean]) -> Option<GridConvergence> {
     means.last_chunk::<3>().and_then(|means| grid_convergence(means))
 }
 
-/// Relative standard uncertainty of a measure from the spacing, half of the index, where the run has the finest resolution
-/// of a study of its column `[-]`.
+/// Relative standard uncertainty of a measure from the spacing where a study of the run's column has its resolution `[-]`.
 pub(super) fn numerical_uncertainty(
     records: &[CollapseRecord],
     run: &ColumnRun,
     measure: fn(&Collapse) -> f64,
 ) -> Option<f64> {
     let study = ConvergenceStudy { material: run.material, aspect_ratio: run.aspect_ratio, records };
-    let means = study.means(measure);
-    let is_finest = means.last().is_some_and(|mean| mean.resolution == run.resolution);
-    finest(&means).filter(|_| is_finest).map(|found| 0.5 * found.index)
+    study.numerical_uncertainty(run.resolution, measure)
+}
+
+/// The same from the means of a study: at the finest resolution half of the index, at a coarser one also its distance from
+/// what the means approach.
+fn uncertainty_at(means: &[Mean], resolution: usize) -> Option<f64> {
+    let found = finest(means)?;
+    let (own, fine) = (means.iter().find(|mean| mean.resolution == resolution)?, means.last()?);
+    let interval = found.index * fine.value;
+    let off = if own.resolution == fine.resolution { 0.0 } else { own.value - found.limit };
+    Some(0.5 * off.hypot(interval) / own.value.abs())
 }
 
 /// Largest relative standard deviation of a measure over an ensemble of [`ENSEMBLE`] seeds or more `[-]`; 0 without one.
@@ -274,4 +300,28 @@ fn grid_convergence_figure(studies: &[ConvergenceStudy<'_>]) -> Figure {
          (grid convergence index with the scatter).",
         panels.to_vec(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_coarse_resolution_is_known_to_its_distance_from_what_the_means_approach() {
+        // 2 (1 + 1/n): exactly of first order
+        let means = [20, 40, 80].map(|n| Mean {
+            resolution: n,
+            value: 2.0 * (1.0 + 1.0 / n as f64),
+            standard_error: f64::NAN,
+            runs: 1,
+        });
+        for (n, off) in [(20, 0.1), (40, 0.05)] {
+            let expanded = 2.0 * uncertainty_at(&means, n).expect("a study") * 2.0 * (1.0 + 1.0 / n as f64);
+            assert!(expanded >= off && expanded < 1.2 * off + 0.07, "{n}: {expanded}");
+        }
+        let finest = 2.0 * uncertainty_at(&means, 80).expect("a study") * means[2].value;
+        assert!((0.025..0.07).contains(&finest), "{finest}");
+        assert_eq!(uncertainty_at(&means, 60), None);
+        assert_eq!(uncertainty_at(&means[..2], 20), None);
+    }
 }

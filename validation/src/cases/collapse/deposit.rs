@@ -1,5 +1,7 @@
 //! What is measured of a spreading heap: thickness, front, heights, centroid and energies.
 
+use super::fronts::{FRONT_THICKNESS, Fronts, ROW_THICKNESS};
+use super::toe::Toe;
 use crate::cases::front::end_of_profile;
 use crate::observation::{EnergyBook, MotionSequence};
 use crate::statistics::{linear_fit, linear_regression};
@@ -13,16 +15,6 @@ pub const BIN_WIDTH: f64 = 0.1;
 const SUB_POINTS: [usize; 2] = [8, 4];
 /// Kinetic over released potential energy below which a deposit rests `[-]`.
 pub(super) const AT_REST: f64 = 5e-7;
-/// Thickness at the front over the initial half width `[-]`: the front that run-outs are judged by.
-///
-/// Over 20, 40 and 80 (a = 1) and 20, 30 and 45 particles (a = 3) its grid convergence index is 0.6 and 0.8 %, that of the
-/// front at 0.05 r_0 2.6 and 4.3 %: a fixed thickness cuts off a toe that itself becomes thinner with the
-/// resolution. The latter scatters less, by 0.8 instead of 1.8 % with 20 particles, and repeats to four digits when
-/// particles are displaced by 1e-10 of a spacing, so that stopping times and repetitions are judged by it.
-pub const FRONT_THICKNESS: f64 = 0.02;
-/// A thickness that one row of particles has from 20 over the half width on `[-]`: what lies beyond it is a row or less.
-const ROW_THICKNESS: f64 = 0.05;
-
 /// Time series and final deposit; lengths over the half width r_0, times in `[s]`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Collapse {
@@ -40,6 +32,8 @@ pub struct Collapse {
     pub potential_energy: Vec<f64>,
     /// (x/r_0, thickness/r_0) of the deposit, bin by bin `[-]`.
     pub deposit: Vec<(f64, f64)>,
+    /// Fronts of the deposit; none where no particles are known of it.
+    pub deposit_fronts: Option<Fronts>,
     /// Highest particle beside the symmetry plane, half a spacing added, over r_0 `[-]`.
     pub top: f64,
     /// Centroid of the deposit x/r_0 `[-]`.
@@ -76,6 +70,7 @@ impl Surveyor {
     /// Adds a point to the time series and gives the thickness, both over r_0.
     pub(super) fn observe<const D: usize>(&mut self, snapshot: &Snapshot<D>) -> Vec<(f64, f64)> {
         let thickness = self.thickness(snapshot);
+        let fronts = self.fronts(snapshot, &thickness);
         let (mut kinetic, mut potential) = (0.0, 0.0);
         for ((mass, position), velocity) in snapshot.mass.iter().zip(&snapshot.position).zip(&snapshot.velocity) {
             kinetic += 0.5 * mass * velocity.norm_squared();
@@ -85,8 +80,8 @@ impl Surveyor {
         let collapse = &mut self.collapse;
         collapse.momentum_residual = collapse.momentum_residual.max(residual);
         collapse.time.push(snapshot.time);
-        collapse.front.push(front(&thickness));
-        collapse.rows_front.push(end_of_profile(&thickness, ROW_THICKNESS));
+        collapse.front.push(fronts.thin);
+        collapse.rows_front.push(fronts.of_rows);
         collapse.height.push(thickness.first().map_or(0.0, |bin| bin.1));
         if let Some(account) = &snapshot.energy {
             collapse.energy.enter(snapshot.time, account, 0.0);
@@ -114,6 +109,7 @@ impl Surveyor {
     pub(super) fn finish<const D: usize>(mut self, end: &Snapshot<D>) -> Collapse {
         let r = self.half_width;
         self.collapse.deposit = self.thickness(end);
+        self.collapse.deposit_fronts = Some(self.fronts(end, &self.collapse.deposit));
         let beside = end.position.iter().filter(|x| radius(x) < BIN_WIDTH * r);
         self.collapse.top = (beside.fold(0.0_f64, |top, x| top.max(x[1])) + 0.5 * self.spacing) / r;
         let total: f64 = end.mass.iter().sum();
@@ -139,6 +135,14 @@ impl Surveyor {
         };
         self.collapse.lost = end.position.iter().filter(|x| !inside(x)).count();
         self.collapse
+    }
+
+    /// The fronts beyond the thickest bin of a thickness over r_0.
+    pub(super) fn fronts<const D: usize>(&self, snapshot: &Snapshot<D>, thickness: &[(f64, f64)]) -> Fronts {
+        let r = self.half_width;
+        let thickest = thickness.iter().copied().fold((0.5 * BIN_WIDTH, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+        let start = (thickest.0 - 0.5 * BIN_WIDTH).max(0.0) * r;
+        Fronts::of(&Toe::of(snapshot, start, thickest.1 * r, self.bed_end), r)
     }
 
     /// (x, ΣV over the bin's width or quarter ring), both over r_0. A particle's volume is spread evenly over a spacing
@@ -190,28 +194,35 @@ pub(super) fn radius<const D: usize>(position: &Vector<D>) -> f64 {
     if D == 2 { position[0] } else { (position[0] * position[0] + position[2] * position[2]).sqrt() }
 }
 
-/// The first place from the symmetry plane outwards at which the thickness falls below [`FRONT_THICKNESS`], linear
-/// between the centres of the bins; all over r_0.
-#[must_use]
-pub fn front(thickness: &[(f64, f64)]) -> f64 {
-    end_of_profile(thickness, FRONT_THICKNESS)
-}
-
 impl Collapse {
-    /// (x_f − r_0)/r_0 of the deposit `[-]`; of the last front where nothing else is known of it.
+    /// Front x_f/r_0 of the deposit `[-]`: of its particles, else where its profile falls below [`FRONT_THICKNESS`], else the
+    /// last of the series.
+    #[must_use]
+    pub fn deposit_front(&self) -> f64 {
+        match self.deposit_fronts {
+            Some(fronts) => fronts.thin,
+            None if self.deposit.is_empty() => self.front.last().copied().unwrap_or(f64::NAN),
+            None => end_of_profile(&self.deposit, FRONT_THICKNESS),
+        }
+    }
+
+    /// (x_f − r_0)/r_0 of the deposit `[-]`.
     #[must_use]
     pub fn run_out(&self) -> f64 {
-        if self.deposit.is_empty() {
-            self.front.last().copied().unwrap_or(f64::NAN) - 1.0
-        } else {
-            front(&self.deposit) - 1.0
-        }
+        self.deposit_front() - 1.0
     }
 
     /// The same with the front at 0.05 r_0, a thickness that one row of particles has from 20 over r_0 on `[-]`.
     #[must_use]
     pub fn run_out_of_rows(&self) -> f64 {
-        end_of_profile(&self.deposit, ROW_THICKNESS) - 1.0
+        self.deposit_fronts.map_or_else(|| end_of_profile(&self.deposit, ROW_THICKNESS), |fronts| fronts.of_rows) - 1.0
+    }
+
+    /// Standard uncertainty of a front over r_0 from the spacing, where no study of the resolution tells it `[-]`: the
+    /// thickness at the toe is known to a share of a row.
+    #[must_use]
+    pub fn front_uncertainty(&self) -> Option<f64> {
+        self.deposit_fronts.map(Fronts::uncertainty)
     }
 
     /// The deposit's bins up to the last that holds grains.
@@ -272,7 +283,7 @@ impl Collapse {
 
     /// The deposit from 20 to 80 % of the way to its front.
     fn flank(&self) -> Vec<(f64, f64)> {
-        let front = front(&self.deposit);
+        let front = self.deposit_front();
         self.deposit.iter().copied().filter(|(x, _)| (0.2..=0.8).contains(&(x / front))).collect()
     }
 }
@@ -297,8 +308,8 @@ mod tests {
         let thickness = surveyor.thickness(&snapshot);
         assert!(thickness[..9].iter().all(|bin| (bin.1 - 0.8).abs() < 1e-12), "{thickness:?}");
         assert!((thickness.iter().map(|bin| bin.1 * BIN_WIDTH).sum::<f64>() - 0.8).abs() < 1e-12);
-        // a cliff is smeared over a spacing and a bin
-        assert!((front(&thickness) - 1.0).abs() < BIN_WIDTH + spacing, "{}", front(&thickness));
+        let fronts = surveyor.fronts(&snapshot, &thickness);
+        assert!((fronts.thin - 1.0).abs() < 1e-9 && (fronts.of_rows - 1.0).abs() < 1e-9, "{fronts:?}");
     }
 
     #[test]
@@ -306,15 +317,16 @@ mod tests {
         // thickness 1 − x/3, which is FRONT_THICKNESS at x = 2.94
         let deposit: Vec<(f64, f64)> =
             (0..60).map(|k| (k as f64 + 0.5) * BIN_WIDTH).map(|x| (x, (1.0 - x / 3.0).max(0.0))).collect();
-        assert!((front(&deposit) - 2.94).abs() < 0.05, "{}", front(&deposit));
         let collapse = Collapse { deposit, ..Collapse::default() };
+        assert!((collapse.deposit_front() - 2.94).abs() < 0.05, "{}", collapse.deposit_front());
         assert!((collapse.run_out() - 1.94).abs() < 0.05);
         assert!((collapse.slope_angle() - libm::atan(1.0 / 3.0).to_degrees()).abs() < 1e-9);
     }
 
     #[test]
     fn grains_beyond_a_gap_do_not_move_the_front() {
-        let deposit = [(0.05, 1.0), (0.15, 0.5), (0.25, 0.0), (0.35, 0.01), (0.45, 0.3)];
-        assert!((front(&deposit) - (0.15 + 0.1 * 0.48 / 0.5)).abs() < 1e-12);
+        let deposit = vec![(0.05, 1.0), (0.15, 0.5), (0.25, 0.0), (0.35, 0.01), (0.45, 0.3)];
+        let collapse = Collapse { deposit, ..Collapse::default() };
+        assert!((collapse.deposit_front() - (0.15 + 0.1 * 0.48 / 0.5)).abs() < 1e-12);
     }
 }

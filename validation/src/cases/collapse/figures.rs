@@ -128,8 +128,8 @@ fn deposits(records: &[&CollapseRecord]) -> Figure {
     }
     Figure::new(
         &of_material("deposits", records),
-        "Thickness of the deposits, volume per bin of 0.1 r0. Run-out is read where the thickness first falls below \
-         0.02 r0.",
+        "Thickness of the deposits, volume per bin of 0.1 r0. Run-out is the front at a thickness of 0.02 r0, with what \
+         lies in fewer than four rows of particles as a wedge of its volume.",
         vec![panel],
     )
 }

@@ -49,10 +49,14 @@ pub(in crate::cases) const FORM: ExternalSchema = ExternalSchema {
     ],
     description: "Only half of a planar column and a quarter of a round one is given, with x (and z) positive; the last picture is the \
         deposit, if it is not earlier than 2 √(h_0/g). \
-        The bed is divided into bins (rings) of 0.1 r_0 from the symmetry plane; each particle's volume is spread evenly over a \
-        spacing to either side, and a bin's thickness is the volume in it over its area. The front is where the thickness, \
-        followed outwards from the symmetry plane, first falls below 0.02 r_0, linear between the centres of bins; run_out is \
-        its distance less r_0, over r_0; without particles or profile that of the last row of the series. final_height is the innermost bin's thickness over r_0. stopping_time is when the front \
+        Each particle counts as a cell as wide as it is high, the root of its area (cube root of its volume). The front at a thickness is the \
+        length of the bed that carries it, from the thickest place outwards (in space the radius of a quarter circle of that area), \
+        with thickness counted in whole rows of the mean cell and read half a row below; what lies in fewer than four rows (half the \
+        rows of a low column) counts as a wedge of its volume; grains beyond a gap of two cells do not count. Where a \
+        profile is given instead, the front is where it first falls below. run_out is the distance of the front at 0.02 r_0 less r_0, over \
+        r_0; without particles or profile that of the last row of the series. For the other numbers the bed is divided into bins \
+        (rings) of 0.1 r_0, with each particle's volume spread evenly over a spacing to either side: final_height is the innermost bin's \
+        thickness over r_0. stopping_time is when the front \
         at 0.05 r_0 has covered 99 % of its way, over √(h_0/g). deposit_slope_angle is that of a line through the thickness over \
         20 to 80 % of the front's distance.",
 };

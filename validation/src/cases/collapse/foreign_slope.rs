@@ -36,8 +36,10 @@ pub(in crate::cases) const FORM: ExternalSchema = ExternalSchema {
     ],
     description: "r_0 is the length of the reservoir, at whose end the gate stands. The bed is divided into bins of 0.1 r_0; each \
         particle's volume is spread evenly over a spacing to either side, and a bin's thickness is the volume in it over its area. \
-        The front is where the thickness, followed down the slope, first falls below 0.02 r_0, linear between the centres of \
-        bins; front_displacement is the last front's distance from the gate, front its place at a time over r_0, of the first \
+        The front at 0.02 r_0 is the length of the bed that carries that thickness, from the thickest bin down the slope: each \
+        particle counts as a cell as wide as it is high, the root of its area, thickness in whole rows of the mean cell, read half a \
+        row below, what lies in fewer than four rows as a wedge of its volume, and grains beyond a gap of two cells not at all; of a profile \
+        the front is where it first falls below 0.02 r_0. front_displacement is the last front's distance from the gate, front its place at a time over r_0, of the first \
         time given that is not earlier. deposit_slope_angle is that of a line through the thickness over 20 to 80 % of the front's \
         distance, from the bed. The last picture, or the profile, is the deposit at rest; a picture \
         before 0.4 s is none.",

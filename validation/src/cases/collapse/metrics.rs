@@ -5,6 +5,7 @@ use super::bands::{self, AcceptanceBand};
 use super::column::{ColumnPurpose, ColumnRun, Geometry};
 use super::convergence::{numerical_uncertainty, relative_spread};
 use super::deposit::Collapse;
+use super::fronts::with_resolution;
 use super::material::Material;
 use super::quantities::{
     DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, FLANK_R_SQUARED, HEIGHT_BY_TOP, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
@@ -32,8 +33,9 @@ pub(in crate::cases) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
         if run.purpose == ColumnPurpose::Law {
             let numerical = |measure| numerical_uncertainty(records, run, measure);
             let known = ColumnUncertainty {
-                numerical_run_out: numerical(Collapse::run_out),
-                numerical_height: numerical(Collapse::final_height),
+                run_out: numerical(Collapse::run_out),
+                run_out_of_rows: numerical(Collapse::run_out_of_rows),
+                height: numerical(Collapse::final_height),
                 spread,
             };
             metrics.extend(of_column(run, &record.data, known));
@@ -109,29 +111,25 @@ struct EnsembleSpread {
     height: f64,
 }
 
-/// What is known of the uncertainty of a column's results `[-]`.
+/// What studies of the resolution tell of a column's results, as relative standard uncertainties, and the spread over the
+/// seeds `[-]`.
 #[derive(Debug, Clone, Copy)]
 struct ColumnUncertainty {
-    numerical_run_out: Option<f64>,
-    numerical_height: Option<f64>,
+    run_out: Option<f64>,
+    run_out_of_rows: Option<f64>,
+    height: Option<f64>,
     spread: EnsembleSpread,
 }
 
-/// A metric with the parts of its uncertainty: that of the spacing and that over the seeds, both relative `[-]`. The laws
+/// A metric with the parts of its uncertainty: that of the spacing, and the scatter over the seeds, relative `[-]`. The laws
 /// that it is compared with give none of their own.
-fn with_uncertainty(metric: Metric, numerical: Option<f64>, spread: f64) -> Metric {
+fn with_uncertainty(metric: Metric, study: Option<f64>, row: Option<f64>, spread: f64) -> Metric {
     let scale = metric.value.abs();
-    metric
-        .known_to(
-            Origin::Numerical,
-            numerical.map(|relative| relative * scale),
-            "half of the grid convergence index of this column's study",
-        )
-        .known_to(
-            Origin::Repeat,
-            Some(spread * scale),
-            "largest relative standard deviation over the seeds of the initial displacements",
-        )
+    with_resolution(metric, study, row).known_to(
+        Origin::Repeat,
+        Some(spread * scale),
+        "largest relative standard deviation over the seeds of the initial displacements",
+    )
 }
 
 fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> Vec<Metric> {
@@ -170,7 +168,8 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
                 by_law(RUN_OUT, collapse.run_out(), run_out_law, bands::run_out(run, run_out_law)),
                 &laws.run_out,
             ),
-            known.numerical_run_out,
+            known.run_out,
+            collapse.front_uncertainty(),
             spread.run_out,
         ),
         with_uncertainty(
@@ -178,7 +177,8 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
                 by_law(FINAL_HEIGHT, collapse.final_height(), height_law, bands::height(run, height_law)),
                 &laws.height,
             ),
-            known.numerical_height,
+            known.height,
+            None,
             spread.height,
         ),
         observed(STOPPING_TIME, collapse.stopping_time() / run.time_scale())
@@ -226,7 +226,11 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
     ];
     metrics.extend(others.map(|(quantity, value)| {
         let variant = Variant::of("quantity", quantity).followed_by(&variant);
-        RUN_OUT.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3)
+        let metric = RUN_OUT.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
+        match quantity {
+            "front_at_0.05_r0" => with_resolution(metric, known.run_out_of_rows, collapse.front_uncertainty()),
+            _ => metric,
+        }
     }));
     metrics
 }

@@ -1,7 +1,7 @@
 //! Watches a heap while it spreads: survey, animation, pictures at their times, and whether it has come to rest.
 
 use super::camera::Camera;
-use super::deposit::{AT_REST, Collapse, Surveyor, front};
+use super::deposit::{AT_REST, Collapse, Surveyor};
 use crate::observation::Frame;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
@@ -34,7 +34,8 @@ impl CollapseObserver {
     pub(super) fn observe<const D: usize>(&mut self, snapshot: &Snapshot<D>) -> (Vec<(f64, f64)>, bool) {
         let thickness = self.surveyor.observe(snapshot);
         let r = self.surveyor.half_width;
-        self.camera.watch(snapshot, thickness.iter().map(|(x, h)| (x * r, h * r)), front(&thickness) * r);
+        let front = self.surveyor.collapse.front.last().copied().unwrap_or(0.0);
+        self.camera.watch(snapshot, thickness.iter().map(|(x, h)| (x * r, h * r)), front * r);
         let passed = self.times.iter().filter(|&&time| snapshot.time >= time).count();
         if passed > self.passed {
             self.passed = passed;
@@ -54,7 +55,7 @@ impl CollapseObserver {
         let r = self.surveyor.half_width;
         let collapse = self.surveyor.finish(end);
         let surface = collapse.deposit.iter().map(|(x, h)| (x * r, h * r));
-        self.camera.take(end, surface, front(&collapse.deposit) * r);
+        self.camera.take(end, surface, collapse.deposit_front() * r);
         Collapse { motion: self.camera.motion, ..collapse }
     }
 }

@@ -24,9 +24,10 @@ impl Case for ColumnPlanar {
     const SUMMARY: &'static str =
         "planar columns of μ(I) grains: run-out, height and stopping time against the published laws";
     const DESCRIPTION: &'static str = "Half a column of dry grains stands against a free-slip symmetry plane on a rough horizontal bed and is released \
-        at once. It falls, spreads and comes to rest. Run-out is the front where the thickness (volume per bin of \
-        0.1 r_0, each particle spread over a spacing to either side) first falls below 0.02 r_0, seen from the symmetry plane, less the initial half width, over the \
-        initial half width; height is the thickness of the innermost bin. The sand is that of the collapse paper's \
+        at once. It falls, spreads and comes to rest. Run-out is the distance of the front at a thickness of \
+        0.02 r_0 less the initial half width, over it. Thickness is counted in whole rows of particles, from the thickest place outwards, and what \
+        lies in fewer than four rows counts as a wedge of its volume, so that single grains do not make the run-out; \
+        height is the thickness of the innermost bin. The sand is that of the collapse paper's \
         Table 2; the other grains are those of Lagrée, Staron & Popinet (2011), whose grain diameter the source does \
         not give. The coefficients of the published laws depend on the material, their exponents much less. With another \
         law than μ(I) the published laws are shown and do not gate.";

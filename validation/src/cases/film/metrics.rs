@@ -18,7 +18,12 @@ quantities! {
     FLUX_ERROR: verified("flux_error", "%", "error of the depth-integrated velocity"),
     VELOCITY_L2_COMPRESSIBLE:
         verified("velocity_l2_compressible", "%", "the same L2 against the weakly compressible Newtonian film"),
-    OBSERVED_ORDER: verified("observed_order", "-", "order of convergence of the Newtonian film on the lattice"),
+    OBSERVED_ORDER: verified("observed_order", "-", "order of convergence of the Newtonian film"),
+    DISPLACEMENT_FLOOR: verified(
+        "displacement_floor", "%",
+        "velocity of displaced particles less that on the lattice, root mean square over the surface velocity",
+    ),
+    HEIGHT_ERROR: verified("height_error", "%", "mean height of displaced particles over that on the lattice, less 1"),
     SKIN_DIFFERENCE:
         verified("skin_difference", "%", "relative L2 of the velocities with a wider skin of the neighbour lists less those without"),
     PLUG_EDGE_ERROR: verified("plug_edge_error", "spacings", "height of the plug's edge less the exact one"),
@@ -29,19 +34,63 @@ const INTEGRATED: &str = "steady film of the law, integrated over the depth";
 
 pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     let mut metrics: Vec<Metric> = records.iter().flat_map(of_run).chain(skin_difference(records)).collect();
-    let errors = convergence_errors(records);
-    if errors.len() >= 2 {
+    for particles in [Arrangement::Lattice, Arrangement::Jittered] {
+        let errors = convergence_errors(records, particles);
+        if errors.len() < 2 {
+            continue;
+        }
         let rows = Value::list(errors.iter().map(|(rows, _)| *rows));
-        let variant = Variant::of("fluid", "newtonian").and("particles", "lattice").and("resolution", rows);
-        metrics.push(
-            OBSERVED_ORDER
-                .of(&variant, -log_log_slope(&errors).unwrap_or(f64::NAN))
-                .against(None, "convergence to the weakly compressible film, exact for the model", Confidence::Exact)
+        let variant = Variant::of("fluid", "newtonian").and("particles", particles.name()).and("resolution", rows);
+        let order = OBSERVED_ORDER.of(&variant, -log_log_slope(&errors).unwrap_or(f64::NAN)).against(
+            None,
+            "convergence to the weakly compressible film, exact for the model",
+            Confidence::Exact,
+        );
+        metrics.push(match particles {
+            Arrangement::Lattice => order
                 .gated(Limit::AtLeast(1.5), "the project's aim: order 1.5 on the lattice")
                 .with_snapshot_tolerance(0.01, 0.0),
-        );
+            // no order of its own: it ends where the floor begins
+            Arrangement::Jittered => order.with_snapshot_tolerance(0.05, 0.05),
+        });
     }
+    metrics.extend(displacement_floor(records));
     metrics
+}
+
+/// What displaced particles add to the error, and how far their film has sunk or swollen: what does not go away with the
+/// spacing.
+fn displacement_floor(records: &[Record]) -> Vec<Metric> {
+    let studied = |particles: Arrangement| records.iter().filter(move |(run, _)| is_studied(run, particles));
+    let both = studied(Arrangement::Jittered).filter_map(|displaced| {
+        let rows = displaced.0.layer.resolution;
+        Some((displaced, studied(Arrangement::Lattice).find(|(run, _)| run.layer.resolution == rows)?))
+    });
+    let Some((displaced, lattice)) = both.max_by_key(|(displaced, _)| displaced.0.layer.resolution) else {
+        return Vec::new();
+    };
+    // particles of both lie at other heights: the errors against the exact film are compared, bin by bin
+    let errors = |(run, record): &Record| {
+        let (profile, exact) = (&record.data.profile, |y| run.weakly_compressible_velocity(y).unwrap_or(f64::NAN));
+        let surface = exact(run.layer.layer_height);
+        let error = |bin: usize| (profile.velocity[bin] - exact(profile.height[bin])) / surface;
+        (0..profile.height.len()).map(error).collect::<Vec<f64>>()
+    };
+    let pairs = errors(displaced).into_iter().zip(errors(lattice));
+    let filled: Vec<f64> = pairs.map(|(one, other)| one - other).filter(|difference| difference.is_finite()).collect();
+    let floor = (filled.iter().map(|difference| difference * difference).sum::<f64>() / filled.len() as f64).sqrt();
+    let height = |(_, record): &Record| record.data.series.relative_height.last().copied().unwrap_or(f64::NAN);
+    let variant = displaced.0.variant();
+    vec![
+        DISPLACEMENT_FLOOR
+            .of(&variant, 100.0 * floor)
+            .exactly(0.0, "the film on the lattice at the same resolution, over the surface velocity")
+            .with_snapshot_tolerance(0.05, 0.01),
+        HEIGHT_ERROR
+            .of(&variant, 100.0 * (height(displaced) / height(lattice) - 1.0))
+            .exactly(0.0, "the same volume: a film that has sunk flows as a lower one would, at every resolution")
+            .with_snapshot_tolerance(0.05, 0.01),
+    ]
 }
 
 fn of_run(record: &Record) -> Vec<Metric> {
@@ -105,7 +154,9 @@ fn flux_error((run, record): &Record) -> f64 {
 /// other times give the same flow, except for the order of sums. Pairs that a list lacks, or has too late, make a difference.
 fn skin_difference(records: &[Record]) -> Option<Metric> {
     let (run, wide) = records.iter().find(|(run, _)| run.numerics_set == NumericsSet::WideSkin)?;
-    let is_twin = |other: &&Record| is_studied(&other.0) && other.0.layer.resolution == run.layer.resolution;
+    let is_twin = |other: &&Record| {
+        is_studied(&other.0, Arrangement::Lattice) && other.0.layer.resolution == run.layer.resolution
+    };
     let (_, own) = records.iter().find(is_twin)?;
     let (wide, own) = (&wide.data.profile, &own.data.profile);
     let velocities = wide.velocity.iter().copied().zip(own.velocity.iter().copied());
@@ -179,17 +230,17 @@ fn compressible_l2((run, record): &Record) -> Option<f64> {
     run.is_newtonian().then(|| 100.0 * record.data.profile.velocity_l2(exact))
 }
 
-/// Whether a film belongs to the convergence study.
-fn is_studied(run: &FilmRun) -> bool {
+/// Whether a film belongs to the convergence study of an arrangement.
+fn is_studied(run: &FilmRun, particles: Arrangement) -> bool {
     let plain = run.numerics_set == NumericsSet::Default && run.top == Top::Free;
-    plain && run.is_newtonian() && run.particles == Arrangement::Lattice
+    plain && run.is_newtonian() && run.particles == particles
 }
 
-/// (rows, velocity L2 `[%]` against the weakly compressible film) of the Newtonian lattice runs, coarse to fine.
-pub(super) fn convergence_errors(records: &[Record]) -> Vec<(f64, f64)> {
-    let lattice = records.iter().filter(|(run, _)| is_studied(run));
+/// (rows, velocity L2 `[%]` against the weakly compressible film) of the Newtonian runs of an arrangement, coarse to fine.
+pub(super) fn convergence_errors(records: &[Record], particles: Arrangement) -> Vec<(f64, f64)> {
+    let studied = records.iter().filter(|(run, _)| is_studied(run, particles));
     let error = |record: &Record| Some((record.0.layer.resolution as f64, compressible_l2(record)?));
-    let mut errors: Vec<(f64, f64)> = lattice.filter_map(error).collect();
+    let mut errors: Vec<(f64, f64)> = studied.filter_map(error).collect();
     errors.sort_by(|a, b| a.0.total_cmp(&b.0));
     errors
 }

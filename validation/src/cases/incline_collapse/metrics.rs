@@ -3,6 +3,7 @@
 use super::InclineCollapseRecord;
 use super::inside::{self, Inside};
 use crate::case::Run;
+use crate::cases::collapse::fronts::with_resolution;
 use crate::cases::collapse::metrics::{at_rest, conservation};
 use crate::cases::collapse::quantities::{
     DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, LINEAR_MISFIT_RATIO, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
@@ -59,12 +60,16 @@ pub(super) fn of_run((run, record): &InclineCollapseRecord) -> Vec<Metric> {
         let source =
             format!("h_0 2k/(tanδ − tanθ), k = {lower} to {upper}, tanδ = μ_s: Mangeney et al. 2010 as quoted");
         metrics.extend([
-            observed(FRONT_DISPLACEMENT, &variant, data.run_out() * run.reservoir.reservoir_length)
-                .against(Some(0.5 * (short + long)), &source, SLOPE_EXPERIMENT.confidence)
-                .gated_by(
-                    is_judged.then_some(limit),
-                    "the band of k = 0.4 to 0.5, 15 % to either side; at 20 rows and more",
-                ),
+            with_resolution(
+                observed(FRONT_DISPLACEMENT, &variant, data.run_out() * run.reservoir.reservoir_length),
+                None,
+                data.front_uncertainty().map(|uncertainty| uncertainty * run.reservoir.reservoir_length),
+            )
+            .against(Some(0.5 * (short + long)), &source, SLOPE_EXPERIMENT.confidence)
+            .gated_by(
+                is_judged.then_some(limit),
+                "the band of k = 0.4 to 0.5, 15 % to either side; at 20 rows and more",
+            ),
             at_rest(&variant, data, &run.law, run.reservoir.duration),
             observed(DEPOSIT_SLOPE_ANGLE, &variant, data.slope_angle()).exactly(
                 libm::atan(friction).to_degrees() - run.slope_angle,

@@ -29,9 +29,9 @@ impl Case for InclineCollapse {
         The gate is pulled up normal to the slope and the grains run down the channel. Below the friction angle they \
         come to rest, and the front's way from the gate is compared with x_f = h_0 2k/(tanδ − tanθ), k = 0.4 to 0.5, the \
         fit of Mangeney et al. (2010) as later works quote it, taken with tanδ = μ_s of the run. Above the friction \
-        angle the local μ(I) law knows no deposit: the flow thins as long as the channel lasts. The front is where the \
-        thickness (volume per bin of 0.1 r_0, each particle spread over a spacing to either side) first falls below \
-        0.02 r_0. With another law of the grains than μ(I), whose contact friction takes the place of μ_s, the fit does not \
+        angle the local μ(I) law knows no deposit: the flow thins as long as the channel lasts. The front is that at a \
+        thickness of 0.02 r_0 as in column-planar: thickness in rows of particles, from the thickest place down the slope, what lies in \
+        fewer than four rows as a wedge of its volume. With another law of the grains than μ(I), whose contact friction takes the place of μ_s, the fit does not \
         gate.";
     const FORM: ExternalSchema = collapse::foreign_slope::FORM;
     type Parameters = InclineCollapseParameters;

@@ -123,7 +123,10 @@ impl Layer<'_> {
     /// A scene that breaks a rule of the solver.
     pub fn prepared_scene(&self) -> Result<Scene<2>, SceneError> {
         Ok(self.started(match self.layer.preparation {
-            Preparation::Settled => preparation::settled(self.scene())?,
+            Preparation::Raised if self.top == Top::Free => {
+                preparation::raised(preparation::settled(self.scene())?, self.layer.layer_height)
+            }
+            Preparation::Settled | Preparation::Raised => preparation::settled(self.scene())?,
             Preparation::None => self.scene(),
         }))
     }

@@ -15,6 +15,8 @@ use serde::{Deserialize, Serialize};
 pub enum Preparation {
     /// The displaced particles settle without friction and without flowing.
     Settled,
+    /// The same, and a layer with a free surface that has sunk meanwhile is raised to its height again.
+    Raised,
     /// Nothing: the run starts with the particles as they were displaced.
     None,
 }
@@ -60,6 +62,24 @@ pub(super) fn settled(scene: Scene<2>) -> Result<Scene<2>, SceneError> {
     }
     let flow = resting.flow;
     Ok(Scene { flow, ..scene })
+}
+
+/// Raises a settled layer to the height `[m]` that it was made for.
+///
+/// Particles that lost the lattice find closer places: by 0.02, 0.23 and 2.3 % of the height where they were displaced by up
+/// to 0.02, 0.1 and 0.3 spacings, whatever the spacing, with a smoothing length of 1.5 spacings; by 0.07 instead of 0.23 % with
+/// 2. The density that the continuity equation carries along does not know of it, since sums over displaced neighbours are
+/// not consistent with constants. A layer that stays that low flows as a lower one would at every resolution, as
+/// the square of its height for a liquid. Raised, it has the volume again that its mass and density say.
+pub(super) fn raised(mut scene: Scene<2>, height: f64) -> Scene<2> {
+    let position = &mut scene.flow.position;
+    let mean = position.iter().map(|x| x[1]).sum::<f64>() / position.len().max(1) as f64;
+    // all particles of a layer have the same volume
+    let factor = 0.5 * height / mean;
+    if factor.is_finite() {
+        position.iter_mut().for_each(|x| x[1] *= factor);
+    }
+    scene
 }
 
 fn kinetic_energy(simulation: &Simulation<2>) -> f64 {

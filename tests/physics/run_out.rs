@@ -1,0 +1,75 @@
+//! How far a column runs out: the measurement at rest, and what the default resolution is known to.
+
+use bagnold_solver::material::rheology::Rheology;
+use bagnold_validation::case::{Case, Parameters, Run, Silent, Tier};
+use bagnold_validation::cases::collapse::Collapse;
+use bagnold_validation::cases::column_planar::{ColumnPlanar, ColumnPlanarParameters};
+use bagnold_validation::metric::COVERAGE;
+use bagnold_validation::observation::Recorded;
+
+/// Columns of Lagrée's grains alone, 20 particles over the half width.
+fn columns(aspect_ratios: &[f64]) -> ColumnPlanarParameters {
+    let mut parameters = ColumnPlanarParameters::of_tier(Tier::Quick);
+    parameters.sand.aspect_ratios.clear();
+    parameters.regularised.aspect_ratios.clear();
+    parameters.sensitivity.aspect_ratios.clear();
+    parameters.lagree.aspect_ratios = aspect_ratios.to_vec();
+    parameters
+}
+
+fn records<R: Run<Observation = Collapse>>(runs: Vec<R>) -> Vec<(R, Recorded<Collapse>)> {
+    let simulated = |run: R| {
+        let record = run.simulate(&Silent).expect("a valid scene");
+        (run, record)
+    };
+    runs.into_iter().map(simulated).collect()
+}
+
+#[test]
+fn a_column_that_does_not_move_has_no_run_out() {
+    let mut parameters = columns(&[0.1, 0.5, 1.0, 3.0]);
+    // nothing yields
+    if let Rheology::MuI(law) = &mut parameters.lagree.law {
+        (law.static_friction, law.limiting_friction) = (5.0, 6.0);
+    }
+    parameters.release.duration = 1.0;
+    for (run, record) in records(parameters.runs()) {
+        let (start, end) = (record.data.front[0] - 1.0, record.data.run_out());
+        let half_spacing = 0.5 / run.resolution as f64;
+        println!("a = {}: {start} at the start, {end} at the end", run.aspect_ratio);
+        assert!(start.abs() < half_spacing, "a = {}: {start}", run.aspect_ratio);
+        assert!(end.abs() < half_spacing, "a = {}: {end}", run.aspect_ratio);
+    }
+}
+
+/// What columns of a = 0.5 approach: means over 40, 80 and 160 particles over the half width were 0.982, 0.949 and 0.935 by the
+/// thickness in bins of 0.1 r_0, which does not know rows, so of order 1.2; 0.962, 0.954 and 0.935 by rows.
+const APPROACHED: f64 = 0.924;
+
+#[test]
+fn the_interval_of_a_shallow_column_holds_what_finer_ones_approach() {
+    let mut parameters = columns(&[0.5]);
+    parameters.sensitivity.aspect_ratios = vec![0.5];
+    parameters.sensitivity.seeds = (1..=20).collect();
+    let records = records(parameters.runs());
+    assert_eq!(records.len(), 20);
+    let metrics = ColumnPlanar::metrics(&parameters, &records);
+    let shown = metrics.iter().find(|metric| metric.name == "run_out").expect("the column's own run-out");
+    let own = records.iter().map(|(_, record)| record.data.run_out());
+    let mean = own.clone().sum::<f64>() / records.len() as f64;
+    // the scatter, which the metric takes from the ensemble, and each run's own share of a row
+    let repeat =
+        shown.uncertainty.standard().expect("known").powi(2) - shown.uncertainty.of_spacing().expect("known").powi(2);
+    let covered = records.iter().filter(|(_, record)| {
+        let spacing = record.data.front_uncertainty().expect("particles");
+        (record.data.run_out() - APPROACHED).abs() <= COVERAGE * (repeat + spacing * spacing).sqrt()
+    });
+    let covered = covered.count();
+    println!(
+        "mean {mean}, {covered} of 20 intervals hold {APPROACHED}; that of seed 1 is {} ± {}",
+        shown.value,
+        COVERAGE * shown.uncertainty.standard().unwrap_or(0.0)
+    );
+    assert!((mean / APPROACHED - 1.0).abs() < 0.03, "{mean}");
+    assert!(covered >= 18, "{covered} of 20");
+}
