@@ -11,6 +11,10 @@ const TOLERANCE: f64 = 1e-3;
 /// is a hundredth of its time. The drift snapshots repeat to the bit and need no such allowance.
 const STOPPING_TIME_TOLERANCE: f64 = 1e-2;
 
+/// What the run-out may change here `[-]`: a grain more or less in the toe, which counts by its mass, moves the front by
+/// 0.57 spacings.
+const RUN_OUT_TOLERANCE: f64 = 1.2e-2;
+
 /// The column a = 1 of Lagrée's grains from a lattice with displacements of this many spacings.
 fn collapse(jitter: f64) -> Collapse {
     let mut parameters = ColumnPlanarParameters::of_tier(Tier::Quick);
@@ -30,7 +34,7 @@ fn a_displacement_of_a_ten_billionth_spacing_changes_no_metric() {
     assert_ne!(lattice.centroid, displaced.centroid, "the displacement must be there");
     type Measure = (&'static str, fn(&Collapse) -> f64, f64);
     let measures: [Measure; 6] = [
-        ("run-out", Collapse::run_out, TOLERANCE),
+        ("run-out", Collapse::run_out, RUN_OUT_TOLERANCE),
         ("run-out of rows", Collapse::run_out_of_rows, TOLERANCE),
         ("final height", Collapse::final_height, TOLERANCE),
         ("centroid", |collapse| collapse.centroid, TOLERANCE),

@@ -256,17 +256,22 @@ mod tests {
         runs.into_iter().find(|run| (run.aspect_ratio - 1.5).abs() < 0.5).expect("a column")
     }
 
-    /// A wedge of thickness (1 − x/3) r_0 as columns of cells, of which the middle cell of a column is as thick as needed.
+    /// A wedge of thickness (1 − x/3) r_0 in square cells; what is less than a cell goes to the next column.
     fn wedge(run: &ColumnRun) -> ParticleFrame {
         let (r, spacing) = (run.half_width, run.spacing());
         let mut columns: NamedColumns = ["x", "y", "area"].map(|name| (name.to_owned(), Vec::new())).into();
         let mut push = |name: &str, value: f64| columns.get_mut(name).expect("declared").push(value);
+        let mut left = 0.5;
         for column in 0..3 * run.resolution {
             let x = (column as f64 + 0.5) * spacing;
-            let thickness = r - x / 3.0;
-            push("x", x);
-            push("y", 0.5 * thickness);
-            push("area", thickness * spacing);
+            left += (r - x / 3.0) / spacing;
+            let rows = left.floor();
+            left -= rows;
+            for row in 0..rows as usize {
+                push("x", x);
+                push("y", (row as f64 + 0.5) * spacing);
+                push("area", spacing * spacing);
+            }
         }
         ParticleFrame { time: 1.0, columns }
     }
