@@ -166,7 +166,7 @@ fn two_codes_that_are_not_ours_are_judged_from_their_files() {
         metrics.iter().find(own).and_then(|metric| metric["value"].as_f64()).expect("a deposit")
     };
     // as its own script measures them
-    assert!((of("1") - 2.3081).abs() < 1e-4 && (of("3") - 6.7327).abs() < 1e-4, "{} {}", of("1"), of("3"));
+    assert!((of("1") - 2.1690).abs() < 1e-4 && (of("3") - 6.9226).abs() < 1e-4, "{} {}", of("1"), of("3"));
     assert!(code["not_given"].as_u64() > Some(0), "{code}");
 }
 

@@ -16,6 +16,8 @@ from material_points import Array, Column, Grains
 
 BIN_WIDTH = 0.1  # bins of the thickness over r_0
 FRONT_THICKNESS = 0.02  # thickness at the front over r_0
+RESOLVED_ROWS = 4  # rows from which on a heap is resolved; what lies in fewer counts by its area
+GAP = 2.0  # bare bed over the width of a cell beyond which grains do not count
 SUB_POINTS = 8  # points over which the area of a material point is spread
 SHOWN = (0.0, 0.75, 1.5, 2.5, 3.5, 5.0, 7.0)  # times of the dumps over sqrt(h_0/g); the end follows
 AT_REST = 5e-7  # kinetic energy over the potential energy released at which a heap rests
@@ -37,6 +39,57 @@ def front_of(thickness: Array, least: float = FRONT_THICKNESS) -> float:
         if before >= least > after:
             return float(BIN_WIDTH * (k + 0.5 + (before - least) / (before - after)))
     return float(BIN_WIDTH * (len(thickness) - 0.5))
+
+
+def front_by_rows(x: Array, area: Array, start: float, height: float, least: float) -> float:
+    """Front at a thickness `least` by rows of square cells, from the thickest place `start` with its `height` outwards.
+
+    All in one unit of length.  Thickness is read half a row below each whole number of rows; what lies in fewer rows than
+    four is a wedge of its area.
+    """
+    width = np.sqrt(area)
+    row = float(width.mean())
+    (lower, upper) = (x - 0.5 * width, x + 0.5 * width)
+    crossing = lower < 0.0
+    begin = np.concatenate([np.maximum(lower, 0.0), np.zeros(int(crossing.sum()))])
+    end = np.concatenate([np.maximum(upper, 0.0), -lower[crossing]])
+    high = np.concatenate([width, width[crossing]])
+    edges = np.unique(np.concatenate([begin, end, [start]]))
+    edges = edges[edges >= start]
+    middle = 0.5 * (edges[:-1] + edges[1:])
+    thickness = np.array([high[(begin < place) & (end > place)].sum() for place in middle])
+    length = np.diff(edges)
+    (bare, reach) = (0.0, len(length))
+    for k, (piece, on_it) in enumerate(zip(length, thickness)):
+        bare = 0.0 if on_it > 0.0 else bare + piece
+        if bare > GAP * row and thickness[:k].any():
+            reach = k
+            break
+    (length, thickness) = (length[:reach], thickness[:reach])
+
+    def place(rows: int) -> float:
+        return start + float(length[thickness >= (rows - 0.5) * row].sum())
+
+    resolved = min(RESOLVED_ROWS, -(-max(round(height / row), 1) // 2))
+    bound = (resolved - 0.5) * row
+    if least >= bound:
+        rows = max(int(least / row + 0.5), resolved)
+        share = least / row + 0.5 - rows
+        return place(rows) + share * (place(rows + 1) - place(rows))
+    left = float((length * thickness)[thickness < bound].sum())
+    # whole rows of a wedge have k (k - 1)/(k - 1/2)^2 of its area
+    part = resolved * (resolved - 1) / (resolved - 0.5) ** 2
+    wedge = 2.0 * left / part / bound if resolved > 1 else 0.0
+    return place(resolved) + wedge * (1.0 - least / bound)
+
+
+def run_out_of(column: Column, least: float = FRONT_THICKNESS) -> float:
+    """Run-out over r_0 of the front at a thickness over r_0."""
+    thickness = thickness_of(column)
+    thickest = int(np.argmax(thickness))
+    (scale, start) = (column.half_width, BIN_WIDTH * thickest)
+    (x, area) = (column.position[:, 0] / scale, column.area / scale**2)
+    return front_by_rows(x, area, start, float(thickness[thickest]), least) - 1.0
 
 
 def write_dump(path: Path, column: Column) -> None:
@@ -90,8 +143,8 @@ def run(column: Column, out: Path, longest: float) -> dict[str, float]:
     stop = int(np.argmax(rows_fronts >= mark))
     stopped = np.interp(mark, rows_fronts[stop - 1 : stop + 1], times[stop - 1 : stop + 1])
     return {
-        "run-out over r_0": front_of(thickness) - 1.0,
-        "run-out over r_0, front at 0.05 r_0": front_of(thickness, 0.05) - 1.0,
+        "run-out over r_0": run_out_of(column),
+        "run-out over r_0, front at 0.05 r_0": run_out_of(column, 0.05),
         "final height over r_0": float(thickness[0]),
         "centroid over r_0": float(np.sum(column.mass * column.position[:, 0]) / column.mass.sum()) / column.half_width,
         "stopping time over sqrt(h_0/g)": float(stopped) / scale,

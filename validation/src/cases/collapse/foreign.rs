@@ -51,7 +51,7 @@ pub(in crate::cases) const FORM: ExternalSchema = ExternalSchema {
         deposit, if it is not earlier than 2 √(h_0/g). \
         Each particle counts as a cell as wide as it is high, the root of its area (cube root of its volume). The front at a thickness is the \
         length of the bed that carries it, from the thickest place outwards (in space the radius of a quarter circle of that area), \
-        with thickness counted in whole rows of the mean cell and read half a row below; what lies in fewer than four rows (half the \
+        with thickness counted in whole rows of the mean cell and read half a row below; what lies in fewer than four rows (in space two; half the \
         rows of a low column) counts as a wedge of its volume; grains beyond a gap of two cells do not count. Where a \
         profile is given instead, the front is where it first falls below. run_out is the distance of the front at 0.02 r_0 less r_0, over \
         r_0; without particles or profile that of the last row of the series. For the other numbers the bed is divided into bins \

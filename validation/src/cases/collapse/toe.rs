@@ -1,4 +1,4 @@
-//! How far a heap reaches: its thickness in rows of grains, and a toe of fewer than four rows by its mass.
+//! How far a heap reaches: its thickness in rows of grains, and a toe of few rows by its mass.
 //!
 //! Every particle is a cell as wide as it is high, (m/ρ)^(1/D) along each axis. The bed under a heap is sorted by how many
 //! cells stand on it: A(t) is the length (in space the area) of the bed that carries a thickness t or more, from the
@@ -9,14 +9,14 @@
 //! A toe of one to three rows is not resolved: its grains lie with gaps between them, the farther the coarser they are,
 //! and the place of the outermost ones is that of single grains. What is known of such a toe is its mass. It therefore
 //! counts as a wedge (in space as a ring with the section of a wedge) that begins where the heap has four rows, and has the
-//! volume of all that lies there in fewer. A wedge of grains and a steep face thereby keep their place at every spacing.
+//! volume of all that lies there in fewer. In space, where a ring holds many grains, it begins at two rows. A wedge of grains and a steep face thereby keep their place at every spacing.
 
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// Rows from which on a place of the heap is resolved.
-const RESOLVED_ROWS: usize = 4;
+/// Rows from which on a place of a heap is resolved, in the plane and in space.
+const RESOLVED_ROWS: [usize; 2] = [4, 2];
 /// Length of bare bed beyond which grains no longer belong to the heap, in spacings `[-]`.
 const GAP: f64 = 2.0;
 /// Parts of a spacing along each axis in which the bed of a heap in space is sampled: its cells end at curved fronts.
@@ -44,7 +44,7 @@ pub(super) struct Toe {
     is_round: bool,
     /// The thickest place `[m]`; lengths count from it.
     start: f64,
-    /// Rows from which on it is resolved: four, or half of what a low heap has.
+    /// Rows from which on it is resolved, at most half of what a low heap has.
     resolved: usize,
     /// Sizes that carry a number of rows, from one row on, in falling order.
     sizes: Vec<f64>,
@@ -81,7 +81,7 @@ impl Toe {
             sizes.iter_mut().take(rows).for_each(|size| *size += patch.size);
         }
         let rows = (height / spacing).round().max(1.0) as usize;
-        let resolved = RESOLVED_ROWS.min(rows.div_ceil(2));
+        let resolved = RESOLVED_ROWS[usize::from(is_round)].min(rows.div_ceil(2));
         let mut toe = Self { spacing, is_round, start, resolved, sizes, wedge: 0.0 };
         let least = toe.thickness(resolved);
         let volume = patches.iter().filter(|patch| patch.thickness < least).map(|patch| patch.size * patch.thickness);

@@ -23,7 +23,7 @@ impl Case for ColumnRound {
         "round columns of sand in three dimensions: run-out against the axisymmetric experiment's law";
     const DESCRIPTION: &'static str = "A quarter of a cylinder of dry sand stands between two free-slip symmetry planes on a rough horizontal bed and is \
         released at once. Run-out and height are defined as in column-planar, with the area of the bed that carries a thickness in \
-        place of a length, and quarter rings of width 0.1 r_0 as bins. The run-out law of Lube et al. (2004) was measured on such columns; the collapse paper compared its \
+        place of a length and two rows in place of four, and quarter rings of width 0.1 r_0 as bins. The run-out law of Lube et al. (2004) was measured on such columns; the collapse paper compared its \
         planar runs with it. The height law of the same source is unverified and does not gate. With another \
         law than μ(I) the published laws are shown and do not gate.";
     const FORM: ExternalSchema = collapse::foreign::FORM;
