@@ -15,7 +15,7 @@ pub(super) fn band(expected: f64, tolerance: f64) -> Limit {
 /// How far the run-out of Lagrée's grains may lie from his own law `[-]`, and why.
 pub(super) const SAME_LAW: f64 = 0.15;
 pub(super) const SAME_LAW_REASON: &str = "the same material law solved by another method, within 15 %: its fit is printed with two \
-    digits, it says of no thickness at which its fronts are read, and the height of a column at rest is known to a row";
+    digits, and its source tells no thickness at which the front is read";
 
 /// How far the height of the sand's heaps may lie from Lube's law `[-]`.
 pub(super) const HEIGHT: f64 = 0.15;
