@@ -144,7 +144,7 @@ def run(column: Column, out: Path, longest: float) -> dict[str, float]:
     stopped = np.interp(mark, rows_fronts[stop - 1 : stop + 1], times[stop - 1 : stop + 1])
     return {
         "run-out over r_0": run_out_of(column),
-        "run-out over r_0, front at 0.05 r_0": run_out_of(column, 0.05),
+        "run-out over r_0, front at 0.05 r_0": front_of(thickness, 0.05) - 1.0,
         "final height over r_0": float(thickness[0]),
         "centroid over r_0": float(np.sum(column.mass * column.position[:, 0]) / column.mass.sum()) / column.half_width,
         "stopping time over sqrt(h_0/g)": float(stopped) / scale,

@@ -81,7 +81,7 @@ impl Surveyor {
         collapse.momentum_residual = collapse.momentum_residual.max(residual);
         collapse.time.push(snapshot.time);
         collapse.front.push(fronts.thin);
-        collapse.rows_front.push(fronts.of_rows);
+        collapse.rows_front.push(end_of_profile(&thickness, ROW_THICKNESS));
         collapse.height.push(thickness.first().map_or(0.0, |bin| bin.1));
         if let Some(account) = &snapshot.energy {
             collapse.energy.enter(snapshot.time, account, 0.0);
@@ -212,10 +212,10 @@ impl Collapse {
         self.deposit_front() - 1.0
     }
 
-    /// The same with the front at 0.05 r_0, a thickness that one row of particles has from 20 over r_0 on `[-]`.
+    /// The same with the front at 0.05 r_0 by thickness in bins, which a row of particles has from 20 over r_0 on `[-]`.
     #[must_use]
     pub fn run_out_of_rows(&self) -> f64 {
-        self.deposit_fronts.map_or_else(|| end_of_profile(&self.deposit, ROW_THICKNESS), |fronts| fronts.of_rows) - 1.0
+        end_of_profile(&self.deposit, ROW_THICKNESS) - 1.0
     }
 
     /// Standard uncertainty of a front over r_0 from the spacing, where no study of the resolution tells it `[-]`: the
@@ -309,7 +309,7 @@ mod tests {
         assert!(thickness[..9].iter().all(|bin| (bin.1 - 0.8).abs() < 1e-12), "{thickness:?}");
         assert!((thickness.iter().map(|bin| bin.1 * BIN_WIDTH).sum::<f64>() - 0.8).abs() < 1e-12);
         let fronts = surveyor.fronts(&snapshot, &thickness);
-        assert!((fronts.thin - 1.0).abs() < 1e-9 && (fronts.of_rows - 1.0).abs() < 1e-9, "{fronts:?}");
+        assert!((fronts.thin - 1.0).abs() < 1e-9, "{fronts:?}");
     }
 
     #[test]

@@ -39,7 +39,7 @@ pub(in crate::cases) const FORM: ExternalSchema = ExternalSchema {
         ExternalColumn::new(
             "front_of_rows",
             "m",
-            "the same at a thickness of 0.05 r_0, from which the stopping time is taken",
+            "where the thickness in bins falls below 0.05 r_0, from which the stopping time is taken",
         ),
         ExternalColumn::new("height", "m", "thickness at the symmetry plane"),
     ],
@@ -56,8 +56,8 @@ pub(in crate::cases) const FORM: ExternalSchema = ExternalSchema {
         profile is given instead, the front is where it first falls below. run_out is the distance of the front at 0.02 r_0 less r_0, over \
         r_0; without particles or profile that of the last row of the series. For the other numbers the bed is divided into bins \
         (rings) of 0.1 r_0, with each particle's volume spread evenly over a spacing to either side: final_height is the innermost bin's \
-        thickness over r_0. stopping_time is when the front \
-        at 0.05 r_0 has covered 99 % of its way, over √(h_0/g). deposit_slope_angle is that of a line through the thickness over \
+        thickness over r_0. stopping_time is when the place where that thickness, followed outwards, first falls below \
+        0.05 r_0, linear between the centres of bins, has covered 99 % of its way, over √(h_0/g). deposit_slope_angle is that of a line through the thickness over \
         20 to 80 % of the front's distance.",
 };
 

@@ -11,8 +11,9 @@ use serde::{Deserialize, Serialize};
 /// and 3; 13, 7 and 3 % by thickness in bins of 0.1 r_0), and scatters by 1.0, 1.0 and 0.5 % from seed to seed
 /// (2.8, 1.7 and 1.4 %).
 pub const FRONT_THICKNESS: f64 = 0.02;
-/// A thickness that one row of particles has from 20 over the half width on `[-]`, by which the time of the stop is told:
-/// what creeps on beyond it is a row or less.
+/// A thickness that one row of particles has from 20 over the half width on `[-]`: the front at it, by thickness in bins, leaves out
+/// what creeps on beyond and repeats to four digits when particles are displaced by 1e-10 of a spacing, so that the time of the stop
+/// is told by it.
 pub(super) const ROW_THICKNESS: f64 = 0.05;
 /// Share of a row to which the thickness at a front is known, as a standard uncertainty `[-]`: within two fifths of a row lies
 /// what runs with 20, 40 and 80 particles over r_0 differ by from what they approach (0.05, 0.3 and 0.4 rows at a = 0.5;
@@ -24,8 +25,6 @@ const KNOWN_SHARE_OF_ROW: f64 = 0.23;
 pub struct Fronts {
     /// At [`FRONT_THICKNESS`].
     pub thin: f64,
-    /// At the thickness of a row.
-    pub of_rows: f64,
     /// How far they move with a row more or less of thickness: a row over the slope of the toe.
     pub length_of_row: f64,
 }
@@ -33,10 +32,8 @@ pub struct Fronts {
 impl Fronts {
     /// Those of a toe, over a half width `[m]`.
     pub(super) fn of(toe: &Toe, half_width: f64) -> Self {
-        let front = |thickness: f64| toe.front(thickness * half_width) / half_width;
         Self {
-            thin: front(FRONT_THICKNESS),
-            of_rows: front(ROW_THICKNESS),
+            thin: toe.front(FRONT_THICKNESS * half_width) / half_width,
             length_of_row: toe.length_of_row() / half_width,
         }
     }

@@ -34,7 +34,6 @@ pub(in crate::cases) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
             let numerical = |measure| numerical_uncertainty(records, run, measure);
             let known = ColumnUncertainty {
                 run_out: numerical(Collapse::run_out),
-                run_out_of_rows: numerical(Collapse::run_out_of_rows),
                 height: numerical(Collapse::final_height),
                 spread,
             };
@@ -116,7 +115,6 @@ struct EnsembleSpread {
 #[derive(Debug, Clone, Copy)]
 struct ColumnUncertainty {
     run_out: Option<f64>,
-    run_out_of_rows: Option<f64>,
     height: Option<f64>,
     spread: EnsembleSpread,
 }
@@ -226,11 +224,7 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
     ];
     metrics.extend(others.map(|(quantity, value)| {
         let variant = Variant::of("quantity", quantity).followed_by(&variant);
-        let metric = RUN_OUT.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
-        match quantity {
-            "front_at_0.05_r0" => with_resolution(metric, known.run_out_of_rows, collapse.front_uncertainty()),
-            _ => metric,
-        }
+        RUN_OUT.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3)
     }));
     metrics
 }

@@ -23,6 +23,8 @@ const GAP: f64 = 2.0;
 const PARTS: f64 = 4.0;
 /// Most of them along an axis.
 const MOST_PARTS: f64 = 4000.0;
+/// Most rows that are told apart.
+const MOST_ROWS: f64 = 1e6;
 
 /// A piece of the bed and what stands on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,7 +77,8 @@ impl Toe {
 
     fn of_patches(patches: &[Patch], spacing: f64, start: f64, height: f64, is_round: bool) -> Self {
         let thickest = patches.iter().fold(0.0_f64, |most, patch| most.max(patch.thickness));
-        let mut sizes = vec![0.0; (thickest / spacing + 0.5).min(1e6) as usize];
+        let most = if thickest > 0.0 { (thickest / spacing + 0.5).min(MOST_ROWS) } else { 0.0 };
+        let mut sizes = vec![0.0; most as usize];
         for patch in patches {
             let rows = (patch.thickness / spacing + 0.5) as usize;
             sizes.iter_mut().take(rows).for_each(|size| *size += patch.size);
