@@ -4,7 +4,7 @@
 //! are the pressures, the last change of the velocities and the last push of a mixture's pressure, from which the solves
 //! of the next step start. Everything else a step makes anew before it reads it.
 
-use super::neighbours::{SavedLayers, SavedPairs};
+use super::neighbours::{SavedLayers, SavedList, SavedPairs};
 use super::phase::Phase;
 use super::scene::IncompressibleScene;
 use super::simulation::{IncompressibleSimulation, SolverCost};
@@ -38,8 +38,8 @@ struct SavedPhase<const D: usize> {
     velocity: Vec<Vector<D>>,
     pressure: Vec<f64>,
     travel: Vec<Vector<D>>,
-    free_pairs: SavedPairs,
-    wall_pairs: SavedPairs,
+    free: SavedList,
+    walls: SavedList,
 }
 
 impl<const D: usize> SavedPhase<D> {
@@ -49,8 +49,8 @@ impl<const D: usize> SavedPhase<D> {
             velocity: phase.velocity.clone(),
             pressure: phase.pressure.clone(),
             travel: phase.travel.clone(),
-            free_pairs: phase.free_pairs.save(),
-            wall_pairs: phase.wall_pairs.save(),
+            free: phase.free.save(),
+            walls: phase.walls.save(),
         }
     }
 
@@ -60,8 +60,8 @@ impl<const D: usize> SavedPhase<D> {
         for length in lengths {
             ForeignState::check("particles of a phase", length, count)?;
         }
-        phase.free_pairs.restore(self.free_pairs, count, count)?;
-        phase.wall_pairs.restore(self.wall_pairs, count, phase.wall.len())?;
+        phase.free.restore(self.free, count, count)?;
+        phase.walls.restore(self.walls, count, phase.wall.len())?;
         (phase.position, phase.velocity) = (self.position, self.velocity);
         (phase.pressure, phase.travel) = (self.pressure, self.travel);
         Ok(())

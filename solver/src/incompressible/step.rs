@@ -1,13 +1,14 @@
 //! One step: pairs, surface, gradients, laws, implicit velocities of both phases, pressure and motion, shifting.
 
-use super::boundary::find_surface;
 use super::columns::relax_fluctuation;
 use super::divergence::Failure;
 use super::numerics::{Continuity, ProjectionNumerics};
+use super::passes::pair_rows::{Friction, MiddleViscosity, fill_rows};
 use super::passes::shifting::find_shifts;
-use super::passes::velocity_gradients::find_velocity_gradients;
+use super::passes::surroundings::{Gradients, find_surroundings};
 use super::phase::Phases;
 use super::projection::Flux;
+use super::scene::{Bed, Turbulence};
 use super::state::State;
 use super::velocity_solve::VelocityRows;
 use crate::run::Divergence;
@@ -21,15 +22,13 @@ fn advance<const D: usize>(state: &mut State<D>) -> Result<(), Failure> {
     let numerics = state.scene.numerics;
     let time_step = numerics.time_step.min(numerics.courant * state.scene.fluid.spacing / state.largest_speed());
     state.last_step = time_step;
-    state.search.measure(&state.scene.domain, &mut state.phases, &mut state.exchange);
-    for phase in state.phases.all_mut() {
-        find_surface(phase, &numerics);
-        find_velocity_gradients(phase, numerics.largest_correction);
-    }
+    state.search.search_if_due(&state.scene.domain, &mut state.phases, &mut state.exchange);
+    measure(state);
     if let Some(columns) = &mut state.columns {
         columns.gather(&mut state.scene, &state.phases.fluid)?;
     }
     state.viscosities.find(&state.scene, &state.phases);
+    fill_fluid_rows(state, time_step);
     find_drag(state)?;
     predict_velocities(state, time_step)?;
     advance_columns(state, time_step)?;
@@ -41,6 +40,34 @@ fn advance<const D: usize>(state: &mut State<D>) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Measures the pairs of both phases and those between them.
+pub(super) fn measure<const D: usize>(state: &mut State<D>) {
+    let State { scene, phases, exchange, search, .. } = state;
+    let gradients = if scene.fluid.turbulence == Turbulence::Laminar { Gradients::Skip } else { Gradients::Find };
+    find_surroundings(&mut phases.fluid, &search.periods, &scene.numerics, scene.fluid.bed, gradients);
+    if let Some(sediment) = &mut phases.sediment {
+        // its bed is made of pairs
+        find_surroundings(sediment, &search.periods, &scene.numerics, Bed::Slip, Gradients::Find);
+        exchange.measure(&phases.fluid, sediment, &search.periods);
+    }
+}
+
+/// Rows of the fluid's pressure and of its friction.
+fn fill_fluid_rows<const D: usize>(state: &mut State<D>, time_step: f64) {
+    let State { scene, phases, search, viscosities, system, projection, .. } = state;
+    let water = &scene.fluid;
+    let layer = scene.solid_fraction.stratification().filter(|_| water.turbulence == Turbulence::Stratified);
+    let middle = layer.map(|layer| MiddleViscosity {
+        layer,
+        rate: &viscosities.fluid_rate,
+        density: water.density,
+        kinematic_viscosity: water.kinematic_viscosity,
+    });
+    let friction = Friction { viscosity: &viscosities.fluid, middle, time_step };
+    let rows = (projection.fluid.rows(&phases.fluid), system.fluid_rows(&phases.fluid));
+    fill_rows(&mut phases.fluid, &search.periods, &scene.numerics, rows.0, Some((friction, rows.1)));
+}
+
 /// Slip and drag of every grain, stopping where the law ends.
 fn find_drag<const D: usize>(state: &mut State<D>) -> Result<(), Failure> {
     let Phases { fluid, sediment: Some(sediment) } = &state.phases else { return Ok(()) };
@@ -50,9 +77,9 @@ fn find_drag<const D: usize>(state: &mut State<D>) -> Result<(), Failure> {
 
 /// Implicit velocities under gravity, friction, drag and, for a mixture, the pressure of the last step.
 fn predict_velocities<const D: usize>(state: &mut State<D>, time_step: f64) -> Result<(), Failure> {
-    let State { scene, phases, exchange, viscosities, columns, system, projection, .. } = state;
-    let columns = columns.as_ref().map(|columns| &columns.drag);
-    VelocityRows { scene, phases, exchange, viscosities, columns, time_step }.assemble(system);
+    let State { scene, phases, exchange, search, viscosities, columns, system, projection, .. } = state;
+    let (columns, periods) = (columns.as_ref().map(|columns| &columns.drag), &search.periods);
+    VelocityRows { scene, phases, exchange, periods, viscosities, columns, time_step }.assemble(system);
     if scene.numerics.continuity == Continuity::Mixture {
         projection.mixture.push_by_last_pressure(system, time_step);
     }

@@ -173,6 +173,13 @@ impl Stratification {
         self.reader(position)(&self.strata.solid_fraction).min(self.strata.packing)
     }
 
+    /// φ `[-]` and the mixing length `[m]` at a place `[m]`.
+    #[inline]
+    pub(super) fn mixing_at<const D: usize>(&self, position: &Vector<D>) -> (f64, f64) {
+        let line = self.reader(position);
+        (line(&self.strata.solid_fraction).min(self.strata.packing), line(&self.mixing_length))
+    }
+
     /// Values at a place `[m]`.
     #[inline]
     pub(super) fn at<const D: usize>(&self, position: &Vector<D>) -> Stratum {

@@ -217,6 +217,12 @@ impl CheckedIndices {
         result
     }
 
+    /// Takes the chunks of others, into memory that is there.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.chunks.clone_from(&other.chunks);
+        self.bound = other.bound;
+    }
+
     /// Number of chunks.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -5,24 +5,25 @@
 //! total momentum: it closes to rounding, whatever the tolerance.
 
 use super::descent::{Descent, Stalled, descend};
-use super::reductions::{Unknown, dot, weighted_square};
+use super::reductions::{BLOCK, Unknown, dot, sum_of_blocks, weighted_square};
+use rayon::prelude::*;
 
 /// What a residual is turned into a direction with.
-pub(crate) trait Preconditioner {
+pub(crate) trait Preconditioner<T: Unknown> {
     /// Weights of the residual's norm: the inverse diagonal, 0 for a row that is no unknown.
     fn weights(&self) -> &[f64];
     /// M⁻¹ times a residual.
-    fn apply<T: Unknown>(&self, residual: &[T], out: &mut [T]);
+    fn apply(&mut self, residual: &[T], out: &mut [T]);
 }
 
 /// The inverse diagonal alone.
-impl Preconditioner for Vec<f64> {
+impl<T: Unknown> Preconditioner<T> for Vec<f64> {
     fn weights(&self) -> &[f64] {
         self
     }
 
-    fn apply<T: Unknown>(&self, residual: &[T], out: &mut [T]) {
-        for ((out, residual), weight) in out.iter_mut().zip(residual).zip(self) {
+    fn apply(&mut self, residual: &[T], out: &mut [T]) {
+        for ((out, residual), weight) in out.iter_mut().zip(residual).zip(&*self) {
             *out = *residual * *weight;
         }
     }
@@ -53,6 +54,9 @@ pub(crate) struct ConjugateGradient<T> {
     direction: Vec<T>,
     product: Vec<T>,
     preconditioned: Vec<T>,
+    /// Sums of blocks.
+    numbers: Vec<f64>,
+    vectors: Vec<T>,
     iterations: u64,
 }
 
@@ -63,6 +67,8 @@ impl<T: Unknown> ConjugateGradient<T> {
             direction: Vec::new(),
             product: Vec::new(),
             preconditioned: Vec::new(),
+            numbers: Vec::new(),
+            vectors: Vec::new(),
             iterations: 0,
         }
     }
@@ -86,7 +92,7 @@ impl<T: Unknown> ConjugateGradient<T> {
         &mut self,
         unknown: &mut [T],
         right_side: &[T],
-        preconditioner: &impl Preconditioner,
+        preconditioner: &mut impl Preconditioner<T>,
         of_constant: Option<&[f64]>,
         criterion: Criterion,
         mut apply: impl FnMut(&[T], &mut [T]),
@@ -134,45 +140,53 @@ impl<T: Unknown> ConjugateGradient<T> {
 struct Iteration<'a, T, P, A> {
     buffers: &'a mut ConjugateGradient<T>,
     unknown: &'a mut [T],
-    preconditioner: &'a P,
+    preconditioner: &'a mut P,
     deflation: Option<(&'a [f64], f64)>,
     apply: A,
 }
 
-impl<T: Unknown, P: Preconditioner, A: FnMut(&[T], &mut [T])> Descent for Iteration<'_, T, P, A> {
+impl<T: Unknown, P: Preconditioner<T>, A: FnMut(&[T], &mut [T])> Descent for Iteration<'_, T, P, A> {
     fn square(&mut self) -> f64 {
-        weighted_square(&self.buffers.residual, self.preconditioner.weights())
+        let ConjugateGradient { residual, numbers, .. } = &mut *self.buffers;
+        let blocks = (residual.par_chunks(BLOCK), self.preconditioner.weights().par_chunks(BLOCK)).into_par_iter();
+        sum_of_blocks(numbers, blocks, |(residual, weights)| weighted_square(residual, weights))
     }
 
     fn descent(&mut self) -> f64 {
-        let ConjugateGradient { residual, preconditioned, .. } = &mut *self.buffers;
+        let ConjugateGradient { residual, preconditioned, numbers, .. } = &mut *self.buffers;
         self.preconditioner.apply(residual, preconditioned);
-        dot(residual, preconditioned)
+        let blocks = (residual.par_chunks(BLOCK), preconditioned.par_chunks(BLOCK)).into_par_iter();
+        sum_of_blocks(numbers, blocks, |(residual, z)| dot(residual, z))
     }
 
     fn turn(&mut self, growth: f64) {
-        let ConjugateGradient { direction, preconditioned, .. } = &mut *self.buffers;
+        let ConjugateGradient { direction, preconditioned, vectors, .. } = &mut *self.buffers;
         let lift = self.deflation.map_or(T::ZERO, |(image, inverse)| {
-            let overlap = preconditioned.iter().zip(image).fold(T::ZERO, |sum, (z, a)| sum + *z * *a);
+            let blocks = (preconditioned.par_chunks(BLOCK), image.par_chunks(BLOCK)).into_par_iter();
+            let overlap = sum_of_blocks(vectors, blocks, |(z, image)| {
+                z.iter().zip(image).fold(T::ZERO, |sum, (z, a)| sum + *z * *a)
+            });
             overlap * inverse
         });
-        for (direction, z) in direction.iter_mut().zip(preconditioned) {
+        (direction, preconditioned).into_par_iter().with_min_len(BLOCK).for_each(|(direction, z)| {
             *direction = (*z - lift) + *direction * growth;
-        }
+        });
     }
 
     fn curvature(&mut self) -> f64 {
-        let ConjugateGradient { direction, product, .. } = &mut *self.buffers;
+        let ConjugateGradient { direction, product, numbers, .. } = &mut *self.buffers;
         (self.apply)(direction, product);
-        dot(direction, product)
+        let blocks = (direction.par_chunks(BLOCK), product.par_chunks(BLOCK)).into_par_iter();
+        sum_of_blocks(numbers, blocks, |(direction, product)| dot(direction, product))
     }
 
     fn advance(&mut self, step: f64) {
         let ConjugateGradient { residual, direction, product, .. } = &mut *self.buffers;
-        for row in 0..self.unknown.len() {
-            self.unknown[row] = self.unknown[row] + direction[row] * step;
-            residual[row] = residual[row] - product[row] * step;
-        }
+        let rows = (&mut *self.unknown, residual, direction, product).into_par_iter();
+        rows.with_min_len(BLOCK).for_each(|(unknown, residual, direction, product)| {
+            *unknown = *unknown + *direction * step;
+            *residual = *residual - *product * step;
+        });
     }
 }
 

@@ -55,7 +55,7 @@ impl IncompleteCholesky {
                     let mut pivot = diagonal;
                     for (column, value) in operator.off_diagonal(first + row) {
                         let column = (column as usize).wrapping_sub(first);
-                        if column < row {
+                        if column < row && value != 0.0 {
                             let factor = (value * inverse_pivot[column]) as f32;
                             lower[filled] = (column as u32, factor);
                             filled += 1;
@@ -69,12 +69,12 @@ impl IncompleteCholesky {
     }
 }
 
-impl Preconditioner for IncompleteCholesky {
+impl<T: Unknown> Preconditioner<T> for IncompleteCholesky {
     fn weights(&self) -> &[f64] {
         &self.inverse_diagonal
     }
 
-    fn apply<T: Unknown>(&self, residual: &[T], out: &mut [T]) {
+    fn apply(&mut self, residual: &[T], out: &mut [T]) {
         let stride = self.stride;
         (
             out.par_chunks_mut(BLOCK),

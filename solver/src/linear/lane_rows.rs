@@ -35,6 +35,14 @@ pub(crate) trait Coefficients: Copy + Send + Sync {
 #[repr(align(32))]
 pub(crate) struct Single([f32; LANES]);
 
+impl Single {
+    /// Eight coefficients.
+    #[inline(always)]
+    pub(crate) fn of(coefficients: [f32; LANES]) -> Self {
+        Self(coefficients)
+    }
+}
+
 impl Coefficients for Single {
     type Entry = f64;
     const ZERO: Self = Self([0.0; LANES]);
@@ -68,10 +76,12 @@ pub(crate) struct LaneRows<C> {
     stride: usize,
     columns: CheckedIndices,
     coefficients: Vec<C>,
-    /// Entries of every row, those of lanes without a row included.
+    /// Entries of every row, those of lanes without a row included; without padding, where rows were filled one by one.
     count: Vec<u32>,
     /// Chunks of every group.
     width: Vec<u32>,
+    /// Which version of a pattern the columns are.
+    pattern: u64,
     set: InstructionSet,
 }
 
@@ -132,6 +142,7 @@ impl<C: Coefficients> LaneRows<C> {
             coefficients: Vec::new(),
             count: Vec::new(),
             width: Vec::new(),
+            pattern: 0,
             set: InstructionSet::best(),
         }
     }
@@ -167,6 +178,26 @@ impl<C: Coefficients> LaneRows<C> {
         });
     }
 
+    /// Takes the columns of a pattern with `stride` chunks from one group to the next, if it is of another version than the
+    /// one that was taken last; returns the coefficients, a group after the other at this stride, and the number of chunks
+    /// of every group, to be filled.
+    pub(crate) fn with_pattern(
+        &mut self,
+        (rows, stride): (usize, usize),
+        columns: &CheckedIndices,
+        version: u64,
+    ) -> (&mut [C], &mut [u32]) {
+        if self.pattern != version {
+            let groups = rows.div_ceil(LANES);
+            (self.rows, self.stride, self.pattern) = (rows, stride, version);
+            self.columns.copy_from(columns);
+            self.coefficients.resize(groups * stride, C::ZERO);
+            self.width.resize(groups, 0);
+            self.count.clear();
+        }
+        (&mut self.coefficients, &mut self.width)
+    }
+
     /// Number of rows.
     pub(crate) fn len(&self) -> usize {
         self.rows
@@ -181,7 +212,8 @@ impl<C: Coefficients> LaneRows<C> {
     #[inline(always)]
     pub(crate) fn row(&self, row: usize) -> impl Iterator<Item = (u32, C::Entry)> {
         let (first, lane) = (row / LANES * self.stride, row % LANES);
-        let chunks = first..first + self.count[row] as usize;
+        let count = self.count.get(row).unwrap_or(&self.width[row / LANES]);
+        let chunks = first..first + *count as usize;
         let columns = self.columns.part(chunks.clone()).raw().iter();
         columns.zip(&self.coefficients[chunks]).map(move |(columns, entries)| (columns[lane], entries.entry(lane)))
     }
@@ -217,7 +249,14 @@ impl<'a, C> Iterator for Chunks<'a, C> {
     }
 }
 
-impl LaneRows<Single> {
+/// Products of rows by two operators of the same unknowns, of which the first has the first few rows only.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TwoRows<'a> {
+    pub(crate) first: &'a LaneRows<Single>,
+    pub(crate) all: &'a LaneRows<Single>,
+}
+
+impl TwoRows<'_> {
     /// diagonal · u − Σ coefficient · u of the columns.
     pub(crate) fn subtract_from_diagonal<const D: usize>(
         &self,
@@ -226,13 +265,13 @@ impl LaneRows<Single> {
         product: &mut [Vector<D>],
     ) {
         product.par_chunks_mut(TASK_ROWS).enumerate().for_each(|(task, out)| {
-            self.run(Product { rows: self, diagonal, u, first: task * TASK_ROWS, out });
+            self.all.run(Product { rows: *self, diagonal, u, first: task * TASK_ROWS, out });
         });
     }
 }
 
 struct Product<'a, const D: usize> {
-    rows: &'a LaneRows<Single>,
+    rows: TwoRows<'a>,
     diagonal: &'a [f64],
     u: &'a [Vector<D>],
     first: usize,
@@ -245,12 +284,13 @@ impl<const D: usize> LanePass for Product<'_, D> {
         for (group, out) in self.out.chunks_mut(LANES).enumerate() {
             let first = self.first + group * LANES;
             let mut sums = [V::splat(0.0); D];
-            for (columns, coefficients) in self.rows.group(first) {
-                let coefficient = V::load_single(&coefficients.0);
-                let u = crate::lanes::gather_vectors::<V, D>(self.u, &columns);
-                for axis in 0..D {
-                    sums[axis] = sums[axis] + u[axis] * coefficient;
+            if first < self.rows.first.len() {
+                for (columns, coefficients) in self.rows.first.group(first) {
+                    add(&mut sums, self.u, &columns, coefficients);
                 }
+            }
+            for (columns, coefficients) in self.rows.all.group(first) {
+                add(&mut sums, self.u, &columns, coefficients);
             }
             for axis in 0..D {
                 let sums = sums[axis].to_array();
@@ -259,5 +299,14 @@ impl<const D: usize> LanePass for Product<'_, D> {
                 }
             }
         }
+    }
+}
+
+#[inline(always)]
+fn add<V: Lanes, const D: usize>(sums: &mut [V; D], u: &[Vector<D>], columns: &LaneIndices<'_>, coefficients: &Single) {
+    let coefficient = V::load_single(&coefficients.0);
+    let u = crate::lanes::gather_vectors::<V, D>(u, columns);
+    for axis in 0..D {
+        sums[axis] = sums[axis] + u[axis] * coefficient;
     }
 }

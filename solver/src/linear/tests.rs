@@ -1,4 +1,4 @@
-use super::{ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, Single, single};
+use super::{ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, Single, TwoRows, single};
 use crate::vector::Vector;
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
@@ -67,7 +67,7 @@ impl Dense {
         let sums = self.row_sums();
         let of_constant = deflated.then_some(sums.as_slice());
         let mut solver = ConjugateGradient::new();
-        solver.solve(unknown, right_side, &self.factors(), of_constant, criterion, |x, out| {
+        solver.solve(unknown, right_side, &mut self.factors(), of_constant, criterion, |x, out| {
             for (a, out) in out.iter_mut().enumerate() {
                 *out = x.iter().enumerate().fold(Vector::zeros(), |sum, (b, x)| sum + x * self.at(a, b));
             }
@@ -76,7 +76,7 @@ impl Dense {
 
     fn solve_numbers(&self, unknown: &mut [f64], right_side: &[f64], criterion: Criterion) -> Result<(), NotConverged> {
         let mut solver = ConjugateGradient::new();
-        let outcome = solver.solve(unknown, right_side, &self.factors(), None, criterion, |x, out| {
+        let outcome = solver.solve(unknown, right_side, &mut self.factors(), None, criterion, |x, out| {
             for (a, out) in out.iter_mut().enumerate() {
                 *out = x.iter().enumerate().map(|(b, x)| x * self.at(a, b)).sum();
             }
@@ -181,7 +181,7 @@ fn blocks_of_factors_lead_to_the_same_solution() {
     factors.factorise(chain.0, 2, &chain);
     let mut solver = ConjugateGradient::new();
     let mut found = vec![0.0; chain.0];
-    solver.solve(&mut found, &right, &factors, None, TIGHT, apply).expect("a solution");
+    solver.solve(&mut found, &right, &mut factors, None, TIGHT, apply).expect("a solution");
     let worst = found.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(worst < 1e-8, "{worst:.1e}");
     // the factors of a chain are exact within a block: only the two joints are left
@@ -206,7 +206,7 @@ fn a_singular_system_names_its_row() {
     let outcome = ConjugateGradient::new().solve(
         &mut [0.0; 6],
         &[0.0, 0.0, 0.0, 5.0, 0.0, 0.0],
-        &vec![0.5, 0.5, 0.5, 1.0, 0.5, 0.5],
+        &mut vec![0.5, 0.5, 0.5, 1.0, 0.5, 0.5],
         None,
         Criterion { tolerance: 1e-6, most_iterations: 50 },
         |x, out| (0..6).for_each(|a| out[a] = matrix.at(a, a) * x[a]),
@@ -256,7 +256,7 @@ fn rows_in_lanes_give_the_product_that_their_entries_give_one_by_one() {
             });
         }
         let mut product = vec![Vector::zeros(); rows];
-        lanes.subtract_from_diagonal(&diagonal, &u, &mut product);
+        TwoRows { first: &LaneRows::new(), all: &lanes }.subtract_from_diagonal(&diagonal, &u, &mut product);
         for row in 0..rows {
             let kept: Vec<_> = entries[row].iter().skip(1).map(|&(b, value)| (b, single(value))).collect();
             assert_eq!(lanes.row(row).collect::<Vec<_>>(), kept, "row {row} of {rows}");

@@ -3,5 +3,5 @@
 mod bed;
 mod surface;
 
-pub(super) use bed::friction;
-pub(super) use surface::find_surface;
+pub(super) use bed::{WallMirror, friction};
+pub(super) use surface::{AT_SURFACE, Surface};

@@ -18,6 +18,9 @@ pub(crate) struct Grid<const D: usize> {
 /// Most cells along an axis: a stray particle far away must not buy a huge grid.
 const MOST_CELLS: usize = 4096;
 
+/// Most stretches around a position: two for each of nine rows of cells in space.
+pub(crate) const MOST_STRETCHES: usize = 18;
+
 impl<const D: usize> Grid<D> {
     pub(crate) fn new() -> Self {
         Self {
@@ -54,13 +57,23 @@ impl<const D: usize> Grid<D> {
         (self.order, self.index) = (order, index);
     }
 
-    /// Calls `visit` for every particle in the cells around a position, each once.
-    pub(crate) fn visit_near(&self, position: &Vector<D>, mut visit: impl FnMut(u32)) {
+    /// The particles in the order of their cells.
+    pub(crate) fn index(&self) -> &[u32] {
+        &self.index
+    }
+
+    /// The stretches of that order that lie in the cells around a position, from a place to the next one behind, and how many
+    /// there are; together they hold every particle there once.
+    #[inline(always)]
+    pub(crate) fn stretches(&self, position: &Vector<D>) -> ([(usize, usize); MOST_STRETCHES], usize) {
         let centre = self.coordinates(position);
-        'offsets: for code in 0..3usize.pow(D as u32) {
+        let (along, cells_along) = (centre[0], self.cells[0]);
+        let mut stretches = [(0, 0); MOST_STRETCHES];
+        let mut number = 0;
+        'offsets: for code in 0..3usize.pow(D as u32 - 1) {
             let mut rest = code;
             let mut cell = [0; D];
-            for axis in 0..D {
+            for axis in 1..D {
                 let offset = rest % 3;
                 rest /= 3;
                 let cells = self.cells[axis];
@@ -78,13 +91,40 @@ impl<const D: usize> Grid<D> {
                     cell[axis] = shifted - 1;
                 }
             }
-            let cell = self.cell(&cell);
-            for &index in &self.index[self.order.places(cell, cell)] {
-                visit(index);
+            // cells along the first axis follow each other
+            let first = self.cell(&cell);
+            let around_period = self.periodic[0] && cells_along <= 3;
+            let (low, high) = if around_period {
+                (0, cells_along - 1)
+            } else {
+                (along.saturating_sub(1), (along + 1).min(cells_along - 1))
+            };
+            stretches[number] = self.places(first + low, first + high);
+            number += 1;
+            if self.periodic[0] && !around_period && (along == 0 || along + 1 == cells_along) {
+                let across = first + if along == 0 { cells_along - 1 } else { 0 };
+                stretches[number] = self.places(across, across);
+                number += 1;
             }
+        }
+        (stretches, number)
+    }
+
+    /// Calls `visit` for every particle in the cells around a position, each once.
+    pub(crate) fn visit_near(&self, position: &Vector<D>, mut visit: impl FnMut(u32)) {
+        let (stretches, number) = self.stretches(position);
+        for &(start, end) in &stretches[..number] {
+            self.index[start..end].iter().for_each(|&index| visit(index));
         }
     }
 
+    #[inline(always)]
+    fn places(&self, first: usize, last: usize) -> (usize, usize) {
+        let places = self.order.places(first, last);
+        (places.start, places.end)
+    }
+
+    #[inline(always)]
     fn coordinates(&self, position: &Vector<D>) -> [usize; D] {
         std::array::from_fn(|axis| {
             // truncated and clamped, which keeps neighbours in neighbouring cells; a NaN goes to cell 0
@@ -93,6 +133,7 @@ impl<const D: usize> Grid<D> {
         })
     }
 
+    #[inline(always)]
     fn cell(&self, coordinates: &[usize; D]) -> usize {
         coordinates.iter().zip(&self.cells).rev().fold(0, |cell, (&coordinate, &cells)| cell * cells + coordinate)
     }

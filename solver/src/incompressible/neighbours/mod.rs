@@ -1,14 +1,21 @@
 //! Who is near whom: cells, pairs and their separations by the shortest way, and when a search is due.
 
 mod grid;
+mod lane_list;
 mod layers;
 mod pairs;
 mod periods;
 
 pub(crate) use grid::Grid;
+pub(crate) use lane_list::{LaneList, SavedList, Sources};
 pub(crate) use layers::{Layers, Places, SavedLayers};
-pub(crate) use pairs::{Pair, Pairs, SavedPairs, Sources};
+pub(crate) use pairs::{Pairs, SavedPairs};
 pub(crate) use periods::Periods;
+
+use crate::lanes::LANES;
 
 /// Particles a task of a parallel loop has at least.
 pub(crate) const LEAST_TASK: usize = 512;
+
+/// Groups of particles, one a lane, that a task has at least.
+pub(crate) const LEAST_GROUPS: usize = LEAST_TASK / LANES;

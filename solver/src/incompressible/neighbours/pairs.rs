@@ -1,5 +1,5 @@
-//! Pairs between two sets of particles: candidates that stay valid while nothing moves far against its neighbours,
-//! and from them, in every step, the pairs within reach with their kernel values.
+//! Pairs between two phases: candidates that stay valid while nothing moves far against its neighbours, and from them, in
+//! every step, the pairs within reach with their kernel values.
 
 use super::grid::Grid;
 use super::{LEAST_TASK, Periods};
@@ -35,15 +35,6 @@ pub(crate) struct Pair<const D: usize> {
     pub(crate) value: f64,
     /// F = (1/r) dW/dr `[1/m^(D+2)]`, never positive.
     pub(crate) gradient: f64,
-}
-
-/// Whether the sources are the targets themselves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Sources {
-    /// The same particles: none is its own neighbour.
-    Same,
-    /// Others.
-    Other,
 }
 
 /// Candidates as they are saved; the pairs within reach are measured anew.
@@ -93,7 +84,6 @@ impl<const D: usize> Pairs<D> {
         &mut self,
         targets: &[Vector<D>],
         sources: &[Vector<D>],
-        which: Sources,
         grid: &Grid<D>,
         periods: &Periods<D>,
         radius: f64,
@@ -104,18 +94,16 @@ impl<const D: usize> Pairs<D> {
             self.candidate.resize(targets.len() * self.stride, 0);
             (self.candidate.par_chunks_mut(self.stride), &mut self.candidates, targets)
                 .into_par_iter()
-                .enumerate()
                 .with_min_len(LEAST_TASK)
-                .for_each(|(index, (row, candidates, target))| {
+                .for_each(|(row, candidates, target)| {
                     let mut found = 0;
                     grid.visit_near(target, |source| {
                         let square = periods.distance_squared(target, &sources[source as usize]);
-                        let itself = which == Sources::Same && source as usize == index;
                         // written always and counted if near: no branch that the processor would guess wrong
                         if let Some(place) = row.get_mut(found) {
                             *place = source;
                         }
-                        found += usize::from(!itself & (square < radius * radius));
+                        found += usize::from(square < radius * radius);
                     });
                     *candidates = found as u32;
                     // in order of the sources: neighbours in memory, and the factors of a row wait for the row before
@@ -173,19 +161,6 @@ impl<const D: usize> Pairs<D> {
     pub(crate) fn of(&self, target: usize) -> &[Pair<D>] {
         let start = target * self.stride;
         &self.entry[start..start + self.count[target] as usize]
-    }
-
-    /// The candidates of a target in eights, and how many there are: all sources within reach, and some more.
-    #[inline(always)]
-    pub(crate) fn candidates(&self, target: usize) -> (&[[u32; LANES]], usize) {
-        let start = target * self.stride;
-        let count = self.candidates[target] as usize;
-        (self.candidate[start..start + count.next_multiple_of(LANES)].as_chunks().0, count)
-    }
-
-    /// The instruction set of its passes.
-    pub(crate) fn set(&self) -> InstructionSet {
-        self.set
     }
 
     /// Length of a row, in arrays that run parallel to the pairs too.

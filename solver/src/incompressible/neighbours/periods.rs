@@ -22,19 +22,30 @@ impl<const D: usize> Periods<D> {
     }
 
     /// Whether an axis has a period.
+    #[inline(always)]
     pub(crate) fn has(&self, axis: usize) -> bool {
         self.length[axis] > 0.0
     }
 
+    /// The separation `[m]` of the nearest images of two particles that lie in the same period.
     #[inline(always)]
-    fn shortest<V: Real>(&self, mut separation: [V; D]) -> [V; D] {
+    pub(crate) fn shortest<V: Real>(&self, mut separation: [V; D]) -> [V; D] {
         let one = V::splat(1.0);
         for axis in 0..D {
+            if !self.has(axis) {
+                continue;
+            }
             let turns = separation[axis] * V::splat(self.inverse[axis]);
             let whole = one.where_less(V::splat(0.5), turns) - one.where_less(turns, V::splat(-0.5));
             separation[axis] = separation[axis] - whole * V::splat(self.length[axis]);
         }
         separation
+    }
+
+    /// x_a − x_b `[m]` of the nearest images.
+    #[inline(always)]
+    pub(crate) fn separation(&self, target: &Vector<D>, source: &Vector<D>) -> Vector<D> {
+        Vector::from(self.shortest::<f64>((target - source).into()))
     }
 
     /// |x_a − x_b|² `[m²]` of the nearest images.

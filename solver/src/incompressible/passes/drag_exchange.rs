@@ -4,7 +4,7 @@
 //! within the kernel does not enlarge.
 
 use super::super::divergence::{Failure, Quantity};
-use super::super::neighbours::{Grid, LEAST_TASK, Pairs, Periods, SavedPairs, Sources};
+use super::super::neighbours::{Grid, LEAST_TASK, Pairs, Periods, SavedPairs};
 use super::super::numerics::DragSlip;
 use super::super::phase::Phase;
 use super::super::scene::{DragForm, IncompressibleScene, Sediment};
@@ -84,9 +84,9 @@ impl<const D: usize> DragExchange<D> {
         let radius = self.reach() + skin;
         self.copy_positions(sediment);
         self.grid.sort(&fluid.position, domain, radius);
-        self.of_sediment.search(&self.sediment, &fluid.position, Sources::Other, &self.grid, periods, radius);
+        self.of_sediment.search(&self.sediment, &fluid.position, &self.grid, periods, radius);
         self.grid.sort(&self.sediment, domain, radius);
-        self.of_fluid.search(&fluid.position, &self.sediment, Sources::Other, &self.grid, periods, radius);
+        self.of_fluid.search(&fluid.position, &self.sediment, &self.grid, periods, radius);
     }
 
     /// Measures the pairs between the phases.
@@ -143,7 +143,7 @@ impl<const D: usize> DragExchange<D> {
                     DragForm::Grain(_) => grain_factor(material, *slip, scene.fluid.kinematic_viscosity),
                     DragForm::Exchange => {
                         let around = (weight * fluid.lattice_volume).max(scene.numerics.least_fluid);
-                        exchange_factor(scene, material, sediment, a, &positions[a], *slip, around)
+                        exchange_factor(scene, material, sediment.lattice_volume, &positions[a], *slip, around)
                     }
                 };
             },
@@ -170,13 +170,12 @@ impl<const D: usize> DragExchange<D> {
     }
 }
 
-/// The factor of a sediment particle by the exchange coefficient at its place `[m]` and slip `[m/s]`, with Σ V W `[-]` of
-/// the fluid around it.
+/// The factor of a sediment particle of a volume `[m^D]` by the exchange coefficient at its place `[m]` and slip `[m/s]`,
+/// with Σ V W `[-]` of the fluid around it.
 fn exchange_factor<const D: usize>(
     scene: &IncompressibleScene<D>,
     material: &Sediment<D>,
-    sediment: &Phase<D>,
-    a: usize,
+    volume: f64,
     position: &Vector<D>,
     slip: f64,
     fluid_around: f64,
@@ -184,7 +183,6 @@ fn exchange_factor<const D: usize>(
     let fraction = scene.solid_fraction.stratification().map_or(0.0, |layer| layer.solid_fraction_at(position));
     let (density, viscosity) = (scene.fluid.density, scene.fluid.kinematic_viscosity);
     let exchange = material.drag.exchange_coefficient(fraction, slip, material.grain_diameter, density, viscosity);
-    let volume = sediment.volume.get(a).copied().unwrap_or(sediment.lattice_volume);
     drag_pair::exchange_factor(volume, exchange, density, fluid_around)
 }
 

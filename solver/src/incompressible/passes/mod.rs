@@ -1,7 +1,8 @@
 //! The loops over particles and pairs of a step, with what they store.
 
 pub(super) mod drag_exchange;
+pub(super) mod pair_rows;
 pub(super) mod search;
 pub(super) mod shifting;
-pub(super) mod velocity_gradients;
+pub(super) mod surroundings;
 pub(super) mod viscosities;

@@ -1,4 +1,4 @@
-//! The search of candidate pairs, when one is due, and the measures of the pairs in every step.
+//! The search of candidate pairs, when one is due.
 
 use super::super::neighbours::{Layers, Periods, SavedLayers};
 use super::super::phase::{Phase, Phases};
@@ -30,16 +30,6 @@ impl<const D: usize> Search<D> {
     pub(crate) fn restore(&mut self, saved: SavedLayers, particles: usize, searches: u64) -> Result<(), ForeignState> {
         self.searches = searches;
         self.layers.restore(saved, particles)
-    }
-
-    /// Measures all pairs, after a search if one may be missing.
-    pub(crate) fn measure(&mut self, domain: &Domain<D>, phases: &mut Phases<D>, exchange: &mut DragExchange<D>) {
-        self.search_if_due(domain, phases, exchange);
-        phases.fluid.measure(&self.periods);
-        if let Some(sediment) = &mut phases.sediment {
-            sediment.measure(&self.periods);
-            exchange.measure(&phases.fluid, sediment, &self.periods);
-        }
     }
 
     /// Searches the candidates anew if a pair may be missing.

@@ -3,10 +3,12 @@
 //! In a shear flow particles line up along stream lines and leave gaps between; shifting fills them. None at the
 //! surface and beside it, where ∇C is that of the surface, and no more than a part of a spacing.
 
+use super::super::boundary::AT_SURFACE;
 use super::super::neighbours::{LEAST_TASK, Periods};
 use super::super::numerics::ProjectionNumerics;
-use super::super::phase::Phase;
-use crate::lanes::{LANES, LanePass, Lanes};
+use super::super::phase::{Phase, records};
+use crate::lanes::algebra::dot;
+use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, Real, gather, gather_vectors};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
@@ -20,13 +22,13 @@ pub(crate) fn find_shifts<const D: usize>(
 ) {
     shifts.resize(phase.len(), Vector::zeros());
     shifts.par_chunks_mut(LEAST_TASK).enumerate().for_each(|(task, shifts)| {
-        let first = task * LEAST_TASK;
+        let first = task * (LEAST_TASK / LANES);
         let (scale, largest) = (-numerics.shifting * time_step, numerics.largest_shift * phase.spacing);
-        phase.free_pairs.set().run(Shift { phase, periods, scale, largest, first, shifts });
+        phase.free.set().run(Shift { phase, periods, scale, largest, first, shifts });
     });
 }
 
-/// The shifts of some particles.
+/// The shifts of some groups.
 struct Shift<'a, const D: usize> {
     phase: &'a Phase<D>,
     periods: &'a Periods<D>,
@@ -34,6 +36,7 @@ struct Shift<'a, const D: usize> {
     scale: f64,
     /// Longest shift `[m]`.
     largest: f64,
+    /// The first group.
     first: usize,
     shifts: &'a mut [Vector<D>],
 }
@@ -41,45 +44,66 @@ struct Shift<'a, const D: usize> {
 impl<const D: usize> LanePass for Shift<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let (phase, periods) = (self.phase, self.periods);
-        let reach_squared = phase.kernel.support() * phase.kernel.support();
-        let length = phase.kernel.smoothing_length();
-        for (row, shift) in self.shifts.iter_mut().enumerate() {
-            let a = self.first + row;
-            *shift = Vector::zeros();
-            if phase.at_surface[a] {
-                continue;
-            }
-            let mut gradient = Vector::<D>::zeros();
-            let mut beside_surface = false;
-            for (pairs, sources) in [(&phase.free_pairs, &phase.position), (&phase.wall_pairs, &phase.wall)] {
-                let (eights, mut left) = pairs.candidates(a);
-                let free = std::ptr::eq(sources, &phase.position);
-                for eight in eights {
-                    let (separation, square) = periods.separations::<V>(&phase.position[a], sources, eight);
-                    // W falls to zero at the reach: what lies beyond adds nothing
-                    let weight = phase.kernel.gradient_weight(square, V::splat(phase.lattice_volume));
-                    for axis in 0..D {
-                        let terms = (separation[axis] * weight).to_array();
-                        for term in &terms[..left.min(LANES)] {
-                            gradient[axis] += term;
-                        }
-                    }
-                    if free {
-                        let square = square.to_array();
-                        for lane in 0..left.min(LANES) {
-                            beside_surface |= square[lane] < reach_squared && phase.at_surface[eight[lane] as usize];
-                        }
-                    }
-                    left = left.saturating_sub(LANES);
+        let Self { phase, periods, .. } = self;
+        let (zero, volume) = (V::splat(0.0), V::Single::splat(phase.lattice_volume));
+        let reach_squared = V::splat(phase.kernel.support() * phase.kernel.support());
+        let scale = self.scale * phase.kernel.smoothing_length();
+        for (group, shifts) in self.shifts.chunks_mut(LANES).enumerate() {
+            let global = self.first + group;
+            let own_indices = records::group_indices(global, phase.len());
+            let own = gather_vectors::<V, D>(&phase.position, &LaneIndices::new(&own_indices, phase.len()));
+            let (mut gradient, mut deficit) = ([zero; D], zero);
+            for chunk in phase.free.group(global) {
+                let other = gather_vectors::<V, D>(&phase.position, &chunk);
+                let separation = separation(&own, &other, periods);
+                let square = dot(&separation, &separation);
+                if square.less_mask(reach_squared) == 0 {
+                    continue;
                 }
+                // W falls to zero at the reach: what lies beyond adds nothing, nor does padding, which is the own particle
+                let weight = V::widen(phase.kernel.gradient_weight(square.narrow(), volume));
+                add(&mut gradient, weight, &separation);
+                let own_or_near = gather::<V>(&phase.deficit, &chunk).where_less(weight, zero);
+                deficit = deficit.max(own_or_near);
             }
-            if beside_surface {
-                continue;
+            let candidates = phase.walls.counts::<V>(global);
+            for (k, chunk) in phase.walls.group(global).enumerate() {
+                let other = gather_vectors::<V, D>(&phase.wall, &chunk);
+                let separation = separation(&own, &other, periods);
+                let square = dot(&separation, &separation).narrow();
+                let weight = V::widen(phase.kernel.gradient_weight(square, volume));
+                add(&mut gradient, weight.where_less(V::splat(k as f64), candidates), &separation);
             }
-            let full = gradient * (self.scale * length * phase.velocity[a].norm());
-            let size = full.norm();
-            *shift = if size > self.largest { full * (self.largest / size) } else { full };
+            let deficit = deficit.to_array();
+            let mut crowding = [[0.0; LANES]; D];
+            for axis in 0..D {
+                crowding[axis] = gradient[axis].to_array();
+            }
+            for (lane, shift) in shifts.iter_mut().enumerate() {
+                let a = global * LANES + lane;
+                let near_surface = phase.at_surface[a] || deficit[lane] > AT_SURFACE;
+                let gradient = Vector::<D>::from_fn(|axis, _| crowding[axis][lane]);
+                let full = gradient * (scale * phase.velocity[a].norm());
+                let size = full.norm();
+                let bounded = if size > self.largest { full * (self.largest / size) } else { full };
+                *shift = if near_surface { Vector::zeros() } else { bounded };
+            }
         }
+    }
+}
+
+#[inline(always)]
+fn separation<V: Lanes, const D: usize>(own: &[V; D], other: &[V; D], periods: &Periods<D>) -> [V; D] {
+    let mut separation = *own;
+    for axis in 0..D {
+        separation[axis] = own[axis] - other[axis];
+    }
+    periods.shortest(separation)
+}
+
+#[inline(always)]
+fn add<V: Lanes, const D: usize>(sums: &mut [V; D], weight: V, separation: &[V; D]) {
+    for axis in 0..D {
+        sums[axis] = sums[axis] + weight * separation[axis];
     }
 }

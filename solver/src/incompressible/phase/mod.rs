@@ -2,16 +2,30 @@
 
 mod lattice_sums;
 mod phases;
+pub(crate) mod records;
 mod sliding_rows;
 
 pub(crate) use lattice_sums::LatticeSums;
 pub(crate) use phases::Phases;
 
-use super::neighbours::{Grid, Pairs, Periods, Places, Sources};
+use super::neighbours::{Grid, LaneList, Periods, Places, Sources};
 use super::scene::ParticleSet;
 use crate::domain::Domain;
 use crate::kernel::{Kernel, KernelShape};
+use crate::lanes::LANES;
 use crate::vector::{Tensor, Vector};
+
+/// Sums over the wall particles around a free one.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct WallSums {
+    /// Σ F `[1/m^(D+2)]`.
+    pub(crate) weight: f64,
+    /// Σ F r·n `[1/m^(D+1)]`.
+    pub(crate) arm: f64,
+    /// Σ F (1 + d/z), where a wall particle at the depth d below a no-slip wall moves against its partner at the height z
+    /// `[1/m^(D+2)]`.
+    pub(crate) mirrored: f64,
+}
 
 /// State and measures of one phase; arrays have the shape `[free particles]` unless said otherwise.
 #[derive(Debug)]
@@ -20,12 +34,10 @@ pub(crate) struct Phase<const D: usize> {
     pub(crate) velocity: Vec<Vector<D>>,
     /// Masses `[kg]`.
     pub(crate) mass: Vec<f64>,
-    /// Volumes that the particles stand for in sums `[m^D]`.
-    pub(crate) volume: Vec<f64>,
     pub(crate) pressure: Vec<f64>,
     /// Fixed particles `[wall particles]`.
     pub(crate) wall: Vec<Vector<D>>,
-    /// Volume of a particle on the lattice `[m^D]`.
+    /// Volume of a particle on the lattice, which it stands for in sums `[m^D]`.
     pub(crate) lattice_volume: f64,
     pub(crate) spacing: f64,
     /// Density of the phase's material `[kg/m³]`.
@@ -34,13 +46,22 @@ pub(crate) struct Phase<const D: usize> {
     pub(crate) lattice: LatticeSums,
     /// Shear rate of rows that slide over each other over that of their pairs, |u_ab|/r, as a mean `[-]`.
     pub(crate) sliding_rate: f64,
-    pub(crate) free_pairs: Pairs<D>,
-    pub(crate) wall_pairs: Pairs<D>,
+    /// Candidates among the free particles and among the walls.
+    pub(crate) free: LaneList<D>,
+    pub(crate) walls: LaneList<D>,
+    /// F of the free candidates at the present positions, parallel to their list; 0 out of reach `[1/m^(D+2)]`.
+    pub(crate) weight: Vec<[f32; LANES]>,
+    /// Chunks of every group of eight up to its last pair within reach.
+    pub(crate) active: Vec<u32>,
+    pub(crate) wall_sums: Vec<WallSums>,
+    /// Records of the passes over pairs, and those of the walls.
+    pub(crate) records: Vec<[f64; 4]>,
+    pub(crate) wall_records: Vec<[f64; 4]>,
     /// Σ V W over that of the lattice `[-]`.
     pub(crate) concentration: Vec<f64>,
     pub(crate) at_surface: Vec<bool>,
     /// What a particle lacks of neighbours, from 0 inside to 1 at the surface `[-]`; a smooth form of (31), because
-    /// particles that change sides in steps shake the column.
+    /// particles that change sides in steps shake the column. One half is (31).
     pub(crate) deficit: Vec<f64>,
     /// 1 at the surface and beside it, 0 inside `[-]`.
     pub(crate) nearness: Vec<f64>,
@@ -68,7 +89,6 @@ impl<const D: usize> Phase<D> {
             position: particles.position.clone(),
             velocity: particles.velocity.clone(),
             mass: vec![density * lattice_volume; count],
-            volume: vec![lattice_volume; count],
             pressure: vec![0.0; count],
             wall: wall.to_vec(),
             lattice_volume,
@@ -77,8 +97,13 @@ impl<const D: usize> Phase<D> {
             lattice: LatticeSums::of(&kernel, spacing),
             sliding_rate: sliding_rows::rate_of_sliding_rows(&kernel, spacing),
             kernel,
-            free_pairs: Pairs::new(),
-            wall_pairs: Pairs::new(),
+            free: LaneList::new(),
+            walls: LaneList::new(),
+            weight: Vec::new(),
+            active: Vec::new(),
+            wall_sums: vec![WallSums::default(); count],
+            records: Vec::new(),
+            wall_records: Vec::new(),
             concentration: vec![1.0; count],
             at_surface: vec![false; count],
             moment: vec![1.0; count],
@@ -104,18 +129,34 @@ impl<const D: usize> Phase<D> {
 
     /// Finds the candidates of the pairs within the phase.
     pub(crate) fn search(&mut self, domain: &Domain<D>, periods: &Periods<D>, skin: f64) {
-        let radius = self.kernel.support() + skin;
-        self.grid.sort(&self.position, domain, radius);
-        self.free_pairs.search(&self.position, &self.position, Sources::Same, &self.grid, periods, radius);
-        self.grid.sort(&self.wall, domain, radius);
-        self.wall_pairs.search(&self.position, &self.wall, Sources::Other, &self.grid, periods, radius);
+        let reach = self.kernel.support();
+        self.grid.sort(&self.position, domain, reach + skin);
+        self.free.search(&self.position, &self.position, Sources::Same, &self.grid, periods, reach, skin);
+        self.grid.sort(&self.wall, domain, reach + skin);
+        self.walls.search(&self.position, &self.wall, Sources::Other, &self.grid, periods, reach, skin);
         self.travel.fill(Vector::zeros());
     }
 
-    /// Measures the pairs within the phase.
-    pub(crate) fn measure(&mut self, periods: &Periods<D>) {
-        self.free_pairs.measure(&self.position, &self.position, periods, &self.kernel);
-        self.wall_pairs.measure(&self.position, &self.wall, periods, &self.kernel);
+    /// The free particles within reach of one at the positions that were last measured: index, x_a − x_b of the nearest
+    /// images `[m]` and F `[1/m^(D+2)]`.
+    #[inline(always)]
+    pub(crate) fn free_pairs(&self, a: usize, periods: &Periods<D>) -> impl Iterator<Item = (usize, Vector<D>, f64)> {
+        let (first, lane) = (a / LANES * self.free.stride(), a % LANES);
+        let candidates = self.free.of(a).zip(&self.weight[first..]);
+        let near = candidates.filter(move |(_, weight)| weight[lane] < 0.0);
+        near.map(move |(b, weight)| {
+            (b, periods.separation(&self.position[a], &self.position[b]), f64::from(weight[lane]))
+        })
+    }
+
+    /// The wall particles within reach of a free one, likewise.
+    #[inline(always)]
+    pub(crate) fn wall_pairs(&self, a: usize, periods: &Periods<D>) -> impl Iterator<Item = (usize, Vector<D>, f64)> {
+        self.walls.of(a).filter_map(move |b| {
+            let separation = periods.separation(&self.position[a], &self.wall[b]);
+            let weight = self.kernel.gradient_weight(separation.norm_squared(), 1.0);
+            (weight < 0.0).then_some((b, separation, weight))
+        })
     }
 
     /// Where the particles stand, for the judgement whether a search is due.

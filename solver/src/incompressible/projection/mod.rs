@@ -9,14 +9,17 @@ mod pressure_links;
 mod pressure_poisson;
 
 pub(super) use mixture::{Flux, Mixture};
+pub(super) use pressure_links::LinkChunk;
 pub(super) use pressure_poisson::PressurePoisson;
 
-use super::boundary::find_surface;
 use super::divergence::{Failure, Quantity};
 use super::neighbours::Periods;
 use super::numerics::{PressureSource, ProjectionNumerics};
+use super::passes::pair_rows::fill_rows;
+use super::passes::surroundings::{Gradients, find_surroundings};
 use super::phase::{Phase, Phases};
-use super::scene::{IncompressibleScene, SedimentPressure};
+use super::scene::{Bed, IncompressibleScene, SedimentPressure};
+use crate::domain::Domain;
 use crate::linear::NotConverged;
 use crate::vector::Vector;
 use correction::Correction;
@@ -29,11 +32,22 @@ pub(super) struct Projection<const D: usize> {
     pub(super) mixture: Mixture<D>,
 }
 
+/// Whether the rows of a phase's pressure are there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum RowState {
+    /// Filled with those of its friction.
+    Filled,
+    /// To be filled.
+    Missing,
+}
+
 /// What the projection of one phase needs beside it.
 struct Prediction<'a, const D: usize> {
     velocity: &'a [Vector<D>],
+    rows: RowState,
     correction: Correction,
     numerics: &'a ProjectionNumerics,
+    domain: &'a Domain<D>,
     periods: &'a Periods<D>,
     time_step: f64,
 }
@@ -55,13 +69,22 @@ impl<const D: usize> Projection<D> {
         let Phases { fluid, sediment } = phases;
         let (of_fluid, of_sediment) = predicted.split_at(fluid.len());
         let first = fluid.len();
-        let numerics = &scene.numerics;
-        let prediction = |velocity, correction| Prediction { velocity, correction, numerics, periods, time_step };
-        project(fluid, &mut self.fluid, &prediction(of_fluid, Correction::Both))?;
+        let (numerics, domain) = (&scene.numerics, &scene.domain);
+        let prediction = |velocity, rows, correction| Prediction {
+            velocity,
+            rows,
+            correction,
+            numerics,
+            domain,
+            periods,
+            time_step,
+        };
+        project(fluid, &mut self.fluid, &prediction(of_fluid, RowState::Filled, Correction::Both))?;
         let (Some(sediment), Some(material)) = (sediment, &scene.sediment) else { return Ok(()) };
         let moved = match material.pressure {
             SedimentPressure::Incompressible => {
-                project(sediment, &mut self.sediment, &prediction(of_sediment, Correction::CompressionOnly))
+                let prediction = prediction(of_sediment, RowState::Missing, Correction::CompressionOnly);
+                project(sediment, &mut self.sediment, &prediction)
             }
             SedimentPressure::AlongBed => {
                 motion::slide(sediment, of_sediment, time_step);
@@ -82,16 +105,22 @@ fn project<const D: usize>(
     poisson: &mut PressurePoisson<D>,
     prediction: &Prediction<'_, D>,
 ) -> Result<(), Failure> {
-    let &Prediction { velocity, correction, numerics, periods, time_step } = prediction;
+    let &Prediction { velocity, rows, correction, numerics, domain, periods, time_step } = prediction;
+    let mut rows = rows;
     if numerics.pressure_source == PressureSource::Density {
         for (particle, velocity) in velocity.iter().enumerate() {
             phase.displace(particle, velocity * time_step);
         }
-        phase.measure(periods);
-        find_surface(phase, numerics);
+        // of the bed's friction, which was taken before, nothing is asked any more
+        find_surroundings(phase, periods, numerics, Bed::Slip, Gradients::Skip);
+        rows = RowState::Missing;
     }
-    poisson.assemble(phase, numerics);
-    let solved = poisson.solve(phase, numerics, velocity, correction, time_step);
+    if rows == RowState::Missing {
+        let rows = poisson.rows(phase);
+        fill_rows(phase, periods, numerics, rows, None);
+    }
+    poisson.find_gauge(phase, numerics.surface);
+    let solved = poisson.solve(phase, numerics, domain, velocity, correction, time_step);
     solved.map_err(|not_converged| residual(not_converged, numerics))?;
     motion::correct(phase, poisson, velocity, numerics.pressure_source, time_step)
         .map_err(|(particle, spacings)| Failure::displacement(particle, spacings))

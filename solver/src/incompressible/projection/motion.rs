@@ -5,7 +5,9 @@ use super::super::numerics::PressureSource;
 use super::super::phase::Phase;
 use super::super::scene::height_axis;
 use super::pressure_poisson::PressurePoisson;
+use crate::linear::TASK_ROWS;
 use crate::vector::Vector;
+use rayon::prelude::*;
 
 /// A particle and its displacement in spacings `[-]`.
 pub(super) type TooFar = (usize, f64);
@@ -54,23 +56,29 @@ pub(super) fn slide<const D: usize>(phase: &mut Phase<D>, predicted: &[Vector<D>
 /// stays near 1 mm/s where it falls below 0.1 mm/s with the new one.
 pub(super) fn correct<const D: usize>(
     phase: &mut Phase<D>,
-    poisson: &PressurePoisson<D>,
+    poisson: &mut PressurePoisson<D>,
     predicted: &[Vector<D>],
     source: PressureSource,
     time_step: f64,
 ) -> Result<(), TooFar> {
-    for particle in 0..phase.len() {
-        let force = poisson.gradient(particle, &phase.pressure) * phase.lattice_volume;
-        let velocity = predicted[particle] - force * (time_step / phase.mass[particle]);
-        let before = phase.velocity[particle];
-        phase.velocity[particle] = velocity;
-        check(particle, velocity, time_step, phase.spacing)?;
-        let mean = match source {
-            PressureSource::Divergence => velocity,
-            // the particles stand at their predicted places
-            PressureSource::Density => (velocity + before) * 0.5 - predicted[particle],
-        };
-        phase.displace(particle, mean * time_step);
-    }
-    Ok(())
+    let Phase { velocity, position, travel, mass, pressure, lattice_volume, spacing, .. } = phase;
+    let gradient = poisson.find_gradient(pressure);
+    let impulse = *lattice_volume * time_step;
+    let moved = (velocity, position, travel, predicted, gradient, mass).into_par_iter().enumerate();
+    let too_far =
+        moved.with_min_len(TASK_ROWS).map(|(particle, (velocity, position, travel, predicted, gradient, mass))| {
+            let before = *velocity;
+            *velocity = predicted - gradient * (impulse / *mass);
+            let mean = match source {
+                PressureSource::Divergence => *velocity,
+                // the particles stand at their predicted places
+                PressureSource::Density => (*velocity + before) * 0.5 - predicted,
+            };
+            *position += mean * time_step;
+            *travel += mean * time_step;
+            check(particle, *velocity, time_step, *spacing)
+        });
+    // of several the first
+    let first = |one: Result<(), TooFar>, other: Result<(), TooFar>| one.and(other);
+    too_far.reduce(|| Ok(()), first)
 }

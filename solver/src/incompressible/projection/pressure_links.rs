@@ -18,8 +18,8 @@ pub(crate) struct Link<const D: usize> {
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
 pub(crate) struct LinkChunk<const D: usize> {
-    gradient: [[f32; LANES]; D],
-    laplacian: [f32; LANES],
+    pub(crate) gradient: [[f32; LANES]; D],
+    pub(crate) laplacian: [f32; LANES],
 }
 
 impl<const D: usize> Coefficients for LinkChunk<D> {
@@ -42,6 +42,66 @@ impl<const D: usize> Coefficients for LinkChunk<D> {
     #[inline(always)]
     fn clear(&mut self, lane: usize) {
         self.set(lane, (Vector::zeros(), 0.0));
+    }
+}
+
+/// D u of some rows.
+pub(crate) struct Divergence<'a, const D: usize> {
+    pub(crate) links: &'a LaneRows<LinkChunk<D>>,
+    pub(crate) own: &'a [Vector<D>],
+    pub(crate) velocity: &'a [Vector<D>],
+    pub(crate) first: usize,
+    pub(crate) divergence: &'a mut [f64],
+}
+
+impl<const D: usize> LanePass for Divergence<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        for (group, divergence) in self.divergence.chunks_mut(LANES).enumerate() {
+            let first = self.first + group * LANES;
+            let mut sum = V::splat(0.0);
+            for (sources, link) in self.links.group(first) {
+                let velocity = gather_vectors::<V, D>(self.velocity, &sources);
+                for axis in 0..D {
+                    sum = sum + V::load_single(&link.gradient[axis]) * velocity[axis];
+                }
+            }
+            let sum = sum.to_array();
+            for (lane, divergence) in divergence.iter_mut().enumerate() {
+                *divergence = sum[lane] - self.own[first + lane].dot(&self.velocity[first + lane]);
+            }
+        }
+    }
+}
+
+/// G P of some rows.
+pub(crate) struct Gradient<'a, const D: usize> {
+    pub(crate) links: &'a LaneRows<LinkChunk<D>>,
+    pub(crate) own: &'a [Vector<D>],
+    pub(crate) p: &'a [f64],
+    pub(crate) first: usize,
+    pub(crate) gradient: &'a mut [Vector<D>],
+}
+
+impl<const D: usize> LanePass for Gradient<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        for (group, gradient) in self.gradient.chunks_mut(LANES).enumerate() {
+            let first = self.first + group * LANES;
+            let mut sums = [V::splat(0.0); D];
+            for (sources, link) in self.links.group(first) {
+                let other: V = gather(self.p, &sources);
+                for axis in 0..D {
+                    sums[axis] = sums[axis] + V::load_single(&link.gradient[axis]) * other;
+                }
+            }
+            for axis in 0..D {
+                let sums = sums[axis].to_array();
+                for (lane, gradient) in gradient.iter_mut().enumerate() {
+                    gradient[axis] = self.own[first + lane][axis] * self.p[first + lane] + sums[lane];
+                }
+            }
+        }
     }
 }
 

@@ -20,17 +20,21 @@
 
 use super::super::neighbours::LEAST_TASK;
 use super::super::numerics::{MOST_ITERATIONS, PressureSource, ProjectionNumerics, SurfaceTreatment};
+use super::super::passes::pair_rows::PressureRows;
 use super::super::phase::Phase;
-use super::super::scene::height_axis;
 use super::correction::Correction;
 use super::gauge::Gauge;
-use super::pressure_links::{FirstPass, Link, LinkChunk, SecondPass};
-use crate::lanes::LANES;
+use super::pressure_links::{Divergence, FirstPass, Gradient, Link, LinkChunk, SecondPass};
+use crate::domain::Domain;
 use crate::linear::{
-    ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, TASK_ROWS, single,
+    ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, Lattices, NotConverged, Rows, TASK_ROWS,
 };
 use crate::vector::Vector;
 use rayon::prelude::*;
+
+/// Rows from which on the pressure is preconditioned by lattices: factors without fill see no further than their neighbours, and
+/// take the more iterations the finer the particles.
+pub(crate) const LATTICE_ROWS: usize = 4096;
 
 /// Coefficients, reused from step to step.
 #[derive(Debug)]
@@ -39,6 +43,8 @@ pub(crate) struct PressurePoisson<const D: usize> {
     /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
     own: Vec<Vector<D>>,
     diagonal: Vec<f64>,
+    /// What the diagonal has beyond its links `[1/m²]`.
+    held: Vec<f64>,
     right_side: Vec<f64>,
     gradient: Vec<Vector<D>>,
     /// A pressure less its mean, where there is no level.
@@ -46,6 +52,7 @@ pub(crate) struct PressurePoisson<const D: usize> {
     /// Whether a surface fixes the level of the pressure.
     gauge: Gauge,
     factors: IncompleteCholesky,
+    lattices: Lattices<D>,
     solver: ConjugateGradient<f64>,
 }
 
@@ -55,11 +62,13 @@ impl<const D: usize> PressurePoisson<D> {
             links: LaneRows::new(),
             own: Vec::new(),
             diagonal: Vec::new(),
+            held: Vec::new(),
             right_side: Vec::new(),
             gradient: Vec::new(),
             deviation: Vec::new(),
             gauge: Gauge::Surface,
             factors: IncompleteCholesky::default(),
+            lattices: Lattices::new(),
             solver: ConjugateGradient::new(),
         }
     }
@@ -74,60 +83,22 @@ impl<const D: usize> PressurePoisson<D> {
         self.solver.iterations()
     }
 
-    /// Prepares the operators at the present positions.
-    pub(crate) fn assemble(&mut self, phase: &Phase<D>, numerics: &ProjectionNumerics) {
-        let eliminated = numerics.surface == SurfaceTreatment::Eliminated;
+    /// The rows of a phase's free particles, to be filled.
+    pub(crate) fn rows(&mut self, phase: &Phase<D>) -> PressureRows<'_, D> {
         let count = phase.len();
-        for array in [&mut self.diagonal, &mut self.right_side] {
+        for array in [&mut self.diagonal, &mut self.held, &mut self.right_side] {
             array.resize(count, 0.0);
         }
         self.own.resize(count, Vector::zeros());
         self.gradient.resize(count, Vector::zeros());
-        let gradient_scale = phase.lattice_volume;
-        let laplacian_scale = -2.0 * phase.lattice_volume;
-        let normal = height_axis(D);
-        let beside = (self.own.par_chunks_mut(LANES), self.diagonal.par_chunks_mut(LANES)).into_par_iter();
-        self.links.fill(count, phase.free_pairs.stride(), beside, |first, group, (own, diagonal)| {
-            for lane in 0..own.len() {
-                let a = first + lane;
-                let mut sum = Vector::zeros();
-                let mut total = 0.0;
-                let mut beside_surface = false;
-                group.row(lane, |links| {
-                    for pair in phase.free_pairs.of(a) {
-                        let moment = 2.0 / (phase.moment[a] + phase.moment[pair.source as usize]);
-                        let weight = pair.gradient * moment;
-                        let gradient = (pair.separation * (gradient_scale * weight)).map(single);
-                        let laplacian = single(laplacian_scale * weight);
-                        links.push(pair.source, (gradient, laplacian));
-                        sum += gradient;
-                        total += laplacian;
-                        beside_surface |= phase.at_surface[pair.source as usize];
-                    }
-                });
-                let mut wall = 0.0;
-                let mut wall_total = 0.0;
-                for pair in phase.wall_pairs.of(a) {
-                    wall += gradient_scale / phase.moment[a] * pair.gradient * pair.separation[normal];
-                    wall_total += laplacian_scale * pair.gradient;
-                }
-                sum[normal] += 2.0 * wall;
-                own[lane] = sum;
-                // what is missing counts as mirrored neighbours with −P_b: from half a spacing below the surface twice
-                // P_a away, from one and a half 4/3
-                let complete = phase.lattice.diagonal * laplacian_scale.abs() - wall_total;
-                let missing = (complete - total).max(0.0);
-                let mirror = if eliminated {
-                    f64::from(beside_surface)
-                } else {
-                    phase.nearness[a] * (4.0 / 3.0 + 2.0 / 3.0 * phase.deficit[a])
-                };
-                // what is no unknown has no diagonal
-                let known = eliminated && phase.at_surface[a];
-                diagonal[lane] = if known { 0.0 } else { total + mirror * missing };
-            }
-        });
-        let has_surface = match numerics.surface {
+        let list = &phase.free;
+        let (links, width) = self.links.with_pattern((count, list.stride()), list.columns(), list.changes());
+        PressureRows { links, width, own: &mut self.own, diagonal: &mut self.diagonal, held: &mut self.held }
+    }
+
+    /// Tells from the filled rows what fixes the level of the pressure.
+    pub(crate) fn find_gauge(&mut self, phase: &Phase<D>, surface: SurfaceTreatment) {
+        let has_surface = match surface {
             SurfaceTreatment::Eliminated => phase.at_surface.contains(&true),
             SurfaceTreatment::Completed => phase.nearness.iter().any(|&nearness| nearness > 0.0),
         };
@@ -154,14 +125,32 @@ impl<const D: usize> PressurePoisson<D> {
         sum
     }
 
+    /// D u `[1/s]` of a velocity field, of all particles.
+    pub(crate) fn find_divergence(&self, velocity: &[Vector<D>], divergence: &mut [f64]) {
+        divergence.par_chunks_mut(TASK_ROWS).enumerate().for_each(|(task, divergence)| {
+            let (links, own, first) = (&self.links, &self.own[..], task * TASK_ROWS);
+            self.links.run(Divergence { links, own, velocity, first, divergence });
+        });
+    }
+
+    /// G P `[Pa/m]` of all particles.
+    pub(crate) fn find_gradient(&mut self, p: &[f64]) -> &[Vector<D>] {
+        let Self { links, own, gradient, .. } = self;
+        let (links, own) = (&*links, &own[..]);
+        gradient.par_chunks_mut(TASK_ROWS).enumerate().for_each(|(task, gradient)| {
+            links.run(Gradient { links, own, p, first: task * TASK_ROWS, gradient });
+        });
+        gradient
+    }
+
     /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
     pub(crate) fn own(&self, a: usize) -> Vector<D> {
         self.own[a]
     }
 
-    /// The diagonal of A `[1/m²]`.
-    pub(crate) fn diagonal(&self, a: usize) -> f64 {
-        self.diagonal[a]
+    /// What the diagonal of A has beyond its links `[1/m²]`.
+    pub(crate) fn held(&self, a: usize) -> f64 {
+        self.held[a]
     }
 
     /// What fixes the level of the pressure.
@@ -183,6 +172,7 @@ impl<const D: usize> PressurePoisson<D> {
         &mut self,
         phase: &mut Phase<D>,
         numerics: &ProjectionNumerics,
+        domain: &Domain<D>,
         predicted: &[Vector<D>],
         correction: Correction,
         time_step: f64,
@@ -190,17 +180,14 @@ impl<const D: usize> PressurePoisson<D> {
         let density = phase.density;
         let eliminated = numerics.surface == SurfaceTreatment::Eliminated;
         let mut right_side = std::mem::take(&mut self.right_side);
+        match numerics.pressure_source {
+            PressureSource::Divergence => self.find_divergence(predicted, &mut right_side),
+            PressureSource::Density => right_side.fill(0.0),
+        }
         right_side.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, right)| {
-            if eliminated && phase.at_surface[a] {
-                *right = 0.0;
-                return;
-            }
             let missing = numerics.density_correction * correction.missing(phase, a) / (time_step * time_step);
-            *right = -density
-                * match numerics.pressure_source {
-                    PressureSource::Divergence => self.divergence(a, predicted) / time_step + missing,
-                    PressureSource::Density => missing,
-                };
+            let known = eliminated && phase.at_surface[a];
+            *right = if known { 0.0 } else { -density * (*right / time_step + missing) };
         });
         for (pressure, at_surface) in phase.pressure.iter_mut().zip(&phase.at_surface) {
             if eliminated && *at_surface {
@@ -214,12 +201,22 @@ impl<const D: usize> PressurePoisson<D> {
         let mut gradient = std::mem::take(&mut self.gradient);
         let mut deviation = std::mem::take(&mut self.deviation);
         let mut factors = std::mem::take(&mut self.factors);
-        factors.factorise(self.links.len(), self.links.stride(), &CompactRows(self));
-        let outcome = solver.solve(&mut phase.pressure, &right_side, &factors, None, criterion, |p, product| {
+        let mut lattices = std::mem::replace(&mut self.lattices, Lattices::new());
+        let operator = |p: &[f64], product: &mut [f64]| {
             self.gauge.apply(p, product, &mut deviation, |p, product| {
                 self.apply(p, product, &mut gradient, &phase.at_surface, eliminated, stabilisation);
             });
-        });
+        };
+        let pressure = &mut phase.pressure;
+        let outcome = if self.links.len() < LATTICE_ROWS {
+            factors.factorise(self.links.len(), self.links.stride(), &CompactRows(self));
+            solver.solve(pressure, &right_side, &mut factors, None, criterion, operator)
+        } else {
+            let inverse = self.diagonal.iter().map(|&diagonal| if diagonal > 0.0 { 1.0 / diagonal } else { 0.0 });
+            let row = |a: usize| (f64::from(self.diagonal[a] > 0.0), self.held[a]);
+            lattices.lay(&phase.position, domain, phase.spacing, inverse, row);
+            solver.solve(pressure, &right_side, &mut lattices, None, criterion, operator)
+        };
         if self.gauge == Gauge::Free {
             let anchor = match numerics.pressure_source {
                 PressureSource::Divergence => phase.pressure.iter().sum::<f64>() / phase.len() as f64,
@@ -228,7 +225,7 @@ impl<const D: usize> PressurePoisson<D> {
             phase.pressure.iter_mut().for_each(|pressure| *pressure -= anchor);
         }
         (self.solver, self.gradient, self.right_side) = (solver, gradient, right_side);
-        (self.factors, self.deviation) = (factors, deviation);
+        (self.factors, self.lattices, self.deviation) = (factors, lattices, deviation);
         outcome
     }
 

@@ -1,9 +1,9 @@
 //! What a closure makes of a uniform shear of displaced particles, where the corrected gradient is exact.
 
 use super::super::Turbulence;
-use super::super::passes::velocity_gradients::find_velocity_gradients;
 use super::super::simulation::IncompressibleSimulation;
 use super::super::state::State;
+use super::super::step;
 use super::water;
 use crate::material::turbulence::{MixingLength, MixingLengthShape, Smagorinsky};
 use crate::vector::Vector;
@@ -17,9 +17,8 @@ fn eddy_viscosities(turbulence: Turbulence) -> Vec<(f64, f64)> {
     particles.velocity = particles.position.iter().map(|x| Vector::<2>::new(SHEAR_RATE * x[1], 0.0)).collect();
     scene.fluid.turbulence = turbulence;
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
-    let State { scene, phases, search, exchange, viscosities, .. } = &mut simulation.state;
-    search.measure(&scene.domain, phases, exchange);
-    find_velocity_gradients(&mut phases.fluid, scene.numerics.largest_correction);
+    step::measure(&mut simulation.state);
+    let State { scene, phases, viscosities, .. } = &mut simulation.state;
     viscosities.find(scene, phases);
     let (density, molecular) = (1000.0, 1e-6);
     let eddy = |viscosity: &f64| viscosity / density - molecular;

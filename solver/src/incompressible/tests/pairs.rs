@@ -1,8 +1,9 @@
 //! Pairs against brute force: every pair of nearest images, with no cells and no wrapping.
 
-use super::super::neighbours::{Grid, Pairs, Periods, Sources};
+use super::super::neighbours::{Grid, LaneList, Pairs, Periods, Sources};
 use super::super::phase::Phase;
 use super::super::simulation::IncompressibleSimulation;
+use super::super::step;
 use super::{SPACING, grains, random, symmetric, water};
 use crate::domain::{AxisBoundary, Domain};
 use crate::kernel::{Kernel, KernelShape};
@@ -70,6 +71,21 @@ fn compare<const D: usize>(
     count
 }
 
+/// A list against the candidates within reach, which come first, and all of them.
+fn compare_list<const D: usize>(list: &LaneList<D>, near: &[Vec<(u32, Vector<D>)>], all: &[Vec<(u32, Vector<D>)>]) {
+    for (a, (near, all)) in near.iter().zip(all).enumerate() {
+        let sorted = |candidates: &[usize]| {
+            let mut names: Vec<u32> = candidates.iter().map(|&b| b as u32).collect();
+            names.sort_unstable();
+            names
+        };
+        let names = |expected: &[(u32, Vector<D>)]| expected.iter().map(|pair| pair.0).collect::<Vec<_>>();
+        let found: Vec<usize> = list.of(a).collect();
+        assert_eq!(sorted(&found), names(all), "candidates of target {a}");
+        assert_eq!(sorted(&found[..near.len()]), names(near), "first candidates of target {a}");
+    }
+}
+
 fn check<const D: usize>(periods: [Option<f64>; D], which: Sources) {
     let kernel = Kernel::<D>::new(KernelShape::CubicSpline, 0.5);
     let reach = kernel.support();
@@ -91,12 +107,17 @@ fn check<const D: usize>(periods: [Option<f64>; D], which: Sources) {
     let targets = if which == Sources::Same { sources.clone() } else { set(120, 9.0) };
     let (mut grid, wrapped) = (Grid::new(), Periods::of(&domain));
     grid.sort(&sources, &domain, radius);
-    let mut pairs = Pairs::new();
-    pairs.search(&targets, &sources, which, &grid, &wrapped, radius);
-    pairs.measure(&targets, &sources, &wrapped, &kernel);
     let expected = by_force(&targets, &sources, which, &domain, reach);
-    let count = compare(&pairs, &expected, &kernel, &format!("{periods:?}"));
-    assert!(count > 100, "only {count} pairs along {periods:?}");
+    let mut list = LaneList::new();
+    list.search(&targets, &sources, which, &grid, &wrapped, reach, radius - reach);
+    compare_list(&list, &expected, &by_force(&targets, &sources, which, &domain, radius));
+    if which == Sources::Other {
+        let mut pairs = Pairs::new();
+        pairs.search(&targets, &sources, &grid, &wrapped, radius);
+        pairs.measure(&targets, &sources, &wrapped, &kernel);
+        let count = compare(&pairs, &expected, &kernel, &format!("{periods:?}"));
+        assert!(count > 100, "only {count} pairs along {periods:?}");
+    }
 }
 
 #[test]
@@ -115,12 +136,37 @@ fn periods_of_one_two_three_and_many_cells() {
     }
 }
 
-/// The pairs of a phase against brute force at its present positions.
+/// The pairs of a phase against brute force at its present positions, and the sums over them.
 fn check_phase(phase: &Phase<2>, domain: &Domain<2>, what: &str) {
-    let reach = phase.kernel.support();
+    let (reach, periods) = (phase.kernel.support(), Periods::of(domain));
+    let largest = phase.kernel.gradient_factor_at(0.0).abs();
     let of = |sources: &[Vector<2>], which| by_force(&phase.position, sources, which, domain, reach);
-    compare(&phase.free_pairs, &of(&phase.position, Sources::Same), &phase.kernel, what);
-    compare(&phase.wall_pairs, &of(&phase.wall, Sources::Other), &phase.kernel, what);
+    let (free, walls) = (of(&phase.position, Sources::Same), of(&phase.wall, Sources::Other));
+    for a in 0..phase.len() {
+        let mut sums = (0.0, 0.0);
+        // F of free pairs is kept in single precision
+        let found = [
+            (phase.free_pairs(a, &periods).collect::<Vec<_>>(), &free[a], 1e-7),
+            (phase.wall_pairs(a, &periods).collect::<Vec<_>>(), &walls[a], 1e-9),
+        ];
+        for (mut found, expected, tolerance) in found {
+            found.sort_by_key(|pair| pair.0);
+            let names: Vec<u32> = found.iter().map(|pair| pair.0 as u32).collect();
+            assert_eq!(names, expected.iter().map(|pair| pair.0).collect::<Vec<_>>(), "{what}: sources of target {a}");
+            for ((_, separation, weight), (_, expected)) in found.iter().zip(expected) {
+                assert!((separation - expected).norm() < 1e-13, "{what}");
+                let factor = phase.kernel.gradient_factor_at(expected.norm());
+                assert!((weight - factor).abs() < tolerance * largest, "{what}: {weight} for {factor}");
+                sums.0 += phase.kernel.value_at(expected.norm());
+                sums.1 -= factor * expected.norm_squared();
+            }
+        }
+        let lattice = (phase.lattice_volume, phase.lattice.concentration * 0.997);
+        let concentration = (sums.0 + phase.kernel.value_at(0.0)) * lattice.0 / lattice.1;
+        assert!((phase.concentration[a] - concentration).abs() < 1e-9, "{what}: concentration of {a}");
+        let moment = if concentration < 0.95 { phase.lattice.gradient } else { 0.5 * lattice.0 * sums.1 };
+        assert!((phase.moment[a] - moment).abs() < 1e-9, "{what}: moment of {a}");
+    }
 }
 
 fn check_all(simulation: &IncompressibleSimulation<2>, what: &str) {
@@ -140,7 +186,8 @@ fn check_all(simulation: &IncompressibleSimulation<2>, what: &str) {
 /// Measures all pairs, after a search if one is due.
 fn measure(simulation: &mut IncompressibleSimulation<2>) {
     let state = &mut simulation.state;
-    state.search.measure(&state.scene.domain, &mut state.phases, &mut state.exchange);
+    state.search.search_if_due(&state.scene.domain, &mut state.phases, &mut state.exchange);
+    step::measure(state);
 }
 
 /// Moves all particles by a field of displacements and puts them back into their periods.
@@ -190,7 +237,10 @@ fn no_pair_is_missed_when_a_drop_falls_onto_the_surface() {
         measure(&mut simulation);
         check_all(&simulation, &format!("step {step}"));
     }
-    assert!(simulation.state.phases.fluid.free_pairs.of(drop).len() > 3, "the drop has arrived");
+    assert!(
+        simulation.state.phases.fluid.free_pairs(drop, &simulation.state.search.periods).count() > 3,
+        "the drop has arrived"
+    );
 }
 
 #[test]
@@ -209,7 +259,7 @@ fn no_pair_is_missed_within_a_step_of_a_run_with_strong_shear() {
     for step in 0..60 {
         simulation.step().expect("a step");
         let searches = simulation.cost().searches;
-        simulation.state.phases.fluid.measure(&simulation.state.search.periods);
+        step::measure(&mut simulation.state);
         assert_eq!(simulation.cost().searches, searches, "measured from the candidates of the step");
         check_phase(&simulation.state.phases.fluid, &simulation.scene().domain, &format!("end of step {step}"));
     }

@@ -1,10 +1,11 @@
 //! G = −Dᵀ, and A + s D G symmetric and positive, on disordered particles above a wall and with a surface.
 
-use super::super::boundary::find_surface;
 use super::super::numerics::SurfaceTreatment;
+use super::super::passes::pair_rows::fill_rows;
 use super::super::projection::PressurePoisson;
 use super::super::simulation::IncompressibleSimulation;
 use super::super::state::State;
+use super::super::step;
 use super::{random, symmetric, water};
 use crate::vector::Vector;
 
@@ -19,11 +20,12 @@ fn prepare(closed: bool, eliminated: bool, stabilisation: f64) -> Prepared {
     scene.numerics.stabilisation = stabilisation;
     scene.numerics.surface = if eliminated { SurfaceTreatment::Eliminated } else { SurfaceTreatment::Completed };
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
-    let State { scene, phases, search, exchange, .. } = &mut simulation.state;
-    search.measure(&scene.domain, phases, exchange);
-    find_surface(&mut phases.fluid, &scene.numerics);
+    step::measure(&mut simulation.state);
+    let State { scene, phases, search, .. } = &mut simulation.state;
     let mut poisson = PressurePoisson::new();
-    poisson.assemble(&phases.fluid, &scene.numerics);
+    let rows = poisson.rows(&phases.fluid);
+    fill_rows(&mut phases.fluid, &search.periods, &scene.numerics, rows, None);
+    poisson.find_gauge(&phases.fluid, scene.numerics.surface);
     Prepared { simulation, poisson, eliminated }
 }
 

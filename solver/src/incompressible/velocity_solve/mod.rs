@@ -11,14 +11,24 @@ pub(super) use rows::VelocityRows;
 
 use super::divergence::{Failure, Quantity};
 use super::numerics::{MOST_ITERATIONS, ProjectionNumerics};
-use crate::linear::{ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, Single};
+use super::passes::pair_rows::FrictionRows;
+use super::phase::Phase;
+use crate::linear::{ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, Single, TwoRows};
 use crate::vector::Vector;
+
+/// Largest Δt Σ k over a row's own sum m + Δt Σ_w k `[-]` up to which the diagonal alone preconditions the velocities: a few
+/// iterations are then over before factors have been found.
+const MILD_FRICTION: f64 = 0.5;
 
 /// Rows of M + Δt K: the fluid's free particles first, then the sediment's.
 #[derive(Debug)]
 pub(crate) struct VelocitySystem<const D: usize> {
-    /// Δt k_ab `[kg]` of every pair.
-    pub(crate) couplings: LaneRows<Single>,
+    /// Δt k_ab `[kg]` of the fluid's viscous pairs.
+    couplings: LaneRows<Single>,
+    /// Σ_b of these in every row of the fluid `[kg]`.
+    coupled: Vec<f64>,
+    /// Δt k_ab `[kg]` of all other pairs, in rows of both phases: the sediment's friction, the drag.
+    pub(crate) beside: LaneRows<Single>,
     /// m_a + Δt Σ k `[kg]`.
     pub(crate) diagonal: Vec<f64>,
     /// m_a, and what walls and the fixed bed hold, Δt Σ_w k_aw `[kg]`: the rows' sums.
@@ -31,6 +41,7 @@ pub(crate) struct VelocitySystem<const D: usize> {
     pub(crate) velocity: Vec<Vector<D>>,
     /// u* − uⁿ of the last solve `[m/s]`.
     change: Vec<Vector<D>>,
+    inverse_diagonal: Vec<f64>,
     factors: IncompleteCholesky,
     solver: ConjugateGradient<Vector<D>>,
 }
@@ -39,12 +50,15 @@ impl<const D: usize> VelocitySystem<D> {
     pub(crate) fn new() -> Self {
         Self {
             couplings: LaneRows::new(),
+            coupled: Vec::new(),
+            beside: LaneRows::new(),
             diagonal: Vec::new(),
             of_constant: Vec::new(),
             inertia: Vec::new(),
             momentum: Vec::new(),
             velocity: Vec::new(),
             change: Vec::new(),
+            inverse_diagonal: Vec::new(),
             factors: IncompleteCholesky::default(),
             solver: ConjugateGradient::new(),
         }
@@ -57,6 +71,14 @@ impl<const D: usize> VelocitySystem<D> {
         }
         self.momentum.resize(rows, Vector::zeros());
         self.velocity.resize(rows, Vector::zeros());
+    }
+
+    /// The rows of the fluid's viscous pairs, to be filled.
+    pub(crate) fn fluid_rows(&mut self, fluid: &Phase<D>) -> FrictionRows<'_> {
+        let (count, list) = (fluid.len(), &fluid.free);
+        self.coupled.resize(count, 0.0);
+        let (couplings, width) = self.couplings.with_pattern((count, list.stride()), list.columns(), list.changes());
+        FrictionRows { couplings, width, coupled: &mut self.coupled }
     }
 
     /// u* − uⁿ of the last solve `[m/s]`, where the next one starts.
@@ -83,17 +105,26 @@ impl<const D: usize> VelocitySystem<D> {
     pub(crate) fn solve(&mut self, numerics: &ProjectionNumerics) -> Result<(), Failure> {
         let tolerance = numerics.velocity_tolerance;
         let criterion = Criterion { tolerance, most_iterations: MOST_ITERATIONS };
-        let (couplings, diagonal) = (&self.couplings, &self.diagonal);
-        self.factors.factorise(couplings.len(), couplings.stride(), &SolvedRows { couplings, diagonal });
+        let diagonal = &self.diagonal;
+        let couplings = TwoRows { first: &self.couplings, all: &self.beside };
         self.change.resize(self.velocity.len(), Vector::zeros());
         for (velocity, change) in self.velocity.iter_mut().zip(&mut self.change) {
             (*velocity, *change) = (*velocity + *change, *velocity);
         }
         let sums = Some(self.of_constant.as_slice());
-        let solved =
-            self.solver.solve(&mut self.velocity, &self.momentum, &self.factors, sums, criterion, |u, product| {
-                couplings.subtract_from_diagonal(diagonal, u, product);
-            });
+        let (velocity, momentum, solver) = (&mut self.velocity, &self.momentum, &mut self.solver);
+        let product =
+            |u: &[Vector<D>], product: &mut [Vector<D>]| couplings.subtract_from_diagonal(diagonal, u, product);
+        let stiffest = diagonal.iter().zip(&self.of_constant).fold(0.0_f64, |most, (all, own)| most.max(all / own));
+        let solved = if stiffest - 1.0 <= MILD_FRICTION {
+            self.inverse_diagonal.clear();
+            self.inverse_diagonal.extend(diagonal.iter().map(|diagonal| 1.0 / diagonal));
+            solver.solve(velocity, momentum, &mut self.inverse_diagonal, sums, criterion, product)
+        } else {
+            let longest = self.couplings.stride() + self.beside.stride();
+            self.factors.factorise(diagonal.len(), longest, &SolvedRows { couplings, diagonal });
+            solver.solve(velocity, momentum, &mut self.factors, sums, criterion, product)
+        };
         solved.map_err(|NotConverged { row, residual }| Failure {
             row,
             quantity: Quantity::VelocityResidual,
@@ -109,7 +140,7 @@ impl<const D: usize> VelocitySystem<D> {
 
 /// M + Δt K row by row.
 struct SolvedRows<'a> {
-    couplings: &'a LaneRows<Single>,
+    couplings: TwoRows<'a>,
     diagonal: &'a [f64],
 }
 
@@ -121,6 +152,8 @@ impl Rows for SolvedRows<'_> {
 
     #[inline(always)]
     fn off_diagonal(&self, row: usize) -> impl Iterator<Item = (u32, f64)> {
-        self.couplings.row(row).map(|(column, coefficient)| (column, -coefficient))
+        let of_fluid = (row < self.couplings.first.len()).then(|| self.couplings.first.row(row));
+        let all = of_fluid.into_iter().flatten().chain(self.couplings.all.row(row));
+        all.map(|(column, coefficient)| (column, -coefficient))
     }
 }

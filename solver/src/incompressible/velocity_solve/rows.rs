@@ -1,20 +1,19 @@
-//! The rows of M + Δt K: viscous pairs of each phase, the bed's friction, the drag.
+//! The rows of M + Δt K beside those of the fluid's viscous pairs: the sediment's friction, the bed's, the drag; and what
+//! all rows begin with.
 
 use super::super::boundary;
 use super::super::columns::drag::ColumnDrag;
-use super::super::neighbours::Pair;
+use super::super::neighbours::Periods;
 use super::super::passes::drag_exchange::DragExchange;
 use super::super::passes::viscosities::Viscosities;
 use super::super::phase::{Phase, Phases};
-use super::super::scene::{IncompressibleScene, Sediment, Turbulence};
-use super::super::stratification::Stratification;
+use super::super::scene::{IncompressibleScene, Sediment};
 use super::super::terms::drag_pair;
 use super::super::terms::viscous_pair;
 use super::VelocitySystem;
 use super::pair_law::{self, End};
 use crate::lanes::LANES;
 use crate::linear::{Row as Links, Single, single};
-use crate::material::turbulence::eddy_viscosity;
 use crate::vector::Vector;
 use rayon::prelude::*;
 
@@ -47,6 +46,7 @@ pub(crate) struct VelocityRows<'a, const D: usize> {
     pub(crate) scene: &'a IncompressibleScene<D>,
     pub(crate) phases: &'a Phases<D>,
     pub(crate) exchange: &'a DragExchange<D>,
+    pub(crate) periods: &'a Periods<D>,
     pub(crate) viscosities: &'a Viscosities,
     /// What the fluid exchanges with columns of grains, if there are any.
     pub(crate) columns: Option<&'a ColumnDrag>,
@@ -68,11 +68,19 @@ impl<const D: usize> VelocityRows<'_, D> {
     pub(crate) fn assemble(&self, system: &mut VelocitySystem<D>) {
         let Phases { fluid, sediment } = self.phases;
         let rows = fluid.len() + sediment.as_ref().map_or(0, Phase::len);
-        let fluid_stride = fluid.free_pairs.stride() + self.exchange.of_fluid.stride();
-        let of_sediment = |s: &Phase<D>| s.free_pairs.stride() + self.exchange.of_sediment.stride();
-        let stride = fluid_stride.max(sediment.as_ref().map_or(0, of_sediment));
+        let of_sediment = |s: &Phase<D>| s.free.stride() + self.exchange.of_sediment.stride();
+        let stride = self.exchange.of_fluid.stride().max(sediment.as_ref().map_or(0, of_sediment));
         system.resize(rows);
-        let VelocitySystem { couplings, diagonal, of_constant, inertia, momentum, velocity, .. } = system;
+        let VelocitySystem {
+            coupled: of_fluid,
+            beside: couplings,
+            diagonal,
+            of_constant,
+            inertia,
+            momentum,
+            velocity,
+            ..
+        } = system;
         let beside = (
             diagonal.par_chunks_mut(LANES),
             of_constant.par_chunks_mut(LANES),
@@ -90,7 +98,7 @@ impl<const D: usize> VelocityRows<'_, D> {
                 });
                 (inertia[lane], velocity[lane]) = (begin.inertia, begin.velocity);
                 sum[lane] = inertia[lane] + held;
-                diagonal[lane] = sum[lane] + coupled;
+                diagonal[lane] = sum[lane] + coupled + of_fluid.get(first + lane).copied().unwrap_or(0.0);
                 momentum[lane] = (velocity[lane] + begin.gravity * self.time_step) * inertia[lane];
                 momentum[lane][0] += begin.push * self.time_step;
             }
@@ -117,23 +125,11 @@ impl<const D: usize> VelocityRows<'_, D> {
 
     fn fluid_row(&self, a: usize, row: &mut Row<'_, '_>) {
         let (fluid, viscosity) = (&self.phases.fluid, &self.viscosities.fluid);
-        let stratified = self.scene.fluid.turbulence == Turbulence::Stratified;
-        let layer = self.scene.solid_fraction.stratification().filter(|_| stratified);
-        for pair in fluid.free_pairs.of(a) {
-            let b = pair.source as usize;
-            let volumes = (fluid.volume[a], fluid.volume[b]);
-            let moments = fluid.moment[a] + fluid.moment[b];
-            let both = match layer {
-                Some(layer) => 2.0 * self.middle_viscosity(layer, a, pair),
-                None => viscosity[a] + viscosity[b],
-            };
-            row.couple(b, viscous_pair::coefficient(self.time_step, volumes, moments, pair.gradient, both));
-        }
         let Self { scene, time_step, .. } = *self;
         if let Some(drag) = self.columns {
             row.hold(time_step * drag.hold[a]);
         }
-        row.hold(boundary::friction(scene.fluid.bed, fluid, a, viscosity[a], &scene.numerics, time_step));
+        row.hold(boundary::friction(scene.fluid.bed, fluid, a, viscosity[a], time_step));
         let (Some(sediment), Some(material)) = (&self.phases.sediment, &scene.sediment) else { return };
         for pair in self.exchange.of_fluid.of(a) {
             let b = pair.source as usize;
@@ -149,41 +145,27 @@ impl<const D: usize> VelocityRows<'_, D> {
         }
     }
 
-    /// η `[Pa·s]` of a fluid pair in the middle between its particles, at the mean of their rates: the mixing length grows by
-    /// more than itself within a spacing, and its square as a mean of both ends would be far too large.
-    #[inline]
-    fn middle_viscosity(&self, layer: &Stratification, a: usize, pair: &Pair<D>) -> f64 {
-        let Self { scene, phases, viscosities, .. } = *self;
-        let rate = 0.5 * (viscosities.fluid_rate[a] + viscosities.fluid_rate[pair.source as usize]);
-        let stratum = layer.at(&(phases.fluid.position[a] - pair.separation * 0.5));
-        let eddy = eddy_viscosity(stratum.mixing_length, rate);
-        (1.0 - stratum.solid_fraction) * scene.fluid.density * (scene.fluid.kinematic_viscosity + eddy)
-    }
-
     fn sediment_row(&self, a: usize, sediment: &Phase<D>, material: &Sediment<D>, row: &mut Row<'_, '_>) {
         let (fluid, viscosities) = (&self.phases.fluid, self.viscosities);
         let end = |b: usize| End { load: viscosities.load[b], viscosity: viscosities.sediment[b] };
-        for pair in sediment.free_pairs.of(a) {
-            let b = pair.source as usize;
-            let volumes = (sediment.volume[a], sediment.volume[b]);
+        let volumes = (sediment.lattice_volume, sediment.lattice_volume);
+        for (b, separation, gradient) in sediment.free_pairs(a, self.periods) {
             let moments = sediment.moment[a] + sediment.moment[b];
-            let difference = sediment.velocity[a] - sediment.velocity[b];
-            let rate = (sediment.sliding_rate, difference);
-            let both = self.pair_viscosity(material, (end(a), end(b)), rate, pair) + self.added(a, sediment, pair);
-            row.couple(
-                fluid.len() + b,
-                viscous_pair::coefficient(self.time_step, volumes, moments, pair.gradient, both),
-            );
+            let rate = (sediment.sliding_rate, sediment.velocity[a] - sediment.velocity[b]);
+            let both = self.pair_viscosity(material, (end(a), end(b)), rate, &separation)
+                + self.added(&sediment.position[a], &separation);
+            let coefficient = viscous_pair::coefficient(self.time_step, volumes, moments, gradient, both);
+            row.couple(fluid.len() + b, coefficient);
         }
         let layer = self.scene.solid_fraction.stratification();
-        for pair in sediment.wall_pairs.of(a) {
-            let volumes = (sediment.volume[a], sediment.lattice_volume);
-            let load = material.load.at(&sediment.wall[pair.source as usize], layer);
+        for (b, separation, gradient) in sediment.wall_pairs(a, self.periods) {
+            let load = material.load.at(&sediment.wall[b], layer);
             let ends = (end(a), End { load, viscosity: viscosities.sediment[a] });
             let rate = (sediment.sliding_rate, sediment.velocity[a]);
-            let both = self.pair_viscosity(material, ends, rate, pair) + self.added(a, sediment, pair);
+            let both =
+                self.pair_viscosity(material, ends, rate, &separation) + self.added(&sediment.position[a], &separation);
             let moments = 2.0 * sediment.moment[a];
-            row.hold(viscous_pair::coefficient(self.time_step, volumes, moments, pair.gradient, both));
+            row.hold(viscous_pair::coefficient(self.time_step, volumes, moments, gradient, both));
         }
         for pair in self.exchange.of_sediment.of(a) {
             let b = pair.source as usize;
@@ -195,10 +177,10 @@ impl<const D: usize> VelocityRows<'_, D> {
 
     /// Twice the viscosity `[Pa·s]` that the water between the grains of a pair adds to their friction, in the middle.
     #[inline]
-    fn added(&self, a: usize, sediment: &Phase<D>, pair: &Pair<D>) -> f64 {
+    fn added(&self, position: &Vector<D>, separation: &Vector<D>) -> f64 {
         let fluid = &self.scene.fluid;
         self.scene.solid_fraction.stratification().map_or(0.0, |layer| {
-            let stratum = layer.at(&(sediment.position[a] - pair.separation * 0.5));
+            let stratum = layer.at(&(position - separation * 0.5));
             2.0 * (1.0 - stratum.solid_fraction) * fluid.density * fluid.kinematic_viscosity * stratum.added_viscosity
         })
     }
@@ -206,9 +188,15 @@ impl<const D: usize> VelocityRows<'_, D> {
     /// η_a + η_b `[Pa·s]` of a sediment particle with another or with a wall, at the rate of sliding rows over that of pairs
     /// `[-]` and a difference of velocities `[m/s]`.
     #[inline]
-    fn pair_viscosity(&self, material: &Sediment<D>, ends: (End, End), rate: (f64, Vector<D>), pair: &Pair<D>) -> f64 {
+    fn pair_viscosity(
+        &self,
+        material: &Sediment<D>,
+        ends: (End, End),
+        rate: (f64, Vector<D>),
+        separation: &Vector<D>,
+    ) -> f64 {
         let (sliding_rate, difference) = rate;
-        let own_rate = || (difference.norm_squared() / pair.separation.norm_squared()).sqrt();
+        let own_rate = || (difference.norm_squared() / separation.norm_squared()).sqrt();
         pair_law::viscosities::<D>(&material.law, self.scene.numerics.pair_law, ends, sliding_rate, own_rate)
     }
 }

@@ -23,13 +23,13 @@ pub(in crate::incompressible) mod tests;
 pub(crate) use step::Flux;
 
 use super::correction::Correction;
-use super::gauge::Gauge;
-use super::pressure_poisson::PressurePoisson;
+use super::pressure_poisson::{LATTICE_ROWS, PressurePoisson};
+use crate::domain::Domain;
 use crate::incompressible::neighbours::LEAST_TASK;
 use crate::incompressible::numerics::{MOST_ITERATIONS, ProjectionNumerics};
 use crate::incompressible::passes::drag_exchange::DragExchange;
 use crate::incompressible::phase::Phase;
-use crate::linear::{ConjugateGradient, Criterion, NotConverged};
+use crate::linear::{ConjugateGradient, Criterion, Lattices, NotConverged};
 use crate::vector::Vector;
 use rayon::prelude::*;
 
@@ -62,6 +62,7 @@ pub(crate) struct Mixture<const D: usize> {
     push: Vec<Vector<D>>,
     /// Uniform pressure gradient of the last step `[Pa/m]`.
     pub(crate) mean_gradient: Vector<D>,
+    lattices: Lattices<D>,
     solver: ConjugateGradient<f64>,
 }
 
@@ -94,6 +95,7 @@ impl<const D: usize> Mixture<D> {
             deviation: Vec::new(),
             push: Vec::new(),
             mean_gradient: Vector::zeros(),
+            lattices: Lattices::new(),
             solver: ConjugateGradient::new(),
         }
     }
@@ -138,19 +140,13 @@ impl<const D: usize> Mixture<D> {
         let Self { cross, fluid_mobility, sediment_mobility, mobility, .. } = self;
         (&mut self.inverse_diagonal, &mut self.held).into_par_iter().enumerate().with_min_len(LEAST_TASK).for_each(
             |(a, (inverse, held))| {
-                let (mut total, mut compact, mut wide) = (0.0, 0.0, 0.0);
+                let (mut compact, mut wide) = (0.0, 0.0);
                 for link in operators.poisson.links(a) {
                     let b = link.source as usize;
-                    total += link.laplacian;
                     compact += 0.5 * link.laplacian * (mobility[a] + mobility[b]);
                     wide += voidage[a] * voidage[a] * link.gradient.norm_squared() * fluid_mobility[b];
                 }
-                // rounding is no surface
-                *held = if operators.poisson.gauge() == Gauge::Surface {
-                    operators.poisson.diagonal(a) - total
-                } else {
-                    0.0
-                };
+                *held = operators.poisson.held(a);
                 let own = operators.poisson.own(a) * voidage[a] + cross[a];
                 wide += own.norm_squared() * fluid_mobility[a];
                 for (j, gradient) in operators.links(a, volumes) {
@@ -209,7 +205,7 @@ impl<const D: usize> Mixture<D> {
         &mut self,
         operators: &Operators<'_, D>,
         fluid: &mut Phase<D>,
-        numerics: &ProjectionNumerics,
+        (numerics, domain): (&ProjectionNumerics, &Domain<D>),
         predicted: (&[Vector<D>], &[Vector<D>]),
         time_step: f64,
     ) -> Result<(), NotConverged> {
@@ -231,12 +227,23 @@ impl<const D: usize> Mixture<D> {
         let criterion = Criterion { tolerance: numerics.pressure_tolerance, most_iterations: MOST_ITERATIONS };
         let mut solver = std::mem::replace(&mut self.solver, ConjugateGradient::new());
         let mut deviation = std::mem::take(&mut self.deviation);
-        let inverse = std::mem::take(&mut self.inverse_diagonal);
-        let outcome = solver.solve(&mut fluid.pressure, &right_side, &inverse, None, criterion, |p, product| {
+        let mut inverse = std::mem::take(&mut self.inverse_diagonal);
+        let mut lattices = std::mem::replace(&mut self.lattices, Lattices::new());
+        let many = inverse.len() >= LATTICE_ROWS;
+        if many {
+            let row = |a: usize| (self.mobility[a], self.held[a] * self.mobility[a]);
+            lattices.lay(&fluid.position, domain, fluid.spacing, inverse.iter().copied(), row);
+        }
+        let operator = |p: &[f64], product: &mut [f64]| {
             gauge.apply(p, product, &mut deviation, |p, product| self.apply(operators, p, product));
-        });
+        };
+        let outcome = if many {
+            solver.solve(&mut fluid.pressure, &right_side, &mut lattices, None, criterion, operator)
+        } else {
+            solver.solve(&mut fluid.pressure, &right_side, &mut inverse, None, criterion, operator)
+        };
         gauge.take_mean_out(&mut fluid.pressure);
-        (self.solver, self.deviation) = (solver, deviation);
+        (self.solver, self.deviation, self.lattices) = (solver, deviation, lattices);
         (self.inverse_diagonal, self.right_side) = (inverse, right_side);
         outcome?;
         self.find_changes(operators, &fluid.pressure);

@@ -58,7 +58,7 @@ impl<const D: usize> Mixture<D> {
             *push = *velocity;
         }
         self.take_mean_flux_out(flux, fluid, sediment, predicted);
-        poisson.assemble(fluid, numerics);
+        poisson.find_gauge(fluid, numerics.surface);
         let operators = Operators {
             poisson,
             exchange,
@@ -68,7 +68,7 @@ impl<const D: usize> Mixture<D> {
             stabilisation: numerics.stabilisation,
         };
         self.assemble(&operators, fluid, sediment);
-        self.solve(&operators, fluid, numerics, predicted.split_at(fluid.len()), time_step)
+        self.solve(&operators, fluid, (numerics, &scene.domain), predicted.split_at(fluid.len()), time_step)
             .map_err(|not_converged| residual(not_converged, numerics))?;
         let changes = self.fluid_change.iter().chain(&self.sediment_change);
         for (velocity, change) in predicted.iter_mut().zip(changes) {

@@ -1,0 +1,312 @@
+//! The second pass over the pairs of a phase: rows of its pressure Poisson equation and of its viscous friction, both from
+//! the F that the first pass has measured, by one division a pair.
+//!
+//! Coefficients are rounded to single precision once, and both rows of a pair get the same number; sums over a row are
+//! taken of the rounded numbers, so that they agree with it. The operators are those of `projection/pressure_poisson`.
+
+use super::super::boundary::AT_SURFACE;
+use super::super::neighbours::{LEAST_GROUPS, Periods};
+use super::super::numerics::{ProjectionNumerics, SurfaceTreatment};
+use super::super::phase::{Phase, records};
+use super::super::projection::LinkChunk;
+use super::super::scene::height_axis;
+use super::super::stratification::Stratification;
+use super::super::terms::viscous_pair;
+use crate::kernel::Kernel;
+use crate::lanes::algebra::dot;
+use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, Real, SingleLanes, gather};
+use crate::linear::Single;
+use crate::material::turbulence::eddy_viscosity;
+use crate::vector::Vector;
+
+/// Fields of a record behind the position: the moment M `[-]` and the viscosity `[Pa·s]`.
+const BEHIND: usize = 2;
+
+/// What the viscous rows of a phase are made of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Friction<'a> {
+    /// Dynamic viscosity of every particle `[Pa·s]`.
+    pub(crate) viscosity: &'a [f64],
+    /// The law of a pair's middle, where it is not the mean of both.
+    pub(crate) middle: Option<MiddleViscosity<'a>>,
+    /// Δt `[s]`.
+    pub(crate) time_step: f64,
+}
+
+/// η of a fluid pair in the middle between its particles, at the mean of their rates: the mixing length grows by more than
+/// itself within a spacing, and its square as a mean of both ends would be far too large.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MiddleViscosity<'a> {
+    pub(crate) layer: &'a Stratification,
+    /// Shear rate of every particle `[1/s]`.
+    pub(crate) rate: &'a [f64],
+    /// Density `[kg/m³]` and kinematic viscosity `[m²/s]`.
+    pub(crate) density: f64,
+    pub(crate) kinematic_viscosity: f64,
+}
+
+/// Rows of the pressure: links, their chunks in every group, Σ_b g_ab with the walls', the diagonal, and what it has beyond its
+/// links.
+pub(crate) struct PressureRows<'a, const D: usize> {
+    pub(crate) links: &'a mut [LinkChunk<D>],
+    pub(crate) width: &'a mut [u32],
+    pub(crate) own: &'a mut [Vector<D>],
+    pub(crate) diagonal: &'a mut [f64],
+    pub(crate) held: &'a mut [f64],
+}
+
+/// Rows of the friction: Δt k_ab `[kg]`, their chunks in every group, and Σ_b Δt k_ab `[kg]`.
+pub(crate) struct FrictionRows<'a> {
+    pub(crate) couplings: &'a mut [Single],
+    pub(crate) width: &'a mut [u32],
+    pub(crate) coupled: &'a mut [f64],
+}
+
+/// Fills the rows of a phase's pressure and, of a fluid, those of its friction; finds how near the surface particles are.
+pub(crate) fn fill_rows<const D: usize>(
+    phase: &mut Phase<D>,
+    periods: &Periods<D>,
+    numerics: &ProjectionNumerics,
+    pressure: PressureRows<'_, D>,
+    friction: Option<(Friction<'_>, FrictionRows<'_>)>,
+) {
+    let mut nearness = std::mem::take(&mut phase.nearness);
+    let mut records = std::mem::take(&mut phase.records);
+    let (of_friction, friction) = friction.unzip();
+    let viscosity = |a: usize| of_friction.map_or(0.0, |friction| friction.viscosity[a]);
+    let moment = &phase.moment;
+    records::pack(&mut records, &phase.position, |a| -> [f64; BEHIND] { [moment[a], viscosity(a)] });
+    let pairs = Pairs {
+        phase,
+        records: &records,
+        periods,
+        kernel: &phase.kernel,
+        friction: of_friction,
+        eliminated: numerics.surface == SurfaceTreatment::Eliminated,
+        surface_gain: numerics.surface_gain,
+    };
+    let stride = phase.free.stride();
+    fill(&pairs, Out { first: 0, stride, nearness: &mut nearness, pressure, friction });
+    (phase.nearness, phase.records) = (nearness, records);
+}
+
+/// Halves the groups until a task is small enough.
+fn fill<const D: usize>(pairs: &Pairs<'_, D>, out: Out<'_, D>) {
+    let groups = out.pressure.width.len();
+    if groups > 2 * LEAST_GROUPS {
+        let (one, other) = out.split(groups / 2);
+        rayon::join(|| fill(pairs, one), || fill(pairs, other));
+    } else {
+        pairs.phase.free.set().run(Task { pairs, out });
+    }
+}
+
+/// What the pass reads.
+struct Pairs<'a, const D: usize> {
+    phase: &'a Phase<D>,
+    records: &'a [[f64; 4]],
+    periods: &'a Periods<D>,
+    kernel: &'a Kernel<D>,
+    friction: Option<Friction<'a>>,
+    eliminated: bool,
+    surface_gain: f64,
+}
+
+/// What it writes, from a first group on.
+struct Out<'a, const D: usize> {
+    first: usize,
+    stride: usize,
+    nearness: &'a mut [f64],
+    pressure: PressureRows<'a, D>,
+    friction: Option<FrictionRows<'a>>,
+}
+
+impl<const D: usize> Out<'_, D> {
+    fn split(self, groups: usize) -> (Self, Self) {
+        let Self { first, stride, .. } = self;
+        let (rows, chunks) = (groups * LANES, groups * stride);
+        let (nearness, other_nearness) = self.nearness.split_at_mut(rows);
+        let (links, other_links) = self.pressure.links.split_at_mut(chunks);
+        let (width, other_width) = self.pressure.width.split_at_mut(groups);
+        let (own, other_own) = self.pressure.own.split_at_mut(rows);
+        let (diagonal, other_diagonal) = self.pressure.diagonal.split_at_mut(rows);
+        let (held, other_held) = self.pressure.held.split_at_mut(rows);
+        let (friction, other_friction) = self
+            .friction
+            .map(|friction| {
+                let (couplings, other_couplings) = friction.couplings.split_at_mut(chunks);
+                let (width, other_width) = friction.width.split_at_mut(groups);
+                let (coupled, other_coupled) = friction.coupled.split_at_mut(rows);
+                let other = FrictionRows { couplings: other_couplings, width: other_width, coupled: other_coupled };
+                (FrictionRows { couplings, width, coupled }, other)
+            })
+            .unzip();
+        let pressure = PressureRows { links, width, own, diagonal, held };
+        let other = PressureRows {
+            links: other_links,
+            width: other_width,
+            own: other_own,
+            diagonal: other_diagonal,
+            held: other_held,
+        };
+        (
+            Self { first, stride, nearness, pressure, friction },
+            Self { first: first + groups, stride, nearness: other_nearness, pressure: other, friction: other_friction },
+        )
+    }
+}
+
+struct Task<'a, 'b, const D: usize> {
+    pairs: &'a Pairs<'b, D>,
+    out: Out<'a, D>,
+}
+
+impl<const D: usize> LanePass for Task<'_, '_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(mut self) {
+        for group in 0..self.out.pressure.width.len() {
+            self.group::<V>(group);
+        }
+    }
+}
+
+/// What the rows of a group sum to.
+struct RowSums<V, const D: usize> {
+    gradient: [V; D],
+    laplacian: V,
+    coupled: V,
+    /// Σ W times the deficit, and the largest deficit of a neighbour.
+    near: V,
+    largest: V,
+}
+
+impl<const D: usize> Task<'_, '_, D> {
+    #[inline(always)]
+    fn group<V: Lanes>(&mut self, group: usize) {
+        let pairs = self.pairs;
+        let phase = pairs.phase;
+        let volume = phase.lattice_volume;
+        let global = self.out.first + group;
+        let zero = V::splat(0.0);
+        let own = records::of_group::<V, D>(pairs.records, global, phase.len());
+        let (gradient_scale, laplacian_scale) = (V::splat(2.0 * volume), V::Single::splat(-4.0 * volume));
+        let active = phase.active[global] as usize;
+        let weights = &phase.weight[global * self.out.stride..][..active];
+        let links = &mut self.out.pressure.links[group * self.out.stride..][..active];
+        let own_deficit =
+            gather::<V>(&phase.deficit, &LaneIndices::new(&records::group_indices(global, phase.len()), phase.len()));
+        let near = pairs.kernel.value(zero) * own_deficit;
+        let mut sums = RowSums { gradient: [zero; D], laplacian: zero, coupled: zero, near, largest: zero };
+        for (k, chunk) in phase.free.first_of(global, active).enumerate() {
+            let other = records::load::<V, D>(pairs.records, &chunk);
+            let mut separation = [zero; D];
+            for axis in 0..D {
+                separation[axis] = own[axis] - other[axis];
+            }
+            let separation = pairs.periods.shortest(separation);
+            let measured = V::Single::load(&weights[k]);
+            let weight = measured / (own[D] + other[D]).narrow();
+            for axis in 0..D {
+                let gradient = (separation[axis] * gradient_scale).narrow() * weight;
+                links[k].gradient[axis] = gradient.to_array();
+                sums.gradient[axis] = sums.gradient[axis] + V::widen(gradient);
+            }
+            let laplacian = laplacian_scale * weight;
+            links[k].laplacian = laplacian.to_array();
+            sums.laplacian = sums.laplacian + V::widen(laplacian);
+            let measured = V::widen(measured);
+            if let (Some(friction), Some(rows)) = (&pairs.friction, &mut self.out.friction) {
+                let both = match &friction.middle {
+                    None => own[D + 1] + other[D + 1],
+                    Some(middle) => middle.of_pairs::<V, D>(global, &own, &separation, measured, &chunk),
+                };
+                let coupling =
+                    viscous_pair::of_weight(friction.time_step, (volume, volume), V::widen(weight), both).narrow();
+                rows.couplings[group * self.out.stride + k] = Single::of(coupling.to_array());
+                sums.coupled = sums.coupled + V::widen(coupling);
+            }
+            let deficit = gather::<V>(&phase.deficit, &chunk).where_less(measured, zero);
+            if zero.less_mask(deficit) != 0 {
+                sums.near = sums.near + pairs.kernel.value(dot(&separation, &separation)) * deficit;
+                sums.largest = sums.largest.max(deficit);
+            }
+        }
+        self.out.pressure.width[group] = active as u32;
+        if let Some(rows) = &mut self.out.friction {
+            rows.width[group] = active as u32;
+        }
+        self.store(group, &sums);
+    }
+
+    #[inline(always)]
+    fn store<V: Lanes>(&mut self, group: usize, sums: &RowSums<V, D>) {
+        let phase = self.pairs.phase;
+        let volume = phase.lattice_volume;
+        let near = (V::splat(self.pairs.surface_gain * volume) * sums.near).min(V::splat(1.0)).to_array();
+        let (laplacian, coupled, largest) =
+            (sums.laplacian.to_array(), sums.coupled.to_array(), sums.largest.to_array());
+        let mut gradient = [[0.0; LANES]; D];
+        for axis in 0..D {
+            gradient[axis] = sums.gradient[axis].to_array();
+        }
+        let first = group * LANES;
+        let rows = &mut self.out.pressure;
+        for lane in 0..LANES.min(rows.diagonal.len() - first) {
+            let (slot, a) = (first + lane, self.out.first * LANES + first + lane);
+            let walls = phase.wall_sums[a];
+            for axis in 0..D {
+                rows.own[slot][axis] = gradient[axis][lane];
+            }
+            rows.own[slot][height_axis(D)] += 2.0 * volume / phase.moment[a] * walls.arm;
+            // what is missing counts as mirrored neighbours with −P_b: from half a spacing below the surface twice
+            // P_a away, from one and a half 4/3
+            let complete = 2.0 * volume * (phase.lattice.diagonal + walls.weight);
+            let missing = (complete - laplacian[lane]).max(0.0);
+            let mirror = if self.pairs.eliminated {
+                f64::from(largest[lane] > AT_SURFACE)
+            } else {
+                near[lane] * (4.0 / 3.0 + 2.0 / 3.0 * phase.deficit[a])
+            };
+            // what is no unknown has no diagonal
+            let known = self.pairs.eliminated && phase.at_surface[a];
+            rows.held[slot] = if known { 0.0 } else { mirror * missing };
+            rows.diagonal[slot] = if known { 0.0 } else { laplacian[lane] + mirror * missing };
+            self.out.nearness[slot] = near[lane];
+            if let Some(rows) = &mut self.out.friction {
+                rows.coupled[slot] = coupled[lane];
+            }
+        }
+    }
+}
+
+impl MiddleViscosity<'_> {
+    /// η_a + η_b `[Pa·s]` of eight pairs, those within reach.
+    #[inline(always)]
+    fn of_pairs<V: Lanes, const D: usize>(
+        &self,
+        group: usize,
+        own: &[V; records::FIELDS],
+        separation: &[V; D],
+        measured: V,
+        partners: &LaneIndices<'_>,
+    ) -> V {
+        let own_indices = records::group_indices(group, self.rate.len());
+        let rate = gather::<V>(self.rate, &LaneIndices::new(&own_indices, self.rate.len()));
+        let rate = (V::splat(0.5) * (rate + gather::<V>(self.rate, partners))).to_array();
+        let mut middle = [[0.0; LANES]; D];
+        for axis in 0..D {
+            middle[axis] = (own[axis] - V::splat(0.5) * separation[axis]).to_array();
+        }
+        let near = measured.less_mask(V::splat(0.0));
+        let mut viscosity = [0.0; LANES];
+        for lane in 0..LANES {
+            if near >> lane & 1 == 1 {
+                let place = Vector::<D>::from_fn(|axis, _| middle[axis][lane]);
+                let (solid_fraction, mixing_length) = self.layer.mixing_at(&place);
+                let eddy = eddy_viscosity(mixing_length, rate[lane]);
+                viscosity[lane] = 2.0 * (1.0 - solid_fraction) * self.density * (self.kinematic_viscosity + eddy);
+            }
+        }
+        V::load(&viscosity)
+    }
+}

@@ -1,0 +1,317 @@
+//! The first pass over the pairs of a phase: what lies around every particle.
+//!
+//! It measures F of every pair, which the rows of both systems are made of, and sums concentration, moment, the walls and
+//! the corrected velocity gradient.
+
+use super::super::boundary::{AT_SURFACE, Surface, WallMirror};
+use super::super::neighbours::{LEAST_GROUPS, LaneList, Periods};
+use super::super::numerics::ProjectionNumerics;
+use super::super::phase::{Phase, WallSums, records};
+use super::super::scene::{Bed, height_axis};
+use crate::kernel::Kernel;
+use crate::lanes::algebra::dot;
+use crate::lanes::{LANES, LanePass, Lanes, Real, SingleLanes};
+use crate::vector::Tensor;
+
+/// Whether velocity gradients are asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Gradients {
+    /// For a law that reads the shear rate.
+    Find,
+    /// No law does.
+    Skip,
+}
+
+/// Measures the pairs of a phase at its present positions.
+pub(crate) fn find_surroundings<const D: usize>(
+    phase: &mut Phase<D>,
+    periods: &Periods<D>,
+    numerics: &ProjectionNumerics,
+    bed: Bed,
+    gradients: Gradients,
+) {
+    let surface = Surface::of(phase, numerics);
+    let mirror = WallMirror::of(bed, phase.spacing, numerics);
+    let Phase { position, velocity, wall, records, wall_records, free, weight, active, .. } = phase;
+    records::pack(records, position, |a| <[f64; D]>::from(velocity[a]));
+    // walls stand still, but a saved phase comes without their records
+    records::pack(wall_records, wall, |_| [0.0; D]);
+    let groups = position.len().div_ceil(LANES);
+    weight.resize(groups * free.stride(), [0.0; LANES]);
+    active.resize(groups, 0);
+    let around = Around {
+        free,
+        walls: &phase.walls,
+        records,
+        wall_records,
+        periods,
+        kernel: &phase.kernel,
+        volume: phase.lattice_volume,
+        lattice_gradient: phase.lattice.gradient,
+        largest_correction: numerics.largest_correction,
+        surface,
+        mirror,
+        gradients,
+    };
+    let out = Sums {
+        first: 0,
+        stride: free.stride(),
+        weight,
+        active,
+        concentration: &mut phase.concentration,
+        at_surface: &mut phase.at_surface,
+        deficit: &mut phase.deficit,
+        moment: &mut phase.moment,
+        walls: &mut phase.wall_sums,
+        velocity_gradient: &mut phase.velocity_gradient,
+    };
+    find(&around, out);
+}
+
+/// Halves the groups until a task is small enough.
+fn find<const D: usize>(around: &Around<'_, D>, out: Sums<'_, D>) {
+    let groups = out.active.len();
+    if groups > 2 * LEAST_GROUPS {
+        let (one, other) = out.split(groups / 2);
+        rayon::join(|| find(around, one), || find(around, other));
+    } else {
+        around.free.set().run(Task { around, out });
+    }
+}
+
+/// What the pass reads.
+struct Around<'a, const D: usize> {
+    free: &'a LaneList<D>,
+    walls: &'a LaneList<D>,
+    records: &'a [[f64; 4]],
+    wall_records: &'a [[f64; 4]],
+    periods: &'a Periods<D>,
+    kernel: &'a Kernel<D>,
+    volume: f64,
+    lattice_gradient: f64,
+    largest_correction: f64,
+    surface: Surface,
+    mirror: WallMirror,
+    gradients: Gradients,
+}
+
+impl<const D: usize> Around<'_, D> {
+    #[inline(always)]
+    fn reach_squared<V: Lanes>(&self) -> V {
+        V::splat(self.kernel.support() * self.kernel.support())
+    }
+
+    /// W, and F as it is stored and as it is summed, of the k-th candidates of eight particles at a squared distance `[m²]`.
+    /// Both are of single precision, and the same seen from both sides of a pair.
+    #[inline(always)]
+    fn measure<V: Lanes>(&self, k: usize, candidates: V, square: V) -> (V, V::Single, V) {
+        // padding stands behind the candidates of a lane
+        let (place, candidates) = (V::Single::splat(k as f64), candidates.narrow());
+        let square = square.narrow();
+        let value = self.kernel.value(square).where_less(place, candidates);
+        let weight = self.kernel.gradient_weight(square, V::Single::splat(1.0)).where_less(place, candidates);
+        (V::widen(value), weight, V::widen(weight))
+    }
+}
+
+/// What it writes, from a first group on.
+struct Sums<'a, const D: usize> {
+    first: usize,
+    stride: usize,
+    weight: &'a mut [[f32; LANES]],
+    active: &'a mut [u32],
+    concentration: &'a mut [f64],
+    at_surface: &'a mut [bool],
+    deficit: &'a mut [f64],
+    moment: &'a mut [f64],
+    walls: &'a mut [WallSums],
+    velocity_gradient: &'a mut [Tensor<D>],
+}
+
+impl<const D: usize> Sums<'_, D> {
+    fn split(self, groups: usize) -> (Self, Self) {
+        let Self { first, stride, .. } = self;
+        let rows = groups * LANES;
+        let (weight, other_weight) = self.weight.split_at_mut(groups * stride);
+        let (active, other_active) = self.active.split_at_mut(groups);
+        let (concentration, other_concentration) = self.concentration.split_at_mut(rows);
+        let (at_surface, other_at_surface) = self.at_surface.split_at_mut(rows);
+        let (deficit, other_deficit) = self.deficit.split_at_mut(rows);
+        let (moment, other_moment) = self.moment.split_at_mut(rows);
+        let (walls, other_walls) = self.walls.split_at_mut(rows);
+        let (velocity_gradient, other_gradient) = self.velocity_gradient.split_at_mut(rows);
+        let one = Self {
+            first,
+            stride,
+            weight,
+            active,
+            concentration,
+            at_surface,
+            deficit,
+            moment,
+            walls,
+            velocity_gradient,
+        };
+        let other = Self {
+            first: first + groups,
+            stride,
+            weight: other_weight,
+            active: other_active,
+            concentration: other_concentration,
+            at_surface: other_at_surface,
+            deficit: other_deficit,
+            moment: other_moment,
+            walls: other_walls,
+            velocity_gradient: other_gradient,
+        };
+        (one, other)
+    }
+}
+
+struct Task<'a, 'b, const D: usize> {
+    around: &'a Around<'b, D>,
+    out: Sums<'a, D>,
+}
+
+impl<const D: usize> LanePass for Task<'_, '_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(mut self) {
+        for group in 0..self.out.active.len() {
+            match self.around.gradients {
+                Gradients::Find => self.group::<V, true>(group),
+                Gradients::Skip => self.group::<V, false>(group),
+            }
+        }
+    }
+}
+
+/// Σ W, Σ F r² and the sums that are the walls' alone, of eight particles.
+struct LaneSums<V> {
+    value: V,
+    arms: V,
+    weight: V,
+    arm: V,
+    mirrored: V,
+}
+
+impl<const D: usize> Task<'_, '_, D> {
+    #[inline(always)]
+    fn group<V: Lanes, const GRADIENTS: bool>(&mut self, group: usize) {
+        let around = self.around;
+        let global = self.out.first + group;
+        let zero = V::splat(0.0);
+        let own = records::of_group::<V, D>(around.records, global, around.free.targets());
+        let mut sums =
+            LaneSums { value: around.kernel.value(zero), arms: zero, weight: zero, arm: zero, mirrored: zero };
+        let mut moments = [[zero; D]; D];
+        let mut differences = [[zero; D]; D];
+        let (candidates, reach_squared) = (around.free.counts::<V>(global), around.reach_squared());
+        let weights = &mut self.out.weight[group * self.out.stride..(group + 1) * self.out.stride];
+        let mut active = 0;
+        for (k, chunk) in around.free.group(global).enumerate() {
+            let other = records::load::<V, D>(around.records, &chunk);
+            let separation = separation(&own, &other, around.periods);
+            let square = dot(&separation, &separation);
+            if square.less_mask(reach_squared) == 0 {
+                weights[k] = [0.0; LANES];
+                continue;
+            }
+            active = k + 1;
+            let (value, single, weight) = around.measure(k, candidates, square);
+            sums.value = sums.value + value;
+            weights[k] = single.to_array();
+            sums.arms = sums.arms + weight * square;
+            if GRADIENTS {
+                for j in 0..D {
+                    let weighted = weight * separation[j];
+                    for i in 0..D {
+                        moments[i][j] = moments[i][j] + weighted * separation[i];
+                        differences[i][j] = differences[i][j] + weighted * (own[D + i] - other[D + i]);
+                    }
+                }
+            }
+        }
+        self.out.active[group] = active as u32;
+        self.add_walls(global, &own, &mut sums);
+        self.store(group, &sums);
+        if GRADIENTS {
+            self.store_gradients(group, &moments, &differences);
+        }
+    }
+
+    #[inline(always)]
+    fn add_walls<V: Lanes>(&self, global: usize, own: &[V; records::FIELDS], sums: &mut LaneSums<V>) {
+        let around = self.around;
+        let normal = height_axis(D);
+        let candidates = around.walls.counts::<V>(global);
+        let height = around.mirror.height(own[normal]);
+        for (k, chunk) in around.walls.group(global).enumerate() {
+            let other = records::load::<V, D>(around.wall_records, &chunk);
+            let separation = separation(own, &other, around.periods);
+            let square = dot(&separation, &separation);
+            let (value, _, weight) = around.measure(k, candidates, square);
+            sums.value = sums.value + value;
+            sums.arms = sums.arms + weight * square;
+            sums.weight = sums.weight + weight;
+            sums.arm = sums.arm + weight * separation[normal];
+            sums.mirrored = sums.mirrored + weight * around.mirror.factor(separation[normal], height);
+        }
+    }
+
+    #[inline(always)]
+    fn store<V: Lanes>(&mut self, group: usize, sums: &LaneSums<V>) {
+        let around = self.around;
+        let (concentration, deficit) = around.surface.find(sums.value);
+        let at_surface = V::splat(AT_SURFACE);
+        let moment = V::splat(-around.volume / D as f64) * sums.arms;
+        let moment = V::splat(around.lattice_gradient).if_less(at_surface, deficit, moment);
+        let (concentration, deficit, moment) = (concentration.to_array(), deficit.to_array(), moment.to_array());
+        let (weight, arm, mirrored) = (sums.weight.to_array(), sums.arm.to_array(), sums.mirrored.to_array());
+        let first = group * LANES;
+        for lane in 0..LANES.min(self.out.moment.len() - first) {
+            let a = first + lane;
+            self.out.concentration[a] = concentration[lane];
+            self.out.deficit[a] = deficit[lane];
+            self.out.at_surface[a] = deficit[lane] > AT_SURFACE;
+            self.out.moment[a] = moment[lane];
+            self.out.walls[a] = WallSums { weight: weight[lane], arm: arm[lane], mirrored: mirrored[lane] };
+        }
+    }
+
+    /// ∇u of every particle by the corrected difference over free ones; none where the norm of the correction exceeds its
+    /// bound: a loose particle has too few neighbours to tell a gradient.
+    #[inline(always)]
+    fn store_gradients<V: Lanes>(&mut self, group: usize, moments: &[[V; D]; D], differences: &[[V; D]; D]) {
+        let mut of_moments = [[[0.0; LANES]; D]; D];
+        let mut of_differences = of_moments;
+        for i in 0..D {
+            for j in 0..D {
+                of_moments[i][j] = moments[i][j].to_array();
+                of_differences[i][j] = differences[i][j].to_array();
+            }
+        }
+        let first = group * LANES;
+        for lane in 0..LANES.min(self.out.moment.len() - first) {
+            let read =
+                |sums: &[[[f64; LANES]; D]; D]| Tensor::<D>::from_fn(|i, j| sums[i][j][lane] * -self.around.volume);
+            self.out.velocity_gradient[first + lane] = match read(&of_moments).try_inverse() {
+                Some(inverse) if inverse.norm() < self.around.largest_correction => read(&of_differences) * inverse,
+                _ => Tensor::zeros(),
+            };
+        }
+    }
+}
+
+/// x_a − x_b `[m]` of the nearest images of eight pairs of records.
+#[inline(always)]
+fn separation<V: Lanes, const D: usize>(
+    own: &[V; records::FIELDS],
+    other: &[V; records::FIELDS],
+    periods: &Periods<D>,
+) -> [V; D] {
+    let mut separation = [V::splat(0.0); D];
+    for axis in 0..D {
+        separation[axis] = own[axis] - other[axis];
+    }
+    periods.shortest(separation)
+}
