@@ -53,7 +53,10 @@ impl ColumnRow {
         if self.count == 1 {
             return [(0, 1.0), (0, 0.0)];
         }
-        let place = ((along - self.left) / self.width).rem_euclid(self.count as f64);
+        let count = self.count as f64;
+        let place = (along - self.left) / self.width;
+        // most places lie within the period, and a remainder takes long
+        let place = if place >= 0.0 && place < count { place } else { place.rem_euclid(count) };
         let lower = (place as usize).min(self.count - 1);
         let part = place - lower as f64;
         [(lower, 1.0 - part), ((lower + 1) % self.count, part)]

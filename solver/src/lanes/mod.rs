@@ -38,6 +38,13 @@ pub trait Lanes: Real {
     /// Implementations may rely on `offset < stride` and on the length check in [`gather`].
     #[doc(hidden)]
     fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices<'_>, offset: usize) -> Self;
+    /// Loads both values of eight records of two: `result[k]` holds `source[index · 2 + k]` for eight indices, where `source` is a
+    /// flat array of records of two.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn load_pairs(source: FlatRecords<'_>, indices: &LaneIndices<'_>) -> [Self; 2] {
+        [Self::gather_records(source, indices, 0), Self::gather_records(source, indices, 1)]
+    }
     /// Loads four neighbouring values of eight records and transposes them: `result[k]` holds
     /// `source[index · stride + offset][k]` for eight indices.
     fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices<'_>) -> [Self; 4];
@@ -111,6 +118,10 @@ pub fn gather_vectors<V: Lanes, const D: usize>(source: &[Vector<D>], indices: &
         lifetime: std::marker::PhantomData,
     };
     let mut lanes = [V::splat(0.0); D];
+    if D == 2 {
+        lanes.copy_from_slice(&V::load_pairs(records, indices));
+        return lanes;
+    }
     for axis in 0..D {
         lanes[axis] = V::gather_records(records, indices, axis);
     }
@@ -226,6 +237,7 @@ mod tests {
     struct Everything<'a> {
         a: &'a [f64],
         vectors: &'a [Vector<3>],
+        flat: &'a [Vector<2>],
         tensors: &'a [Tensor<3>],
         quads: &'a [[f64; 4]],
         singles: &'a [[f32; 4]],
@@ -241,12 +253,14 @@ mod tests {
                 let indices = LaneIndices::new(&raw, n);
                 let a: V = gather(self.a, &indices);
                 let [x, y, z] = gather_vectors::<V, 3>(self.vectors, &indices);
+                let [v, w] = gather_vectors::<V, 2>(self.flat, &indices);
                 let t = gather_tensors::<V, 3>(self.tensors, &indices);
                 let b = (x * y - z / a).max(t[0][2]).min(t[2][1] + a);
                 let c = (b * b + V::splat(0.1)).sqrt().where_less(x, -t[1][1]);
                 let [p, q, r, s] = V::load_quads(self.quads, 2, 1, &indices);
                 let single: [f32; LANES] = std::array::from_fn(|k| self.a[start + k] as f32);
                 let c = c + (p - q) * (r + s) * V::load_single(&single);
+                self.out.extend((v - w * y).to_array().map(f64::to_bits));
                 self.out.extend((b + c).to_array().map(f64::to_bits));
                 self.out.extend((c - b).to_array().map(f64::to_bits));
                 let mut packed = [0; LANES];
@@ -272,14 +286,15 @@ mod tests {
         let value = |k: usize| (k as f64 * 0.618_033_988_749_895).fract() * 3.0 - 1.4;
         let a: Vec<f64> = (0..n).map(|k| value(k) + 5.0).collect();
         let vectors: Vec<_> = (0..n).map(|k| Vector::<3>::from_fn(|i, _| value(7 * k + i))).collect();
+        let flat: Vec<_> = (0..n).map(|k| Vector::<2>::from_fn(|i, _| value(13 * k + i))).collect();
         let tensors: Vec<_> = (0..n).map(|k| Tensor::<3>::from_fn(|i, j| value(11 * k + 3 * i + j))).collect();
         let quads: Vec<_> = (0..2 * n).map(|k| std::array::from_fn(|i| value(5 * k + i))).collect();
         let singles: Vec<_> = quads.iter().map(|quad: &[f64; 4]| quad.map(|value| value as f32)).collect();
         let mut results = Vec::new();
         for set in InstructionSet::available() {
             let mut out = Vec::new();
-            let (quads, singles) = (&quads, &singles);
-            set.run(Everything { a: &a, vectors: &vectors, tensors: &tensors, quads, singles, out: &mut out });
+            let (quads, singles, flat) = (&quads, &singles, &flat);
+            set.run(Everything { a: &a, vectors: &vectors, flat, tensors: &tensors, quads, singles, out: &mut out });
             assert!(out.len() > 8 * 50);
             results.push(out);
         }
@@ -300,7 +315,10 @@ mod tests {
                 let quads: Vec<[f64; 4]> =
                     (0..3 * self.0.len()).map(|k| std::array::from_fn(|i| (4 * k + i) as f64)).collect();
                 let loaded = V::load_quads(&quads, 3, 2, &indices).map(V::to_array);
+                let flat: Vec<_> = (0..self.0.len()).map(|k| Vector::<2>::new(k as f64, -0.5 * k as f64)).collect();
+                let pairs = gather_vectors::<V, 2>(&flat, &indices).map(V::to_array);
                 for (lane, &index) in [3usize, 1, 4, 1, 5, 0, 2, 6].iter().enumerate() {
+                    assert_eq!((pairs[0][lane], pairs[1][lane]), (flat[index][0], flat[index][1]));
                     for (k, value) in loaded.iter().enumerate() {
                         assert_eq!(value[lane], quads[3 * index + 2][k]);
                     }

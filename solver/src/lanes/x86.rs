@@ -123,6 +123,21 @@ impl Real for Avx512 {
     }
 }
 
+/// Both values of eight records of two, four lanes each.
+#[inline(always)]
+fn pairs(source: FlatRecords<'_>, indices: &LaneIndices<'_>) -> [(__m256d, __m256d); 2] {
+    assert!(source.records >= indices.bound && source.stride == 2, "array shorter than its index bound");
+    // SAFETY: raw < bound ≤ records, so every record lies inside the borrowed slice; called inside run_avx2 and run_avx512.
+    unsafe {
+        let load = |lane: usize| _mm_loadu_pd(source.first.add(indices.raw[lane] as usize * 2));
+        let (a, b) = (_mm256_set_m128d(load(2), load(0)), _mm256_set_m128d(load(3), load(1)));
+        let (c, d) = (_mm256_set_m128d(load(6), load(4)), _mm256_set_m128d(load(7), load(5)));
+        let x = (_mm256_unpacklo_pd(a, b), _mm256_unpacklo_pd(c, d));
+        let y = (_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d));
+        [x, y]
+    }
+}
+
 impl Lanes for Avx512 {
     type Single = Single;
 
@@ -148,6 +163,14 @@ impl Lanes for Avx512 {
         }
         // SAFETY: the array holds eight values.
         unsafe { Self(_mm512_loadu_pd(lanes.as_ptr())) }
+    }
+
+    #[inline(always)]
+    fn load_pairs(source: FlatRecords<'_>, indices: &LaneIndices<'_>) -> [Self; 2] {
+        let [x, y] = pairs(source, indices);
+        // SAFETY: values of this type exist only inside run_avx512.
+        let join = |low, high| unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(low), high) };
+        [Self(join(x.0, x.1)), Self(join(y.0, y.1))]
     }
 
     #[inline(always)]
@@ -304,6 +327,12 @@ impl Lanes for Avx2 {
         }
         // SAFETY: the array holds eight values.
         unsafe { Self(_mm256_loadu_pd(lanes.as_ptr()), _mm256_loadu_pd(lanes.as_ptr().add(4))) }
+    }
+
+    #[inline(always)]
+    fn load_pairs(source: FlatRecords<'_>, indices: &LaneIndices<'_>) -> [Self; 2] {
+        let [x, y] = pairs(source, indices);
+        [Self(x.0, x.1), Self(y.0, y.1)]
     }
 
     #[inline(always)]

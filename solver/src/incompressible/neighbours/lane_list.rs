@@ -238,6 +238,9 @@ impl<const D: usize> Sorted<'_, D> {
                 let left = end - place;
                 let inside: u32 = if left < LANES { (1 << left) - 1 } else { u32::MAX };
                 let all = square.less_mask(radius_squared) & inside;
+                if all == 0 {
+                    continue;
+                }
                 let within = square.less_mask(reach_squared);
                 let indices = eight(self.index, place);
                 of_near += V::pack(indices, all & within, excluded, eight_mut(near, of_near.min(room)));

@@ -19,7 +19,8 @@ use crate::linear::Single;
 use crate::material::turbulence::eddy_viscosity;
 use crate::vector::Vector;
 
-/// Fields of a record behind the position: the moment M `[-]` and the viscosity `[Pa·s]`.
+/// Fields of a record behind the position: the moment M `[-]`, with a negative sign where neighbours are lacking, and the
+/// viscosity `[Pa·s]`.
 const BEHIND: usize = 2;
 
 /// What the viscous rows of a phase are made of.
@@ -74,8 +75,8 @@ pub(crate) fn fill_rows<const D: usize>(
     let mut records = std::mem::take(&mut phase.records);
     let (of_friction, friction) = friction.unzip();
     let viscosity = |a: usize| of_friction.map_or(0.0, |friction| friction.viscosity[a]);
-    let moment = &phase.moment;
-    records::pack(&mut records, &phase.position, |a| -> [f64; BEHIND] { [moment[a], viscosity(a)] });
+    let moment = |a: usize| if phase.deficit[a] > 0.0 { -phase.moment[a] } else { phase.moment[a] };
+    records::pack(&mut records, &phase.position, |a| -> [f64; BEHIND] { [moment(a), viscosity(a)] });
     let pairs = Pairs {
         phase,
         records: &records,
@@ -189,6 +190,7 @@ impl<const D: usize> Task<'_, '_, D> {
         let global = self.out.first + group;
         let zero = V::splat(0.0);
         let own = records::of_group::<V, D>(pairs.records, global, phase.len());
+        let own_moment = own[D].max(-own[D]);
         let (gradient_scale, laplacian_scale) = (V::splat(2.0 * volume), V::Single::splat(-4.0 * volume));
         let active = phase.active[global] as usize;
         let weights = &phase.weight[global * self.out.stride..][..active];
@@ -205,7 +207,7 @@ impl<const D: usize> Task<'_, '_, D> {
             }
             let separation = pairs.periods.shortest(separation);
             let measured = V::Single::load(&weights[k]);
-            let weight = measured / (own[D] + other[D]).narrow();
+            let weight = measured / (own_moment + other[D].max(-other[D])).narrow();
             for axis in 0..D {
                 let gradient = (separation[axis] * gradient_scale).narrow() * weight;
                 links[k].gradient[axis] = gradient.to_array();
@@ -225,8 +227,8 @@ impl<const D: usize> Task<'_, '_, D> {
                 rows.couplings[group * self.out.stride + k] = Single::of(coupling.to_array());
                 sums.coupled = sums.coupled + V::widen(coupling);
             }
-            let deficit = gather::<V>(&phase.deficit, &chunk).where_less(measured, zero);
-            if zero.less_mask(deficit) != 0 {
+            if other[D].less_mask(zero) != 0 {
+                let deficit = gather::<V>(&phase.deficit, &chunk).where_less(measured, zero);
                 sums.near = sums.near + pairs.kernel.value(dot(&separation, &separation)) * deficit;
                 sums.largest = sums.largest.max(deficit);
             }

@@ -48,11 +48,13 @@ impl<const D: usize> LanePass for Shift<'_, D> {
         let (zero, volume) = (V::splat(0.0), V::Single::splat(phase.lattice_volume));
         let reach_squared = V::splat(phase.kernel.support() * phase.kernel.support());
         let scale = self.scale * phase.kernel.smoothing_length();
-        for (group, shifts) in self.shifts.chunks_mut(LANES).enumerate() {
-            let global = self.first + group;
+        for (task_group, shifts) in self.shifts.chunks_mut(LANES).enumerate() {
+            let global = self.first + task_group;
             let own_indices = records::group_indices(global, phase.len());
             let own = gather_vectors::<V, D>(&phase.position, &LaneIndices::new(&own_indices, phase.len()));
             let (mut gradient, mut deficit) = ([zero; D], zero);
+            let group = global * LANES..(global * LANES + shifts.len());
+            let near_surface = phase.nearness[group].iter().any(|&nearness| nearness > 0.0);
             for chunk in phase.free.group(global) {
                 let other = gather_vectors::<V, D>(&phase.position, &chunk);
                 let separation = separation(&own, &other, periods);
@@ -63,8 +65,9 @@ impl<const D: usize> LanePass for Shift<'_, D> {
                 // W falls to zero at the reach: what lies beyond adds nothing, nor does padding, which is the own particle
                 let weight = V::widen(phase.kernel.gradient_weight(square.narrow(), volume));
                 add(&mut gradient, weight, &separation);
-                let own_or_near = gather::<V>(&phase.deficit, &chunk).where_less(weight, zero);
-                deficit = deficit.max(own_or_near);
+                if near_surface {
+                    deficit = deficit.max(gather::<V>(&phase.deficit, &chunk).where_less(weight, zero));
+                }
             }
             let candidates = phase.walls.counts::<V>(global);
             for (k, chunk) in phase.walls.group(global).enumerate() {
@@ -81,12 +84,12 @@ impl<const D: usize> LanePass for Shift<'_, D> {
             }
             for (lane, shift) in shifts.iter_mut().enumerate() {
                 let a = global * LANES + lane;
-                let near_surface = phase.at_surface[a] || deficit[lane] > AT_SURFACE;
+                let beside_surface = phase.at_surface[a] || deficit[lane] > AT_SURFACE;
                 let gradient = Vector::<D>::from_fn(|axis, _| crowding[axis][lane]);
                 let full = gradient * (scale * phase.velocity[a].norm());
                 let size = full.norm();
                 let bounded = if size > self.largest { full * (self.largest / size) } else { full };
-                *shift = if near_surface { Vector::zeros() } else { bounded };
+                *shift = if beside_surface { Vector::zeros() } else { bounded };
             }
         }
     }
