@@ -32,7 +32,7 @@ const WALL: RoughWall = RoughWall { sand_roughness: GRAIN };
 
 /// What flows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// Displaced particles of water that come to rest, laminar.
     Still,
     /// Turbulent water over a fixed rough bed.
@@ -45,10 +45,10 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 4] = [Self::Still, Self::Clear, Self::Bed, Self::Columns];
+    pub(crate) const ALL: [Self; 4] = [Self::Still, Self::Clear, Self::Bed, Self::Columns];
 
     /// Its name.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Still => "still",
             Self::Clear => "clear",
@@ -76,7 +76,7 @@ fn lattice(
 
 /// A scene of some 1400 particles times the square of `refinement`: water of a finer spacing, or, with grains, of a longer
 /// period.
-pub fn scene(kind: Kind, refinement: u32, seed: u64) -> IncompressibleScene<2> {
+pub(crate) fn scene(kind: Kind, refinement: u32, seed: u64) -> IncompressibleScene<2> {
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     match kind {
         Kind::Still | Kind::Clear => water(kind, refinement, &mut random),
