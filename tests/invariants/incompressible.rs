@@ -103,6 +103,31 @@ fn two_phases_are_the_same_to_the_last_bit_on_any_number_of_threads() {
 }
 
 #[test]
+fn many_particles_are_the_same_to_the_last_bit_on_any_number_of_threads_and_continued() {
+    // more rows than those from which on lattices precondition the pressure, and than two blocks of sums
+    let scene = bed([96, 50], 6, 9);
+    let steps = 12;
+    let on = |threads: usize, saved: usize| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
+        pool.install(|| {
+            let mut first = simulation(scene.clone());
+            assert!(first.fluid().0.len() >= 4700, "{} particles", first.fluid().0.len());
+            advance(&mut first, saved);
+            let written = postcard::to_stdvec(&first.save()).expect("written");
+            let read = postcard::from_bytes(&written).expect("read");
+            let mut second = IncompressibleSimulation::continued(scene.clone(), read).expect("the same scene");
+            advance(&mut second, steps - saved);
+            assert!(second.cost().fluid_pressure_iterations > steps as u64, "the pressure is solved for");
+            (second.snapshot().to_bytes(), second.cost())
+        })
+    };
+    let expected = on(1, 0);
+    for (threads, saved) in [(2, 0), (3, 5)] {
+        assert!(on(threads, saved) == expected, "{threads} threads, saved after {saved} steps");
+    }
+}
+
+#[test]
 fn a_grain_beyond_the_drag_table_ends_the_run() {
     let mut scene = periodic_box([16, 16], 0.02, 0.0, 4);
     scene.fluid.kinematic_viscosity = 1e-6;
