@@ -111,3 +111,48 @@ fn what_walls_take_of_the_bodies_is_told() {
         assert!((cut_off.expect("a number") - taken).abs() < 1e-9, "{cut_off:?}");
     }
 }
+
+/// The value of a metric in the results that a run has written.
+fn metric(place: &Place, name: &str, variant: &str) -> f64 {
+    let text = std::fs::read_to_string(place.path("out").join("metrics.json")).expect("written");
+    let results: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let metrics = results["metrics"].as_array().expect("metrics");
+    let of = |metric: &&serde_json::Value| {
+        metric["name"] == name && metric["variant"].as_str().is_some_and(|text| text.contains(variant))
+    };
+    metrics.iter().find(of).and_then(|metric| metric["value"].as_f64()).unwrap_or_else(|| panic!("no {name}: {text}"))
+}
+
+#[test]
+fn a_gauge_at_an_opening_counts_what_the_inlet_feeds() {
+    let place = Place::new();
+    place.file("feed.csv", "t [s],rate [kg/(s m)]\n0,0\n0.02,6\n0.1,6\n0.12,0\n");
+    let plane = "case = \"scene\"\nname = \"fed\"\nspacing = 0.005\nduration = 0.15\ninterval = 0.01\nbodies = []\n\
+        [sides]\nleft = \"none\"\nright = { open = 0.1 }\nbottom = \"none\"\ntop = \"none\"\n\
+        [[walls]]\nname = \"bed\"\npoints = [[-0.02, 0.0], [0.12, 0.0]]\n\
+        [[inlets]]\nname = \"feed\"\nfrom = [0.0, 0.03]\nto = [0.0, 0.0]\ntable = \"feed.csv\"\n\
+        [[gauges]]\nkind = \"flux\"\nname = \"opening\"\nfrom = [0.0, 0.1]\nto = [0.0, -0.1]\n\
+        [[gauges]]\nkind = \"force\"\nname = \"on-the-rows\"\nwall = \"feed\"\n";
+    place.file("plane.toml", plane);
+    place.run(&["plane.toml", "--quiet"]).code(0);
+    let fed = metric(&place, "mass_fed", "inlet=feed");
+    // half a row of the integral, 0.6 kg/m
+    assert!((fed - 0.6).abs() <= 0.5 * 1500.0 * 0.03 * 0.005 + 1e-12, "{fed} kg/m");
+    assert!((metric(&place, "mass_crossed", "gauge=opening") / fed - 1.0).abs() < 1e-12);
+    assert!(metric(&place, "mean_force", "gauge=on-the-rows") > 0.0);
+    let written = std::fs::read_to_string(place.path("out").join("case.toml")).expect("a case file");
+    assert!(written.contains("rates = [[0.0, 0.0], [0.02, 6.0], [0.1, 6.0], [0.12, 0.0]]"), "{written}");
+
+    // onto a floor, between planes of symmetry
+    let space = "case = \"scene-space\"\nname = \"pushed\"\nspacing = 0.008\nduration = 0.12\ninterval = 0.01\nbodies = []\n\
+        [sides]\nleft = \"none\"\nright = \"none\"\nfront = { mirror = 0.0 }\nback = { mirror = 0.032 }\n\
+        bottom = \"none\"\ntop = \"none\"\n\
+        [[walls]]\nname = \"floor\"\nquads = [[[-0.05, 0.0, 0.0], [0.1, 0.0, 0.0], [0.1, 0.032, 0.0], [-0.05, 0.032, 0.0]]]\n\
+        [[inlets]]\nname = \"pushed\"\ncorners = [[0.0, 0.0, 0.0], [0.0, 0.032, 0.0], [0.0, 0.0, 0.032]]\nrate = 0.6\n\
+        [[gauges]]\nkind = \"flux\"\nname = \"opening\"\ncorners = [[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, -1.0, 1.0]]\n";
+    place.file("space.toml", space);
+    place.run(&["space.toml", "--quiet"]).code(0);
+    let fed = metric(&place, "mass_fed", "inlet=pushed");
+    assert!((fed - 0.072).abs() <= 0.5 * 1500.0 * 0.032 * 0.032 * 0.008 + 1e-12, "{fed} kg");
+    assert!((metric(&place, "mass_crossed", "gauge=opening") / fed - 1.0).abs() < 1e-12);
+}

@@ -7,6 +7,7 @@ mod energy_ledger;
 mod frames;
 mod free_fall;
 mod incompressible;
+mod inlets;
 mod meshes;
 mod momentum_balance;
 mod neighbour_list;

@@ -2,6 +2,7 @@
 //! that was never interrupted.
 
 use crate::determinism::column;
+use crate::inlets;
 use crate::patches::{self, GRAINS, SYRUP, bed, simulation};
 use crate::shells;
 use crate::two_phases;
@@ -102,6 +103,16 @@ fn walls_of_segments_and_open_sides_go_on_in_the_same_bits() {
     let mut simulation = simulation(scene);
     patches::advance(&mut simulation, STEPS);
     assert!(simulation.departures().particles() > 0, "somebody leaves on the way");
+}
+
+#[test]
+fn inlets_go_on_in_the_same_bits() {
+    check(&inlets::fed());
+    check(&inlets::fed_in_space());
+    let mut simulation = simulation(inlets::fed());
+    patches::advance(&mut simulation, STEPS);
+    let rows = simulation.arrivals().inlets[0].rows;
+    assert!(rows > 2, "{rows} rows come in on the way");
 }
 
 fn check_phases(scene: &IncompressibleScene<2>) {

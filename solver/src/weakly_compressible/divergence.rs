@@ -25,6 +25,10 @@ pub enum Quantity {
     },
     /// Distance from a shell, negative behind it `[m]`; the rule names the wall.
     Penetration,
+    /// Pressure before the rows of an inlet `[Pa]`; the rule names the inlet.
+    InflowPressure,
+    /// Particles in the arrays; the rule names the inlet that adds some.
+    Particles,
     /// Residual of an implicit viscous step over its start; the particle is the one with the largest.
     ViscousResidual {
         /// `viscous_tolerance` `[-]`.
@@ -43,6 +47,8 @@ impl Quantity {
             Self::Density { .. } => "density",
             Self::Neighbours { .. } => "number of neighbours",
             Self::Penetration => "distance",
+            Self::InflowPressure => "pressure",
+            Self::Particles => "number of particles",
             Self::ViscousResidual { .. } => "viscous step",
         }
     }
@@ -55,6 +61,8 @@ impl Quantity {
             Self::Density { .. } => "kg/m³",
             Self::Neighbours { .. } => "or more",
             Self::Penetration => "m",
+            Self::InflowPressure => "Pa",
+            Self::Particles => "in all",
             Self::ViscousResidual { .. } => "(residual over its start)",
         }
     }
@@ -69,6 +77,8 @@ impl Quantity {
             }
             Self::Neighbours { limit } => format!(", above the {limit} that a neighbour list row can hold"),
             Self::Penetration => " before a wall: it has passed it".to_owned(),
+            Self::InflowPressure => ": an inlet is blocked".to_owned(),
+            Self::Particles => ": more than the neighbour list can address".to_owned(),
             Self::ViscousResidual { tolerance, most_iterations } => {
                 format!(" after at most {most_iterations} iterations, above the {tolerance:.1e} of `viscous_tolerance`")
             }

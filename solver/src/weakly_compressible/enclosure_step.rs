@@ -1,4 +1,4 @@
-//! Shells and open sides in a step: what they give to the flow, what they stop, who leaves.
+//! Shells and open sides in a step: what they give to the flow, what they stop, who leaves. The rows of inlets are shells here.
 
 use crate::run::Divergence;
 use crate::vector::Vector;
@@ -86,13 +86,14 @@ impl<const D: usize> State<D> {
     /// A particle that has passed one.
     pub(crate) fn touch_shells(&mut self, time_step: f64, friction: f64) -> Result<(), Divergence<D>> {
         let surroundings = &mut self.surroundings;
-        let Surroundings { shells, grids, range, displacements, velocities, blocks, .. } = surroundings;
-        if shells.is_empty() || self.model.numerics.contact == Contact::None {
+        if surroundings.shells.is_empty() || self.model.numerics.contact == Contact::None {
             return Ok(());
         }
-        for ((velocity, shell), place) in velocities.iter_mut().zip(&*shells).zip(&*displacements) {
-            *velocity = (shell.motion.displacement(self.time + time_step) - place) / time_step;
+        for shell in 0..surroundings.shells.len() {
+            let way = surroundings.place(shell, self.time + time_step) - surroundings.displacements[shell];
+            surroundings.velocities[shell] = way / time_step;
         }
+        let Surroundings { shells, grids, range, displacements, velocities, blocks, .. } = surroundings;
         let touch = Touch { shells, grids, displacements, velocities, range: *range, friction };
         let (particles, energy) = (&mut self.particles, &mut self.pairs.energy);
         let found = shell_impulse::by_contacts(&self.model, particles, energy, touch, time_step, blocks);
@@ -112,19 +113,20 @@ impl<const D: usize> State<D> {
 
     /// Moves the shells to the end of a step; returns the speed of the fastest `[m/s]`.
     pub(crate) fn move_shells(&mut self, time_step: f64) -> f64 {
-        let Surroundings { shells, displacements, last, .. } = &mut self.surroundings;
-        if shells.iter().all(|shell| shell.motion.is_rest()) {
+        let surroundings = &mut self.surroundings;
+        if surroundings.inlets.is_empty() && surroundings.shells.iter().all(|shell| shell.motion.is_rest()) {
             return 0.0;
         }
         let end = self.time + time_step;
         let mut fastest = 0.0_f64;
-        for ((place, last), shell) in displacements.iter_mut().zip(&mut *last).zip(&*shells) {
-            let next = shell.motion.displacement(end);
-            *last = next - *place;
-            *place = next;
-            fastest = fastest.max(last.norm() / time_step);
+        for shell in 0..surroundings.shells.len() {
+            let next = surroundings.place(shell, end);
+            surroundings.last[shell] = next - surroundings.displacements[shell];
+            surroundings.displacements[shell] = next;
+            fastest = fastest.max(surroundings.last[shell].norm() / time_step);
         }
-        self.particles.move_walls(self.walls.len(), last, |shell| shells[shell].motion.velocity(end));
+        let surroundings = &*surroundings;
+        self.particles.move_walls(self.walls.len(), &surroundings.last, |shell| surroundings.velocity(shell, end));
         self.images.copy_wall_vectors(&mut self.particles.walls.velocity);
         fastest
     }

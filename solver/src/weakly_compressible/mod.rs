@@ -8,6 +8,7 @@ pub mod divergence;
 mod enclosure_step;
 pub mod energy;
 mod forces;
+mod inflow_step;
 mod model;
 pub mod neighbours;
 pub mod numerics;

@@ -45,7 +45,7 @@ pub struct Particles<const D: usize> {
     /// 0 for all real particles together, then for every image 1 if it is behind a mirror, and the sentinel `[-]`.
     pub(crate) mirrored: Vec<f64>,
 
-    /// Which particle this is: its place in the scene.
+    /// Which particle this is: its place in the scene; what inlets feed is counted on from there.
     pub identity: Vec<u32>,
     /// Masses `[kg]` (per metre of depth in 2-D).
     pub mass: Vec<f64>,
@@ -100,7 +100,9 @@ impl<const D: usize> Particles<D> {
         let Scene { flow, walls, wall_particles, .. } = scene;
         let (n, m) = (flow.position.len(), wall_particles.len() + scene.backing_particles());
         let real = n + m;
-        let backing = || scene.enclosure.shells.iter().flat_map(|shell| &shell.backing);
+        let surfaces = scene.enclosure.surfaces();
+        let first_inlet = scene.enclosure.shells.len();
+        let backing = || surfaces.iter().flat_map(|shell| &shell.backing);
         let places = wall_particles.iter().map(|wall| wall.position).chain(backing().map(|particle| particle.position));
         let mut particles = Self {
             position: flow.position.iter().copied().chain(places).collect(),
@@ -140,10 +142,13 @@ impl<const D: usize> Particles<D> {
             particles.walls.push(wall.normal(), depth, wall.velocity, wall.roughness == Surface::Smooth);
             particles.wall.push(particle.wall as u32);
         }
-        for (index, shell) in scene.enclosure.shells.iter().enumerate() {
+        for (index, shell) in surfaces.iter().enumerate() {
+            let of_inlet = index.checked_sub(first_inlet).map(|inlet| &scene.enclosure.inlets[inlet]);
+            let rows = of_inlet.map(|inlet| inlet.direction() * inlet.speed(0.0));
             for particle in &shell.backing {
                 let is_smooth = shell.roughness == Surface::Smooth;
-                particles.walls.push(particle.normal, particle.depth, shell.motion.velocity(0.0), is_smooth);
+                let velocity = rows.unwrap_or_else(|| shell.motion.velocity(0.0));
+                particles.walls.push(particle.normal, particle.depth, velocity, is_smooth);
                 particles.wall.push((walls.len() + index) as u32);
             }
         }
@@ -176,6 +181,32 @@ impl<const D: usize> Particles<D> {
     /// Which wall, then which shell, the wall particle at a place among them belongs to.
     pub(crate) fn wall(&self, offset: usize) -> usize {
         self.wall[offset] as usize
+    }
+
+    /// Puts flow particles behind the others; there are no images now. What a step finds itself is zero.
+    pub(crate) fn insert(&mut self, arriving: &[Arriving<D>]) {
+        let (flow, count) = (self.flow, arriving.len());
+        for_each_shared_array!(self, array => {
+            array.splice(flow..flow, std::iter::repeat_n(nalgebra::zero(), count));
+        });
+        self.flow += count;
+        self.identity.extend(arriving.iter().map(|particle| particle.identity));
+        self.mass.extend(arriving.iter().map(|particle| particle.mass));
+        self.correction.resize(self.flow);
+        self.force_correction.resize(self.flow);
+        let Self { acceleration, support, by_walls, by_damping, by_wall_control, support_impulse, .. } = self;
+        for array in [acceleration, support, by_walls, by_damping, by_wall_control, support_impulse] {
+            array.resize(flow + count, Vector::zeros());
+        }
+        for (index, particle) in (flow..).zip(arriving) {
+            self.position[index] = particle.position;
+            self.velocity[index] = particle.velocity;
+            self.stress[index] = particle.stress;
+            self.density[index] = particle.density;
+            self.volume[index] = particle.mass / particle.density;
+            self.viscosity[index] = particle.viscosity;
+            self.artificial_viscosity[index] = particle.artificial_viscosity;
+        }
     }
 
     /// Takes flow particles out; there are no images now.
@@ -301,6 +332,26 @@ fn retain<T>(array: &mut Vec<T>, keep: impl Fn(usize) -> bool) {
         index += 1;
         keep(index - 1)
     });
+}
+
+/// A flow particle that comes in.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Arriving<const D: usize> {
+    /// `[m]`
+    pub(crate) position: Vector<D>,
+    /// `[m/s]`
+    pub(crate) velocity: Vector<D>,
+    /// `[kg/m³]`
+    pub(crate) density: f64,
+    /// `[Pa]`
+    pub(crate) stress: Tensor<D>,
+    /// `[kg]`
+    pub(crate) mass: f64,
+    pub(crate) identity: u32,
+    /// Apparent viscosity `[Pa·s]`.
+    pub(crate) viscosity: f64,
+    /// `[-]`
+    pub(crate) artificial_viscosity: f64,
 }
 
 /// Brings the first values of an array into an order; the others stay. What `room`, an array of the same length, held is lost.

@@ -66,8 +66,26 @@ impl<const D: usize> Simulation<D> {
         let (particles, images) = (saved.particles.into_owned(), saved.images.into_owned());
         let (list, walls) = (saved.list.into_owned(), saved.walls.into_owned());
         let (flow, real) = (particles.flow_count(), particles.real_count());
-        let (books, shells) = (saved.books.into_owned(), scene.enclosure.shells.len());
-        let begun = scene.flow.position.len();
+        let (books, inlets) = (saved.books.into_owned(), scene.enclosure.inlets.len());
+        let shells = scene.enclosure.shells.len() + inlets;
+        ForeignState::check("inlets", books.arrivals.inlets.len(), inlets)?;
+        let cells = |inlet: usize| scene.enclosure.inlets.get(inlet).map_or(0, |inlet| inlet.cells.len() as u64);
+        let mut rows = vec![0; inlets];
+        let mut next = scene.flow.position.len() as u64;
+        let mut sound = true;
+        for row in &books.arrivals.rows {
+            let inlet = row.inlet as usize;
+            sound &= inlet < inlets && u64::from(row.first) == next;
+            next = next.saturating_add(cells(inlet));
+            rows.get_mut(inlet).into_iter().for_each(|rows| *rows += 1);
+        }
+        let counted = |(inlet, rows): (usize, &u64)| {
+            let fed = &books.arrivals.inlets[inlet];
+            fed.rows == *rows && fed.particles == rows.saturating_mul(cells(inlet))
+        };
+        sound &= rows.iter().enumerate().all(counted);
+        ForeignState::check("whole sets of rows", usize::from(sound), 1)?;
+        let begun = next as usize;
         let departed = books.departures.particles() as usize;
         ForeignState::check("flow particles", flow.saturating_add(departed), begun)?;
         let wall_particles = scene.wall_particles.len() + scene.backing_particles();

@@ -9,6 +9,9 @@ use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::boundary::{Enclosure, Wall, shell::BackingParticle, wall::WallParticle};
 use crate::weakly_compressible::numerics::Numerics;
 
+/// Particles that the neighbour list can address, walls included.
+pub(crate) const MOST_PARTICLES: usize = i32::MAX as usize / 64;
+
 /// The flow particles at the start; all arrays have the shape `[particles]`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Flow<const D: usize> {
@@ -48,7 +51,7 @@ pub struct Scene<const D: usize> {
     pub walls: Vec<Wall<D>>,
     /// Wall particles, see [`crate::weakly_compressible::boundary::wall::fill`].
     pub wall_particles: Vec<WallParticle<D>>,
-    /// Shells and open sides.
+    /// Shells, open sides and inlets.
     pub enclosure: Enclosure<D>,
     /// Boundaries of the domain.
     pub domain: Domain<D>,
@@ -97,16 +100,17 @@ impl<const D: usize> Scene<D> {
         self.check_parameters()?;
         self.check_values()?;
         self.check_shells()?;
+        self.check_inlets()?;
         self.check_domain()
     }
 
-    /// Arrays of one length, neither empty nor too long.
+    /// Arrays of one length, not too long, and empty only where an inlet feeds the flow.
     fn check_lengths(&self) -> Result<(), SceneError> {
         let expected = self.flow.position.len();
-        if expected == 0 {
+        if expected == 0 && self.enclosure.inlets.is_empty() {
             return Err(SceneError::Empty);
         }
-        if expected + self.wall_particles.len() + self.backing_particles() > i32::MAX as usize / 64 {
+        if expected + self.wall_particles.len() + self.backing_particles() > MOST_PARTICLES {
             return Err(SceneError::TooLarge(expected));
         }
         let lengths = [
@@ -170,9 +174,21 @@ impl<const D: usize> Scene<D> {
         Ok(())
     }
 
-    /// Dummy particles of all shells.
+    /// Dummy particles of all shells, and of the rows of inlets.
     pub(crate) fn backing_particles(&self) -> usize {
-        self.enclosure.shells.iter().map(|shell| shell.backing.len()).sum()
+        let of_inlets = self.enclosure.inlets.iter().map(|inlet| inlet.rows * inlet.cells.len());
+        self.enclosure.shells.iter().map(|shell| shell.backing.len()).chain(of_inlets).sum()
+    }
+
+    /// Inlets through which their rates pass.
+    fn check_inlets(&self) -> Result<(), SceneError> {
+        let sound_speed = self.equation_of_state.sound_speed();
+        for (index, inlet) in self.enclosure.inlets.iter().enumerate() {
+            if let Some(problem) = inlet.problem(self.spacing, sound_speed) {
+                return Err(problem.within(&format!("inlets[{index}]")).into());
+            }
+        }
+        Ok(())
     }
 
     /// Shells of finite facets, whose tables rise and begin where the facets are.

@@ -7,6 +7,7 @@ use crate::run::observed_run::{self, Stepping};
 use crate::run::{Course, Divergence, Observer, SceneError, StopReason, Watching};
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::enclosure::Departures;
+use crate::weakly_compressible::boundary::inlet::{Arrivals, Inlet};
 use crate::weakly_compressible::boundary::shell::Shell;
 use crate::weakly_compressible::energy::EnergyAccount;
 use crate::weakly_compressible::model::GradientUse;
@@ -171,7 +172,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     fn take_step(&mut self) -> Result<(), Divergence<D>> {
-        if self.state.displacement > 0.5 * self.state.model.skin() {
+        if self.state.feed()? || self.state.displacement > 0.5 * self.state.model.skin() {
             self.state.search_neighbours()?;
         }
         self.state.advance(self.state.time_step_bounds().step())
@@ -224,19 +225,20 @@ impl<const D: usize> Simulation<D> {
         &self.state.model.list
     }
 
-    /// Impulse that each shell of the scene has given to the flow since the start `[kg m/s]`, contacts included.
+    /// Impulse that each shell of the scene, and then the rows of each inlet, has given to the flow since the start `[kg m/s]`,
+    /// contacts included.
     #[must_use]
     pub fn shell_impulses(&self) -> &[Vector<D>] {
         &self.state.surroundings.books.impulses
     }
 
-    /// How far each shell has moved since the start `[m]`.
+    /// How far each shell, and then the rows of each inlet, has moved since the start `[m]`.
     #[must_use]
     pub fn shell_displacements(&self) -> &[Vector<D>] {
         self.state.surroundings.displacements()
     }
 
-    /// The shells of the scene, where they were at the start.
+    /// The shells of the scene, then the rows of each inlet, where they were at the start.
     #[must_use]
     pub fn shells(&self) -> &[Shell<D>] {
         self.state.surroundings.shells()
@@ -246,6 +248,25 @@ impl<const D: usize> Simulation<D> {
     #[must_use]
     pub fn departures(&self) -> &Departures<D> {
         &self.state.surroundings.books.departures
+    }
+
+    /// The inlets.
+    #[must_use]
+    pub fn inlets(&self) -> &[Inlet<D>] {
+        &self.state.surroundings.inlets
+    }
+
+    /// What has come in by inlets.
+    #[must_use]
+    pub fn arrivals(&self) -> &Arrivals<D> {
+        &self.state.surroundings.books.arrivals
+    }
+
+    /// Where a particle that an inlet has fed began its way, a row behind the opening where it moved with its row `[m]`, and the
+    /// time at which it became free `[s]`; none for one of the start.
+    #[must_use]
+    pub fn entry(&self, identity: u32) -> Option<(Vector<D>, f64)> {
+        self.state.entry(identity)
     }
 
     /// Particle spacing Δ `[m]`.

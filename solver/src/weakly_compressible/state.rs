@@ -9,7 +9,7 @@ use crate::weakly_compressible::divergence::Quantity;
 use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{LARGEST_ROW, VerletList};
-use crate::weakly_compressible::numerics::ViscositySwitch;
+use crate::weakly_compressible::numerics::{Numerics, ViscositySwitch};
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::PairData;
 use crate::weakly_compressible::scene::Scene;
@@ -27,7 +27,7 @@ pub(crate) struct State<const D: usize> {
     pub(crate) walls: Vec<Wall<D>>,
     /// Displacement of each wall in a step `[m]`.
     pub(crate) wall_displacements: Vec<Vector<D>>,
-    /// Shells and open sides.
+    /// Shells, open sides and inlets.
     pub(crate) surroundings: Surroundings<D>,
     pub(crate) model: Model<D>,
     pub(crate) pairs: PairData<D>,
@@ -47,18 +47,18 @@ impl<const D: usize> State<D> {
     pub(crate) fn new(scene: Scene<D>) -> Self {
         let numerics = scene.numerics;
         let mut particles = Particles::new(&scene);
-        let initial = match numerics.viscosity_switch {
-            ViscositySwitch::Constant => numerics.artificial_viscosity,
-            ViscositySwitch::MorrisMonaghan => SWITCH_LOWEST,
-        };
-        particles.artificial_viscosity.fill(initial);
+        particles.artificial_viscosity.fill(initial_artificial_viscosity(&numerics));
         particles.viscosity.fill(scene.rheology.viscosity(0.0, 0.0));
         Self {
             particles,
             images: Images::new(),
             wall_displacements: vec![Vector::zeros(); scene.walls.len()],
             walls: scene.walls,
-            surroundings: Surroundings::new(scene.enclosure, scene.spacing),
+            surroundings: Surroundings::new(
+                scene.enclosure,
+                scene.spacing,
+                (scene.flow.position.len(), scene.wall_particles.len()),
+            ),
             model: Model {
                 list: VerletList::default(),
                 kernel: Kernel::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing),
@@ -80,6 +80,11 @@ impl<const D: usize> State<D> {
             kinematic_viscosity: 0.0,
             displacement: f64::INFINITY,
         }
+    }
+
+    /// Coefficient α of the artificial viscosity that particles begin with `[-]`.
+    pub(crate) fn initial_artificial_viscosity(&self) -> f64 {
+        initial_artificial_viscosity(&self.model.numerics)
     }
 
     /// Searches the neighbours anew and sorts the particles.
@@ -124,5 +129,12 @@ impl<const D: usize> State<D> {
             unit: quantity.unit(),
             rule: quantity.rule(),
         }
+    }
+}
+
+fn initial_artificial_viscosity(numerics: &Numerics) -> f64 {
+    match numerics.viscosity_switch {
+        ViscositySwitch::Constant => numerics.artificial_viscosity,
+        ViscositySwitch::MorrisMonaghan => SWITCH_LOWEST,
     }
 }

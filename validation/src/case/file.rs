@@ -1,7 +1,7 @@
 //! A case as a TOML file: `case` and `tier` on top, the parameters below.
 
 use super::error::ParameterError;
-use super::{OutputPlan, Tier, meshes};
+use super::{OutputPlan, Tier, meshes, rates};
 use crate::input::{WRITTEN_BY_HAND, nearest, position, read_text};
 use crate::output::FileError;
 use bagnold_solver::parameter::shortened;
@@ -75,6 +75,7 @@ impl CaseFile {
         let overlay = overlay.into_iter().map(|file| beside.join(file)).collect();
         let output = OutputPlan::taken(&mut fields, path)?;
         meshes::read_beside(&mut fields, path)?;
+        rates::read_beside(&mut fields, path)?;
         Ok(Self { path: path.to_owned(), case, tier, overlay, output, fields })
     }
 
@@ -89,6 +90,7 @@ impl CaseFile {
         mut fields: Table,
     ) -> Result<Self, ParameterError> {
         meshes::read_beside(&mut fields, path)?;
+        rates::read_beside(&mut fields, path)?;
         let case = shortened(case.to_owned());
         Ok(Self { path: path.to_owned(), case, tier, overlay: Vec::new(), output: None, fields })
     }

@@ -18,6 +18,7 @@ mod notes;
 mod output;
 #[cfg(test)]
 pub(crate) mod pendulum;
+mod rates;
 pub mod recording;
 mod registry;
 mod request;

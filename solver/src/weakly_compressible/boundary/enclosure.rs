@@ -1,29 +1,38 @@
-//! What encloses the flow beside plane walls: shells of any shape, and open sides by which it leaves.
+//! What encloses the flow beside plane walls: shells of any shape, open sides by which it leaves, and inlets by which it comes
+//! in.
 
+use super::inlet::Inlet;
 use super::shell::Shell;
 use crate::parameter::ParameterProblem;
 use crate::vector::Vector;
 use crate::weakly_compressible::numerics::{Numerics, ViscousStep};
 use serde::{Deserialize, Serialize};
 
-/// Shells and open sides of a scene; by default there is neither.
+/// Shells, open sides and inlets of a scene; by default there are none.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Enclosure<const D: usize> {
     /// Walls of facets.
     pub shells: Vec<Shell<D>>,
     /// Planes beyond which a particle has left and is taken out.
     pub exits: Exits<D>,
+    /// Openings by which material comes in.
+    pub inlets: Vec<Inlet<D>>,
 }
 
 impl<const D: usize> Enclosure<D> {
     /// Whether there is nothing to do.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.shells.is_empty() && self.exits == Exits::default()
+        self.shells.is_empty() && self.inlets.is_empty() && self.exits == Exits::default()
     }
 
-    /// The choice of numerics that goes neither with shells nor with exits: what walls have of the forces is booked by the
-    /// single divergence in explicit steps.
+    /// All that stands before the flow as a wall: the shells, then the rows of the inlets.
+    pub(crate) fn surfaces(&self) -> Vec<Shell<D>> {
+        self.shells.iter().cloned().chain(self.inlets.iter().map(Inlet::shell)).collect()
+    }
+
+    /// The choice of numerics that goes neither with shells nor with exits or inlets: what walls have of the forces is booked by
+    /// the single divergence in explicit steps.
     #[must_use]
     pub fn numerics_problem(&self, numerics: &Numerics) -> Option<ParameterProblem> {
         if self.is_empty() {

@@ -60,8 +60,10 @@ fn behind<const D: usize>(
 
 /// Names and permissions by which material behind walls is judged.
 pub(super) struct Permissions<'a> {
-    /// Name of each wall, and whether material may stand on both sides of it.
+    /// Name of each wall, and then of each inlet, and whether material may stand on both sides of it.
     pub(super) walls: Vec<(&'a str, bool)>,
+    /// Which of them is the first inlet, and how one is turned round.
+    pub(super) inlets: (usize, &'a str),
     /// Largest share of a body that may be behind walls `[-]`.
     pub(super) most: f64,
     /// How a wall is turned round.
@@ -100,13 +102,13 @@ impl Permissions<'_> {
         let most = 100.0 * self.most;
         let rule = format!("at most {most:.1} % behind walls (`cut_at_most`), where material is left out");
         let meant = (100.0 * share).ceil() / 100.0;
+        let turn = if wall < self.inlets.0 { self.turn } else { self.inlets.1 };
         let remedy = if meant < 1.0 {
             format!(
-                "{}, make the body end at the wall, or set `cut_at_most = {meant:.2}` if the wall is meant to cut it",
-                self.turn
+                "{turn}, make the body end at the wall, or set `cut_at_most = {meant:.2}` if the wall is meant to cut it"
             )
         } else {
-            format!("{}, or put the body in front of it", self.turn)
+            format!("{turn}, or put the body in front of it")
         };
         ParameterError::field(&format!("bodies[{body}]"), value, &rule, &remedy)
     }
@@ -139,7 +141,7 @@ mod tests {
     }
 
     fn permissions(both_sides: bool, most: f64) -> Permissions<'static> {
-        Permissions { walls: vec![("bed", both_sides)], most, turn: "turn the wall round" }
+        Permissions { walls: vec![("bed", both_sides)], inlets: (1, ""), most, turn: "turn the wall round" }
     }
 
     #[test]

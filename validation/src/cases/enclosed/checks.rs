@@ -2,7 +2,7 @@
 
 use super::parameters::Setting;
 use super::periods::Periods;
-use super::setting::{SceneBody, SceneGauge, SceneWall, shown, vector};
+use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, shown, vector};
 use super::{Measurand, SceneParameters, names, sides::SceneSides};
 use crate::case::ParameterError;
 use crate::cases::rules;
@@ -16,7 +16,11 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     /// Everything that is refused beyond the ranges of single fields.
     pub(super) fn checked(&self) -> Result<(), ParameterError> {
         let walls = self.walls.iter().map(SceneWall::name);
-        names::check(&self.name, walls, self.gauges.iter().map(SceneGauge::name))?;
+        let inlets = self.inlets.iter().map(SceneInlet::name);
+        names::check(&self.name, walls, inlets, self.gauges.iter().map(SceneGauge::name))?;
+        if self.bodies.is_empty() && self.inlets.is_empty() {
+            return Err(ParameterError::field("bodies", "[]", "at least one body", S::ADD_A_BODY));
+        }
         rules::material("material", &self.material)?;
         self.bulk.check(&self.material).map_err(|error| error.within("bulk"))?;
         self.sides.check()?;
@@ -28,6 +32,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             sound.map_err(|error| error.within(&format!("walls[{k}]")))?;
         }
         self.check_scales()?;
+        self.check_inlets()?;
         self.check_gauges()?;
         self.check_numerics()
     }
@@ -39,9 +44,9 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         if shells.iter().any(|shell| shell.roughness == Surface::Smooth) {
             rules::gate("numerics", &self.numerics)?;
         }
-        let enclosure = Enclosure { shells, exits: self.sides.exits() };
+        let enclosure = Enclosure { shells, exits: self.sides.exits(), inlets: self.feeds() };
         rules::refuse("numerics", enclosure.numerics_problem(&self.numerics))?;
-        if self.numerics.contact == Contact::None && !self.walls.is_empty() {
+        if self.numerics.contact == Contact::None && !(self.walls.is_empty() && self.inlets.is_empty()) {
             let remedy = format!("contact keeps particles in front of walls of {}; leave it as it is", S::Wall::FACETS);
             return Err(ParameterError::field("numerics.contact", "none", "\"half-spacing\" with walls", &remedy));
         }
@@ -52,7 +57,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         let down = self.down();
         for (k, gauge) in self.gauges.iter().enumerate() {
             if let Measurand::Force { wall } = gauge.measure(&down) {
-                names::check_wall(&format!("gauges[{k}].wall"), wall, self.walls.iter().map(SceneWall::name))?;
+                names::check_wall(&format!("gauges[{k}].wall"), wall, self.barriers().map(|(name, _)| name))?;
             }
             gauge.check(self.spacing, &down).map_err(|error| error.within(&format!("gauges[{k}]")))?;
             self.check_direction(k, gauge)?;

@@ -3,7 +3,7 @@
 use super::behind_walls::{Permissions, Site};
 use super::lattice::{LatticeGroup, SiteLattice, groups};
 use super::parameters::Setting;
-use super::setting::{SceneBody, SceneWall, vector};
+use super::setting::{SceneBody, SceneInlet, SceneWall, vector};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, is_taken};
 use super::{SceneParameters, shapes};
@@ -43,7 +43,8 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             });
             let sites: Vec<Site<D>> = held.collect();
             let permissions = Permissions {
-                walls: self.walls.iter().map(|wall| (wall.name(), wall.may_have_two_sides())).collect(),
+                walls: self.barriers().collect(),
+                inlets: (self.walls.len(), S::Inlet::TURN),
                 most: self.cut_at_most,
                 turn: S::Wall::TURN,
             };
@@ -53,7 +54,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             let pairs = sites.into_iter().zip(behind);
             free.extend(pairs.filter(|(site, behind)| !behind && is_free(site)).map(|(site, _)| (site, *lattice)));
         }
-        let share = (all - free.len()) as f64 / all as f64;
+        let share = if all == 0 { 0.0 } else { (all - free.len()) as f64 / all as f64 };
         let mut flow = displaced_flow(
             free.iter().map(|(site, _)| site.place),
             (jitter * spacing, self.seed),
@@ -144,7 +145,7 @@ mod tests {
     fn filled<S: Setting<D>, const D: usize>(bodies: Vec<S::Body>, spacing: f64) -> f64 {
         let scene = SceneParameters { bodies, spacing, walls: Vec::new(), ..S::of_tier(Tier::Quick) };
         let law = EquationOfState { reference_density: 1000.0, bulk_modulus: 1e6, tension: Tension::Cut };
-        let (flow, _) = scene.fill(&Surfaces::of(&[], spacing), &law).expect("filled");
+        let (flow, _) = scene.fill(&Surfaces::of(&[], &[], spacing), &law).expect("filled");
         flow.mass.iter().zip(&flow.density).map(|(mass, density)| mass / density).sum()
     }
 

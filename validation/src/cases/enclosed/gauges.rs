@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub(in crate::cases) struct Memory<const D: usize> {
     /// Time of the last sample `[s]`.
     time: f64,
-    /// Places `[m]` and velocities `[m/s]` of the particles then, by their place in the scene; NaN of those that have left.
+    /// Places `[m]` and velocities `[m/s]` of the particles then, by their identity; NaN of those that have left.
     places: Vec<(Vector<D>, Vector<D>)>,
     /// Impulses of the walls then `[kg m/s]`.
     impulses: Vec<Vector<D>>,
@@ -22,20 +22,20 @@ pub(in crate::cases) struct Memory<const D: usize> {
 
 impl<const D: usize> Memory<D> {
     /// The values of all gauges now, column by column, with the snapshot of the simulation; remembers the state for the next
-    /// sample. `begun` particles were there at the start, between sides that repeat themselves by `periods`.
+    /// sample. `known` particles have been there so far, between sides that repeat themselves by `periods`.
     pub(in crate::cases) fn read_all(
         &mut self,
         measures: &[Measurand<'_, D>],
         simulation: &Simulation<D>,
         snapshot: &Snapshot<D>,
-        (begun, periods): (usize, &Periods<D>),
+        (known, periods): (usize, &Periods<D>),
     ) -> Vec<f64> {
         self.crossed.resize(measures.len(), 0.0);
         let read = |(k, measure)| self.read((k, measure), simulation, snapshot, periods);
         let values = measures.iter().enumerate().flat_map(read).collect();
         let particles = simulation.particles();
         self.places.clear();
-        self.places.resize(begun, (Vector::repeat(f64::NAN), Vector::zeros()));
+        self.places.resize(known, (Vector::repeat(f64::NAN), Vector::zeros()));
         for (index, &identity) in particles.identity.iter().enumerate() {
             self.places[identity as usize] = (particles.position[index], particles.velocity[index]);
         }
@@ -66,7 +66,7 @@ impl<const D: usize> Memory<D> {
                 (before - simulation.shell_impulses()[k]).iter().map(|&change| per_time(change)).collect()
             }
             Measurand::Flux(opening) => {
-                let crossed = opening.crossed(simulation, periods, &self.places, elapsed);
+                let crossed = opening.crossed(simulation, periods, &self.places, self.time);
                 self.crossed[gauge] += crossed;
                 vec![self.crossed[gauge], per_time(crossed)]
             }

@@ -99,25 +99,28 @@ pub struct Opening<const D: usize> {
 
 impl<const D: usize> Opening<D> {
     /// Mass `[kg]`, in the plane `[kg/m]`, that has crossed it along its normal since particles were at the places `before`
-    /// with the velocities there `elapsed` `[s]` ago, less what went back. What wraps at periodic sides crosses nothing by that,
+    /// with the velocities there at the time `last` `[s]`, less what went back. What an inlet has fed since began in its rows. What wraps at periodic sides crosses nothing by that,
     /// and an opening that it meets beyond them is the same opening.
     pub(super) fn crossed(
         &self,
         simulation: &Simulation<D>,
         periods: &Periods<D>,
         before: &[(Vector<D>, Vector<D>)],
-        elapsed: f64,
+        last: f64,
     ) -> f64 {
         let particles = simulation.particles();
         let mut sum = 0.0;
         for index in particles.by_identity() {
-            let Some((start, velocity)) = before.get(particles.identity[index] as usize) else { continue };
-            let expected = start + (velocity + particles.velocity[index]) * (0.5 * elapsed);
+            let (identity, now) = (particles.identity[index], particles.velocity[index]);
+            let known = before.get(identity as usize).map(|&(start, velocity)| (start, velocity, last));
+            let fed = || simulation.entry(identity).map(|(start, time)| (start, now, time));
+            let Some((start, velocity, time)) = known.or_else(fed) else { continue };
+            let expected = start + (velocity + now) * (0.5 * (simulation.time() - time));
             let (end, turns) = periods.unwrapped(&particles.position[index], &expected);
             let crossings: f64 = if periods.are_any() {
-                self.passed_with_images(periods, start, &end, turns)
+                self.passed_with_images(periods, &start, &end, turns)
             } else {
-                self.passed(start, &end)
+                self.passed(&start, &end)
             };
             sum += particles.mass[index] * crossings;
         }

@@ -2,15 +2,18 @@
 
 use super::parameters::Setting;
 use super::series;
-use super::setting::vector;
+use super::setting::{SceneInlet, vector};
 use super::sides::SceneSides;
-use super::{Measurand, MeasuredSeries, SceneObservation, SceneParameters, SceneRecord};
+use super::{FedMass, Measurand, MeasuredSeries, SceneObservation, SceneParameters, SceneRecord};
 use crate::cases::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::statistics::{Beyond, interpolated};
 
+/// Largest difference of the mass that was fed from the integral of the rate, over a row `[-]`.
+const FARTHEST: f64 = 0.7;
+
 quantities! { shared pub(super)
-    MASS_RESIDUAL: accounted("mass_residual", "%", "mass in the scene and beyond its open sides, less that of the start"),
+    MASS_RESIDUAL: accounted("mass_residual", "%", "mass in the scene and beyond its open sides, less that of the start and of what came in"),
     MOMENTUM_RESIDUAL:
         accounted("momentum_residual", "%", "impulse without a cause among gravity, walls and sides, over that of gravity"),
     FORCE_RESIDUAL:
@@ -18,6 +21,8 @@ quantities! { shared pub(super)
     THROUGH_WALLS: accounted("through_walls", "-", "particles that are behind a wall at the end"),
     MASS_LEFT: accounted("mass_left", "%", "mass that has left by open sides"),
     CUT_OFF: accounted("cut_off", "%", "material of the bodies that is behind walls or at them, and is left out at the start"),
+    FEED_ERROR:
+        accounted("feed_error", "-", "largest difference of the mass that an inlet has fed from the integral of its rate, over a row"),
     FINAL_RMS_SPEED:
         accounted("final_rms_speed", "m/s", "root mean square of the speed in the scene, mean over the last tenth of the run"),
     FRONT: accounted("front", "m", "how far the material reaches along a gauge's line at the end"),
@@ -25,9 +30,9 @@ quantities! { shared pub(super)
     GAUGE_ERROR: validated("gauge_error", "%", "root mean square of a gauge's relative error at the measured times"),
 }
 
-/// All quantities of a case of scenes, of which two have units of its own: [`Setting::MEAN_FORCE`] and
-/// [`Setting::MASS_CROSSED`].
-pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> [Quantity; 16] {
+/// All quantities of a case of scenes, of which three have units of its own: [`Setting::MEAN_FORCE`],
+/// [`Setting::MASS_CROSSED`] and [`Setting::MASS_FED`].
+pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> [Quantity; 18] {
     [
         ENERGY_RESIDUAL,
         ENERGY_RISE,
@@ -39,12 +44,14 @@ pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> 
         THROUGH_WALLS,
         MASS_LEFT,
         CUT_OFF,
+        FEED_ERROR,
         FINAL_RMS_SPEED,
         FRONT,
         DEPTH,
         GAUGE_ERROR,
         S::MEAN_FORCE,
         S::MASS_CROSSED,
+        S::MASS_FED,
     ]
 }
 
@@ -62,6 +69,7 @@ fn of_run<S: Setting<D>, const D: usize>(
 ) -> Vec<Metric> {
     let (variant, data) = (run.named(), &record.data);
     let mut metrics = balances(&variant, data, parameters.sides.has_mirror());
+    metrics.extend(feeds(&variant, data, parameters));
     metrics.extend(energy(&variant, data, parameters));
     metrics.push(FINAL_RMS_SPEED.of(&variant, final_mean(&data.rms_speed)).with_snapshot_tolerance(0.1, 1e-3));
     for series in series::of_run(parameters, data) {
@@ -85,7 +93,7 @@ fn of_run<S: Setting<D>, const D: usize>(
 
 /// The balances of a run in which something can be missing; `has_mirror` tells of planes of symmetry, which are no walls.
 fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_mirror: bool) -> Vec<Metric> {
-    let mass = data.mass.first().copied().unwrap_or(f64::NAN);
+    let mass = data.whole_mass();
     let closed = "what is booked particle by particle adds up to the rounding of single precision, over as many steps as a scene lasts: 1e-7 % \
                   after thousands of them";
     let mut metrics = vec![
@@ -124,6 +132,29 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
     metrics
 }
 
+/// What inlets have fed, and how far it is from what they were to feed.
+fn feeds<S: Setting<D>, const D: usize>(
+    variant: &Variant,
+    data: &SceneObservation<D>,
+    parameters: &SceneParameters<S, D>,
+) -> Vec<Metric> {
+    let of_inlet = |(inlet, fed): (&S::Inlet, &FedMass)| {
+        let own = variant.clone().and("inlet", inlet.name());
+        [
+            S::MASS_FED.of(&own, fed.mass).with_snapshot_tolerance(1e-6, 0.0),
+            FEED_ERROR
+                .of(&own, fed.farthest)
+                .exactly(0.0, "the integral of the rate; material comes in row by row")
+                .gated(
+                    Limit::AtMost(FARTHEST),
+                    "half a row, and what rows move in a step at a fifth of the speed of sound",
+                )
+                .with_snapshot_tolerance(0.5, 0.1),
+        ]
+    };
+    parameters.inlets.iter().zip(&data.fed).flat_map(of_inlet).collect()
+}
+
 /// The energy's balance. What a wall of the scene gives may be meant, so that only what is not booked is judged.
 /// Gravity, height and stiffness of the scene give the scales of energy and time.
 fn energy<S: Setting<D>, const D: usize>(
@@ -136,7 +167,7 @@ fn energy<S: Setting<D>, const D: usize>(
         return Vec::new();
     }
     let (gravity, height) = (vector(&parameters.gravity).norm(), parameters.height());
-    let weight = data.mass.first().copied().unwrap_or(f64::NAN) * gravity;
+    let weight = data.whole_mass() * gravity;
     let numerics = &parameters.numerics;
     let smoothing_length = numerics.smoothing_ratio * parameters.spacing;
     let sound_speed = (parameters.stiffness * gravity * height).sqrt();

@@ -1,5 +1,5 @@
 //! Scenes of a user's own, whatever the number of axes: what the cases `scene` and `scene-space` share. What the plane and
-//! space give in a way of their own (bodies, walls, gauges, sides, pictures, the tiers' scene) stands in the folders of these
+//! space give in a way of their own (bodies, walls, inlets, gauges, sides, pictures, the tiers' scene) stands in the folders of these
 //! cases, behind [`Setting`].
 
 mod behind_walls;
@@ -9,6 +9,8 @@ pub(super) mod filling;
 pub(super) mod foreign;
 pub(super) mod gauges;
 mod given;
+mod given_rate;
+mod inflow;
 mod lattice;
 pub(super) mod measure;
 mod measured;
@@ -27,9 +29,10 @@ mod surfaces;
 mod tiers;
 
 pub use given::PlainData;
+pub use given_rate::GivenRate;
 pub use measure::{DepthGauge, Measurand, Opening};
 pub use measured::MeasuredSeries;
-pub use observation::{Left, SceneObservation};
+pub use observation::{FedMass, Left, SceneObservation};
 pub use parameters::{SceneParameters, Setting};
 pub use run::SceneRun;
 pub use settling::BodyPreparation;

@@ -35,15 +35,18 @@ pub(in crate::cases) fn check_line<const D: usize>(
 pub(super) fn check<'a>(
     own: &'a str,
     walls: impl Iterator<Item = &'a str>,
+    inlets: impl Iterator<Item = &'a str>,
     gauges: impl Iterator<Item = &'a str>,
 ) -> Result<(), ParameterError> {
     let fit =
         |name: &str| !name.is_empty() && name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '-');
     let mut seen = BTreeSet::new();
     let walls = walls.enumerate().map(|(k, name)| (format!("walls[{k}].name"), name));
+    let inlets = inlets.enumerate().map(|(k, name)| (format!("inlets[{k}].name"), name));
     let gauges = gauges.enumerate().map(|(k, name)| (format!("gauges[{k}].name"), name));
-    for (field, name) in std::iter::once(("name".to_owned(), own)).chain(walls).chain(gauges) {
-        let kind = field.split('[').next().unwrap_or_default().to_owned();
+    for (field, name) in std::iter::once(("name".to_owned(), own)).chain(walls).chain(inlets).chain(gauges) {
+        // walls and inlets are called alike by gauges
+        let kind = field.split('[').next().unwrap_or_default().replace("inlets", "walls");
         let refused = |rule, remedy| Err(ParameterError::field(&field, format!("\"{name}\""), rule, remedy));
         if !fit(name) {
             return refused("letters, digits and hyphens", "files are named after it");
@@ -56,7 +59,7 @@ pub(super) fn check<'a>(
     Ok(())
 }
 
-/// The wall that a field of a gauge names is one of the scene.
+/// The wall, or inlet, that a field of a gauge names is one of the scene.
 pub(super) fn check_wall<'a>(
     field: &str,
     wall: &str,

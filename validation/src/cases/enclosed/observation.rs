@@ -15,6 +15,17 @@ pub struct Left {
     pub mass: f64,
 }
 
+/// What an inlet has fed up to the last sample; in the plane, masses are those per metre of depth.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct FedMass {
+    /// Particles.
+    pub particles: u64,
+    /// Their mass `[kg]`.
+    pub mass: f64,
+    /// Largest difference of the mass that was fed from the integral of the rate, at any sample, over the mass of a row `[-]`.
+    pub farthest: f64,
+}
+
 /// Series and balances; every series has the shape `[samples]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SceneObservation<const D: usize> {
@@ -26,11 +37,13 @@ pub struct SceneObservation<const D: usize> {
     pub rms_speed: Vec<f64>,
     /// The gauges' values, shape `[columns][samples]`.
     pub gauges: Vec<Vec<f64>>,
-    /// The energy ledger, with what has left still counted.
+    /// The energy ledger, with what has left still counted, and what inlets have brought not.
     pub energy: EnergyBook,
     /// What left by the lower and the upper side of the first axis, then of the next, up to the last sample.
     pub left: Vec<Left>,
-    /// Largest difference of the mass inside and outside from that of the start `[kg]`.
+    /// What came in, inlet by inlet.
+    pub fed: Vec<FedMass>,
+    /// Largest difference of the mass inside and outside from that of the start and of what came in `[kg]`.
     pub missing_mass: f64,
     /// Largest impulse that has no cause among gravity, walls and sides `[kg m/s]`.
     pub missing_impulse: f64,
@@ -56,6 +69,7 @@ impl<const D: usize> Default for SceneObservation<D> {
             gauges: Vec::new(),
             energy: EnergyBook::default(),
             left: Vec::new(),
+            fed: Vec::new(),
             missing_mass: 0.0,
             missing_impulse: 0.0,
             unassigned_impulse: 0.0,
@@ -77,35 +91,51 @@ impl<const D: usize> SceneObservation<D> {
         gauges: Vec<f64>,
     ) {
         let sides = &simulation.departures().sides;
-        let inside: f64 = snapshot.mass.iter().sum();
+        let inside = snapshot.mass.iter().fold(0.0, |sum, mass| sum + mass);
         let outside: f64 = sides.iter().map(|side| side.mass).sum();
         let held: Vector<D> = snapshot.velocity.iter().zip(&snapshot.mass).map(|(v, m)| v * *m).sum();
         let gone: Vector<D> = sides.iter().map(|side| side.momentum).sum();
         let supports: Vector<D> = snapshot.support_impulse.iter().sum::<Vector<D>>()
             + sides.iter().map(|side| side.support).sum::<Vector<D>>();
         let walls: Vector<D> = simulation.shell_impulses().iter().sum();
-        let worked: f64 = sides.iter().map(|side| side.mass_times_time).sum();
+        let inlets = &simulation.arrivals().inlets;
+        let brought: f64 = inlets.iter().map(|fed| fed.mass).sum();
+        let came: Vector<D> = inlets.iter().map(|fed| fed.momentum).sum();
+        let absent: f64 = inlets.iter().map(|fed| fed.mass_times_time).sum();
+        let worked = sides.iter().map(|side| side.mass_times_time).sum::<f64>() - absent;
         let given = gravity * (inside * snapshot.time + worked);
         if self.time.is_empty() {
             self.momentum_at_start = held;
             self.gauges = vec![Vec::new(); gauges.len()];
         }
-        let missing = held + gone - self.momentum_at_start - supports - given;
+        let missing = held + gone - came - self.momentum_at_start - supports - given;
         self.time.push(snapshot.time);
         self.mass.push(inside);
         let squares: f64 = snapshot.velocity.iter().zip(&snapshot.mass).map(|(v, m)| v.norm_squared() * m).sum();
-        self.rms_speed.push((squares / inside).sqrt());
+        // before the first row of an inlet there is nothing that moves
+        self.rms_speed.push(if inside > 0.0 { (squares / inside).sqrt() } else { 0.0 });
         for (series, value) in self.gauges.iter_mut().zip(gauges) {
             series.push(value);
         }
         self.left = sides.iter().map(|side| Left { particles: side.particles, mass: side.mass }).collect();
-        self.missing_mass = self.missing_mass.max((inside + outside - self.mass[0]).abs());
+        self.fed.resize(inlets.len(), FedMass::default());
+        for ((entry, fed), inlet) in self.fed.iter_mut().zip(inlets).zip(simulation.inlets()) {
+            let off = (fed.mass - inlet.rate.mass(snapshot.time)).abs() / inlet.row_mass();
+            *entry = FedMass { particles: fed.particles, mass: fed.mass, farthest: entry.farthest.max(off) };
+        }
+        self.missing_mass = self.missing_mass.max((inside + outside - self.mass[0] - brought).abs());
         self.missing_impulse = self.missing_impulse.max(missing.norm());
         self.unassigned_impulse = self.unassigned_impulse.max((supports - walls).norm());
         self.gravity_impulse = given.norm();
         if let Some(account) = &snapshot.energy {
             let kept: f64 = sides.iter().map(|side| side.energy).sum();
-            self.energy.enter(snapshot.time, account, kept);
+            let given: f64 = inlets.iter().map(|fed| fed.energy).sum();
+            self.energy.enter(snapshot.time, account, kept - given);
         }
+    }
+
+    /// All the mass that there has been, at the start or by inlets up to the last sample `[kg]`.
+    pub(super) fn whole_mass(&self) -> f64 {
+        self.mass.first().copied().unwrap_or(f64::NAN) + self.fed.iter().map(|fed| fed.mass).sum::<f64>()
     }
 }

@@ -3,7 +3,7 @@
 
 use super::given::PlainData;
 use super::measured::MeasuredSeries;
-use super::setting::{SceneBody, SceneGauge, SceneWall, vector};
+use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, vector};
 use super::sides::SceneSides;
 use super::{BodyPreparation, Measurand, shapes};
 use crate::case::Tier;
@@ -12,9 +12,9 @@ use crate::figure::Figure;
 use crate::metric::Quantity;
 use crate::observation::Frame;
 use bagnold_solver::domain::Domain;
-use bagnold_solver::material::equation_of_state::Tension;
+use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Rheology};
-use bagnold_solver::parameter::{between, filled, positive};
+use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::facet::Facet;
 use bagnold_solver::weakly_compressible::boundary::shell::Shell;
@@ -33,6 +33,8 @@ pub trait Setting<const D: usize>: Debug + Clone + Copy + PartialEq + Send + Syn
     type Body: SceneBody<D>;
     /// A wall.
     type Wall: SceneWall<D>;
+    /// An opening by which material comes in.
+    type Inlet: SceneInlet<D>;
     /// A gauge.
     type Gauge: SceneGauge<D>;
 
@@ -44,6 +46,8 @@ pub trait Setting<const D: usize>: Debug + Clone + Copy + PartialEq + Send + Syn
     const MEAN_FORCE: Quantity;
     /// Mass that has crossed a gauge's opening, in the unit that masses have here.
     const MASS_CROSSED: Quantity;
+    /// Mass that an inlet has fed, in the unit that masses have here.
+    const MASS_FED: Quantity;
     /// Unit of a mass per time.
     const FLUX_UNIT: &'static str;
 
@@ -101,11 +105,12 @@ pub struct SceneParameters<S: Setting<D>, const D: usize> {
     pub bulk: Bulk,
     /// Sides of the domain.
     pub sides: S::Sides,
-    /// Where the material is at the start.
-    #[schemars(transform = filled("at least one body", S::ADD_A_BODY))]
+    /// Where the material is at the start; none where an inlet brings it.
     pub bodies: Vec<S::Body>,
     /// Walls; what is not held by one falls.
     pub walls: Vec<S::Wall>,
+    /// Openings by which material comes in.
+    pub inlets: Vec<S::Inlet>,
     /// What is measured.
     pub gauges: Vec<S::Gauge>,
     /// Measured series that gauges are compared with.
@@ -144,6 +149,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             bodies: Vec::new(),
             cut_at_most: 0.1,
             walls: Vec::new(),
+            inlets: Vec::new(),
             gauges: Vec::new(),
             measured: Vec::new(),
             // a liquid comes to rest, grains keep the operator that they are verified with
@@ -174,14 +180,15 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         given.map(|given| given.normalize()).or(wall.and_then(of_wall)).unwrap_or_else(|| self.down())
     }
 
-    /// Lower and upper corner of all material and walls `[m]`.
+    /// Lower and upper corner of all material, walls and inlets `[m]`.
     pub(in crate::cases) fn extent(&self) -> (Vector<D>, Vector<D>) {
         let bodies = self.bodies.iter().flat_map(|body| <[Vector<D>; 2]>::from(body.extent()));
-        shapes::around(bodies.chain(self.walls.iter().flat_map(SceneWall::hull)))
+        let inlets = self.inlets.iter().flat_map(SceneInlet::corners);
+        shapes::around(bodies.chain(self.walls.iter().flat_map(SceneWall::hull)).chain(inlets))
     }
 
-    /// Height of the scene along gravity, from the highest material to the lowest of walls and material `[m]`; bodies count
-    /// by their boxes.
+    /// Height of the scene along gravity, from the highest material, at the start or in inlets, to the lowest of walls and material
+    /// `[m]`; bodies count by their boxes.
     pub(super) fn height(&self) -> f64 {
         let up = -self.down();
         let ends = |body: &S::Body| {
@@ -189,9 +196,22 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             let (one, other) = (up.component_mul(&lower), up.component_mul(&upper));
             (one.inf(&other).sum(), one.sup(&other).sum())
         };
-        let highest = self.bodies.iter().map(|body| ends(body).1).fold(f64::NEG_INFINITY, f64::max);
+        let of_inlets: Vec<f64> =
+            self.inlets.iter().flat_map(SceneInlet::corners).map(|place| up.dot(&place)).collect();
+        let highest = self.bodies.iter().map(|body| ends(body).1).chain(of_inlets.iter().copied());
+        let highest = highest.fold(f64::NEG_INFINITY, f64::max);
         let of_walls = self.walls.iter().flat_map(SceneWall::hull).map(|place| up.dot(&place));
-        let lowest = self.bodies.iter().map(|body| ends(body).0).chain(of_walls).fold(f64::INFINITY, f64::min);
-        highest - lowest
+        let lowest = self.bodies.iter().map(|body| ends(body).0).chain(of_walls).chain(of_inlets);
+        highest - lowest.fold(f64::INFINITY, f64::min)
+    }
+
+    /// How dense the material is under a pressure.
+    pub(super) fn equation_of_state(&self) -> EquationOfState {
+        let reference_density = self.bulk.density(&self.material);
+        let fastest = self.bodies.iter().map(|body| body.velocity().norm_squared()).fold(0.0, f64::max);
+        let falls = vector(&self.gravity).norm() * self.height();
+        // what moves at the start must be as slow against sound as what falls
+        let bulk_modulus = self.stiffness * reference_density * falls.max(0.5 * fastest);
+        EquationOfState { reference_density, bulk_modulus, tension: self.tension }
     }
 }

@@ -3,19 +3,19 @@
 use super::gauges::Memory;
 use super::parameters::Setting;
 use super::periods::Periods;
-use super::setting::{SceneBody, SceneWall, vector};
+use super::setting::{SceneBody, SceneInlet, SceneWall, vector};
 use super::settling::{self, RestCriterion};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, behind};
-use super::{BodyPreparation, SceneObservation, SceneParameters};
+use super::{BodyPreparation, SceneObservation, SceneParameters, shapes};
 use crate::case::recording::{self, Beginning, Ending, Followed, SimulationStage};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
 use crate::setup::wall_rows;
 use bagnold_solver::domain::Domain;
-use bagnold_solver::material::equation_of_state::EquationOfState;
-use bagnold_solver::weakly_compressible::boundary::Enclosure;
+use bagnold_solver::weakly_compressible::boundary::enclosure::Exits;
+use bagnold_solver::weakly_compressible::boundary::{Enclosure, Inlet};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
@@ -29,6 +29,15 @@ use std::ops::ControlFlow;
 pub struct SceneRun<S: Setting<D>, const D: usize> {
     /// All of it.
     pub scene: SceneParameters<S, D>,
+}
+
+/// When particles are counted: for estimates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Moment {
+    Start,
+    /// On average over the run.
+    Mean,
+    End,
 }
 
 /// What is kept from sample to sample.
@@ -50,15 +59,17 @@ where
     }
 
     fn particles(&self) -> f64 {
-        self.flow_particles() + self.wall_particles()
+        self.flow_particles(Moment::End) + self.wall_particles()
     }
 
     fn particle_steps(&self) -> f64 {
-        self.flow_particles() * (self.scene.duration + self.settling_time()) / self.step_bounds().step()
+        let running = self.flow_particles(Moment::Mean) * self.scene.duration;
+        (running + self.flow_particles(Moment::Start) * self.settling_time()) / self.step_bounds().step()
     }
 
     fn seconds_per_particle_step(&self) -> f64 {
-        let all_per_flow = self.particles() / self.flow_particles().max(1.0);
+        let flow = self.flow_particles(Moment::Mean).max(1.0);
+        let all_per_flow = (flow + self.wall_particles()) / flow;
         S::COST * cost::WEAKLY_COMPRESSIBLE * all_per_flow
     }
 
@@ -66,7 +77,7 @@ where
         let scene = &self.scene;
         let (made, cut_off) = self.scene()?;
         let begun = made.flow.position.len();
-        if begun == 0 {
+        if begun == 0 && scene.inlets.is_empty() {
             let value = format!("{} of them without room for a particle", scene.bodies.len());
             let rule = format!("wider than two spacings, {}, somewhere in front of all walls", 2.0 * scene.spacing);
             let remedy = "make a body wider or the spacing smaller, or give a wall that is seen from its back the other way round";
@@ -91,13 +102,15 @@ where
                 *last_good = simulation.snapshot();
                 let steps = simulation.steps() as f64 * last_good.mass.len() as f64;
                 progress.advance(last_good.time, scene.duration, steps);
-                let values = watch.memory.read_all(&measures, simulation, last_good, (begun, &periods));
+                let known = begun + simulation.arrivals().particles() as usize;
+                let values = watch.memory.read_all(&measures, simulation, last_good, (known, &periods));
                 watch.observation.enter(simulation, last_good, &gravity, values);
                 let due = watch.frames.len() as f64 * scene.duration / scene.pictures as f64;
                 if last_good.time >= due - 0.5 * scene.interval && watch.frames.len() < scene.pictures {
                     watch.frames.push(Frame::of_flow(last_good));
                 }
-                if last_good.mass.is_empty() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                let is_over = simulation.inlets().iter().all(|inlet| inlet.rate.is_over(last_good.time));
+                if last_good.mass.is_empty() && is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             },
         )?;
         let mut ending = Ending::of(stop, last_good, started);
@@ -120,25 +133,41 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
         wall_rows(self.scene.numerics.smoothing_ratio)
     }
 
-    /// Particles of the bodies.
-    fn flow_particles(&self) -> f64 {
-        let volume: f64 = self.scene.bodies.iter().map(SceneBody::volume).sum();
-        volume / self.scene.spacing.powi(D as i32)
+    /// Particles of the bodies, and of what inlets have fed. Where there are open sides, what is beyond all that the scene's box holds
+    /// is taken to have left by them.
+    fn flow_particles(&self, moment: Moment) -> f64 {
+        let cell = self.scene.spacing.powi(D as i32);
+        let bodies = self.scene.bodies.iter().map(SceneBody::volume).sum::<f64>() / cell;
+        if self.scene.inlets.is_empty() {
+            return bodies;
+        }
+        let fed = match moment {
+            Moment::Start => 0.0,
+            Moment::Mean => self.scene.mean_fed_particles(),
+            Moment::End => self.scene.fed_particles(self.scene.duration),
+        };
+        if self.scene.sides.exits() == Exits::default() {
+            return bodies + fed;
+        }
+        let (lower, upper) = self.scene.sides.widen(self.scene.extent());
+        (bodies + fed).min((bodies).max(shapes::box_volume(&lower, &upper) / cell))
     }
 
-    /// Dummy particles of the walls.
+    /// Dummy particles of the walls, and of the rows of inlets.
     fn wall_particles(&self) -> f64 {
         let walls: f64 = self.scene.walls.iter().map(SceneWall::measure).sum();
-        walls / self.scene.spacing.powi(D as i32 - 1) * self.rows() as f64
+        let openings: f64 = self.scene.inlets.iter().map(|inlet| inlet.edges().iter().product::<f64>()).sum();
+        (walls + openings) / self.scene.spacing.powi(D as i32 - 1) * self.rows() as f64
     }
 
     /// The solver's own bounds of a step, with the largest viscosity and speed that the scene can come to.
     fn step_bounds(&self) -> TimeStepBounds {
         let SceneParameters { numerics, spacing, material, .. } = &self.scene;
-        let equation_of_state = self.equation_of_state();
+        let equation_of_state = self.scene.equation_of_state();
         let (density, fall) = (equation_of_state.reference_density, self.fall_speed());
         let walls = self.scene.walls.iter().map(|wall| wall.shell().motion.largest_speed()).fold(0.0, f64::max);
-        let speed = (2.0_f64.sqrt() * fall).max(self.fastest_body()) + walls;
+        let inlets = self.scene.feeds().iter().map(Inlet::largest_speed).fold(0.0, f64::max);
+        let speed = (2.0_f64.sqrt() * fall).max(self.fastest_body()).max(inlets) + walls.max(inlets);
         let viscosity = material.largest_viscosity(density * fall * fall) / density;
         let smoothing_length = numerics.smoothing_ratio * spacing;
         TimeStepBounds::new(numerics, smoothing_length, equation_of_state.sound_speed(), speed, viscosity)
@@ -156,7 +185,7 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
 
     /// Time that sound needs across the height of the scene `[s]`.
     fn crossing_time(&self) -> f64 {
-        self.scene.height() / self.equation_of_state().sound_speed()
+        self.scene.height() / self.scene.equation_of_state().sound_speed()
     }
 
     /// Time that settling is expected to take `[s]`.
@@ -187,16 +216,6 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
         }
     }
 
-    fn equation_of_state(&self) -> EquationOfState {
-        let SceneParameters { stiffness, tension, bulk, material, .. } = &self.scene;
-        let reference_density = bulk.density(material);
-        let fastest = self.scene.bodies.iter().map(|body| body.velocity().norm_squared()).fold(0.0, f64::max);
-        let falls = vector(&self.scene.gravity).norm() * self.scene.height();
-        // what moves at the start must be as slow against sound as what falls
-        let bulk_modulus = stiffness * reference_density * falls.max(0.5 * fastest);
-        EquationOfState { reference_density, bulk_modulus, tension: *tension }
-    }
-
     /// The scene, and the share of the sites of bodies that walls take `[-]`.
     ///
     /// # Errors
@@ -206,11 +225,13 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
         let domain = Domain { axes: self.scene.sides.axes() };
         let mut shells: Vec<_> = self.scene.walls.iter().map(SceneWall::shell).collect();
         S::lay(&mut shells, &domain, spacing, self.rows());
-        let equation_of_state = self.equation_of_state();
-        let surfaces = Surfaces::of(&shells, self.rows() as f64 * spacing);
+        let (equation_of_state, inlets) = (self.scene.equation_of_state(), self.scene.feeds());
+        let rows: Vec<_> = inlets.iter().map(Inlet::shell).collect();
+        let surfaces = Surfaces::of(&shells, &rows, self.rows() as f64 * spacing);
+        self.scene.check_openings(&inlets, &surfaces)?;
         let (flow, cut_off) = self.scene.fill(&surfaces, &equation_of_state)?;
         let mut scene = Scene::unbounded(flow, spacing, equation_of_state, material);
-        scene.enclosure = Enclosure { shells, exits: self.scene.sides.exits() };
+        scene.enclosure = Enclosure { shells, exits: self.scene.sides.exits(), inlets };
         (scene.domain, scene.numerics) = (domain, numerics);
         scene.gravity = vector(&self.scene.gravity);
         Ok((scene, cut_off))

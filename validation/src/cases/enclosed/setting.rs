@@ -1,10 +1,11 @@
-//! Bodies, walls and gauges, which the plane and space each give in their own way.
+//! Bodies, walls, inlets and gauges, which the plane and space each give in their own way.
 
-use super::Measurand;
 use super::given::PlainData;
+use super::{GivenRate, Measurand};
 use crate::case::ParameterError;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::Surface;
+use bagnold_solver::weakly_compressible::boundary::inlet::{Inlet, Supply};
 use bagnold_solver::weakly_compressible::boundary::shell::Shell;
 
 /// A piece of the material at the start.
@@ -60,6 +61,35 @@ pub trait SceneWall<const D: usize>: PlainData {
     /// # Errors
     /// The field that breaks a rule. How it moves is checked elsewhere.
     fn check(&self, spacing: f64) -> Result<(), ParameterError>;
+}
+
+/// An opening by which material comes in.
+pub trait SceneInlet<const D: usize>: PlainData {
+    /// The field by which its place is given.
+    const GIVEN_BY: &'static str;
+    /// How one is turned round that looks the wrong way.
+    const TURN: &'static str;
+
+    /// Its name, by which gauges and messages call it.
+    fn name(&self) -> &str;
+
+    /// The rate at which it feeds the flow.
+    fn rate(&self) -> GivenRate<'_>;
+
+    /// Its corners `[m]`.
+    fn corners(&self) -> Vec<Vector<D>>;
+
+    /// Lengths of its edges `[m]`.
+    fn edges(&self) -> Vec<f64>;
+
+    /// Refuses an opening of another form.
+    ///
+    /// # Errors
+    /// The field that gives it.
+    fn check(&self) -> Result<(), ParameterError>;
+
+    /// The inlet for the solver; none where its edges are in line.
+    fn feed(&self, supply: Supply) -> Option<Inlet<D>>;
 }
 
 /// What is measured while a scene runs.

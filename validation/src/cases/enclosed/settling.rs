@@ -11,6 +11,7 @@ use super::periods::Periods;
 use crate::case::ParameterError;
 use crate::checkpoint::is_interrupted;
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::FeedRate;
 use bagnold_solver::weakly_compressible::boundary::shell::Motion;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
@@ -65,9 +66,16 @@ pub(super) fn settled<const D: usize>(scene: Scene<D>, rest: RestCriterion) -> R
 where
     Simulation<D>: Compiled<D>,
 {
+    if scene.flow.position.is_empty() {
+        let remedy = "what an inlet brings moves: leave the preparation out";
+        return Err(refused_for("settled", "\"none\" for a scene without bodies", remedy));
+    }
     let mut resting = scene.clone();
     for shell in &mut resting.enclosure.shells {
         shell.motion = Motion::default();
+    }
+    for inlet in &mut resting.enclosure.inlets {
+        inlet.rate = FeedRate::closed();
     }
     let (mut elapsed, mut low) = (0.0, 0);
     loop {

@@ -91,6 +91,24 @@ pub trait SceneSides<const D: usize>: PlainData {
         })
     }
 
+    /// Whether a place lies between those of them beyond which the flow goes on: periods and planes of symmetry.
+    fn continue_to(&self, place: &Vector<D>) -> bool {
+        let goes_on = |side: DomainSide| if matches!(side, DomainSide::Open(_)) { None } else { side.coordinate() };
+        self.pairs().into_iter().enumerate().all(|(axis, (lower, upper))| {
+            goes_on(lower).is_none_or(|plane| place[axis] > plane)
+                && goes_on(upper).is_none_or(|plane| place[axis] < plane)
+        })
+    }
+
+    /// A box, by its lower and upper corner `[m]`, as far as they reach at least.
+    fn widen(&self, (mut lower, mut upper): (Vector<D>, Vector<D>)) -> (Vector<D>, Vector<D>) {
+        for (axis, (below, above)) in self.pairs().into_iter().enumerate() {
+            lower[axis] = below.coordinate().map_or(lower[axis], |plane| lower[axis].min(plane));
+            upper[axis] = above.coordinate().map_or(upper[axis], |plane| upper[axis].max(plane));
+        }
+        (lower, upper)
+    }
+
     /// What of a box, by its lower and upper corner `[m]`, lies between them.
     fn clip(&self, (mut lower, mut upper): (Vector<D>, Vector<D>)) -> (Vector<D>, Vector<D>) {
         for (axis, (below, above)) in self.pairs().into_iter().enumerate() {

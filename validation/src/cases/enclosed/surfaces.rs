@@ -42,15 +42,17 @@ impl<const D: usize> FacetSurface<D> {
     }
 }
 
-/// What walls at rest make up together, and each that moves, at the start.
+/// What walls at rest make up together, and each that moves, as the rows of an inlet do, at the start.
 pub(super) struct Surfaces<const D: usize>(Vec<FacetSurface<D>>);
 
 impl<const D: usize> Surfaces<D> {
-    /// The surfaces of some walls, by which places are found up to a distance `[m]`: as far as the walls are thick.
-    pub(super) fn of(shells: &[Shell<D>], range: f64) -> Self {
+    /// The surfaces of some walls and then of the rows of inlets, by which places are found up to a distance `[m]`: as far as the
+    /// walls are thick.
+    pub(super) fn of(shells: &[Shell<D>], rows: &[Shell<D>], range: f64) -> Self {
         let (rest, moving): (Vec<_>, Vec<_>) = shells.iter().enumerate().partition(|(_, shell)| shell.motion.is_rest());
         let rest = std::iter::once(FacetSurface::of(rest.into_iter(), range));
-        let moving = moving.into_iter().map(|one| FacetSurface::of(std::iter::once(one), range));
+        let rows = rows.iter().enumerate().map(|(inlet, rows)| (shells.len() + inlet, rows));
+        let moving = moving.into_iter().chain(rows).map(|one| FacetSurface::of(std::iter::once(one), range));
         Self(rest.chain(moving).collect())
     }
 

@@ -3,11 +3,13 @@
 mod body;
 mod figures;
 mod gauge;
+mod inlet;
 mod tiers;
 mod wall;
 
 pub use body::PlaneBody;
 pub use gauge::PlaneGauge;
+pub use inlet::PlaneInlet;
 pub use wall::{FlowSide, PlaneSides, WallLine};
 
 use super::enclosed::Setting;
@@ -40,6 +42,7 @@ impl Setting<2> for Plane {
     type Sides = PlaneSides;
     type Body = PlaneBody;
     type Wall = WallLine;
+    type Inlet = PlaneInlet;
     type Gauge = PlaneGauge;
 
     const ADD_A_BODY: &'static str = "add a box, a disc or a polygon of material";
@@ -48,6 +51,7 @@ impl Setting<2> for Plane {
         Quantity::accounted("mean_force", "N/m", "force of the flow on a gauge's wall, its mean over the run");
     const MASS_CROSSED: Quantity =
         Quantity::accounted("mass_crossed", "kg/m", "mass that has crossed a gauge's line up to the end");
+    const MASS_FED: Quantity = Quantity::accounted("mass_fed", "kg/m", "mass that an inlet has fed up to the end");
     const FLUX_UNIT: &'static str = "kg/(m s)";
 
     fn of_tier(tier: Tier) -> PlaneParameters {
@@ -70,7 +74,7 @@ pub struct UserScene;
 impl Case for UserScene {
     const NAME: &'static str = "scene";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
-    const SUMMARY: &'static str = "a scene of one's own in the plane: bodies of material, walls of segments, open sides, gauges; judged by its balances";
+    const SUMMARY: &'static str = "a scene of one's own in the plane: bodies of material, walls of segments, inlets, open sides, gauges; judged by its balances";
     const DESCRIPTION: &'static str = "Boxes, discs and polygons of one material under any law, by the weakly compressible model, between walls \
         that are polylines, rough or smooth, at rest or moved by a table of times. Sides of the domain are planes of \
         symmetry, periods, or open: what leaves is counted. Gauges measure the front along a line, the depth at a place, the \
@@ -79,7 +83,7 @@ impl Case for UserScene {
         The scene of the tiers is a column of glass beads that collapses onto a step and falls over its edge.";
     type Parameters = PlaneParameters;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Plane, 2>();
-    const STATED: &'static [&'static str] = &["bodies", "walls", "gauges", "measured"];
+    const STATED: &'static [&'static str] = &["bodies", "walls", "inlets", "gauges", "measured"];
     const FORM: ExternalSchema = foreign::FORM;
 
     fn metrics(parameters: &PlaneParameters, records: &[PlaneSceneRecord]) -> Vec<Metric> {

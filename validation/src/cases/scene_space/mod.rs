@@ -3,11 +3,13 @@
 mod body;
 mod figures;
 mod gauge;
+mod inlet;
 mod tiers;
 mod wall;
 
 pub use body::SpaceBody;
 pub use gauge::SpaceGauge;
+pub use inlet::SpaceInlet;
 pub use wall::{SpaceSides, SpaceWall};
 
 use super::enclosed::Setting;
@@ -40,6 +42,7 @@ impl Setting<3> for Space {
     type Sides = SpaceSides;
     type Body = SpaceBody;
     type Wall = SpaceWall;
+    type Inlet = SpaceInlet;
     type Gauge = SpaceGauge;
 
     const ADD_A_BODY: &'static str = "add a box, a cylinder or a sphere of material";
@@ -48,6 +51,7 @@ impl Setting<3> for Space {
         Quantity::accounted("mean_force", "N", "force of the flow on a gauge's wall, its mean over the run");
     const MASS_CROSSED: Quantity =
         Quantity::accounted("mass_crossed", "kg", "mass that has crossed a gauge's parallelogram up to the end");
+    const MASS_FED: Quantity = Quantity::accounted("mass_fed", "kg", "mass that an inlet has fed up to the end");
     const FLUX_UNIT: &'static str = "kg/s";
 
     fn of_tier(tier: Tier) -> SpaceParameters {
@@ -80,7 +84,7 @@ impl Case for SpaceScene {
         over the edge at its end.";
     type Parameters = SpaceParameters;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Space, 3>();
-    const STATED: &'static [&'static str] = &["bodies", "walls", "gauges", "measured"];
+    const STATED: &'static [&'static str] = &["bodies", "walls", "inlets", "gauges", "measured"];
     const FORM: ExternalSchema = foreign::FORM;
 
     fn metrics(parameters: &SpaceParameters, records: &[SpaceSceneRecord]) -> Vec<Metric> {

@@ -1,0 +1,128 @@
+//! Inlets of a scene: their rules, and what they will have fed.
+
+use super::SceneParameters;
+use super::parameters::Setting;
+use super::setting::{SceneInlet, shown};
+use super::sides::SceneSides;
+use super::surfaces::{Surfaces, is_taken};
+use crate::case::ParameterError;
+use crate::setup::wall_rows;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::FeedRate;
+use bagnold_solver::weakly_compressible::boundary::inlet::{Inlet, LARGEST_MACH_NUMBER, NARROWEST, Supply};
+
+/// Largest stiffness of a scene `[-]`.
+const STIFFEST: f64 = 1e4;
+
+/// Times at which it is added up how many particles are there: for estimates.
+const TIMES: usize = 64;
+
+impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
+    /// The inlets for the solver; those that [`SceneParameters::check_inlets`] refuses are left out.
+    pub(super) fn feeds(&self) -> Vec<Inlet<D>> {
+        self.inlets.iter().filter_map(|inlet| self.feed(inlet, inlet.rate().checked().ok()?)).collect()
+    }
+
+    fn feed(&self, inlet: &S::Inlet, rate: FeedRate) -> Option<Inlet<D>> {
+        let density = self.equation_of_state().reference_density;
+        let rows = wall_rows(self.numerics.smoothing_ratio);
+        inlet.feed(Supply { spacing: self.spacing, rows, density, rate })
+    }
+
+    /// Refuses rates that are none, and openings that they do not pass.
+    pub(super) fn check_inlets(&self) -> Result<(), ParameterError> {
+        for (k, inlet) in self.inlets.iter().enumerate() {
+            self.check_inlet(inlet).map_err(|error| error.within(&format!("inlets[{k}]")))?;
+        }
+        Ok(())
+    }
+
+    fn check_inlet(&self, inlet: &S::Inlet) -> Result<(), ParameterError> {
+        let given = inlet.rate();
+        let rate = given.checked()?;
+        let least = NARROWEST * self.spacing;
+        let narrow = |edge: f64| {
+            let rule = format!("{NARROWEST} spacings or more along each edge, {least} m");
+            let value = format!("an opening of {edge:.4} m");
+            let remedy = "make the opening wider or the spacing smaller";
+            ParameterError::field(S::Inlet::GIVEN_BY, value, &rule, remedy)
+        };
+        inlet.check()?;
+        if let Some(edge) = inlet.edges().into_iter().find(|edge| !(*edge >= least * (1.0 - 1e-9) && edge.is_finite()))
+        {
+            return Err(narrow(edge));
+        }
+        let Some(feed) = self.feed(inlet, rate) else { return Err(narrow(0.0)) };
+        let sound_speed = self.equation_of_state().sound_speed();
+        if let Some(problem) = feed.problem(self.spacing, sound_speed) {
+            let most = LARGEST_MACH_NUMBER * sound_speed;
+            let speed = feed.largest_speed();
+            let rule = format!(
+                "at most {:.4}, which comes in at {most:.4} m/s, {LARGEST_MACH_NUMBER} of the speed of sound",
+                feed.rate.largest() * most / speed
+            );
+            let stiffness = (self.stiffness * (speed / most).powi(2)).ceil();
+            let stiffer =
+                if stiffness <= STIFFEST { format!(", or raise `stiffness` to {stiffness}") } else { String::new() };
+            let remedy =
+                format!("at this rate the material comes in at {speed:.4} m/s: make the opening wider{stiffer}");
+            return Err(ParameterError::field(given.field(), &problem.value, &rule, &remedy));
+        }
+        let first = feed.direction() * (0.5 * self.spacing);
+        if let Some(cell) = feed.cells.iter().find(|cell| !self.sides.hold(&(*cell + first))) {
+            let rule = "between the sides of the domain";
+            let remedy = "what comes in beyond an open side has left at once: move the opening or the side";
+            return Err(ParameterError::field(S::Inlet::GIVEN_BY, place(cell), rule, remedy));
+        }
+        let last = feed.direction() * (-self.spacing * feed.rows as f64);
+        if let Some(cell) = feed.cells.iter().find(|cell| !self.sides.continue_to(&(*cell + last))) {
+            let rule = "that many rows in front of all periodic sides and planes of symmetry";
+            let value = format!("{}, with {} rows behind it", place(cell), feed.rows);
+            return Err(ParameterError::field(S::Inlet::GIVEN_BY, value, rule, "move the opening away from the side"));
+        }
+        Ok(())
+    }
+
+    /// Refuses openings that a wall closes, or the rows of another inlet. The surfaces are those of the walls, then of the inlets.
+    pub(super) fn check_openings(&self, feeds: &[Inlet<D>], surfaces: &Surfaces<D>) -> Result<(), ParameterError> {
+        let names: Vec<&str> = self.barriers().map(|(name, _)| name).collect();
+        for (k, feed) in feeds.iter().enumerate() {
+            let ahead = feed.direction() * (0.5 * self.spacing);
+            let closing = feed.cells.iter().find_map(|cell| {
+                let nearest = surfaces.nearest(&(cell + ahead))?;
+                is_taken(&nearest, self.spacing).then_some((cell, nearest))
+            });
+            if let Some((cell, nearest)) = closing {
+                let side = if nearest.distance < 0.0 { "behind" } else { "too near to" };
+                let value = format!("with its part at {} {side} `{}`", place(cell), names[nearest.wall]);
+                let rule = "in front of all walls and of the rows of other inlets";
+                let remedy = format!("{}, or end the opening at the wall", S::Inlet::TURN);
+                return Err(ParameterError::field(&format!("inlets[{k}]"), value, rule, &remedy));
+            }
+        }
+        Ok(())
+    }
+
+    /// Particles that inlets will have fed at a time `[s]`.
+    pub(super) fn fed_particles(&self, time: f64) -> f64 {
+        self.feeds().iter().map(|feed| feed.rate.mass(time) / feed.particle_mass()).sum()
+    }
+
+    /// Their mean over the run.
+    pub(super) fn mean_fed_particles(&self) -> f64 {
+        let feeds = self.feeds();
+        let at = |time: f64| feeds.iter().map(|feed| feed.rate.mass(time) / feed.particle_mass()).sum::<f64>();
+        (0..TIMES).map(|k| at(self.duration * (k as f64 + 0.5) / TIMES as f64)).sum::<f64>() / TIMES as f64
+    }
+
+    /// Names of what holds the flow back, walls and the rows of inlets, and whether material may stand behind it.
+    pub(super) fn barriers(&self) -> impl Iterator<Item = (&str, bool)> {
+        use super::setting::SceneWall;
+        let walls = self.walls.iter().map(|wall| (wall.name(), wall.may_have_two_sides()));
+        walls.chain(self.inlets.iter().map(|inlet| (inlet.name(), true)))
+    }
+}
+
+fn place<const D: usize>(cell: &Vector<D>) -> String {
+    format!("{} m", shown(cell.map(|part| format!("{part:.4}").parse().unwrap_or(part)).iter()))
+}
