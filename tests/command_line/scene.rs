@@ -156,3 +156,32 @@ fn a_gauge_at_an_opening_counts_what_the_inlet_feeds() {
     assert!((fed - 0.072).abs() <= 0.5 * 1500.0 * 0.032 * 0.032 * 0.008 + 1e-12, "{fed} kg");
     assert!((metric(&place, "mass_crossed", "gauge=opening") / fed - 1.0).abs() < 1e-12);
 }
+
+#[test]
+fn a_syrup_by_implicit_steps_collapses_as_by_explicit_ones_in_fewer() {
+    let place = Place::new();
+    let syrup = "case = \"scene\"\nname = \"syrup\"\nspacing = 0.005\nduration = 0.4\ninterval = 0.02\n\
+        [sides]\nleft = { mirror = 0.0 }\nright = \"none\"\nbottom = \"none\"\ntop = \"none\"\n\
+        [material]\nlaw = \"newtonian\"\nviscosity = 200.0\n[bulk]\nsolid_fraction = 1.0\nbulk_density = 1400.0\n\
+        [[bodies]]\nshape = \"box\"\nlower = [0.0, 0.0]\nupper = [0.06, 0.06]\n\
+        [[walls]]\nname = \"bed\"\npoints = [[0.0, 0.0], [0.2, 0.0]]\n\
+        [[gauges]]\nkind = \"depth\"\nname = \"middle\"\nat = [0.01, 0.0]\nwidth = 0.02\n\
+        [[gauges]]\nkind = \"force\"\nname = \"weight\"\nwall = \"bed\"\n";
+    place.file("syrup.toml", syrup);
+    let by = |step: &str| {
+        let setting = format!("numerics.viscous_step={step}");
+        place.run(&["syrup.toml", "--quiet", "--set", &setting]).code(0);
+        let text = std::fs::read_to_string(place.path("out").join("metrics.json")).expect("written");
+        let results: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        let steps = results["runs"][0]["steps"].as_u64().expect("steps");
+        (metric(&place, "depth", "gauge=middle"), metric(&place, "mean_force", "gauge=weight"), steps)
+    };
+    let (explicit, implicit) = (by("\"explicit\""), by("\"implicit\""));
+    println!("{explicit:?} and {implicit:?}");
+    assert!(explicit.0 < 0.055, "it has sunk, from 0.06 m: {explicit:?}");
+    assert!(
+        (implicit.0 / explicit.0 - 1.0).abs() < 0.02 && (implicit.1 / explicit.1 - 1.0).abs() < 0.01,
+        "{implicit:?}"
+    );
+    assert!(4 * implicit.2 < explicit.2, "{implicit:?} of {explicit:?}");
+}

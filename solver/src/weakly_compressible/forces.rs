@@ -1,12 +1,15 @@
 //! Forces in a step: accelerations by the operator that is chosen, and by an implicit viscosity.
 
 use crate::run::Divergence;
+use crate::vector::Vector;
 use crate::weakly_compressible::divergence::Quantity;
 use crate::weakly_compressible::model::GradientUse;
+use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::numerics::{MomentumOperator, ViscousStep};
 use crate::weakly_compressible::passes::{geometry, momentum, pairwise};
 use crate::weakly_compressible::state::State;
-use crate::weakly_compressible::viscous_solve::{MOST_ITERATIONS, NotConverged, ViscousSolve};
+use crate::weakly_compressible::surroundings::Surroundings;
+use crate::weakly_compressible::viscous_solve::{Booking, MOST_ITERATIONS, NotConverged, ViscousSolve};
 
 impl<const D: usize> State<D> {
     /// Accelerations at the present positions and velocities.
@@ -45,6 +48,7 @@ impl<const D: usize> State<D> {
         match solve.run(&mut self.particles, &self.images, &mut self.viscous) {
             Ok(()) => {
                 self.energy.viscous -= self.viscous.work();
+                self.book_reaction(time_step);
                 Ok(())
             }
             Err(NotConverged { worst }) => {
@@ -52,6 +56,24 @@ impl<const D: usize> State<D> {
                 let quantity = Quantity::ViscousResidual { tolerance, most_iterations: MOST_ITERATIONS };
                 Err(self.divergence(worst, quantity, self.viscous.residual()))
             }
+        }
+    }
+
+    /// Books what walls and planes of symmetry have given by the response of an implicit step, where the flow is enclosed.
+    fn book_reaction(&mut self, time_step: f64) {
+        if self.surroundings.is_empty() {
+            return;
+        }
+        let Surroundings { shells, owners, blocks, .. } = &mut self.surroundings;
+        let shells = shells.len();
+        blocks.resize(self.particles.flow_count().div_ceil(BLOCK) * shells.max(1), Vector::zeros());
+        let solve = ViscousSolve { model: &self.model, pairs: &self.pairs, time_step };
+        let booking = Booking { owners, shells, impulses: blocks };
+        solve.book_reaction(&mut self.particles, &self.images, &mut self.viscous, booking);
+        let left = self.viscous.left(self.particles.flow_count());
+        self.surroundings.books.unsolved += left;
+        if shells > 0 {
+            self.surroundings.close_impulses();
         }
     }
 }

@@ -250,6 +250,13 @@ impl<const D: usize> Simulation<D> {
         &self.state.surroundings.books.departures
     }
 
+    /// Impulse that implicit viscous steps have left out of the flow's since the start `[kg m/s]`: what their tolerance leaves unsolved.
+    /// Zero without shells or open sides, where it is not kept.
+    #[must_use]
+    pub fn unsolved_impulse(&self) -> Vector<D> {
+        self.state.surroundings.books.unsolved
+    }
+
     /// The inlets.
     #[must_use]
     pub fn inlets(&self) -> &[Inlet<D>] {

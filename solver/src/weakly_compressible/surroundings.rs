@@ -46,6 +46,8 @@ pub(crate) struct Books<const D: usize> {
     pub(crate) impulses: Vec<Vector<D>>,
     pub(crate) departures: Departures<D>,
     pub(crate) arrivals: Arrivals<D>,
+    /// Impulse that implicit viscous steps have left out since the start `[kg m/s]`.
+    pub(crate) unsolved: Vector<D>,
 }
 
 impl<const D: usize> Surroundings<D> {
@@ -70,7 +72,12 @@ impl<const D: usize> Surroundings<D> {
             owners: Vec::new(),
             blocks: Vec::new(),
             gone: Vec::new(),
-            books: Books { impulses: none, departures: Departures::default(), arrivals: Arrivals::none(inlets.len()) },
+            books: Books {
+                impulses: none,
+                departures: Departures::default(),
+                arrivals: Arrivals::none(inlets.len()),
+                unsolved: Vector::zeros(),
+            },
             inlets,
             shells,
         }
@@ -88,6 +95,11 @@ impl<const D: usize> Surroundings<D> {
     pub(crate) fn largest_speed(&self) -> f64 {
         let inlets = self.inlets.iter().map(Inlet::largest_speed);
         self.shells.iter().map(|shell| shell.motion.largest_speed()).chain(inlets).fold(0.0, f64::max)
+    }
+
+    /// Whether there is nothing, neither shells nor open sides.
+    pub(super) fn is_empty(&self) -> bool {
+        self.shells.is_empty() && self.exits == Exits::default()
     }
 
     /// The place of the first inlet's rows among the shells.

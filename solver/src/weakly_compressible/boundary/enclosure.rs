@@ -5,7 +5,7 @@ use super::inlet::Inlet;
 use super::shell::Shell;
 use crate::parameter::ParameterProblem;
 use crate::vector::Vector;
-use crate::weakly_compressible::numerics::{Numerics, ViscousStep};
+use crate::weakly_compressible::numerics::Numerics;
 use serde::{Deserialize, Serialize};
 
 /// Shells, open sides and inlets of a scene; by default there are none.
@@ -32,21 +32,16 @@ impl<const D: usize> Enclosure<D> {
     }
 
     /// The choice of numerics that goes neither with shells nor with exits or inlets: what walls have of the forces is booked by
-    /// the single divergence in explicit steps.
+    /// the single divergence.
     #[must_use]
     pub fn numerics_problem(&self, numerics: &Numerics) -> Option<ParameterProblem> {
         if self.is_empty() {
             return None;
         }
+        let operator = numerics.pairwise_operator()?;
+        let rule = "\"single-divergence\" or \"uncorrected-divergence\" with walls of segments or open sides";
         let remedy = "the impulse on a wall of segments and what leaves are booked by these only";
-        if let Some(operator) = numerics.pairwise_operator() {
-            let rule = "\"single-divergence\" or \"uncorrected-divergence\" with walls of segments or open sides";
-            return Some(ParameterProblem::new("momentum_operator", operator, rule, remedy));
-        }
-        (numerics.viscous_step == ViscousStep::Implicit).then(|| {
-            let rule = "\"explicit\" with walls of segments or open sides";
-            ParameterProblem::new("viscous_step", "implicit", rule, remedy)
-        })
+        Some(ParameterProblem::new("momentum_operator", operator, rule, remedy))
     }
 }
 

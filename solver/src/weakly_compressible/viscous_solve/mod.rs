@@ -28,6 +28,7 @@
 //! ‖r‖ ≤ ε ‖M Δt a‖ with ‖x‖² = Σ x_a²/m_a: the net force, not the forces that balance each other, is the scale. The
 //! sum of what is left is missing in the momentum: at ε = 0.1 it was 3e-5 of the impulses of a disordered block's step.
 
+mod reaction;
 mod start;
 mod system;
 mod update;
@@ -35,6 +36,7 @@ mod update;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use reaction::Booking;
 pub(crate) use system::ViscousSystem;
 
 use crate::linear::{Descent, Stalled, descend};
@@ -98,10 +100,15 @@ impl<const D: usize> ViscousSolve<'_, D> {
 
     /// (M + Δt K) times the direction.
     fn product(&self, system: &mut ViscousSystem<D>, flow: usize, images: &Images<D>) {
+        self.product_stresses(system, flow, images);
+        self.divergence(system);
+    }
+
+    /// s L of the velocities that the records show, images included.
+    fn product_stresses(&self, system: &mut ViscousSystem<D>, flow: usize, images: &Images<D>) {
         system.copy_velocities(images);
         self.stresses(system, flow);
         system.copy_stresses(images);
-        self.divergence(system);
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::lane;
 use crate::lanes::LANES;
-use crate::vector::Tensor;
+use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::boundary::Images;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
@@ -181,6 +181,11 @@ impl<const D: usize> ViscousSystem<D> {
             self.work += particles.mass[index] * mean_velocity.dot(&(increment - *acceleration * time_step));
             *acceleration = increment / time_step;
         }
+    }
+
+    /// Impulse that the last solve has left out `[kg m/s]`: the sum of its residuals, in the order of the particles in memory.
+    pub(crate) fn left(&self, flow: usize) -> Vector<D> {
+        (0..flow).map(|index| lane(&self.unknowns[index / LANES].residual, index % LANES)).sum()
     }
 
     /// Work of the last solve `[J]`: that of the viscous forces beside those of the explicit step.

@@ -24,6 +24,14 @@ impl<const D: usize> ViscousSolve<'_, D> {
             });
     }
 
+    /// Puts the increment where the passes look for a direction.
+    pub(super) fn show_increments(&self, system: &mut ViscousSystem<D>, flow: usize) {
+        let ViscousSystem { unknowns, velocities, .. } = system;
+        velocities.blocks_mut(flow, BLOCK).zip(unknowns.par_chunks(GROUPS)).for_each(|(velocities, unknowns)| {
+            self.model.instruction_set.run(IncrementPass { unknowns, velocities });
+        });
+    }
+
     /// s L of the direction.
     pub(super) fn stresses(&self, system: &mut ViscousSystem<D>, flow: usize) {
         let ViscousSystem { coefficients, velocities, pair_vectors, stresses, .. } = system;
@@ -145,6 +153,24 @@ impl<const D: usize> LanePass for DirectionPass<'_, D> {
                 let descent = V::load(&unknowns.residual[i]) * V::load(&coefficients.inverse_diagonal);
                 quad[i] = descent + V::splat(self.growth) * V::load(&unknowns.direction[i]);
                 unknowns.direction[i] = quad[i].to_array();
+            }
+            V::store_quads(&quad, record, 1, 0);
+        }
+    }
+}
+
+struct IncrementPass<'a, const D: usize> {
+    unknowns: &'a [Unknowns<D>],
+    velocities: &'a mut [[f64; 4]],
+}
+
+impl<const D: usize> LanePass for IncrementPass<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        for (unknowns, record) in self.unknowns.iter().zip(self.velocities.chunks_mut(LANES)) {
+            let mut quad = [V::splat(0.0); 4];
+            for i in 0..D {
+                quad[i] = V::load(&unknowns.increment[i]);
             }
             V::store_quads(&quad, record, 1, 0);
         }

@@ -8,6 +8,10 @@ use super::{FedMass, Measurand, MeasuredSeries, SceneObservation, SceneParameter
 use crate::cases::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::statistics::{Beyond, interpolated};
+use bagnold_solver::weakly_compressible::numerics::ViscousStep;
+
+/// Impulse that implicit viscous steps may leave out, over that of gravity `[%]`.
+const MOST_UNSOLVED: f64 = 0.5;
 
 /// Largest difference of the mass that was fed from the integral of the rate, over a row `[-]`.
 const FARTHEST: f64 = 0.7;
@@ -18,6 +22,7 @@ quantities! { shared pub(super)
         accounted("momentum_residual", "%", "impulse without a cause among gravity, walls and sides, over that of gravity"),
     FORCE_RESIDUAL:
         accounted("force_residual", "%", "impulse of all walls, wall by wall, less that of all particles, over that of gravity"),
+    UNSOLVED: accounted("unsolved", "%", "impulse that implicit viscous steps leave out, over that of gravity"),
     THROUGH_WALLS: accounted("through_walls", "-", "particles that are behind a wall at the end"),
     MASS_LEFT: accounted("mass_left", "%", "mass that has left by open sides"),
     CUT_OFF: accounted("cut_off", "%", "material of the bodies that is behind walls or at them, and is left out at the start"),
@@ -32,7 +37,7 @@ quantities! { shared pub(super)
 
 /// All quantities of a case of scenes, of which three have units of its own: [`Setting::MEAN_FORCE`],
 /// [`Setting::MASS_CROSSED`] and [`Setting::MASS_FED`].
-pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> [Quantity; 18] {
+pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> [Quantity; 19] {
     [
         ENERGY_RESIDUAL,
         ENERGY_RISE,
@@ -41,6 +46,7 @@ pub(in crate::cases) const fn quantities_of<S: Setting<D>, const D: usize>() -> 
         MASS_RESIDUAL,
         MOMENTUM_RESIDUAL,
         FORCE_RESIDUAL,
+        UNSOLVED,
         THROUGH_WALLS,
         MASS_LEFT,
         CUT_OFF,
@@ -69,6 +75,19 @@ fn of_run<S: Setting<D>, const D: usize>(
 ) -> Vec<Metric> {
     let (variant, data) = (run.named(), &record.data);
     let mut metrics = balances(&variant, data, parameters.sides.has_mirror());
+    if parameters.numerics.viscous_step == ViscousStep::Implicit {
+        let share = 100.0 * data.unsolved_impulse / data.gravity_impulse;
+        metrics.push(
+            UNSOLVED
+                .of(&variant, share)
+                .exactly(0.0, "an exact solve leaves nothing")
+                .gated(
+                    Limit::AtMost(MOST_UNSOLVED),
+                    "half a per cent, as of the energy ledger; a smaller `viscous_tolerance` leaves less",
+                )
+                .with_snapshot_tolerance(1.0, 1e-3),
+        );
+    }
     metrics.extend(feeds(&variant, data, parameters));
     metrics.extend(energy(&variant, data, parameters));
     metrics.push(FINAL_RMS_SPEED.of(&variant, final_mean(&data.rms_speed)).with_snapshot_tolerance(0.1, 1e-3));

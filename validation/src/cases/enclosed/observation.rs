@@ -45,8 +45,10 @@ pub struct SceneObservation<const D: usize> {
     pub fed: Vec<FedMass>,
     /// Largest difference of the mass inside and outside from that of the start and of what came in `[kg]`.
     pub missing_mass: f64,
-    /// Largest impulse that has no cause among gravity, walls and sides `[kg m/s]`.
+    /// Largest impulse that has no cause among gravity, walls, sides, and what implicit steps leave out `[kg m/s]`.
     pub missing_impulse: f64,
+    /// Largest impulse that implicit viscous steps have left out up to a sample `[kg m/s]`.
+    pub unsolved_impulse: f64,
     /// Largest difference between what the walls have given, wall by wall, and what the particles have got from them, mirrors
     /// included `[kg m/s]`.
     pub unassigned_impulse: f64,
@@ -72,6 +74,7 @@ impl<const D: usize> Default for SceneObservation<D> {
             fed: Vec::new(),
             missing_mass: 0.0,
             missing_impulse: 0.0,
+            unsolved_impulse: 0.0,
             unassigned_impulse: 0.0,
             gravity_impulse: 0.0,
             momentum_at_start: Vector::zeros(),
@@ -108,7 +111,8 @@ impl<const D: usize> SceneObservation<D> {
             self.momentum_at_start = held;
             self.gauges = vec![Vec::new(); gauges.len()];
         }
-        let missing = held + gone - came - self.momentum_at_start - supports - given;
+        let unsolved = simulation.unsolved_impulse();
+        let missing = held + gone + unsolved - came - self.momentum_at_start - supports - given;
         self.time.push(snapshot.time);
         self.mass.push(inside);
         let squares: f64 = snapshot.velocity.iter().zip(&snapshot.mass).map(|(v, m)| v.norm_squared() * m).sum();
@@ -125,6 +129,7 @@ impl<const D: usize> SceneObservation<D> {
         }
         self.missing_mass = self.missing_mass.max((inside + outside - self.mass[0] - brought).abs());
         self.missing_impulse = self.missing_impulse.max(missing.norm());
+        self.unsolved_impulse = self.unsolved_impulse.max(unsolved.norm());
         self.unassigned_impulse = self.unassigned_impulse.max((supports - walls).norm());
         self.gravity_impulse = given.norm();
         if let Some(account) = &snapshot.energy {

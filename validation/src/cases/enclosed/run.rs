@@ -16,6 +16,7 @@ use crate::setup::wall_rows;
 use bagnold_solver::domain::Domain;
 use bagnold_solver::weakly_compressible::boundary::enclosure::Exits;
 use bagnold_solver::weakly_compressible::boundary::{Enclosure, Inlet};
+use bagnold_solver::weakly_compressible::numerics::ViscousStep;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
@@ -70,7 +71,11 @@ where
     fn seconds_per_particle_step(&self) -> f64 {
         let flow = self.flow_particles(Moment::Mean).max(1.0);
         let all_per_flow = (flow + self.wall_particles()) / flow;
-        S::COST * cost::WEAKLY_COMPRESSIBLE * all_per_flow
+        let step = match self.scene.numerics.viscous_step {
+            ViscousStep::Explicit => 1.0,
+            ViscousStep::Implicit => cost::IMPLICIT_STEP,
+        };
+        S::COST * cost::WEAKLY_COMPRESSIBLE * step * all_per_flow
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SceneObservation<D>>, ParameterError> {

@@ -1,0 +1,138 @@
+//! What walls and planes of symmetry give to the flow by the response K of an implicit step, beside the forces of the old state:
+//! for balances, where the flow is enclosed.
+//!
+//! Of (−K δ)_a = V_a [Σ_b w_ab (s_a L_a + s_b L_b) r + Σ_w w_aw β s_a L_a r] the pairs of the flow cancel each other. The sum over wall
+//! particles is theirs, shell by shell, and what images behind a mirror give is that plane's.
+
+use super::ViscousSolve;
+use super::system::{GROUPS, LaneVector, ViscousSystem};
+use super::update::load_columns;
+use crate::lanes::algebra::{accumulate, difference, product, scaled, store_vector, zero_vector};
+use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
+use crate::vector::Vector;
+use crate::weakly_compressible::boundary::Images;
+use crate::weakly_compressible::neighbours::BLOCK;
+use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::passes::layout;
+use crate::weakly_compressible::passes::records::{self, Records};
+use crate::weakly_compressible::surroundings::NO_SHELL;
+use crate::weakly_compressible::terms::wall_slip;
+use rayon::prelude::*;
+
+/// The shells that a reaction is booked to.
+pub(crate) struct Booking<'a, const D: usize> {
+    /// The shell of every particle in the arrays.
+    pub(crate) owners: &'a [u32],
+    /// Number of shells.
+    pub(crate) shells: usize,
+    /// Impulses, block by block of flow particles and in each shell by shell `[kg m/s]`.
+    pub(crate) impulses: &'a mut [Vector<D>],
+}
+
+impl<const D: usize> ViscousSolve<'_, D> {
+    /// Adds the reaction to the increment that was solved for: to `impulses` what shells give, and to the support of each
+    /// particle all of it.
+    pub(crate) fn book_reaction(
+        &self,
+        particles: &mut Particles<D>,
+        images: &Images<D>,
+        system: &mut ViscousSystem<D>,
+        booking: Booking<'_, D>,
+    ) {
+        let flow = particles.flow_count();
+        self.show_increments(system, flow);
+        self.product_stresses(system, flow, images);
+        let mut support = std::mem::take(&mut particles.support);
+        let (shared, system) = (&*particles, &*system);
+        let Booking { owners, shells, impulses } = booking;
+        // no shell still leaves a slot to a block
+        let width = shells.max(1);
+        (support.par_chunks_mut(BLOCK), impulses.par_chunks_mut(width))
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(4)
+            .for_each(|(block, (support, out))| {
+                let pass = ReactionPass {
+                    constants: self,
+                    particles: shared,
+                    stresses: &system.stresses,
+                    pair_vectors: &system.pair_vectors,
+                    volumes: system,
+                    owners,
+                    block,
+                    support,
+                    out,
+                };
+                self.model.instruction_set.run(pass);
+            });
+        particles.support = support;
+    }
+}
+
+struct ReactionPass<'a, const D: usize> {
+    constants: &'a ViscousSolve<'a, D>,
+    particles: &'a Particles<D>,
+    stresses: &'a Records,
+    pair_vectors: &'a [LaneVector<D>],
+    volumes: &'a ViscousSystem<D>,
+    owners: &'a [u32],
+    block: usize,
+    support: &'a mut [Vector<D>],
+    out: &'a mut [Vector<D>],
+}
+
+impl<const D: usize> LanePass for ReactionPass<'_, D> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let Self { constants, particles, stresses, pair_vectors, volumes, owners, block, support, out } = self;
+        let quads = const { (D * D).div_ceil(4) };
+        let places = const { layout::geometry(D).div_ceil(4) };
+        let smoothing_length = constants.model.kernel.smoothing_length();
+        for offset in 0..support.len().div_ceil(LANES) {
+            let group = constants.model.list.group(block * GROUPS + offset);
+            let count = (support.len() - offset * LANES).min(LANES);
+            let coefficients = &volumes.coefficients[block * GROUPS + offset];
+            let impulse_volume = V::load(&coefficients.impulse_volume);
+            let own = records::tensor::<V, D>(&stresses.load::<V>(quads, &group.own), 0);
+            let mut all = zero_vector::<V, D>();
+            if group.has_images {
+                for (b, pair) in group.flow.zip(&pair_vectors[group.first_pair..]) {
+                    let mirrored: V = gather(&particles.mirrored, &b);
+                    let other = records::tensor::<V, D>(&stresses.load::<V>(quads, &b), 0);
+                    let pair = load_columns::<V, D>(pair);
+                    accumulate(&mut all, mirrored, &product(&own, &pair));
+                    accumulate(&mut all, mirrored, &product(&other, &pair));
+                }
+            }
+            let owned = group.wall.raw();
+            let weights = &constants.pairs.weights[group.first_pair..];
+            let (_, wall_weights) = weights.split_at(group.flow.len());
+            let place = records::vector::<V, D>(&constants.pairs.geometry.load::<V>(places, &group.own), 0);
+            for ((w, weight), partners) in group.wall.zip(wall_weights).zip(owned) {
+                let record = constants.pairs.geometry.load_start::<V>(places, const { D.div_ceil(4) }, &w);
+                let normal = gather_vectors::<V, D>(&particles.wall_normal, &w);
+                let depth: V = gather(&particles.wall_depth, &w);
+                let r = difference(&place, &records::vector::<V, D>(&record, 0));
+                let factor = wall_slip::factor(&r, &normal, depth, smoothing_length, wall_slip::LIMIT);
+                let smoothness: V = gather(&particles.wall_smoothness, &w);
+                let rough = V::load(weight) * factor * (V::splat(1.0) - smoothness);
+                let given = product(&own, &scaled(rough, &r));
+                accumulate(&mut all, V::splat(1.0), &given);
+                let mut impulses = [Vector::zeros(); LANES];
+                store_vector(&scaled(impulse_volume, &given), &mut impulses);
+                for (impulse, partner) in impulses.iter().zip(&partners[..count]) {
+                    let owner = owners.get(*partner as usize).copied().unwrap_or(NO_SHELL);
+                    if owner != NO_SHELL {
+                        out[owner as usize] += impulse;
+                    }
+                }
+            }
+            let mut impulses = [Vector::zeros(); LANES];
+            let factor = impulse_volume / (V::load(&coefficients.mass) * V::splat(constants.time_step));
+            store_vector(&scaled(factor, &all), &mut impulses);
+            for (support, impulse) in support[offset * LANES..].iter_mut().zip(&impulses) {
+                *support += impulse;
+            }
+        }
+    }
+}
