@@ -185,3 +185,24 @@ fn a_syrup_by_implicit_steps_collapses_as_by_explicit_ones_in_fewer() {
     );
     assert!(4 * implicit.2 < explicit.2, "{implicit:?} of {explicit:?}");
 }
+
+#[test]
+fn a_scene_is_drawn_as_it_starts_also_one_that_is_refused() {
+    let place = Place::new();
+    let slope = "case = \"scene\"\nname = \"slope\"\nspacing = 0.01\n\
+        [[bodies]]\nshape = \"box\"\nlower = [0.0, 0.0]\nupper = [0.3, 0.3]\n\
+        [[walls]]\nname = \"terrain\"\npoints = [[-0.1, 0.3], [0.5, 0.0]]\n";
+    place.file("slope.toml", slope);
+    place.run(&["slope.toml", "--quiet"]).code(2);
+    let shown = place.bagnold(&["show", "slope.toml", "--picture", "setup.svg"]).output().expect("started");
+    let said = String::from_utf8_lossy(&shown.stdout).into_owned();
+    // of 30 by 30 sites those below the line from (0, 0.25) to (0.3, 0.1)
+    assert!(shown.status.success() && said.contains("Of 900 sites that the bodies hold, 360 get particles"), "{said}");
+    let picture = std::fs::read_to_string(place.path("setup.svg")).expect("drawn");
+    assert!(picture.contains("<svg") && picture.contains("terrain"));
+    for (case, file) in [("film", "setup.png"), ("slope.toml", "setup.pdf")] {
+        let refused = place.bagnold(&["show", case, "--picture", file]).output().expect("started");
+        assert_eq!(refused.status.code(), Some(2), "{case} into {file}");
+        assert!(!place.path(file).exists());
+    }
+}

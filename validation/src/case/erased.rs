@@ -13,6 +13,7 @@ use super::{
     Tier, schema,
 };
 use crate::checkpoint::{Checkpoints, is_interrupted};
+use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
 use crate::observation::Recorded;
@@ -54,6 +55,8 @@ pub trait PreparedCase: Send + Sync {
     fn origin(&self) -> CodeOrigin;
     /// The parameters: a complete file for `bagnold run`.
     fn parameters_toml(&self) -> &str;
+    /// What the runs start from, drawn; none for a case that does not draw it.
+    fn setup(&self) -> Option<Figure>;
     /// Number of runs.
     fn run_count(&self) -> usize;
     /// Full name of a run; empty where the case has a single one.
@@ -192,6 +195,10 @@ impl<C: Case> PreparedCase for CasePlan<C> {
 
     fn parameters_toml(&self) -> &str {
         &self.parameters_toml
+    }
+
+    fn setup(&self) -> Option<Figure> {
+        C::setup(&self.parameters)
     }
 
     fn run_count(&self) -> usize {

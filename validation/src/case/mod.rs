@@ -202,6 +202,10 @@ pub trait Case: Sync + 'static {
     fn figures(_: &Self::Parameters, _: &[RecordOf<Self::Parameters>]) -> Vec<Figure> {
         Vec::new()
     }
+    /// Draws what the runs start from; scenes do.
+    fn setup(_: &Self::Parameters) -> Option<Figure> {
+        None
+    }
     /// Moving pictures of the observations; few cases have any.
     fn animations(_: &Self::Parameters, _: &[RecordOf<Self::Parameters>]) -> Vec<Animation> {
         Vec::new()

@@ -172,11 +172,15 @@ pub struct SchemaArguments {
 /// `bagnold show`
 #[derive(Debug, Args)]
 pub struct ShowArguments {
-    /// Name of a case, see `bagnold list`.
+    /// Name of a case, see `bagnold list`; with --picture also a TOML file that describes one.
+    #[arg(value_name = "CASE|FILE.toml")]
     pub case: String,
-    /// How much the case may cost.
-    #[arg(long, value_enum, default_value_t = Tier::Quick)]
-    pub tier: Tier,
+    /// How much the case may cost [default: the file's, else quick].
+    #[arg(long, value_enum)]
+    pub tier: Option<Tier>,
+    /// Draw a scene as it starts instead, with what its walls take of its bodies; no simulation.
+    #[arg(long, value_name = "FILE.png|FILE.svg")]
+    pub picture: Option<PathBuf>,
 }
 
 /// `bagnold run`

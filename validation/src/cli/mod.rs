@@ -21,6 +21,7 @@ mod progress;
 mod publication;
 mod report;
 mod run;
+mod setup;
 mod simulation;
 mod store;
 mod study;
@@ -37,7 +38,7 @@ pub use error::ProgramError;
 pub use exit::Exit;
 pub use new::NewError;
 
-use crate::case::{Limits, ParameterError, Registry};
+use crate::case::{Limits, ParameterError, Registry, Tier};
 use crate::cases::REGISTRY;
 use crate::checkpoint::{self, InterruptedRuns};
 use crate::interruption::{self, Signal};
@@ -139,7 +140,10 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
             Ok(Exit::Held)
         }
         Command::Show(show) => {
-            say(output, &registry.find(&show.case)?.show(show.tier));
+            match &show.picture {
+                Some(picture) => setup::draw(show, picture, registry, output)?,
+                None => say(output, &registry.find(&show.case)?.show(show.tier.unwrap_or(Tier::Quick))),
+            }
             Ok(Exit::Held)
         }
         Command::Schema(show) => {

@@ -5,6 +5,9 @@ use super::surfaces::NearestWall;
 use crate::case::ParameterError;
 use bagnold_solver::vector::Vector;
 
+/// How one gets to see it.
+const DRAW: &str = "`bagnold show FILE.toml --picture setup.png` draws what is where";
+
 /// A site of the lattice that a body holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Site<const D: usize> {
@@ -110,7 +113,7 @@ impl Permissions<'_> {
         } else {
             format!("{turn}, or put the body in front of it")
         };
-        ParameterError::field(&format!("bodies[{body}]"), value, &rule, &remedy)
+        ParameterError::field(&format!("bodies[{body}]"), value, &rule, &format!("{remedy}; {DRAW}"))
     }
 
     fn both_sides(&self, OnBothSides { body, wall }: OnBothSides) -> ParameterError {
@@ -119,7 +122,12 @@ impl Permissions<'_> {
             "{}, make the body end at the wall, or give the wall `both_sides = true` if material behind it is meant",
             self.turn
         );
-        ParameterError::field(&format!("bodies[{body}]"), value, "on the side of the flow", &remedy)
+        ParameterError::field(
+            &format!("bodies[{body}]"),
+            value,
+            "on the side of the flow",
+            &format!("{remedy}; {DRAW}"),
+        )
     }
 }
 
@@ -160,7 +168,7 @@ mod tests {
             error,
             "`bodies[0]` is 50.0 % behind walls, most of that behind `bed`, but must be at most 5.0 % behind walls \
              (`cut_at_most`), where material is left out; turn the wall round, make the body end at the wall, or set \
-             `cut_at_most = 0.50` if the wall is meant to cut it"
+             `cut_at_most = 0.50` if the wall is meant to cut it; `bagnold show FILE.toml --picture setup.png` draws what is where"
         );
     }
 

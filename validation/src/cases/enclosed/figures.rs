@@ -1,9 +1,14 @@
 //! Figures of scenes: pictures of the material between its walls, and the series of the gauges.
 
+use super::filling::SiteFate;
 use super::parameters::Setting;
 use super::series;
+use super::setting::SceneWall;
+use super::surfaces::Surfaces;
 use super::{SceneObservation, SceneParameters, SceneRecord};
 use crate::figure::{Axis, Figure, Panel};
+use crate::setup::wall_rows;
+use bagnold_solver::weakly_compressible::boundary::Inlet;
 
 pub(in crate::cases) fn all<S: Setting<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
@@ -15,6 +20,29 @@ pub(in crate::cases) fn all<S: Setting<D>, const D: usize>(
         [pictures, gauges(parameters, &record.data)]
     };
     records.iter().flat_map(of_run).flatten().collect()
+}
+
+/// Where particles start, and what walls take of the bodies.
+pub(in crate::cases) fn setup<S: Setting<D>, const D: usize>(parameters: &SceneParameters<S, D>) -> Figure {
+    let shells: Vec<_> = parameters.walls.iter().map(SceneWall::shell).collect();
+    let rows: Vec<_> = parameters.feeds().iter().map(Inlet::shell).collect();
+    let range = wall_rows(parameters.numerics.smoothing_ratio) as f64 * parameters.spacing;
+    let sites = parameters.survey(&Surfaces::of(&shells, &rows, range));
+    let count = |fate: SiteFate| sites.iter().filter(|(_, other)| *other == fate).count();
+    let caption = format!(
+        "Of {} sites that the bodies hold, {} get particles (0), {} are too near to a wall (½), {} are behind one (1).",
+        sites.len(),
+        count(SiteFate::Particle),
+        count(SiteFate::AtAWall),
+        count(SiteFate::Behind),
+    );
+    let value = |fate: SiteFate| match fate {
+        SiteFate::Particle => 0.0,
+        SiteFate::AtAWall => 0.5,
+        SiteFate::Behind => 1.0,
+    };
+    let sites: Vec<_> = sites.iter().map(|&(place, fate)| (place, value(fate))).collect();
+    Figure::new("setup", &caption, S::setup(parameters, &sites))
 }
 
 /// One panel a gauge with a line a column that shares its axis.

@@ -36,19 +36,8 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         let (up, weight) = (-gravity.normalize(), equation_of_state.reference_density * gravity.norm());
         let (mut all, mut free) = (0, Vec::new());
         for LatticeGroup { lattice, bodies: members } in &groups {
-            let corners = members.iter().flat_map(|&body| <[Vector<D>; 2]>::from(bodies[body].extent()));
-            let held = lattice.sites(shapes::around(corners)).filter_map(|(cell, place)| {
-                let body = holder(bodies, &place).filter(|body| members.contains(body) && self.sides.hold(&place))?;
-                Some(Site { cell, place, body, nearest: walls.nearest(&place) })
-            });
-            let sites: Vec<Site<D>> = held.collect();
-            let permissions = Permissions {
-                walls: self.barriers().collect(),
-                inlets: (self.walls.len(), S::Inlet::TURN),
-                most: self.cut_at_most,
-                turn: S::Wall::TURN,
-            };
-            let behind = permissions.behind(&sites)?;
+            let sites = self.held(lattice, members, walls);
+            let behind = self.permissions(self.cut_at_most).behind(&sites)?;
             let is_free = |site: &Site<D>| !site.nearest.is_some_and(|nearest| is_taken(&nearest, lattice.shortest()));
             all += sites.len();
             let pairs = sites.into_iter().zip(behind);
@@ -65,6 +54,60 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         flow.velocity = free.iter().map(|(site, _)| bodies[site.body].velocity()).collect();
         Ok((flow, share))
     }
+}
+
+impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
+    /// The sites of a lattice that some bodies hold.
+    fn held(&self, lattice: &SiteLattice<D>, members: &[usize], walls: &Surfaces<D>) -> Vec<Site<D>> {
+        let bodies = &self.bodies;
+        let corners = members.iter().flat_map(|&body| <[Vector<D>; 2]>::from(bodies[body].extent()));
+        let held = lattice.sites(shapes::around(corners)).filter_map(|(cell, place)| {
+            let body = holder(bodies, &place).filter(|body| members.contains(body) && self.sides.hold(&place))?;
+            Some(Site { cell, place, body, nearest: walls.nearest(&place) })
+        });
+        held.collect()
+    }
+
+    fn permissions(&self, most: f64) -> Permissions<'_> {
+        Permissions {
+            walls: self.barriers().collect(),
+            inlets: (self.walls.len(), S::Inlet::TURN),
+            most,
+            turn: S::Wall::TURN,
+        }
+    }
+
+    /// All sites that bodies hold, with what becomes of each, also where walls take more of a body than they may.
+    pub(super) fn survey(&self, walls: &Surfaces<D>) -> Vec<(Vector<D>, SiteFate)> {
+        let mut fates = Vec::new();
+        for LatticeGroup { lattice, bodies: members } in &groups(&self.bodies, &self.sides, self.spacing) {
+            let sites = self.held(lattice, members, walls);
+            // of a body on both sides of a wall it is not known what is behind, but where it is near
+            let near = |site: &Site<D>| site.nearest.is_some_and(|wall| wall.distance < 0.0);
+            let behind = self.permissions(1.0).behind(&sites).unwrap_or_else(|_| sites.iter().map(near).collect());
+            fates.extend(sites.iter().zip(behind).map(|(site, behind)| {
+                let is_near = site.nearest.is_some_and(|nearest| is_taken(&nearest, lattice.shortest()));
+                let fate = match (behind, is_near) {
+                    (true, _) => SiteFate::Behind,
+                    (false, true) => SiteFate::AtAWall,
+                    (false, false) => SiteFate::Particle,
+                };
+                (site.place, fate)
+            }));
+        }
+        fates
+    }
+}
+
+/// What becomes of a site that a body holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::cases) enum SiteFate {
+    /// A particle starts there.
+    Particle,
+    /// It is too near to a wall.
+    AtAWall,
+    /// It is behind a wall.
+    Behind,
 }
 
 /// Share of a body's mass that its particles may have too much or too little before it is said `[-]`.

@@ -8,7 +8,7 @@ use super::sides::SceneSides;
 use super::{BodyPreparation, Measurand, shapes};
 use crate::case::Tier;
 use crate::cases::Bulk;
-use crate::figure::Figure;
+use crate::figure::{Figure, Panel};
 use crate::metric::Quantity;
 use crate::observation::Frame;
 use bagnold_solver::domain::Domain;
@@ -56,6 +56,9 @@ pub trait Setting<const D: usize>: Debug + Clone + Copy + PartialEq + Send + Syn
 
     /// Fills the space behind walls with `rows` of dummy particles at a `spacing` `[m]`.
     fn lay(shells: &mut [Shell<D>], domain: &Domain<D>, spacing: f64, rows: usize);
+
+    /// Places of the start between walls, inlets and what is measured, with a value each from 0 to 1; a panel a view.
+    fn setup(parameters: &SceneParameters<Self, D>, sites: &[(Vector<D>, f64)]) -> Vec<Panel>;
 
     /// Pictures of the material between its walls.
     fn pictures(parameters: &SceneParameters<Self, D>, frames: &[Frame]) -> Figure;
@@ -168,7 +171,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     }
 
     /// The unit vector along which a gauge measures a thickness: gravity, unless it says otherwise.
-    pub(super) fn direction_of(&self, gauge: &S::Gauge) -> Vector<D> {
+    pub(in crate::cases) fn direction_of(&self, gauge: &S::Gauge) -> Vector<D> {
         let of_wall = |name: &str| {
             let wall = self.walls.iter().find(|wall| wall.name() == name)?;
             let Measurand::Depth(depth) = gauge.measure(&self.down()) else { return None };

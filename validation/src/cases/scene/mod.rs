@@ -15,13 +15,14 @@ pub use wall::{FlowSide, PlaneSides, WallLine};
 use super::enclosed::Setting;
 use super::enclosed::{self, SceneObservation, foreign, metrics, series};
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunOf, Tier};
-use crate::figure::Figure;
+use crate::figure::{Figure, Panel};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::observation::Frame;
 use crate::output::Table;
 use crate::store::CodeOrigin;
 use bagnold_solver::domain::Domain;
+use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::backing;
 use bagnold_solver::weakly_compressible::boundary::shell::Shell;
 
@@ -62,6 +63,10 @@ impl Setting<2> for Plane {
         backing::lay(shells, domain, spacing, rows);
     }
 
+    fn setup(parameters: &PlaneParameters, sites: &[(Vector<2>, f64)]) -> Vec<Panel> {
+        figures::setup(parameters, sites)
+    }
+
     fn pictures(parameters: &PlaneParameters, frames: &[Frame]) -> Figure {
         figures::pictures(parameters, frames)
     }
@@ -92,6 +97,10 @@ impl Case for UserScene {
 
     fn figures(parameters: &PlaneParameters, records: &[PlaneSceneRecord]) -> Vec<Figure> {
         enclosed::figures::all(parameters, records)
+    }
+
+    fn setup(parameters: &PlaneParameters) -> Option<Figure> {
+        Some(enclosed::figures::setup(parameters))
     }
 
     fn foreign(

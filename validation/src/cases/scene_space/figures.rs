@@ -1,7 +1,7 @@
 //! Pictures of the material from the side and from above, between the edges of its walls.
 
 use super::SpaceParameters;
-use crate::cases::enclosed::setting::SceneWall;
+use crate::cases::enclosed::setting::{SceneInlet, SceneWall};
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
@@ -76,6 +76,47 @@ fn material(parameters: &SpaceParameters, frame: &Frame, view: &ViewDirection, f
     let values: Vec<f64> = order.iter().filter_map(|&k| speeds.get(k).copied()).collect();
     panel.field = Some(Field::new("|v| [m/s]", parameters.spacing, (0.0, fastest), points, values));
     panel
+}
+
+/// The sites in the colours of their values between the edges of walls and openings, from the side and from above.
+pub(super) fn setup(parameters: &SpaceParameters, sites: &[(Vector<3>, f64)]) -> Vec<Panel> {
+    let (lower, upper) = parameters.extent();
+    let margin = 4.0 * parameters.spacing;
+    let view = |view: &ViewDirection| {
+        let axis =
+            |k: usize| Axis::linear(["x [m]", "y [m]", "z [m]"][k]).between(lower[k] - margin, upper[k] + margin);
+        let mut panel = Panel::new(view.name, axis(view.right), axis(view.up));
+        let mut order: Vec<&(Vector<3>, f64)> = sites.iter().collect();
+        // what is behind walls is seen through the rest
+        order.sort_by(|a, b| {
+            let nearness = |site: &(Vector<3>, f64)| view.towards.1 * site.0[view.towards.0];
+            a.1.total_cmp(&b.1).then(nearness(a).total_cmp(&nearness(b)))
+        });
+        let points = order.iter().map(|(place, _)| (place[view.right], place[view.up]));
+        let values = order.iter().map(|(_, value)| *value);
+        if !sites.is_empty() {
+            panel.field = Some(Field::new("behind [-]", parameters.spacing, (0.0, 1.0), points, values));
+        }
+        for (slot, wall) in parameters.walls.iter().enumerate() {
+            for (k, edge) in sharp_edges(&wall.shell().facets).iter().take(MOST_EDGES).enumerate() {
+                let points = edge.iter().map(|end| (end[view.right], end[view.up])).collect();
+                let label = if k == 0 { wall.name() } else { "" };
+                panel.series.push(Series::new(label, Mark::Line, slot, points));
+            }
+        }
+        for (k, inlet) in parameters.inlets.iter().enumerate() {
+            let corners = inlet.corners();
+            let points = corners.iter().chain(corners.first()).map(|place| (place[view.right], place[view.up]));
+            panel.series.push(Series::new(
+                inlet.name(),
+                Mark::LinePoints,
+                parameters.walls.len() + k,
+                points.collect(),
+            ));
+        }
+        panel
+    };
+    VIEWS.iter().map(view).collect()
 }
 
 /// An edge of a triangle.

@@ -15,13 +15,14 @@ pub use wall::{SpaceSides, SpaceWall};
 use super::enclosed::Setting;
 use super::enclosed::{self, SceneObservation, foreign, metrics, series};
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunOf, Tier};
-use crate::figure::Figure;
+use crate::figure::{Figure, Panel};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::observation::Frame;
 use crate::output::Table;
 use crate::store::CodeOrigin;
 use bagnold_solver::domain::Domain;
+use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::mesh_backing;
 use bagnold_solver::weakly_compressible::boundary::shell::Shell;
 
@@ -62,6 +63,10 @@ impl Setting<3> for Space {
         mesh_backing::lay(shells, domain, spacing, rows);
     }
 
+    fn setup(parameters: &SpaceParameters, sites: &[(Vector<3>, f64)]) -> Vec<Panel> {
+        figures::setup(parameters, sites)
+    }
+
     fn pictures(parameters: &SpaceParameters, frames: &[Frame]) -> Figure {
         figures::pictures(parameters, frames)
     }
@@ -93,6 +98,10 @@ impl Case for SpaceScene {
 
     fn figures(parameters: &SpaceParameters, records: &[SpaceSceneRecord]) -> Vec<Figure> {
         enclosed::figures::all(parameters, records)
+    }
+
+    fn setup(parameters: &SpaceParameters) -> Option<Figure> {
+        Some(enclosed::figures::setup(parameters))
     }
 
     fn foreign(
