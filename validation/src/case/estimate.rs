@@ -213,7 +213,15 @@ mod tests {
     const LIMITS: Limits = Limits { memory: 16.0 * GIBIBYTE, core_hours: 100.0 };
 
     fn of(particles: f64, core_seconds: f64) -> Estimate {
-        Estimate { runs: 1, particles, all_particles: particles, particle_steps: 1e6 * core_seconds, core_seconds }
+        let running = particles * BYTES_WHILE_RUNNING;
+        Estimate {
+            runs: 1,
+            running,
+            all_running: running,
+            all_particles: particles,
+            particle_steps: 1e6 * core_seconds,
+            core_seconds,
+        }
     }
 
     #[test]

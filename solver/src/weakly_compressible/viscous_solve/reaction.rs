@@ -17,6 +17,7 @@ use crate::weakly_compressible::passes::layout;
 use crate::weakly_compressible::passes::records::{self, Records};
 use crate::weakly_compressible::surroundings::NO_SHELL;
 use crate::weakly_compressible::terms::wall_slip;
+use crate::weakly_compressible::wall_fields::mirrored_lanes;
 use rayon::prelude::*;
 
 /// The shells that a reaction is booked to.
@@ -97,7 +98,7 @@ impl<const D: usize> LanePass for ReactionPass<'_, D> {
             let mut all = zero_vector::<V, D>();
             if group.has_images {
                 for (b, pair) in group.flow.zip(&pair_vectors[group.first_pair..]) {
-                    let mirrored: V = gather(&particles.mirrored, &b);
+                    let mirrored: V = mirrored_lanes(&particles.mirrored, particles.real_count(), &b);
                     let other = records::tensor::<V, D>(&stresses.load::<V>(quads, &b), 0);
                     let pair = load_columns::<V, D>(pair);
                     accumulate(&mut all, mirrored, &product(&own, &pair));
@@ -110,11 +111,13 @@ impl<const D: usize> LanePass for ReactionPass<'_, D> {
             let place = records::vector::<V, D>(&constants.pairs.geometry.load::<V>(places, &group.own), 0);
             for ((w, weight), partners) in group.wall.zip(wall_weights).zip(owned) {
                 let record = constants.pairs.geometry.load_start::<V>(places, const { D.div_ceil(4) }, &w);
-                let normal = gather_vectors::<V, D>(&particles.wall_normal, &w);
-                let depth: V = gather(&particles.wall_depth, &w);
+                let fields = w.places_from(particles.flow_count());
+                let w = fields.indices();
+                let normal = gather_vectors::<V, D>(&particles.walls.normal, &w);
+                let depth: V = gather(&particles.walls.depth, &w);
                 let r = difference(&place, &records::vector::<V, D>(&record, 0));
                 let factor = wall_slip::factor(&r, &normal, depth, smoothing_length, wall_slip::LIMIT);
-                let smoothness: V = gather(&particles.wall_smoothness, &w);
+                let smoothness: V = gather(&particles.walls.smoothness, &w);
                 let rough = V::load(weight) * factor * (V::splat(1.0) - smoothness);
                 let given = product(&own, &scaled(rough, &r));
                 accumulate(&mut all, V::splat(1.0), &given);
