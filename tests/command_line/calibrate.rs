@@ -61,14 +61,20 @@ fn evaluations(folder: &Path) -> Finished {
     written(files.iter().map(|file| (name(file), file.as_path())))
 }
 
-/// Weighted least squares by hand: the exact film, u = ρ g sin θ/η (h y − y²/2), is linear in 1/η. The viscosity
-/// `[Pa·s]` and its standard deviation `[Pa·s]`.
+/// Bulk modulus of a slow film over ρ0 g h `[-]`.
+const STIFFNESS: f64 = 50.0;
+
+/// Weighted least squares by hand: the exact film, η du/dy = τ, is linear in 1/η. The viscosity `[Pa·s]` and its standard
+/// deviation `[Pa·s]`.
 fn viscosity_of_the_exact_film() -> (f64, f64) {
-    let (depth, slope, density, gravity) = (0.01, 10.0f64.to_radians(), 1000.0, 9.81);
+    let (depth, slope, density, gravity) = (0.01_f64, 10.0_f64.to_radians(), 1000.0, 9.81);
     let data = [[0.003, 0.086, 0.003], [0.005, 0.126, 0.004], [0.008, 0.161, 0.005]];
     let (mut up, mut down) = (0.0, 0.0);
     for [y, velocity, uncertainty] in data {
-        let of_one = density * gravity * slope.sin() * (depth * y - y * y / 2.0) / uncertainty;
+        // the film bears its own weight: ρ = ρ0 (1 + cosα (h − y)/(S h)), and so τ = ρ0 g sinα ((h − y) + cosα (h − y)²/(2 S h))
+        let left = |power: i32| depth.powi(power) - (depth - y).powi(power);
+        let integral = left(2) / 2.0 + slope.cos() * left(3) / (6.0 * STIFFNESS * depth);
+        let of_one = density * gravity * slope.sin() * integral / uncertainty;
         up += of_one * velocity / uncertainty;
         down += of_one * of_one;
     }

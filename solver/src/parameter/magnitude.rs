@@ -7,7 +7,7 @@
 use serde_json::{Map, Value, json};
 
 /// Unit, smallest size of a number that is not 0, and largest size.
-const BY_UNIT: [(&str, f64, f64); 12] = [
+const BY_UNIT: [(&str, f64, f64); 14] = [
     ("-", 1e-15, 1e9),
     ("m", 1e-9, 1e5),
     ("s", 1e-12, 1e9),
@@ -20,6 +20,8 @@ const BY_UNIT: [(&str, f64, f64); 12] = [
     ("Pa·sⁿ", 1e-12, 1e15),
     ("1/s", 1e-15, 1e15),
     ("m²/s", 1e-15, 1e6),
+    ("kg/s", 1e-15, 1e9),
+    ("kg/(s m)", 1e-15, 1e9),
 ];
 
 /// The largest count that a field without a rule of its own takes.

@@ -144,9 +144,9 @@ fn check_phase(phase: &Phase<2>, domain: &Domain<2>, what: &str) {
     let (free, walls) = (of(&phase.position, Sources::Same), of(&phase.wall, Sources::Other));
     for a in 0..phase.len() {
         let mut sums = (0.0, 0.0);
-        // F of free pairs is kept in single precision
+        // F of free pairs is found in single precision: a few roundings of 6e-8
         let found = [
-            (phase.free_pairs(a, &periods).collect::<Vec<_>>(), &free[a], 1e-7),
+            (phase.free_pairs(a, &periods).collect::<Vec<_>>(), &free[a], 5e-7),
             (phase.wall_pairs(a, &periods).collect::<Vec<_>>(), &walls[a], 1e-9),
         ];
         for (mut found, expected, tolerance) in found {
@@ -163,9 +163,14 @@ fn check_phase(phase: &Phase<2>, domain: &Domain<2>, what: &str) {
         }
         let lattice = (phase.lattice_volume, phase.lattice.concentration * 0.997);
         let concentration = (sums.0 + phase.kernel.value_at(0.0)) * lattice.0 / lattice.1;
-        assert!((phase.concentration[a] - concentration).abs() < 1e-9, "{what}: concentration of {a}");
+        // kernel values and factors are single precision, which a few roundings leave 5e-7; a pair that is missed leaves a thousandth
+        assert!((phase.concentration[a] - concentration).abs() < 5e-7, "{what}: concentration of {a}");
         let moment = if concentration < 0.95 { phase.lattice.gradient } else { 0.5 * lattice.0 * sums.1 };
-        assert!((phase.moment[a] - moment).abs() < 1e-9, "{what}: moment of {a}");
+        assert!(
+            (phase.moment[a] - moment).abs() < 5e-7,
+            "{what}: moment of {a}: {} for {moment}, concentration {concentration}",
+            phase.moment[a]
+        );
     }
 }
 
