@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// The viscosity of a film from three velocities that someone has measured, with 3 % of uncertainty each.
 const PLAN: &str = r#"
 title = "viscosity of a film"
-evaluations = 12
+evaluations = 14
 trajectories = 2
 
 [[parameters]]
@@ -180,7 +180,7 @@ fn wrong_plans_are_refused_by_name() {
          as \"y [m]\""
     );
     assert_eq!(
-        plan("evaluations = 12", "evaluations = 0"),
+        plan("evaluations = 14", "evaluations = 0"),
         "error: plan.toml: `evaluations` is 0, but must be at least 1; 25 suffice for three parameters"
     );
     let unit = plan("unit = \"-\", uncertainty", "unit = \"m\", uncertainty");
