@@ -41,7 +41,7 @@ impl Case for BedLoad {
     const SUMMARY: &'static str = "water over a bed that moves: profiles, drag and transport, in three formulations";
     const DESCRIPTION: &'static str = "Turbulent water over a bed of 5 mm grains. `stabilised` has one particle a grain, a yield stress that grows with \
         the grains' weight, and two parameters that are fitted on two slopes and judged on the third. `continuum` \
-        resolves the grains' layer by its solid fraction, with literature closures and nothing fitted; it is verified \
+        resolves the grains' layer by its solid fraction, with closures of the literature; it is verified \
         against the 1-D layer of bed-load-1d in three stages: grains at rest, grains that move at a given fraction, grains \
         that dilate. `paper` is the set-up as printed, which fails in documented ways: its metrics are observations. The \
         quick tier is too short to be stationary and says so: it judges conservation.";

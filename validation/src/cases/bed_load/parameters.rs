@@ -148,7 +148,7 @@ impl StageRuns {
     }
 }
 
-/// Volume fractions, literature closures, nothing fitted.
+/// Volume fractions, closures of the literature.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Continuum {
     /// Runs.

@@ -97,7 +97,7 @@ fn carried(state: &LayerState) -> Vec<f64> {
 fn transport(layers: &[SolvedLayer<'_>]) -> Figure {
     let mut panel = transport_panel::formulas();
     let points = layers.iter().map(|(run, state)| (run.stream.shields_number(), state.transport()));
-    panel.points("layer, nothing fitted", 0, points);
+    panel.points("layer, closures of the literature", 0, points);
     Figure::new(
         "transport",
         "Bed-load transport over the Shields number: the layers with the literature's closures and published \
