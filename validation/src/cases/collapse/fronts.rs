@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// Thickness at the front over the initial half width `[-]`: the front that run-outs are judged by, a grain of Lagrée's.
 ///
-/// A row of particles is thicker up to 50 over the half width, so that the toe counts by its mass ([`Toe`]). With 20
+/// A row of particles is thicker up to 50 over the half width, so that the toe counts by its mass (`Toe`). With 20
 /// particles over r_0 the run-out of his grains is then 0.7, 1.9 and 2 % longer than what finer columns approach (a = 0.5, 1
 /// and 3; 13, 7 and 3 % by thickness in bins of 0.1 r_0), and scatters by 1.0, 1.0 and 0.5 % from seed to seed
 /// (2.8, 1.7 and 1.4 %).
