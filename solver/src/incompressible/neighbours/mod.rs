@@ -10,7 +10,7 @@ pub(crate) use grid::Grid;
 pub(crate) use lane_list::{LaneList, SavedList, Sources};
 pub(crate) use layers::{Layers, Places, SavedLayers};
 pub(crate) use pairs::{Pairs, SavedPairs};
-pub(crate) use periods::Periods;
+pub(crate) use periods::{Across, Periods};
 
 use crate::lanes::LANES;
 

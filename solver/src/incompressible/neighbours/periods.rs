@@ -8,23 +8,58 @@ use crate::vector::Vector;
 /// The separation of two particles by the shortest way.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Periods<const D: usize> {
+    lower: Vector<D>,
     length: Vector<D>,
     inverse: Vector<D>,
 }
 
+/// Whether eight particles have pairs across the end of a period.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Across {
+    /// None within the distance that was asked for: separations are differences of positions as they stand.
+    None,
+    /// Some may.
+    Some,
+}
+
 impl<const D: usize> Periods<D> {
     pub(crate) fn of(domain: &Domain<D>) -> Self {
-        let length = Vector::from_fn(|axis, _| match domain.axes[axis] {
-            AxisBoundary::Periodic { lower, upper } => upper - lower,
-            AxisBoundary::Open | AxisBoundary::Mirror { .. } => 0.0,
-        });
-        Self { length, inverse: length.map(|l| if l > 0.0 { 1.0 / l } else { 0.0 }) }
+        let (mut lower, mut length) = (Vector::zeros(), Vector::zeros());
+        for (axis, boundary) in domain.axes.iter().enumerate() {
+            if let AxisBoundary::Periodic { lower: low, upper } = *boundary {
+                (lower[axis], length[axis]) = (low, upper - low);
+            }
+        }
+        Self { lower, length, inverse: length.map(|l| if l > 0.0 { 1.0 / l } else { 0.0 }) }
     }
 
     /// Whether an axis has a period.
     #[inline(always)]
     pub(crate) fn has(&self, axis: usize) -> bool {
         self.length[axis] > 0.0
+    }
+
+    /// Whether one of eight particles lies within `reach` `[m]` of the end of a period. If none does, a pair across the end is
+    /// longer than the reach, by the shortest way as well as by the way that leaves the period.
+    #[inline(always)]
+    pub(crate) fn across<V: Lanes>(&self, positions: &[V], reach: f64) -> Across {
+        let mut mask = 0;
+        for axis in 0..D {
+            if self.has(axis) {
+                let along = positions[axis] - V::splat(self.lower[axis]);
+                mask |= along.less_mask(V::splat(reach)) | V::splat(self.length[axis] - reach).less_mask(along);
+            }
+        }
+        if mask == 0 { Across::None } else { Across::Some }
+    }
+
+    /// The same as [`Periods::shortest`] where it is known whether pairs lie across the end of a period.
+    #[inline(always)]
+    pub(crate) fn shortest_if<V: Real>(&self, across: Across, separation: [V; D]) -> [V; D] {
+        match across {
+            Across::None => separation,
+            Across::Some => self.shortest(separation),
+        }
     }
 
     /// The separation `[m]` of the nearest images of two particles that lie in the same period.

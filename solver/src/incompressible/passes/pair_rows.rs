@@ -190,6 +190,7 @@ impl<const D: usize> Task<'_, '_, D> {
         let global = self.out.first + group;
         let zero = V::splat(0.0);
         let own = records::of_group::<V, D>(pairs.records, global, phase.len());
+        let across = pairs.periods.across(&own[..D], pairs.kernel.support());
         let own_moment = own[D].max(-own[D]);
         let (gradient_scale, laplacian_scale) = (V::splat(2.0 * volume), V::Single::splat(-4.0 * volume));
         let active = phase.active[global] as usize;
@@ -205,7 +206,7 @@ impl<const D: usize> Task<'_, '_, D> {
             for axis in 0..D {
                 separation[axis] = own[axis] - other[axis];
             }
-            let separation = pairs.periods.shortest(separation);
+            let separation = pairs.periods.shortest_if(across, separation);
             let measured = V::Single::load(&weights[k]);
             let weight = measured / (own_moment + other[D].max(-other[D])).narrow();
             for axis in 0..D {

@@ -4,7 +4,7 @@
 //! surface and beside it, where ∇C is that of the surface, and no more than a part of a spacing.
 
 use super::super::boundary::AT_SURFACE;
-use super::super::neighbours::{LEAST_TASK, Periods};
+use super::super::neighbours::{Across, LEAST_TASK, Periods};
 use super::super::numerics::ProjectionNumerics;
 use super::super::phase::{Phase, records};
 use crate::lanes::algebra::dot;
@@ -52,12 +52,13 @@ impl<const D: usize> LanePass for Shift<'_, D> {
             let global = self.first + task_group;
             let own_indices = records::group_indices(global, phase.len());
             let own = gather_vectors::<V, D>(&phase.position, &LaneIndices::new(&own_indices, phase.len()));
+            let across = periods.across(&own, phase.kernel.support());
             let (mut gradient, mut deficit) = ([zero; D], zero);
             let group = global * LANES..(global * LANES + shifts.len());
             let near_surface = phase.nearness[group].iter().any(|&nearness| nearness > 0.0);
             for chunk in phase.free.group(global) {
                 let other = gather_vectors::<V, D>(&phase.position, &chunk);
-                let separation = separation(&own, &other, periods);
+                let separation = separation(&own, &other, periods, across);
                 let square = dot(&separation, &separation);
                 if square.less_mask(reach_squared) == 0 {
                     continue;
@@ -72,7 +73,7 @@ impl<const D: usize> LanePass for Shift<'_, D> {
             let candidates = phase.walls.counts::<V>(global);
             for (k, chunk) in phase.walls.group(global).enumerate() {
                 let other = gather_vectors::<V, D>(&phase.wall, &chunk);
-                let separation = separation(&own, &other, periods);
+                let separation = separation(&own, &other, periods, across);
                 let square = dot(&separation, &separation).narrow();
                 let weight = V::widen(phase.kernel.gradient_weight(square, volume));
                 add(&mut gradient, weight.where_less(V::splat(k as f64), candidates), &separation);
@@ -96,12 +97,12 @@ impl<const D: usize> LanePass for Shift<'_, D> {
 }
 
 #[inline(always)]
-fn separation<V: Lanes, const D: usize>(own: &[V; D], other: &[V; D], periods: &Periods<D>) -> [V; D] {
+fn separation<V: Lanes, const D: usize>(own: &[V; D], other: &[V; D], periods: &Periods<D>, across: Across) -> [V; D] {
     let mut separation = *own;
     for axis in 0..D {
         separation[axis] = own[axis] - other[axis];
     }
-    periods.shortest(separation)
+    periods.shortest_if(across, separation)
 }
 
 #[inline(always)]

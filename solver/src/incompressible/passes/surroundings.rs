@@ -4,7 +4,7 @@
 //! the corrected velocity gradient.
 
 use super::super::boundary::{AT_SURFACE, Surface, WallMirror};
-use super::super::neighbours::{LEAST_GROUPS, LaneList, Periods};
+use super::super::neighbours::{Across, LEAST_GROUPS, LaneList, Periods};
 use super::super::numerics::ProjectionNumerics;
 use super::super::phase::{Phase, WallSums, records};
 use super::super::scene::{Bed, height_axis};
@@ -201,6 +201,7 @@ impl<const D: usize> Task<'_, '_, D> {
         let global = self.out.first + group;
         let zero = V::splat(0.0);
         let own = records::of_group::<V, D>(around.records, global, around.free.targets());
+        let across = around.periods.across(&own[..D], around.kernel.support());
         let mut sums =
             LaneSums { value: around.kernel.value(zero), arms: zero, weight: zero, arm: zero, mirrored: zero };
         let mut moments = [[zero; D]; D];
@@ -210,7 +211,7 @@ impl<const D: usize> Task<'_, '_, D> {
         let mut active = 0;
         for (k, chunk) in around.free.group(global).enumerate() {
             let other = records::load::<V, D>(around.records, &chunk);
-            let separation = separation(&own, &other, around.periods);
+            let separation = separation(&own, &other, around.periods, across);
             let square = dot(&separation, &separation);
             if square.less_mask(reach_squared) == 0 {
                 weights[k] = [0.0; LANES];
@@ -232,7 +233,7 @@ impl<const D: usize> Task<'_, '_, D> {
             }
         }
         self.out.active[group] = active as u32;
-        self.add_walls(global, &own, &mut sums);
+        self.add_walls(global, &own, across, &mut sums);
         self.store(group, &sums);
         if GRADIENTS {
             self.store_gradients(group, &moments, &differences);
@@ -240,14 +241,14 @@ impl<const D: usize> Task<'_, '_, D> {
     }
 
     #[inline(always)]
-    fn add_walls<V: Lanes>(&self, global: usize, own: &[V; records::FIELDS], sums: &mut LaneSums<V>) {
+    fn add_walls<V: Lanes>(&self, global: usize, own: &[V; records::FIELDS], across: Across, sums: &mut LaneSums<V>) {
         let around = self.around;
         let normal = height_axis(D);
         let candidates = around.walls.counts::<V>(global);
         let height = around.mirror.height(own[normal]);
         for (k, chunk) in around.walls.group(global).enumerate() {
             let other = records::load::<V, D>(around.wall_records, &chunk);
-            let separation = separation(own, &other, around.periods);
+            let separation = separation(own, &other, around.periods, across);
             let square = dot(&separation, &separation);
             let (value, _, weight) = around.measure(k, candidates, square);
             sums.value = sums.value + value;
@@ -308,10 +309,11 @@ fn separation<V: Lanes, const D: usize>(
     own: &[V; records::FIELDS],
     other: &[V; records::FIELDS],
     periods: &Periods<D>,
+    across: Across,
 ) -> [V; D] {
     let mut separation = [V::splat(0.0); D];
     for axis in 0..D {
         separation[axis] = own[axis] - other[axis];
     }
-    periods.shortest(separation)
+    periods.shortest_if(across, separation)
 }

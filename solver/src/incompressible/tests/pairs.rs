@@ -1,12 +1,13 @@
 //! Pairs against brute force: every pair of nearest images, with no cells and no wrapping.
 
-use super::super::neighbours::{Grid, LaneList, Pairs, Periods, Sources};
+use super::super::neighbours::{Across, Grid, LaneList, Pairs, Periods, Sources};
 use super::super::phase::Phase;
 use super::super::simulation::IncompressibleSimulation;
 use super::super::step;
 use super::{SPACING, grains, random, symmetric, water};
 use crate::domain::{AxisBoundary, Domain};
 use crate::kernel::{Kernel, KernelShape};
+use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::vector::Vector;
 use rand::RngExt;
 
@@ -118,6 +119,46 @@ fn check<const D: usize>(periods: [Option<f64>; D], which: Sources) {
         let count = compare(&pairs, &expected, &kernel, &format!("{periods:?}"));
         assert!(count > 100, "only {count} pairs along {periods:?}");
     }
+}
+
+/// What eight particles at one position see of the end of a period.
+struct OfEight<'a> {
+    periods: &'a Periods<2>,
+    position: Vector<2>,
+    reach: f64,
+    across: &'a mut Across,
+}
+
+impl LanePass for OfEight<'_> {
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let position = [0, 1].map(|axis| V::splat(self.position[axis]));
+        *self.across = self.periods.across(&position, self.reach);
+    }
+}
+
+#[test]
+fn away_from_the_end_of_a_period_the_shortest_way_is_the_difference() {
+    let (lower, length, reach) = (-0.3, 1.0, 0.2);
+    let axes = [AxisBoundary::Periodic { lower, upper: lower + length }, AxisBoundary::Open];
+    let periods = Periods::of(&Domain::<2> { axes });
+    let mut random = random(5);
+    let mut place = || Vector::<2>::new(lower + length * random.random::<f64>(), random.random::<f64>());
+    let mut seen = [0; 2];
+    for _ in 0..2000 {
+        let (a, b) = (place(), place());
+        let mut across = Across::None;
+        InstructionSet::best().run(OfEight { periods: &periods, position: a, reach, across: &mut across });
+        let edge = (a[0] - lower).min(lower + length - a[0]);
+        assert_eq!(across == Across::Some, edge < reach, "{a}");
+        let (found, shortest) = (periods.shortest_if::<f64>(across, (a - b).into()), periods.separation(&a, &b));
+        // what is out of reach by both ways may differ
+        if Vector::from(found).norm() < reach || shortest.norm() < reach {
+            assert_eq!(Vector::from(found), shortest);
+            seen[usize::from(across == Across::Some)] += 1;
+        }
+    }
+    assert!(seen.iter().all(|&seen| seen > 20), "{seen:?}");
 }
 
 #[test]

@@ -58,6 +58,9 @@ pub(crate) struct Lattices<const D: usize> {
     /// Cell of every particle, and its place in it, from 0 to 1 along each axis.
     cell: Vec<u32>,
     place: Vec<[f64; D]>,
+    /// Nodes of the finest lattice at the corners of every cell, for so many cells and nodes along the axes.
+    node: Vec<[u32; CORNERS]>,
+    finest: ([usize; D], [usize; D]),
     /// What every cell gives to its corners.
     corner: Vec<[f64; CORNERS]>,
     inverse_diagonal: Vec<f64>,
@@ -73,6 +76,8 @@ impl<const D: usize> Lattices<D> {
             particle: Vec::new(),
             cell: Vec::new(),
             place: Vec::new(),
+            node: Vec::new(),
+            finest: ([0; D], [0; D]),
             corner: Vec::new(),
             inverse_diagonal: Vec::new(),
         }
@@ -113,6 +118,7 @@ impl<const D: usize> Lattices<D> {
         let Self { order, particle, cell, .. } = self;
         order.sort(number, |entry| cell[entry] as usize, particle);
         self.corner.resize(self.levels[0].sums.len(), [0.0; CORNERS]);
+        self.find_nodes();
         self.find_diagonals(size, row);
     }
 
@@ -177,8 +183,28 @@ impl<const D: usize> Lattices<D> {
         }
         if self.corner.capacity() < self.levels[0].sums.len() {
             self.corner.reserve(2 * self.levels[0].sums.len());
+            self.node.reserve(2 * self.levels[0].sums.len());
         }
         (lower, size)
+    }
+
+    /// The nodes at the corners of every cell of the finest lattice: what lies behind a period is its first node. They change only
+    /// where the lattice does.
+    fn find_nodes(&mut self) {
+        let Self { levels, node, finest, .. } = self;
+        let Level { cells, nodes, sums, .. } = &levels[0];
+        if *finest == (*cells, *nodes) {
+            return;
+        }
+        *finest = (*cells, *nodes);
+        node.resize(sums.len(), [0; CORNERS]);
+        node.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(cell, node)| {
+            let cell = split(cell, *cells);
+            for (corner, node) in node.iter_mut().take(1 << D).enumerate() {
+                let place = std::array::from_fn(|axis| (cell[axis] + (corner >> axis & 1)) % nodes[axis]);
+                *node = join(place, *nodes) as u32;
+            }
+        });
     }
 
     /// Diagonals of all levels, from the sums over their cells.
@@ -248,7 +274,7 @@ impl<const D: usize> Preconditioner<f64> for Lattices<D> {
 
     fn apply(&mut self, residual: &[f64], out: &mut [f64]) {
         self.restrict(residual);
-        let Self { levels, number, periodic, cell, place, inverse_diagonal, .. } = self;
+        let Self { levels, number, periodic, cell, place, node, inverse_diagonal, .. } = self;
         let levels = &mut levels[..*number];
         for level in 1..levels.len() {
             let (before, after) = levels.split_at_mut(level);
@@ -271,15 +297,12 @@ impl<const D: usize> Preconditioner<f64> for Lattices<D> {
                 *value += from_coarser(split(node, nodes), coarse);
             });
         }
-        let finest = &levels[0];
+        let (finest, node) = (&levels[0], &*node);
         (out, residual, &*inverse_diagonal, &*cell, &*place).into_par_iter().with_min_len(LEAST_TASK).for_each(
             |(out, residual, weight, &cell, place)| {
-                let cell = split(cell as usize, finest.cells);
                 let mut sum = residual * weight;
-                for k in 0..1 << D {
-                    // what lies behind a period is its first node
-                    let node = std::array::from_fn(|axis| (cell[axis] + (k >> axis & 1)) % finest.nodes[axis]);
-                    sum += finest.value[join(node, finest.nodes)] * share(place, k);
+                for (k, &node) in node[cell as usize].iter().take(1 << D).enumerate() {
+                    sum += finest.value[node as usize] * share(place, k);
                 }
                 *out = if *weight > 0.0 { sum } else { 0.0 };
             },
