@@ -13,6 +13,10 @@ pub(crate) struct Periods<const D: usize> {
     inverse: Vector<D>,
 }
 
+/// How near to the end of a period eight particles may be, over the reach `[-]`, for their pairs to lie within it: within a step
+/// others may have left the period by a part of a spacing, and come back at its end.
+const ROOM: f64 = 1.5;
+
 /// Whether eight particles have pairs across the end of a period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Across {
@@ -39,15 +43,15 @@ impl<const D: usize> Periods<D> {
         self.length[axis] > 0.0
     }
 
-    /// Whether one of eight particles lies within `reach` `[m]` of the end of a period. If none does, a pair across the end is
-    /// longer than the reach, by the shortest way as well as by the way that leaves the period.
+    /// Whether one of eight particles lies so near to the end of a period that it may have a pair across it that is shorter than
+    /// `reach` `[m]`. If none does, such a pair is longer, by the shortest way as well as by the way that leaves the period.
     #[inline(always)]
     pub(crate) fn across<V: Lanes>(&self, positions: &[V], reach: f64) -> Across {
-        let mut mask = 0;
+        let (mut mask, range) = (0, ROOM * reach);
         for axis in 0..D {
             if self.has(axis) {
                 let along = positions[axis] - V::splat(self.lower[axis]);
-                mask |= along.less_mask(V::splat(reach)) | V::splat(self.length[axis] - reach).less_mask(along);
+                mask |= along.less_mask(V::splat(range)) | V::splat(self.length[axis] - range).less_mask(along);
             }
         }
         if mask == 0 { Across::None } else { Across::Some }
