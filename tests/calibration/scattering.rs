@@ -40,6 +40,11 @@ sand.aspect_ratios = [0.9, 1.5, 3.0]
 lagree.aspect_ratios = []
 sensitivity.aspect_ratios = []
 regularised.aspect_ratios = []
+bars.aspect_ratios = []
+bars_frictions.aspect_ratios = []
+bars_limiting_frictions.aspect_ratios = []
+other_numerics.eddy_aspect_ratios = []
+other_numerics.uncoupled_aspect_ratios = []
 "#;
 
 /// What the experiments of a problem came to.

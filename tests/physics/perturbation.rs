@@ -22,6 +22,9 @@ fn collapse(jitter: f64) -> Collapse {
     parameters.sand.aspect_ratios.clear();
     parameters.lagree.aspect_ratios = vec![1.0];
     parameters.regularised.aspect_ratios.clear();
+    parameters.bars.aspect_ratios.clear();
+    parameters.bars_frictions.aspect_ratios.clear();
+    parameters.bars_limiting_frictions.aspect_ratios.clear();
     parameters.sensitivity.aspect_ratios.clear();
     let runs = parameters.runs();
     assert_eq!(runs.len(), 1);

@@ -11,6 +11,11 @@ use bagnold_validation::observation::Recorded;
 fn columns(aspect_ratios: &[f64]) -> ColumnPlanarParameters {
     let mut parameters = ColumnPlanarParameters::of_tier(Tier::Quick);
     parameters.sand.aspect_ratios.clear();
+    parameters.bars.aspect_ratios.clear();
+    parameters.other_numerics.eddy_aspect_ratios.clear();
+    parameters.other_numerics.uncoupled_aspect_ratios.clear();
+    parameters.bars_frictions.aspect_ratios.clear();
+    parameters.bars_limiting_frictions.aspect_ratios.clear();
     parameters.regularised.aspect_ratios.clear();
     parameters.sensitivity.aspect_ratios.clear();
     parameters.lagree.aspect_ratios = aspect_ratios.to_vec();

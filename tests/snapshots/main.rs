@@ -4,6 +4,8 @@
 //! may move by its own tolerance. To accept what has moved farther, read the report first, then
 //! `cargo run -- report --accept --cases CASE`.
 
+mod measured_points;
+
 use bagnold_validation::case::{Changes, Silent, Tier, execute};
 use bagnold_validation::cases::REGISTRY;
 use bagnold_validation::metric::{Metric, undeclared};
@@ -69,6 +71,15 @@ fn the_metrics_of_every_case_are_as_accepted() {
         .filter(|name| std::panic::catch_unwind(|| assert_as_accepted(name)).is_err())
         .collect();
     assert!(failed.is_empty(), "not as accepted, see above: {}", failed.join(", "));
+    // of the same runs, which are stored by now
+    measured_points::assert_enough();
+}
+
+/// `cargo test --test snapshots -- --ignored --nocapture` prints the list.
+#[test]
+#[ignore = "the drift test asks the same; this one shows what judges, of stored runs"]
+fn what_measured_points_judge() {
+    measured_points::assert_enough();
 }
 
 #[test]

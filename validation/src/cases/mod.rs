@@ -134,7 +134,14 @@ mod tests {
         let honey = ["liquid.law=honey".to_owned(), "liquid.viscosity=1".to_owned()];
         let layer = ["resolution=4", "preparation=none", "duration=2.2"];
         let column = ["resolution=4", "duration=0.1", "sand.bulk_density=1500", "sand.aspect_ratios=[1]"];
-        let alone = ["regularised.aspect_ratios=[]", "lagree.aspect_ratios=[]", "sensitivity.aspect_ratios=[]"];
+        let alone = [
+            "bars.aspect_ratios=[]",
+            "bars_frictions.aspect_ratios=[]",
+            "bars_limiting_frictions.aspect_ratios=[]",
+            "regularised.aspect_ratios=[]",
+            "lagree.aspect_ratios=[]",
+            "sensitivity.aspect_ratios=[]",
+        ];
         for (case, own, law) in [
             ("hydrostatic", layer.to_vec(), honey.to_vec()),
             ("hydrostatic", layer.to_vec(), bingham("liquid").to_vec()),

@@ -4,7 +4,7 @@
 use super::bed_load_layer::Stream;
 use super::shipped::read_shipped;
 use super::{MeasuredData, ReferenceError};
-use crate::statistics::{Beyond, interpolated};
+use crate::statistics::{Beyond, interpolated, neighbour_scatter};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -30,6 +30,10 @@ pub struct BedLoadProfiles {
     pub grain_velocity: HeightProfile,
     /// Velocity of the water `[m/s]`; none of the sheet flow's own.
     pub fluid_velocity: HeightProfile,
+    /// −⟨u'w'⟩ of the water `[m²/s²]`; none of the grain simulation.
+    pub turbulent_stress: HeightProfile,
+    /// Standard deviation of its points about the line through their neighbours `[m²/s²]`; NaN without any.
+    pub stress_scatter: f64,
     /// q* = ∫ φ u_s dz/√((s − 1) g d³) of these points `[-]`.
     pub transport: f64,
     /// Where it comes from.
@@ -92,12 +96,15 @@ impl MeasuredBedLoad {
                     solid_fraction: fraction,
                     grain_velocity: grains,
                     fluid_velocity: points(table, "fluid velocity")?,
+                    turbulent_stress: HeightProfile::new(),
+                    stress_scatter: f64::NAN,
                     source: table.metadata.source.clone(),
                 })
             }),
             Self::SheetFlow => {
                 let fraction =
                     read_shipped("bed-load/sheet-flow-fraction.csv", |table| points(table, "solid fraction"));
+                let stress = read_shipped("bed-load/sheet-flow-stress.csv", |table| points(table, "covariance"));
                 read_shipped("bed-load/sheet-flow-velocity.csv", |table| {
                     let grains = points(table, "velocity")?;
                     Ok(BedLoadProfiles {
@@ -105,6 +112,8 @@ impl MeasuredBedLoad {
                         solid_fraction: fraction.clone(),
                         grain_velocity: grains,
                         fluid_velocity: HeightProfile::new(),
+                        stress_scatter: neighbour_scatter(&stress).unwrap_or(f64::NAN),
+                        turbulent_stress: stress.clone(),
                         source: table.metadata.source.clone(),
                     })
                 })
@@ -136,6 +145,17 @@ mod tests {
         let transport = |of: MeasuredBedLoad| of.profiles().transport;
         assert!((transport(MeasuredBedLoad::GrainSimulation) / 2.34 - 1.0).abs() < 0.06);
         assert!((transport(MeasuredBedLoad::SheetFlow) / 5.1 - 1.0).abs() < 0.06);
+    }
+
+    /// Near the bed the covariance tends to u_*², and it falls to nothing at the surface.
+    #[test]
+    fn the_measured_stress_is_that_of_the_friction_velocity() {
+        let of = MeasuredBedLoad::SheetFlow;
+        let (stream, profiles) = (of.stream(), of.profiles());
+        let square = stream.shear_velocity().powi(2);
+        let most = profiles.turbulent_stress.iter().fold(0.0_f64, |most, point| most.max(point.1));
+        assert!((most / square - 0.96).abs() < 0.05, "{most} of {square}");
+        assert!((0.01..0.08).contains(&(profiles.stress_scatter / square)), "{}", profiles.stress_scatter / square);
     }
 
     #[test]

@@ -43,8 +43,52 @@ pub static MEASURED_BAND: LazyLock<(f64, f64)> = LazyLock::new(|| {
     (quantile(&ratios, 0.05), quantile(&ratios, 0.95))
 });
 
+/// Factor in the Shields number within which runs count as of the same `[-]`.
+const SAME_SHIELDS: f64 = 1.3;
+/// Fewest runs that say something together.
+const FEWEST_RUNS: usize = 10;
+
+/// What runs of about one Shields number say together, each over Wong & Parker's 1.6 form `[-]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredRates {
+    /// Half of them carried less.
+    pub median: f64,
+    /// Nine tenths lie between these.
+    pub bounds: (f64, f64),
+    /// Half of the width of the middle two thirds, a standard deviation.
+    pub deviation: f64,
+    /// How many they are.
+    pub number: usize,
+    /// Where they are from.
+    pub source: String,
+    /// How sure the project is of them.
+    pub confidence: Confidence,
+}
+
+/// The measured runs within a factor of 1.3 of a Shields number `[-]`; none of too few.
+#[must_use]
+pub fn measured_rates_about(shields_number: f64) -> Option<MeasuredRates> {
+    let own = TransportFormula::WongParker;
+    let range = shields_number / SAME_SHIELDS..=shields_number * SAME_SHIELDS;
+    let runs =
+        MEASURED_TRANSPORT.iter().filter(|(shields, _)| range.contains(shields) && own.transport(*shields) > 0.0);
+    let mut ratios: Vec<f64> = runs.map(|(shields, transport)| transport / own.transport(*shields)).collect();
+    ratios.sort_by(f64::total_cmp);
+    let (source, confidence) = read_shipped("bed-load/measured-transport.csv", |table| {
+        Ok((table.metadata.source.clone(), table.metadata.confidence))
+    });
+    (ratios.len() >= FEWEST_RUNS).then(|| MeasuredRates {
+        median: quantile(&ratios, 0.5),
+        bounds: (quantile(&ratios, 0.05), quantile(&ratios, 0.95)),
+        deviation: 0.5 * (quantile(&ratios, 5.0 / 6.0) - quantile(&ratios, 1.0 / 6.0)),
+        number: ratios.len(),
+        source,
+        confidence,
+    })
+}
+
 /// The quantile of values in ascending order, linear between them; NaN without values.
-fn quantile(ascending: &[f64], share: f64) -> f64 {
+pub(super) fn quantile(ascending: &[f64], share: f64) -> f64 {
     let place = share * ascending.len().saturating_sub(1) as f64;
     let (below, part) = (place as usize, place.fract());
     match (ascending.get(below), ascending.get(below + 1)) {
@@ -176,6 +220,19 @@ mod tests {
         assert_eq!([0.0, 0.25, 0.5, 1.0].map(|share| quantile(&[1.0, 2.0, 4.0], share)), [1.0, 1.5, 2.0, 4.0]);
         assert_eq!(quantile(&[3.0], 0.7), 3.0);
         assert!(quantile(&[], 0.5).is_nan());
+    }
+
+    #[test]
+    fn the_formula_runs_through_the_runs_of_each_shields_number() {
+        for shields in [0.115, 0.173] {
+            let rates = measured_rates_about(shields).expect("runs");
+            assert!((0.4..1.2).contains(&rates.median), "{shields}: {rates:?}");
+            assert!(
+                rates.bounds.0 < rates.median && rates.median < rates.bounds.1 && rates.deviation > 0.0,
+                "{rates:?}"
+            );
+        }
+        assert_eq!(measured_rates_about(5.0), None);
     }
 
     #[test]

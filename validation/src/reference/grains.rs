@@ -42,6 +42,10 @@ pub static TABLE_2_SAND: LazyLock<PublishedGrains> =
 pub static LAGREE_GRAINS: LazyLock<PublishedGrains> =
     LazyLock::new(|| read_shipped("column-planar/grains.csv", |table| PublishedGrains::read(table, "Lagrée et al.")));
 
+/// The aluminium bars of Bui et al. 2008, whose friction does not depend on the rate: nothing else is known of it.
+pub static ALUMINIUM_BARS: LazyLock<PublishedGrains> =
+    LazyLock::new(|| read_shipped("column-planar/grains.csv", |table| PublishedGrains::read(table, "aluminium bars")));
+
 /// How deposits and flows of the glass beads depend on their thickness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlowRule {
@@ -152,7 +156,9 @@ mod tests {
         let table = shipped_table("column-planar/grains.csv").expect("readable");
         let error = PublishedGrains::read(&table, "gravel").expect_err("absent").to_string();
         assert!(
-            error.contains("no row has `gravel` in the column `material`; there are sand, Lagrée et al."),
+            error.contains(
+                "no row has `gravel` in the column `material`; there are sand, Lagrée et al., aluminium bars"
+            ),
             "{error}"
         );
     }

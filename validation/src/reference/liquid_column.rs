@@ -2,6 +2,7 @@
 
 use super::shipped::read_shipped;
 use crate::metric::Confidence;
+use crate::statistics::{Beyond, interpolated};
 use std::sync::LazyLock;
 
 /// A measured front.
@@ -17,6 +18,69 @@ pub struct MeasuredFront {
     pub name: &'static str,
     /// Half width of an even spread of readings, in x/a `[-]`.
     reading: f64,
+}
+
+/// Measured heights of the water at the wall.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredHeights {
+    /// n², the height of the column over its width `[-]`.
+    pub aspect_ratio: f64,
+    /// (t/√(a/(2g)), height over that at first) `[-]`, in ascending order.
+    pub points: Vec<(f64, f64)>,
+    /// Where they are from.
+    pub source: String,
+    /// How sure the project is of them.
+    pub confidence: Confidence,
+}
+
+/// Half of the last digit of the heights `[-]`, as the deviation of an even spread.
+pub const HEIGHT_READING: f64 = 0.005 / 1.732_050_807_568_877_2;
+
+/// Heights of columns of water at their wall (Martin & Moyce 1952), from `reference-data/water-column/height.csv`.
+pub static WATER_HEIGHTS: LazyLock<Vec<MeasuredHeights>> = LazyLock::new(|| {
+    read_shipped("water-column/height.csv", |table| {
+        let (columns, times, heights) = (table.numbers("column n²")?, table.numbers("time")?, table.numbers("height")?);
+        let of = |aspect_ratio: f64| MeasuredHeights {
+            aspect_ratio,
+            points: (0..columns.len())
+                .filter(|&row| columns[row] == aspect_ratio)
+                .map(|row| (times[row] * std::f64::consts::SQRT_2, heights[row]))
+                .collect(),
+            source: table.metadata.source.clone(),
+            confidence: table.metadata.confidence,
+        };
+        Ok(vec![of(1.0), of(2.0)])
+    })
+});
+
+/// Who read or measured a front, and its points (t/√(a/(2g)), x/a) `[-]`.
+pub type NamedFront = (String, Vec<(f64, f64)>);
+
+/// Fronts of columns twice as high as wide by other experimenters and readers, with their names: (t/√(a/(2g)), x/a) `[-]`.
+pub static OTHER_WATER_FRONTS: LazyLock<Vec<NamedFront>> = LazyLock::new(|| {
+    read_shipped("water-column/front-readings.csv", |table| {
+        let (names, times, fronts) = (table.labels("reading")?, table.numbers("time")?, table.numbers("front")?);
+        let mut readings: Vec<NamedFront> = Vec::new();
+        for (name, point) in names.iter().zip(times.iter().copied().zip(fronts.iter().copied())) {
+            match readings.iter_mut().find(|reading| reading.0 == *name) {
+                Some(reading) => reading.1.push(point),
+                None => readings.push((name.clone(), vec![point])),
+            }
+        }
+        Ok(readings)
+    })
+});
+
+/// Relative standard deviation of the other fronts from that of the table, where both are known `[-]`: what experiments and readings of
+/// them differ by, releases included.
+#[must_use]
+pub fn spread_of_water_fronts() -> f64 {
+    let inside = (Beyond::Nothing, Beyond::Nothing);
+    let points = OTHER_WATER_FRONTS.iter().flat_map(|(_, points)| points);
+    let squares: Vec<f64> = points
+        .filter_map(|&(time, front)| Some((front / interpolated(&WATER_FRONT.points, time, inside)? - 1.0).powi(2)))
+        .collect();
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
 /// Largest difference between readings of Martin & Moyce's figure, in x/a `[-]`; `reference-data/water-column/README.md` has it.
@@ -56,6 +120,17 @@ pub static GATED_WATER_FRONT: LazyLock<MeasuredFront> = LazyLock::new(|| {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn heights_fall_and_other_fronts_lie_about_the_table() {
+        for (heights, number) in WATER_HEIGHTS.iter().zip([8, 16]) {
+            assert_eq!(heights.points.len(), number);
+            assert!(heights.points.is_sorted_by(|one, other| one.0 < other.0 && one.1 > other.1));
+        }
+        assert_eq!(OTHER_WATER_FRONTS.len(), 4);
+        let spread = spread_of_water_fronts();
+        assert!((0.01..0.08).contains(&spread), "{spread}");
+    }
 
     /// After the release the front of a square column tends to a constant speed, 1.3 to 1.6 √(g H) in experiments; twice that is
     /// the bound of shallow water.

@@ -12,6 +12,7 @@ mod bed_load_onset;
 mod bed_load_profiles;
 mod bed_load_transport;
 mod collapse_laws;
+mod collapsed_columns;
 mod drag_tables;
 mod eddy_film;
 mod error;
@@ -20,11 +21,14 @@ mod grains;
 mod law_film;
 mod layer_statement;
 mod liquid_column;
+mod lowest_velocity;
 mod measured;
 mod measured_table;
+mod motion_thresholds;
 mod papers;
 mod rough_channel;
 mod settling;
+mod settling_beads;
 mod shipped;
 mod slope_laws;
 mod steady_film;
@@ -35,21 +39,32 @@ pub use bagnold_layer::{
 };
 pub use bed_load_onset::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence};
 pub use bed_load_profiles::MeasuredBedLoad;
-pub use bed_load_transport::{MEASURED_BAND, MEASURED_TRANSPORT, TransportFormula};
+pub use bed_load_transport::{
+    MEASURED_BAND, MEASURED_TRANSPORT, MeasuredRates, TransportFormula, measured_rates_about,
+};
 pub use collapse_laws::{Author, COLLAPSE_DURATION, CollapseLaw, CollapseLaws, DRAWN, PLANAR_COLLAPSE, ROUND_COLLAPSE};
+pub use collapsed_columns::{ALUMINIUM_BAR_PILE, MeasuredPile, MeasuredRunOuts, ROUND_COLUMN_RUN_OUTS};
 pub use drag_tables::{HINDERED_SLIPS, HinderedSlip, STANDARD_DRAG, StandardDrag};
 pub use eddy_film::EddyFilm;
 pub use error::ReferenceError;
 pub use film::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
-pub use grains::{FlowRule, GLASS_BEADS, GLASS_BEADS_FLOW_RULE, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};
+pub use grains::{
+    ALUMINIUM_BARS, FlowRule, GLASS_BEADS, GLASS_BEADS_FLOW_RULE, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND,
+};
 pub use law_film::LawFilm;
 pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
-pub use liquid_column::{GATED_WATER_FRONT, MeasuredFront, WATER_FRONT};
+pub use liquid_column::{
+    GATED_WATER_FRONT, HEIGHT_READING, MeasuredFront, MeasuredHeights, NamedFront, OTHER_WATER_FRONTS, WATER_FRONT,
+    WATER_HEIGHTS, spread_of_water_fronts,
+};
+pub use lowest_velocity::{LowestVelocity, SHEET_FLOW_LOWEST_VELOCITY};
 pub use measured::{MeasuredData, Metadata, ReferenceKind};
 pub use measured_table::ReferenceColumn;
+pub use motion_thresholds::{MOTION_THRESHOLDS, MotionThresholds, ThresholdBand};
 pub use papers::{Element, FigureName, MetricName, PAPERS, Paper, PaperError, Printed, RunName, Settled, TestName};
 pub use rough_channel::{ORIGIN_DEPTH, RoughChannel, roughness_ratio};
 pub use settling::{GrainForm, SettlingGrains, richardson_zaki_confidence, richardson_zaki_exponent};
+pub use settling_beads::{SETTLING_BEADS, SettlingBeads};
 pub use shipped::{shipped_table, shipped_tables};
 pub use slope_laws::{RoughIncline, SLOPE_EXPERIMENT, SlopeExperiment, slope_run_out};
 pub use steady_film::SteadyFilm;

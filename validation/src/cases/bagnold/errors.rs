@@ -6,7 +6,7 @@ use super::runs::{BagnoldPurpose, BagnoldRun};
 use crate::cases::Arrangement;
 use crate::cases::layer::{DepthProfile, LayerObservation};
 use crate::reference::{BagnoldProfile, LayerTransient, TransientHistory};
-use crate::statistics::{Beyond, interpolated, linear_fit};
+use crate::statistics::{Beyond, interpolated, linear_fit, relative_l2};
 
 /// A steady run's errors.
 #[derive(Debug, Clone, Copy)]
@@ -64,25 +64,47 @@ pub(super) fn implied_stress(profile: &DepthProfile, exact: &BagnoldProfile) -> 
     numbers.map(|(y, inertial_number)| (y, friction(inertial_number) / tangent - 1.0)).collect()
 }
 
-/// (rows, velocity L2 `[%]`) of the runs of one kind at one angle, coarse to fine.
+/// (rows, velocity L2 `[%]`) of the runs of one kind at one angle, coarse to fine: of the mean velocity over the seeds of a
+/// resolution, bin by bin, for what one seed's displacements do to its height is no error of the spacing. Where the study has layers
+/// that are raised again, of displaced particles it is made of them alone.
 pub(super) fn convergence_errors(
     records: &[BagnoldRecord],
     angle: f64,
     particles: Arrangement,
     start: LayerStart,
 ) -> Vec<(f64, f64)> {
-    let mut errors: Vec<(f64, f64)> = records
-        .iter()
-        .filter(|(run, _)| matches!(run.purpose, BagnoldPurpose::Steady | BagnoldPurpose::Convergence))
-        .filter(|(run, _)| run.slope_angle == angle && run.particles == particles && run.start == start)
-        .filter_map(|(run, record)| {
-            let error = SteadyErrors::of(&record.data.profile, &run.profile())?.velocity_l2;
-            let error = if run.unsteadiness(&record.data).is_some() { f64::NAN } else { error };
-            Some((run.layer.resolution as f64, error))
-        })
-        .collect();
-    errors.sort_by(|a, b| a.0.total_cmp(&b.0));
-    errors
+    let is_own = |(run, _): &&BagnoldRecord| {
+        let purposes = [BagnoldPurpose::Steady, BagnoldPurpose::Convergence, BagnoldPurpose::ConvergenceSeed];
+        purposes.contains(&run.purpose) && run.slope_angle == angle && run.particles == particles && run.start == start
+    };
+    let mut own: Vec<&BagnoldRecord> = records.iter().filter(is_own).collect();
+    let is_raised = |record: &&BagnoldRecord| record.0.purpose == BagnoldPurpose::ConvergenceSeed;
+    if own.iter().any(is_raised) {
+        own.retain(is_raised);
+    }
+    own.sort_by_key(|(run, _)| run.layer.resolution);
+    let error = |seeds: &[&BagnoldRecord]| {
+        let (run, _) = seeds[0];
+        let exact = run.profile();
+        let is_steady = seeds.iter().all(|(run, record)| run.unsteadiness(&record.data).is_none());
+        let profiles: Vec<&DepthProfile> = seeds.iter().map(|(_, record)| &record.data.profile).collect();
+        let pairs = mean_over_seeds(&profiles);
+        exact.surface_velocity()?;
+        let l2 = relative_l2(pairs.iter().map(|&(y, velocity)| (velocity, exact.velocity(y).unwrap_or(f64::NAN))));
+        (!pairs.is_empty()).then_some((run.layer.resolution as f64, if is_steady { 100.0 * l2 } else { f64::NAN }))
+    };
+    own.chunk_by(|one, other| one.0.layer.resolution == other.0.layer.resolution).filter_map(error).collect()
+}
+
+/// (height, velocity) of the bins that all profiles fill, in the mean over them.
+fn mean_over_seeds(profiles: &[&DepthProfile]) -> Vec<(f64, f64)> {
+    let number = profiles.len() as f64;
+    let bins = profiles.iter().map(|profile| profile.height.len()).min().unwrap_or(0);
+    let mean = |of: fn(&DepthProfile) -> &[f64], bin: usize| {
+        profiles.iter().map(|profile| of(profile)[bin]).sum::<f64>() / number
+    };
+    let filled = (0..bins).filter(|&bin| profiles.iter().all(|profile| profile.samples[bin] > 0.0));
+    filled.map(|bin| (mean(|profile| &profile.height, bin), mean(|profile| &profile.velocity, bin))).collect()
 }
 
 /// The 1-D solution from rest and the steady depth mean.

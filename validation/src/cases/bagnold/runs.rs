@@ -3,7 +3,7 @@
 use super::parameters::{ARREST_DURATION, BagnoldParameters, LayerStart, law};
 use crate::case::{ExternalData, ExternalObservation, ParameterError, Progress, Run, cost};
 use crate::cases::Arrangement;
-use crate::cases::layer::{self, Layer, LayerObservation, PeriodicLayer, bulk_modulus};
+use crate::cases::layer::{self, Layer, LayerObservation, PeriodicLayer, Preparation, bulk_modulus};
 use crate::input::FieldError;
 use crate::metric::{Value, Variant};
 use crate::observation::Recorded;
@@ -22,6 +22,8 @@ pub enum BagnoldPurpose {
     OtherGrains,
     /// The same, one of several resolutions.
     Convergence,
+    /// The same from a seed of the displacements, raised again by as much as it sinks.
+    ConvergenceSeed,
     /// Slope below the static friction angle.
     Arrest,
     /// Slope above the limiting friction angle.
@@ -143,6 +145,13 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
             runs.push(run);
         }
     }
+    for (&rows, &seed) in
+        study.iter().flat_map(|rows| parameters.convergence_seeds.iter().map(move |seed| (rows, seed)))
+    {
+        let run = convergence(LayerStart::Rest, Arrangement::Jittered, rows, from_rest(angle));
+        let layer = PeriodicLayer { seed, preparation: Preparation::Raised, ..run.layer };
+        runs.push(BagnoldRun { purpose: BagnoldPurpose::ConvergenceSeed, layer, ..run });
+    }
     let arrest = |&angle: &f64| jittered(BagnoldPurpose::Arrest, angle, LayerStart::Profile, ARREST_DURATION * scale);
     runs.extend(parameters.arrest_slope_angles.iter().map(arrest));
     let runaway = |&angle: &f64| jittered(BagnoldPurpose::Runaway, angle, LayerStart::Rest, 20.0 * scale);
@@ -170,6 +179,7 @@ impl Run for BagnoldRun {
             (BagnoldPurpose::Printed, _) => run
                 .and("numerics", self.layer.numerics.pairwise_operator().unwrap_or("default").replace('-', "_"))
                 .and("regularisation_rate", self.regularisation_rate),
+            (BagnoldPurpose::ConvergenceSeed, _) => run.and("preparation", "raised").and("seed", self.layer.seed),
             (_, Some(material)) => run.and("material", material.clone()),
             _ => run,
         }

@@ -22,6 +22,7 @@ impl Parameters for BagnoldParameters {
             averaging_time: 0.5,
             convergence_slope_angle: 24.0,
             convergence_resolutions: vec![],
+            convergence_seeds: vec![],
             arrest_slope_angles: vec![20.0],
             arrest_start_angle: 24.0,
             // at 20 rows the particles' agitation breaks the layer up before its mean reaches half the sound speed
@@ -40,6 +41,7 @@ impl Parameters for BagnoldParameters {
             layer: PeriodicLayer { resolution: 40, columns: 40, ..quick.layer },
             starts: vec![LayerStart::Rest, LayerStart::Profile],
             convergence_resolutions: vec![10, 20, 40],
+            convergence_seeds: vec![1, 2],
             runaway_slope_angles: vec![34.0],
             other_grains: other_grains(),
             printed_rates: vec![1.0],

@@ -3,6 +3,7 @@
 use super::BedLoad1dRecord;
 use super::others;
 use super::records::{literature, of};
+use super::regimes;
 use super::run::{BedLoad1dRun, LayerPurpose, ONE_STATE, ONE_STATE_REASON};
 use super::sensitivities::model_input_uncertainty;
 use crate::case::Run;
@@ -14,7 +15,9 @@ use crate::reference::{MEASURED_BAND, ORIGIN_DEPTH, TransportFormula, roughness_
 quantities! {
     [
         others::FRACTION_DIFFERENCE, others::GRAIN_VELOCITY_DIFFERENCE, others::FLUID_VELOCITY_DIFFERENCE,
-        printed_laws::LAW_ERROR,
+        others::TURBULENT_STRESS_DIFFERENCE, regimes::ROWS_IN_MOTION, regimes::POWER_LAW_MISFIT_RATIO,
+        regimes::POWER_LAW_MISFIT,
+        regimes::LOWEST_LAYER_EXPONENT, regimes::TRANSPORT_OVER_MEASURED, printed_laws::LAW_ERROR,
     ]
     TRANSPORT_RATIO: validated("transport_ratio", "-", "q* over that of the formula"),
     TRANSPORT: validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)"),
@@ -40,6 +43,8 @@ quantities! {
     DRAG_DEPTH_GROWTH: stated("drag_depth_growth", "-", "the same of the depth down to which the drag exceeds a tenth of its peak"),
     ONSET_RATIO: validated("onset_ratio", "-", "Shields number at which grains move over that of Shields' curve"),
     ONSET: validated("onset", "-", "that Shields number"),
+    ONSET_OVER_MEASURED:
+        validated("onset_over_measured", "-", "that Shields number over the median of the measured thresholds of grains of its size"),
     TRANSPORT_SENSITIVITY:
         verified("transport_sensitivity", "-", "q* with a replaced closure over that of the literature's"),
 }
@@ -80,10 +85,11 @@ pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Metric> {
             order(&mut metrics, run, &study, purpose, limit);
         }
         profiles(&mut metrics, run, state);
+        metrics.extend(regimes::metrics(run, state, MOVING));
     }
     similar(&mut metrics, records);
     second_states(&mut metrics, records);
-    metrics.extend(super::onset::metrics(records, ONSET_RATIO, ONSET, START_DIFFERENCE));
+    metrics.extend(super::onset::metrics(records, [ONSET_RATIO, ONSET, ONSET_OVER_MEASURED], START_DIFFERENCE));
     metrics.extend(others::metrics(records, TRANSPORT_RATIO, TRANSPORT, START_DIFFERENCE));
     with_slope(&mut metrics, &literature(records).collect::<Vec<_>>());
     for (run, state) in of(records, |purpose| matches!(purpose, LayerPurpose::Sensitivity(_))) {
@@ -120,6 +126,9 @@ fn transport(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord], run: &BedLo
             Some((standard, source)) => metric.known_to(Origin::Input, Some(standard), &source),
             None => metric,
         });
+    }
+    if is_bed_load(run) {
+        metrics.extend(regimes::beside_measured(run, state, model_input_uncertainty(records, run, state)));
     }
     metrics.push(
         TRANSPORT

@@ -8,6 +8,7 @@ mod onset;
 mod others;
 mod parameters;
 mod records;
+mod regimes;
 mod replacements;
 mod run;
 mod sensitivities;

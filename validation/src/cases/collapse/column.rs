@@ -61,6 +61,10 @@ pub enum ColumnPurpose {
     Hourglass,
     /// The regularised law with an implicit viscous step, beside the return mapping.
     Regularised,
+    /// With an eddy viscosity, beside the same column without.
+    Eddies,
+    /// Without the coupling of density and pressure, beside the same column with it.
+    Uncoupled,
 }
 
 /// One simulation.
@@ -103,6 +107,8 @@ impl Run for ColumnRun {
             ColumnPurpose::Hourglass => {
                 column.and("hourglass", self.release.numerics.hourglass).and("seed", self.release.seed)
             }
+            ColumnPurpose::Eddies => column.and("smagorinsky_constant", self.release.numerics.smagorinsky_constant),
+            ColumnPurpose::Uncoupled => column.and("density_coupling", self.release.numerics.density_coupling),
             ColumnPurpose::Regularised => column.and("regularisation_rate", self.regularisation_rate.unwrap_or(0.0)),
         }
     }

@@ -4,20 +4,23 @@ use super::CollapseRecord;
 use super::column::{ColumnPurpose, ColumnRun, Geometry, PICTURES};
 use super::deposit::Collapse;
 use super::flow_metrics::{self, energies, stations};
-use super::material::Material;
-use super::{convergence, scaling, stress_updates, velocity_profile, wedge};
+use super::material::{ExperimentGrains, Material};
+use super::{convergence, measured, scaling, stress_updates, velocity_profile, wedge};
 use crate::case::Run;
 use crate::figure::{Animation, Axis, Field, Figure, Panel};
 use crate::observation::energy;
 use crate::observation::pictures::{View, animation, halves};
 use crate::observation::{Frame, Recorded};
-use crate::reference::{Author, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
+use crate::reference::{Author, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE, ROUND_COLUMN_RUN_OUTS};
 
 pub(in crate::cases) fn all(records: &[CollapseRecord]) -> Vec<Figure> {
     let laws: Vec<&CollapseRecord> = records.iter().filter(|(run, _)| run.purpose == ColumnPurpose::Law).collect();
     let mut figures = Vec::new();
-    if !laws.is_empty() {
-        figures.push(scaling_figure(&laws));
+    // the pile of bars has points of its own, and a figure with them
+    let others: Vec<&CollapseRecord> =
+        laws.iter().copied().filter(|(run, _)| run.material.grains != ExperimentGrains::Bars).collect();
+    if !others.is_empty() {
+        figures.push(scaling_figure(&others));
     }
     for material in materials(&laws) {
         let own: Vec<&CollapseRecord> = laws.iter().copied().filter(|(run, _)| run.material == material).collect();
@@ -25,6 +28,7 @@ pub(in crate::cases) fn all(records: &[CollapseRecord]) -> Vec<Figure> {
             figures.extend([deposits(&own), histories(&own), energy_budget(&own), wedges(&own)]);
         }
     }
+    figures.extend(measured::pile_figure(&laws));
     figures.extend(convergence::figures(records));
     figures.extend(stress_updates::figure(records));
     for (run, record) in laws.iter().filter(|(run, _)| is_shown(run)).map(|record| (&record.0, &record.1)) {
@@ -76,6 +80,12 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
                 let entry = if legend && part == 0 { law.source.as_str() } else { "" };
                 panel.line(entry, slot + 3, curve);
             }
+        }
+        if round && legend {
+            let measured = &*ROUND_COLUMN_RUN_OUTS;
+            let bars = measured.points.iter().map(|(_, run_out)| 2.0 * measured.scatter * run_out).collect();
+            panel.points("measured, with twice their scatter", 1, measured.points.iter().copied()).error = bars;
+            panel.points("measured, doubtful", 2, measured.doubtful.iter().copied());
         }
         for (slot, material) in materials(records).into_iter().enumerate() {
             let points: Vec<(f64, f64)> = records

@@ -2,6 +2,8 @@
 
 use super::column::{ColumnRun, Geometry};
 use super::deposit::{BIN_WIDTH, Collapse};
+use super::material::ExperimentGrains;
+use super::pile::{failure_angle, pile_of};
 use super::quantities::{
     ENERGY_GAIN, FAILURE_SURFACE_ANGLE, FASTEST_HEIGHT, FLOWING_LAYER_R_SQUARED, FLOWING_LAYER_SHEAR_RATE,
     LINEAR_MISFIT_RATIO, TAIL_DECAY_LENGTH_OVER_DIAMETER, TAIL_DECAY_LENGTH_OVER_SPACING,
@@ -10,7 +12,7 @@ use super::quantities::{
 use super::velocity_profile::{Station, decay_length, linear_misfit_ratio};
 use super::wedge::Wedge;
 use crate::case::Run;
-use crate::metric::{Confidence, Limit, Metric, Quantity};
+use crate::metric::{Confidence, Limit, Metric, Origin, Quantity};
 use crate::observation::energy::Energies;
 use crate::observation::{Frame, Recorded};
 
@@ -49,6 +51,11 @@ pub(super) fn wedge(run: &ColumnRun, frames: &[Frame]) -> Option<Wedge> {
     Some(Wedge::between(start, end, run.half_width, run.spacing()))
 }
 
+/// Whether a column is one of the grains that the statements of the collapse paper are judged by.
+fn is_of_paper(run: &ColumnRun) -> bool {
+    run.material.is_published() && run.has_published_law() && run.material.grains != ExperimentGrains::Bars
+}
+
 /// All metrics of one run.
 pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric> {
     let variant = run.variant();
@@ -68,7 +75,7 @@ pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric
         metrics.push(observed(FLOWING_LAYER_SHEAR_RATE, shear.slope));
         let linear = observed(FLOWING_LAYER_R_SQUARED, shear.r_squared).against(None, LINEAR_LAYER, Confidence::Medium);
         metrics.push(linear.gated_by(
-            (run.material.is_published() && run.has_published_law()).then_some(Limit::AtLeast(0.9)),
+            is_of_paper(run).then_some(Limit::AtLeast(0.9)),
             "what the paper calls linear is taken as a line that explains nine tenths of the variance at least",
         ));
     }
@@ -91,7 +98,16 @@ pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric
         // of a shallow column no surface is an answer too
         if let Some(angle) = wedge.angle().or((run.aspect_ratio <= SHALLOW).then_some(f64::NAN)) {
             let active = 45.0 + 0.5 * libm::atan(run.law.contact_friction()).to_degrees();
-            metrics.push(observed(FAILURE_SURFACE_ANGLE, angle).against(
+            let metric = observed(FAILURE_SURFACE_ANGLE, angle);
+            if let Some((pile, (angle, error))) = pile_of(run).and_then(|pile| Some((pile, failure_angle(pile)?))) {
+                metrics.push(metric.against(Some(angle), &pile.source, pile.confidence).known_to(
+                    Origin::Digitisation,
+                    Some(error),
+                    "standard error of the line through the measured points",
+                ));
+                return metrics;
+            }
+            metrics.push(metric.against(
                 Some(active),
                 "Coulomb's active failure plane, 45° + ½ arctan μ_s",
                 Confidence::Unverified,

@@ -1,6 +1,6 @@
 //! Which grains a column is made of.
 
-use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};
+use crate::reference::{ALUMINIUM_BARS, GLASS_BEADS, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};
 use bagnold_solver::material::rheology::Rheology;
 use serde::Serialize;
 use std::fmt;
@@ -15,6 +15,8 @@ pub enum ExperimentGrains {
     Glass,
     /// Grains of Lagrée et al.
     Lagree,
+    /// Aluminium bars of Bui et al.
+    Bars,
 }
 
 /// The one property in which grains differ from their originals.
@@ -25,6 +27,10 @@ pub enum Alteration {
     ReferenceInertia(f64),
     /// Diameter `[m]`.
     GrainDiameter(f64),
+    /// Friction, whatever the rate `[-]`.
+    Friction(f64),
+    /// μ_2, to which friction rises with the rate as that of Lagrée's grains `[-]`.
+    LimitingFriction(f64),
 }
 
 /// Grains as published, or with one property altered.
@@ -44,6 +50,7 @@ impl ExperimentGrains {
             Self::Sand => "sand",
             Self::Glass => "glass",
             Self::Lagree => "lagree",
+            Self::Bars => "bars",
         }
     }
 
@@ -53,6 +60,7 @@ impl ExperimentGrains {
             Self::Sand => &TABLE_2_SAND,
             Self::Glass => &GLASS_BEADS,
             Self::Lagree => &LAGREE_GRAINS,
+            Self::Bars => &ALUMINIUM_BARS,
         }
     }
 }
@@ -64,6 +72,9 @@ impl Material {
     pub const GLASS: Self = Self::published(ExperimentGrains::Glass);
     /// Grains of Lagrée et al. as published.
     pub const LAGREE: Self = Self::published(ExperimentGrains::Lagree);
+
+    /// Aluminium bars as published.
+    pub const BARS: Self = Self::published(ExperimentGrains::Bars);
 
     /// Grains as published.
     #[must_use]
@@ -103,12 +114,15 @@ impl Material {
             (ExperimentGrains::Glass, true) => "glass beads of Table 1",
             (ExperimentGrains::Lagree, true) => "grains of Lagrée et al.",
             (ExperimentGrains::Lagree, false) => "Lagrée et al.",
+            (ExperimentGrains::Bars, true) => "aluminium bars",
             (other, false) => other.name(),
         };
         match self.alteration {
             None => grains.to_owned(),
             Some(Alteration::ReferenceInertia(value)) => format!("{grains}, I_0 = {value}"),
             Some(Alteration::GrainDiameter(value)) => format!("{grains}, D = {value}"),
+            Some(Alteration::Friction(value)) => format!("{grains}, μ = {value}"),
+            Some(Alteration::LimitingFriction(value)) => format!("{grains}, μ_2 = {value}"),
         }
     }
 }
@@ -121,6 +135,8 @@ impl fmt::Display for Material {
             None => Ok(()),
             Some(Alteration::ReferenceInertia(value)) => write!(formatter, "_inertia_{value}"),
             Some(Alteration::GrainDiameter(value)) => write!(formatter, "_diameter_{value}"),
+            Some(Alteration::Friction(value)) => write!(formatter, "_friction_{value}"),
+            Some(Alteration::LimitingFriction(value)) => write!(formatter, "_limiting_friction_{value}"),
         }
     }
 }
@@ -144,6 +160,12 @@ mod tests {
     fn materials_have_a_name_for_files_and_one_for_readers() {
         for (material, name, title) in [
             (Material::SAND, "sand", "sand of Table 2"),
+            (Material::BARS, "bars", "aluminium bars"),
+            (
+                Material::altered(ExperimentGrains::Bars, Alteration::Friction(0.34)),
+                "bars_friction_0.34",
+                "bars, μ = 0.34",
+            ),
             (Material::GLASS, "glass", "glass beads of Table 1"),
             (Material::LAGREE, "lagree", "grains of Lagrée et al."),
             (

@@ -5,15 +5,17 @@ use super::bands::{self, AcceptanceBand};
 use super::column::{ColumnPurpose, ColumnRun, Geometry};
 use super::convergence::{numerical_uncertainty, relative_spread};
 use super::deposit::Collapse;
-use super::fronts::with_resolution;
+use super::known::{ColumnUncertainty, EnsembleSpread, with_uncertainty};
 use super::material::Material;
+use super::measured;
+use super::pile::pile_of;
 use super::quantities::{
     DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, FLANK_R_SQUARED, HEIGHT_BY_TOP, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
     RUN_OUT, STOPPING_TIME,
 };
 use crate::case::Run;
 use crate::cases::energy_ledger;
-use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Variant};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
 use crate::reference::{Author, COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
@@ -29,7 +31,9 @@ pub(in crate::cases) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
         run_out: relative_spread(records, Collapse::run_out),
         height: relative_spread(records, Collapse::final_height),
     };
-    for (run, record) in records {
+    let mut round = Vec::new();
+    for column in records {
+        let (run, record) = column;
         if run.purpose == ColumnPurpose::Law {
             let numerical = |measure| numerical_uncertainty(records, run, measure);
             let known = ColumnUncertainty {
@@ -37,14 +41,33 @@ pub(in crate::cases) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
                 height: numerical(Collapse::final_height),
                 spread,
             };
-            metrics.extend(of_column(run, &record.data, known));
+            let own = of_column(run, &record.data, known);
+            match pile_of(run).filter(|_| !run.is_of_own_grains()) {
+                Some(pile) => {
+                    // points of its own experiment stand in the place of other experiments' laws
+                    let replaced = [RUN_OUT.name, FINAL_HEIGHT.name];
+                    let is_by_law =
+                        |metric: &Metric| replaced.contains(&metric.name.as_str()) && metric.variant == run.variant();
+                    metrics.extend(own.into_iter().filter(|metric| !is_by_law(metric)));
+                    metrics.extend(measured::of_pile(records, column, pile, known));
+                }
+                None => metrics.extend(own),
+            }
+            if let Some(ratio) = measured::of_round_column(run, &record.data, known) {
+                round.push((run.initial_height(), ratio.clone()));
+                metrics.push(ratio);
+            }
             metrics.extend(super::flow_metrics::of_run(run, record));
+            metrics.extend(super::statements::of_run(run, record));
         } else {
             metrics.extend(conservation(&run.variant(), &record.data, &run.release.numerics));
         }
     }
+    let ratios: Vec<(f64, &Metric)> = round.iter().map(|(ratio, metric)| (*ratio, metric)).collect();
+    metrics.extend(measured::of_round_columns(&ratios));
     metrics.extend(super::convergence::metrics(records));
     metrics.extend(super::stress_updates::metrics(records));
+    metrics.extend(super::other_numerics::metrics(records));
     metrics.extend(super::scaling::metrics(records));
     metrics
 }
@@ -101,33 +124,6 @@ pub(in crate::cases) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rh
             "from the time at which the front has covered 99 % of its way, for nothing rests while it flows, to the run's own longest \
              time: a heap that creeps or trembles on does not reach rest",
         )
-}
-
-/// Relative standard deviation of results over the seeds of an ensemble `[-]`: what a single run leaves open.
-#[derive(Debug, Clone, Copy)]
-struct EnsembleSpread {
-    run_out: f64,
-    height: f64,
-}
-
-/// What studies of the resolution tell of a column's results, as relative standard uncertainties, and the spread over the
-/// seeds `[-]`.
-#[derive(Debug, Clone, Copy)]
-struct ColumnUncertainty {
-    run_out: Option<f64>,
-    height: Option<f64>,
-    spread: EnsembleSpread,
-}
-
-/// A metric with the parts of its uncertainty: that of the spacing, and the scatter over the seeds, relative `[-]`. The laws
-/// that it is compared with give none of their own.
-fn with_uncertainty(metric: Metric, study: Option<f64>, row: Option<f64>, spread: f64) -> Metric {
-    let scale = metric.value.abs();
-    with_resolution(metric, study, row).known_to(
-        Origin::Repeat,
-        Some(spread * scale),
-        "largest relative standard deviation over the seeds of the initial displacements",
-    )
 }
 
 fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> Vec<Metric> {

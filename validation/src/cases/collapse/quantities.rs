@@ -34,6 +34,12 @@ quantities! {
     TAIL_DECAY_LENGTH_OVER_SPACING:
         validated("tail_decay_length_over_spacing", "-", "the same length over the particle spacing"),
     TAIL_DECAY_LENGTH_STANDARD_ERROR: validated("tail_decay_length_standard_error", "spacings", "its standard error"),
+    SURFACE_DISTANCE:
+        validated("surface_distance", "%", "root mean square of the deposit's thickness less the measured one, over the initial height"),
+    FAILURE_LINE_DISTANCE:
+        validated("failure_line_distance", "%", "the same of the length that did not move, row by row, over r_0"),
+    RUN_OUT_RATIO: validated("run_out_ratio", "-", "run-out over the measured one of the same aspect ratio"),
+    MEDIAN_RUN_OUT_RATIO: validated("median_run_out_ratio", "-", "median of these over the aspect ratios"),
     UNDISTURBED_SHARE: validated("undisturbed_share", "%", "part of the grains that stays in its place"),
     FAILURE_SURFACE_ANGLE: validated("failure_surface_angle", "°", "slope of the surface of what stays in its place"),
     ENSEMBLE_RUN_OUT: validated("ensemble_run_out", "-", "mean run-out over the seeds against the law of the same grains"),
@@ -49,6 +55,17 @@ quantities! {
     EXPLICIT_STEPS: verified("explicit_steps", "-", "steps that an explicit viscous step would need"),
     REGULARISED_DIFFERENCE:
         verified("regularised_difference", "%", "a regularised column against the same one by return mapping"),
+    FAST_UPSTREAM_RATIO:
+        stated("fast_upstream_ratio", "-", "fast grains at the surface within the initial half width, at a second time over those at a first"),
+    TOP_DISTORTION:
+        stated("top_distortion", "%", "root mean square of the displacements of the upper quarter less their mean, over r_0"),
+    FOOT_VELOCITY_RATIO:
+        stated("foot_velocity_ratio", "-", "velocity of the lowest row near the front in mid-collapse over that of the fastest row there"),
+    EDDY_CHANGE: stated("eddy_change", "%", "by how much an eddy viscosity moves a result"),
+    EDDY_GAIN: stated("eddy_gain", "%", "how much nearer to Lube's law it brings the run-out, of that law"),
+    PRESSURE_NOISE_RATIO: stated("pressure_noise_ratio", "-",
+        "pressure of particles less their neighbours' in mid-collapse, root mean square, without the coupling (27) over that with it"),
+    VELOCITY_NOISE_RATIO: stated("velocity_noise_ratio", "-", "the same of the velocity over the mean speed"),
     SCALING_EXPONENT: validated("scaling_exponent", "-", "exponent of a power law in the aspect ratio, tall columns"),
     SCALING_CONFIDENCE: validated("scaling_confidence", "-", "half width of the exponent's 95 % interval"),
     SCALING_COEFFICIENT: validated("scaling_coefficient", "-", "coefficient of the power law"),

@@ -4,7 +4,7 @@ mod parameters;
 mod runs;
 mod tiers;
 
-pub use parameters::{ColumnPlanarParameters, PlanarColumns, Regularised, Sensitivity, Variants};
+pub use parameters::{ColumnPlanarParameters, OtherNumerics, PlanarColumns, Regularised, Sensitivity, Variants};
 
 use super::collapse::{self, Collapse, CollapseRecord, ColumnRun};
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema};

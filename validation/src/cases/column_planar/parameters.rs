@@ -70,6 +70,20 @@ pub struct Regularised {
     pub rate: f64,
 }
 
+/// Columns of the sand that are repeated with other numerics.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+pub struct OtherNumerics {
+    /// Aspect ratios of columns with an eddy viscosity, beside those of `sand` `[-]`; empty for none.
+    #[schemars(transform = each(between(0.1, 100.0, "the published laws reach from 0.3 to 20")))]
+    pub eddy_aspect_ratios: Vec<f64>,
+    /// Its constant C_s (5) `[-]`.
+    #[schemars(transform = between(0.0, 1.0, "0.07 to 0.25 is usual"))]
+    pub smagorinsky_constant: f64,
+    /// Aspect ratios of columns without the coupling of density and pressure (27) `[-]`; empty for none.
+    #[schemars(transform = each(between(0.1, 100.0, "the published laws reach from 0.3 to 20")))]
+    pub uncoupled_aspect_ratios: Vec<f64>,
+}
+
 /// Parameters of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ColumnPlanarParameters {
@@ -88,6 +102,18 @@ pub struct ColumnPlanarParameters {
     pub glass: PlanarColumns,
     /// Grains of Lagrée, Staron & Popinet (2011); the source does not say their diameter, here it is 0.02 r_0.
     pub lagree: PlanarColumns,
+    /// The pile of aluminium bars that Bui et al. (2008) let collapse; their friction has no rate.
+    pub bars: PlanarColumns,
+    /// Particles over the half width of piles of bars.
+    #[schemars(transform = rules::rows())]
+    pub bars_resolution: usize,
+    /// Bars with another friction, whatever the rate `[-]`: what the measured angle leaves open.
+    #[schemars(transform = within("values", each(positive("the sine of the angle, 0.3387, is a wedge's in the plane"))))]
+    pub bars_frictions: Variants,
+    /// Bars whose friction rises with the rate, to these μ_2 `[-]`, with diameter and I_0 of Lagrée's grains: that of the bars was not
+    /// measured.
+    #[schemars(transform = within("values", each(positive("μ_s and the 0.28 of Lagrée's grains make 0.64"))))]
+    pub bars_limiting_frictions: Variants,
     /// Sand with other values of I_0 `[-]`.
     #[schemars(transform = within("values", each(positive("0.279 follows from (41) for the glass beads"))))]
     pub sand_inertias: Variants,
@@ -96,6 +122,8 @@ pub struct ColumnPlanarParameters {
     pub lagree_diameters: Variants,
     /// Grid convergence and hourglass control.
     pub sensitivity: Sensitivity,
+    /// An eddy viscosity, and no coupling of density and pressure.
+    pub other_numerics: OtherNumerics,
     /// The paper's stress update.
     pub regularised: Regularised,
 }
@@ -106,26 +134,35 @@ const TALL: f64 = 3.0;
 const COARSE: f64 = 5.0;
 /// The paper's figures 7–9: aspect ratio and times `[s]`.
 pub(super) const SHOWN: [(f64, &[f64]); 3] =
-    [(0.9, &[0.07, 0.3]), (2.75, &[0.04, 0.12, 0.34, 0.53]), (4.8, &[0.04, 0.2, 0.4])];
+    [(0.9, &[0.07, 0.11, 0.3]), (2.75, &[0.04, 0.12, 0.34, 0.53]), (4.8, &[0.04, 0.2, 0.4])];
 
 impl ColumnPlanarParameters {
     /// The materials with their names.
-    pub(super) fn materials(&self) -> [(ExperimentGrains, &PlanarColumns); 3] {
+    pub(super) fn materials(&self) -> [(ExperimentGrains, &PlanarColumns); 4] {
         [
             (ExperimentGrains::Sand, &self.sand),
             (ExperimentGrains::Glass, &self.glass),
             (ExperimentGrains::Lagree, &self.lagree),
+            (ExperimentGrains::Bars, &self.bars),
         ]
     }
 
     /// The parameter that a column's resolution comes from.
-    pub(super) fn resolution_field(&self, aspect_ratio: f64) -> &'static str {
-        if aspect_ratio > COARSE { "tall_resolution" } else { "resolution" }
+    pub(super) fn resolution_field(&self, grains: ExperimentGrains, aspect_ratio: f64) -> &'static str {
+        match grains {
+            ExperimentGrains::Bars => "bars_resolution",
+            _ if aspect_ratio > COARSE => "tall_resolution",
+            _ => "resolution",
+        }
     }
 
     /// Particles over the half width of a column.
-    pub(super) fn resolution_of(&self, aspect_ratio: f64) -> usize {
-        if aspect_ratio > COARSE { self.tall_resolution } else { self.resolution }
+    pub(super) fn resolution_of(&self, grains: ExperimentGrains, aspect_ratio: f64) -> usize {
+        match grains {
+            ExperimentGrains::Bars => self.bars_resolution,
+            _ if aspect_ratio > COARSE => self.tall_resolution,
+            _ => self.resolution,
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::parameters::{ColumnPlanarParameters, PlanarColumns, SHOWN};
 use crate::cases::collapse::{Alteration, ColumnPurpose, ColumnRun, ExperimentGrains, Geometry, Material, Release};
+use crate::reference::LAGREE_GRAINS;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 
@@ -21,6 +22,7 @@ pub(super) fn all(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
         .chain(parameters.altered())
         .chain(parameters.ensembles())
         .chain(parameters.hourglasses())
+        .chain(parameters.other_numerics())
         .chain(parameters.regularised())
         .collect()
 }
@@ -35,7 +37,7 @@ impl ColumnPlanarParameters {
             geometry: Geometry::Planar,
             material,
             aspect_ratio,
-            resolution: self.resolution_of(aspect_ratio),
+            resolution: self.resolution_of(material.grains, aspect_ratio),
             half_width: columns.half_width_of(aspect_ratio),
             law: columns.law,
             bulk_density: columns.bulk.density(&columns.law),
@@ -67,6 +69,20 @@ impl ColumnPlanarParameters {
                 runs.extend(of(&self.lagree, MuI { grain_diameter, ..law }, material, ratios));
             }
         }
+        if let Rheology::MuI(law) = self.bars.law {
+            for &friction in &self.bars_frictions.values {
+                let material = Material::altered(ExperimentGrains::Bars, Alteration::Friction(friction));
+                let law = MuI { static_friction: friction, limiting_friction: friction, ..law };
+                runs.extend(of(&self.bars, law, material, &self.bars_frictions.aspect_ratios));
+            }
+            for &limiting_friction in &self.bars_limiting_frictions.values {
+                let material =
+                    Material::altered(ExperimentGrains::Bars, Alteration::LimitingFriction(limiting_friction));
+                let MuI { reference_inertia, grain_diameter, .. } = LAGREE_GRAINS.law;
+                let law = MuI { limiting_friction, reference_inertia, grain_diameter, ..law };
+                runs.extend(of(&self.bars, law, material, &self.bars_limiting_frictions.aspect_ratios));
+            }
+        }
         runs
     }
 
@@ -95,6 +111,30 @@ impl ColumnPlanarParameters {
             }
         }
         runs
+    }
+
+    /// Columns of the sand with an eddy viscosity, and without the coupling of density and pressure.
+    fn other_numerics(&self) -> Vec<ColumnRun> {
+        let other = &self.other_numerics;
+        let run = |purpose, ratio: f64, numerics| ColumnRun {
+            purpose,
+            shown_times: Vec::new(),
+            release: Release { numerics, ..self.release },
+            ..self.column(Material::SAND, &self.sand, ratio)
+        };
+        let numerics = self.release.numerics;
+        let eddies = Numerics { smagorinsky_constant: other.smagorinsky_constant, ..numerics };
+        let uncoupled = Numerics { density_coupling: 0.0, ..numerics };
+        // beside what stands for itself, or there is nothing to compare with
+        let own = |ratio: &&f64| self.sand.aspect_ratios.contains(ratio);
+        let with_eddies =
+            other.eddy_aspect_ratios.iter().filter(own).map(|&ratio| run(ColumnPurpose::Eddies, ratio, eddies));
+        let without = other
+            .uncoupled_aspect_ratios
+            .iter()
+            .filter(own)
+            .map(|&ratio| run(ColumnPurpose::Uncoupled, ratio, uncoupled));
+        with_eddies.chain(without).collect()
     }
 
     /// Columns of both grains with other hourglass coefficients.

@@ -1,17 +1,32 @@
 //! The tiers, the rules between parameters, and the runs that they ask for.
 
-use super::parameters::{ColumnPlanarParameters, PlanarColumns, Regularised, SHOWN, Sensitivity, Variants};
+use super::parameters::{
+    ColumnPlanarParameters, OtherNumerics, PlanarColumns, Regularised, SHOWN, Sensitivity, Variants,
+};
 use super::runs;
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::collapse::{self, ColumnPurpose, ColumnRun, Release};
 use crate::cases::rules;
-use crate::reference::{GLASS_BEADS, LAGREE_GRAINS, TABLE_2_SAND};
+use crate::reference::{ALUMINIUM_BAR_PILE, ALUMINIUM_BARS, GLASS_BEADS, LAGREE_GRAINS, TABLE_2_SAND};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
+
+/// The friction that the bars' angle φ gives to μ(I), whose stress is half the difference of the stresses in the plane and whose
+/// pressure is their mean, if the angle is that of Mohr's circle: sin φ in the place of tan φ, to four digits `[-]`.
+fn wedge_friction() -> f64 {
+    (1e4 * libm::sin(ALUMINIUM_BAR_PILE.friction_angle.to_radians())).round() / 1e4
+}
+
+/// The friction that the bars' would tend to if it rose with the rate by as much as that of Lagrée's grains, to four digits `[-]`.
+fn limiting_friction() -> f64 {
+    let (own, other) = (ALUMINIUM_BARS.law, LAGREE_GRAINS.law);
+    (1e4 * (own.static_friction + other.limiting_friction - other.static_friction)).round() / 1e4
+}
 
 impl Parameters for ColumnPlanarParameters {
     type Run = ColumnRun;
 
     fn of_tier(tier: Tier) -> Self {
+        let pile_ratio = ALUMINIUM_BAR_PILE.height / ALUMINIUM_BAR_PILE.length;
         let quick = Self {
             resolution: 20,
             tall_resolution: 20,
@@ -30,6 +45,15 @@ impl Parameters for ColumnPlanarParameters {
                 ..PlanarColumns::of(&GLASS_BEADS)
             },
             lagree: PlanarColumns { aspect_ratios: vec![1.0], ..PlanarColumns::of(&LAGREE_GRAINS) },
+            bars: PlanarColumns {
+                aspect_ratios: vec![pile_ratio],
+                half_width: ALUMINIUM_BAR_PILE.length,
+                ..PlanarColumns::of(&ALUMINIUM_BARS)
+            },
+            // 20 rows
+            bars_resolution: 40,
+            bars_frictions: Variants { values: vec![wedge_friction()], aspect_ratios: vec![pile_ratio] },
+            bars_limiting_frictions: Variants { values: vec![limiting_friction()], aspect_ratios: vec![pile_ratio] },
             sand_inertias: Variants::default(),
             lagree_diameters: Variants::default(),
             // the spread over five seeds, which the gates of run-out and height take into account
@@ -40,6 +64,12 @@ impl Parameters for ColumnPlanarParameters {
                 ..Sensitivity::default()
             },
             regularised: Regularised { aspect_ratios: vec![0.9], rate: 0.01 },
+            other_numerics: OtherNumerics {
+                eddy_aspect_ratios: vec![3.0],
+                // the middle of what is usual
+                smagorinsky_constant: 0.15,
+                uncoupled_aspect_ratios: vec![0.9],
+            },
         };
         let paper = Self {
             sand_inertias: Variants {
@@ -57,6 +87,7 @@ impl Parameters for ColumnPlanarParameters {
                 hourglass_resolutions: vec![20, 40],
             },
             regularised: Regularised { aspect_ratios: vec![1.0, 3.0], rate: 0.01 },
+            other_numerics: OtherNumerics { eddy_aspect_ratios: vec![3.0, 7.0, 14.0], ..quick.other_numerics.clone() },
             resolution: 40,
             sand: PlanarColumns {
                 aspect_ratios: vec![0.5, 0.7, 0.9, 1.0, 1.5, 2.0, 2.75, 3.0, 4.8, 5.0, 7.0, 10.0, 14.0, 20.0],
@@ -67,6 +98,7 @@ impl Parameters for ColumnPlanarParameters {
                 aspect_ratios: vec![0.5, 1.0, 2.0, 3.0, 7.0, 10.0, 14.0, 20.0],
                 ..quick.lagree.clone()
             },
+            bars_resolution: 80,
             ..quick.clone()
         };
         match tier {
@@ -85,6 +117,8 @@ impl Parameters for ColumnPlanarParameters {
         let altered = [
             ("sand", &self.sand, "sand_inertias", &self.sand_inertias),
             ("lagree", &self.lagree, "lagree_diameters", &self.lagree_diameters),
+            ("bars", &self.bars, "bars_frictions", &self.bars_frictions),
+            ("bars", &self.bars, "bars_limiting_frictions", &self.bars_limiting_frictions),
         ];
         for (name, columns, list, variants) in altered {
             if !variants.values.is_empty() && !variants.aspect_ratios.is_empty() {
@@ -113,7 +147,9 @@ impl Parameters for ColumnPlanarParameters {
         collapse::check_size(runs, |run| match run.purpose {
             ColumnPurpose::Convergence => "sensitivity.resolutions".to_owned(),
             ColumnPurpose::Hourglass => "sensitivity.hourglass_resolutions".to_owned(),
-            ColumnPurpose::Law | ColumnPurpose::Regularised => self.resolution_field(run.aspect_ratio).to_owned(),
+            ColumnPurpose::Law | ColumnPurpose::Regularised | ColumnPurpose::Eddies | ColumnPurpose::Uncoupled => {
+                self.resolution_field(run.material.grains, run.aspect_ratio).to_owned()
+            }
         })
     }
 

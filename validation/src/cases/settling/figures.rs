@@ -28,7 +28,7 @@ pub(super) fn all(records: &[SettlingRecord]) -> Vec<Figure> {
     if !suspensions.is_empty() {
         figures.push(hindered(&suspensions));
     }
-    figures.extend([drag_curves::drag_coefficients(), drag_curves::hindrance()]);
+    figures.extend([super::beads::figure(), drag_curves::drag_coefficients(), drag_curves::hindrance()]);
     figures
 }
 

@@ -23,7 +23,7 @@ pub(super) fn all(records: &[SettlingRecord]) -> Vec<Metric> {
         SettlingRun::Grain(own) => alone(own, &run.variant(), &record.data),
         SettlingRun::Suspension(own) => together(own, &run.variant(), &record.data),
     };
-    records.iter().flat_map(judged).chain(super::laws::all()).collect()
+    records.iter().flat_map(judged).chain(super::laws::all()).chain(super::beads::metrics()).collect()
 }
 
 /// Mean of an array over its reference less one `[%]`, observed; its own error is what it may drift by.

@@ -1,5 +1,6 @@
 //! Settling grains: the drag laws, a grain alone and a uniform suspension against the roots of their balances.
 
+mod beads;
 mod drag_curves;
 mod experiment;
 mod figures;

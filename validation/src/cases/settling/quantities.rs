@@ -13,6 +13,10 @@ quantities! {
     SINKING_ERROR: verified("sinking_error", "%", "velocity at which a suspension sinks over the root's, less 1"),
     SINKING_OVER_RICHARDSON_ZAKI:
         validated("sinking_over_richardson_zaki", "-", "that velocity over Richardson and Zaki's"),
+    SINKING_OVER_MEASURED:
+        validated("sinking_over_measured", "-", "velocity at which a law lets a dense suspension of beads sink over the measured one"),
+    DEPOSIT_RISE_OVER_MEASURED:
+        validated("deposit_rise_over_measured", "-", "velocity at which their deposit then rises over the measured one"),
     UNEVENNESS: verified("unevenness", "%", "scatter of the grains' velocities over the slip"),
     DRAG_CURVE_ERROR: validated(
         "drag_curve_error", "%", "largest deviation of a law's drag of one sphere from the standard drag curve",

@@ -29,8 +29,8 @@ impl Case for WaterColumn {
         compressible model. Grains hide what a wall feeds into the flow, because they \
         dissipate it at once; water shows it. The energy ledger must close and the total energy may not rise, on smooth \
         and on rough beds, with and without tension. A square column behind a gate that is lifted at 4.53 m/s has to run as fast as \
-        the measured one (Lobovský et al. 2014). The front of a column that is released at once is shown beside that of Martin & Moyce \
-        (1952), whose release took a time that is not known. The \
+        the measured one (Lobovský et al. 2014). The height at the wall of a column that is released at once falls as Martin & Moyce (1952) \
+        measured it; its front is shown beside theirs, which starts later. The \
         momentum equation is the uncorrected divergence, whose forces do the same work as the density that continuity \
         steps: with the kernel correction the same column gains 1.4 % of the work of gravity.";
     type Parameters = WaterColumnParameters;

@@ -25,6 +25,8 @@ use std::ops::ControlFlow;
 
 /// Thickness at the front over the column's width `[-]`.
 const FRONT_THICKNESS: f64 = 0.02;
+/// Width over which the height at the symmetry plane is taken, over the column's `[-]`.
+const WALL_STRIP: f64 = 0.1;
 /// End of the bed over the column's width `[-]`.
 const BED_END: f64 = 6.0;
 /// Observations a run.
@@ -196,6 +198,8 @@ pub struct ColumnObservation {
     pub time: Vec<f64>,
     /// Places of the front over a `[-]`.
     pub front: Vec<f64>,
+    /// Heights at the symmetry plane over that of the column at first `[-]`; none where another code gives only a front.
+    pub height: Vec<f64>,
     /// The energy ledger.
     pub energy: EnergyBook,
 }
@@ -235,6 +239,7 @@ impl Run for WaterColumnRun {
             |observation, snapshot| {
                 observation.time.push(snapshot.time / self.time_scale());
                 observation.front.push(self.front(snapshot) / self.column.width);
+                observation.height.push(self.height(snapshot) / (self.column.aspect_ratio * self.column.width));
                 if let Some(account) = &snapshot.energy {
                     observation.energy.enter(snapshot.time, account, 0.0);
                 }
@@ -304,6 +309,13 @@ impl WaterColumnRun {
             numerics,
             ..Scene::unbounded(flow, spacing, equation_of_state, rheology)
         }
+    }
+
+    /// Height of the water beside the symmetry plane, half a spacing above the highest particle there `[m]`. Its volume there would fall by
+    /// steps, for columns of particles leave the plane one after the other.
+    fn height(&self, snapshot: &Snapshot<2>) -> f64 {
+        let beside = snapshot.position.iter().filter(|place| place[0] < WALL_STRIP * self.column.width);
+        beside.fold(0.0_f64, |top, place| top.max(place[1])) + 0.5 * self.spacing()
     }
 
     /// The first place from the symmetry plane outwards where less than [`FRONT_THICKNESS`] of the width stands `[m]`.
