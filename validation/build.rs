@@ -39,7 +39,10 @@ fn main() {
         add(&mut hash, &format!("reference-data/{name}"), &std::fs::read(file).unwrap_or_default());
     }
     embed("reference_data", &tables);
-    // what follows is compared with results or makes new ones, but no result depends on it
+    // what follows says how far results and references are known, or is compared with results or makes new ones, but no result depends on it
+    embed("stated_uncertainties", &texts(&package, &["reference-data"], &["toml"]));
+    embed("sensitivities", &texts(&package, &["sensitivities"], &["csv"]));
+    embed("accepted_comparisons", &texts(&package, &["snapshots"], &["csv"]));
     embed("accepted_values", &texts(&package, &["snapshots"], &["snap", "toml"]));
     embed("plans", &texts(&package, &["calibrations", "scenes", "studies", "sweeps"], &["toml", "csv", "stl"]));
     for name in ["Cargo.lock", "Cargo.toml"] {

@@ -120,6 +120,7 @@ fn result(value: f64, outcome: Outcome) -> CaseResult {
         animations: Vec::new(),
         tables: Vec::new(),
         run_parameters: vec![serde_json::Value::Null],
+        regimes: Vec::new(),
         runs: vec![RunSummary {
             variant,
             outcome,

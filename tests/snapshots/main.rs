@@ -9,7 +9,8 @@ mod measured_points;
 use bagnold_validation::case::{Changes, Silent, Tier, execute};
 use bagnold_validation::cases::REGISTRY;
 use bagnold_validation::metric::{Metric, undeclared};
-use bagnold_validation::report::{Baseline, GateList, description};
+use bagnold_validation::reference::ValidationSet;
+use bagnold_validation::report::{Baseline, GateList, MetricKey, description};
 use bagnold_validation::store::{Store, StorePolicy};
 use insta::comparator::Comparator;
 use insta::{Settings, Snapshot};
@@ -96,6 +97,24 @@ fn no_gate_is_lost_without_a_word_in_the_changelog() {
         let differences = list.differences(&accepted, &changelog);
         assert!(differences.is_empty(), "{tier} tier:\n{}", differences.join("\n"));
     }
+}
+
+#[test]
+fn the_accepted_comparisons_are_of_the_accepted_values() {
+    let path = folder().join("comparisons").join("quick.csv");
+    let text = std::fs::read_to_string(&path).expect("the accepted comparisons");
+    let set = ValidationSet::parse(&text).unwrap_or_else(|error| panic!("failed to read {}: {error}", path.display()));
+    let mut wrong = Vec::new();
+    for row in &set.comparisons {
+        let accepted = Baseline::read(&folder(), &row.case, Tier::Quick);
+        let accepted = accepted.unwrap_or_else(|error| panic!("failed to {error}"));
+        let key = MetricKey { case: row.case.clone(), metric: row.quantity.clone(), variant: row.variant.clone() };
+        // accepted values have nine digits
+        if !accepted.value(&key).is_some_and(|value| (value - row.value).abs() <= 1e-8 * value.abs()) {
+            wrong.push(format!("{} {} [{}]: {}", row.case, row.quantity, row.variant, row.value));
+        }
+    }
+    assert!(wrong.is_empty(), "run `report --accept --cases CASE` again:\n{}", wrong.join("\n"));
 }
 
 #[test]

@@ -17,6 +17,7 @@ use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
 use crate::observation::Recorded;
+use crate::reference::completed;
 use crate::store::{CodeOrigin, Store};
 use bagnold_solver::parameter::schema_of;
 use sha2::{Digest, Sha256};
@@ -293,10 +294,11 @@ impl<C: Case> PreparedCase for CasePlan<C> {
             .filter_map(|(run, slot)| slot.into_inner().map(|(record, from_store)| (run, record, from_store)))
             .map(|(run, record, from_store)| (summary(&run, &record, from_store), (run, record)))
             .unzip();
-        let metrics = C::metrics(&plan.parameters, &records);
+        let metrics = completed(C::NAME, C::metrics(&plan.parameters, &records));
         let figures = C::figures(&plan.parameters, &records);
         let animations = C::animations(&plan.parameters, &records);
         let tables = C::tables(&plan.parameters, &records);
+        let regimes = records.iter().map(|(run, record)| run.regime(&record.data)).collect();
         let run_parameters = records.iter().map(|(run, _)| as_json(run)).collect();
         let (frames, first_bad) = records.into_iter().map(|(_, record)| (record.frames, record.first_bad)).unzip();
         fail_broken_profiles(&mut summaries, &tables);
@@ -315,14 +317,21 @@ impl<C: Case> PreparedCase for CasePlan<C> {
             state_hash: hash_of_states(&summaries),
             runs: summaries,
             run_parameters,
+            regimes,
             frames,
             first_bad,
         }
     }
 }
 
+/// A run by the names of its fields, with the laws that it makes of them.
 fn as_json(run: &impl Run) -> serde_json::Value {
-    serde_json::to_value(run).unwrap_or_default()
+    let mut fields = serde_json::to_value(run).unwrap_or_default();
+    let laws: Vec<serde_json::Value> = run.laws().iter().filter_map(|law| serde_json::to_value(law).ok()).collect();
+    if let Some(fields) = fields.as_object_mut().filter(|_| !laws.is_empty()) {
+        fields.insert("laws_of_scene".to_owned(), laws.into());
+    }
+    fields
 }
 
 fn file_text<C: Case>(tier: Tier, parameters: &C::Parameters) -> String {

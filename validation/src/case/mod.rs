@@ -46,9 +46,10 @@ pub use schedule::{Monitor, Silent, execute, share_out};
 use crate::checkpoint::Checkpoints;
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
-use crate::metric::{Metric, Quantity, Variant};
+use crate::metric::{FlowRegime, Metric, Quantity, Variant};
 use crate::observation::Recorded;
 use crate::store::CodeOrigin;
+use bagnold_solver::material::rheology::Rheology;
 use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -143,6 +144,14 @@ pub trait Run: Serialize + Clone + Send + Sync {
     /// What a particle-step costs on one core `[s]`, for estimates.
     fn seconds_per_particle_step(&self) -> f64 {
         1e-6
+    }
+    /// The regime of the flow that it leaves behind; nothing, unless a case tells.
+    fn regime(&self, _: &Self::Observation) -> FlowRegime {
+        FlowRegime::default()
+    }
+    /// Constitutive laws of its scene that its own fields do not name, because they hold a law's numbers alone.
+    fn laws(&self) -> Vec<Rheology> {
+        Vec::new()
     }
     /// Simulates it. A divergence is part of the record, not an error.
     ///

@@ -2,7 +2,7 @@
 
 use super::Tier;
 use crate::figure::{Animation, Figure};
-use crate::metric::{Metric, Variant, Verdict};
+use crate::metric::{FlowRegime, Metric, Variant, Verdict};
 use crate::observation::{Frame, Outcome};
 use crate::output::Table;
 use crate::store::CodeOrigin;
@@ -76,6 +76,8 @@ pub struct CaseResult {
     pub runs: Vec<RunSummary>,
     /// What each run depends on, by the names of its fields, in the order of `runs`; null for what cannot be written as JSON.
     pub run_parameters: Vec<serde_json::Value>,
+    /// The regime of each run's flow, in the order of `runs`.
+    pub regimes: Vec<FlowRegime>,
     /// Snapshots of each run, in the order of `runs`.
     pub frames: Vec<Vec<Frame>>,
     /// The state in which each run was found to have diverged, in the order of `runs`.

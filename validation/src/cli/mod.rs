@@ -21,6 +21,7 @@ mod progress;
 mod publication;
 mod report;
 mod run;
+mod sensitivities;
 mod setup;
 mod simulation;
 mod store;
@@ -171,6 +172,9 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
             in_pool(&command.work, || judge::export(command, registry, arguments.quiet, output))
         }
         Command::Verify(command) => verify::verify(command, registry, output),
+        Command::Sensitivities(command) => {
+            in_pool(&command.work, || sensitivities::sensitivities(command, registry, arguments.quiet, output))
+        }
         Command::Store(command) => store::store(command, output),
         Command::Sweep(command) => in_pool(&command.work, || sweep::sweep(command, registry, arguments.quiet, output)),
         Command::Mutate(command) => mutate::mutate(command, registry, arguments.quiet, output),

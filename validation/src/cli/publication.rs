@@ -8,7 +8,9 @@ use super::{Exit, print, say, summary, tell};
 use crate::case::{CaseResult, Tier};
 use crate::judge::Measurements;
 use crate::output::{FileError, OutputFolder};
-use crate::report::{self, Baseline, CaseReport, History, KnownFailureStatus, KnownFailures, Report, ReportProvenance};
+use crate::report::{
+    self, Baseline, CaseReport, History, KnownFailureStatus, KnownFailures, Report, ReportProvenance, SpeedHistory,
+};
 use crate::result::{MetricsDocument, write_case};
 use crate::store::Store;
 use std::io::Write;
@@ -65,6 +67,7 @@ impl ResultPublication<'_> {
             baseline: self.baseline,
             against: None,
             history: History::default(),
+            speeds: SpeedHistory::default(),
             known_failures: known.clone(),
             papers: &[],
             features: None,

@@ -8,8 +8,9 @@ use super::publication::{case_report, is_known};
 use super::simulation::{announce, simulate};
 use super::{Exit, say, summary, tell};
 use crate::case::{CaseResult, Changes, Features, ParameterError, PreparedCase, Registry, Tier};
-use crate::output::{FileError, FolderError, OutputFolder};
-use crate::report::{self, Baseline, CaseReport, GateList, History, Report, ReportProvenance, history};
+use crate::output::{FileError, FolderError, OutputFolder, write_whole};
+use crate::reference::{ValidatedComparison, ValidationSet};
+use crate::report::{self, Baseline, CaseReport, GateList, History, Report, ReportProvenance, SpeedHistory, history};
 use crate::store::provenance;
 use crate::study::{Study, Suite};
 use std::io::Write;
@@ -69,6 +70,7 @@ pub(super) fn report(
         baseline,
         against: command.against.as_ref().map(|folder| folder.display().to_string()),
         history,
+        speeds: SpeedHistory::read(&SpeedHistory::path(&places.history_file()), tier)?,
         known_failures: known.clone(),
     };
     report::write(&page, claimed.staging(), &store.drawings())?;
@@ -137,10 +139,29 @@ fn accept(places: &CommittedValues, results: &[CaseResult]) -> Result<Baseline, 
             let mut gates = GateList::read(&places.accepted_folder(), result.tier)?;
             gates.add(&fresh);
             gates.write(&places.accepted_folder(), result.tier)?;
+            accepted_comparisons(&places.accepted_folder(), result)?;
+            SpeedHistory::append(&SpeedHistory::path(&places.history_file()), made_by, result)?;
         }
         baseline.extend(fresh);
     }
     Ok(baseline)
+}
+
+/// Accepts the comparisons of a case with measurements, with the regimes of its flows.
+fn accepted_comparisons(folder: &Path, result: &CaseResult) -> Result<(), ProgramError> {
+    let path = folder.join("comparisons").join(format!("{}.csv", result.tier));
+    let unwritable = |error: &std::io::Error| ProgramError::from(FileError::unwritable(&path, error));
+    let text = match std::fs::read_to_string(&path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
+        text => text.map_err(|error| unwritable(&error))?,
+    };
+    let malformed = |error: csv::Error| unwritable(&std::io::Error::other(error));
+    let mut set = ValidationSet::parse(&text).map_err(malformed)?;
+    let runs: Vec<_> = result.runs.iter().map(|run| run.variant.clone()).zip(result.regimes.iter().copied()).collect();
+    set.replace(&result.name, ValidatedComparison::all(&result.name, &result.metrics, &runs));
+    let text = set.text().map_err(malformed)?;
+    std::fs::create_dir_all(path.parent().unwrap_or(folder)).map_err(|error| unwritable(&error))?;
+    write_whole(&path, text.as_bytes()).map_err(|error| unwritable(&error))
 }
 
 /// What the values are compared with: those of an earlier report, or the accepted ones. Read before anything is simulated.

@@ -6,10 +6,12 @@
 mod error;
 mod paths;
 mod record;
+mod sensitivity;
 
 pub use error::{PlanError, read_plan};
 pub use paths::Paths;
 pub use record::{EvaluationRecord, MetricValue};
+pub use sensitivity::SensitivityPlan;
 
 use crate::case::{Changes, Limits, Monitor, ParameterError, PreparedCase, Registry, Tier, execute};
 use crate::store::{Store, hexadecimal, identity_or_unique};

@@ -1,14 +1,16 @@
 //! A metric: one number that a case is judged by, with what it is judged against.
 
 mod quantity;
+mod regime;
 mod steadiness;
 mod uncertainty;
 pub mod variant;
 
 pub(crate) use quantity::quantities;
 pub use quantity::{Quantity, undeclared};
+pub use regime::{FlowRegime, PredictionInterval, REGIME_NUMBERS};
 pub use steadiness::unsteadiness;
-pub use uncertainty::{Origin, Uncertainty, UncertaintyComponent};
+pub use uncertainty::{ComparisonPart, Origin, Uncertainty, UncertaintyComponent};
 pub use variant::{Value, Variant};
 
 use serde::{Deserialize, Serialize};
@@ -164,6 +166,9 @@ pub struct Metric {
     /// What value and reference are known to, as far as it is known.
     #[serde(default)]
     pub uncertainty: Uncertainty,
+    /// Where the true value lies by how far such values were off where they were measured; none where nothing of the kind was.
+    #[serde(default)]
+    pub prediction: Option<PredictionInterval>,
     /// Relative tolerance of the drift snapshot: how far the value may move before a change is reported `[-]`.
     pub snapshot_tolerance: f64,
     /// Absolute floor of that tolerance, in the metric's unit: the value's own noise.
@@ -185,6 +190,7 @@ impl Metric {
             leads: false,
             not_steady: None,
             uncertainty: Uncertainty::default(),
+            prediction: None,
             snapshot_tolerance: 1e-6,
             snapshot_floor: 0.0,
         }
@@ -258,6 +264,28 @@ impl Metric {
     pub fn known_to(mut self, origin: Origin, standard: Option<f64>, source: &str) -> Self {
         self.uncertainty.add(origin, standard, source);
         self
+    }
+
+    /// Says that a part of what value and reference are known to is known to be nothing beside the others, and why.
+    #[must_use]
+    pub fn known_exactly(mut self, origin: Origin, source: &str) -> Self {
+        self.uncertainty.add_none(origin, source);
+        self
+    }
+
+    /// The reference's value where the metric is a comparison with something from outside: a measurement, a published fit or
+    /// another's simulation, whose number is known and verified.
+    #[must_use]
+    pub fn compared_with(&self) -> Option<f64> {
+        let reference = self.reference.as_ref().filter(|_| self.kind == MetricKind::Validation)?;
+        let is_from_outside = !matches!(reference.confidence, Confidence::Exact | Confidence::Unverified);
+        reference.value.filter(|value| is_from_outside && value.is_finite())
+    }
+
+    /// Adds where the true value lies, if that can be told.
+    #[must_use]
+    pub fn predicted(self, prediction: Option<PredictionInterval>) -> Self {
+        Self { prediction, ..self }
     }
 
     /// Lets a page open with it.

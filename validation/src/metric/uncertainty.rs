@@ -41,6 +41,43 @@ impl Origin {
     }
 }
 
+/// What the parts of a comparison's uncertainty belong to, after ASME V&V 20.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ComparisonPart {
+    /// Spacing, time step and repetitions: u_num.
+    Numerical,
+    /// Inputs: u_input.
+    Input,
+    /// The reference: u_D.
+    Reference,
+}
+
+impl ComparisonPart {
+    /// All, in the order of a page.
+    pub const ALL: [Self; 3] = [Self::Numerical, Self::Input, Self::Reference];
+
+    /// The origins that belong to it.
+    #[must_use]
+    pub const fn origins(self) -> &'static [Origin] {
+        match self {
+            Self::Numerical => &[Origin::Numerical, Origin::Repeat],
+            Self::Input => &[Origin::Input],
+            Self::Reference => &[Origin::Experiment, Origin::Digitisation],
+        }
+    }
+
+    /// What it is written as.
+    #[must_use]
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Numerical => "u_num",
+            Self::Input => "u_input",
+            Self::Reference => "u_D",
+        }
+    }
+}
+
 /// One cause.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct UncertaintyComponent {
@@ -94,6 +131,22 @@ impl Uncertainty {
     #[must_use]
     pub fn of_spacing(&self) -> Option<f64> {
         root_of_squares(self.parts.iter().filter(|part| part.origin == Origin::Numerical))
+    }
+
+    /// The same of what belongs to a part of a comparison.
+    #[must_use]
+    pub fn of_part(&self, part: ComparisonPart) -> Option<f64> {
+        self.of(part.origins())
+    }
+
+    /// Takes away what belongs to a part of a comparison.
+    pub(crate) fn forget(&mut self, part: ComparisonPart) {
+        self.parts.retain(|own| !part.origins().contains(&own.origin));
+    }
+
+    /// A part that is known to be nothing.
+    pub(super) fn add_none(&mut self, origin: Origin, source: &str) {
+        self.parts.push(UncertaintyComponent { origin, standard: 0.0, source: source.to_owned() });
     }
 
     pub(super) fn add(&mut self, origin: Origin, standard: Option<f64>, source: &str) {

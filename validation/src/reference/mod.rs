@@ -27,11 +27,14 @@ mod measured_table;
 mod motion_thresholds;
 mod papers;
 mod rough_channel;
+mod sensitivity_table;
 mod settling;
 mod settling_beads;
 mod shipped;
 mod slope_laws;
+mod stated_uncertainty;
 mod steady_film;
+mod validation_set;
 
 pub use bagnold_layer::{
     BagnoldProfile, LayerError, LayerProfile, LayerTransient, TransientHistory, bed_load as bed_load_layer,
@@ -63,8 +66,11 @@ pub use measured_table::ReferenceColumn;
 pub use motion_thresholds::{MOTION_THRESHOLDS, MotionThresholds, ThresholdBand};
 pub use papers::{Element, FigureName, MetricName, PAPERS, Paper, PaperError, Printed, RunName, Settled, TestName};
 pub use rough_channel::{ORIGIN_DEPTH, RoughChannel, roughness_ratio};
+pub use sensitivity_table::{RangeEnd, SensitivityRow, sensitivity_table, sensitivity_text};
 pub use settling::{GrainForm, SettlingGrains, richardson_zaki_confidence, richardson_zaki_exponent};
 pub use settling_beads::{SETTLING_BEADS, SettlingBeads};
 pub use shipped::{shipped_table, shipped_tables};
 pub use slope_laws::{RoughIncline, SLOPE_EXPERIMENT, SlopeExperiment, slope_run_out};
+pub use stated_uncertainty::{Basis, InputRange, Refinement, StatedPart, StatedUncertainty, UnknownPart, completed};
 pub use steady_film::SteadyFilm;
+pub use validation_set::{ValidatedComparison, ValidationSet, WAY_OF_FRONT};

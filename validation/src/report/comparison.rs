@@ -6,7 +6,7 @@
 //! of the model yet.
 
 use super::Report;
-use crate::metric::{Confidence, Metric, MetricKind, Origin};
+use crate::metric::{ComparisonPart, Metric};
 use std::collections::BTreeMap;
 
 /// A prediction beside a measurement or a published fit, in the metric's unit.
@@ -42,19 +42,15 @@ pub enum ModelError {
 impl<'r> Comparison<'r> {
     /// The comparison that a metric is; none of a metric that is not compared with a number from outside.
     fn of(case: &'r str, metric: &'r Metric) -> Option<Self> {
-        let reference = metric.reference.as_ref().filter(|_| metric.kind == MetricKind::Validation)?;
-        if matches!(reference.confidence, Confidence::Exact | Confidence::Unverified) {
-            return None;
-        }
-        let error = metric.value - reference.value?;
-        let part = |origins: &[Origin]| metric.uncertainty.of(origins);
+        let error = metric.value - metric.compared_with()?;
+        let part = |part| metric.uncertainty.of_part(part);
         error.is_finite().then(|| Self {
             case,
             metric,
             error,
-            numerical: part(&[Origin::Numerical, Origin::Repeat]),
-            input: part(&[Origin::Input]),
-            reference: part(&[Origin::Experiment, Origin::Digitisation]),
+            numerical: part(ComparisonPart::Numerical),
+            input: part(ComparisonPart::Input),
+            reference: part(ComparisonPart::Reference),
         })
     }
 
@@ -64,11 +60,11 @@ impl<'r> Comparison<'r> {
         self.metric.uncertainty.standard()
     }
 
-    /// What is not known, in words.
+    /// What is not known.
     #[must_use]
-    pub fn unknown(&self) -> Vec<&'static str> {
-        let parts = [(self.numerical, "u_num"), (self.input, "u_input"), (self.reference, "u_D")];
-        parts.into_iter().filter(|(part, _)| part.is_none()).map(|(_, name)| name).collect()
+    pub fn unknown(&self) -> Vec<ComparisonPart> {
+        let is_unknown = |part: &ComparisonPart| self.metric.uncertainty.of_part(*part).is_none();
+        ComparisonPart::ALL.into_iter().filter(is_unknown).collect()
     }
 
     /// What it says of the model.
@@ -101,7 +97,7 @@ pub fn comparisons(report: &Report) -> Vec<QuantityComparisons<'_>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::metric::{Limit, Variant};
+    use crate::metric::{Confidence, Limit, MetricKind, Origin, Variant};
     use crate::report::tests::{case, report};
 
     fn run_out(value: f64) -> Metric {
@@ -132,6 +128,6 @@ mod tests {
         let all = Comparison::of("column", &all).expect("a comparison").model_error();
         assert!(matches!(all, ModelError::AtLeast(least) if (least - 0.4).abs() < 1e-6), "{all:?}");
         assert_eq!(own[2].model_error(), ModelError::Unknown);
-        assert_eq!((own[0].unknown(), own[2].unknown()), (vec!["u_input"], vec!["u_num", "u_input", "u_D"]));
+        assert_eq!((own[0].unknown(), own[2].unknown()), (vec![ComparisonPart::Input], ComparisonPart::ALL.to_vec()));
     }
 }

@@ -1,12 +1,23 @@
-//! The page of the comparisons with measurements: a table and bars per quantity.
+//! The page of the comparisons with measurements: a figure and a table per quantity.
 
-use super::Report;
 use super::accepted::tier_name;
-use super::comparison::{self, Comparison, ModelError};
+use super::comparison::{self, Comparison, ModelError, QuantityComparisons};
 use super::template::fill;
-use super::view::{VerdictMark, anchor};
+use super::view::{FigureView, VerdictMark, anchor, picture};
+use super::{DrawnFigure, Report};
+use crate::figure::{Axis, Figure, Panel};
+use crate::metric::ComparisonPart;
 use crate::number::{two_digits, with_unit};
+use crate::reference::StatedUncertainty;
 use serde::Serialize;
+
+/// Folder of the figures.
+pub(super) const FOLDER: &str = "comparisons";
+
+/// Half width of a reference's dash, in rows `[-]`.
+const DASH: f64 = 0.35;
+/// Ratio of the largest to the least number of a quantity from which its axis is logarithmic `[-]`.
+const WIDE: f64 = 20.0;
 
 #[derive(Serialize)]
 struct ComparisonPage {
@@ -22,11 +33,13 @@ struct ComparisonPage {
 #[derive(Serialize)]
 struct QuantityView {
     name: String,
+    figure: Option<FigureView>,
     rows: Vec<RowView>,
 }
 
 #[derive(Serialize)]
 struct RowView {
+    number: usize,
     case: String,
     anchor: String,
     variant: String,
@@ -34,12 +47,13 @@ struct RowView {
     value: String,
     reference: String,
     error: String,
-    numerical: String,
-    input: String,
-    reference_uncertainty: String,
+    /// u_num, u_input and u_D, each with where it comes from.
+    parts: [(String, String); 3],
     uncertainty: String,
     mark: VerdictMark,
     statement: String,
+    /// Why parts are not known.
+    reasons: Vec<String>,
     bar: BarView,
 }
 
@@ -58,7 +72,7 @@ const HALF: f64 = 90.0;
 const NOT_KNOWN: &str = "not known";
 
 /// Fills the template of the page; none where nothing is compared with measurements.
-pub(super) fn render(report: &Report) -> Option<Result<String, minijinja::Error>> {
+pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Option<Result<String, minijinja::Error>> {
     let groups = comparison::comparisons(report);
     let count = |is_it: fn(ModelError) -> bool| {
         groups.iter().flat_map(|(_, own)| own).filter(|compared| is_it(compared.model_error())).count()
@@ -70,21 +84,72 @@ pub(super) fn render(report: &Report) -> Option<Result<String, minijinja::Error>
         beyond: count(|error| matches!(error, ModelError::AtLeast(_))),
         partly: count(|error| matches!(error, ModelError::BeyondKnown(_))),
         unknown: count(|error| error == ModelError::Unknown),
-        quantities: groups.iter().map(|((name, _), own)| quantity(name, own)).collect(),
+        quantities: groups.iter().enumerate().map(|(place, group)| quantity(group, drawn.get(place))).collect(),
     };
     (!groups.is_empty()).then(|| fill("comparisons.html", &page))
 }
 
-fn quantity(name: &str, own: &[Comparison<'_>]) -> QuantityView {
-    let extent = |compared: &Comparison<'_>| compared.error.abs().max(compared.uncertainty().unwrap_or(0.0));
-    let widest = own.iter().map(extent).fold(0.0, f64::max);
-    QuantityView { name: name.replace('_', " "), rows: own.iter().map(|compared| row(compared, widest)).collect() }
+/// A figure of each quantity, in the order of the page: predictions with their bars beside what they are compared with.
+pub(super) fn figures(report: &Report) -> Vec<Figure> {
+    let groups = comparison::comparisons(report);
+    let mut figures: Vec<Figure> = groups.iter().map(figure).collect();
+    for place in 1..figures.len() {
+        if groups[place].0.0 == groups[place - 1].0.0 {
+            figures[place].name += &format!("-{}", place + 1);
+        }
+    }
+    figures
 }
 
-fn row(compared: &Comparison<'_>, widest: f64) -> RowView {
+fn figure(((name, unit), own): &QuantityComparisons<'_>) -> Figure {
+    let label = format!("{} [{unit}]", name.replace('_', " "));
+    let reference = |compared: &Comparison<'_>| compared.metric.value - compared.error;
+    let numbers = || own.iter().flat_map(|compared| [compared.metric.value, reference(compared)]);
+    let (least, most) =
+        numbers().fold((f64::INFINITY, 0.0_f64), |(least, most), value| (least.min(value), most.max(value)));
+    let y = if least > 0.0 && most > WIDE * least { Axis::logarithmic(&label) } else { Axis::linear(&label) };
+    let x = Axis::linear("row of the table [-]").between(0.0, own.len() as f64 + 1.0);
+    let mut panel = Panel::new("", x, y);
+    for (place, compared) in own.iter().enumerate() {
+        let (row, value) = (place as f64 + 1.0, reference(compared));
+        let entry = if place == 0 { "reference" } else { "" };
+        panel.reference(entry, [(row - DASH, value), (row + DASH, value)]);
+    }
+    let mut cases: Vec<&str> = own.iter().map(|compared| compared.case).collect();
+    cases.dedup();
+    for (slot, case) in cases.iter().enumerate() {
+        let rows = || own.iter().enumerate().filter(|(_, compared)| compared.case == *case);
+        let points: Vec<(f64, f64)> =
+            rows().map(|(place, compared)| (place as f64 + 1.0, compared.metric.value)).collect();
+        panel.points(case, slot, points).error =
+            rows().map(|(_, compared)| compared.uncertainty().unwrap_or(0.0)).collect();
+    }
+    let caption = format!(
+        "{}: predictions with ± u_val, as far as it is known, beside their references, row by row of the table.",
+        name.replace('_', " ")
+    );
+    Figure::new(&name.replace('_', "-"), &caption, vec![panel])
+}
+
+fn quantity(((name, _), own): &QuantityComparisons<'_>, drawn: Option<&DrawnFigure>) -> QuantityView {
+    let extent = |compared: &Comparison<'_>| compared.error.abs().max(compared.uncertainty().unwrap_or(0.0));
+    let widest = own.iter().map(extent).fold(0.0, f64::max);
+    let rows = own.iter().enumerate().map(|(place, compared)| row(place + 1, compared, widest)).collect();
+    QuantityView { name: name.replace('_', " "), figure: drawn.map(picture), rows }
+}
+
+fn row(number: usize, compared: &Comparison<'_>, widest: f64) -> RowView {
     let metric = compared.metric;
     let unit = |value: f64| with_unit(value, &metric.unit);
-    let part = |value: Option<f64>| value.map_or_else(|| NOT_KNOWN.to_owned(), |value| two_digits(value).to_string());
+    let part = |value: Option<f64>| match value {
+        None => NOT_KNOWN.to_owned(),
+        Some(0.0) => "none".to_owned(),
+        Some(value) => two_digits(value).to_string(),
+    };
+    let words = |part: ComparisonPart| {
+        let own = metric.uncertainty.parts().iter().filter(|own| part.origins().contains(&own.origin));
+        own.map(|own| format!("{}: {}", two_digits(own.standard), own.source)).collect::<Vec<_>>().join("; ")
+    };
     let (mark, statement) = match compared.model_error() {
         ModelError::Within(level) => {
             (VerdictMark { word: "validated", ..VerdictMark::PASS }, format!("validated at the level {}", unit(level)))
@@ -105,10 +170,17 @@ fn row(compared: &Comparison<'_>, widest: f64) -> RowView {
     let lower_bound = if unknown.is_empty() || unknown.len() == 3 {
         String::new()
     } else {
-        format!("; {} not known", unknown.join(" and "))
+        let symbols: Vec<&str> = unknown.iter().map(|part| part.symbol()).collect();
+        format!("; {} not known", symbols.join(" and "))
+    };
+    let stated = StatedUncertainty::of(compared.case);
+    let reason = |part: &ComparisonPart| {
+        let reason = stated.and_then(|stated| stated.reason(*part, metric))?;
+        Some(format!("{}: {reason}", part.symbol()))
     };
     let reference = metric.reference.as_ref();
     RowView {
+        number,
         case: compared.case.to_owned(),
         anchor: anchor(compared.case, &metric.name, &metric.variant),
         variant: metric.variant.to_string().replace(',', ", "),
@@ -116,12 +188,15 @@ fn row(compared: &Comparison<'_>, widest: f64) -> RowView {
         value: unit(metric.value),
         reference: reference.and_then(|reference| reference.value).map(unit).unwrap_or_default(),
         error: format!("{}{}", if compared.error > 0.0 { "+" } else { "" }, two_digits(compared.error)),
-        numerical: part(compared.numerical),
-        input: part(compared.input),
-        reference_uncertainty: part(compared.reference),
+        parts: [
+            (part(compared.numerical), words(ComparisonPart::Numerical)),
+            (part(compared.input), words(ComparisonPart::Input)),
+            (part(compared.reference), words(ComparisonPart::Reference)),
+        ],
         uncertainty: part(compared.uncertainty()),
         mark,
         statement: statement + &lower_bound,
+        reasons: unknown.iter().filter_map(reason).collect(),
         bar: bar(compared, widest),
     }
 }

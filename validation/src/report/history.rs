@@ -63,11 +63,16 @@ pub fn append(
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct History {
     values: BTreeMap<MetricKey, Vec<f64>>,
+    /// When each of them was taken: a place in `commits`.
+    times: BTreeMap<MetricKey, Vec<usize>>,
+    /// The commits at which values were taken, oldest first.
+    commits: Vec<String>,
 }
 
 /// What is read of a row.
 #[derive(Debug, Deserialize)]
 struct ReadRow {
+    base_commit: String,
     tier: Tier,
     case: String,
     metric: String,
@@ -96,10 +101,28 @@ impl History {
             let Ok(variant) = row.variant.parse() else { continue };
             if row.tier == tier {
                 let key = MetricKey { case: row.case, metric: row.metric, variant };
+                if !read.commits.contains(&row.base_commit) {
+                    read.commits.push(row.base_commit.clone());
+                }
+                let time = read.commits.iter().position(|commit| *commit == row.base_commit).unwrap_or_default();
+                read.times.entry(key.clone()).or_default().push(time);
                 read.values.entry(key).or_default().push(row.value);
             }
         }
         Ok(read)
+    }
+
+    /// The commits at which values were taken, oldest first.
+    #[must_use]
+    pub fn commits(&self) -> &[String] {
+        &self.commits
+    }
+
+    /// A figure over the places of [`History::commits`], oldest first.
+    #[must_use]
+    pub fn series(&self, key: &MetricKey) -> Vec<(usize, f64)> {
+        let times = self.times.get(key).map_or(&[][..], Vec::as_slice);
+        times.iter().copied().zip(self.of(key).iter().copied()).collect()
     }
 
     /// The values of a figure, oldest first.
@@ -133,6 +156,8 @@ mod tests {
         assert_eq!(text, expected);
         let read = History::read(&path, Tier::Quick).expect("readable");
         assert_eq!(read.of(&MetricKey::of("bagnold", &metrics[0])), [0.4, 0.4]);
+        assert_eq!(read.commits(), ["aaa", "bbb"]);
+        assert_eq!(read.series(&MetricKey::of("bagnold", &metrics[0])), [(0, 0.4), (1, 0.4)]);
         assert_eq!(read.of(&MetricKey::of("bagnold", &metrics[1])), [0.0; 0]);
         assert_eq!(History::read(&path, Tier::Paper).expect("readable"), History::default());
         assert_eq!(History::read(&folder.path().join("none.csv"), Tier::Quick).expect("empty"), History::default());

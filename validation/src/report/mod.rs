@@ -12,6 +12,7 @@ mod earlier;
 mod error;
 mod gate_list;
 pub mod history;
+mod history_page;
 pub mod judgement;
 mod junit;
 pub mod known_failures;
@@ -26,7 +27,9 @@ mod rows;
 pub mod scatter;
 mod shipped;
 mod snapshot_text;
+mod speed_history;
 mod template;
+mod validated_page;
 mod view;
 mod width;
 
@@ -44,6 +47,7 @@ pub use history::History;
 pub use judgement::{Judgement, judge};
 pub use known_failures::{KnownFailure, KnownFailureStatus, KnownFailures};
 pub use snapshot_text::description;
+pub use speed_history::{SpeedHistory, SpeedRow};
 
 use crate::case::{Features, Tier};
 use crate::figure::{self, Animation, Figure, FigureError};
@@ -71,6 +75,8 @@ pub struct Report {
     pub against: Option<String>,
     /// What accepted figures were at earlier times; may be empty.
     pub history: History,
+    /// What a particle-step took at earlier times; may be empty.
+    pub speeds: SpeedHistory,
     /// The gates that are known to fail; may be empty.
     pub known_failures: KnownFailures,
     /// The papers whose elements are accounted for; none for no page of them.
@@ -191,8 +197,17 @@ pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), 
     }
     if let Some(features) = &report.features {
         add("coverage", coverage_page::render(report, features)?)?;
+        let maps = folder.join("figures").join(validated_page::FOLDER);
+        let maps = draw_figures(&validated_page::figures(report), &maps, drawings)?;
+        add("validated", validated_page::render(report, &maps)?)?;
+        add("history", history_page::render(report, &judgement)?)?;
     }
-    if let Some(text) = comparison_page::render(report) {
+    let beside = draw_figures(
+        &comparison_page::figures(report),
+        &folder.join("figures").join(comparison_page::FOLDER),
+        drawings,
+    )?;
+    if let Some(text) = comparison_page::render(report, &beside) {
         add("comparisons", text?)?;
     }
     let quantities = scatter::quantities(report);

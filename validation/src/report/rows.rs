@@ -4,9 +4,9 @@ use super::accepted::{Drift, MetricKey};
 use super::judgement::{JudgedMetric, Severity};
 use super::known_failures::KnownFailureStatus;
 use super::snapshot_text::word;
-use super::view::{MetricView, VerdictMark, anchor};
+use super::view::{MetricView, PredictionView, VerdictMark, anchor};
 use super::width::width;
-use crate::metric::{Confidence, Gate, Limit, Metric, MetricKind, Verdict};
+use crate::metric::{Confidence, Gate, Limit, Metric, MetricKind, PredictionInterval, Verdict};
 use crate::number::{distinct_digits, four_digits, in_unit, two_digits, with_unit};
 
 /// The mark of a severity.
@@ -51,6 +51,7 @@ pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> MetricView {
         } else {
             with_unit(metric.value, &metric.unit)
         },
+        prediction: metric.prediction.as_ref().map(|found| prediction(found, &metric.unit)),
         reference: reference
             .and_then(|reference| reference.value)
             .map(|value| with_unit(value, &metric.unit))
@@ -76,6 +77,13 @@ pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> MetricView {
         relative_change,
         note: note(judged),
     }
+}
+
+/// The interval of a prediction in words.
+fn prediction(found: &PredictionInterval, unit: &str) -> PredictionView {
+    let bounds = [found.lower, found.upper].map(|bound| with_unit(bound, unit));
+    let interval = format!("95 % interval {} to {}, by {} comparisons", bounds[0], bounds[1], found.comparisons);
+    PredictionView { interval, warnings: found.warnings.clone() }
 }
 
 /// Why the gate stands where it does, and why it does not judge where the spacing is too coarse for it.
@@ -155,7 +163,7 @@ pub(super) fn vanished(key: &MetricKey) -> String {
     if key.variant.is_empty() { key.metric.clone() } else { format!("{} ({})", key.metric, key.variant) }
 }
 
-fn limit(limit: Limit, unit: &str) -> String {
+pub(super) fn limit(limit: Limit, unit: &str) -> String {
     match limit {
         Limit::AtMost(bound) => format!("≤ {}", with_unit(bound, unit)),
         Limit::AtLeast(bound) => format!("≥ {}", with_unit(bound, unit)),

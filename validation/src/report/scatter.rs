@@ -3,7 +3,7 @@
 use super::view::FigureView;
 use super::{DrawnFigure, Report};
 use crate::figure::{Axis, Figure, Panel};
-use crate::metric::{Confidence, Metric, MetricKind};
+use crate::metric::Metric;
 use crate::number::{four_digits, two_digits};
 use crate::statistics::{Comparison, Deviation, ModelBias, model_bias};
 use serde::Serialize;
@@ -62,11 +62,7 @@ pub fn quantities_of<'a>(cases: impl IntoIterator<Item = (&'a str, Vec<&'a Metri
 }
 
 fn comparison(metric: &Metric) -> Option<Comparison> {
-    let reference = metric.reference.as_ref().filter(|_| metric.kind == MetricKind::Validation)?;
-    if matches!(reference.confidence, Confidence::Exact | Confidence::Unverified) {
-        return None;
-    }
-    let measured = reference.value.filter(|value| value.is_finite())?;
+    let measured = metric.compared_with()?;
     let uncertainty = metric.uncertainty.of_reference().map(|standard| standard / measured.abs());
     Some(Comparison { predicted: metric.value, measured, uncertainty })
 }

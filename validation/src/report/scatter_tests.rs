@@ -1,7 +1,7 @@
 //! Tests of what a report says of a quantity over all its cases.
 
 use super::*;
-use crate::metric::{Origin, Variant};
+use crate::metric::{Confidence, MetricKind, Origin, Variant};
 use crate::report::{tests, write};
 use crate::store::Drawings;
 

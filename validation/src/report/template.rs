@@ -3,7 +3,7 @@
 use crate::page;
 use serde::Serialize;
 
-const TEMPLATES: [(&str, &str); 12] = [
+const TEMPLATES: [(&str, &str); 14] = [
     ("head.html", include_str!("template/head.html")),
     ("index.html", include_str!("template/index.html")),
     ("drift.html", include_str!("template/drift.html")),
@@ -14,6 +14,8 @@ const TEMPLATES: [(&str, &str); 12] = [
     ("width.html", include_str!("template/width.html")),
     ("coverage.html", include_str!("template/coverage.html")),
     ("comparisons.html", include_str!("template/comparisons.html")),
+    ("validated.html", include_str!("template/validated.html")),
+    ("history.html", include_str!("template/history.html")),
     ("print.html", include_str!("template/print.html")),
     ("papers.html", include_str!("template/papers.html")),
 ];

@@ -38,6 +38,7 @@ pub(super) fn report(cases: Vec<CaseReport>) -> Report {
         baseline: Baseline::default(),
         against: None,
         history: History::default(),
+        speeds: SpeedHistory::default(),
         known_failures: KnownFailures::default(),
         papers: &[],
         features: None,

@@ -157,6 +157,8 @@ pub(super) struct MetricView {
     pub(super) metric: String,
     pub(super) variant: Vec<String>,
     pub(super) value: String,
+    /// Where the true value lies, and in what the flow is unlike those that were measured.
+    pub(super) prediction: Option<PredictionView>,
     pub(super) reference: String,
     /// How far the value is from the reference.
     pub(super) residual: String,
@@ -181,6 +183,12 @@ pub(super) struct MetricView {
     pub(super) change: String,
     pub(super) relative_change: String,
     pub(super) note: String,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct PredictionView {
+    pub(super) interval: String,
+    pub(super) warnings: Vec<String>,
 }
 
 #[derive(Debug, Clone, Serialize)]

@@ -27,7 +27,7 @@ struct BarPart {
 
 /// The bar of a metric; none where nothing is known.
 pub(super) fn width(metric: &Metric) -> Option<Width> {
-    let standard = metric.uncertainty.standard()?;
+    let standard = metric.uncertainty.standard().filter(|standard| *standard > 0.0)?;
     let unit = |value: f64| with_unit(value, &metric.unit);
     let expanded = COVERAGE * standard;
     let gate = metric.gate.as_ref().and_then(half_width);

@@ -1,7 +1,7 @@
 //! `metrics.json`: a case's numbers and where they come from, for other programs.
 
 use crate::case::{CaseResult, RunSummary, Tier};
-use crate::metric::{Confidence, Limit, Metric, MetricKind, Uncertainty, Variant, Verdict};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, PredictionInterval, Uncertainty, Variant, Verdict};
 use crate::store;
 use serde::{Deserialize, Serialize};
 
@@ -84,6 +84,9 @@ pub struct MetricEntry {
     /// Parts of what value and reference are known to; absent where nothing is known.
     #[serde(default, skip_serializing_if = "Uncertainty::is_empty")]
     pub uncertainty: Uncertainty,
+    /// Where the true value lies by how far such values were off where they were measured; absent where nothing of the kind was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub prediction: Option<PredictionInterval>,
     /// Relative tolerance of the drift snapshot `[-]`.
     pub snapshot_tolerance: f64,
     /// Absolute floor of that tolerance, in the metric's unit.
@@ -130,6 +133,7 @@ impl From<&Metric> for MetricEntry {
             verdict: metric.verdict(),
             not_steady: metric.not_steady.clone(),
             uncertainty: metric.uncertainty.clone(),
+            prediction: metric.prediction.clone(),
             snapshot_tolerance: metric.snapshot_tolerance,
             snapshot_floor: metric.snapshot_floor,
         }

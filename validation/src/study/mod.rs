@@ -283,6 +283,7 @@ impl Study {
                 animation
             }));
             judged.run_parameters.extend(result.run_parameters);
+            judged.regimes.extend(result.regimes);
             judged.frames.extend(result.frames);
             judged.first_bad.extend(result.first_bad);
         }
@@ -305,6 +306,7 @@ impl Study {
             tables: Vec::new(),
             runs: Vec::new(),
             run_parameters: Vec::new(),
+            regimes: Vec::new(),
             frames: Vec::new(),
             first_bad: Vec::new(),
             state_hash: String::new(),

@@ -162,6 +162,10 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
 impl Run for BagnoldRun {
     type Observation = LayerObservation;
 
+    fn laws(&self) -> Vec<Rheology> {
+        vec![law(&self.grains, self.regularisation_rate)]
+    }
+
     fn variant(&self) -> Variant {
         let start = match self.start {
             LayerStart::Rest => Value::from("rest"),

@@ -173,6 +173,19 @@ impl ContinuumRun {
         rows
     }
 
+    /// The law of the grains, at a given fraction or dilating.
+    pub(super) fn law(&self, materials: &Materials) -> Rheology {
+        let closures = &self.continuum.closures;
+        Rheology::RootMuI(RootMuI {
+            static_friction: closures.static_friction,
+            limiting_friction: closures.limiting_friction,
+            reference_inertia: closures.reference_inertia,
+            grain_diameter: materials.grain_diameter,
+            grain_density: materials.grain_density,
+            regularisation_rate: closures.regularisation_rate,
+        })
+    }
+
     fn sediment(&self, run: &BedLoadRun, fluid: Lattice, layer: &LayerState) -> Sediment<2> {
         let Placed { free, filling, wall } = self.placed(fluid, run.seed, layer);
         let Materials { gravity, fluid_density, grain_density, grain_diameter, .. } = run.materials;
@@ -188,14 +201,7 @@ impl ContinuumRun {
             smoothing_ratio: numerics.smoothing_ratio,
             density: grain_density,
             grain_diameter,
-            law: Rheology::RootMuI(RootMuI {
-                static_friction: closures.static_friction,
-                limiting_friction: closures.limiting_friction,
-                reference_inertia: closures.reference_inertia,
-                grain_diameter,
-                grain_density,
-                regularisation_rate: closures.regularisation_rate,
-            }),
+            law: self.law(&run.materials),
             load: solver::SedimentLoad::Stratified,
             pressure: if dilates {
                 let dilatancy = Dilatancy { dilation: closures.dilation, packing, grain_diameter, grain_density };

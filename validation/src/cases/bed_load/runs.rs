@@ -5,7 +5,7 @@ use super::parameters::{BedLoadParameters, Continuum, GrainParticles};
 use super::run::{BedLoadFormulation, BedLoadRun, ContinuumRun};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::cases::channel::Channel;
-use crate::metric::Variant;
+use crate::metric::{FlowRegime, Variant};
 use crate::observation::Recorded;
 use crate::reference::RoughChannel;
 use crate::reference::bed_load_layer::LayerState;
@@ -79,6 +79,17 @@ pub(super) fn pair_law_name(law: PairLaw) -> &'static str {
 
 impl Run for BedLoadRun {
     type Observation = BedLoadObservation;
+
+    fn regime(&self, _: &BedLoadObservation) -> FlowRegime {
+        FlowRegime::of_stream(self.slope, self.materials.depth, self.materials.grain_diameter)
+    }
+
+    fn laws(&self) -> Vec<Rheology> {
+        match &self.formulation {
+            BedLoadFormulation::Continuum(own) => vec![own.law(&self.materials)],
+            _ => Vec::new(),
+        }
+    }
 
     fn variant(&self) -> Variant {
         let of = |formulation: &str| Variant::of("formulation", formulation).and("slope", self.slope);

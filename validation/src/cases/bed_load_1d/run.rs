@@ -3,7 +3,7 @@
 use super::replacements::Replaced;
 use crate::case::{ParameterError, Progress, Run};
 use crate::checkpoint::is_interrupted;
-use crate::metric::Variant;
+use crate::metric::{FlowRegime, Variant};
 use crate::observation::{Outcome, Recorded, state_hash};
 use crate::reference::bed_load_layer::{
     Approach, BedLoadLayer, Closures, GrainMotion, InitialVelocity, LayerState, SAME_STATE, STEADY,
@@ -87,6 +87,13 @@ pub struct BedLoadLayerObservation {
 
 impl Run for BedLoad1dRun {
     type Observation = BedLoadLayerObservation;
+
+    fn regime(&self, _: &BedLoadLayerObservation) -> FlowRegime {
+        let stream = &self.stream;
+        let regime = FlowRegime::of_stream(stream.slope, stream.flow_depth, stream.grain_diameter);
+        // at the onset many streams stand for one
+        if self.purpose == LayerPurpose::Onset { FlowRegime { slope_angle: None, ..regime } } else { regime }
+    }
 
     fn variant(&self) -> Variant {
         let slope = Variant::of("slope", self.stream.slope);

@@ -8,7 +8,7 @@ use super::release::Release;
 use super::watch::CollapseObserver;
 use crate::case::recording::{self, Ending, SimulationStage, Watched};
 use crate::case::{ParameterError, Progress, Run, cost};
-use crate::metric::Variant;
+use crate::metric::{FlowRegime, Variant};
 use crate::observation::Recorded;
 use crate::setup::acoustic_step;
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -111,6 +111,22 @@ impl Run for ColumnRun {
             ColumnPurpose::Uncoupled => column.and("density_coupling", self.release.numerics.density_coupling),
             ColumnPurpose::Regularised => column.and("regularisation_rate", self.regularisation_rate.unwrap_or(0.0)),
         }
+    }
+
+    fn regime(&self, collapse: &Collapse) -> FlowRegime {
+        let height = self.initial_height() * self.half_width;
+        let section = match self.geometry {
+            Geometry::Planar => self.half_width,
+            Geometry::Round => std::f64::consts::FRAC_PI_4 * self.half_width * self.half_width,
+        };
+        let speed = collapse.fastest(self.bulk_density * section * height);
+        let aspect_ratio = Some(self.initial_height());
+        FlowRegime { aspect_ratio, slope_angle: Some(0.0), ..FlowRegime::default() }.of_grains(
+            self.law.grain_diameter(),
+            height,
+            speed,
+            self.release.gravity,
+        )
     }
 
     fn particles(&self) -> f64 {

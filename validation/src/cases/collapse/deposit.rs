@@ -195,6 +195,11 @@ pub(super) fn radius<const D: usize>(position: &Vector<D>) -> f64 {
 }
 
 impl Collapse {
+    /// Largest root mean square of the speed over the collapse `[m/s]`, of a mass in the energies' unit.
+    pub(super) fn fastest(&self, mass: f64) -> f64 {
+        (2.0 * self.kinetic_energy.iter().copied().fold(0.0, f64::max) / mass).sqrt()
+    }
+
     /// Front x_f/r_0 of the deposit `[-]`: of its particles, else where its profile falls below [`FRONT_THICKNESS`], else the
     /// last of the series.
     #[must_use]

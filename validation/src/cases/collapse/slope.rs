@@ -7,7 +7,7 @@ use super::reservoir::Reservoir;
 use super::watch::CollapseObserver;
 use crate::case::recording::{self, Ending, SimulationStage, Watched};
 use crate::case::{ParameterError, Progress, Run, cost};
-use crate::metric::{Value, Variant};
+use crate::metric::{FlowRegime, Value, Variant};
 use crate::observation::Recorded;
 use crate::reference::SLOPE_EXPERIMENT;
 use crate::setup::{Lattice, acoustic_step};
@@ -59,6 +59,10 @@ pub struct SlopeCollapse {
 impl Run for SlopeRun {
     type Observation = SlopeCollapse;
 
+    fn laws(&self) -> Vec<Rheology> {
+        vec![self.rheology()]
+    }
+
     fn variant(&self) -> Variant {
         let gate = if self.gate_speed > 0.0 { Value::from(self.gate_speed) } else { Value::from("none") };
         let collapse =
@@ -67,6 +71,18 @@ impl Run for SlopeRun {
             None => collapse,
             Some(rate) => collapse.and("regularisation_rate", rate),
         }
+    }
+
+    fn regime(&self, observation: &SlopeCollapse) -> FlowRegime {
+        let Reservoir { initial_height, reservoir_length, gravity, .. } = self.reservoir;
+        let speed = observation.collapse.fastest(self.bulk_density * reservoir_length * initial_height);
+        let aspect_ratio = Some(initial_height / reservoir_length);
+        FlowRegime { aspect_ratio, slope_angle: Some(self.slope_angle), ..FlowRegime::default() }.of_grains(
+            self.law.grain_diameter(),
+            initial_height,
+            speed,
+            gravity,
+        )
     }
 
     fn particles(&self) -> f64 {

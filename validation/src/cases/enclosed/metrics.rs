@@ -1,6 +1,7 @@
 //! How scenes are judged: by their balances, and their gauges by what was measured.
 
 use super::parameters::Setting;
+use super::prediction;
 use super::series;
 use super::setting::{SceneInlet, vector};
 use super::sides::SceneSides;
@@ -96,7 +97,9 @@ fn of_run<S: Setting<D>, const D: usize>(
         let first = series.values.first().map_or(&[][..], Vec::as_slice);
         let last = first.last().copied().unwrap_or(f64::NAN);
         let metric = match series.measure {
-            Measurand::Front(_) => FRONT.of(&own, last),
+            Measurand::Front(line) => {
+                FRONT.of(&own, last).predicted(prediction::of_front(parameters, data, &line, first))
+            }
             Measurand::Depth(_) => DEPTH.of(&own, last),
             Measurand::Force { .. } => {
                 let means: Vec<f64> = series.values.iter().map(|component| mean(component)).collect();

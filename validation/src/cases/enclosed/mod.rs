@@ -19,6 +19,7 @@ pub(super) mod names;
 mod observation;
 mod parameters;
 pub(super) mod periods;
+mod prediction;
 mod run;
 pub(super) mod series;
 pub mod setting;

@@ -16,6 +16,7 @@ use crate::metric::{Metric, Quantity, Variant};
 use crate::observation::Recorded;
 use crate::output::Table;
 use crate::store::CodeOrigin;
+use bagnold_solver::material::rheology::Rheology;
 use serde::{Deserialize, Serialize};
 
 /// The case.
@@ -59,6 +60,14 @@ type FlowThicknessRecord = RecordOf<FlowThicknessParameters>;
 
 impl Run for FlowThicknessRun {
     type Observation = FlowThicknessObservation;
+
+    fn laws(&self) -> Vec<Rheology> {
+        match self {
+            Self::Collapse(run) => run.laws(),
+            Self::StartStop(run) => vec![Rheology::MuI(run.layer.material)],
+            Self::Steady(run) => vec![Rheology::MuI(run.layer.material)],
+        }
+    }
 
     fn variant(&self) -> Variant {
         match self {

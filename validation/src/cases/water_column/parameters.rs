@@ -4,7 +4,7 @@ use crate::case::recording::{self, SimulationStage, Watched};
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
 use crate::cases::front::FrontLine;
 use crate::cases::rules;
-use crate::metric::Variant;
+use crate::metric::{FlowRegime, Variant};
 use crate::observation::{EnergyBook, Recorded};
 use crate::reference::{GATED_WATER_FRONT, MeasuredFront, WATER_FRONT};
 use crate::setup::{Lattice, displaced_flow, wall_rows};
@@ -207,6 +207,14 @@ pub struct ColumnObservation {
 impl Run for WaterColumnRun {
     type Observation = ColumnObservation;
 
+    fn regime(&self, _: &ColumnObservation) -> FlowRegime {
+        FlowRegime { aspect_ratio: Some(self.column.aspect_ratio), slope_angle: Some(0.0), ..FlowRegime::default() }
+    }
+
+    fn laws(&self) -> Vec<Rheology> {
+        vec![self.rheology()]
+    }
+
     fn variant(&self) -> Variant {
         let surface = if self.surface == BedSurface::Smooth { "smooth" } else { "rough" };
         let tension = if self.tension == Tension::Kept { "kept" } else { "cut" };
@@ -262,6 +270,10 @@ impl WaterColumnRun {
         (self.column.width / (2.0 * self.column.gravity)).sqrt()
     }
 
+    fn rheology(&self) -> Rheology {
+        Rheology::Newtonian(Newtonian { viscosity: self.column.viscosity })
+    }
+
     fn spacing(&self) -> f64 {
         self.column.width / self.resolution as f64
     }
@@ -283,7 +295,7 @@ impl WaterColumnRun {
         let mut bed = Wall::still(1, 0.0, 1.0);
         bed.roughness = if self.surface == BedSurface::Smooth { Surface::Smooth } else { Surface::Rough };
         let extent = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.column.width, height));
-        let rheology = Rheology::Newtonian(Newtonian { viscosity: self.column.viscosity });
+        let rheology = self.rheology();
         let rows = wall_rows(numerics.smoothing_ratio);
         let mut walls = vec![bed];
         let mut wall_particles = fill(&walls, &domain, extent, spacing, rows);

@@ -1,6 +1,6 @@
-//! Arguments of the commands that look after the program itself: `verify`, `store`, `mutate`.
+//! Arguments of the commands that look after the program itself: `verify`, `store`, `mutate`, `sensitivities`.
 
-use super::work::positive;
+use super::work::{Allowance, Work, positive};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -26,6 +26,27 @@ pub struct VerifyArguments {
     /// Write the list with the hashes of this program.
     #[arg(long, value_name = "FILE.toml")]
     pub write: Option<PathBuf>,
+}
+
+/// `bagnold sensitivities`
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The ranges and their sources stand in reference-data/CASE/uncertainty.toml; the program carries the tables of
+validation/sensitivities, from which a report takes the uncertainty by the inputs."
+)]
+pub struct SensitivitiesArguments {
+    /// Name of a case, see `bagnold list`.
+    #[arg(value_name = "CASE")]
+    pub case: String,
+    /// File to write.
+    #[arg(long, value_name = "FILE.csv")]
+    pub out: PathBuf,
+    /// How much it may ask for.
+    #[command(flatten)]
+    pub allowance: Allowance,
+    /// How to compute.
+    #[command(flatten)]
+    pub work: Work,
 }
 
 /// `bagnold store`

@@ -34,6 +34,7 @@ fn result() -> CaseResult {
         tables: Vec::new(),
         runs: Vec::new(),
         run_parameters: Vec::new(),
+        regimes: Vec::new(),
         frames: Vec::new(),
         first_bad: Vec::new(),
         state_hash: String::new(),

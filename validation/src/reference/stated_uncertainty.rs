@@ -1,0 +1,360 @@
+//! How far comparisons are known where neither the runs of a case nor its tables tell: `reference-data/CASE/uncertainty.toml`.
+//!
+//! Inputs have ranges, each with its source. They are propagated by runs at both ends of each range (`sensitivity_table`): the error
+//! E = S − D of an even spread between the ends has the standard uncertainty |E_high − E_low|/√12. A spacing is propagated by a
+//! run at half of it: at first order twice the difference is left, taken for the half width of an even spread. What is not known
+//! stands there with the reason.
+
+use super::sensitivity_table::{RangeEnd, SensitivityRow, sensitivity_table};
+use crate::metric::{ComparisonPart, Metric, Origin, Variant};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+include!(concat!(env!("OUT_DIR"), "/stated_uncertainties.rs"));
+
+/// Name of the file in the folder of a case.
+const FILE: &str = "uncertainty.toml";
+
+/// What a number rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Basis {
+    /// The source states it.
+    Stated,
+    /// It follows from numbers that the source states, as is said.
+    Derived,
+    /// It is the project's choice of a range that the field takes for granted, with the reason.
+    Assumed,
+}
+
+impl Basis {
+    /// For a reader.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Stated => "stated",
+            Self::Derived => "derived",
+            Self::Assumed => "assumed, range of the field",
+        }
+    }
+}
+
+/// The runs that propagate ranges, of the quick tier.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SensitivityRuns {
+    /// Changes of all of them, `path=value`.
+    pub settings: Vec<String>,
+    /// Keys of the runs that are simulated; all where there are none.
+    pub only: Vec<Variant>,
+    /// Seeds over which results are averaged; the case's own where there are none.
+    pub seeds: Vec<u64>,
+}
+
+/// An input that is known within a range.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InputRange {
+    /// What it is called.
+    pub name: String,
+    /// The case at the lower end, `path=value`.
+    pub low: Vec<String>,
+    /// The case at the upper end.
+    pub high: Vec<String>,
+    /// The range in words, with its unit.
+    pub range: String,
+    /// What the range rests on.
+    pub basis: Basis,
+    /// Where it comes from.
+    pub source: String,
+    /// What variants of comparisons have for which the input is not known so.
+    #[serde(default)]
+    pub not_for: Vec<Variant>,
+}
+
+/// A spacing that is halved.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Refinement {
+    /// What it is called.
+    pub name: String,
+    /// The case with half of it, `path=value`.
+    pub refined: Vec<String>,
+}
+
+/// A number that is known without runs.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StatedPart {
+    /// What it belongs to.
+    pub part: ComparisonPart,
+    /// Names of the metrics; all where there are none.
+    #[serde(default)]
+    pub quantities: Vec<String>,
+    /// What their variants have.
+    #[serde(default)]
+    pub variant: Variant,
+    /// Standard uncertainty over the reference's value, or over the metric's where that is 0 `[-]`; 0 for none.
+    pub relative: Option<f64>,
+    /// Standard uncertainty in the metric's unit.
+    pub absolute: Option<f64>,
+    /// What it rests on.
+    pub basis: Basis,
+    /// Where it comes from.
+    pub source: String,
+}
+
+/// What is not known, and why.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct UnknownPart {
+    /// What it belongs to.
+    pub part: ComparisonPart,
+    /// Names of the metrics; all where there are none.
+    #[serde(default)]
+    pub quantities: Vec<String>,
+    /// What their variants have.
+    #[serde(default)]
+    pub variant: Variant,
+    /// Why it is not known.
+    pub reason: String,
+}
+
+/// All that a case's file states.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct StatedUncertainty {
+    /// The runs that propagate.
+    pub runs: SensitivityRuns,
+    /// Inputs with their ranges.
+    #[serde(rename = "range")]
+    pub ranges: Vec<InputRange>,
+    /// Spacings.
+    #[serde(rename = "spacing")]
+    pub spacings: Vec<Refinement>,
+    /// What is known without runs.
+    #[serde(rename = "part")]
+    pub parts: Vec<StatedPart>,
+    /// What is not known.
+    #[serde(rename = "unknown")]
+    pub unknown: Vec<UnknownPart>,
+}
+
+static STATED: LazyLock<BTreeMap<&'static str, StatedUncertainty>> = LazyLock::new(|| {
+    let of_file = |(name, text): &(&'static str, &'static str)| {
+        let case = name.strip_suffix(FILE)?.strip_suffix('/')?;
+        match toml::from_str(text) {
+            Ok(stated) => Some((case, stated)),
+            Err(error) => panic!("failed to read reference-data/{name}: {error}"),
+        }
+    };
+    FILES.iter().filter_map(of_file).collect()
+});
+
+fn concerns(quantities: &[String], variant: &Variant, metric: &Metric) -> bool {
+    let is_named = quantities.is_empty() || quantities.contains(&metric.name);
+    is_named && metric.variant.includes(variant)
+}
+
+impl StatedUncertainty {
+    /// That of a case; none where nothing is stated.
+    ///
+    /// # Panics
+    /// If the file that the program carries is malformed, which a test would find.
+    #[must_use]
+    pub fn of(case: &str) -> Option<&'static Self> {
+        STATED.get(case)
+    }
+
+    /// Why a part of a comparison is not known; none where no reason is stated.
+    #[must_use]
+    pub fn reason(&self, part: ComparisonPart, metric: &Metric) -> Option<&str> {
+        let is_it = |own: &&UnknownPart| own.part == part && concerns(&own.quantities, &own.variant, metric);
+        self.unknown.iter().find(is_it).map(|own| own.reason.as_str())
+    }
+
+    /// A comparison with what is stated of it, and what the runs of `table` say. Ranges go before what the case knows of its
+    /// inputs, for they are all of them; what is stated comes after what the case knows of the same part.
+    fn complete(&self, mut metric: Metric, table: &[SensitivityRow]) -> Metric {
+        let Some(reference) = metric.compared_with() else { return metric };
+        let own: Vec<&SensitivityRow> =
+            table.iter().filter(|row| row.quantity == metric.name && row.variant == metric.variant).collect();
+        let holds = |range: &&InputRange| !range.not_for.iter().any(|other| metric.variant.includes(other));
+        let effects: Vec<(&InputRange, f64)> =
+            self.ranges.iter().filter(holds).filter_map(|range| Some((range, effect(&own, &range.name)?))).collect();
+        if effects.iter().any(|(_, standard)| *standard > 0.0) {
+            metric.uncertainty.forget(ComparisonPart::Input);
+        }
+        let is_known = ComparisonPart::ALL.map(|part| metric.uncertainty.of_part(part).is_some());
+        let is_open = |part: ComparisonPart| !is_known[part as usize];
+        if is_open(ComparisonPart::Input) {
+            for (range, standard) in effects {
+                let words = format!("{} {} ({}: {})", range.name, range.range, range.basis.word(), range.source);
+                metric = metric.known_to(Origin::Input, Some(standard), &words);
+            }
+        }
+        if is_open(ComparisonPart::Numerical) {
+            for spacing in &self.spacings {
+                let words = format!("twice what half of it changes: {}", spacing.name);
+                metric = metric.known_to(Origin::Numerical, left_by_spacing(&own, &spacing.name), &words);
+            }
+        }
+        let scale = if reference == 0.0 { metric.value.abs() } else { reference.abs() };
+        for part in ComparisonPart::ALL.into_iter().filter(|part| is_open(*part)) {
+            // of several the first, as the narrowest
+            let is_it = |own: &&StatedPart| own.part == part && concerns(&own.quantities, &own.variant, &metric);
+            let Some(own) = self.parts.iter().find(is_it).filter(|_| metric.uncertainty.of_part(part).is_none()) else {
+                continue;
+            };
+            let origin = match own.part {
+                ComparisonPart::Numerical => Origin::Numerical,
+                ComparisonPart::Input => Origin::Input,
+                ComparisonPart::Reference => Origin::Experiment,
+            };
+            let standard = own.absolute.or(own.relative.map(|relative| relative * scale));
+            let words = format!("{}: {}", own.basis.word(), own.source);
+            metric = match standard {
+                Some(0.0) => metric.known_exactly(origin, &words),
+                standard => metric.known_to(origin, standard, &words),
+            };
+        }
+        metric
+    }
+}
+
+/// Mean error over the repetitions with an input at an end of its range; none where it was not run.
+fn mean_error(rows: &[&SensitivityRow], input: &str, end: RangeEnd) -> Option<f64> {
+    let errors: Vec<f64> =
+        rows.iter().filter(|row| row.input == input && row.end == end).map(|row| row.value - row.reference).collect();
+    (!errors.is_empty()).then(|| errors.iter().sum::<f64>() / errors.len() as f64)
+}
+
+/// Standard uncertainty of an error by an input that is spread evenly over its range.
+fn effect(rows: &[&SensitivityRow], input: &str) -> Option<f64> {
+    let [low, high] = [RangeEnd::Low, RangeEnd::High].map(|end| mean_error(rows, input, end));
+    Some((high? - low?).abs() / 12.0_f64.sqrt())
+}
+
+/// Standard uncertainty that a spacing leaves.
+fn left_by_spacing(rows: &[&SensitivityRow], spacing: &str) -> Option<f64> {
+    let (own, refined) = (mean_error(rows, "", RangeEnd::Own)?, mean_error(rows, spacing, RangeEnd::Refined)?);
+    Some(2.0 * (refined - own).abs() / 3.0_f64.sqrt())
+}
+
+/// The metrics of a case with all that is stated of how far they are known.
+#[must_use]
+pub fn completed(case: &str, metrics: Vec<Metric>) -> Vec<Metric> {
+    let Some(stated) = StatedUncertainty::of(case) else { return metrics };
+    let table = sensitivity_table(case);
+    metrics.into_iter().map(|metric| stated.complete(metric, table)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::metric::{Confidence, MetricKind};
+
+    fn compared(name: &str, value: f64) -> Metric {
+        Metric::observed(name, &Variant::of("a", 1.0), value, "-").of_kind(MetricKind::Validation).against(
+            Some(2.0),
+            "an experiment",
+            Confidence::High,
+        )
+    }
+
+    fn row(input: &str, end: RangeEnd, value: f64, reference: f64) -> SensitivityRow {
+        let variant = Variant::of("a", 1.0);
+        SensitivityRow {
+            input: input.to_owned(),
+            end,
+            repeat: 0,
+            quantity: "run_out".to_owned(),
+            variant,
+            value,
+            reference,
+        }
+    }
+
+    const TEXT: &str = r#"
+        [[range]]
+        name = "friction"
+        low = ["friction=0.4"]
+        high = ["friction=0.6"]
+        range = "0.4 to 0.6"
+        basis = "assumed"
+        source = "a reason"
+        [[spacing]]
+        name = "rows"
+        refined = ["rows=40"]
+        [[part]]
+        part = "reference"
+        quantities = ["run_out"]
+        relative = 0.1
+        basis = "stated"
+        source = "the authors"
+        [[part]]
+        part = "input"
+        quantities = ["height"]
+        relative = 0.0
+        basis = "derived"
+        source = "the same inputs"
+        [[unknown]]
+        part = "numerical"
+        quantities = ["height"]
+        reason = "no study"
+    "#;
+
+    #[test]
+    fn ranges_are_propagated_by_the_errors_at_both_ends() {
+        let stated: StatedUncertainty = toml::from_str(TEXT).expect("a file");
+        // the reference moves with the input, so that the errors differ by 0.6 − 0.2, not by 0.6
+        let table = [
+            row("", RangeEnd::Own, 2.1, 2.0),
+            row("friction", RangeEnd::Low, 2.6, 2.2),
+            row("friction", RangeEnd::High, 2.0, 2.0),
+            row("rows", RangeEnd::Refined, 2.0, 2.0),
+        ];
+        let metric = stated.complete(compared("run_out", 2.1), &table);
+        let part = |part| metric.uncertainty.of_part(part).expect("known");
+        assert!((part(ComparisonPart::Input) - 0.4 / 12.0_f64.sqrt()).abs() < 1e-12);
+        assert!((part(ComparisonPart::Numerical) - 0.2 / 3.0_f64.sqrt()).abs() < 1e-12);
+        assert!((part(ComparisonPart::Reference) - 0.2).abs() < 1e-12);
+        // what the case knows goes before what is stated, and ranges before what it knows of its inputs
+        let known = compared("run_out", 2.1).known_to(Origin::Digitisation, Some(0.5), "theirs").known_to(
+            Origin::Input,
+            Some(9.0),
+            "one of them",
+        );
+        let metric = stated.complete(known, &table);
+        assert_eq!(metric.uncertainty.of_part(ComparisonPart::Reference), Some(0.5));
+        assert!(metric.uncertainty.of_part(ComparisonPart::Input).is_some_and(|input| input < 0.2));
+    }
+
+    #[test]
+    fn what_is_nothing_is_known_and_what_is_unknown_has_its_reason() {
+        let stated: StatedUncertainty = toml::from_str(TEXT).expect("a file");
+        let metric = stated.complete(compared("height", 2.1), &[]);
+        let part = |part| metric.uncertainty.of_part(part);
+        assert_eq!((part(ComparisonPart::Input), part(ComparisonPart::Reference)), (Some(0.0), None));
+        assert_eq!(stated.reason(ComparisonPart::Numerical, &metric), Some("no study"));
+        assert_eq!(stated.reason(ComparisonPart::Numerical, &compared("run_out", 2.1)), None);
+        // no measurement, nothing to know
+        let verified = compared("run_out", 2.1).of_kind(MetricKind::Verification);
+        assert!(stated.complete(verified, &[]).uncertainty.is_empty());
+    }
+
+    #[test]
+    fn every_file_is_read_and_states_its_sources() {
+        assert!(STATED.len() > 5, "{} files", STATED.len());
+        for (case, stated) in STATED.iter() {
+            let sources = stated.ranges.iter().map(|own| &own.source).chain(stated.parts.iter().map(|own| &own.source));
+            for source in sources.chain(stated.unknown.iter().map(|own| &own.reason)) {
+                assert!(source.len() > 20, "{case}: {source:?} is no source");
+            }
+            for part in &stated.parts {
+                assert!(part.relative.is_some() != part.absolute.is_some(), "{case}: {:?} has one number", part.part);
+            }
+        }
+    }
+}
