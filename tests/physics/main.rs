@@ -2,6 +2,7 @@
 //!
 //! The runs come from the store that the report uses too, so that none is simulated twice.
 
+mod falling_rows;
 mod known_failures;
 mod long_runs;
 mod perturbation;
