@@ -15,8 +15,10 @@ use super::quantities::{
 };
 use crate::case::Run;
 use crate::cases::energy_ledger;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
-use crate::reference::{Author, COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
+use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Variant};
+use crate::reference::{
+    Author, COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE, ValidationSet, WAY_OF_FRONT,
+};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 
@@ -138,6 +140,11 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
     };
     let (run_out_law, height_law) = bands::laws_of(run);
     let laws = if run.geometry == Geometry::Planar { &*PLANAR_COLLAPSE } else { &*ROUND_COLLAPSE };
+    // where the true value of a user's own grains lies, by how far those of published ones were off
+    let predicted = |quantities: &[&str], value: f64| {
+        let own = run.is_of_own_grains().then(|| run.regime(collapse));
+        own.and_then(|regime| ValidationSet::shipped().predict(quantities, regime, value))
+    };
     // beside all laws, gaps included, and before all else
     let of_own_grains = |metric: Metric, laws: &[CollapseLaw]| {
         if !run.is_of_own_grains() {
@@ -148,9 +155,12 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
             "{}. None of them judges it: each holds for the grains of its own experiment or simulation, and these have another law",
             beside.join("; ")
         );
-        Metric { gate: None, ..metric.against(None, &source, Confidence::Medium) }.leading()
+        let quantities: &[&str] = if metric.name == RUN_OUT.name { &WAY_OF_FRONT } else { &[FINAL_HEIGHT.name] };
+        let interval = predicted(quantities, metric.value);
+        Metric { gate: None, ..metric.against(None, &source, Confidence::Medium) }.predicted(interval).leading()
     };
     let (duration, source, confidence) = &*COLLAPSE_DURATION;
+    let stopping_time = collapse.stopping_time() / run.time_scale();
     let of_sand = run.material == Material::SAND && run.has_published_law();
     let slope = observed(DEPOSIT_SLOPE_ANGLE, collapse.slope_angle());
     let friction = run.law.contact_friction();
@@ -175,7 +185,8 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
             None,
             spread.height,
         ),
-        observed(STOPPING_TIME, collapse.stopping_time() / run.time_scale())
+        observed(STOPPING_TIME, stopping_time)
+            .predicted(predicted(&[STOPPING_TIME.name], stopping_time))
             .against(
                 Some(*duration),
                 &format!("about {duration} √(h_0/g), {source}; 99 % of the front's way here"),

@@ -92,7 +92,12 @@ fn of_run<S: Setting<D>, const D: usize>(
     metrics.extend(feeds(&variant, data, parameters));
     metrics.extend(energy(&variant, data, parameters));
     metrics.push(FINAL_RMS_SPEED.of(&variant, final_mean(&data.rms_speed)).with_snapshot_tolerance(0.1, 1e-3));
-    for series in series::of_run(parameters, data) {
+    let all = series::of_run(parameters, data);
+    let front = all.iter().find_map(|series| match &series.measure {
+        Measurand::Front(line) => Some((line.clone(), series.values.first()?.clone())),
+        _ => None,
+    });
+    for series in all {
         let own = variant.clone().and("gauge", series.gauge);
         let first = series.values.first().map_or(&[][..], Vec::as_slice);
         let last = first.last().copied().unwrap_or(f64::NAN);
@@ -100,7 +105,12 @@ fn of_run<S: Setting<D>, const D: usize>(
             Measurand::Front(line) => {
                 FRONT.of(&own, last).predicted(prediction::of_front(parameters, data, &line, first))
             }
-            Measurand::Depth(_) => DEPTH.of(&own, last),
+            Measurand::Depth(depth) => {
+                let front = front.as_ref().map(|(line, fronts)| (line, &fronts[..]));
+                DEPTH
+                    .of(&own, last)
+                    .predicted(front.and_then(|front| prediction::of_depth(parameters, data, &depth, front, last)))
+            }
             Measurand::Force { .. } => {
                 let means: Vec<f64> = series.values.iter().map(|component| mean(component)).collect();
                 S::MEAN_FORCE.of(&own, size(&means))
