@@ -93,13 +93,16 @@ fn figure(set: &ValidationSet, group: &Group, report: &Report) -> Option<Figure>
     let predicted = predictions(report);
     let is_own = |predicted: &&Predicted<'_>| predicted.found.quantity == names.join(", ");
     let own: Vec<FlowRegime> = predicted.iter().filter(is_own).map(|predicted| predicted.found.regime).collect();
-    let panels: Vec<Panel> = [
-        (0, 1, Axis::logarithmic(REGIME_NUMBERS[0]), Axis::linear(REGIME_NUMBERS[1])),
-        (3, 2, Axis::logarithmic(REGIME_NUMBERS[3]), Axis::logarithmic(REGIME_NUMBERS[2])),
-    ]
-    .into_iter()
-    .filter_map(|(x, y, across, upwards)| panel(&rows, &own, (x, y), (across, upwards)))
-    .collect();
+    let axis = |place: usize| match place {
+        1 => Axis::linear(REGIME_NUMBERS[place]),
+        _ => Axis::logarithmic(&format!("{} [-]", REGIME_NUMBERS[place])),
+    };
+    let panel = |(x, y)| panel(&rows, &own, (x, y), (axis(x), axis(y)));
+    let mut panels: Vec<Panel> = [(0, 1), (3, 2)].into_iter().filter_map(panel).collect();
+    if panels.is_empty() {
+        // streams have neither an aspect ratio nor a speed of their own
+        panels.extend(panel((3, 1)));
+    }
     let caption = format!("{}: regimes of the flows that were compared with measurements.", group.name);
     (!panels.is_empty()).then(|| Figure::new(&group.name.replace(' ', "-"), &caption, panels))
 }
@@ -112,8 +115,7 @@ fn panel(
     (across, upwards): (Axis, Axis),
 ) -> Option<Panel> {
     let place = |regime: FlowRegime| Some((regime.numbers()[x]?, regime.numbers()[y]?));
-    let with = |axis: &Axis| Axis { label: format!("{} [-]", axis.label).replace("[°] [-]", "[°]"), ..axis.clone() };
-    let mut panel = Panel::new("", with(&across), with(&upwards));
+    let mut panel = Panel::new("", across, upwards);
     let cases: BTreeSet<&str> = rows.iter().map(|row| row.case.as_str()).collect();
     for (slot, case) in cases.iter().enumerate() {
         let points: Vec<(f64, f64)> =
