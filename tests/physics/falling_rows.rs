@@ -4,7 +4,7 @@
 //! What is broken is what a metric measures, never the row or the gate. A number is broken by a quarter, to either side; an error, a
 //! residual or a loss becomes a quarter of its scale; what has a sense but no number has its sign or, where it is a ratio, its trend
 //! turned round. A quarter is more than any number of the two papers is known to, and less than what turns any of their statements into
-//! another.
+//! another. `BAGNOLD_ALL_ROWS=1` asks every row that metrics reproduce; rows that rest on tests alone are not asked.
 
 use bagnold_validation::case::{Changes, Silent, Tier, execute};
 use bagnold_validation::cases::REGISTRY;
