@@ -15,7 +15,7 @@ use super::quantities::{
 };
 use crate::case::Run;
 use crate::cases::energy_ledger;
-use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Variant};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
 use crate::reference::{
     Author, COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE, ValidationSet, WAY_OF_FRONT,
 };
