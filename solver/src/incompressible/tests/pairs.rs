@@ -7,7 +7,7 @@ use super::super::step;
 use super::{SPACING, grains, random, symmetric, water};
 use crate::domain::{AxisBoundary, Domain};
 use crate::kernel::{Kernel, KernelShape};
-use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
+use crate::lanes::{InstructionSet, LanePass, Lanes};
 use crate::vector::Vector;
 use rand::RngExt;
 
