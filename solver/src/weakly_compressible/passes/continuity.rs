@@ -199,11 +199,13 @@ impl<const D: usize> LanePass for Pass<'_, D> {
         let Self { advance, pairs, mut out, extremes } = self;
         let count = out.density.len();
         let mut work = StressWork::<V>::new();
+        let (in_single, diffusion) = (advance.model.pairs_in_single(), advance.model.pair_diffusion());
+        let meets_surface = advance.model.field_meets_surface();
         let mut offset = 0;
         while offset < count {
             let group = advance.model.list.group((advance.block_start + offset) / LANES);
             let (model, particles) = (advance.model, advance.particles);
-            let mut sums = match (model.pairs_in_single(), model.pair_diffusion()) {
+            let mut sums = match (in_single, diffusion) {
                 (true, PairDiffusion::StressRatio) => {
                     single::continuity::pair_sums::<V, D, { diffusion::STRESS_RATIO }>(
                         model,
@@ -227,7 +229,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                 }
                 (false, PairDiffusion::None) => all_sums::<V, D, { diffusion::NONE }>(model, particles, pairs, &group),
             };
-            if model.field_meets_surface() {
+            if meets_surface {
                 let first = advance.block_start + offset;
                 let last = (first + LANES).min(advance.block_start + count);
                 sums.field.eigenvalue = load::<V>(&pairs.eigenvalues[first..last]);
