@@ -79,6 +79,12 @@ fn a_column_in_space_is_the_same_to_the_last_bit() {
 }
 
 #[test]
+fn a_law_with_a_field_is_the_same_to_the_last_bit() {
+    in_both_precisions(&crate::fields::flowing([60, 50]));
+    in_both_precisions(&crate::fields::flowing([13, 12, 14]));
+}
+
+#[test]
 fn the_papers_numerics_are_the_same_to_the_last_bit() {
     let mut scene = column([60, 40]);
     scene.numerics = Numerics { momentum_operator: MomentumOperator::Pairwise, ..Numerics::paper() };

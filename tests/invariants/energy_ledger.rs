@@ -1,6 +1,7 @@
 //! Every term books its work: what the ledger leaves open is the length of a step. (That no wall at rest feeds the flow is
 //! what the case `water-column` is about.)
 
+use crate::fields;
 use crate::patches::{
     DENSITY, Disorder, EQUATION_OF_STATE, GRAINS, SPACING, SYRUP, bed, block, periodic_scene, simulation,
 };
@@ -34,7 +35,7 @@ where
 
 #[test]
 fn a_disordered_block_loses_what_its_terms_dissipate() {
-    for rheology in [GRAINS, Rheology::Newtonian(Newtonian { viscosity: 5.0 })] {
+    for rheology in [GRAINS, fields::nonlocal(), Rheology::Newtonian(Newtonian { viscosity: 5.0 })] {
         let plane = |courant| open_share(Scene { rheology, ..periodic_scene([17, 14], Disorder::FULL, 11) }, courant);
         let space = open_share(Scene { rheology, ..periodic_scene([8, 7, 9], Disorder::FULL, 11) }, 0.1);
         let (long, short) = (plane(0.4), plane(0.1));

@@ -2,6 +2,7 @@
 //! that was never interrupted.
 
 use crate::determinism::column;
+use crate::fields;
 use crate::inlets;
 use crate::patches::{self, GRAINS, SYRUP, bed, simulation};
 use crate::shells;
@@ -83,6 +84,19 @@ fn every_operator_and_step_goes_on_in_the_same_bits() {
         Numerics { momentum_operator: MomentumOperator::Pairwise, density_coupling: 0.0, ..Numerics::paper() };
     uncoupled.rheology = SYRUP;
     check(&uncoupled);
+}
+
+#[test]
+fn a_law_with_a_field_goes_on_in_the_same_bits() {
+    check(&fields::flowing([60, 50]));
+    check(&fields::flowing([13, 12, 14]));
+    let mut fed = inlets::fed();
+    fed.rheology = fields::nonlocal();
+    check(&fed);
+    let mut gated = shells::gated();
+    gated.rheology = fields::nonlocal();
+    gated.enclosure.exits.lower = Vector::<2>::new(f64::NEG_INFINITY, 0.004);
+    check(&gated);
 }
 
 #[test]

@@ -16,11 +16,12 @@ const BINGHAM: Rheology =
     Rheology::Bingham(Bingham { plastic_viscosity: 5.0, yield_stress: 400.0, regularisation_rate: 5.0 });
 
 /// Every operator with the law that it is meant for, all its options on.
-fn variants() -> [(Numerics, Rheology); 7] {
+fn variants() -> [(Numerics, Rheology); 8] {
     let recipe = Numerics { smagorinsky_constant: 0.2, ..exact_pairs() };
     let with = |momentum_operator| Numerics { momentum_operator, ..recipe };
     [
         (recipe, GRAINS),
+        (recipe, crate::fields::nonlocal()),
         (with(MomentumOperator::UncorrectedDivergence), GRAINS),
         (with(MomentumOperator::Pairwise), SYRUP),
         (with(MomentumOperator::PairwiseCorrected), BINGHAM),
@@ -91,6 +92,7 @@ fn a_quarter_turn_of_the_start_turns_the_result() {
                 density: straight.density.clone(),
                 mass: straight.mass,
                 stress: straight.stress,
+                field: straight.field,
             });
             let velocity = largest_difference(&expected.velocity, &other.velocity);
             let stress = expected.stress.iter().zip(&other.stress).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);

@@ -74,6 +74,11 @@ impl Real for Portable {
         Self(lanes)
     }
 
+    #[inline(always)]
+    fn any_less(self, other: Self) -> bool {
+        self.less_mask(other) != 0
+    }
+
     fn lane_by_lane<const N: usize>(values: [Self; N], function: &dyn Fn([f64; N]) -> f64) -> Self {
         super::lane_by_lane(values, function)
     }

@@ -16,6 +16,8 @@ pub trait Real:
     fn min(self, other: Self) -> Self;
     /// `if a < b { self } else { other }`.
     fn if_less(self, a: Self, b: Self, other: Self) -> Self;
+    /// Whether `self < other` in any lane.
+    fn any_less(self, other: Self) -> bool;
     /// A function of single values, lane by lane: slow, for what is not written for lanes.
     fn lane_by_lane<const N: usize>(values: [Self; N], function: &dyn Fn([f64; N]) -> f64) -> Self;
     /// `self` where `a < b`, zero elsewhere.
@@ -49,6 +51,11 @@ impl Real for f64 {
     #[inline(always)]
     fn if_less(self, a: Self, b: Self, other: Self) -> Self {
         if a < b { self } else { other }
+    }
+
+    #[inline(always)]
+    fn any_less(self, other: Self) -> bool {
+        self < other
     }
 
     #[inline(always)]

@@ -118,6 +118,11 @@ impl Real for Avx512 {
         unsafe { Self(_mm512_mask_mov_pd(other.0, _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a.0, b.0), self.0)) }
     }
 
+    #[inline(always)]
+    fn any_less(self, other: Self) -> bool {
+        self.less_mask(other) != 0
+    }
+
     fn lane_by_lane<const N: usize>(values: [Self; N], function: &dyn Fn([f64; N]) -> f64) -> Self {
         super::lane_by_lane(values, function)
     }
@@ -292,6 +297,11 @@ impl Real for Avx2 {
                 _mm256_blendv_pd(other.1, self.1, _mm256_cmp_pd::<_CMP_LT_OQ>(a.1, b.1)),
             )
         }
+    }
+
+    #[inline(always)]
+    fn any_less(self, other: Self) -> bool {
+        self.less_mask(other) != 0
     }
 
     fn lane_by_lane<const N: usize>(values: [Self; N], function: &dyn Fn([f64; N]) -> f64) -> Self {

@@ -63,6 +63,11 @@ impl Real for Single {
         unsafe { Self(_mm256_blendv_ps(other.0, self.0, _mm256_cmp_ps::<_CMP_LT_OQ>(a.0, b.0))) }
     }
 
+    #[inline(always)]
+    fn any_less(self, other: Self) -> bool {
+        self.less_mask(other) != 0
+    }
+
     fn lane_by_lane<const N: usize>(values: [Self; N], function: &dyn Fn([f64; N]) -> f64) -> Self {
         lane_by_lane(values, function)
     }

@@ -18,6 +18,14 @@ pub enum SceneError {
         /// The number of positions.
         expected: usize,
     },
+    /// A field of particles whose law keeps none.
+    #[error("the flow gives {found} particles a field, but its law `{law}` keeps none; leave the field out")]
+    NoField {
+        /// The law.
+        law: &'static str,
+        /// How many values there are.
+        found: usize,
+    },
     /// A value that is not finite or not positive where it must be.
     #[error("the {quantity} of particle {particle} is {value}, but must be {rule}")]
     Value {

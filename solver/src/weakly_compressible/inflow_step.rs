@@ -49,6 +49,7 @@ impl<const D: usize> State<D> {
             identity: first_identity + offset as u32,
             viscosity: self.model.rheology.viscosity(0.0, 0.0),
             artificial_viscosity: self.initial_artificial_viscosity(),
+            field: self.model.field.map_or(0.0, |field| field.initial),
         };
         let arriving: Vec<Arriving<D>> = (0..count).map(particle).collect();
         self.particles.insert(&arriving);

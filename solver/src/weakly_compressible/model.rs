@@ -5,6 +5,7 @@ use crate::lanes::algebra::{deviatoric_rate, invariant};
 use crate::lanes::{InstructionSet, Lanes};
 use crate::material::equation_of_state::EquationOfState;
 use crate::material::rheology::Rheology;
+use crate::material::rheology::field::{FieldBoundary, FieldDiffusion, LawField};
 use crate::material::turbulence::{Smagorinsky, dynamic_eddy_viscosity};
 use crate::vector::Vector;
 use crate::weakly_compressible::neighbours::VerletList;
@@ -22,6 +23,21 @@ pub(crate) struct Model<const D: usize> {
     pub(crate) spacing: f64,
     pub(crate) contact_friction: f64,
     pub(crate) instruction_set: InstructionSet,
+    /// What the law keeps of each particle.
+    pub(crate) field: Option<LawField>,
+    /// Σ −2 V F over a lattice `[1/m²]`.
+    pub(crate) full_weight: f64,
+}
+
+/// What diffuses among pairs in the pass of continuity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PairDiffusion {
+    /// Nothing.
+    None,
+    /// The ratio of stress and pressure among yielding particles.
+    StressRatio,
+    /// That and the law's field.
+    Field,
 }
 
 /// Whether the velocity gradient is made.
@@ -78,7 +94,7 @@ impl<const D: usize> Model<D> {
     }
 
     /// Viscosity beside the law's `[Pa·s]` of eight particles, of elastic damping and eddies, at a velocity gradient
-    /// `[1/s]`, a stress and a pressure `[Pa]` and a density `[kg/m³]`; none where there is neither.
+    /// `[1/s]`, a stress and a pressure `[Pa]`, a density `[kg/m³]` and the law's field; none where there is neither.
     #[inline(always)]
     pub(crate) fn added_viscosity<V: Lanes>(
         &self,
@@ -86,6 +102,7 @@ impl<const D: usize> Model<D> {
         stress: &[[V; D]; D],
         pressure: V,
         density: V,
+        field: V,
     ) -> Option<V> {
         let (elastic_viscosity, mixing_area) = (self.elastic_viscosity(), self.mixing_area());
         let damped = elastic_viscosity > 0.0 && self.rheology.is_plastic();
@@ -94,7 +111,7 @@ impl<const D: usize> Model<D> {
         }
         let mut viscosity = V::splat(0.0);
         if damped {
-            let elasticity = self.rheology.elasticity(invariant(0.5, stress), pressure);
+            let elasticity = self.rheology.elasticity(invariant(0.5, stress), pressure, field, elastic_viscosity);
             viscosity = elasticity * V::splat(elastic_viscosity);
         }
         if mixing_area > 0.0 {
@@ -114,9 +131,40 @@ impl<const D: usize> Model<D> {
         self.numerics.pairs_in_single()
     }
 
-    /// Whether the stress ratio diffuses: where a law carries its stress along.
+    /// What diffuses among pairs: the stress ratio of a law that carries its stress along, and a field of the law.
+    #[inline(always)]
+    pub(crate) fn pair_diffusion(&self) -> PairDiffusion {
+        if self.field_diffusion().is_some() {
+            PairDiffusion::Field
+        } else if self.stress_diffuses() {
+            PairDiffusion::StressRatio
+        } else {
+            PairDiffusion::None
+        }
+    }
+
+    /// Whether the stress ratio diffuses: where a law carries its stress along. A law with a length of its own does not need it
+    /// against waves, but its fluidity answers to the mean of a convex function of the stress ratio, which uneven particles raise.
+    #[inline(always)]
     pub(crate) fn stress_diffuses(&self) -> bool {
         self.rheology.is_plastic() && self.numerics.stress_diffusion > 0.0 && self.gradient_use() == GradientUse::Stress
+    }
+
+    /// How the law's field spreads, if it does.
+    #[inline(always)]
+    pub(crate) fn field_diffusion(&self) -> Option<FieldDiffusion> {
+        self.field.and_then(|field| field.diffusion)
+    }
+
+    /// Whether a field vanishes at the free surface, which has to be found then.
+    pub(crate) fn field_meets_surface(&self) -> bool {
+        self.field_diffusion().is_some_and(|diffusion| diffusion.surface == FieldBoundary::Vanishing)
+    }
+
+    /// What of a particle is elastic, from an equivalent shear stress and a pressure `[Pa]`, and the law's field.
+    #[inline(always)]
+    pub(crate) fn elasticity(&self, shear_stress: f64, pressure: f64, field: f64) -> f64 {
+        self.rheology.elasticity(shear_stress, pressure, field, self.elastic_viscosity())
     }
 
     /// (C_s Δ)² `[m²]` of the eddy viscosity (5).

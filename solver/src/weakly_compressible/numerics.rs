@@ -270,6 +270,17 @@ impl Numerics {
         })
     }
 
+    /// The operator that a law with a field of its own excludes: the pairwise ones carry no stress along, and so no field.
+    #[must_use]
+    pub fn field_problem(&self, law: &Rheology) -> Option<ParameterProblem> {
+        law.field()?;
+        self.pairwise_operator().map(|operator| {
+            let rule = "\"single-divergence\", \"uncorrected-divergence\" or \"by-law\" with a law that keeps a field";
+            let remedy = "choose one of these, or a law without a field, such as \"mu-i\"";
+            ParameterProblem::new("momentum_operator", operator, rule, remedy)
+        })
+    }
+
     /// The first field outside its range, if any.
     #[must_use]
     pub fn parameter_problem(&self) -> Option<ParameterProblem> {

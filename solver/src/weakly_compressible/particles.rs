@@ -40,6 +40,9 @@ pub struct Particles<const D: usize> {
     pub(crate) pressure_gradient: Vec<Vector<D>>,
     /// Apparent viscosities `[Pa·s]`, for the pairwise operators.
     pub(crate) viscosity: Vec<f64>,
+    /// What the law keeps of each particle, in the unit of its [`LawField`](crate::material::rheology::field::LawField), zero on
+    /// walls; none of a law that keeps nothing.
+    pub field: Option<Vec<f64>>,
     /// What only wall particles have.
     pub(crate) walls: WallFields<D>,
     /// 0 for all real particles together, then for every image 1 if it is behind a mirror, and the sentinel `[-]`.
@@ -116,6 +119,12 @@ impl<const D: usize> Particles<D> {
             corrected_stress: vec![Tensor::zeros(); real],
             pressure_gradient: vec![Vector::zeros(); real],
             viscosity: vec![0.0; real],
+            field: scene.rheology.field().map(|field| {
+                let given = !flow.field.is_empty();
+                let mut values = if given { flow.field.clone() } else { vec![field.initial; n] };
+                values.resize(real, 0.0);
+                values
+            }),
             walls: WallFields::default(),
             mirrored: Vec::new(),
             identity: (0..n as u32).collect(),
@@ -189,6 +198,9 @@ impl<const D: usize> Particles<D> {
         for_each_shared_array!(self, array => {
             array.splice(flow..flow, std::iter::repeat_n(nalgebra::zero(), count));
         });
+        if let Some(field) = &mut self.field {
+            field.splice(flow..flow, arriving.iter().map(|particle| particle.field));
+        }
         self.flow += count;
         self.identity.extend(arriving.iter().map(|particle| particle.identity));
         self.mass.extend(arriving.iter().map(|particle| particle.mass));
@@ -213,6 +225,9 @@ impl<const D: usize> Particles<D> {
     pub(crate) fn remove(&mut self, gone: &[bool]) {
         let flow = self.flow;
         for_each_shared_array!(self, array => retain(array, |index| index >= flow || !gone[index]));
+        if let Some(field) = &mut self.field {
+            retain(field, |index| index >= flow || !gone[index]);
+        }
         let Self { identity, mass, correction, force_correction, acceleration, support, .. } = self;
         retain(identity, |index| !gone[index]);
         retain(mass, |index| !gone[index]);
@@ -248,6 +263,9 @@ impl<const D: usize> Particles<D> {
     pub(crate) fn keep_real(&mut self) {
         let real = self.real_count();
         for_each_shared_array!(self, array => array.truncate(real));
+        if let Some(field) = &mut self.field {
+            field.truncate(real);
+        }
     }
 
     /// Makes room for images and sentinel and fills what never changes between two neighbour searches.
@@ -255,6 +273,10 @@ impl<const D: usize> Particles<D> {
         let total = self.real_count() + images.len() + 1;
         let real = self.real_count();
         for_each_shared_array!(self, array => resize(array, real, total, nalgebra::zero()));
+        if let Some(field) = &mut self.field {
+            resize(field, real, total, 0.0);
+            images.copy_scalars(field);
+        }
         images.copy_positions(&mut self.position);
         images.copy_vectors(&mut self.velocity);
         images.copy_tensors(&mut self.velocity_gradient);
@@ -274,7 +296,7 @@ impl<const D: usize> Particles<D> {
     /// Sorts the flow particles into the given order: `order[new] = old`. There are no images now.
     pub(crate) fn sort_flow(&mut self, order: &[u32], identities: &mut Vec<u32>) {
         let Self { position, velocity, velocity_gradient, stress, density, volume, artificial_viscosity, .. } = self;
-        let Self { viscosity, corrected_stress, pressure_gradient, pressure, acceleration, .. } = self;
+        let Self { viscosity, corrected_stress, pressure_gradient, pressure, acceleration, field, .. } = self;
         for vectors in [position, velocity] {
             permute(vectors, order, pressure_gradient);
         }
@@ -284,6 +306,9 @@ impl<const D: usize> Particles<D> {
         for scalars in [density, volume, artificial_viscosity, viscosity] {
             permute(scalars, order, pressure);
         }
+        if let Some(field) = field {
+            permute(field, order, pressure);
+        }
         permute(&mut self.support_impulse, order, acceleration);
         gather(&self.mass, order, &mut pressure[..order.len()]);
         self.mass.copy_from_slice(&pressure[..order.len()]);
@@ -292,8 +317,8 @@ impl<const D: usize> Particles<D> {
     }
 
     /// Whether every array has its length, with so many images, and every particle one identity of those that the scene
-    /// began with.
-    pub(crate) fn are_complete(&self, images: usize, begun: usize) -> bool {
+    /// began with; `keeps_field` says whether there is one.
+    pub(crate) fn are_complete(&self, images: usize, begun: usize, keeps_field: bool) -> bool {
         let Self { identity, mass, correction, force_correction, acceleration, support, by_walls, by_damping, .. } =
             self;
         let Self { by_wall_control, support_impulse, flow, .. } = self;
@@ -303,6 +328,7 @@ impl<const D: usize> Particles<D> {
         complete &= correction.is_for(*flow) && force_correction.is_for(*flow);
         let total = self.real_count() + images + 1;
         for_each_shared_array!(self, array => complete &= array.len() == total, in &);
+        complete &= self.field.as_ref().map(Vec::len) == keeps_field.then_some(total);
         complete &= self.walls.are_as_long_as(total - flow) && self.mirrored.len() == images + 2;
         let mut seen = vec![false; begun];
         for &identity in identity {
@@ -352,6 +378,8 @@ pub(crate) struct Arriving<const D: usize> {
     pub(crate) viscosity: f64,
     /// `[-]`
     pub(crate) artificial_viscosity: f64,
+    /// What the law keeps of it, if anything.
+    pub(crate) field: f64,
 }
 
 /// Brings the first values of an array into an order; the others stay. What `room`, an array of the same length, held is lost.

@@ -25,6 +25,8 @@ pub struct Flow<const D: usize> {
     pub mass: Vec<f64>,
     /// Deviatoric stresses `[Pa]`.
     pub stress: Vec<Tensor<D>>,
+    /// What the law keeps of each particle, in its own unit; empty for its initial value, and of a law that keeps nothing.
+    pub field: Vec<f64>,
 }
 
 impl<const D: usize> Flow<D> {
@@ -37,6 +39,7 @@ impl<const D: usize> Flow<D> {
             density: vec![density; count],
             mass: vec![density * (0..D).map(|_| spacing).product::<f64>(); count],
             stress: vec![Tensor::zeros(); count],
+            field: Vec::new(),
             position,
         }
     }
@@ -119,7 +122,15 @@ impl<const D: usize> Scene<D> {
             ("mass", self.flow.mass.len()),
             ("stress", self.flow.stress.len()),
         ];
-        for (array, found) in lengths {
+        let field = self.rheology.field();
+        let field_length = match field {
+            Some(_) if !self.flow.field.is_empty() => Some(("field", self.flow.field.len())),
+            None if !self.flow.field.is_empty() => {
+                return Err(SceneError::NoField { law: self.rheology.name(), found: self.flow.field.len() });
+            }
+            _ => None,
+        };
+        for (array, found) in lengths.into_iter().chain(field_length) {
             if found != expected {
                 return Err(SceneError::Length { array, found, expected });
             }
@@ -148,12 +159,22 @@ impl<const D: usize> Scene<D> {
             .or_else(|| self.rheology.parameter_problem())
             .or_else(|| surfaces.find_map(|roughness| self.numerics.wall_problem(roughness)))
             .or_else(|| self.numerics.step_problem(&self.rheology))
+            .or_else(|| self.numerics.field_problem(&self.rheology))
             .or_else(|| self.enclosure.numerics_problem(&self.numerics));
         problem.map_or(Ok(()), |problem| Err(problem.into()))
     }
 
     /// Values of every particle that make sense.
     fn check_values(&self) -> Result<(), SceneError> {
+        if let Some(field) = self.rheology.field() {
+            let (least, most) = field.bounds;
+            for (particle, &value) in self.flow.field.iter().enumerate() {
+                if !(value >= least && value <= most) {
+                    let rule = "finite and in the range that its law gives";
+                    return Err(SceneError::Value { quantity: field.name, particle, value, rule });
+                }
+            }
+        }
         for (particle, position) in self.flow.position.iter().enumerate() {
             let finite = [
                 ("position", position.sum()),

@@ -288,6 +288,12 @@ impl<const D: usize> Simulation<D> {
         &self.state.model.equation_of_state
     }
 
+    /// Viscosity that damps elastic shear `[Pa·s]`.
+    #[must_use]
+    pub fn elastic_viscosity(&self) -> f64 {
+        self.state.model.elastic_viscosity()
+    }
+
     /// Constitutive law.
     #[must_use]
     pub fn rheology(&self) -> &Rheology {

@@ -25,6 +25,8 @@ pub struct Snapshot<const D: usize> {
     pub pressure: Vec<f64>,
     /// Masses `[kg]`.
     pub mass: Vec<f64>,
+    /// What the law keeps of each particle, in its own unit; empty if that is nothing.
+    pub field: Vec<f64>,
     /// Impulses that walls, mirror planes and contacts have given each particle since the start `[kg m/s]`; with the
     /// single divergence only.
     pub support_impulse: Vec<Vector<D>>,
@@ -53,6 +55,7 @@ impl<const D: usize> Snapshot<D> {
             pressure: density.iter().map(|&rho| equation_of_state.pressure(rho)).collect(),
             density,
             mass: pick(&particles.mass, &order),
+            field: particles.field.as_ref().map_or_else(Vec::new, |field| pick(field, &order)),
             support_impulse: pick(&particles.support_impulse, &order),
             energy,
         }
@@ -67,6 +70,7 @@ impl<const D: usize> Snapshot<D> {
             .chain(vectors)
             .chain(tensors)
             .chain(self.density.iter().copied())
+            .chain(self.field.iter().copied())
             .flat_map(f64::to_le_bytes)
             .collect()
     }

@@ -69,6 +69,8 @@ impl<const D: usize> State<D> {
                 spacing: scene.spacing,
                 contact_friction: scene.rheology.contact_friction(),
                 instruction_set: InstructionSet::best(),
+                field: scene.rheology.field(),
+                full_weight: lattice_weight::<D>(&numerics, scene.spacing),
             },
             pairs: PairData::new(),
             viscous: ViscousSystem::new(),
@@ -130,6 +132,26 @@ impl<const D: usize> State<D> {
             rule: quantity.rule(),
         }
     }
+}
+
+/// Σ −2 V F over the neighbours of a particle of a lattice `[1/m²]`.
+fn lattice_weight<const D: usize>(numerics: &Numerics, spacing: f64) -> f64 {
+    let kernel = Kernel::<D>::new(numerics.kernel, numerics.smoothing_ratio * spacing);
+    let volume = spacing.powi(D as i32);
+    let reach = (kernel.support() / spacing) as i32;
+    let side = 2 * reach as usize + 1;
+    let mut sum = 0.0;
+    for site in 0..side.pow(D as u32) {
+        let (mut rest, mut square) = (site, 0.0);
+        for _ in 0..D {
+            square += f64::from((rest % side) as i32 - reach).powi(2);
+            rest /= side;
+        }
+        if square > 0.0 {
+            sum -= 2.0 * kernel.gradient_weight(square * spacing * spacing, volume);
+        }
+    }
+    sum
 }
 
 fn initial_artificial_viscosity(numerics: &Numerics) -> f64 {

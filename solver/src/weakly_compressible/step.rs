@@ -56,12 +56,15 @@ impl<const D: usize> State<D> {
         self.images.copy_scalars(&mut self.particles.pressure);
     }
 
-    /// Velocity of wall particles by that of the flow.
+    /// Velocity of wall particles by that of the flow; images take the flow's velocity and field.
     fn extend_velocity_to_walls(&mut self) {
         self.images.copy_vectors(&mut self.particles.velocity);
         wall_velocity::run(&self.model, &mut self.particles, &mut self.pairs);
         self.images.copy_vectors(&mut self.particles.velocity);
         self.images.copy_wall_vectors(&mut self.particles.walls.sliding_velocity);
+        if let Some(field) = &mut self.particles.field {
+            self.images.copy_scalars(field);
+        }
     }
 
     fn update_density_and_stress(&mut self, time_step: f64) -> Result<(), Divergence<D>> {

@@ -82,6 +82,10 @@ impl<const D: usize> Sediment<D> {
             check_set(&self.particles)?;
         }
         refuse(self.law.parameter_problem())?;
+        refuse(self.law.field().map(|field| {
+            let rule = format!("a law that keeps no field: this model does not carry a {} along", field.name);
+            ParameterProblem::new("law", self.law.name(), &rule, "choose a local law, such as \"root-mu-i\"")
+        }))?;
         if let SedimentLoad::Packed { buoyant_weight, .. } = self.load
             && !(buoyant_weight >= 0.0 && buoyant_weight.is_finite())
         {

@@ -14,23 +14,20 @@
 //!
 //! # A law with a field of its own
 //!
-//! Some laws carry more than the stress, such as a fluidity that diffuses. Such a field is numerical state like the stress
-//! and belongs where the stress is: an array of all particles in the model's `particles`, sorted and copied to images
-//! with it (a scalar, so images and mirrors take it unchanged). Its law declares the initial value, the source terms as a
-//! function of the local state, and what it is at a rough and at a smooth wall; it is advanced in the pass that advances
-//! the stress, before it, because the return mapping takes the new value; its Laplacian is a pass of its own with the
-//! weights of pairs that all passes share; and `wall_stress` extrapolates it to the wall particles, odd where it
-//! vanishes at the surface, even where its gradient does. The law sees it in [`TrialStress`], which can grow a field
-//! without breaking a law that does not look at it; and no law need have a yield surface: one whose
-//! [`PlasticLaw::yield_stress`] is 0 returns every trial stress, and gives its friction at walls in
-//! [`PlasticLaw::contact_friction`].
+//! Some laws carry more than the stress: a fluidity that diffuses, the plastic strain that a material has softened by. Such a
+//! law is a [`FieldLaw`](field::FieldLaw); [`field`] says what it declares and what the model does with it.
 
 mod bingham;
 mod coulomb_bingham;
+pub mod field;
+mod field_update;
 mod grain_parameters;
 mod herschel_bulkley;
 mod mu_i;
 mod newtonian;
+mod nonlocal_mu_i;
+#[cfg(test)]
+mod nonlocal_mu_i_tests;
 pub mod open;
 mod regularisation;
 mod regularised_mu_i;
@@ -44,10 +41,12 @@ pub use coulomb_bingham::CoulombBingham;
 pub use herschel_bulkley::HerschelBulkley;
 pub use mu_i::MuI;
 pub use newtonian::Newtonian;
+pub use nonlocal_mu_i::NonlocalMuI;
 pub use regularised_mu_i::RegularisedMuI;
 pub use root_mu_i::RootMuI;
 
-use open::{OpenPlastic, OpenViscous};
+use field::{FieldLaw, FieldStep, LawField};
+use open::{OpenField, OpenPlastic, OpenViscous};
 
 use crate::lanes::algebra::{load_tensor, store_tensor};
 use crate::lanes::{LANES, Lanes, Real};
@@ -95,18 +94,18 @@ impl<R> TrialStress<R> {
 
 /// A law that carries the stress along: elastic up to a yield stress, then a plastic shear rate.
 ///
-/// The formulas of the stress update are written for any [`Real`], a single value or eight lanes.
+/// The formulas of the stress update are written for any [`Real`], a single value or eight lanes. A cohesion is allowed: the
+/// yield stress need not vanish with the pressure. (The weakly compressible model cuts tension, and no particle carries a
+/// shear stress at p ≤ 0.)
 pub trait PlasticLaw {
     /// Equivalent shear stress `[Pa]` at the end of a time step: the trial up to the yield stress.
     fn admissible_shear_stress<R: Real>(&self, trial: &TrialStress<R>) -> R;
 
-    /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]`; 0 without pressure.
+    /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]`.
     fn yield_stress<R: Real>(&self, pressure: R) -> R;
 
-    /// Friction coefficient `[-]` of a contact with a rough wall: that of the yield stress.
-    fn contact_friction(&self) -> f64 {
-        self.yield_stress(1.0)
-    }
+    /// Friction coefficient `[-]` of a contact with a rough wall, a question of its own: a cohesion is no friction.
+    fn contact_friction(&self) -> f64;
 
     /// Apparent viscosity τ/|γ̇| `[Pa·s]` of the steady flow at a shear rate `[1/s]` and a pressure `[Pa]`;
     /// finite also at rest. For diagnostics: the stress update does not use it.
@@ -116,9 +115,14 @@ pub trait PlasticLaw {
 macro_rules! laws {
     (
         viscous: [$($viscous:ident = $viscous_name:literal),* $(,)?],
-        plastic: [$($plastic:ident = $plastic_name:literal),* $(,)?] $(,)?
+        plastic: [$($plastic:ident = $plastic_name:literal),* $(,)?],
+        with_field: [$($keeper:ident = $keeper_name:literal),* $(,)?] $(,)?
     ) => {
-        rheology!(viscous: [$($viscous,)* OpenViscous], plastic: [$($plastic,)* OpenPlastic]);
+        rheology!(
+            viscous: [$($viscous,)* OpenViscous],
+            plastic: [$($plastic,)* OpenPlastic],
+            with_field: [$($keeper,)* OpenField]
+        );
 
         /// The laws of this crate as files have them.
         #[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq)]
@@ -126,16 +130,18 @@ macro_rules! laws {
         enum BuiltIn {
             $(#[serde(rename = $viscous_name)] $viscous($viscous),)*
             $(#[serde(rename = $plastic_name)] $plastic($plastic),)*
+            $(#[serde(rename = $keeper_name)] $keeper($keeper),)*
         }
 
         /// Their names.
-        const BUILT_IN_NAMES: &[&str] = &[$($viscous_name,)* $($plastic_name,)*];
+        const BUILT_IN_NAMES: &[&str] = &[$($viscous_name,)* $($plastic_name,)* $($keeper_name,)*];
 
         impl From<BuiltIn> for Rheology {
             fn from(law: BuiltIn) -> Self {
                 match law {
                     $(BuiltIn::$viscous(law) => Self::$viscous(law),)*
                     $(BuiltIn::$plastic(law) => Self::$plastic(law),)*
+                    $(BuiltIn::$keeper(law) => Self::$keeper(law),)*
                 }
             }
         }
@@ -147,8 +153,10 @@ macro_rules! laws {
                 match *self {
                     $(Self::$viscous(_) => $viscous_name,)*
                     $(Self::$plastic(_) => $plastic_name,)*
+                    $(Self::$keeper(_) => $keeper_name,)*
                     Self::OpenViscous(law) => law.name(),
                     Self::OpenPlastic(law) => law.name(),
+                    Self::OpenField(law) => law.name(),
                 }
             }
 
@@ -157,8 +165,10 @@ macro_rules! laws {
                 match *self {
                     $(Self::$viscous(law) => Ok(BuiltIn::$viscous(law)),)*
                     $(Self::$plastic(law) => Ok(BuiltIn::$plastic(law)),)*
+                    $(Self::$keeper(law) => Ok(BuiltIn::$keeper(law)),)*
                     Self::OpenViscous(law) => Err(law.written()),
                     Self::OpenPlastic(law) => Err(law.written()),
+                    Self::OpenField(law) => Err(law.written()),
                 }
             }
         }
@@ -166,16 +176,17 @@ macro_rules! laws {
 }
 
 macro_rules! rheology {
-    (viscous: [$($viscous:ident),*], plastic: [$($plastic:ident),*]) => {
+    (viscous: [$($viscous:ident),*], plastic: [$($plastic:ident),*], with_field: [$($keeper:ident),*]) => {
         /// The constitutive law of one material, chosen by its `law` key, for example `law = "mu-i"`.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub enum Rheology {
             $(#[doc = concat!("Viscous: [`", stringify!($viscous), "`].")] $viscous($viscous),)*
             $(#[doc = concat!("Plastic: [`", stringify!($plastic), "`].")] $plastic($plastic),)*
+            $(#[doc = concat!("With a field of its own: [`", stringify!($keeper), "`].")] $keeper($keeper),)*
         }
 
         impl Rheology {
-            /// Deviatoric stress `[Pa]` after a time step `[s]`, shape `[D, D]`.
+            /// Deviatoric stress `[Pa]` after a time step `[s]`, shape `[D, D]`; of a law with a field, from its initial value.
             ///
             /// `previous` is the deviatoric stress `[Pa]` before the step (viscous laws do not look at it),
             /// `velocity_gradient` `[1/s]` has `[i][j] = ∂v_i/∂x_j`, pressure and shear modulus are in `[Pa]`.
@@ -198,19 +209,49 @@ macro_rules! rheology {
                             stress_update::plastic(law, &previous, &gradient, pressure, shear_modulus, time_step);
                         Tensor::from_fn(|i, j| stress[i][j])
                     })*
+                    $(Self::$keeper(law) => {
+                        let field = FieldStep::alone(law.field().initial);
+                        self.updated_state(previous, velocity_gradient, pressure, &field, shear_modulus, time_step).0
+                    })*
                 }
             }
 
-            /// [`Rheology::updated_stress`] of eight particles, one a lane.
+            /// Deviatoric stress `[Pa]` and the law's field after a time step, as [`Rheology::updated_stress`]; the field of a law
+            /// that keeps none is what it was.
+            #[must_use]
+            pub fn updated_state<const D: usize>(
+                &self,
+                previous: &Tensor<D>,
+                velocity_gradient: &Tensor<D>,
+                pressure: f64,
+                field: &FieldStep<f64>,
+                shear_modulus: f64,
+                time_step: f64,
+            ) -> (Tensor<D>, f64) {
+                match self {
+                    $(Self::$keeper(law) => {
+                        let (previous, gradient) = (components(previous), components(velocity_gradient));
+                        let step = field_update::Step { pressure, shear_modulus, time_step };
+                        let (stress, field) = field_update::with_field(law, &previous, &gradient, field, step);
+                        (Tensor::from_fn(|i, j| stress[i][j]), field)
+                    })*
+                    law => {
+                        (law.updated_stress(previous, velocity_gradient, pressure, shear_modulus, time_step), field.value)
+                    }
+                }
+            }
+
+            /// [`Rheology::updated_state`] of eight particles, one a lane.
             #[inline(always)]
-            pub(crate) fn updated_stresses<V: Lanes, const D: usize>(
+            pub(crate) fn updated_states<V: Lanes, const D: usize>(
                 &self,
                 previous: &[[V; D]; D],
                 velocity_gradient: &[[V; D]; D],
                 pressure: V,
+                field: &FieldStep<V>,
                 shear_modulus: f64,
                 time_step: f64,
-            ) -> [[V; D]; D] {
+            ) -> ([[V; D]; D], V) {
                 match self {
                     $(Self::$viscous(law) => {
                         let mut gradients = [Tensor::<D>::zeros(); LANES];
@@ -220,10 +261,16 @@ macro_rules! rheology {
                         for lane in 0..LANES {
                             stresses[lane] = stress_update::viscous(law, &gradients[lane], pressure[lane]);
                         }
-                        load_tensor(&stresses)
+                        (load_tensor(&stresses), field.value)
                     })*
                     $(Self::$plastic(law) => {
-                        stress_update::plastic(law, previous, velocity_gradient, pressure, shear_modulus, time_step)
+                        let stress =
+                            stress_update::plastic(law, previous, velocity_gradient, pressure, shear_modulus, time_step);
+                        (stress, field.value)
+                    })*
+                    $(Self::$keeper(law) => {
+                        let step = field_update::Step { pressure, shear_modulus, time_step };
+                        field_update::with_field(law, previous, velocity_gradient, field, step)
                     })*
                 }
             }
@@ -235,6 +282,7 @@ macro_rules! rheology {
                 match self {
                     $(Self::$viscous(law) => law.viscosity(shear_rate, pressure),)*
                     $(Self::$plastic(law) => law.viscosity(shear_rate, pressure),)*
+                    $(Self::$keeper(law) => law.viscosity(shear_rate, pressure),)*
                 }
             }
 
@@ -246,6 +294,7 @@ macro_rules! rheology {
                 match self {
                     $(Self::$viscous(law) => law.largest_viscosity(pressure),)*
                     $(Self::$plastic(_) => 0.0,)*
+                    $(Self::$keeper(_) => 0.0,)*
                 }
             }
 
@@ -256,15 +305,17 @@ macro_rules! rheology {
                 match self {
                     $(Self::$viscous(_) => false,)*
                     $(Self::$plastic(_) => true,)*
+                    $(Self::$keeper(_) => true,)*
                 }
             }
 
             /// How far below its yield a plastic material is: 1 where the equivalent shear stress `[Pa]` is more than
             /// one per cent below the yield stress at a pressure `[Pa]`, falling to 0 at the yield `[-]`; 0 for viscous
-            /// laws and without pressure.
+            /// laws and without pressure. A law with a field judges by that too; `elastic_viscosity` `[Pa·s]` is that of the
+            /// damping which the elastic part feels.
             #[inline(always)]
             #[must_use]
-            pub fn elasticity<R: Real>(&self, shear_stress: R, pressure: R) -> R {
+            pub fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: R, elastic_viscosity: f64) -> R {
                 let (zero, one) = (R::splat(0.0), R::splat(1.0));
                 match self {
                     $(Self::$viscous(_) => zero,)*
@@ -273,19 +324,40 @@ macro_rules! rheology {
                         let distance = R::splat(100.0) * (one - shear_stress / yield_stress);
                         distance.max(zero).min(one).where_less(zero, yield_stress)
                     })*
+                    $(Self::$keeper(law) => law.elasticity(shear_stress, pressure, field, elastic_viscosity),)*
                 }
             }
 
-            /// Friction coefficient `[-]` of a contact with a rough wall: the yield stress at unit pressure of grains,
-            /// 0 for liquids.
+            /// Friction coefficient `[-]` of a contact with a rough wall; 0 for liquids.
             #[must_use]
             pub fn contact_friction(&self) -> f64 {
                 match self {
                     $(Self::$viscous(law) => law.contact_friction(),)*
                     $(Self::$plastic(law) => law.contact_friction(),)*
+                    $(Self::$keeper(law) => law.contact_friction(),)*
                 }
             }
 
+            /// What the law keeps of each particle beside the stress, if anything.
+            #[must_use]
+            pub fn field(&self) -> Option<LawField> {
+                match self {
+                    $(Self::$viscous(_) => None,)*
+                    $(Self::$plastic(_) => None,)*
+                    $(Self::$keeper(law) => Some(law.field()),)*
+                }
+            }
+
+            /// The law's field in a flow at a shear rate `[1/s]` under a ratio of shear stress and pressure `[-]`; none of a law
+            /// without.
+            #[must_use]
+            pub fn field_in_flow(&self, shear_rate: f64, stress_ratio: f64) -> Option<f64> {
+                match self {
+                    $(Self::$viscous(_) => None,)*
+                    $(Self::$plastic(_) => None,)*
+                    $(Self::$keeper(law) => Some(law.field_in_flow(shear_rate, stress_ratio)),)*
+                }
+            }
         }
     };
 }
@@ -298,9 +370,10 @@ impl Rheology {
             Self::MuI(law) => law.friction_problem(),
             Self::RegularisedMuI(law) => law.friction_problem(),
             Self::RootMuI(law) => law.friction_problem(),
+            Self::NonlocalMuI(law) => law.friction_problem(),
             Self::Newtonian(_) | Self::Bingham(_) | Self::CoulombBingham(_) | Self::HerschelBulkley(_) => None,
             // the maker of an open law has judged its parameters
-            Self::OpenViscous(_) | Self::OpenPlastic(_) => None,
+            Self::OpenViscous(_) | Self::OpenPlastic(_) | Self::OpenField(_) => None,
         })
     }
 }
@@ -314,6 +387,7 @@ impl Rheology {
             Self::MuI(law) => Some(law.grain_density),
             Self::RegularisedMuI(law) => Some(law.grain_density),
             Self::RootMuI(law) => Some(law.grain_density),
+            Self::NonlocalMuI(law) => Some(law.grain_density),
             _ => self.open_parameter("grain_density"),
         }
     }
@@ -325,6 +399,7 @@ impl Rheology {
             Self::MuI(law) => Some(law.grain_diameter),
             Self::RegularisedMuI(law) => Some(law.grain_diameter),
             Self::RootMuI(law) => Some(law.grain_diameter),
+            Self::NonlocalMuI(law) => Some(law.grain_diameter),
             _ => self.open_parameter("grain_diameter"),
         }
     }
@@ -334,6 +409,7 @@ impl Rheology {
         let parameters = match self {
             Self::OpenViscous(law) => law.parameters(),
             Self::OpenPlastic(law) => law.parameters(),
+            Self::OpenField(law) => law.parameters(),
             _ => return None,
         };
         parameters.iter().find(|parameter| parameter.0 == name).map(|parameter| parameter.1)
@@ -372,4 +448,5 @@ laws! {
         RootMuI = "root-mu-i",
     ],
     plastic: [MuI = "mu-i"],
+    with_field: [NonlocalMuI = "nonlocal-mu-i"],
 }

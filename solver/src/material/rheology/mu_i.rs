@@ -99,6 +99,10 @@ impl PlasticLaw for MuI {
         R::splat(self.static_friction) * pressure.max(R::splat(0.0))
     }
 
+    fn contact_friction(&self) -> f64 {
+        self.static_friction
+    }
+
     #[inline]
     fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64 {
         if pressure.is_nan() || pressure <= 0.0 {

@@ -40,6 +40,7 @@ pub use registry::{Maker, built_in, register, registered};
 pub use table::Parameters;
 pub(super) use table::Written;
 
+use super::field::{FieldLaw, FieldReturn, FieldStep, LawField};
 use super::{PlasticLaw, TrialStress, ViscousLaw};
 use crate::lanes::Real;
 use std::fmt::Debug;
@@ -49,16 +50,41 @@ pub trait OpenPlasticLaw: Debug + Send + Sync {
     /// Equivalent shear stress `[Pa]` at the end of a time step: the trial up to the yield stress.
     fn admissible_shear_stress(&self, trial: &TrialStress<f64>) -> f64;
 
-    /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]`; 0 without pressure.
+    /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]`. A cohesion is allowed.
     fn yield_stress(&self, pressure: f64) -> f64;
 
     /// Apparent viscosity τ/|γ̇| `[Pa·s]` of the steady flow at a shear rate `[1/s]` and a pressure `[Pa]`; finite also
     /// at rest.
     fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64;
 
-    /// Friction coefficient `[-]` of a contact with a rough wall: that of the yield stress.
-    fn contact_friction(&self) -> f64 {
-        self.yield_stress(1.0)
+    /// Friction coefficient `[-]` of a contact with a rough wall, a question of its own: a cohesion is no friction.
+    fn contact_friction(&self) -> f64;
+}
+
+/// A plastic law in f64 with a field of its own: what it keeps of each particle beside the stress, such as the plastic strain
+/// that it has softened by. A cohesion is allowed.
+pub trait OpenFieldLaw: Debug + Send + Sync {
+    /// What it keeps.
+    fn field(&self) -> LawField;
+
+    /// Equivalent shear stress `[Pa]`, at most the trial's, and field at the end of a time step. A step of no length leaves the
+    /// field as it was. The plastic strain of a step is (τ* − τ)/G.
+    fn end_of_step(&self, trial: &TrialStress<f64>, field: &FieldStep<f64>) -> FieldReturn<f64>;
+
+    /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]` and a value of its field.
+    fn yield_stress(&self, pressure: f64, field: f64) -> f64;
+
+    /// Apparent viscosity τ/|γ̇| `[Pa·s]` of the steady flow at a shear rate `[1/s]` and a pressure `[Pa]`; finite also
+    /// at rest.
+    fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64;
+
+    /// Friction coefficient `[-]` of a contact with a rough wall, a question of its own: a cohesion is no friction.
+    fn contact_friction(&self) -> f64;
+
+    /// The field of a flow at a shear rate `[1/s]` under a ratio of shear stress and pressure `[-]`, for scenes that start in
+    /// motion: its initial value, if the law says nothing else.
+    fn field_in_flow(&self, _shear_rate: f64, _stress_ratio: f64) -> f64 {
+        self.field().initial
     }
 }
 
@@ -67,7 +93,7 @@ trait OpenViscousLaw: ViscousLaw + Debug + Send + Sync {}
 
 impl<L: ViscousLaw + Debug + Send + Sync> OpenViscousLaw for L {}
 
-/// A law of a user's own crate, of one of the two kinds.
+/// A law of a user's own crate, of one of the three kinds.
 #[derive(Debug)]
 pub struct OpenLaw(Kind);
 
@@ -75,6 +101,7 @@ pub struct OpenLaw(Kind);
 enum Kind {
     Viscous(Box<dyn OpenViscousLaw>),
     Plastic(Box<dyn OpenPlasticLaw>),
+    WithField(Box<dyn OpenFieldLaw>),
 }
 
 impl OpenLaw {
@@ -86,6 +113,11 @@ impl OpenLaw {
     /// A law that carries the stress along.
     pub fn plastic(law: impl OpenPlasticLaw + 'static) -> Self {
         Self(Kind::Plastic(Box::new(law)))
+    }
+
+    /// A law that carries the stress along and keeps a field of each particle.
+    pub fn with_field(law: impl OpenFieldLaw + 'static) -> Self {
+        Self(Kind::WithField(Box::new(law)))
     }
 }
 
@@ -137,6 +169,10 @@ open_law! {
     /// A registered plastic law with its parameters.
     OpenPlastic, OpenPlasticLaw
 }
+open_law! {
+    /// A registered law with a field of its own, with its parameters.
+    OpenField, OpenFieldLaw
+}
 
 impl ViscousLaw for OpenViscous {
     fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64 {
@@ -170,5 +206,57 @@ impl PlasticLaw for OpenPlastic {
 
     fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64 {
         self.0.law.viscosity(shear_rate, pressure)
+    }
+}
+
+/// Below its yield stress by more than this part of it a material is wholly elastic `[-]`.
+const YIELDING: f64 = 0.01;
+
+impl FieldLaw for OpenField {
+    fn field(&self) -> LawField {
+        self.0.law.field()
+    }
+
+    fn end_of_step<R: Real>(&self, trial: &TrialStress<R>, field: &FieldStep<R>) -> FieldReturn<R> {
+        let &TrialStress { shear_stress, pressure, shear_modulus, time_step, .. } = trial;
+        let values = [shear_stress, pressure, field.value, field.gain, field.loss];
+        let end = |[shear_stress, pressure, value, gain, loss]: [f64; 5]| {
+            let trial = TrialStress::new(shear_stress, pressure, shear_modulus, time_step);
+            self.0.law.end_of_step(&trial, &FieldStep { value, gain, loss })
+        };
+        FieldReturn {
+            shear_stress: R::lane_by_lane(values, &|values| end(values).shear_stress),
+            field: R::lane_by_lane(values, &|values| end(values).field),
+        }
+    }
+
+    fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: R, _elastic_viscosity: f64) -> R {
+        R::lane_by_lane([shear_stress, pressure, field], &|[shear_stress, pressure, field]| {
+            let yield_stress = self.0.law.yield_stress(pressure, field);
+            if pressure > 0.0 && yield_stress > 0.0 {
+                ((1.0 - shear_stress / yield_stress) / YIELDING).clamp(0.0, 1.0)
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// All of it up to the yield stress of the start of the step, nothing beyond.
+    fn turned_part<R: Real>(&self, trial: &TrialStress<R>, before: R, _end: &FieldReturn<R>, _vorticity: R) -> R {
+        R::lane_by_lane([trial.shear_stress, trial.pressure, before], &|[shear_stress, pressure, field]| {
+            if self.0.law.yield_stress(pressure, field) < shear_stress { 0.0 } else { 1.0 }
+        })
+    }
+
+    fn contact_friction(&self) -> f64 {
+        self.0.law.contact_friction()
+    }
+
+    fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64 {
+        self.0.law.viscosity(shear_rate, pressure)
+    }
+
+    fn field_in_flow(&self, shear_rate: f64, stress_ratio: f64) -> f64 {
+        self.0.law.field_in_flow(shear_rate, stress_ratio)
     }
 }

@@ -3,22 +3,35 @@
 
 use super::PairData;
 use super::layout;
-use super::new_state::{Advance, Extremes, Output, RateSums};
+use super::new_state::{Advance, Extremes, FieldSums, Output, RateSums};
 use super::records::{self, LaneRecord};
 use super::single;
-use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, sum_of, zero_tensor};
-use crate::lanes::{LANES, LanePass, Lanes};
+use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, load, sum_of, zero_tensor};
+use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
 use crate::vector::equivalent_shear_stress;
 use crate::weakly_compressible::energy::StressWork;
-use crate::weakly_compressible::model::{GradientUse, Model};
+use crate::weakly_compressible::model::{GradientUse, Model, PairDiffusion};
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::terms::{continuity, density_coupling, stress_diffusion};
+use crate::weakly_compressible::terms::{continuity, density_coupling, field_diffusion, stress_diffusion};
 use rayon::prelude::*;
 
-/// Values of a record with the stress that diffuses: [`Partner`], then [`Yielding`].
-const fn long_values(dimension: usize) -> usize {
-    layout::continuity(dimension) + 1 + records::deviator_values(dimension)
+/// What diffuses among pairs, as a constant of the loops.
+pub(super) mod diffusion {
+    pub(in super::super) const NONE: u8 = 0;
+    pub(in super::super) const STRESS_RATIO: u8 = 1;
+    /// The law's field beside the stress ratio.
+    pub(in super::super) const FIELD: u8 = 2;
+}
+
+/// Values of a record: [`Partner`], then if they diffuse [`Yielding`] and the law's field.
+const fn full_values(dimension: usize, diffusion: u8) -> usize {
+    layout::continuity(dimension)
+        + match diffusion {
+            diffusion::STRESS_RATIO => 1 + records::deviator_values(dimension),
+            diffusion::FIELD => 2 + records::deviator_values(dimension),
+            _ => 0,
+        }
 }
 
 /// Values of a record if the density alone is updated: position, velocity.
@@ -65,10 +78,10 @@ impl<V: Lanes, const D: usize> Yielding<V, D> {
     }
 }
 
-/// Values and quads of a record of continuity.
+/// Quads of a record of continuity.
 #[inline(always)]
-const fn quads(dimension: usize, diffuses: bool) -> usize {
-    if diffuses { long_values(dimension).div_ceil(4) } else { layout::continuity(dimension).div_ceil(4) }
+const fn quads(dimension: usize, diffusion: u8) -> usize {
+    full_values(dimension, diffusion).div_ceil(4)
 }
 
 /// Advances density, velocity gradient and stress of the flow particles by one time step `[s]`.
@@ -87,12 +100,19 @@ pub(crate) fn run<const D: usize>(
     }
     pairs.open_ledger(flow);
     let mut energy = std::mem::take(&mut pairs.energy);
+    let mut no_field = std::mem::take(&mut pairs.no_field);
     let shared_pairs = &*pairs;
     let mut density = std::mem::take(&mut particles.density);
     let mut velocity_gradient = std::mem::take(&mut particles.velocity_gradient);
     let mut stress = std::mem::take(&mut particles.stress);
     let mut viscosity = std::mem::take(&mut particles.viscosity);
     let mut artificial_viscosity = std::mem::take(&mut particles.artificial_viscosity);
+    let mut field = std::mem::take(&mut particles.field);
+    no_field.resize(flow.div_ceil(BLOCK), 0.0);
+    let fields = match &mut field {
+        Some(field) => field[..flow].par_chunks_mut(BLOCK),
+        None => no_field.par_chunks_mut(1),
+    };
     let shared = &*particles;
     let extremes = (
         density[..flow].par_chunks_mut(BLOCK),
@@ -100,13 +120,14 @@ pub(crate) fn run<const D: usize>(
         stress[..flow].par_chunks_mut(BLOCK),
         viscosity[..flow].par_chunks_mut(BLOCK),
         artificial_viscosity[..flow].par_chunks_mut(BLOCK),
+        fields,
         &mut energy,
     )
         .into_par_iter()
         .enumerate()
         .with_min_len(4)
-        .map(|(block, (density, velocity_gradient, stress, viscosity, artificial_viscosity, energy))| {
-            let out = Output { density, velocity_gradient, stress, viscosity, artificial_viscosity, energy };
+        .map(|(block, (density, velocity_gradient, stress, viscosity, artificial_viscosity, field, energy))| {
+            let out = Output { density, velocity_gradient, stress, viscosity, artificial_viscosity, field, energy };
             let advance = Advance { model, particles: shared, gradient, time_step, block_start: block * BLOCK };
             let mut extremes = Extremes::NONE;
             let extremes_of_block = &mut extremes;
@@ -115,6 +136,8 @@ pub(crate) fn run<const D: usize>(
         })
         .reduce(|| Extremes::NONE, Extremes::merge);
     pairs.energy = energy;
+    pairs.no_field = no_field;
+    particles.field = field;
     particles.density = density;
     particles.velocity_gradient = velocity_gradient;
     particles.stress = stress;
@@ -130,11 +153,12 @@ fn fill_records<const D: usize>(
     pairs: &mut PairData<D>,
     gradient: GradientUse,
 ) {
-    let (full, diffuses) = (gradient != GradientUse::None, model.stress_diffuses());
-    pairs.continuity.set_values(match (full, diffuses) {
+    let (full, diffusion) = (gradient != GradientUse::None, model.pair_diffusion());
+    pairs.continuity.set_values(match (full, diffusion) {
         (false, _) => short_values(D),
-        (true, false) => layout::continuity(D),
-        (true, true) => long_values(D),
+        (true, PairDiffusion::None) => full_values(D, diffusion::NONE),
+        (true, PairDiffusion::StressRatio) => full_values(D, diffusion::STRESS_RATIO),
+        (true, PairDiffusion::Field) => full_values(D, diffusion::FIELD),
     });
     pairs.continuity.fill(particles.position.len(), |index, record| {
         record.vector(&particles.position[index]);
@@ -148,11 +172,15 @@ fn fill_records<const D: usize>(
             } else {
                 &particles.pressure_gradient[index]
             });
-            if diffuses {
+            let field = particles.field.as_ref().map_or(0.0, |field| field[index]);
+            if diffusion != PairDiffusion::None {
                 let stress = &particles.stress[index];
-                let elasticity = model.rheology.elasticity(equivalent_shear_stress(stress), pressure);
+                let elasticity = model.elasticity(equivalent_shear_stress(stress), pressure, field);
                 record.scalar(stress_diffusion::yielding(elasticity, pressure));
                 record.deviator(stress);
+            }
+            if diffusion == PairDiffusion::Field {
+                record.scalar(field);
             }
         }
     });
@@ -171,16 +199,41 @@ impl<const D: usize> LanePass for Pass<'_, D> {
         let Self { advance, pairs, mut out, extremes } = self;
         let count = out.density.len();
         let mut work = StressWork::<V>::new();
+        let (in_single, diffusion) = (advance.model.pairs_in_single(), advance.model.pair_diffusion());
+        let meets_surface = advance.model.field_meets_surface();
         let mut offset = 0;
         while offset < count {
             let group = advance.model.list.group((advance.block_start + offset) / LANES);
-            let sums = match (advance.model.pairs_in_single(), advance.model.stress_diffuses()) {
-                (true, true) => single::continuity::pair_sums::<V, D, true>(advance.model, &pairs.single, &group),
-                (true, false) => single::continuity::pair_sums::<V, D, false>(advance.model, &pairs.single, &group),
+            let (model, particles) = (advance.model, advance.particles);
+            let mut sums = match (in_single, diffusion) {
+                (true, PairDiffusion::StressRatio) => {
+                    single::continuity::pair_sums::<V, D, { diffusion::STRESS_RATIO }>(
+                        model,
+                        particles,
+                        &pairs.single,
+                        &group,
+                    )
+                }
+                (true, PairDiffusion::Field) => {
+                    single::continuity::pair_sums::<V, D, { diffusion::FIELD }>(model, particles, &pairs.single, &group)
+                }
+                (true, PairDiffusion::None) => {
+                    single::continuity::pair_sums::<V, D, { diffusion::NONE }>(model, particles, &pairs.single, &group)
+                }
                 (false, _) if advance.gradient == GradientUse::None => divergence_only::<V, D>(pairs, &group),
-                (false, true) => all_sums::<V, D, true>(pairs, &group),
-                (false, false) => all_sums::<V, D, false>(pairs, &group),
+                (false, PairDiffusion::StressRatio) => {
+                    all_sums::<V, D, { diffusion::STRESS_RATIO }>(model, particles, pairs, &group)
+                }
+                (false, PairDiffusion::Field) => {
+                    all_sums::<V, D, { diffusion::FIELD }>(model, particles, pairs, &group)
+                }
+                (false, PairDiffusion::None) => all_sums::<V, D, { diffusion::NONE }>(model, particles, pairs, &group),
             };
+            if meets_surface {
+                let first = advance.block_start + offset;
+                let last = (first + LANES).min(advance.block_start + count);
+                sums.field.eigenvalue = load::<V>(&pairs.eigenvalues[first..last]);
+            }
             let end = (offset + LANES).min(count);
             advance.particles_at(offset..end, &sums, &mut out, &mut work, extremes);
             offset = end;
@@ -190,31 +243,37 @@ impl<const D: usize> LanePass for Pass<'_, D> {
 }
 
 #[inline(always)]
-fn all_sums<V: Lanes, const D: usize, const DIFFUSES: bool>(
+fn all_sums<V: Lanes, const D: usize, const DIFFUSION: u8>(
+    model: &Model<D>,
+    particles: &Particles<D>,
     pairs: &PairData<D>,
     group: &NeighbourGroup<'_>,
 ) -> RateSums<V, D> {
     let all = &pairs.continuity;
-    let quads = const { quads(D, DIFFUSES) };
+    let quads = const { quads(D, DIFFUSION) };
     let record = all.load::<V>(quads, &group.own);
     let own = Partner::<V, D>::of(&record);
     let own_yielding = Yielding::<V, D>::of(&record);
     let mut coupling = V::splat(0.0);
     let (mut gradient, mut wall_gradient) = (zero_tensor::<V, D>(), zero_tensor::<V, D>());
     let mut wall_compression = V::splat(0.0);
-    let mut diffusion = zero_tensor::<V, D>();
+    let mut diffused = zero_tensor::<V, D>();
+    let mut field = FieldSums::none();
     let (flow_weights, wall_weights) = pairs.weights[group.first_pair..].split_at(group.flow.len());
     for (b, weight) in group.flow.zip(flow_weights) {
         let record = all.load::<V>(quads, &b);
         let other = Partner::<V, D>::of(&record);
         let r = difference(&own.position, &other.position);
         let weight = V::load(weight);
-        if DIFFUSES {
+        if DIFFUSION == diffusion::FIELD {
+            field.add_flow(weight, records::scalar(&record, const { full_values(D, diffusion::STRESS_RATIO) }));
+        }
+        if DIFFUSION != diffusion::NONE {
             let yielding = Yielding::<V, D>::of(&record);
             let pressure_sum = own.pressure + other.pressure;
             let factor = stress_diffusion::pair_factor(own_yielding.part, yielding.part, pressure_sum);
             stress_diffusion::accumulate_bracket(
-                &mut diffusion,
+                &mut diffused,
                 weight * factor,
                 (&own_yielding.stress, own.pressure),
                 (&yielding.stress, other.pressure),
@@ -232,13 +291,21 @@ fn all_sums<V: Lanes, const D: usize, const DIFFUSES: bool>(
         accumulate_outer(&mut wall_gradient, weight, &difference(&wall.velocity, &own.velocity), &r);
         let sliding = difference(&own.velocity, &wall.pressure_gradient);
         wall_compression = wall_compression + weight * dot(&sliding, &r);
+        if DIFFUSION == diffusion::FIELD {
+            let places = w.places_from(particles.flow_count());
+            let places = places.indices();
+            let normal = gather_vectors::<V, D>(&particles.walls.normal, &places);
+            let depth: V = gather(&particles.walls.depth, &places);
+            let smoothness: V = gather(&particles.walls.smoothness, &places);
+            field.add_wall(weight, field_diffusion::wall_factor(&r, &normal, depth, smoothness, model.spacing));
+        }
     }
     let compression = continuity::compression(&gradient) + wall_compression;
     for i in 0..D {
         accumulate(&mut gradient[i], V::splat(1.0), &wall_gradient[i]);
     }
-    stress_diffusion::complete(&mut diffusion);
-    RateSums { compression, wall_compression, coupling, gradient, wall_gradient, stress_diffusion: diffusion }
+    stress_diffusion::complete(&mut diffused);
+    RateSums { compression, wall_compression, coupling, gradient, wall_gradient, stress_diffusion: diffused, field }
 }
 
 #[inline(always)]
@@ -263,5 +330,6 @@ fn divergence_only<V: Lanes, const D: usize>(pairs: &PairData<D>, group: &Neighb
         gradient: none,
         wall_gradient: none,
         stress_diffusion: none,
+        field: FieldSums::none(),
     }
 }

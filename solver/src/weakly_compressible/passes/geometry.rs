@@ -6,7 +6,7 @@ use super::layout;
 use super::records;
 use super::single;
 use crate::lanes::algebra::{
-    accumulate, deviatoric_rate, difference, dot, load, load_tensor, matrix_product, product, store_tensor,
+    accumulate, deviatoric_rate, difference, dot, load, load_tensor, matrix_product, product, store, store_tensor,
     store_vector, zero_tensor, zero_vector,
 };
 use crate::lanes::{LANES, LanePass, LaneTensorsMut, Lanes};
@@ -14,7 +14,8 @@ use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::terms::kernel_correction::corrections;
+use crate::weakly_compressible::terms::field_diffusion;
+use crate::weakly_compressible::terms::kernel_correction::{corrections, corrections_and_eigenvalue};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -24,6 +25,8 @@ struct Output<'a, const D: usize> {
     pressure_gradient: &'a mut [Vector<D>],
     corrected_stress: &'a mut [Tensor<D>],
     weights: &'a mut [[f64; LANES]],
+    /// Of as many particles as a field wants it of, or one value that is not written.
+    eigenvalues: &'a mut [f64],
 }
 
 /// Updates corrections, pressure gradients and corrected stresses of the flow particles.
@@ -40,7 +43,7 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
             record.scalar(shared.pressure[index]);
         });
     }
-    let PairData { weights, geometry, single, .. } = pairs;
+    let PairData { weights, eigenvalues, geometry, single, .. } = pairs;
     let records = if in_single { GeometryRecords::Single(single) } else { GeometryRecords::Double(geometry) };
     let mut correction = std::mem::take(&mut particles.correction);
     let mut force_correction = std::mem::take(&mut particles.force_correction);
@@ -50,7 +53,10 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
     let mut corrected_stress = std::mem::take(&mut particles.corrected_stress);
     // in single precision none is stored: a chunk a block, so that the loop is the same
     let region = if in_single { 1 } else { model.list.region() };
-    weights.resize(flow.div_ceil(BLOCK) * region, [0.0; LANES]);
+    let blocks = flow.div_ceil(BLOCK);
+    weights.resize(blocks * region, [0.0; LANES]);
+    let meets_surface = model.field_meets_surface();
+    eigenvalues.resize(if meets_surface { flow } else { blocks }, 0.0);
     let shared = &*particles;
     (
         correction.blocks_mut(BLOCK / LANES),
@@ -58,14 +64,18 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
         pressure_gradient[..flow].par_chunks_mut(BLOCK),
         corrected_stress[..flow].par_chunks_mut(BLOCK),
         weights.par_chunks_mut(region),
+        eigenvalues.par_chunks_mut(if meets_surface { BLOCK } else { 1 }),
     )
         .into_par_iter()
         .enumerate()
         .with_min_len(4)
-        .for_each(|(block, (correction, force_correction, pressure_gradient, corrected_stress, weights))| {
-            let out = Output { correction, force_correction, pressure_gradient, corrected_stress, weights };
-            model.instruction_set.run(Pass { model, particles: shared, records, block, out });
-        });
+        .for_each(
+            |(block, (correction, force_correction, pressure_gradient, corrected_stress, weights, eigenvalues))| {
+                let out =
+                    Output { correction, force_correction, pressure_gradient, corrected_stress, weights, eigenvalues };
+                model.instruction_set.run(Pass { model, particles: shared, records, block, out });
+            },
+        );
     particles.correction = correction;
     particles.force_correction = force_correction;
     particles.pressure_gradient = pressure_gradient;
@@ -93,6 +103,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
         let region_start = self.block * list.region();
         let count = self.out.corrected_stress.len();
         let corrects_forces = self.model.numerics.corrects_forces(&self.model.rheology);
+        let meets_surface = self.model.field_meets_surface();
         let mut offset = 0;
         while offset < count {
             let first = self.block * BLOCK + offset;
@@ -108,7 +119,14 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                     single::geometry::pair_sums::<V, D>(self.model, records, &group, pressure)
                 }
             };
-            let (for_gradients, mut for_forces) = corrections(&sums.moment);
+            let (for_gradients, mut for_forces) = if meets_surface {
+                let (for_gradients, for_forces, eigenvalue) =
+                    corrections_and_eigenvalue(&sums.moment, field_diffusion::CLOSED);
+                store(eigenvalue, &mut self.out.eigenvalues[offset..end]);
+                (for_gradients, for_forces)
+            } else {
+                corrections(&sums.moment)
+            };
             if !corrects_forces {
                 for_forces = identity();
             }
@@ -187,8 +205,12 @@ impl<const D: usize> Pass<'_, D> {
         let particles = self.particles;
         let mut stress = load_tensor::<V, D>(&particles.stress[places.clone()]);
         let gradient = load_tensor::<V, D>(&particles.velocity_gradient[places.clone()]);
-        let density = load::<V>(&particles.density[places]);
-        if let Some(viscosity) = self.model.added_viscosity(&gradient, &stress, pressure, density) {
+        let density = load::<V>(&particles.density[places.clone()]);
+        let field = match &particles.field {
+            Some(field) => load::<V>(&field[places]),
+            None => V::splat(0.0),
+        };
+        if let Some(viscosity) = self.model.added_viscosity(&gradient, &stress, pressure, density, field) {
             let rate = deviatoric_rate(&gradient);
             for i in 0..D {
                 accumulate(&mut stress[i], V::splat(2.0) * viscosity, &rate[i]);

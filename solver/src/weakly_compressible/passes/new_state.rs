@@ -5,13 +5,14 @@ use crate::lanes::algebra::{
     accumulate, deviatoric_rate, load, load_tensor, matrix_product, store, store_tensor, zero_tensor,
 };
 use crate::lanes::{LANES, Lanes};
+use crate::material::rheology::field::{FieldBoundary, FieldStep};
 use crate::vector::{Tensor, shear_rate};
 use crate::weakly_compressible::divergence::DENSITY_RANGE;
 use crate::weakly_compressible::energy::{CompressionStep, DeformationStep, EnergyLedger, StressWork};
 use crate::weakly_compressible::model::{GradientUse, Model};
 use crate::weakly_compressible::numerics::ViscositySwitch;
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::terms::{artificial_viscosity, continuity};
+use crate::weakly_compressible::terms::{artificial_viscosity, continuity, field_diffusion};
 use std::ops::Range;
 
 /// What the pass over all blocks found on its way.
@@ -42,6 +43,8 @@ pub(super) struct Output<'a, const D: usize> {
     pub(super) stress: &'a mut [Tensor<D>],
     pub(super) viscosity: &'a mut [f64],
     pub(super) artificial_viscosity: &'a mut [f64],
+    /// The law's field, or one value that is not written.
+    pub(super) field: &'a mut [f64],
     pub(super) energy: &'a mut EnergyLedger,
 }
 
@@ -59,6 +62,50 @@ pub(super) struct RateSums<V, const D: usize> {
     pub(super) wall_gradient: [[V; D]; D],
     /// The pair sum of the stress ratio's diffusion `[Pa/m²]`.
     pub(super) stress_diffusion: [[V; D]; D],
+    pub(super) field: FieldSums<V>,
+}
+
+/// The pair sums of a field's diffusion, with the weights V F ≤ 0 `[1/m²]`.
+pub(super) struct FieldSums<V> {
+    /// Σ V F f_b over the flow.
+    taken: V,
+    /// Σ V F over the flow, and with their factors over walls.
+    given: V,
+    /// Σ V F over all.
+    weights: V,
+    /// Smallest eigenvalue of the moment matrix `[-]`, where it is asked for.
+    pub(super) eigenvalue: V,
+}
+
+impl<V: Lanes> FieldSums<V> {
+    #[inline(always)]
+    pub(super) fn none() -> Self {
+        let zero = V::splat(0.0);
+        Self { taken: zero, given: zero, weights: zero, eigenvalue: V::splat(1.0) }
+    }
+
+    /// Adds a neighbour of the flow.
+    #[inline(always)]
+    pub(super) fn add_flow(&mut self, weight: V, field: V) {
+        self.taken = self.taken + weight * field;
+        self.given = self.given + weight;
+        self.weights = self.weights + weight;
+    }
+
+    /// Adds a wall particle with a factor of its own.
+    #[inline(always)]
+    pub(super) fn add_wall(&mut self, weight: V, factor: V) {
+        self.given = self.given + weight * factor;
+        self.weights = self.weights + weight;
+    }
+
+    /// Adds sums of flow neighbours, Σ V F f_b and Σ V F.
+    #[inline(always)]
+    pub(super) fn add_flow_sums(&mut self, taken: V, weights: V) {
+        self.taken = self.taken + taken;
+        self.given = self.given + weights;
+        self.weights = self.weights + weights;
+    }
 }
 
 /// A block of particles on its way to the next step.
@@ -143,11 +190,19 @@ impl<const D: usize> Advance<'_, D> {
                 }
             }
             let modulus = self.model.shear_modulus();
-            let stress = law.updated_stresses(&diffused, &gradient, pressure, modulus, self.time_step);
+            let keeps_field = self.model.field.is_some();
+            let field_before = if keeps_field { load::<V>(&out.field[places.clone()]) } else { V::splat(0.0) };
+            let field = self.field_step(field_before, &sums.field);
+            let (stress, field) = law.updated_states(&diffused, &gradient, pressure, &field, modulus, self.time_step);
+            if keeps_field {
+                store(field, &mut out.field[places.clone()]);
+            }
             store_tensor(&stress, &mut out.stress[places.clone()]);
             let pressure_before = load::<V>(&self.particles.pressure[particles_here.clone()]);
             let mut added = zero_tensor::<V, D>();
-            if let Some(viscosity) = self.model.added_viscosity(&gradient_before, &before, pressure_before, density) {
+            let added_viscosity =
+                self.model.added_viscosity(&gradient_before, &before, pressure_before, density, field_before);
+            if let Some(viscosity) = added_viscosity {
                 let rate = deviatoric_rate(&gradient_before);
                 for i in 0..D {
                     accumulate(&mut added[i], V::splat(2.0) * viscosity, &rate[i]);
@@ -183,5 +238,20 @@ impl<const D: usize> Advance<'_, D> {
                 }
             }
         }
+    }
+
+    /// A field with what its diffusion brings and takes.
+    #[inline(always)]
+    fn field_step<V: Lanes>(&self, value: V, sums: &FieldSums<V>) -> FieldStep<V> {
+        let Some(diffusion) = self.model.field_diffusion() else { return FieldStep::alone(value) };
+        // V F is negative
+        let strength = V::splat(-2.0 * diffusion.strength);
+        let mut loss = strength * sums.given;
+        if diffusion.surface == FieldBoundary::Vanishing {
+            let weights = V::splat(-2.0) * sums.weights;
+            let sink = field_diffusion::surface_sink(weights, self.model.full_weight, sums.eigenvalue);
+            loss = loss + V::splat(diffusion.strength) * sink;
+        }
+        FieldStep::new(value, strength * sums.taken, loss)
     }
 }

@@ -14,6 +14,11 @@ pub(crate) struct PairData<const D: usize> {
     /// V_b F of every pair `[1/m²]`, chunk by chunk as in the neighbour list: made by the first pass of a step, used by
     /// the others, so that a step takes one square root a pair. Without meaning where pairs are in single precision.
     pub(crate) weights: Vec<[f64; LANES]>,
+    /// Smallest eigenvalue of every particle's moment matrix `[-]`, where a field vanishes at the free surface: made by the first
+    /// pass, used by continuity. Elsewhere a value per block without meaning.
+    pub(super) eigenvalues: Vec<f64>,
+    /// A value per block, where a law keeps no field and the loop over blocks wants one to write to.
+    pub(super) no_field: Vec<f64>,
     /// What the pass that runs reads of a neighbour, where pairs are in single precision.
     pub(super) single: SingleRecords,
     /// What the geometry pass reads of a neighbour.
@@ -34,6 +39,8 @@ impl<const D: usize> PairData<D> {
     pub(crate) fn new() -> Self {
         Self {
             weights: Vec::new(),
+            eigenvalues: Vec::new(),
+            no_field: Vec::new(),
             single: SingleRecords::default(),
             geometry: Records::new(layout::geometry(D)),
             momentum: Records::new(layout::momentum(D)),

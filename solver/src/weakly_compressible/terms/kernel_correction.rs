@@ -23,11 +23,22 @@ const NO_BLEND: f64 = NO_FORCE + FORCE_BLEND + 1e-9;
 #[inline(always)]
 #[must_use]
 pub fn corrections<V: Lanes, const D: usize>(moment: &[[V; D]; D]) -> ([[V; D]; D], [[V; D]; D]) {
-    let smallest = smallest_eigenvalue(moment);
+    let (for_gradients, for_forces, _) = corrections_and_eigenvalue(moment, NO_BLEND);
+    (for_gradients, for_forces)
+}
+
+/// The same and λ, which is exact up to a limit and some bound from below that lies above the limit elsewhere `[-]`.
+#[inline(always)]
+#[must_use]
+pub fn corrections_and_eigenvalue<V: Lanes, const D: usize>(
+    moment: &[[V; D]; D],
+    exact_up_to: f64,
+) -> ([[V; D]; D], [[V; D]; D], V) {
+    let smallest = smallest_eigenvalue(moment, exact_up_to.max(NO_BLEND));
     let inverse = inverse(moment);
     let for_gradients = blended(&inverse, ramp(smallest, NO_GRADIENT, FULL_GRADIENT - NO_GRADIENT), smallest);
     let for_forces = blended(&inverse, ramp(smallest, NO_FORCE, FORCE_BLEND), smallest);
-    (for_gradients, for_forces)
+    (for_gradients, for_forces, smallest)
 }
 
 /// clamp((value − from)/width, 0, 1).
@@ -50,9 +61,9 @@ fn blended<V: Lanes, const D: usize>(inverse: &[[V; D]; D], share: V, smallest: 
 }
 
 /// Smallest eigenvalue of a symmetric tensor; exact in 2-D, in 3-D by the trigonometric solution, or where all its
-/// Gershgorin discs lie above both blends, a bound of it from below: the value is of no meaning there.
+/// Gershgorin discs lie above a limit, a bound of it from below: the value is of no meaning there.
 #[inline(always)]
-fn smallest_eigenvalue<V: Lanes, const D: usize>(m: &[[V; D]; D]) -> V {
+fn smallest_eigenvalue<V: Lanes, const D: usize>(m: &[[V; D]; D], exact_up_to: f64) -> V {
     if D == 2 {
         let half_difference = V::splat(0.5) * (m[0][0] - m[1][1]);
         let mean = V::splat(0.5) * (m[0][0] + m[1][1]);
@@ -67,7 +78,7 @@ fn smallest_eigenvalue<V: Lanes, const D: usize>(m: &[[V; D]; D]) -> V {
     }
     let mut smallest = [0.0; LANES];
     for lane in 0..LANES {
-        if bound[lane] > NO_BLEND {
+        if bound[lane] > exact_up_to {
             smallest[lane] = bound[lane];
             continue;
         }
@@ -170,7 +181,7 @@ mod tests {
             let (gradient, force) = super::corrections(&moment);
             store_tensor(&gradient, &mut self.corrections[..1]);
             store_tensor(&force, &mut self.corrections[1..]);
-            store(super::smallest_eigenvalue(&moment), std::slice::from_mut(self.eigenvalue));
+            store(super::smallest_eigenvalue(&moment, NO_BLEND), std::slice::from_mut(self.eigenvalue));
         }
     }
 

@@ -4,6 +4,7 @@
 pub mod artificial_viscosity;
 pub mod continuity;
 pub mod density_coupling;
+pub mod field_diffusion;
 pub mod hourglass;
 pub mod kernel_correction;
 pub mod pair_distance;

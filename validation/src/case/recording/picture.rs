@@ -15,7 +15,8 @@ fn identities(count: usize) -> (String, String, Vec<f64>) {
 }
 
 /// Particles of a weakly compressible flow: besides pressure, density and velocity the shear rate |γ̇|, the stress
-/// ratio τ/p (0 without pressure), whether the yield stress is reached (1; 0 below it), and for grains I = |γ̇| D/√(p/ρ_s).
+/// ratio τ/p (0 without pressure), whether the yield stress is reached (1; 0 below it), for grains I = |γ̇| D/√(p/ρ_s), and what
+/// the law keeps of each particle.
 pub(super) fn of_flow<const D: usize>(simulation: &Simulation<D>) -> Frame
 where
     Simulation<D>: Compiled<D>,
@@ -32,11 +33,13 @@ where
             .map(|(value, pressure)| under_load(of(*value, *pressure), *pressure))
             .collect()
     };
-    let mobilised = stresses
-        .iter()
-        .zip(&snapshot.pressure)
-        .map(|(stress, pressure)| if law.elasticity(*stress, pressure.max(0.0)) > 0.0 { 0.0 } else { 1.0 })
-        .collect();
+    // a law without a yield surface has no such line: there only what flows freely is mobilised
+    let field = |index: usize| snapshot.field.get(index).copied().unwrap_or(0.0);
+    let elasticity = |(index, (stress, pressure)): (usize, (&f64, &f64))| {
+        law.elasticity(*stress, pressure.max(0.0), field(index), simulation.elastic_viscosity())
+    };
+    let states = stresses.iter().zip(&snapshot.pressure).enumerate();
+    let mobilised = states.map(|state| if elasticity(state) > 0.0 { 0.0 } else { 1.0 }).collect();
     let named = |name: &str, unit: &str, values: Vec<f64>| (name.to_owned(), unit.to_owned(), values);
     let mut frame = Frame::of_flow(&snapshot);
     // what cannot be told of a body at rest, and is no field of the solver
@@ -47,6 +50,9 @@ where
     if let (Some(diameter), Some(density)) = (law.grain_diameter(), law.grain_density()) {
         let inertia = |rate: f64, pressure: f64| rate * diameter / (pressure / density).sqrt();
         frame.scalars.push(named("inertial_number", "-", pressed(&rates, &inertia)));
+    }
+    if let Some(field) = law.field() {
+        frame.scalars.push(named(field.name, field.unit, snapshot.field.clone()));
     }
     frame
 }

@@ -2,7 +2,7 @@
 
 use super::metrics::{froude_number, incline, relative_thickness};
 use super::{
-    FlowThicknessParameters, FlowThicknessRecord, LayerFate, StartStop, StartStopRun, collapses, flows, searches,
+    FlowThicknessParameters, FlowThicknessRecord, LayerFate, StartStop, StartStopRun, collapses, flows_of, searches,
 };
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::RoughIncline;
@@ -12,7 +12,7 @@ pub(super) fn all(parameters: &FlowThicknessParameters, records: &[FlowThickness
     let drawn = [
         (collapses(records).next().is_some(), histories as fn(_, _, _) -> _),
         (searches(records).next().is_some(), stopping as fn(_, _, _) -> _),
-        (flows(records).next().is_some(), flow_rule as fn(_, _, _) -> _),
+        (flows_of(records, false).next().is_some(), flow_rule as fn(_, _, _) -> _),
     ];
     drawn.into_iter().filter(|(present, _)| *present).map(|(_, draw)| draw(&incline, parameters, records)).collect()
 }
@@ -57,6 +57,22 @@ fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Flow
     let local = libm::atan(incline.static_friction).to_degrees();
     panel.line("experiments: h_stop(θ)", 2, experiment);
     panel.reference("local law: tanθ = μ_s", [(local, 1.0), (local, 40.0)]);
+    // one curve of the nonlocal law for each condition at the surface
+    let mut drawn = Vec::new();
+    for (run, _) in searches(records) {
+        let Some(choice) = run.layer.nonlocal else { continue };
+        if drawn.contains(&choice.surface) {
+            continue;
+        }
+        drawn.push(choice.surface);
+        let angle = |h: f64| {
+            let mut layer = run.layer.clone();
+            layer.layer.layer_height = h;
+            layer.exact(0.0).map(|layer| (layer.stopping_angle().to_degrees(), 1e3 * h))
+        };
+        let label = format!("nonlocal law: {}", choice.surface_name());
+        panel.line(&label, 2 + drawn.len(), (0..=60).map(thickness).filter_map(angle).collect::<Vec<_>>());
+    }
     let ends = [("stopped", LayerFate::Stops), ("kept flowing", LayerFate::Flows), ("undecided", LayerFate::Undecided)];
     for (slot, (label, fate)) in ends.into_iter().enumerate() {
         let of_search = |(run, found): (&StartStopRun, &StartStop)| -> Vec<(f64, f64)> {
@@ -72,7 +88,8 @@ fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Flow
     Figure::new(
         "start-stop",
         "Layers that stopped and layers that kept flowing, over slope and thickness. The local μ(I) law stops them \
-         all at one slope; in experiments thin layers stop on steeper slopes. Left of the curve of h_stop the \
+         all at one slope; in experiments thin layers stop on steeper slopes, and so they do under the nonlocal law, whose own \
+         h_stop depends on what its fluidity is at the surface. Left of the curve of h_stop the \
          experiments have no flow, right of the dashed line the law has no deposit.",
         vec![panel],
     )
@@ -81,7 +98,7 @@ fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Flow
 /// The flow rule (42).
 fn flow_rule(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("h/h_stop(θ) [-]"), Axis::linear("Ū/√(gh) [-]"));
-    let points: Vec<(f64, f64)> = flows(records)
+    let points: Vec<(f64, f64)> = flows_of(records, false)
         .filter_map(|(run, data)| Some((relative_thickness(incline, run)?, froude_number(run, data))))
         .collect();
     let far = points.iter().fold(1.0_f64, |most, point| most.max(point.0));

@@ -2,9 +2,11 @@
 
 mod figures;
 mod metrics;
+mod nonlocal;
 mod parameters;
 mod start_stop;
 
+pub use nonlocal::{Cooperation, NonlocalChoice, NonlocalLayers};
 pub use parameters::FlowThicknessParameters;
 pub use start_stop::{LayerAtSlope, LayerFate, SlopeTrial, StartStop, StartStopRun};
 
@@ -18,6 +20,7 @@ use crate::output::Table;
 use crate::store::CodeOrigin;
 use bagnold_solver::material::rheology::Rheology;
 use serde::{Deserialize, Serialize};
+use start_stop::InitialMotion;
 
 /// The case.
 #[derive(Debug)]
@@ -72,12 +75,8 @@ impl Run for FlowThicknessRun {
     fn variant(&self) -> Variant {
         match self {
             Self::Collapse(run) => run.variant(),
-            Self::StartStop(run) => {
-                Variant::of("thickness", run.layer.layer.layer_height).and("rows", run.layer.layer.resolution)
-            }
-            Self::Steady(run) => Variant::of("thickness", run.layer.layer.layer_height)
-                .and("slope_angle", run.slope_angle)
-                .and("rows", run.layer.layer.resolution),
+            Self::StartStop(run) => run.layer.variant(None),
+            Self::Steady(run) => run.layer.variant(Some(run.slope_angle)),
         }
     }
 
@@ -96,8 +95,8 @@ impl Run for FlowThicknessRun {
     fn particle_steps(&self) -> f64 {
         match self {
             Self::Collapse(run) => run.particle_steps(),
-            // about six trials, most of which end early
-            Self::StartStop(run) => 2.0 * run.layer.particle_steps(),
+            // most trials end early
+            Self::StartStop(run) => run.rounds() / 3.0 * run.layer.particle_steps(),
             Self::Steady(run) => run.layer.particle_steps(),
         }
     }
@@ -107,7 +106,10 @@ impl Run for FlowThicknessRun {
             Self::Collapse(run) => run.simulate(progress)?.map(FlowThicknessObservation::Collapse),
             Self::StartStop(run) => run.simulate(progress)?.map(FlowThicknessObservation::StartStop),
             Self::Steady(run) => {
-                let start = start_stop::InitialMotion::of(run.layer.profile(run.slope_angle));
+                let exact = run.layer.exact(run.slope_angle);
+                let start = exact
+                    .and_then(InitialMotion::of_nonlocal)
+                    .unwrap_or_else(|| InitialMotion::of(run.layer.profile(run.slope_angle)));
                 run.layer.layer(run.slope_angle, &start).run(progress)?.map(FlowThicknessObservation::Steady)
             }
         })
@@ -124,7 +126,9 @@ impl Case for FlowThickness {
         thickness stop? Layers start with the steady profile of a steeper slope, and the slope is bisected. The local \
         μ(I) law stops every layer at tanθ = μ_s whatever its thickness; in experiments thin layers stop on steeper \
         slopes, h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s). The difference is the known limit of a local law, not an error \
-        of the solver. (iii) Does the mean velocity of steady flows follow (42), Ū/√(gh) = β h/h_stop? With (41) this is \
+        of the solver. Under the nonlocal law, whose fluidity diffuses over a few grains, a layer stops below the slope at \
+        which its first mode grows, which is known exactly; its steady profile is compared with a solution of the same equations \
+        without particles. (iii) Does the mean velocity of steady flows follow (42), Ū/√(gh) = β h/h_stop? With (41) this is \
         an identity of the law, so it verifies the solver and says nothing about grains.";
     type Parameters = FlowThicknessParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
@@ -154,6 +158,11 @@ fn trials((run, record): &FlowThicknessRecord) -> Option<Table> {
     let row = |trial: &SlopeTrial| vec![trial.slope_angle, stops(trial), trial.time, trial.mean_velocity];
     let name = format!("trials-{}", run.variant().file_name());
     Some(Table::of_rows(name, &columns, found.trials.iter().map(row)))
+}
+
+/// The steady flows of the local law, or of the nonlocal one, among the records.
+fn flows_of(records: &[FlowThicknessRecord], nonlocal: bool) -> impl Iterator<Item = (&SteadyRun, &LayerObservation)> {
+    flows(records).filter(move |(run, _)| run.layer.nonlocal.is_some() == nonlocal)
 }
 
 /// The collapses among the records.

@@ -1,5 +1,6 @@
 //! The case's parameters and their tiers.
 
+use super::nonlocal::{Cooperation, NonlocalChoice, NonlocalLayers};
 use super::start_stop::{LayerAtSlope, StartStopRun};
 use super::{FlowThicknessRun, SteadyRun};
 use crate::case::{ParameterError, Parameters, Tier};
@@ -7,6 +8,8 @@ use crate::cases::collapse::{InclineCollapseParameters, Reservoir};
 use crate::cases::layer::{PeriodicLayer, Preparation};
 use crate::cases::rules;
 use crate::reference::GLASS_BEADS_FLOW_RULE;
+use crate::reference::NonlocalLayer;
+use bagnold_solver::material::rheology::field::FieldBoundary;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, each, entry, positive};
 use schemars::JsonSchema;
@@ -51,6 +54,8 @@ pub struct FlowThicknessParameters {
     /// Simulated time of a steady flow `[s]`.
     #[schemars(transform = between(0.01, 1000.0, "1 s shows a steady flow"))]
     pub steady_duration: f64,
+    /// The same questions under the nonlocal law.
+    pub nonlocal: NonlocalLayers,
 }
 
 impl Parameters for FlowThicknessParameters {
@@ -77,6 +82,18 @@ impl Parameters for FlowThicknessParameters {
             start_angle: 22.5,
             steady_flows: vec![(0.010, 23.0), (0.010, 25.0), (0.005, 24.0)],
             steady_duration: 0.5,
+            nonlocal: NonlocalLayers {
+                cooperation: Cooperation { cooperativity: 0.48, relaxation_time: 1e-4, seed: 1e-6 },
+                surfaces: vec![FieldBoundary::Vanishing, FieldBoundary::NoFlux],
+                rows: 12,
+                vanishing_searches: vec![(0.005, 21.8, 22.1), (0.010, 21.05, 21.35)],
+                no_flux_searches: vec![(0.005, 21.05, 21.35)],
+                stopping_tolerance: 0.3,
+                profiles: vec![1.5, 3.0],
+                profile_rows: 20,
+                profile_angle: 24.0,
+                profile_duration: 0.5,
+            },
         };
         match tier {
             Tier::Quick => quick,
@@ -95,6 +112,26 @@ impl Parameters for FlowThicknessParameters {
                     (0.020, 24.0),
                 ],
                 steady_duration: 1.0,
+                nonlocal: NonlocalLayers {
+                    rows: 20,
+                    vanishing_searches: vec![
+                        (0.0025, 24.05, 24.35),
+                        (0.003, 23.25, 23.55),
+                        (0.005, 21.8, 22.1),
+                        (0.010, 21.05, 21.35),
+                        (0.020, 20.8, 21.1),
+                        (0.040, 20.75, 21.05),
+                    ],
+                    no_flux_searches: vec![
+                        (0.0025, 21.8, 22.1),
+                        (0.004, 21.2, 21.5),
+                        (0.006, 20.95, 21.25),
+                        (0.010, 20.8, 21.1),
+                    ],
+                    profiles: vec![1.5, 3.0, 10.0],
+                    profile_rows: 40,
+                    ..quick.nonlocal.clone()
+                },
                 ..quick
             },
         }
@@ -112,6 +149,16 @@ impl Parameters for FlowThicknessParameters {
         rules::columns("columns", self.columns, &self.collapse.reservoir.numerics)?;
         let (lower, upper) = self.stopping_bracket;
         rules::between("stopping_bracket[1]", upper, lower, 89.0, "give the gentler slope first")?;
+        for (list, searches) in [
+            ("vanishing_searches", &self.nonlocal.vanishing_searches),
+            ("no_flux_searches", &self.nonlocal.no_flux_searches),
+        ] {
+            for (index, &(_, stops, flows)) in searches.iter().enumerate() {
+                let field = |entry: usize| format!("nonlocal.{list}[{index}][{entry}]");
+                rules::between(&field(1), stops, -89.0, 89.0, "give a slope at which the layer stops")?;
+                rules::between(&field(2), flows, stops, 89.0, "give the gentler slope first")?;
+            }
+        }
         Ok(())
     }
 
@@ -154,7 +201,8 @@ impl Parameters for FlowThicknessParameters {
         };
         let searches = self.stopping_thicknesses.iter().map(search).map(FlowThicknessRun::StartStop);
         let flows = self.steady_flows.iter().map(flow).map(FlowThicknessRun::Steady);
-        collapses.map(FlowThicknessRun::Collapse).chain(searches).chain(flows).collect()
+        let local = collapses.map(FlowThicknessRun::Collapse).chain(searches).chain(flows);
+        local.chain(self.nonlocal_searches(grains)).chain(self.nonlocal_profiles(grains)).collect()
     }
 }
 
@@ -171,6 +219,53 @@ impl FlowThicknessParameters {
             preparation: Preparation::Settled,
             numerics,
         };
-        LayerAtSlope { layer, solid_fraction: self.collapse.bulk.solid_fraction, material, duration }
+        let solid_fraction = self.collapse.bulk.solid_fraction;
+        LayerAtSlope { layer, solid_fraction, material, nonlocal: None, duration }
+    }
+
+    /// A layer under the nonlocal law.
+    fn nonlocal_layer(&self, grains: MuI, thickness: f64, duration: f64, surface: FieldBoundary) -> LayerAtSlope {
+        let mut layer = self.layer(grains, thickness, duration);
+        layer.nonlocal = Some(NonlocalChoice { cooperation: self.nonlocal.cooperation, surface });
+        layer
+    }
+
+    fn nonlocal_searches(&self, grains: MuI) -> impl Iterator<Item = FlowThicknessRun> {
+        self.nonlocal.surfaces.iter().flat_map(move |&surface| {
+            let searches = match surface {
+                FieldBoundary::Vanishing => &self.nonlocal.vanishing_searches,
+                FieldBoundary::NoFlux => &self.nonlocal.no_flux_searches,
+            };
+            searches.iter().map(move |&(thickness, stops, flows)| {
+                let mut layer = self.nonlocal_layer(grains, thickness, self.stopping_duration, surface);
+                layer.layer.resolution = self.nonlocal.rows;
+                FlowThicknessRun::StartStop(StartStopRun {
+                    layer,
+                    bracket: (stops, flows),
+                    tolerance: self.nonlocal.stopping_tolerance,
+                    start_angle: self.start_angle,
+                })
+            })
+        })
+    }
+
+    /// Steady flows, as thick as some h_stop; none on a slope without.
+    fn nonlocal_profiles(&self, grains: MuI) -> impl Iterator<Item = FlowThicknessRun> {
+        let (slope_angle, surface) = (self.nonlocal.profile_angle, FieldBoundary::Vanishing);
+        let of_grain = self.layer(grains, grains.grain_diameter, 0.0).profile(slope_angle);
+        let cooperativity = self.nonlocal.cooperation.cooperativity;
+        let thinnest = NonlocalLayer { layer: of_grain, cooperativity, surface }.stopping_thickness();
+        let is_asked_for = self.nonlocal.surfaces.contains(&surface);
+        let thicknesses = self.nonlocal.profiles.iter().filter(move |_| is_asked_for);
+        thicknesses.filter_map(move |times| {
+            // to a tenth of a micrometre, so that its name is short
+            let thickness = (thinnest? * times * 1e7).round() / 1e7;
+            let mut layer = self.nonlocal_layer(grains, thickness, self.nonlocal.profile_duration, surface);
+            layer.layer.resolution = self.nonlocal.profile_rows;
+            // near h_stop the velocity goes with the thickness to the power of 2.7, so that the 0.2 % by which a settled layer sinks
+            // are half a per cent of it
+            layer.layer.preparation = Preparation::Raised;
+            Some(FlowThicknessRun::Steady(SteadyRun { layer, slope_angle }))
+        })
     }
 }

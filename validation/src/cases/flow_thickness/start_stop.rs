@@ -1,10 +1,12 @@
 //! The slope at which a layer of given thickness stops flowing, bisected.
 
+use super::nonlocal::NonlocalChoice;
 use crate::case::recording::{Ending, Followed, SimulationStage, follow, resumed};
 use crate::case::{ParameterError, Progress};
 use crate::cases::layer::{Layer, PeriodicLayer, bulk_modulus};
+use crate::metric::Variant;
 use crate::observation::Recorded;
-use crate::reference::BagnoldProfile;
+use crate::reference::{BagnoldProfile, NonlocalLayer};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
@@ -17,6 +19,8 @@ const STOPPED: f64 = 1e-4;
 const STEADY: f64 = 5e-3;
 /// `[s]`
 const STEADY_TIME: f64 = 1.0;
+/// Cells of a steady profile of the nonlocal law: its discretisation is then below what particles do.
+pub(super) const REFERENCE_CELLS: usize = 4000;
 /// Interval of the observations `[s]`.
 const INTERVAL: f64 = 0.02;
 
@@ -28,6 +32,8 @@ pub struct LayerAtSlope {
     pub(super) solid_fraction: f64,
     /// Grains.
     pub material: MuI,
+    /// How they cooperate; none for the local law.
+    pub nonlocal: Option<NonlocalChoice>,
     /// Simulated time `[s]`.
     pub duration: f64,
 }
@@ -110,7 +116,30 @@ impl LayerAtSlope {
             duration: self.duration,
             window: 0.3 * self.duration,
             interval: INTERVAL,
-            ..self.layer.of(Rheology::MuI(self.material), density, angle)
+            ..self.layer.of(self.law(), density, angle)
+        }
+    }
+
+    /// Its law.
+    pub(super) fn law(&self) -> Rheology {
+        self.nonlocal.map_or(Rheology::MuI(self.material), |choice| choice.law(self.material))
+    }
+
+    /// The model's own layer on a slope `[°]`, without particles; none of the local law.
+    pub(super) fn exact(&self, slope_angle: f64) -> Option<NonlocalLayer> {
+        self.nonlocal.map(|choice| choice.exact(self.profile(slope_angle)))
+    }
+
+    /// Its name, on a slope `[°]` if it has one.
+    pub(super) fn variant(&self, slope_angle: Option<f64>) -> Variant {
+        let mut variant = Variant::of("thickness", self.layer.layer_height);
+        if let Some(angle) = slope_angle {
+            variant = variant.and("slope_angle", angle);
+        }
+        variant = variant.and("rows", self.layer.resolution);
+        match &self.nonlocal {
+            Some(choice) => variant.and("surface", choice.surface_name()),
+            None => variant,
         }
     }
 
@@ -143,6 +172,17 @@ impl InitialMotion {
             depth_mean: profile.depth_mean().unwrap_or(0.0),
         }
     }
+
+    /// The motion of the steady profile of the nonlocal law, where it has one.
+    pub(super) fn of_nonlocal(layer: NonlocalLayer) -> Option<Self> {
+        let profile = layer.steady(REFERENCE_CELLS).ok()?;
+        let depth_mean = profile.depth_mean();
+        Some(Self {
+            velocity: Box::new(move |y| profile.velocity(y)),
+            shear_stress: Box::new(move |y| layer.layer.shear_stress(y)),
+            depth_mean,
+        })
+    }
 }
 
 impl StartStopRun {
@@ -165,7 +205,7 @@ impl StartStopRun {
     }
 
     /// Layers that the search needs about.
-    fn rounds(&self) -> f64 {
+    pub(super) fn rounds(&self) -> f64 {
         let (stopping, flowing) = self.bracket;
         2.0 + ((flowing - stopping) / self.tolerance).log2().ceil().max(0.0)
     }

@@ -131,15 +131,25 @@ impl Layer<'_> {
         }))
     }
 
-    /// The scene with the initial velocities and shear stresses.
+    /// The scene with the initial velocities and shear stresses, and with what a law keeps of such a flow.
     fn started(&self, mut scene: Scene<2>) -> Scene<2> {
         let flow = &mut scene.flow;
         for (particle, position) in flow.position.iter().enumerate() {
             let shear = (self.shear_stress)(position[1]);
             flow.velocity[particle] = Vector::<2>::new((self.velocity)(position[1]), 0.0);
             flow.stress[particle] = Tensor::<2>::new(0.0, shear, shear, 0.0);
+            let ratio = shear / self.hydrostatic_pressure(position[1]);
+            flow.field.extend(self.rheology.field_in_flow(self.shear_rate(position[1]), ratio));
         }
         scene
+    }
+
+    /// Initial shear rate `[1/s]` at a height `[m]`: a difference over a thousandth of the layer, inside of it.
+    fn shear_rate(&self, height: f64) -> f64 {
+        let (bottom, top) = (0.0, self.layer.layer_height);
+        let reach = 5e-4 * top;
+        let (below, above) = ((height - reach).max(bottom), (height + reach).min(top));
+        if below < above { ((self.velocity)(above) - (self.velocity)(below)) / (above - below) } else { 0.0 }
     }
 
     /// The scene at rest, without shear stress.

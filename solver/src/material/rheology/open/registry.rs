@@ -2,7 +2,7 @@
 //! before it reads the first.
 
 use super::error::{OpenLawError, RegistrationError};
-use super::{Instance, Kind, OpenLaw, OpenPlastic, OpenViscous, Parameters};
+use super::{Instance, Kind, OpenField, OpenLaw, OpenPlastic, OpenViscous, Parameters};
 use crate::material::rheology::{BUILT_IN_NAMES, Rheology};
 use std::sync::{Mutex, PoisonError};
 
@@ -78,6 +78,7 @@ impl Rheology {
         let law = match maker(&parameters)?.0 {
             Kind::Viscous(law) => Self::OpenViscous(OpenViscous(keep(Instance { name, parameters, law }))),
             Kind::Plastic(law) => Self::OpenPlastic(OpenPlastic(keep(Instance { name, parameters, law }))),
+            Kind::WithField(law) => Self::OpenField(OpenField(keep(Instance { name, parameters, law }))),
         };
         REGISTRY.lock().unwrap_or_else(PoisonError::into_inner).made.push(law);
         Ok(law)

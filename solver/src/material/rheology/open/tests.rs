@@ -1,6 +1,7 @@
 use super::{OpenLaw, OpenLawError, OpenPlasticLaw, Parameters, RegistrationError, register, registered};
 use crate::lanes::algebra::{load_tensor, store_tensor};
 use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
+use crate::material::rheology::field::FieldStep;
 use crate::material::rheology::{MuI, PlasticLaw, Rheology, TrialStress, ViscousLaw};
 use crate::vector::Tensor;
 use serde::Deserialize;
@@ -18,6 +19,10 @@ impl OpenPlasticLaw for Copied {
 
     fn yield_stress(&self, pressure: f64) -> f64 {
         self.0.yield_stress(pressure)
+    }
+
+    fn contact_friction(&self) -> f64 {
+        self.0.contact_friction()
     }
 
     fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64 {
@@ -82,8 +87,9 @@ impl LanePass for Update<'_> {
         let gradient = load_tensor::<V, 3>(&[*self.gradient; LANES]);
         let pressure = V::load(self.pressures);
         let stress = load_tensor::<V, 3>(self.stress);
-        let stress = self.law.updated_stresses(&stress, &gradient, pressure, 2e4, 1e-3);
-        *self.elasticity = self.law.elasticity(stress[0][1], pressure).to_array();
+        let none = FieldStep::alone(V::splat(0.0));
+        let (stress, field) = self.law.updated_states(&stress, &gradient, pressure, &none, 2e4, 1e-3);
+        *self.elasticity = self.law.elasticity(stress[0][1], pressure, field, 0.0).to_array();
         store_tensor(&stress, self.stress);
     }
 }

@@ -1,18 +1,19 @@
 //! The pair sums of continuity, velocity gradient and stress diffusion in single precision.
 
-use super::super::new_state::RateSums;
+use super::super::continuity::diffusion;
+use super::super::new_state::{FieldSums, RateSums};
 use super::super::records::{self, LaneRecord};
 use super::{Near, PART, SingleRecords, apart, flush, flush_tensor, nearness};
 use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, sum_of, zero_tensor};
-use crate::lanes::{Lanes, Real};
+use crate::lanes::{Lanes, Real, gather, gather_vectors};
 use crate::vector::equivalent_shear_stress;
-use crate::weakly_compressible::model::Model;
+use crate::weakly_compressible::model::{Model, PairDiffusion};
 use crate::weakly_compressible::neighbours::NeighbourGroup;
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::terms::{continuity, density_coupling, stress_diffusion};
+use crate::weakly_compressible::terms::{continuity, density_coupling, field_diffusion, stress_diffusion};
 
 /// Places in a record: position, volume, velocity, pressure, corrected pressure gradient (of a wall particle the velocity that
-/// the continuity of a liquid takes), and if the stress diffuses what of the particle yields, and s.
+/// the continuity of a liquid takes), and if they diffuse what of the particle yields and s, and then the law's field.
 struct Place<const D: usize>;
 
 impl<const D: usize> Place<D> {
@@ -21,17 +22,26 @@ impl<const D: usize> Place<D> {
     const PRESSURE: usize = 2 * D + 1;
     const GRADIENT: usize = 2 * D + 2;
     const YIELDING: usize = 3 * D + 2;
+    const FIELD: usize = Self::YIELDING + 1 + records::deviator_values(D);
     const SHORT: usize = Self::YIELDING.div_ceil(4);
 
-    const fn quads(diffuses: bool) -> usize {
-        if diffuses { (Self::YIELDING + 1 + records::deviator_values(D)).div_ceil(4) } else { Self::SHORT }
+    const fn quads(diffusion: u8) -> usize {
+        match diffusion {
+            diffusion::STRESS_RATIO => Self::FIELD.div_ceil(4),
+            diffusion::FIELD => (Self::FIELD + 1).div_ceil(4),
+            _ => Self::SHORT,
+        }
     }
 }
 
 /// Records of flow and walls.
 pub(in super::super) fn fill<const D: usize>(model: &Model<D>, particles: &Particles<D>, records: &mut SingleRecords) {
-    let diffuses = model.stress_diffuses();
-    let quads = Place::<D>::quads(diffuses);
+    let diffusion = model.pair_diffusion();
+    let quads = match diffusion {
+        PairDiffusion::None => Place::<D>::quads(diffusion::NONE),
+        PairDiffusion::StressRatio => Place::<D>::quads(diffusion::STRESS_RATIO),
+        PairDiffusion::Field => Place::<D>::quads(diffusion::FIELD),
+    };
     records.fill(particles.position.len(), quads, model.kernel.smoothing_length(), |index, record| {
         record.position(&particles.position[index]);
         record.scalar(particles.volume[index]);
@@ -44,11 +54,15 @@ pub(in super::super) fn fill<const D: usize>(model: &Model<D>, particles: &Parti
         } else {
             &particles.pressure_gradient[index]
         });
-        if diffuses {
+        let field = particles.field.as_ref().map_or(0.0, |field| field[index]);
+        if diffusion != PairDiffusion::None {
             let stress = &particles.stress[index];
-            let elasticity = model.rheology.elasticity(equivalent_shear_stress(stress), pressure);
+            let elasticity = model.elasticity(equivalent_shear_stress(stress), pressure, field);
             record.scalar(stress_diffusion::yielding(elasticity, pressure));
             record.deviator(stress);
+        }
+        if diffusion == PairDiffusion::Field {
+            record.scalar(field);
         }
     });
 }
@@ -89,21 +103,24 @@ impl<V: Real, const D: usize> Diffusion<V, D> {
 
 /// Pair sums of a group.
 #[inline(always)]
-pub(in super::super) fn pair_sums<V: Lanes, const D: usize, const DIFFUSES: bool>(
+pub(in super::super) fn pair_sums<V: Lanes, const D: usize, const DIFFUSION: u8>(
     model: &Model<D>,
+    particles: &Particles<D>,
     records: &SingleRecords,
     group: &NeighbourGroup<'_>,
 ) -> RateSums<V, D> {
-    let quads = const { Place::<D>::quads(DIFFUSES) };
+    let quads = const { Place::<D>::quads(DIFFUSION) };
     let record = records.load::<V::Single>(quads, &group.own);
     let own = Partner::<V::Single, D>::of(&record);
     let own_yields = records::scalar(&record, Place::<D>::YIELDING);
     let zero = V::Single::splat(0.0);
     let none = zero_tensor::<V::Single, D>();
     let (mut coupling, mut gradient) = (V::splat(0.0), zero_tensor::<V, D>());
-    let mut diffusion = Diffusion::<V, D>::none();
+    let mut diffused = Diffusion::<V, D>::none();
     let (mut part_coupling, mut part_gradient) = (zero, none);
     let mut part_diffusion = Diffusion::<V::Single, D>::none();
+    let mut field = FieldSums::<V>::none();
+    let (mut part_taken, mut part_weights) = (zero, zero);
     let mut near = Near::<V::Single, D>::none();
     let mut chunks = group.flow;
     while !chunks.is_empty() {
@@ -113,7 +130,11 @@ pub(in super::super) fn pair_sums<V: Lanes, const D: usize, const DIFFUSES: bool
             let Near { r, weight, .. } = near[slot & (PART - 1)];
             let record = records.load::<V::Single>(quads, &b);
             let other = Partner::<V::Single, D>::of(&record);
-            if DIFFUSES {
+            if DIFFUSION == diffusion::FIELD {
+                part_taken = part_taken + weight * records::scalar(&record, Place::<D>::FIELD);
+                part_weights = part_weights + weight;
+            }
+            if DIFFUSION != diffusion::NONE {
                 let yields = records::scalar(&record, Place::<D>::YIELDING);
                 let stress = records::deviator::<V::Single, D>(&record, Place::<D>::YIELDING + 1);
                 let sum = own.pressure + other.pressure;
@@ -132,39 +153,45 @@ pub(in super::super) fn pair_sums<V: Lanes, const D: usize, const DIFFUSES: bool
         }
         flush(&mut coupling, &mut part_coupling);
         flush_tensor(&mut gradient, &mut part_gradient);
-        if DIFFUSES {
-            flush(&mut diffusion.pressures, &mut part_diffusion.pressures);
-            flush_tensor(&mut diffusion.stresses, &mut part_diffusion.stresses);
+        if DIFFUSION == diffusion::FIELD {
+            field.add_flow_sums(V::widen(part_taken), V::widen(part_weights));
+            (part_taken, part_weights) = (zero, zero);
+        }
+        if DIFFUSION != diffusion::NONE {
+            flush(&mut diffused.pressures, &mut part_diffusion.pressures);
+            flush_tensor(&mut diffused.stresses, &mut part_diffusion.stresses);
         }
     }
-    let (wall_gradient, wall_compression) = wall_sums::<V, D>(model, records, quads, group, &own);
+    let (wall_gradient, wall_compression) =
+        wall_sums::<V, D, DIFFUSION>((model, particles), records, quads, group, &own, &mut field);
     let compression = continuity::compression(&gradient) + wall_compression;
     for i in 0..D {
         accumulate(&mut gradient[i], V::splat(1.0), &wall_gradient[i]);
     }
     let mut stress_diffusion = zero_tensor::<V, D>();
-    if DIFFUSES {
+    if DIFFUSION != diffusion::NONE {
         let own_stress = records::deviator::<V::Single, D>(&record, Place::<D>::YIELDING + 1);
         let pressure = V::widen(own.pressure);
         for i in 0..D - 1 {
             for j in i..D {
                 stress_diffusion[i][j] =
-                    diffusion.pressures * V::widen(own_stress[i][j]) - pressure * diffusion.stresses[i][j];
+                    diffused.pressures * V::widen(own_stress[i][j]) - pressure * diffused.stresses[i][j];
             }
         }
         stress_diffusion::complete(&mut stress_diffusion);
     }
-    RateSums { compression, wall_compression, coupling, gradient, wall_gradient, stress_diffusion }
+    RateSums { compression, wall_compression, coupling, gradient, wall_gradient, stress_diffusion, field }
 }
 
-/// What walls have of the velocity gradient and of −∇·v, before the correction.
+/// What walls have of the velocity gradient and of −∇·v, before the correction, and what they take of a field.
 #[inline(always)]
-fn wall_sums<V: Lanes, const D: usize>(
-    model: &Model<D>,
+fn wall_sums<V: Lanes, const D: usize, const DIFFUSION: u8>(
+    (model, particles): (&Model<D>, &Particles<D>),
     records: &SingleRecords,
     quads: usize,
     group: &NeighbourGroup<'_>,
     own: &Partner<V::Single, D>,
+    field: &mut FieldSums<V>,
 ) -> ([[V; D]; D], V) {
     let unit = V::Single::splat(records.unit);
     let (mut gradient, mut compression) = (zero_tensor::<V, D>(), V::splat(0.0));
@@ -180,6 +207,19 @@ fn wall_sums<V: Lanes, const D: usize>(
             accumulate_outer(&mut part_gradient, weight, &difference(&wall.velocity, &own.velocity), &r);
             let sliding = difference(&own.velocity, &wall.pressure_gradient);
             part_compression = part_compression + weight * dot(&sliding, &r);
+            if DIFFUSION == diffusion::FIELD {
+                let places = w.places_from(particles.flow_count());
+                let places = places.indices();
+                let normal = gather_vectors::<V, D>(&particles.walls.normal, &places);
+                let depth: V = gather(&particles.walls.depth, &places);
+                let smoothness: V = gather(&particles.walls.smoothness, &places);
+                let mut apart = normal;
+                for i in 0..D {
+                    apart[i] = V::widen(r[i]);
+                }
+                let factor = field_diffusion::wall_factor(&apart, &normal, depth, smoothness, model.spacing);
+                field.add_wall(V::widen(weight), factor);
+            }
         }
         flush_tensor(&mut gradient, &mut part_gradient);
         flush(&mut compression, &mut part_compression);

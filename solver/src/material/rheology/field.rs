@@ -1,0 +1,120 @@
+//! What a law keeps of each particle beside the stress, and how it spreads among particles.
+//!
+//! A law declares its field once, as a [`LawField`]; the model stores it with the particle, sorts, saves and removes it
+//! with it, and hands it to the law together with the elastic trial. A field may diffuse. The model then adds up
+//!
+//! D ∇²f_a = Σ_b D w_ab (f_b − f_a) = gain − loss f_a, w_ab = −2 V_b F ≥ 0,
+//!
+//! over the neighbours b of a particle a (a graph Laplacian: no flux through a free surface by itself, and what one
+//! particle takes another one gives, up to the ratio of their volumes) and gives the law the two sums. A law that takes
+//! its loss at the end of the step, f (1/Δt + loss) = f⁰/Δt + gain, keeps f ≥ 0 for every Δt.
+
+use super::TrialStress;
+use crate::lanes::Real;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What becomes of a field at a boundary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FieldBoundary {
+    /// The field is zero there.
+    Vanishing,
+    /// Its derivative along the normal is zero there.
+    NoFlux,
+}
+
+/// How a field spreads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldDiffusion {
+    /// D, the factor of ∇²f in the law's equation of its field, in the unit of that equation times `[m²]`.
+    pub strength: f64,
+    /// At rough walls; at smooth ones and at planes of symmetry there is no flux.
+    pub wall: FieldBoundary,
+    /// At the free surface.
+    pub surface: FieldBoundary,
+}
+
+/// What a law keeps of each particle: one number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LawField {
+    /// Its name, as files and pages have it.
+    pub name: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// What it means, in a few words.
+    pub description: &'static str,
+    /// Value of particles that a scene gives none, and of those that come in by an inlet.
+    pub initial: f64,
+    /// Least and largest value that it may start with.
+    pub bounds: (f64, f64),
+    /// How it spreads; none for a memory of the particle alone.
+    pub diffusion: Option<FieldDiffusion>,
+}
+
+/// A field at the start of a step, and what its neighbours do to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct FieldStep<R> {
+    /// Value at the start of the step.
+    pub value: R,
+    /// Σ D w f_b of the neighbours at the start of the step; 0 without diffusion.
+    pub gain: R,
+    /// Σ D w, with what walls and the surface take; 0 without diffusion.
+    pub loss: R,
+}
+
+impl<R: Real> FieldStep<R> {
+    /// A field that nothing is done to.
+    #[inline(always)]
+    pub fn alone(value: R) -> Self {
+        Self { value, gain: R::splat(0.0), loss: R::splat(0.0) }
+    }
+
+    /// A field with the two sums of its diffusion.
+    #[inline(always)]
+    pub fn new(value: R, gain: R, loss: R) -> Self {
+        Self { value, gain, loss }
+    }
+}
+
+/// Stress and field at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldReturn<R> {
+    /// Equivalent shear stress `[Pa]`.
+    pub shear_stress: R,
+    /// The field.
+    pub field: R,
+}
+
+/// A law that carries the stress along and keeps a field of each particle.
+///
+/// A cohesion is allowed: the stress up to which the material is elastic need not vanish with the pressure. (The weakly
+/// compressible model cuts tension, and no particle carries a shear stress at p ≤ 0.)
+pub trait FieldLaw {
+    /// What it keeps.
+    fn field(&self) -> LawField;
+
+    /// Equivalent shear stress `[Pa]` and field at the end of a time step, from the elastic trial and the field before.
+    /// The shear stress is at most the trial's. A step of no length leaves the field as it was.
+    fn end_of_step<R: Real>(&self, trial: &TrialStress<R>, field: &FieldStep<R>) -> FieldReturn<R>;
+
+    /// What of a particle is elastic at an equivalent shear stress and a pressure `[Pa]`, from 1 to 0 `[-]`; 0 without
+    /// pressure. `elastic_viscosity` `[Pa·s]` is that of the damping which the elastic part feels.
+    fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: R, elastic_viscosity: f64) -> R;
+
+    /// Which part of the spin turns the stress `[-]`: 1 where nothing flows, 0 where all of the shear is plastic.
+    /// `vorticity` is |2ω| `[1/s]`.
+    fn turned_part<R: Real>(&self, trial: &TrialStress<R>, before: R, end: &FieldReturn<R>, vorticity: R) -> R;
+
+    /// Friction coefficient `[-]` of a contact with a rough wall.
+    fn contact_friction(&self) -> f64;
+
+    /// Apparent viscosity τ/|γ̇| `[Pa·s]` of the steady, uniform flow at a shear rate `[1/s]` and a pressure `[Pa]`; finite
+    /// also at rest. For diagnostics: the stress update does not use it.
+    fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64;
+
+    /// The field of a flow at a shear rate `[1/s]` under a ratio of shear stress and pressure `[-]`, for scenes that start
+    /// in motion.
+    fn field_in_flow(&self, shear_rate: f64, stress_ratio: f64) -> f64;
+}

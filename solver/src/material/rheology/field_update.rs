@@ -1,0 +1,65 @@
+//! From a scalar law with a field to a stress tensor: the elastic trial, the law's return of both, and the spin.
+
+use super::TrialStress;
+use super::field::{FieldLaw, FieldReturn, FieldStep};
+use crate::lanes::Real;
+use crate::lanes::algebra::{accumulate, deviatoric_rate, invariant, matrix_product};
+
+/// What a step is taken with.
+#[derive(Clone, Copy)]
+pub(super) struct Step<R> {
+    /// `[Pa]`
+    pub(super) pressure: R,
+    /// `[Pa]`
+    pub(super) shear_modulus: f64,
+    /// `[s]`
+    pub(super) time_step: f64,
+}
+
+/// Deviatoric stress `[Pa]` and field after an elastic trial and the law's return.
+///
+/// As the return of a law without a field, but how much of the trial is turned by the spin is the law's to say: s = (τ/τ*) (s* + w Δt (ω s* − s* ω)).
+#[inline(always)]
+pub(super) fn with_field<R: Real, L: FieldLaw, const D: usize>(
+    law: &L,
+    previous: &[[R; D]; D],
+    velocity_gradient: &[[R; D]; D],
+    field: &FieldStep<R>,
+    step: Step<R>,
+) -> ([[R; D]; D], R) {
+    let Step { pressure, shear_modulus, time_step } = step;
+    let zero = R::splat(0.0);
+    let rate = deviatoric_rate(velocity_gradient);
+    let mut trial_stress = *previous;
+    for i in 0..D {
+        accumulate(&mut trial_stress[i], R::splat(2.0 * shear_modulus * time_step), &rate[i]);
+    }
+    let mut vorticity = zero;
+    for i in 0..D {
+        for j in 0..i {
+            let difference = velocity_gradient[i][j] - velocity_gradient[j][i];
+            vorticity = vorticity + difference * difference;
+        }
+    }
+    let trial_shear_stress = invariant(0.5, &trial_stress);
+    let trial = TrialStress::new(trial_shear_stress, pressure, shear_modulus, time_step);
+    let end: FieldReturn<R> = law.end_of_step(&trial, field);
+    let half = R::splat(0.5 * time_step) * law.turned_part(&trial, field.value, &end, vorticity.sqrt());
+    let mut spin = trial_stress;
+    for i in 0..D {
+        for j in 0..D {
+            spin[i][j] = half * (velocity_gradient[i][j] - velocity_gradient[j][i]);
+        }
+    }
+    let (ahead, behind) = (matrix_product(&spin, &trial_stress), matrix_product(&trial_stress, &spin));
+    let scale = (end.shear_stress / trial_shear_stress).if_less(zero, trial_shear_stress, R::splat(1.0));
+    let mut stress = trial_stress;
+    for i in 0..D {
+        for j in 0..D {
+            let turned = trial_stress[i][j] + (ahead[i][j] - behind[i][j]);
+            // no pressure, no stress; nor has a particle whose state is lost
+            stress[i][j] = (scale * turned).where_less(zero, pressure);
+        }
+    }
+    (stress, end.field)
+}
