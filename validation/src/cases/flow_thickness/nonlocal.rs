@@ -21,7 +21,7 @@ pub struct NonlocalLayers {
     /// surface.
     #[schemars(transform = each(entry(0, positive("give it in metres, such as 0.01"))))]
     pub vanishing_searches: Vec<(f64, f64, f64)>,
-    /// The same where no fluidity crosses the surface.
+    /// Searches: (thickness `[m]`, slope at which it stops `[°]`, slope at which it flows `[°]`) where no fluidity crosses the surface.
     #[schemars(transform = each(entry(0, positive("give it in metres, such as 0.01"))))]
     pub no_flux_searches: Vec<(f64, f64, f64)>,
     /// Width of the bracket of slopes that ends a search `[°]`.
