@@ -11,8 +11,19 @@ use std::path::{Path, PathBuf};
 
 /// What a fresh checkout holds in `reports/`, and what commands put there that were run before a report: they make no
 /// folder foreign.
-const COMMITTED: [&str; 10] =
-    ["README.md", "gallery", "history.csv", "store", "runs", "judged", "sweeps", "calibrations", "suites", "mutation"];
+const COMMITTED: [&str; 11] = [
+    "README.md",
+    "gallery",
+    "history.csv",
+    "speeds.csv",
+    "store",
+    "runs",
+    "judged",
+    "sweeps",
+    "calibrations",
+    "suites",
+    "mutation",
+];
 
 /// Begins the names of all that Bagnold puts into a folder beside its results: marker, lock, staging, halves of them.
 const OWN_PREFIX: &str = MARKER;
