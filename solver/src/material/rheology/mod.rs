@@ -15,7 +15,7 @@
 //! # A law with a field of its own
 //!
 //! Some laws carry more than the stress: a fluidity that diffuses, the plastic strain that a material has softened by. Such a
-//! law is a [`FieldLaw`](field::FieldLaw); [`field`] says what it declares and what the model does with it.
+//! law is a [`FieldLaw`]; [`field`] says what it declares and what the model does with it.
 
 mod bingham;
 mod coulomb_bingham;
