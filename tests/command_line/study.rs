@@ -90,6 +90,45 @@ fn a_gate_of_a_study_fails_and_one_that_cannot_be_measured_too() {
 }
 
 #[test]
+fn a_figure_of_checks_stands_on_the_page_and_slips_in_it_are_named() {
+    let place = place();
+    let figure = "[[figures]]\nname = \"front-over-spacing\"\ncaption = \"Where the front is.\"\nx = \"Δ [m]\"\ny = \"front [m]\"\nover = \"spacing\"\n\
+        [[figures.series]]\ncheck = \"front_at_the_end\"\nsimulated = \"simulated\"\n";
+    place.file("study.toml", &format!("{STUDY}{figure}"));
+    place.run(&["study.toml", "--quiet"]).code(0);
+    let drawn = std::fs::read_to_string(place.path("out/figures/front-over-spacing.svg")).expect("a figure");
+    assert!(drawn.contains("front [m]"));
+    assert!(std::fs::read_to_string(place.path("out/case.toml")).expect("a study").contains("[[figures.series]]"));
+    for (from, to, words) in [
+        ("check = \"front_at_the_end\"", "check = \"front_at_rest\"", "figures[0].series[0].check"),
+        ("over = \"spacing\"", "over = \"gravity\"", "figures[0].over"),
+        ("over = \"spacing\"", "at = { steep = 1.0 }", "figures[0].at"),
+        ("over = \"spacing\"", "", "exactly one of `over` and `at`"),
+        ("simulated = \"simulated\"", "", "at least one of `simulated` and `reference`"),
+    ] {
+        let said = refused(&place, &format!("{STUDY}{}", figure.replace(from, to)));
+        assert!(said.contains(words), "{from} -> {to}: {said}");
+    }
+}
+
+#[test]
+fn every_shipped_study_can_be_prepared() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/studies");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(folder).expect("the shipped studies") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_some_and(|kind| kind == "toml") && bagnold_validation::study::is_study(&path) {
+            let registry = bagnold_validation::cases::REGISTRY;
+            let study = bagnold_validation::study::Study::read(&path, registry).expect("a study");
+            let cases = study.prepare(registry, None, &[], bagnold_validation::case::Limits::default()).expect("cases");
+            assert!(!cases.is_empty());
+            seen += 1;
+        }
+    }
+    assert!(seen >= 2, "studies are shipped");
+}
+
+#[test]
 fn variants_and_settings_change_what_is_simulated() {
     let place = place();
     let variants =

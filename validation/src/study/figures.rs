@@ -13,19 +13,28 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Rea
     let Some(first) = readings.iter().find_map(|reading| reading.curve.as_ref()) else { return Ok(()) };
     let name = name_of(&format!("{}-{}", column.table, column.column));
     let place = figures.iter().position(|figure| figure.name == name).unwrap_or_else(|| {
-        let mut panel = Panel::new("", Axis::linear(&first.over), Axis::linear(&column.column));
-        for (slot, reading) in readings.iter().enumerate() {
-            let curve = reading.curve.as_ref().map(|curve| curve.points.clone()).unwrap_or_default();
-            let label = reading.variant.to_string();
-            panel.line(if label.is_empty() { "simulated" } else { &label }, slot, curve);
-        }
+        let panel = Panel::new("", Axis::linear(&first.over), Axis::linear(&column.column));
         let caption = format!("{} over {}, as simulated", column.column, first.over);
         figures.push(Figure::new(&name, &caption, vec![panel]));
         figures.len() - 1
     });
     let figure = &mut figures[place];
     let panel = &mut figure.panels[0];
-    let colour = panel.series.iter().map(|series| series.colour + 1).max().unwrap_or(0);
+    let next = |panel: &Panel| panel.series.iter().map(|series| series.colour + 1).max().unwrap_or(0);
+    for reading in readings {
+        let label = match reading.variant.to_string() {
+            label if label.is_empty() => "simulated".to_owned(),
+            label => label,
+        };
+        // another check has drawn it where both mean the same variant
+        if let Some(curve) = &reading.curve
+            && !panel.series.iter().any(|series| series.label == label)
+        {
+            let slot = next(panel);
+            panel.line(&label, slot, curve.points.iter().copied());
+        }
+    }
+    let colour = next(panel);
     let mut said = String::new();
     if let CheckedQuantity::Distance(column, measured, _) = &check.read {
         let points = probe::in_units_of(measured, column, first)?;

@@ -1,5 +1,6 @@
 //! A study as a TOML file.
 
+use super::drawn::FigureText;
 use crate::case::Tier;
 use crate::figure::is_file_name;
 use crate::input::{FieldError, check_name, check_text};
@@ -45,6 +46,9 @@ pub(super) struct StudyText {
     /// What is measured and judged.
     #[serde(default)]
     pub(super) checks: Vec<CheckText>,
+    /// Figures of checks over the variants.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) figures: Vec<FigureText>,
 }
 
 /// For the schema: fields of any name and type.
@@ -230,6 +234,9 @@ impl StudyText {
         if self.checks.is_empty() {
             let remedy = "add a [[checks]] table: without one nothing is judged";
             return Err(FieldError::new("checks", "empty", "at least one table", remedy));
+        }
+        for (place, figure) in self.figures.iter().enumerate() {
+            figure.check(self).map_err(|error| error.within(&format!("figures[{place}]")))?;
         }
         self.check_variants()
     }

@@ -25,6 +25,7 @@
 //! ```
 
 mod check;
+mod drawn;
 mod figures;
 mod file;
 mod probe;
@@ -36,6 +37,7 @@ pub use suite::Suite;
 
 use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier, twice_given};
 use crate::evaluation::{PlanError, read_plan};
+use crate::figure::Figure;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::judge::Measurements;
 use crate::metric::{Metric, Uncertainty, Value, Variant};
@@ -250,6 +252,10 @@ impl Study {
             judged.metrics.extend(readings.iter().map(metric));
             figures::add(&mut judged.figures, check, &readings).map_err(wrong)?;
         }
+        let drawn = self.text.figures.iter().map(|figure| figure.draw(&judged.metrics));
+        let mut figures: Vec<Figure> = drawn.collect();
+        figures.append(&mut judged.figures);
+        judged.figures = figures;
         let mut hash = Sha256::new();
         for (changed, result) in self.changes.iter().zip(results) {
             let suffix =

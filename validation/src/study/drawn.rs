@@ -1,0 +1,198 @@
+//! A figure of checks over the variants: what was found at each place, beside what each check is compared with.
+
+use super::file::StudyText;
+use crate::figure::{Axis, Figure, Mark, Panel, is_file_name};
+use crate::input::{FieldError, check_text};
+use crate::metric::{Metric, Value, Variant};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// A figure: values of checks over a number that each variant has.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FigureText {
+    /// Name of the figure's file: letters, digits, `-` and `_`.
+    pub(super) name: String,
+    /// What it shows.
+    pub(super) caption: String,
+    /// Label of the abscissa with its unit, such as "θ [°]".
+    pub(super) x: String,
+    /// Label of the ordinate with its unit, that of the checks.
+    pub(super) y: String,
+    /// Whether the ordinate is logarithmic.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub(super) logarithmic: bool,
+    /// The varied number that is the abscissa, by the name that it has in variants.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) over: Option<String>,
+    /// Where each named variant stands on the abscissa, in place of `over`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub(super) at: BTreeMap<String, f64>,
+    /// What is drawn.
+    pub(super) series: Vec<SeriesText>,
+}
+
+/// What a figure draws: the values of a check, or what it is compared with.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SeriesText {
+    /// Name of the check.
+    pub(super) check: String,
+    /// What its values are called in the legend; they are not drawn without.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) simulated: Option<String>,
+    /// What its references are called in the legend; they are not drawn without.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) reference: Option<String>,
+    /// Variants that are meant; all without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<String>")]
+    pub(super) only: Option<Variant>,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+fn is_false(switch: &bool) -> bool {
+    !switch
+}
+
+impl FigureText {
+    /// Refuses what could not be drawn.
+    pub(super) fn check(&self, study: &StudyText) -> Result<(), FieldError> {
+        if !is_file_name(&self.name) {
+            let rule = "a name that a file can have: letters, digits, `-` and `_`";
+            let remedy = "such as \"thickness-over-slope\"";
+            return Err(FieldError::new("name", format!("\"{}\"", self.name), rule, remedy));
+        }
+        for (field, text) in [("caption", &self.caption), ("x", &self.x), ("y", &self.y)] {
+            check_text(field, text)?;
+        }
+        match (&self.over, self.at.is_empty()) {
+            (Some(over), true) => {
+                let is_number = |value: &toml::Value| value.is_float() || value.is_integer();
+                if !study.vary.iter().any(|varied| varied.label() == over && varied.values.iter().all(is_number)) {
+                    let rule = "the name of a parameter that [[vary]] gives numbers to";
+                    return Err(FieldError::new("over", format!("\"{over}\""), rule, "vary it, or use `at`"));
+                }
+            }
+            (None, false) => {
+                for (name, place) in &self.at {
+                    if !study.variants.iter().any(|variant| variant.name == *name) {
+                        let rule = "the name of one of [[variants]]";
+                        return Err(FieldError::new("at", format!("\"{name}\""), rule, "take its name from there"));
+                    }
+                    if !place.is_finite() {
+                        let field = format!("at.{name}");
+                        return Err(FieldError::new(&field, place, "a finite number", "give its place in x"));
+                    }
+                }
+            }
+            (over, _) => {
+                let value = if over.is_some() { "beside `at`" } else { "missing" };
+                let remedy = "name a varied number, or say by `at` where each of [[variants]] stands";
+                return Err(FieldError::new("over", value, "exactly one of `over` and `at`", remedy));
+            }
+        }
+        if self.series.is_empty() {
+            let remedy = "add a [[figures.series]] table with the name of a check";
+            return Err(FieldError::new("series", "empty", "at least one table", remedy));
+        }
+        for (place, series) in self.series.iter().enumerate() {
+            let field = format!("series[{place}]");
+            if !study.checks.iter().any(|check| check.name == series.check) {
+                let field = format!("{field}.check");
+                let rule = "the name of one of [[checks]]";
+                return Err(FieldError::new(&field, format!("\"{}\"", series.check), rule, "take its name from there"));
+            }
+            if series.simulated.is_none() && series.reference.is_none() {
+                let rule = "at least one of `simulated` and `reference`";
+                return Err(FieldError::new(&field, "neither", rule, "give the label of what is to be drawn"));
+            }
+            for (name, text) in [("simulated", &series.simulated), ("reference", &series.reference)] {
+                text.as_ref().map_or(Ok(()), |text| check_text(&format!("{field}.{name}"), text))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The figure of the checks' metrics.
+    pub(super) fn draw(&self, metrics: &[Metric]) -> Figure {
+        let y = if self.logarithmic { Axis::logarithmic(&self.y) } else { Axis::linear(&self.y) };
+        let mut panel = Panel::new("", Axis::linear(&self.x), y);
+        for (slot, series) in self.series.iter().enumerate() {
+            let only = series.only.clone().unwrap_or_default();
+            let is_meant = |metric: &&Metric| metric.name == series.check && metric.variant.includes(&only);
+            let mut found: Vec<(f64, &Metric)> = metrics
+                .iter()
+                .filter(is_meant)
+                .filter_map(|metric| self.place(&metric.variant).map(|place| (place, metric)))
+                .collect();
+            found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+            // a logarithmic axis has no place for what is not positive
+            let is_drawn = |value: f64| value.is_finite() && (!self.logarithmic || value > 0.0);
+            if let Some(label) = &series.reference {
+                let known = |(place, metric): &(f64, &Metric)| Some((*place, metric.reference.as_ref()?.value?));
+                panel.line(label, slot, found.iter().filter_map(known).filter(|point| is_drawn(point.1)));
+            }
+            if let Some(label) = &series.simulated {
+                let values = found.iter().map(|(place, metric)| (*place, metric.value));
+                panel.draw(label, Mark::Points, slot, values.filter(|point| is_drawn(point.1)));
+            }
+        }
+        Figure::new(&self.name, &format!("{} Points are simulated, lines are references.", self.caption), vec![panel])
+    }
+
+    /// Where a variant stands on the abscissa.
+    fn place(&self, variant: &Variant) -> Option<f64> {
+        match &self.over {
+            Some(over) => variant.get(over).and_then(Value::number),
+            None => {
+                let of = |name: &String| variant.includes(&Variant::of("variant", name.as_str()));
+                self.at.iter().find(|(name, _)| of(name)).map(|(_, place)| *place)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn figure(text: &str) -> FigureText {
+        toml::from_str(text).expect("a figure")
+    }
+
+    #[test]
+    fn values_stand_where_their_variants_do_and_references_beside() {
+        let drawn = figure(
+            "name = \"a\"\ncaption = \"A.\"\nx = \"θ [°]\"\ny = \"h [m]\"\nlogarithmic = true\nat = { steep = 25.0, flat = 22.0 }\n\
+             [[series]]\ncheck = \"left\"\nsimulated = \"found\"\nreference = \"exact\"\n",
+        );
+        let metric = |name: &str, variant: &str, value: f64, reference: f64| {
+            let metric = Metric::observed(name, &Variant::of("variant", variant), value, "m");
+            metric.exactly(reference, "an equation")
+        };
+        let metrics = [
+            metric("left", "steep", 1.0, 1.5),
+            metric("left", "flat", 0.0, 2.5),
+            metric("left", "elsewhere", 3.0, 3.0),
+            metric("other", "flat", 4.0, 4.0),
+        ];
+        let figure = drawn.draw(&metrics);
+        let series = &figure.panels[0].series;
+        assert_eq!(series[0].points, [(22.0, 2.5), (25.0, 1.5)]);
+        // nothing was left on the gentle slope: a logarithm has no place for it
+        assert_eq!(series[1].points, [(25.0, 1.0)]);
+    }
+
+    #[test]
+    fn a_varied_number_is_an_abscissa_as_well() {
+        let drawn = figure(
+            "name = \"a\"\ncaption = \"A.\"\nx = \"Δ [m]\"\ny = \"x [m]\"\nover = \"spacing\"\n\
+             [[series]]\ncheck = \"front\"\nsimulated = \"found\"\n",
+        );
+        let metric = |spacing: f64| Metric::observed("front", &Variant::of("spacing", spacing), 10.0 * spacing, "m");
+        let figure = drawn.draw(&[metric(0.02), metric(0.01)]);
+        assert_eq!(figure.panels[0].series[0].points, [(0.01, 0.1), (0.02, 0.2)]);
+    }
+}
