@@ -13,6 +13,7 @@ mod meshes;
 mod momentum_balance;
 mod neighbour_list;
 mod nonlocal_layers;
+mod nonlocal_shear;
 mod open_law;
 mod pair_precision;
 mod patches;
