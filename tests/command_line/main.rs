@@ -11,6 +11,7 @@ mod interrupted;
 mod judge;
 mod killed;
 mod mutate;
+mod nonlocal;
 mod overlay;
 mod own_crate;
 mod permission;

@@ -1,6 +1,7 @@
 //! What must hold in every run, whatever the case: balances, symmetries, determinism, exact messages.
 
 mod artificial_viscosity;
+mod channel;
 mod density_coupling;
 mod determinism;
 mod energy_ledger;
@@ -13,6 +14,7 @@ mod meshes;
 mod momentum_balance;
 mod neighbour_list;
 mod nonlocal_layers;
+mod nonlocal_shear;
 mod open_law;
 mod pair_precision;
 mod patches;

@@ -14,15 +14,15 @@ use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_validation::reference::{BagnoldProfile, NonlocalLayer, NonlocalProfile};
 use rayon::ThreadPoolBuilder;
 
-const BEADS: MuI = MuI {
+pub(crate) const BEADS: MuI = MuI {
     static_friction: 0.3819,
     limiting_friction: 0.6435,
     reference_inertia: 0.279,
     grain_diameter: 0.5e-3,
     grain_density: 2450.0,
 };
-const SOLID_FRACTION: f64 = 0.6;
-const GRAVITY: f64 = 9.81;
+pub(crate) const SOLID_FRACTION: f64 = 0.6;
+pub(crate) const GRAVITY: f64 = 9.81;
 
 /// The model's own layer, some grains thick on a slope `[°]`.
 fn exact(degrees: f64, grains: f64, surface: FieldBoundary) -> NonlocalLayer {
@@ -90,8 +90,22 @@ where
     simulation(Scene { rheology, ..scene })
 }
 
+/// A layer come to rest, as high as it was.
+fn settled<const D: usize>(scene: Scene<D>, height: f64) -> Scene<D>
+where
+    Simulation<D>: Compiled<D>,
+{
+    let mut scene = at_rest(scene, height);
+    // what has sunk by a few parts in a thousand is as high again as the layer that it stands for: near h_stop the velocity goes
+    // with the height to the power of 2.7
+    let count = scene.flow.position.len() as f64;
+    let mean = scene.flow.position.iter().map(|x| x[D - 1]).sum::<f64>() / count;
+    scene.flow.position.iter_mut().for_each(|x| x[D - 1] *= 0.5 * height / mean);
+    scene
+}
+
 /// Displaced particles fall into place without friction, and stop whenever their energy passes a peak.
-fn settled<const D: usize>(mut scene: Scene<D>, height: f64) -> Scene<D>
+pub(crate) fn at_rest<const D: usize>(mut scene: Scene<D>, height: f64) -> Scene<D>
 where
     Simulation<D>: Compiled<D>,
 {
@@ -114,15 +128,10 @@ where
         (scene.flow.position, scene.flow.density) = (state.position, state.density);
         scene.flow.velocity.fill(Vector::zeros());
     }
-    // what has sunk by a few parts in a thousand is as high again as the layer that it stands for: near h_stop the velocity goes
-    // with the height to the power of 2.7
-    let count = scene.flow.position.len() as f64;
-    let mean = scene.flow.position.iter().map(|x| x[D - 1]).sum::<f64>() / count;
-    scene.flow.position.iter_mut().for_each(|x| x[D - 1] *= 0.5 * height / mean);
     scene
 }
 
-fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+pub(crate) fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     ThreadPoolBuilder::new().num_threads(1).build().expect("a thread pool").install(work)
 }
 
@@ -199,31 +208,35 @@ where
     None
 }
 
-/// 0.15° below the model's exact slope the layer stops, 0.15° above it flows.
-fn check_stop<const D: usize>(grains: f64, rows: usize, surface: FieldBoundary)
+/// Whether a layer stops 0.15° below the model's exact slope and flows 0.15° above it.
+fn stops_where_it_should<const D: usize>(grains: f64, rows: usize, surface: FieldBoundary) -> bool
 where
     Simulation<D>: Compiled<D>,
 {
     let angle = exact(0.0, grains, surface).stopping_angle().to_degrees();
     let found = [-0.15, 0.15].map(|offset| on_one_thread(|| stops::<D>(angle + offset, grains, rows, surface)));
-    assert_eq!(found, [Some(true), Some(false)], "{grains} d, {rows} rows, {surface:?}: {angle}°");
+    println!("{grains} d, {rows} rows, {D}-D, {surface:?}: at {angle:.2}° ∓ 0.15° stops {found:?}");
+    found == [Some(true), Some(false)]
 }
 
 #[test]
 fn layers_stop_where_the_model_says() {
-    check_stop::<2>(8.0, 20, FieldBoundary::Vanishing);
-    check_stop::<2>(20.0, 20, FieldBoundary::Vanishing);
+    let found = [8.0, 20.0].map(|grains| stops_where_it_should::<2>(grains, 20, FieldBoundary::Vanishing));
+    assert_eq!(found, [true; 2]);
 }
 
 #[test]
-#[ignore = "some minutes: the other thicknesses, the other condition at the surface, and space"]
+#[ignore = "some minutes: the other thicknesses, and the other condition at the surface"]
 fn layers_of_all_thicknesses_stop_where_the_model_says() {
-    for grains in [5.0, 8.0, 12.0, 20.0] {
-        for surface in [FieldBoundary::Vanishing, FieldBoundary::NoFlux] {
-            check_stop::<2>(grains, 20, surface);
-        }
-    }
-    check_stop::<3>(8.0, 20, FieldBoundary::Vanishing);
+    let surfaces = [FieldBoundary::Vanishing, FieldBoundary::NoFlux];
+    let found = surfaces.map(|surface| [5.0, 8.0, 12.0, 20.0].map(|d| stops_where_it_should::<2>(d, 20, surface)));
+    assert_eq!(found, [[true; 4]; 2]);
+}
+
+#[test]
+#[ignore = "some minutes: in space"]
+fn a_layer_in_space_stops_where_the_model_says() {
+    assert!(stops_where_it_should::<3>(8.0, 20, FieldBoundary::Vanishing));
 }
 
 #[test]

@@ -9,18 +9,10 @@
 //!
 //! The steady flow is solved in finite volumes by Newton's method from above, where the equation is concave in g.
 
-use crate::tridiagonal::solve;
+use crate::fluidity_balance::FluidityBalance;
 use crate::{BagnoldProfile, LayerError};
 use bagnold_solver::material::rheology::field::FieldBoundary;
 use std::f64::consts::{FRAC_PI_2, PI};
-
-/// Largest number of Newton steps.
-const NEWTON_STEPS: usize = 400;
-/// Change over the largest value at which the profile is solved: Newton's steps shrink as squares, and rounding of the Laplacian over
-/// thousands of cells leaves no less.
-const TOLERANCE: f64 = 1e-8;
-/// A layer whose largest g falls below this part of the local law's is at rest.
-const AT_REST: f64 = 1e-12;
 
 /// A layer on an incline under the nonlocal law.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -134,7 +126,9 @@ impl NonlocalLayer {
                 range / self.layer.reference_inertia * friction / rate
             })
             .collect();
-        let fluidities = self.solved(growth, &damping, width)?;
+        let coupling = (self.cooperativity * self.layer.grain_diameter / width).powi(2);
+        let balance = FluidityBalance { coupling, growth: &vec![growth; cells], damping: &damping, ends: self.ends() };
+        let fluidities = balance.solution()?;
         let mut below = 0.0;
         let velocities = fluidities
             .iter()
@@ -147,49 +141,9 @@ impl NonlocalLayer {
         Ok(NonlocalProfile { heights, fluidities, velocities, surface_velocity: below })
     }
 
-    /// The positive solution of A² d² g″ + R g − b g² = 0, or zero where there is none.
-    fn solved(&self, growth: f64, damping: &[f64], width: f64) -> Result<Vec<f64>, LayerError> {
-        let cells = damping.len();
-        let coupling = (self.cooperativity * self.layer.grain_diameter / width).powi(2);
-        let local = damping.iter().map(|damping| growth.max(0.0) / damping).fold(0.0, f64::max);
-        let mut fluidity = vec![2.0 * local; cells];
-        for _ in 0..NEWTON_STEPS {
-            let mut diagonal = vec![0.0; cells];
-            let mut residual = vec![0.0; cells];
-            for cell in 0..cells {
-                let neighbours = if cell > 0 { fluidity[cell - 1] } else { 0.0 }
-                    + if cell + 1 < cells { fluidity[cell + 1] } else { 0.0 };
-                let own = self.faces(cell, cells);
-                residual[cell] = coupling * (neighbours - own * fluidity[cell]) + growth * fluidity[cell]
-                    - damping[cell] * fluidity[cell] * fluidity[cell];
-                diagonal[cell] = own * coupling - growth + 2.0 * damping[cell] * fluidity[cell];
-            }
-            let change = solve(&vec![-coupling; cells], &diagonal, &vec![-coupling; cells], &residual);
-            let mut largest = 0.0_f64;
-            for (fluidity, change) in fluidity.iter_mut().zip(&change) {
-                largest = largest.max(change.abs());
-                *fluidity = (*fluidity + change).max(0.3 * *fluidity);
-            }
-            let highest = fluidity.iter().copied().fold(0.0, f64::max);
-            if highest <= AT_REST * local {
-                return Ok(vec![0.0; cells]);
-            }
-            if largest <= TOLERANCE * highest {
-                return Ok(fluidity);
-            }
-        }
-        Err(LayerError::NotSteady { reason: "the fluidity still changes".to_owned(), steps: NEWTON_STEPS })
-    }
-
-    /// The factor of a cell's own g in its Laplacian: a face at which g vanishes is half a cell away.
-    pub(crate) fn faces(&self, cell: usize, cells: usize) -> f64 {
-        let bed = if cell == 0 { 2.0 } else { 1.0 };
-        let above = match self.surface {
-            _ if cell + 1 < cells => 1.0,
-            FieldBoundary::Vanishing => 2.0,
-            FieldBoundary::NoFlux => 0.0,
-        };
-        bed + above
+    /// What g is at the bed and at the surface.
+    pub(crate) fn ends(&self) -> [FieldBoundary; 2] {
+        [FieldBoundary::Vanishing, self.surface]
     }
 }
 

@@ -4,6 +4,7 @@
 //! width; the stress is relaxed at the end of a step, and the fluidity takes its diffusion, its decay and its square at the end
 //! and its growth at the start, so that it stays positive. A wave needs 2.5 steps across a cell.
 
+use crate::fluidity_balance::faces;
 use crate::tridiagonal::solve;
 use crate::{LayerError, NonlocalLayer};
 
@@ -132,7 +133,8 @@ impl NonlocalTransient {
             let growth = self.layer.growth(friction.min(layer.static_friction + STEEPEST * range));
             let rate = (pressure / layer.grain_density).sqrt() / layer.grain_diameter;
             let square = range / layer.reference_inertia * friction.abs() / rate;
-            diagonal[cell] = inverse + self.layer.faces(cell, cells) * coupling - growth.min(0.0) + square * fluidity;
+            diagonal[cell] =
+                inverse + faces(self.layer.ends(), cell, cells) * coupling - growth.min(0.0) + square * fluidity;
             right[cell] = (inverse + growth.max(0.0)) * fluidity;
         }
         self.fluidity = solve(&vec![-coupling; cells], &diagonal, &vec![-coupling; cells], &right);

@@ -37,8 +37,8 @@ mod steady_film;
 mod validation_set;
 
 pub use bagnold_layer::{
-    BagnoldProfile, LayerError, LayerProfile, LayerTransient, NonlocalLayer, NonlocalProfile, TransientHistory,
-    bed_load as bed_load_layer, time_to_steadiness,
+    BagnoldProfile, LayerError, LayerProfile, LayerTransient, NonlocalLayer, NonlocalProfile, NonlocalShear,
+    NonlocalShearProfile, ShearStress, TransientHistory, bed_load as bed_load_layer, time_to_steadiness,
 };
 pub use bed_load_onset::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence};
 pub use bed_load_profiles::MeasuredBedLoad;
