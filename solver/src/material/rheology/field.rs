@@ -110,6 +110,17 @@ pub trait FieldLaw {
     /// Friction coefficient `[-]` of a contact with a rough wall.
     fn contact_friction(&self) -> f64;
 
+    /// Whether it stands by itself, and so holds to rough walls with all of its volume: by friction, or by a cohesion.
+    fn is_solid(&self) -> bool {
+        self.contact_friction() > 0.0
+    }
+
+    /// Whether its strength is proportional to the pressure. Without a cohesion yielding neighbours have about the same
+    /// ratio of stress and pressure, which may then diffuse among them.
+    fn strength_is_friction(&self) -> bool {
+        true
+    }
+
     /// Apparent viscosity τ/|γ̇| `[Pa·s]` of the steady, uniform flow at a shear rate `[1/s]` and a pressure `[Pa]`; finite
     /// also at rest. For diagnostics: the stress update does not use it.
     fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64;
