@@ -89,8 +89,8 @@ pub struct FieldReturn<R> {
 
 /// A law that carries the stress along and keeps a field of each particle.
 ///
-/// A cohesion is allowed: the stress up to which the material is elastic need not vanish with the pressure. (The weakly
-/// compressible model cuts tension, and no particle carries a shear stress at p ≤ 0.)
+/// A cohesion is allowed: the stress up to which the material is elastic need not vanish with the pressure. (No particle
+/// carries a shear stress at p ≤ 0, but for a law that bears tension.)
 pub trait FieldLaw {
     /// What it keeps.
     fn field(&self) -> LawField;
@@ -113,6 +113,12 @@ pub trait FieldLaw {
     /// Whether it stands by itself, and so holds to rough walls with all of its volume: by friction, or by a cohesion.
     fn is_solid(&self) -> bool {
         self.contact_friction() > 0.0
+    }
+
+    /// Whether it may carry a shear stress at p < 0, where the equation of state keeps tension. Of such a law the shear stress
+    /// is what it returns; without a pressure, and where that is not a number, it must return none.
+    fn bears_tension(&self) -> bool {
+        false
     }
 
     /// Whether its strength is proportional to the pressure. Without a cohesion yielding neighbours have about the same

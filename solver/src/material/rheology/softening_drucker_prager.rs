@@ -20,8 +20,10 @@
 //! H = (Y_p − Y_r)/κ_r, which is below G then. What softens faster than it unloads (H > G) drops to the residual at once.
 //! τ + G κ = G γ holds to rounding, so that a path is exact for every step.
 //!
-//! Limits: no dilation, hence no rise of the pressure where the volume is held; no rate; no shear stress at p ≤ 0, whatever the
-//! cohesion. Softening localises: in a body, bands of shear are as narrow as the particles allow.
+//! Where the equation of state keeps tension, a cohesion reaches to p = −k/μ, the apex of the cone, and Y = 0 beyond it. Where it cuts
+//! tension, p = 0 means that the material has come apart: no shear stress, whatever the cohesion.
+//!
+//! Limits: no dilation, hence no rise of the pressure where the volume is held; no rate. Softening localises: in a body, bands of shear are as narrow as the particles allow.
 
 use super::field::{FieldLaw, FieldReturn, FieldStep, LawField};
 use super::mu_i::REST_SHEAR_RATE;
@@ -55,8 +57,15 @@ pub struct SofteningDruckerPrager {
 /// Below its yield stress by more than this part of it a material is wholly elastic `[-]`.
 const YIELDING: f64 = 0.01;
 
+/// A value where there is a pressure or a tension, another one where there is none or where it is lost.
+#[inline(always)]
+fn where_held<R: Real>(value: R, pressure: R, other: R) -> R {
+    let zero = R::splat(0.0);
+    value.if_less(zero, pressure, value.if_less(pressure, zero, other))
+}
+
 impl SofteningDruckerPrager {
-    /// Shear strength Y `[Pa]` at a pressure `[Pa]`, positive or not at all, and a plastic shear strain `[-]`.
+    /// Shear strength Y `[Pa]` at a pressure `[Pa]` and a plastic shear strain `[-]`.
     #[inline(always)]
     pub fn strength<R: Real>(&self, pressure: R, strain: R) -> R {
         let (residual, lost) = self.residual_and_lost(pressure);
@@ -66,10 +75,11 @@ impl SofteningDruckerPrager {
     /// Residual strength and what softening takes of the peak strength `[Pa]`, at a pressure `[Pa]`.
     #[inline(always)]
     fn residual_and_lost<R: Real>(&self, pressure: R) -> (R, R) {
-        let pressure = pressure.max(R::splat(0.0));
-        let residual = R::splat(self.residual_friction) * pressure + R::splat(self.residual_cohesion);
-        let friction = R::splat(self.peak_friction - self.residual_friction);
-        (residual, friction * pressure + R::splat(self.peak_cohesion - self.residual_cohesion))
+        let at = |friction: f64, cohesion: f64| (R::splat(friction) * pressure + R::splat(cohesion)).max(R::splat(0.0));
+        let peak = at(self.peak_friction, self.peak_cohesion);
+        // under tension less friction would be more strength
+        let residual = at(self.residual_friction, self.residual_cohesion).min(peak);
+        (residual, peak - residual)
     }
 
     /// Plastic shear strain up to the residual strength `[-]`.
@@ -127,7 +137,7 @@ impl FieldLaw for SofteningDruckerPrager {
         let strength = residual + lost * self.retained(left);
         if trial.time_step <= 0.0 {
             let shear_stress = trial.shear_stress.min(strength);
-            return FieldReturn { shear_stress: shear_stress.where_less(zero, trial.pressure), field: before };
+            return FieldReturn { shear_stress: where_held(shear_stress, trial.pressure, zero), field: before };
         }
         let modulus = R::splat(trial.shear_modulus);
         let softening = lost / R::splat(self.softening_strain); // H
@@ -139,9 +149,9 @@ impl FieldLaw for SofteningDruckerPrager {
         let shear_stress = returned.min(trial.shear_stress).if_less(strength, trial.shear_stress, trial.shear_stress);
         let after = (before + strain).if_less(strength, trial.shear_stress, before);
         FieldReturn {
-            shear_stress: shear_stress.where_less(zero, trial.pressure),
+            shear_stress: where_held(shear_stress, trial.pressure, zero),
             // what has come apart stays as soft as it was
-            field: after.if_less(zero, trial.pressure, before),
+            field: where_held(after, trial.pressure, before),
         }
     }
 
@@ -150,7 +160,7 @@ impl FieldLaw for SofteningDruckerPrager {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let strength = self.strength(pressure, field);
         let distance = (one - shear_stress / strength) / R::splat(YIELDING);
-        distance.max(zero).min(one).where_less(zero, strength).where_less(zero, pressure)
+        where_held(distance.max(zero).min(one).where_less(zero, strength), pressure, zero)
     }
 
     /// All of it below the yield, nothing beyond: as under the laws without a field.
@@ -166,6 +176,10 @@ impl FieldLaw for SofteningDruckerPrager {
 
     fn is_solid(&self) -> bool {
         self.peak_friction > 0.0 || self.peak_cohesion > 0.0
+    }
+
+    fn bears_tension(&self) -> bool {
+        true
     }
 
     fn strength_is_friction(&self) -> bool {

@@ -196,7 +196,7 @@ fn without_softening_and_cohesion_it_is_coulomb_friction() {
 
 #[test]
 fn no_pressure_no_stress_and_no_step_no_strain() {
-    for pressure in [0.0, -5.0, f64::NAN] {
+    for pressure in [0.0, -0.0, f64::NAN] {
         for step in [0.0, 1e-4] {
             let end = SOIL.end_of_step(&TrialStress::new(500.0, pressure, 2e4, step), &FieldStep::alone(0.1));
             assert_eq!((end.shear_stress, end.field), (0.0, 0.1));
@@ -256,6 +256,30 @@ fn strength_that_rises_with_the_strain_is_refused() {
         assert_eq!(problem(strain).0, "softening_strain");
         assert_eq!(problem(SofteningDruckerPrager { peak_cohesion: bad, ..SOIL }).0, "peak_cohesion");
     }
+}
+
+/// The cone goes on to its apex at p = −k/μ, 10/0.6 Pa here, and there is no strength beyond it; friction does not soften under tension.
+#[test]
+fn a_cohesion_bears_tension_up_to_the_apex_of_the_cone() {
+    for (pressure, peak, residual) in [(-5.0, 7.0, 3.0), (-14.0, 1.6, 0.0), (-17.0, 0.0, 0.0), (-1e9, 0.0, 0.0)] {
+        assert!(
+            (SOIL.strength(pressure, 0.0) - peak).abs() < 1e-14
+                && (SOIL.strength(pressure, 1.0) - residual).abs() < 1e-14
+        );
+        for (strain, strength) in [(0.0, peak), (1.0, residual)] {
+            let held =
+                SOIL.end_of_step(&TrialStress::new(0.5 * strength, pressure, 2e4, 1e-4), &FieldStep::alone(strain));
+            assert_eq!((held.shear_stress, held.field), (0.5 * strength, strain));
+            let end = SOIL.end_of_step(&TrialStress::new(20.0, pressure, 2e9, 1e-4), &FieldStep::alone(strain));
+            assert!((end.shear_stress - strength).abs() < 1e-6 && end.field > strain, "{end:?} for {strength}");
+        }
+    }
+    let firm = SofteningDruckerPrager { residual_cohesion: 10.0, ..SOIL };
+    assert_eq!(firm.strength(-5.0, 0.0), firm.strength(-5.0, 1.0));
+    let (law, stress) = (Rheology::SofteningDruckerPrager(SOIL), Tensor::<2>::new(1.0, 2.0, 2.0, -1.0));
+    let rest = Tensor::<2>::zeros();
+    assert_eq!(law.updated_stress(&stress, &rest, -5.0, 2e4, 1e-4), stress);
+    assert_eq!(law.updated_stress(&stress, &rest, 0.0, 2e4, 1e-4), rest);
 }
 
 struct Update<'a> {
