@@ -89,8 +89,8 @@ pub struct FieldReturn<R> {
 
 /// A law that carries the stress along and keeps a field of each particle.
 ///
-/// A cohesion is allowed: the stress up to which the material is elastic need not vanish with the pressure. (No particle
-/// carries a shear stress at p ≤ 0, but for a law that bears tension.)
+/// A cohesion is allowed: the stress up to which the material is elastic need not vanish with the pressure. Only a
+/// law that bears tension carries a shear stress at p ≤ 0.
 pub trait FieldLaw {
     /// What it keeps.
     fn field(&self) -> LawField;

@@ -20,10 +20,11 @@
 //! H = (Y_p − Y_r)/κ_r, which is below G then. What softens faster than it unloads (H > G) drops to the residual at once.
 //! τ + G κ = G γ holds to rounding, so that a path is exact for every step.
 //!
-//! Where the equation of state keeps tension, a cohesion reaches to p = −k/μ, the apex of the cone, and Y = 0 beyond it. Where it cuts
-//! tension, p = 0 means that the material has come apart: no shear stress, whatever the cohesion.
+//! Where the equation of state keeps tension, a cohesion reaches to p = −k/μ, the apex of the cone, and Y = 0 beyond it.
+//! Where it cuts tension, p = 0 means that the material has come apart: no shear stress, whatever the cohesion.
 //!
-//! Limits: no dilation, hence no rise of the pressure where the volume is held; no rate. Softening localises: in a body, bands of shear are as narrow as the particles allow.
+//! Limits: no dilation, hence no rise of the pressure where the volume is held; no rate. Softening localises: in a body,
+//! bands of shear are as narrow as the particles allow.
 
 use super::field::{FieldLaw, FieldReturn, FieldStep, LawField};
 use super::mu_i::REST_SHEAR_RATE;
