@@ -244,7 +244,7 @@ fn what_comes_in_has_the_initial_value() {
 
 /// A column of beads of 0.5 mm, 97 mm wide and as high, that collapses beside a mirror: twice the mean distance of its particles from
 /// the mirror over its width, less one, when it has come to rest.
-fn collapsed(rheology: Rheology) -> f64 {
+pub(crate) fn collapsed(rheology: Rheology) -> f64 {
     let (cells, width) = (20, 0.0972);
     let spacing = width / f64::from(cells);
     let beads =

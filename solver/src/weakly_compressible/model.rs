@@ -70,7 +70,7 @@ impl<const D: usize> Model<D> {
     /// Whether the flow may slide along a rough wall as far as its volume is concerned: a liquid, whose boundary layer can
     /// be thinner than a spacing, but no grains.
     pub(crate) fn slides(&self) -> bool {
-        self.contact_friction == 0.0 && self.gradient_use() == GradientUse::Stress
+        !self.rheology.is_solid() && self.gradient_use() == GradientUse::Stress
     }
 
     /// How far the neighbour list reaches beyond the kernel `[m]`.
@@ -143,11 +143,13 @@ impl<const D: usize> Model<D> {
         }
     }
 
-    /// Whether the stress ratio diffuses: where a law carries its stress along. A law with a length of its own does not need it
-    /// against waves, but its fluidity answers to the mean of a convex function of the stress ratio, which uneven particles raise.
+    /// Whether the stress ratio diffuses: where a law carries its stress along and has no cohesion, which would make the ratio of
+    /// yielding neighbours differ. A law with a length of its own does not need it against waves, but its fluidity answers to the mean of a convex function of the stress ratio, which uneven particles raise.
     #[inline(always)]
     pub(crate) fn stress_diffuses(&self) -> bool {
-        self.rheology.is_plastic() && self.numerics.stress_diffusion > 0.0 && self.gradient_use() == GradientUse::Stress
+        self.rheology.strength_is_friction()
+            && self.numerics.stress_diffusion > 0.0
+            && self.gradient_use() == GradientUse::Stress
     }
 
     /// How the law's field spreads, if it does.

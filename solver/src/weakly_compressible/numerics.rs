@@ -198,7 +198,7 @@ impl Numerics {
     pub fn corrects_forces(&self, law: &Rheology) -> bool {
         match self.momentum_operator {
             MomentumOperator::SingleDivergence => true,
-            MomentumOperator::ByLaw => law.contact_friction() > 0.0,
+            MomentumOperator::ByLaw => law.is_solid(),
             MomentumOperator::UncorrectedDivergence
             | MomentumOperator::Pairwise
             | MomentumOperator::PairwiseCorrected => false,

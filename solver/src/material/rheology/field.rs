@@ -89,8 +89,8 @@ pub struct FieldReturn<R> {
 
 /// A law that carries the stress along and keeps a field of each particle.
 ///
-/// A cohesion is allowed: the stress up to which the material is elastic need not vanish with the pressure. (The weakly
-/// compressible model cuts tension, and no particle carries a shear stress at p ≤ 0.)
+/// A cohesion is allowed: the stress up to which the material is elastic need not vanish with the pressure. Only a
+/// law that bears tension carries a shear stress at p ≤ 0.
 pub trait FieldLaw {
     /// What it keeps.
     fn field(&self) -> LawField;
@@ -109,6 +109,23 @@ pub trait FieldLaw {
 
     /// Friction coefficient `[-]` of a contact with a rough wall.
     fn contact_friction(&self) -> f64;
+
+    /// Whether it stands by itself, and so holds to rough walls with all of its volume: by friction, or by a cohesion.
+    fn is_solid(&self) -> bool {
+        self.contact_friction() > 0.0
+    }
+
+    /// Whether it may carry a shear stress at p < 0, where the equation of state keeps tension. Of such a law the shear stress
+    /// is what it returns; without a pressure, and where that is not a number, it must return none.
+    fn bears_tension(&self) -> bool {
+        false
+    }
+
+    /// Whether its strength is proportional to the pressure. Without a cohesion yielding neighbours have about the same
+    /// ratio of stress and pressure, which may then diffuse among them.
+    fn strength_is_friction(&self) -> bool {
+        true
+    }
 
     /// Apparent viscosity τ/|γ̇| `[Pa·s]` of the steady, uniform flow at a shear rate `[1/s]` and a pressure `[Pa]`; finite
     /// also at rest. For diagnostics: the stress update does not use it.

@@ -53,12 +53,13 @@ pub(super) fn with_field<R: Real, L: FieldLaw, const D: usize>(
     }
     let (ahead, behind) = (matrix_product(&spin, &trial_stress), matrix_product(&trial_stress, &spin));
     let scale = (end.shear_stress / trial_shear_stress).if_less(zero, trial_shear_stress, R::splat(1.0));
+    // no pressure, no stress; nor has a particle whose state is lost
+    let least = if law.bears_tension() { f64::NEG_INFINITY } else { 0.0 };
     let mut stress = trial_stress;
     for i in 0..D {
         for j in 0..D {
             let turned = trial_stress[i][j] + (ahead[i][j] - behind[i][j]);
-            // no pressure, no stress; nor has a particle whose state is lost
-            stress[i][j] = (scale * turned).where_less(zero, pressure);
+            stress[i][j] = (scale * turned).where_less(R::splat(least), pressure);
         }
     }
     (stress, end.field)

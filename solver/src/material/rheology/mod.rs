@@ -32,6 +32,9 @@ pub mod open;
 mod regularisation;
 mod regularised_mu_i;
 mod root_mu_i;
+mod softening_drucker_prager;
+#[cfg(test)]
+mod softening_drucker_prager_tests;
 mod stress_update;
 #[cfg(test)]
 mod tests;
@@ -44,6 +47,7 @@ pub use newtonian::Newtonian;
 pub use nonlocal_mu_i::NonlocalMuI;
 pub use regularised_mu_i::RegularisedMuI;
 pub use root_mu_i::RootMuI;
+pub use softening_drucker_prager::SofteningDruckerPrager;
 
 use field::{FieldLaw, FieldStep, LawField};
 use open::{OpenField, OpenPlastic, OpenViscous};
@@ -338,6 +342,27 @@ macro_rules! rheology {
                 }
             }
 
+            /// Whether the material stands by itself, and so holds to rough walls with all of its volume; a liquid does not.
+            #[must_use]
+            pub fn is_solid(&self) -> bool {
+                match self {
+                    $(Self::$viscous(law) => law.contact_friction() > 0.0,)*
+                    $(Self::$plastic(law) => law.contact_friction() > 0.0,)*
+                    $(Self::$keeper(law) => law.is_solid(),)*
+                }
+            }
+
+            /// Whether the law carries a stress along whose bound is proportional to the pressure.
+            #[inline]
+            #[must_use]
+            pub fn strength_is_friction(&self) -> bool {
+                match self {
+                    $(Self::$viscous(_) => false,)*
+                    $(Self::$plastic(_) => true,)*
+                    $(Self::$keeper(law) => law.strength_is_friction(),)*
+                }
+            }
+
             /// What the law keeps of each particle beside the stress, if anything.
             #[must_use]
             pub fn field(&self) -> Option<LawField> {
@@ -371,6 +396,7 @@ impl Rheology {
             Self::RegularisedMuI(law) => law.friction_problem(),
             Self::RootMuI(law) => law.friction_problem(),
             Self::NonlocalMuI(law) => law.friction_problem(),
+            Self::SofteningDruckerPrager(law) => law.strength_problem(),
             Self::Newtonian(_) | Self::Bingham(_) | Self::CoulombBingham(_) | Self::HerschelBulkley(_) => None,
             // the maker of an open law has judged its parameters
             Self::OpenViscous(_) | Self::OpenPlastic(_) | Self::OpenField(_) => None,
@@ -448,5 +474,5 @@ laws! {
         RootMuI = "root-mu-i",
     ],
     plastic: [MuI = "mu-i"],
-    with_field: [NonlocalMuI = "nonlocal-mu-i"],
+    with_field: [NonlocalMuI = "nonlocal-mu-i", SofteningDruckerPrager = "softening-drucker-prager"],
 }

@@ -24,7 +24,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Shear rate `[1/s]` below which the apparent viscosity no longer grows: a strain of 1e-6 in a second is rest.
-const REST_SHEAR_RATE: f64 = 1e-6;
+pub(super) const REST_SHEAR_RATE: f64 = 1e-6;
 
 law_of_grains! {
     /// Dry grains with a true yield stress: elastic below μ_s p, μ(I) p in flow, no stress without pressure.
