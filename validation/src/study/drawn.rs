@@ -1,6 +1,5 @@
 //! A figure of checks over the variants: what was found at each place, beside what each check is compared with.
 
-use super::file::StudyText;
 use crate::figure::{Axis, Figure, Mark, Panel, is_file_name};
 use crate::input::{FieldError, check_text};
 use crate::metric::{Metric, Value, Variant};
@@ -51,14 +50,25 @@ pub(super) struct SeriesText {
     pub(super) only: Option<Variant>,
 }
 
+/// What a figure may name.
+#[derive(Debug)]
+pub(super) struct NamesOfStudy<'study> {
+    /// The named variants.
+    pub(super) variants: Vec<&'study str>,
+    /// The parameters that take several numbers, as variants call them.
+    pub(super) varied_numbers: Vec<&'study str>,
+    /// The checks.
+    pub(super) checks: Vec<&'study str>,
+}
+
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
 fn is_false(switch: &bool) -> bool {
     !switch
 }
 
 impl FigureText {
-    /// Refuses what could not be drawn.
-    pub(super) fn check(&self, study: &StudyText) -> Result<(), FieldError> {
+    /// Refuses what could not be drawn of a study with these names.
+    pub(super) fn check(&self, study: &NamesOfStudy) -> Result<(), FieldError> {
         if !is_file_name(&self.name) {
             let rule = "a name that a file can have: letters, digits, `-` and `_`";
             let remedy = "such as \"thickness-over-slope\"";
@@ -69,15 +79,14 @@ impl FigureText {
         }
         match (&self.over, self.at.is_empty()) {
             (Some(over), true) => {
-                let is_number = |value: &toml::Value| value.is_float() || value.is_integer();
-                if !study.vary.iter().any(|varied| varied.label() == over && varied.values.iter().all(is_number)) {
+                if !study.varied_numbers.contains(&over.as_str()) {
                     let rule = "the name of a parameter that [[vary]] gives numbers to";
                     return Err(FieldError::new("over", format!("\"{over}\""), rule, "vary it, or use `at`"));
                 }
             }
             (None, false) => {
                 for (name, place) in &self.at {
-                    if !study.variants.iter().any(|variant| variant.name == *name) {
+                    if !study.variants.contains(&name.as_str()) {
                         let rule = "the name of one of [[variants]]";
                         return Err(FieldError::new("at", format!("\"{name}\""), rule, "take its name from there"));
                     }
@@ -99,7 +108,7 @@ impl FigureText {
         }
         for (place, series) in self.series.iter().enumerate() {
             let field = format!("series[{place}]");
-            if !study.checks.iter().any(|check| check.name == series.check) {
+            if !study.checks.contains(&series.check.as_str()) {
                 let field = format!("{field}.check");
                 let rule = "the name of one of [[checks]]";
                 return Err(FieldError::new(&field, format!("\"{}\"", series.check), rule, "take its name from there"));

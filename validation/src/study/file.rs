@@ -1,6 +1,6 @@
 //! A study as a TOML file.
 
-use super::drawn::FigureText;
+use super::drawn::{FigureText, NamesOfStudy};
 use crate::case::Tier;
 use crate::figure::is_file_name;
 use crate::input::{FieldError, check_name, check_text};
@@ -235,8 +235,19 @@ impl StudyText {
             let remedy = "add a [[checks]] table: without one nothing is judged";
             return Err(FieldError::new("checks", "empty", "at least one table", remedy));
         }
+        let is_number = |value: &Value| value.is_float() || value.is_integer();
+        let names = NamesOfStudy {
+            variants: self.variants.iter().map(|named| named.name.as_str()).collect(),
+            varied_numbers: self
+                .vary
+                .iter()
+                .filter(|own| own.values.iter().all(is_number))
+                .map(VariedParameter::label)
+                .collect(),
+            checks: self.checks.iter().map(|check| check.name.as_str()).collect(),
+        };
         for (place, figure) in self.figures.iter().enumerate() {
-            figure.check(self).map_err(|error| error.within(&format!("figures[{place}]")))?;
+            figure.check(&names).map_err(|error| error.within(&format!("figures[{place}]")))?;
         }
         self.check_variants()
     }
