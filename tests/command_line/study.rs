@@ -104,11 +104,14 @@ fn a_figure_of_checks_stands_on_the_page_and_slips_in_it_are_named() {
         ("over = \"spacing\"", "over = \"gravity\"", "figures[0].over"),
         ("over = \"spacing\"", "at = { steep = 1.0 }", "figures[0].at"),
         ("over = \"spacing\"", "", "exactly one of `over` and `at`"),
+        ("name = \"front-over-spacing\"", "name = \"gauges-front-front-m\"", "figures[0].name"),
         ("simulated = \"simulated\"", "", "at least one of `simulated` and `reference`"),
     ] {
         let said = refused(&place, &format!("{STUDY}{}", figure.replace(from, to)));
         assert!(said.contains(words), "{from} -> {to}: {said}");
     }
+    let said = refused(&place, &format!("{STUDY}{figure}{figure}"));
+    assert!(said.contains("figures[1].name") && said.contains("unlike the others"), "{said}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::figure::{Axis, Figure, Mark, Panel, is_file_name};
 use crate::input::{FieldError, check_text};
-use crate::metric::{Metric, Value, Variant};
+use crate::metric::{Metric, Origin, Value, Variant};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -142,6 +142,15 @@ impl FigureText {
             if let Some(label) = &series.reference {
                 let known = |(place, metric): &(f64, &Metric)| Some((*place, metric.reference.as_ref()?.value?));
                 panel.line(label, slot, found.iter().filter_map(known).filter(|point| is_drawn(point.1)));
+                let edges = found.iter().filter_map(|(place, metric)| {
+                    let value = metric.reference.as_ref()?.value?;
+                    let standard = metric.uncertainty.of(&[Origin::Experiment])?;
+                    Some((*place, value - standard, value + standard))
+                });
+                let edges: Vec<(f64, f64, f64)> = edges.filter(|edge| is_drawn(edge.1) && is_drawn(edge.2)).collect();
+                if !edges.is_empty() {
+                    panel.band(&format!("{label}, to its standard uncertainty"), edges);
+                }
             }
             if let Some(label) = &series.simulated {
                 let values = found.iter().map(|(place, metric)| (*place, metric.value));
@@ -190,8 +199,21 @@ mod tests {
         let figure = drawn.draw(&metrics);
         let series = &figure.panels[0].series;
         assert_eq!(series[0].points, [(22.0, 2.5), (25.0, 1.5)]);
+        assert!(figure.panels[0].bands.is_empty());
         // nothing was left on the gentle slope: a logarithm has no place for it
         assert_eq!(series[1].points, [(25.0, 1.0)]);
+    }
+
+    #[test]
+    fn what_a_reference_is_known_to_is_drawn() {
+        let drawn = figure(
+            "name = \"a\"\ncaption = \"A.\"\nx = \"θ [°]\"\ny = \"h [m]\"\nat = { steep = 25.0 }\n\
+             [[series]]\ncheck = \"left\"\nreference = \"measured\"\n",
+        );
+        let metric = Metric::observed("left", &Variant::of("variant", "steep"), 1.0, "m")
+            .exactly(2.0, "a flume")
+            .known_to(Origin::Experiment, Some(0.25), "a flume");
+        assert_eq!(drawn.draw(&[metric]).panels[0].bands[0].points, [(25.0, 1.75, 2.25)]);
     }
 
     #[test]

@@ -247,7 +247,12 @@ impl StudyText {
             checks: self.checks.iter().map(|check| check.name.as_str()).collect(),
         };
         for (place, figure) in self.figures.iter().enumerate() {
-            figure.check(&names).map_err(|error| error.within(&format!("figures[{place}]")))?;
+            let field = format!("figures[{place}]");
+            figure.check(&names).map_err(|error| error.within(&field))?;
+            if self.figures[..place].iter().any(|other| other.name == figure.name) {
+                let field = format!("{field}.name");
+                return Err(FieldError::new(&field, &figure.name, "unlike the others", "give each a name of its own"));
+            }
         }
         self.check_variants()
     }

@@ -252,10 +252,7 @@ impl Study {
             judged.metrics.extend(readings.iter().map(metric));
             figures::add(&mut judged.figures, check, &readings).map_err(wrong)?;
         }
-        let drawn = self.text.figures.iter().map(|figure| figure.draw(&judged.metrics));
-        let mut figures: Vec<Figure> = drawn.collect();
-        figures.append(&mut judged.figures);
-        judged.figures = figures;
+        let own: Vec<Figure> = self.text.figures.iter().map(|figure| figure.draw(&judged.metrics)).collect();
         let mut hash = Sha256::new();
         for (changed, result) in self.changes.iter().zip(results) {
             let suffix =
@@ -294,6 +291,15 @@ impl Study {
             judged.first_bad.extend(result.first_bad);
         }
         judged.state_hash = crate::store::hexadecimal(&hash.finalize());
+        for (place, figure) in own.iter().enumerate() {
+            if judged.figures.iter().any(|other| other.name == figure.name) {
+                let rule = "unlike the names of the figures of the checks' columns and of the case";
+                let error =
+                    FieldError::new(&format!("figures[{place}].name"), &figure.name, rule, "choose another name");
+                return Err(error.in_file(&self.file).into());
+            }
+        }
+        judged.figures.splice(0..0, own);
         Ok(judged)
     }
 
