@@ -30,7 +30,7 @@ use super::field::{FieldLaw, FieldReturn, FieldStep, LawField};
 use super::mu_i::REST_SHEAR_RATE;
 use super::{MuI, TrialStress};
 use crate::lanes::Real;
-use crate::parameter::{ParameterProblem, not_negative, positive};
+use crate::parameter::{ParameterProblem, between, not_negative, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -39,10 +39,10 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct SofteningDruckerPrager {
     /// Friction coefficient μ_p `[-]` before any plastic strain: shear strength gained per pressure, the sine of Mohr and Coulomb's angle.
-    #[schemars(transform = not_negative("give the sine of the peak angle of friction; 0.6 for dense sand, 0 for undrained clay"))]
+    #[schemars(transform = between(0.0, 1.0, "give the sine of the peak angle of friction, no angle; 0.6 for dense sand, 0 for undrained clay"))]
     pub peak_friction: f64,
     /// Friction coefficient μ_r `[-]` after the softening, ≤ μ_p.
-    #[schemars(transform = not_negative("give the sine of the residual angle of friction, at most peak_friction"))]
+    #[schemars(transform = between(0.0, 1.0, "give the sine of the residual angle of friction, at most peak_friction"))]
     pub residual_friction: f64,
     /// Cohesion k_p `[Pa]` before any plastic strain: shear strength without pressure, c cos φ of Mohr and Coulomb's c.
     #[schemars(transform = not_negative("give the shear strength without pressure in Pa, or 0 for sand"))]
