@@ -3,7 +3,7 @@
 //! Threads share the sort by cells: each part of the cells counts and places its own entries, in their order, and skips blocks of
 //! entries that have none. The order is a function of the input alone.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 use std::ops::Range;
 
 /// Entries of a block, of which the lowest and highest cells are kept.

@@ -13,6 +13,7 @@ pub mod vector;
 mod cell_order;
 mod linear;
 pub mod material;
+mod parallel;
 
 pub mod run;
 

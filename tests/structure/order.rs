@@ -21,7 +21,7 @@ const fn peers(rooms: &'static [&'static str]) -> Floor {
 
 /// `solver/src`, from the ground up.
 const SOLVER: &[Floor] = &[
-    floor(&["vector", "lanes", "kernel", "domain", "parameter", "cell_order"]),
+    floor(&["vector", "lanes", "kernel", "domain", "parameter", "parallel", "cell_order"]),
     floor(&["material", "linear"]),
     floor(&["run"]),
     peers(&["weakly_compressible", "incompressible"]),

@@ -1,7 +1,7 @@
 //! Indices that were checked once, so that the loads of every later pass need no check of their own.
 
 use super::LANES;
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Largest bound: any element of any record is then addressed without overflow.
@@ -161,7 +161,10 @@ impl CheckedIndices {
         // taken out, so that unchecked chunks cannot stay behind a panic
         let mut chunks = std::mem::take(&mut self.chunks);
         let result = fill(&mut chunks);
-        assert!(chunks.par_chunks(4096).all(|part| all_below(part, bound)), "neighbour index out of range");
+        assert!(
+            chunks.par_chunks(4096).map(|part| all_below(part, bound)).reduce(|| true, |a, b| a && b),
+            "neighbour index out of range"
+        );
         self.used.clear();
         (self.region, self.chunks, self.bound) = (0, chunks, bound);
         result
@@ -169,21 +172,21 @@ impl CheckedIndices {
 
     /// Lets `fill` rewrite regions of equal length, one for each of `items`, and checks that every index is below `bound`
     /// afterwards. `fill` gets an item with its region and returns how many chunks it wants and another result; both are joined
-    /// over all regions, the former by their largest. A region that is too short is left empty. Memory beyond what was ever
+    /// over all regions, the former by their largest, the latter by `join`, in any order. A region that is too short is left empty. Memory beyond what was ever
     /// written is not touched, so that it costs nothing.
     ///
     /// # Panics
     /// If an index is not below the bound.
-    pub fn refill_regions<T: Send, R: Send + Sync + Clone>(
+    pub(crate) fn refill_regions<T, R: Send + Sync + Clone>(
         &mut self,
         (bound, region): (usize, usize),
-        items: impl IndexedParallelIterator<Item = T>,
+        items: impl Items<Item = T>,
         fill: impl Fn(usize, T, &mut [[u32; LANES]]) -> (usize, R) + Sync,
         (none, join): (R, impl Fn(R, R) -> R + Sync + Send),
     ) -> (usize, R) {
         // taken out, so that unchecked chunks cannot stay behind a panic
         let (mut chunks, mut used) = (std::mem::take(&mut self.chunks), std::mem::take(&mut self.used));
-        let regions = items.len();
+        let regions = items.length();
         if chunks.capacity() < regions * region {
             // zeros that the system hands out when they are first written; some head room costs nothing
             drop(chunks);
@@ -311,7 +314,7 @@ mod tests {
             }
             (part.len(), ())
         };
-        indices.refill_regions((bound, region), parts.par_iter(), fill, ((), |(), ()| ())).0
+        indices.refill_regions((bound, region), parts, fill, ((), |(), ()| ())).0
     }
 
     #[test]

@@ -1,15 +1,19 @@
 //! Eight f64 lanes with one meaning on every instruction set: the only place with `unsafe`.
 //!
-//! A pair sum is written once against [`Lanes`] and compiled for the portable, AVX2 and AVX-512 back ends; the
-//! processor's best one is chosen at run time. The lane count, the absence of fused multiply–add and the meaning of
+//! A pair sum is written once against [`Lanes`] and compiled for the back ends: SSE2, AVX2 and AVX-512 on x86-64, and
+//! one of plain arrays for all other processors. The processor's best one is chosen at run time. The lane count, the absence of fused multiply–add and the meaning of
 //! every operation are fixed here, so every back end gives the same bits. A lane is a particle: lanes are never summed.
 //! Each back end has eight f32 lanes beside them, for what a pair is made of; sums over pairs are f64.
 
 pub mod algebra;
 mod indices;
+// compiled beside the others for the tests that compare them
+#[cfg(any(test, not(target_arch = "x86_64")))]
 mod portable;
 mod real;
 mod single;
+#[cfg(target_arch = "x86_64")]
+mod sse2;
 mod symmetric;
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -156,7 +160,10 @@ pub trait LanePass {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Level {
+    #[cfg(any(test, not(target_arch = "x86_64")))]
     Portable,
+    #[cfg(target_arch = "x86_64")]
+    Sse2,
     #[cfg(target_arch = "x86_64")]
     Avx2,
     #[cfg(target_arch = "x86_64")]
@@ -165,7 +172,10 @@ enum Level {
 
 /// All levels, slowest first.
 const LEVELS: &[Level] = &[
+    #[cfg(any(test, not(target_arch = "x86_64")))]
     Level::Portable,
+    #[cfg(target_arch = "x86_64")]
+    Level::Sse2,
     #[cfg(target_arch = "x86_64")]
     Level::Avx2,
     #[cfg(target_arch = "x86_64")]
@@ -175,7 +185,10 @@ const LEVELS: &[Level] = &[
 impl Level {
     fn is_available(self) -> bool {
         match self {
+            #[cfg(any(test, not(target_arch = "x86_64")))]
             Self::Portable => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Sse2 => true,
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("popcnt"),
             #[cfg(target_arch = "x86_64")]
@@ -202,14 +215,17 @@ impl InstructionSet {
     /// The fastest that this processor has; asking allocates nothing.
     #[must_use]
     pub fn best() -> Self {
-        Self(LEVELS.iter().rev().find(|level| level.is_available()).copied().unwrap_or(Level::Portable))
+        Self(LEVELS.iter().rev().find(|level| level.is_available()).copied().unwrap_or(LEVELS[0]))
     }
 
     /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self.0 {
+            #[cfg(any(test, not(target_arch = "x86_64")))]
             Level::Portable => "portable",
+            #[cfg(target_arch = "x86_64")]
+            Level::Sse2 => "SSE2",
             #[cfg(target_arch = "x86_64")]
             Level::Avx2 => "AVX2",
             #[cfg(target_arch = "x86_64")]
@@ -221,7 +237,10 @@ impl InstructionSet {
     #[inline]
     pub fn run<P: LanePass>(self, pass: P) {
         match self.0 {
+            #[cfg(any(test, not(target_arch = "x86_64")))]
             Level::Portable => pass.run::<portable::Portable>(),
+            #[cfg(target_arch = "x86_64")]
+            Level::Sse2 => pass.run::<sse2::Sse2>(),
             #[cfg(target_arch = "x86_64")]
             Level::Avx2 => x86::run_avx2(pass, self),
             #[cfg(target_arch = "x86_64")]

@@ -1,6 +1,7 @@
 //! Symmetric tensors of all particles as passes load them: eight side by side, the upper triangle only.
 
 use super::{LANES, Lanes};
+use crate::parallel::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// One symmetric tensor a particle, in groups of eight: entry by entry of the upper triangle, the values of eight particles.
@@ -49,11 +50,7 @@ impl<const D: usize> LaneTensors<D> {
     }
 
     /// Parts of so many groups, to be written.
-    pub fn blocks_mut(
-        &mut self,
-        groups: usize,
-    ) -> impl rayon::iter::IndexedParallelIterator<Item = LaneTensorsMut<'_, D>> {
-        use rayon::prelude::*;
+    pub(crate) fn blocks_mut(&mut self, groups: usize) -> impl Items<Item = LaneTensorsMut<'_, D>> {
         self.values.par_chunks_mut(groups * entries(D)).map(|values| LaneTensorsMut { values })
     }
 }
@@ -82,7 +79,6 @@ impl<const D: usize> LaneTensorsMut<'_, D> {
 mod tests {
     use super::*;
     use crate::lanes::{InstructionSet, LanePass};
-    use rayon::prelude::*;
 
     #[test]
     fn what_is_stored_of_a_group_is_loaded_again() {

@@ -6,7 +6,7 @@
 
 use super::descent::{Descent, Stalled, descend};
 use super::reductions::{BLOCK, Unknown, dot, sum_of_blocks, weighted_square};
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// What a residual is turned into a direction with.
 pub(crate) trait Preconditioner<T: Unknown> {
@@ -168,8 +168,11 @@ impl<T: Unknown, P: Preconditioner<T>, A: FnMut(&[T], &mut [T])> Descent for Ite
             });
             overlap * inverse
         });
-        (direction, preconditioned).into_par_iter().with_min_len(BLOCK).for_each(|(direction, z)| {
-            *direction = (*z - lift) + *direction * growth;
+        let blocks = (direction.par_chunks_mut(BLOCK), preconditioned.par_chunks(BLOCK)).into_par_iter();
+        blocks.for_each(|(direction, z)| {
+            for (direction, z) in direction.iter_mut().zip(z) {
+                *direction = (*z - lift) + *direction * growth;
+            }
         });
     }
 
@@ -182,10 +185,15 @@ impl<T: Unknown, P: Preconditioner<T>, A: FnMut(&[T], &mut [T])> Descent for Ite
 
     fn advance(&mut self, step: f64) {
         let ConjugateGradient { residual, direction, product, .. } = &mut *self.buffers;
-        let rows = (&mut *self.unknown, residual, direction, product).into_par_iter();
-        rows.with_min_len(BLOCK).for_each(|(unknown, residual, direction, product)| {
-            *unknown = *unknown + *direction * step;
-            *residual = *residual - *product * step;
+        let unknowns = (self.unknown.par_chunks_mut(BLOCK), direction.par_chunks(BLOCK));
+        let residuals = (residual.par_chunks_mut(BLOCK), product.par_chunks(BLOCK));
+        (unknowns, residuals).into_par_iter().for_each(|((unknown, direction), (residual, product))| {
+            for (unknown, direction) in unknown.iter_mut().zip(direction) {
+                *unknown = *unknown + *direction * step;
+            }
+            for (residual, product) in residual.iter_mut().zip(product) {
+                *residual = *residual - *product * step;
+            }
         });
     }
 }

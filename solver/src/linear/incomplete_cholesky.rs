@@ -7,7 +7,7 @@
 
 use super::conjugate_gradient::Preconditioner;
 use super::reductions::Unknown;
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// Rows of a block.
 const BLOCK: usize = 2048;

@@ -7,8 +7,8 @@
 //! sums and unknowns are double. Both rows of a pair hold the same rounded number, so symmetry and balance are exact.
 
 use crate::lanes::{CheckedIndices, InstructionSet, LANES, LaneChunks, LaneIndices, LanePass, Lanes};
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use rayon::prelude::*;
 
 /// Groups that a task of a parallel fill has at least: a fill costs some ten products.
 const FILLED_GROUPS: usize = 64;
@@ -149,11 +149,11 @@ impl<C: Coefficients> LaneRows<C> {
 
     /// Fills `rows` rows of at most `stride` entries. `fill` gets the first row of a group, the group and what `beside`
     /// has for it.
-    pub(crate) fn fill<S: Send>(
+    pub(crate) fn fill<S>(
         &mut self,
         rows: usize,
         stride: usize,
-        beside: impl IndexedParallelIterator<Item = S>,
+        beside: impl Items<Item = S>,
         fill: impl Fn(usize, &mut RowGroup<'_, C>, S) + Sync,
     ) {
         let groups = rows.div_ceil(LANES);

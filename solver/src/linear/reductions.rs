@@ -1,7 +1,7 @@
 //! Sums in a fixed order: they do not depend on the number of threads.
 
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use rayon::prelude::*;
 use std::ops::{Add, Mul, Sub};
 
 /// An entry of a vector of unknowns: a number, or a vector in space.
@@ -38,10 +38,10 @@ pub(crate) const BLOCK: usize = 2048;
 /// Sums block by block, on any number of threads, and adds the blocks in order; `sums` is room for them.
 pub(crate) fn sum_of_blocks<T: Unknown, S>(
     sums: &mut Vec<T>,
-    blocks: impl IndexedParallelIterator<Item = S>,
+    blocks: impl Items<Item = S>,
     sum: impl Fn(S) -> T + Sync,
 ) -> T {
-    sums.resize(blocks.len(), T::ZERO);
+    sums.resize(blocks.length(), T::ZERO);
     (blocks, &mut sums[..]).into_par_iter().for_each(|(block, place)| *place = sum(block));
     sums.iter().fold(T::ZERO, |all, sum| all + *sum)
 }

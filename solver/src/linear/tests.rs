@@ -1,9 +1,9 @@
 use super::{ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, Single, TwoRows, single};
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use rayon::prelude::*;
 
 const TIGHT: Criterion = Criterion { tolerance: 1e-13, most_iterations: 4000 };
 

@@ -1,11 +1,11 @@
 //! The particles as a structure of arrays: flow, walls, images and the sentinel, in this order.
 
 use crate::lanes::LaneTensors;
+use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::boundary::{Images, Surface};
 use crate::weakly_compressible::scene::Scene;
 use crate::weakly_compressible::wall_fields::{WallFields, resize};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// A far place for the sentinel, in units of the smoothing length `[-]`.

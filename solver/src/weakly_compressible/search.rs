@@ -1,11 +1,11 @@
 //! The neighbour search of a step: particles sorted by cell, images made anew, the list filled.
 
 use crate::domain::Domain;
+use crate::parallel::prelude::*;
 use crate::weakly_compressible::boundary::Images;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::CellGrid;
 use crate::weakly_compressible::particles::Particles;
-use rayon::prelude::*;
 
 /// The domain, the grids and the buffers of the sort, reused from search to search.
 #[derive(Debug)]

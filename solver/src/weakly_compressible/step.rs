@@ -1,12 +1,12 @@
 //! One time step of model A, readable on a page.
 
+use crate::parallel::prelude::*;
 use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{DENSITY_RANGE, Quantity};
 use crate::weakly_compressible::model::GradientUse;
 use crate::weakly_compressible::passes::{continuity, geometry, wall_stress, wall_velocity};
 use crate::weakly_compressible::state::State;
-use rayon::prelude::*;
 
 impl<const D: usize> State<D> {
     /// Symplectic Euler: forces at (x, v)ⁿ → vⁿ⁺¹ → ρⁿ⁺¹, sⁿ⁺¹ → xⁿ⁺¹.

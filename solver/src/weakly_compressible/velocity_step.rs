@@ -2,6 +2,7 @@
 
 use crate::lanes::algebra::{accumulate, dot, load, load_vector, scaled, store_vector, sum_of, zero_vector};
 use crate::lanes::{LANES, LanePass, Lanes};
+use crate::parallel::prelude::*;
 use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::{Wall, contact};
@@ -11,7 +12,6 @@ use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::numerics::Contact;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::state::State;
-use rayon::prelude::*;
 
 impl<const D: usize> State<D> {
     /// New velocities, with what walls stop and what each force has worked.

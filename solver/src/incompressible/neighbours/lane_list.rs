@@ -7,9 +7,9 @@
 use super::{Grid, LEAST_GROUPS, Periods};
 use crate::lanes::algebra::dot;
 use crate::lanes::{CheckedIndices, InstructionSet, LANES, LaneChunks, LanePass, Lanes};
+use crate::parallel::prelude::*;
 use crate::run::ForeignState;
 use crate::vector::Vector;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Candidates of a set of targets among sources.

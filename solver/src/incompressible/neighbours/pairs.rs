@@ -5,9 +5,9 @@ use super::grid::Grid;
 use super::{LEAST_TASK, Periods};
 use crate::kernel::Kernel;
 use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
+use crate::parallel::prelude::*;
 use crate::run::ForeignState;
 use crate::vector::Vector;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Pairs of targets with sources, each target's in a row of its own; all rows are equally long.

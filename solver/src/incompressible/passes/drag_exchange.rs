@@ -11,9 +11,9 @@ use super::super::scene::{DragForm, IncompressibleScene, Sediment};
 use super::super::terms::drag_pair;
 use crate::domain::Domain;
 use crate::kernel::{Kernel, KernelShape};
+use crate::parallel::prelude::*;
 use crate::run::ForeignState;
 use crate::vector::Vector;
-use rayon::prelude::*;
 
 /// Pairs between the phases, and what a step needs of them.
 #[derive(Debug)]

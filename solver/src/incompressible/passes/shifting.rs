@@ -9,8 +9,8 @@ use super::super::numerics::ProjectionNumerics;
 use super::super::phase::{Phase, records};
 use crate::lanes::algebra::dot;
 use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, Real, gather, gather_vectors};
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use rayon::prelude::*;
 
 /// Shifts of all particles `[m]` at their present positions.
 pub(crate) fn find_shifts<const D: usize>(

@@ -4,8 +4,8 @@ use super::super::neighbours::LEAST_TASK;
 use super::super::phase::{Phase, Phases};
 use super::super::scene::{IncompressibleScene, Turbulence, height_axis};
 use crate::material::turbulence::eddy_viscosity;
+use crate::parallel::prelude::*;
 use crate::vector::shear_rate;
-use rayon::prelude::*;
 
 /// What the laws give at every free particle.
 #[derive(Debug)]

@@ -6,8 +6,8 @@ use super::super::phase::Phase;
 use super::super::scene::height_axis;
 use super::pressure_poisson::PressurePoisson;
 use crate::linear::TASK_ROWS;
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use rayon::prelude::*;
 
 /// A particle and its displacement in spacings `[-]`.
 pub(super) type TooFar = (usize, f64);
@@ -79,6 +79,9 @@ pub(super) fn correct<const D: usize>(
             check(particle, *velocity, time_step, *spacing)
         });
     // of several the first
-    let first = |one: Result<(), TooFar>, other: Result<(), TooFar>| one.and(other);
+    let first = |one: Result<(), TooFar>, other: Result<(), TooFar>| match (one, other) {
+        (Err(one), Err(other)) => Err(if other.0 < one.0 { other } else { one }),
+        (one, other) => one.and(other),
+    };
     too_far.reduce(|| Ok(()), first)
 }

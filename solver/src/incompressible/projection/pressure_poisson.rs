@@ -29,8 +29,8 @@ use crate::domain::Domain;
 use crate::linear::{
     ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, Lattices, NotConverged, Rows, TASK_ROWS,
 };
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use rayon::prelude::*;
 
 /// Rows from which on the pressure is preconditioned by lattices: factors without fill see no further than their neighbours, and
 /// take the more iterations the finer the particles.

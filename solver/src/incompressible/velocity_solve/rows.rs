@@ -14,8 +14,8 @@ use super::VelocitySystem;
 use super::pair_law::{self, End};
 use crate::lanes::LANES;
 use crate::linear::{Row as Links, Single, single};
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use rayon::prelude::*;
 
 /// A row while it is filled.
 struct Row<'a, 'b> {

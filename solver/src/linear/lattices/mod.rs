@@ -15,8 +15,8 @@ mod tests;
 use super::conjugate_gradient::Preconditioner;
 use crate::cell_order::CellOrder;
 use crate::domain::{AxisBoundary, Domain};
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use rayon::prelude::*;
 use transfer::{for_each_cell_around, from_coarser, from_finer, join, share, split};
 
 /// Cell of the finest lattice over the spacing of the particles `[-]`.

@@ -4,8 +4,8 @@
 //! components of tensors that couple normal and tangent, change their sign.
 
 use crate::domain::{AxisBoundary, Domain};
+use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// One image: x = sign ∘ x_source + shift.
@@ -223,7 +223,7 @@ impl<const D: usize> Images<D> {
 
     fn copy<T: Copy + Send + Sync>(&self, field: &mut [T], map: impl Fn(&T, &Image<D>) -> T + Sync) {
         let (real, images) = field.split_at_mut(self.first);
-        let slots = images.par_chunks_mut(COPIED).zip(self.images.par_chunks(COPIED));
+        let slots = (images.par_chunks_mut(COPIED), self.images.par_chunks(COPIED)).into_par_iter();
         slots.for_each(|(slots, images)| {
             for (slot, image) in slots.iter_mut().zip(images) {
                 *slot = map(&real[image.source as usize], image);

@@ -2,8 +2,8 @@
 
 use crate::cell_order::CellOrder;
 use crate::lanes::LANES;
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Cells in x-fastest order; the entries of one cell, and of neighbouring cells along x, are contiguous.

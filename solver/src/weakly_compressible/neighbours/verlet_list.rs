@@ -8,8 +8,8 @@
 use super::CellGrid;
 use super::block_search::{BlockSearch, Extent, GROUPS, Search};
 use crate::lanes::{CheckedIndices, InstructionSet, LANES, LaneChunks, LaneIndices};
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Eight particles and their neighbours.

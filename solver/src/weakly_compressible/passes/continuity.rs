@@ -8,13 +8,13 @@ use super::records::{self, LaneRecord};
 use super::single;
 use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, load, sum_of, zero_tensor};
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
+use crate::parallel::prelude::*;
 use crate::vector::equivalent_shear_stress;
 use crate::weakly_compressible::energy::StressWork;
 use crate::weakly_compressible::model::{GradientUse, Model, PairDiffusion};
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{continuity, density_coupling, field_diffusion, stress_diffusion};
-use rayon::prelude::*;
 
 /// What diffuses among pairs, as a constant of the loops.
 pub(super) mod diffusion {

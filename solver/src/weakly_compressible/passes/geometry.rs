@@ -10,13 +10,13 @@ use crate::lanes::algebra::{
     store_vector, zero_tensor, zero_vector,
 };
 use crate::lanes::{LANES, LanePass, LaneTensorsMut, Lanes};
+use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::field_diffusion;
 use crate::weakly_compressible::terms::kernel_correction::{corrections, corrections_and_eigenvalue};
-use rayon::prelude::*;
 use std::ops::Range;
 
 struct Output<'a, const D: usize> {

@@ -8,6 +8,7 @@ use super::single;
 use super::wall_partner::{WallPair, WallPartner};
 use crate::lanes::algebra::{accumulate, difference, dot, load, store_vector, zero_vector};
 use crate::lanes::{LANES, LanePass, Lanes};
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
@@ -15,7 +16,6 @@ use crate::weakly_compressible::numerics::{HourglassDirection, ViscositySwitch};
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{artificial_viscosity, hourglass, pair_distance, stress_divergence};
 use crate::weakly_compressible::wall_fields::mirrored_lanes;
-use rayon::prelude::*;
 
 /// Writes a record in the layout of [`FlowPartner`] or, for wall particles, of [`WallPartner`].
 #[inline(always)]

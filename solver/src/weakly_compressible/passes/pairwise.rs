@@ -7,6 +7,7 @@ use crate::lanes::algebra::{
     accumulate, accumulate_outer, difference, dot, scaled, store_vector, zero_tensor, zero_vector,
 };
 use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, gather, gather_vectors};
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
@@ -15,7 +16,6 @@ use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{
     artificial_viscosity, pair_distance, pair_viscosity, pressure_force, wall_slip,
 };
-use rayon::prelude::*;
 
 /// Values of a record: the layout of [`Partner`].
 const fn values(dimension: usize) -> usize {

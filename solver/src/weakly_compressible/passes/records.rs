@@ -5,8 +5,8 @@
 //! slow microcode).
 
 use crate::lanes::{LaneIndices, Lanes, Real};
+use crate::parallel::{ChunksMut, prelude::*};
 use crate::vector::{Tensor, Vector};
-use rayon::prelude::*;
 
 /// Most quads of four values in a record.
 pub(crate) const QUADS: usize = 7;
@@ -58,7 +58,7 @@ impl Records {
     }
 
     /// The records of the first `particles`, in parts of `block` records.
-    pub(crate) fn blocks_mut(&mut self, particles: usize, block: usize) -> rayon::slice::ChunksMut<'_, [f64; 4]> {
+    pub(crate) fn blocks_mut(&mut self, particles: usize, block: usize) -> ChunksMut<'_, [f64; 4]> {
         let quads = self.quads;
         self.data[..particles * quads].par_chunks_mut(block * quads)
     }

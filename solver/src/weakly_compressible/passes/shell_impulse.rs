@@ -7,6 +7,7 @@ use super::single::momentum::WallGroup;
 use super::wall_partner::{WallPair, WallPartner};
 use crate::lanes::algebra::{load, scaled, store_vector};
 use crate::lanes::{LANES, LanePass, Lanes};
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::shell_contact::{Passed, Touch};
 use crate::weakly_compressible::energy::{EnergyLedger, PushStep};
@@ -14,7 +15,6 @@ use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::surroundings::NO_SHELL;
-use rayon::prelude::*;
 
 /// Adds to `impulses`, block by block of flow particles and in each shell by shell, what the wall particles give in a step
 /// `[kg m/s]`. `owners` has the shell of every particle in the arrays.

@@ -9,6 +9,7 @@ use super::system::{GROUPS, LaneVector, ViscousSystem};
 use super::update::load_columns;
 use crate::lanes::algebra::{accumulate, difference, product, scaled, store_vector, zero_vector};
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::Images;
 use crate::weakly_compressible::neighbours::BLOCK;
@@ -18,7 +19,6 @@ use crate::weakly_compressible::passes::records::{self, Records};
 use crate::weakly_compressible::surroundings::NO_SHELL;
 use crate::weakly_compressible::terms::wall_slip;
 use crate::weakly_compressible::wall_fields::mirrored_lanes;
-use rayon::prelude::*;
 
 /// The shells that a reaction is booked to.
 pub(crate) struct Booking<'a, const D: usize> {

@@ -9,12 +9,12 @@ use crate::lanes::algebra::{
 };
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
 use crate::material::turbulence::dynamic_eddy_viscosity;
+use crate::parallel::prelude::*;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::layout;
 use crate::weakly_compressible::passes::records::{self, Records};
 use crate::weakly_compressible::terms::wall_slip;
-use rayon::prelude::*;
 
 impl<const D: usize> ViscousSolve<'_, D> {
     /// Pair vectors, coefficients, and what the diagonal needs of a neighbour in the place of its stress.

@@ -6,9 +6,9 @@ use crate::lanes::algebra::{
     accumulate, accumulate_outer, deviatoric_rate, matrix_product, product, scaled_tensor, zero_tensor, zero_vector,
 };
 use crate::lanes::{LANES, LanePass, Lanes};
+use crate::parallel::prelude::*;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::passes::records::{self, Records};
-use rayon::prelude::*;
 
 impl<const D: usize> ViscousSolve<'_, D> {
     /// p ← D⁻¹ r + growth · p.
@@ -27,9 +27,11 @@ impl<const D: usize> ViscousSolve<'_, D> {
     /// Puts the increment where the passes look for a direction.
     pub(super) fn show_increments(&self, system: &mut ViscousSystem<D>, flow: usize) {
         let ViscousSystem { unknowns, velocities, .. } = system;
-        velocities.blocks_mut(flow, BLOCK).zip(unknowns.par_chunks(GROUPS)).for_each(|(velocities, unknowns)| {
-            self.model.instruction_set.run(IncrementPass { unknowns, velocities });
-        });
+        (velocities.blocks_mut(flow, BLOCK), unknowns.par_chunks(GROUPS)).into_par_iter().for_each(
+            |(velocities, unknowns)| {
+                self.model.instruction_set.run(IncrementPass { unknowns, velocities });
+            },
+        );
     }
 
     /// s L of the direction.

@@ -30,8 +30,8 @@ use crate::incompressible::numerics::{MOST_ITERATIONS, ProjectionNumerics};
 use crate::incompressible::passes::drag_exchange::DragExchange;
 use crate::incompressible::phase::Phase;
 use crate::linear::{ConjugateGradient, Criterion, Lattices, NotConverged};
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use rayon::prelude::*;
 
 /// Divergence over that of the parts that it is made of, below which it is rounding `[-]`.
 const ROUNDING: f64 = 1e-13;

@@ -13,8 +13,8 @@ use super::records::{LaneRecord, QUADS};
 use crate::kernel::Kernel;
 use crate::lanes::algebra::dot;
 use crate::lanes::{LaneChunks, LaneIndices, Lanes, Real, SingleLanes};
+use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector};
-use rayon::prelude::*;
 
 /// Chunks of eight neighbours that are summed in f32 before the sum goes to f64.
 const PART: usize = 8;

@@ -1,0 +1,308 @@
+//! What loops go through: slices, chunks of slices, and several of them side by side.
+
+/// Items of known number that can be divided.
+pub(crate) trait Items: Sized + Send {
+    /// An item.
+    type Item;
+    /// Number of items.
+    fn length(&self) -> usize;
+    /// The first so many items, and the others.
+    fn divided(self, place: usize) -> (Self, Self);
+    /// The items one after the other.
+    fn sequence(self) -> impl Iterator<Item = Self::Item>;
+    /// Items of a part at least.
+    fn least(&self) -> usize {
+        1
+    }
+}
+
+/// What has items.
+pub(crate) trait IntoItems {
+    /// Its items.
+    type Items: Items;
+    /// Its items.
+    fn into_par_iter(self) -> Self::Items;
+}
+
+impl<I: Items> IntoItems for I {
+    type Items = I;
+
+    #[inline(always)]
+    fn into_par_iter(self) -> I {
+        self
+    }
+}
+
+impl<'a, T: Sync> IntoItems for &'a Vec<T> {
+    type Items = &'a [T];
+
+    #[inline(always)]
+    fn into_par_iter(self) -> &'a [T] {
+        self
+    }
+}
+
+impl<'a, T: Send> IntoItems for &'a mut Vec<T> {
+    type Items = &'a mut [T];
+
+    #[inline(always)]
+    fn into_par_iter(self) -> &'a mut [T] {
+        self
+    }
+}
+
+impl<'a, T: Sync> Items for &'a [T] {
+    type Item = &'a T;
+
+    fn length(&self) -> usize {
+        self.len()
+    }
+
+    fn divided(self, place: usize) -> (Self, Self) {
+        self.split_at(place)
+    }
+
+    #[inline(always)]
+    fn sequence(self) -> impl Iterator<Item = &'a T> {
+        self.iter()
+    }
+}
+
+impl<'a, T: Send> Items for &'a mut [T] {
+    type Item = &'a mut T;
+
+    fn length(&self) -> usize {
+        self.len()
+    }
+
+    fn divided(self, place: usize) -> (Self, Self) {
+        self.split_at_mut(place)
+    }
+
+    #[inline(always)]
+    fn sequence(self) -> impl Iterator<Item = &'a mut T> {
+        self.iter_mut()
+    }
+}
+
+/// Chunks of a slice that is read.
+#[derive(Debug)]
+pub(crate) struct Chunks<'a, T> {
+    values: &'a [T],
+    size: usize,
+}
+
+/// Chunks of a slice that is written.
+#[derive(Debug)]
+pub(crate) struct ChunksMut<'a, T> {
+    values: &'a mut [T],
+    size: usize,
+}
+
+impl<'a, T: Sync> Items for Chunks<'a, T> {
+    type Item = &'a [T];
+
+    fn length(&self) -> usize {
+        self.values.len().div_ceil(self.size)
+    }
+
+    fn divided(self, place: usize) -> (Self, Self) {
+        let (values, later) = self.values.split_at((place * self.size).min(self.values.len()));
+        (Self { values, ..self }, Self { values: later, ..self })
+    }
+
+    #[inline(always)]
+    fn sequence(self) -> impl Iterator<Item = &'a [T]> {
+        self.values.chunks(self.size)
+    }
+}
+
+impl<'a, T: Send> Items for ChunksMut<'a, T> {
+    type Item = &'a mut [T];
+
+    fn length(&self) -> usize {
+        self.values.len().div_ceil(self.size)
+    }
+
+    fn divided(self, place: usize) -> (Self, Self) {
+        let (size, end) = (self.size, (place * self.size).min(self.values.len()));
+        let (values, later) = self.values.split_at_mut(end);
+        (Self { values, size }, Self { values: later, size })
+    }
+
+    #[inline(always)]
+    fn sequence(self) -> impl Iterator<Item = &'a mut [T]> {
+        self.values.chunks_mut(self.size)
+    }
+}
+
+/// Slices that loops read.
+pub(crate) trait ParallelSlice<T> {
+    /// Chunks of so many values, the last may have fewer. Panics if `size` is zero.
+    fn par_chunks(&self, size: usize) -> Chunks<'_, T>;
+}
+
+impl<T> ParallelSlice<T> for [T] {
+    fn par_chunks(&self, size: usize) -> Chunks<'_, T> {
+        assert!(size > 0, "chunks without values");
+        Chunks { values: self, size }
+    }
+}
+
+/// Slices that loops write.
+pub(crate) trait ParallelSliceMut<T> {
+    /// Chunks of so many values, the last may have fewer. Panics if `size` is zero.
+    fn par_chunks_mut(&mut self, size: usize) -> ChunksMut<'_, T>;
+    /// The values one by one.
+    fn par_iter_mut(&mut self) -> &mut [T];
+}
+
+impl<T> ParallelSliceMut<T> for [T] {
+    fn par_chunks_mut(&mut self, size: usize) -> ChunksMut<'_, T> {
+        assert!(size > 0, "chunks without values");
+        ChunksMut { values: self, size }
+    }
+
+    fn par_iter_mut(&mut self) -> &mut [T] {
+        self
+    }
+}
+
+/// Items with their numbers.
+#[derive(Debug)]
+pub(crate) struct Enumerated<I> {
+    pub(super) items: I,
+    pub(super) first: usize,
+}
+
+impl<I: Items> Items for Enumerated<I> {
+    type Item = (usize, I::Item);
+
+    fn length(&self) -> usize {
+        self.items.length()
+    }
+
+    fn divided(self, place: usize) -> (Self, Self) {
+        let (items, later) = self.items.divided(place);
+        (Self { items, first: self.first }, Self { items: later, first: self.first + place })
+    }
+
+    #[inline(always)]
+    fn sequence(self) -> impl Iterator<Item = Self::Item> {
+        (self.first..).zip(self.items.sequence())
+    }
+
+    fn least(&self) -> usize {
+        self.items.least()
+    }
+}
+
+/// What a function makes of items.
+#[derive(Debug)]
+pub(crate) struct Mapped<I, F> {
+    pub(super) items: I,
+    pub(super) function: F,
+}
+
+impl<I: Items, R, F: Fn(I::Item) -> R + Clone + Send> Items for Mapped<I, F> {
+    type Item = R;
+
+    fn length(&self) -> usize {
+        self.items.length()
+    }
+
+    fn divided(self, place: usize) -> (Self, Self) {
+        let (items, later) = self.items.divided(place);
+        (Self { items, function: self.function.clone() }, Self { items: later, function: self.function })
+    }
+
+    #[inline(always)]
+    fn sequence(self) -> impl Iterator<Item = R> {
+        self.items.sequence().map(self.function)
+    }
+
+    fn least(&self) -> usize {
+        self.items.least()
+    }
+}
+
+/// Items in parts of at least so many.
+#[derive(Debug)]
+pub(crate) struct WithLeast<I> {
+    pub(super) items: I,
+    pub(super) least: usize,
+}
+
+impl<I: Items> Items for WithLeast<I> {
+    type Item = I::Item;
+
+    fn length(&self) -> usize {
+        self.items.length()
+    }
+
+    fn divided(self, place: usize) -> (Self, Self) {
+        let (items, later) = self.items.divided(place);
+        (Self { items, least: self.least }, Self { items: later, least: self.least })
+    }
+
+    #[inline(always)]
+    fn sequence(self) -> impl Iterator<Item = I::Item> {
+        self.items.sequence()
+    }
+
+    fn least(&self) -> usize {
+        self.least
+    }
+}
+
+/// Items side by side, as many as the shortest has.
+#[derive(Debug)]
+pub(crate) struct Zipped<Z>(Z);
+
+macro_rules! zipped {
+    ($($type:ident $items:ident),+; $sequence:expr; $nested:pat) => {
+        impl<$($type: IntoItems),+> IntoItems for ($($type,)+) {
+            type Items = Zipped<($($type::Items,)+)>;
+
+            #[inline(always)]
+            fn into_par_iter(self) -> Self::Items {
+                let ($($items,)+) = self;
+                Zipped(($($items.into_par_iter(),)+))
+            }
+        }
+
+        impl<$($type: Items),+> Items for Zipped<($($type,)+)> {
+            type Item = ($($type::Item,)+);
+
+            fn length(&self) -> usize {
+                let ($($items,)+) = &self.0;
+                let mut least = usize::MAX;
+                $(least = least.min($items.length());)+
+                least
+            }
+
+            fn divided(self, place: usize) -> (Self, Self) {
+                let ($($items,)+) = self.0;
+                $(let $items = $items.divided(place);)+
+                (Self(($($items.0,)+)), Self(($($items.1,)+)))
+            }
+
+            #[inline(always)]
+            fn sequence(self) -> impl Iterator<Item = Self::Item> {
+                let ($($items,)+) = self.0;
+                $(let $items = $items.sequence();)+
+                $sequence.map(|$nested| ($($items,)+))
+            }
+        }
+    };
+}
+zipped!(A a, B b; a.zip(b); (a, b));
+zipped!(A a, B b, C c; a.zip(b).zip(c); ((a, b), c));
+zipped!(A a, B b, C c, D d; a.zip(b).zip(c).zip(d); (((a, b), c), d));
+zipped!(A a, B b, C c, D d, E e; a.zip(b).zip(c).zip(d).zip(e); ((((a, b), c), d), e));
+zipped!(A a, B b, C c, D d, E e, F f; a.zip(b).zip(c).zip(d).zip(e).zip(f); (((((a, b), c), d), e), f));
+zipped!(
+    A a, B b, C c, D d, E e, F f, G g;
+    a.zip(b).zip(c).zip(d).zip(e).zip(f).zip(g);
+    ((((((a, b), c), d), e), f), g)
+);
