@@ -1,8 +1,10 @@
 //! What noticed an error: a gate, a divergence, the snapshot, or nothing.
 
+use super::rows::judged_rows;
 use super::{Mutation, Scope, Sighting};
 use crate::metric::{Limit, Metric, Verdict};
 use crate::report::Baseline;
+use std::collections::BTreeMap;
 
 /// A gate that held and fails now.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,6 +62,8 @@ pub struct MutationOutcome {
     pub drifted: usize,
     /// The first of them, a sentence; empty where there is none.
     pub first_drift: String,
+    /// Elements of the papers that its cases reproduce without it, and whether they fall with it.
+    pub rows: BTreeMap<String, bool>,
     /// Wall time of its runs `[s]`.
     pub wall_seconds: f64,
 }
@@ -71,6 +75,7 @@ pub type MutationComparison<'a> = (&'a Scope, &'a Sighting, Result<Sighting, Str
 #[must_use]
 pub fn judge(error: &Mutation, comparisons: &[MutationComparison<'_>]) -> MutationOutcome {
     let (mut broken, mut stops, mut drifts, mut wall_seconds) = (Vec::new(), Vec::new(), Vec::new(), 0.0);
+    let mut rows: BTreeMap<String, bool> = BTreeMap::new();
     for (scope, right, wrong) in comparisons {
         let case = &scope.case;
         match wrong {
@@ -79,6 +84,9 @@ pub fn judge(error: &Mutation, comparisons: &[MutationComparison<'_>]) -> Mutati
                 wall_seconds += wrong.wall_seconds;
                 stops.extend(wrong.diverged.iter().map(|message| format!("{case}: {message}")));
                 broken.extend(broken_gates(case, right, wrong));
+                for (row, falls) in judged_rows(case, right, wrong) {
+                    *rows.entry(row).or_default() |= falls;
+                }
                 let accepted = Baseline::of(case, &right.metrics);
                 drifts.extend(
                     accepted.differences(case, &wrong.metrics).into_iter().map(|text| format!("{case}: {text}")),
@@ -102,6 +110,7 @@ pub fn judge(error: &Mutation, comparisons: &[MutationComparison<'_>]) -> Mutati
         catch,
         drifted: drifts.len(),
         first_drift: drifts.into_iter().next().unwrap_or_default(),
+        rows,
         wall_seconds,
     }
 }

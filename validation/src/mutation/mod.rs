@@ -9,11 +9,15 @@
 //!
 //! A snapshot tells that something changed, not that it is wrong; who accepts it, accepts the error. So the gates are what
 //! counts: [`LEAST_CAUGHT`] and [`LEAST_GATED`] are what a set of gates must reach.
+//!
+//! The same errors try what the project says of the two papers (`rows`): an element that counts as reproduced has to fall
+//! when the physics behind it is wrong.
 
 mod copy;
 mod judgement;
 mod page;
 mod record;
+mod rows;
 mod trial;
 
 pub use copy::{CHOICE, CopyError, build};

@@ -1,12 +1,14 @@
 //! The findings as a table for the terminal, as CSV and as Markdown.
 
+use super::rows::{fallen_rows, summary};
 use super::{Catch, DetectionTally, LEAST_CAUGHT, LEAST_GATED, MutationOutcome};
 use crate::metric::Limit;
 use crate::number::short_digits;
 use std::fmt::Write as _;
 use std::path::Path;
 
-const COLUMNS: [&str; 6] = ["error", "what is wrong", "cases", "caught by", "witness", "values drifted"];
+const COLUMNS: [&str; 7] =
+    ["error", "what is wrong", "cases", "caught by", "witness", "values drifted", "elements of the papers that fall"];
 
 /// Who noticed, in a word.
 fn word(catch: &Catch) -> &'static str {
@@ -47,7 +49,7 @@ fn rule(limit: Limit) -> String {
     }
 }
 
-fn row(finding: &MutationOutcome) -> [String; 6] {
+fn row(finding: &MutationOutcome) -> [String; 7] {
     [
         finding.error.name.clone(),
         finding.error.description.clone(),
@@ -55,6 +57,7 @@ fn row(finding: &MutationOutcome) -> [String; 6] {
         word(&finding.catch).to_owned(),
         witness(finding),
         finding.drifted.to_string(),
+        finding.rows.values().filter(|falls| **falls).count().to_string(),
     ]
 }
 
@@ -86,12 +89,12 @@ pub fn table(findings: &[MutationOutcome]) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{:width$}  {:13}  {}", finding.error.name, word(&finding.catch), witness(finding));
     }
-    text + "\n" + &shares(findings)
+    text + "\n" + &shares(findings) + &summary(findings)
 }
 
 /// The same as Markdown, with what is wrong and which cases ran.
 fn markdown(findings: &[MutationOutcome]) -> String {
-    let mut text = format!("# Mutations\n\n{}\n", shares(findings));
+    let mut text = format!("# Mutations\n\n{}{}\n", shares(findings), summary(findings));
     let mut line = |cells: &[String]| {
         let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
         text += &format!("| {} |\n", cells.join(" | "));
@@ -100,6 +103,10 @@ fn markdown(findings: &[MutationOutcome]) -> String {
     line(&COLUMNS.map(|_| "---".to_owned()));
     for finding in findings {
         line(&row(finding));
+    }
+    text += "\n# Elements of the papers, and the errors under which they fall\n\n";
+    for (row, errors) in fallen_rows(findings) {
+        text += &format!("- {row}: {}\n", if errors.is_empty() { "none".to_owned() } else { errors.join(", ") });
     }
     text
 }
