@@ -1,0 +1,161 @@
+//! What a check reads of the runs of a study: metrics, values and distances of columns, and orders of earlier checks.
+
+use super::check::{CheckedQuantity, StudyCheck};
+use super::probe::{self, RunCurve};
+use super::{Study, file};
+use crate::case::CaseResult;
+use crate::input::FieldError;
+use crate::metric::{Metric, Uncertainty, Value, Variant};
+use crate::statistics::log_log_slope;
+
+/// What a check has read of one run.
+pub(super) struct Reading {
+    /// The run: keys of the study and of the case.
+    pub(super) variant: Variant,
+    pub(super) value: f64,
+    pub(super) unit: String,
+    /// Where it was read from; none for a metric of the case.
+    pub(super) curve: Option<RunCurve>,
+    /// What the case knows of its uncertainty.
+    pub(super) uncertainty: Uncertainty,
+}
+
+impl Reading {
+    /// Why its value is not a number.
+    pub(super) fn why_there_is_none(&self) -> String {
+        let ends = |curve: &RunCurve| Some((curve.over.clone(), curve.points.first()?.0, curve.points.last()?.0));
+        match self.curve.as_ref().map(ends) {
+            Some(Some((over, from, to))) => {
+                format!("what is asked for lies beyond the run, whose {over} reaches over {from} … {to}")
+            }
+            Some(None) => "the run has no finite value in the window that counts".to_owned(),
+            None => "there is no finite value to take it from".to_owned(),
+        }
+    }
+}
+
+impl Study {
+    /// What a check reads of all runs, of those before it if it is an order.
+    pub(super) fn readings(
+        &self,
+        check: &StudyCheck,
+        results: &[CaseResult],
+        earlier: &[Metric],
+    ) -> Result<Vec<Reading>, FieldError> {
+        if let CheckedQuantity::Order { of, in_parameter } = &check.read {
+            return Ok(orders(earlier, of, in_parameter, &check.only));
+        }
+        let mut readings = Vec::new();
+        for (changed, result) in self.changes.iter().zip(results) {
+            let new = |run: &Variant, value: f64, unit: &str, curve: Option<RunCurve>| Reading {
+                variant: joined(&changed.variant, run),
+                value,
+                unit: unit.to_owned(),
+                curve,
+                uncertainty: Uncertainty::default(),
+            };
+            match &check.read {
+                CheckedQuantity::Metric(name) => {
+                    let metrics = probe::metrics(result, name)?;
+                    readings.extend(metrics.into_iter().map(|metric| Reading {
+                        uncertainty: metric.uncertainty.clone(),
+                        ..new(&metric.variant, metric.value, &metric.unit, None)
+                    }));
+                }
+                CheckedQuantity::Value(column, reduction) => {
+                    for curve in column.curves(result)? {
+                        let value = curve.value(*reduction);
+                        readings.push(new(&curve.run.clone(), value, probe::unit_of(&column.column), Some(curve)));
+                    }
+                }
+                CheckedQuantity::Distance(column, measured, distance) => {
+                    for curve in column.curves(result)? {
+                        let points = probe::in_units_of(measured, column, &curve)?;
+                        let value = curve.distance(&points, column.window, *distance);
+                        let unit = match distance {
+                            file::Distance::Residual => "-",
+                            file::Distance::RelativeL2 => "%",
+                            file::Distance::Largest | file::Distance::Mean => probe::unit_of(&column.column),
+                        };
+                        readings.push(new(&curve.run.clone(), value, unit, Some(curve)));
+                    }
+                }
+                CheckedQuantity::Order { .. } => {}
+            }
+        }
+        readings.retain(|reading| reading.variant.includes(&check.only));
+        Ok(readings)
+    }
+}
+
+/// Slopes of ln |value| of an earlier check over ln of a varied parameter, one for each set of the other keys.
+fn orders(earlier: &[Metric], of: &str, in_parameter: &str, only: &Variant) -> Vec<Reading> {
+    let mut groups: Vec<(Variant, Vec<(f64, f64)>)> = Vec::new();
+    for metric in earlier.iter().filter(|metric| metric.name == of && metric.variant.includes(only)) {
+        let Some(at) = metric.variant.get(in_parameter).and_then(Value::number) else { continue };
+        let others = metric.variant.parts().filter(|(key, _)| *key != in_parameter);
+        let others = others.fold(Variant::default(), |variant, (key, value)| variant.and(key, value.clone()));
+        let point = (at, metric.value.abs());
+        match groups.iter_mut().find(|(variant, _)| *variant == others) {
+            Some((_, points)) => points.push(point),
+            None => groups.push((others, vec![point])),
+        }
+    }
+    let order = |(others, points): (Variant, Vec<(f64, f64)>)| Reading {
+        variant: others.and(in_parameter, Value::list(points.iter().map(|point| point.0))),
+        value: log_log_slope(&points).unwrap_or(f64::NAN),
+        unit: "-".to_owned(),
+        curve: None,
+        uncertainty: Uncertainty::default(),
+    };
+    groups.into_iter().map(order).collect()
+}
+
+/// The study's keys before those of the case's run. A key that both have stands once if it says the same.
+pub(super) fn joined(own: &Variant, run: &Variant) -> Variant {
+    let mut all = own.clone();
+    for (key, value) in run.parts() {
+        match own.get(key) {
+            Some(same) if same == value => {}
+            Some(_) => all = all.and(&format!("run-{key}"), value.clone()),
+            None => all = all.and(key, value.clone()),
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn metric(name: &str, variant: &str, value: f64) -> Metric {
+        Metric::observed(name, &variant.parse().expect("a variant"), value, "%")
+    }
+
+    #[test]
+    fn an_order_is_the_slope_for_each_set_of_the_other_keys() {
+        let error = |spacing: f64, factor: f64, order: i32| factor * spacing.powi(order);
+        let mut metrics = Vec::new();
+        for (law, order, sign) in [("a", 2, -1.0), ("b", 1, 1.0)] {
+            for spacing in [0.01, 0.02, 0.04] {
+                let variant = format!("law={law},spacing={spacing}");
+                metrics.push(metric("error", &variant, sign * error(spacing, 3.0, order)));
+                metrics.push(metric("another", &variant, 1.0));
+            }
+        }
+        let found = orders(&metrics, "error", "spacing", &Variant::default());
+        let variants: Vec<String> = found.iter().map(|reading| reading.variant.to_string()).collect();
+        assert_eq!(variants, ["law=a,spacing=0.01_0.02_0.04", "law=b,spacing=0.01_0.02_0.04"]);
+        assert!((found[0].value - 2.0).abs() < 1e-12 && (found[1].value - 1.0).abs() < 1e-12);
+        assert_eq!(orders(&metrics, "error", "spacing", &Variant::of("law", "b")).len(), 1);
+    }
+
+    #[test]
+    fn keys_of_study_and_run_stand_once_where_they_say_the_same() {
+        let joined = |own: &str, run: &str| {
+            joined(&own.parse().expect("a variant"), &run.parse().expect("a variant")).to_string()
+        };
+        assert_eq!(joined("resolution=20,law=a", "fluid=x,resolution=20"), "resolution=20,law=a,fluid=x");
+        assert_eq!(joined("resolution=20", "resolution=40"), "resolution=20,run-resolution=40");
+    }
+}
