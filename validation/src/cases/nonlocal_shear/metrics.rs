@@ -13,6 +13,9 @@ use crate::statistics::{Regression, linear_regression, relative_l2};
 quantities! {
     [energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     PARTICLES_LOST: accounted("particles_lost", "-", "particles that ended behind a wall"),
+    OVERFILLING: verified(
+        "overfilling", "%", "volume m/ρ of all particles over that of the channel, less 1, by which they bear more on the walls than their own pressure"
+    ),
     PRESSURE_UNEVENNESS: verified(
         "pressure_unevenness", "%", "largest deviation of a row's pressure from that of the balance of momentum, over the mean"
     ),
@@ -70,7 +73,11 @@ fn of_run((run, record): &NonlocalShearRecord) -> Vec<Metric> {
     };
     let not_steady = seen.unsteadiness(run.window());
     let own = own.into_iter().map(|metric| metric.unless(not_steady.as_ref()));
-    [lost, unevenness(run, seen, &variant)].into_iter().chain(energy).chain(own).collect()
+    let overfilling = OVERFILLING
+        .of(&variant, 100.0 * (seen.filling - 1.0))
+        .exactly(0.0, "particles that fill the channel as a lattice does")
+        .with_snapshot_tolerance(0.1, 1e-2);
+    [lost, overfilling, unevenness(run, seen, &variant)].into_iter().chain(energy).chain(own).collect()
 }
 
 fn unevenness(run: &ShearRun, seen: &ShearObservation, variant: &Variant) -> Metric {
@@ -116,20 +123,21 @@ fn chute(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, half_width
         ShearFlow::Chute { wall_friction, .. } => wall_friction,
         ShearFlow::DraggedBed { .. } => f64::NAN,
     };
+    let coarseness = COARSE / run.particles_per_diameter as f64;
     let implied = flow.friction_of(&grains, plug).ok().flatten().unwrap_or(f64::NAN);
     vec![
         length_metric(WALL_LAYER.of(&variant, layer / diameter), expected / diameter, run),
         velocity_l2(run, seen, exact).gated(
-            Limit::AtMost(5.0),
-            "5 %: so near the least friction at which this chute flows its velocity goes with the friction to the power of 14, so that they are \
-             less than 0.4 % of the friction",
+            Limit::AtMost(5.0 * coarseness),
+            "5 % where two particles are as long as a grain and half of it with twice as many: so near the least friction at which this chute flows \
+             its velocity goes with the friction to the power of 14, so that 5 % are less than 0.4 % of the friction",
         ),
         FRICTION_ERROR
             .of(&variant, 100.0 * (implied / found - 1.0))
             .exactly(0.0, EXACT)
             .gated(
-                Limit::Within(-0.4, 0.4),
-                "0.4 %: what 5 % of the velocity are so near that least friction",
+                Limit::Within(-0.4 * coarseness, 0.4 * coarseness),
+                "0.4 % where two particles are as long as a grain and half of it with twice as many: what 5 % of the velocity are so near that least friction",
             )
             .with_snapshot_tolerance(0.1, 1e-2),
         PLUG_VELOCITY_ERROR

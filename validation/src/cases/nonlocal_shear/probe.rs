@@ -18,10 +18,12 @@ pub struct ShearObservation {
     pub height: Vec<f64>,
     /// Their velocities `[m/s]`.
     pub velocity: Vec<f64>,
-    /// Their pressures `[Pa]`.
+    /// Their pressures `[Pa]`, as they bear on the walls.
     pub pressure: Vec<f64>,
-    /// Their shear stresses s_xy `[Pa]`.
+    /// Their shear stresses s_xy `[Pa]`, likewise.
     pub shear_stress: Vec<f64>,
+    /// Volume m/ρ of all particles over that of the channel, by which both differ from the particles' own `[-]`.
+    pub filling: f64,
     /// Mass over volume `[kg/m³]`.
     pub density: f64,
     /// The energy ledger.
@@ -63,6 +65,8 @@ pub(super) struct ShearProbe {
     width: f64,
     area: f64,
     averaged_from: f64,
+    /// Sum of the particles' volumes over that of the channel, and of how many samples.
+    filling: (f64, f64),
     /// Sums over the samples of each row: height, velocity, pressure, shear stress, and how many there are.
     sums: Vec<[f64; 5]>,
     seen: ShearObservation,
@@ -75,6 +79,7 @@ impl ShearProbe {
             width: channel.width,
             area: channel.width * channel.length(),
             averaged_from,
+            filling: (0.0, 0.0),
             sums: vec![[0.0; 5]; channel.grains.rows],
             seen: ShearObservation::default(),
         }
@@ -93,6 +98,8 @@ impl ShearProbe {
         if snapshot.time < self.averaged_from {
             return;
         }
+        let volume: f64 = snapshot.mass.iter().zip(&snapshot.density).map(|(mass, density)| mass / density).sum();
+        self.filling = (self.filling.0 + volume / self.area, self.filling.1 + 1.0);
         let rows = self.sums.len();
         for index in 0..snapshot.position.len() {
             let y = snapshot.position[index][1];
@@ -103,14 +110,19 @@ impl ShearProbe {
         }
     }
 
+    /// What was seen. The mean stress of a volume is Σ V σ over it, with the volumes m/ρ by which particles act on each other.
+    /// Displaced particles have a few parts in a thousand more of that than there is room, as sums over displaced neighbours are not
+    /// consistent with constants: their stresses bear on the walls by as much more than their own values say.
     pub(super) fn finish(self) -> ShearObservation {
+        let filling = self.filling.0 / self.filling.1;
         // grains between walls fill every row; one without would say so by not being a number
-        let column = |place: usize| self.sums.iter().map(|sums| sums[place] / sums[4]).collect();
+        let column = |place: usize, factor: f64| self.sums.iter().map(|sums| factor * sums[place] / sums[4]).collect();
         ShearObservation {
-            height: column(0),
-            velocity: column(1),
-            pressure: column(2),
-            shear_stress: column(3),
+            height: column(0, 1.0),
+            velocity: column(1, 1.0),
+            pressure: column(2, filling),
+            shear_stress: column(3, filling),
+            filling,
             ..self.seen
         }
     }
