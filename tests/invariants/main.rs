@@ -1,7 +1,6 @@
 //! What must hold in every run, whatever the case: balances, symmetries, determinism, exact messages.
 
 mod artificial_viscosity;
-mod channel;
 mod density_coupling;
 mod determinism;
 mod energy_ledger;

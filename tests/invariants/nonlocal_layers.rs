@@ -14,15 +14,15 @@ use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_validation::reference::{BagnoldProfile, NonlocalLayer, NonlocalProfile};
 use rayon::ThreadPoolBuilder;
 
-pub(crate) const BEADS: MuI = MuI {
+const BEADS: MuI = MuI {
     static_friction: 0.3819,
     limiting_friction: 0.6435,
     reference_inertia: 0.279,
     grain_diameter: 0.5e-3,
     grain_density: 2450.0,
 };
-pub(crate) const SOLID_FRACTION: f64 = 0.6;
-pub(crate) const GRAVITY: f64 = 9.81;
+const SOLID_FRACTION: f64 = 0.6;
+const GRAVITY: f64 = 9.81;
 
 /// The model's own layer, some grains thick on a slope `[°]`.
 fn exact(degrees: f64, grains: f64, surface: FieldBoundary) -> NonlocalLayer {
@@ -105,7 +105,7 @@ where
 }
 
 /// Displaced particles fall into place without friction, and stop whenever their energy passes a peak.
-pub(crate) fn at_rest<const D: usize>(mut scene: Scene<D>, height: f64) -> Scene<D>
+fn at_rest<const D: usize>(mut scene: Scene<D>, height: f64) -> Scene<D>
 where
     Simulation<D>: Compiled<D>,
 {

@@ -129,6 +129,56 @@ pub(crate) fn drifting_and_resting(size: usize, smoothing_ratio: f64) -> [Scene<
     [drifting, resting]
 }
 
+/// Slope of a layer of beads `[-]`: tan 24°.
+const SLOPE: f64 = 0.4452;
+/// Solid fraction of beads `[-]`.
+const SOLID_FRACTION: f64 = 0.6;
+
+/// A layer of about `size` particles of beads, two per diameter, that moves down a slope with Bagnold's profile and its stress
+/// whatever its law: periodic along the slope and four times as long as high.
+pub(crate) fn on_a_slope(size: usize, beads: MuI, rheology: Rheology) -> Scene<2> {
+    let spacing = 0.5 * beads.grain_diameter;
+    let rows = (size as f64 / 4.0).sqrt().round() as usize;
+    let (height, length) = (rows as f64 * spacing, (4 * rows) as f64 * spacing);
+    let density = SOLID_FRACTION * beads.grain_density;
+    let equation_of_state = EquationOfState {
+        reference_density: density,
+        bulk_modulus: 50.0 * density * GRAVITY * height,
+        tension: Tension::Cut,
+    };
+    let across = GRAVITY / SLOPE.hypot(1.0);
+    let pressure = |y: f64| density * across * (height - y).max(0.0);
+    let inertia = beads.reference_inertia * (SLOPE - beads.static_friction) / (beads.limiting_friction - SLOPE);
+    let rate = |y: f64| inertia * (pressure(y) / beads.grain_density).sqrt() / beads.grain_diameter;
+    // the rate goes with the square root of the depth
+    let velocity = |y: f64| (rate(0.0) * height - rate(y) * (height - y)) / 1.5;
+    let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(13);
+    let mut flow = Flow::default();
+    for index in 0..4 * rows * rows {
+        let cell = [index % (4 * rows), index / (4 * rows)];
+        let place = |cell: usize, shift: f64| (cell as f64 + 0.5 + 0.2 * (shift - 0.5)) * spacing;
+        let position = Vector::<2>::new(place(cell[0], random.random()), place(cell[1], random.random()));
+        let (y, shear) = (position[1], SLOPE * pressure(position[1]));
+        flow.density.push(equation_of_state.density(pressure(y)));
+        flow.mass.push(flow.density[index] * spacing * spacing);
+        flow.position.push(position);
+        flow.velocity.push(Vector::<2>::new(velocity(y), 0.0));
+        flow.stress.push(Tensor::<2>::new(0.0, shear, shear, 0.0));
+        flow.field.extend(rheology.field_in_flow(rate(y), SLOPE));
+    }
+    let along = AxisBoundary::Periodic { lower: 0.0, upper: length };
+    let domain = Domain { axes: [along, AxisBoundary::Open] };
+    let walls = vec![Wall::still(1, 0.0, 1.0)];
+    let extent = (Vector::zeros(), Vector::<2>::new(length, height));
+    Scene {
+        wall_particles: wall::fill(&walls, &domain, extent, spacing, 4),
+        walls,
+        domain,
+        gravity: Vector::<2>::new(SLOPE, -1.0) * across,
+        ..Scene::unbounded(flow, spacing, equation_of_state, rheology)
+    }
+}
+
 /// A slightly jittered lattice of `cells` particles along each axis, at rest.
 fn lattice<const D: usize>(cells: usize, spacing: f64, density: impl Fn(&Vector<D>) -> f64) -> Flow<D> {
     let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(7);

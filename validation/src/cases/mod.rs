@@ -18,6 +18,7 @@ pub mod front;
 pub mod hydrostatic;
 pub mod incline_collapse;
 pub mod layer;
+pub mod nonlocal_shear;
 mod printed_laws;
 mod rules;
 pub mod scene;
@@ -57,6 +58,7 @@ registry!($
     column_round::ColumnRound,
     incline_collapse::InclineCollapse,
     flow_thickness::FlowThickness,
+    nonlocal_shear::NonlocalShearFlows,
     water_column::WaterColumn,
     still_water::StillWater,
     water_film::WaterFilm,

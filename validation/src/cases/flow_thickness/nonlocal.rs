@@ -1,9 +1,10 @@
 //! The same layers under the nonlocal law: how it is chosen, and what is exact of it.
 
+use crate::cases::Arrangement;
 use crate::reference::{BagnoldProfile, NonlocalLayer};
 use bagnold_solver::material::rheology::field::FieldBoundary;
 use bagnold_solver::material::rheology::{MuI, NonlocalMuI, Rheology};
-use bagnold_solver::parameter::{between, each, entry, positive};
+use bagnold_solver::parameter::{between, each, entry, positive, unique};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -30,6 +31,9 @@ pub struct NonlocalLayers {
     /// Steady flows whose profile is judged where the fluidity vanishes at the surface: thicknesses over h_stop `[-]`.
     #[schemars(transform = each(between(1.01, 100.0, "a layer flows above its h_stop; 1.5 and 3 show a profile")))]
     pub profiles: Vec<f64>,
+    /// Starts of these flows: rows on the lattice, or displaced by `jitter` and settled.
+    #[schemars(transform = unique("name every start once"))]
+    pub profile_arrangements: Vec<Arrangement>,
     /// Rows of particles over these flows.
     #[schemars(transform = crate::cases::rules::rows())]
     pub profile_rows: usize,

@@ -6,7 +6,7 @@ use super::{FlowThicknessRun, SteadyRun};
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::collapse::{InclineCollapseParameters, Reservoir};
 use crate::cases::layer::{PeriodicLayer, Preparation};
-use crate::cases::rules;
+use crate::cases::{Arrangement, rules};
 use crate::reference::GLASS_BEADS_FLOW_RULE;
 use crate::reference::NonlocalLayer;
 use bagnold_solver::material::rheology::field::FieldBoundary;
@@ -90,6 +90,7 @@ impl Parameters for FlowThicknessParameters {
                 no_flux_searches: vec![(0.005, 21.05, 21.35)],
                 stopping_tolerance: 0.3,
                 profiles: vec![1.5, 3.0],
+                profile_arrangements: vec![Arrangement::Lattice, Arrangement::Jittered],
                 profile_rows: 20,
                 profile_angle: 24.0,
                 profile_duration: 0.5,
@@ -257,15 +258,21 @@ impl FlowThicknessParameters {
         let thinnest = NonlocalLayer { layer: of_grain, cooperativity, surface }.stopping_thickness();
         let is_asked_for = self.nonlocal.surfaces.contains(&surface);
         let thicknesses = self.nonlocal.profiles.iter().filter(move |_| is_asked_for);
-        thicknesses.filter_map(move |times| {
+        let jitter = self.collapse.reservoir.jitter;
+        // without displacements both starts are the lattice
+        let different = if jitter > 0.0 { usize::MAX } else { 1 };
+        let starts = move || self.nonlocal.profile_arrangements.iter().take(different);
+        let flow = move |times: f64, start: Arrangement| {
             // to a tenth of a micrometre, so that its name is short
             let thickness = (thinnest? * times * 1e7).round() / 1e7;
             let mut layer = self.nonlocal_layer(grains, thickness, self.nonlocal.profile_duration, surface);
             layer.layer.resolution = self.nonlocal.profile_rows;
+            layer.layer.jitter = start.displacement(jitter);
             // near h_stop the velocity goes with the thickness to the power of 2.7, so that the 0.2 % by which a settled layer sinks
             // are half a per cent of it
             layer.layer.preparation = Preparation::Raised;
             Some(FlowThicknessRun::Steady(SteadyRun { layer, slope_angle }))
-        })
+        };
+        thicknesses.flat_map(move |&times| starts().filter_map(move |&start| flow(times, start)))
     }
 }

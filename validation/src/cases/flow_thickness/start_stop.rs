@@ -3,6 +3,7 @@
 use super::nonlocal::NonlocalChoice;
 use crate::case::recording::{Ending, Followed, SimulationStage, follow, resumed};
 use crate::case::{ParameterError, Progress};
+use crate::cases::Arrangement;
 use crate::cases::layer::{Layer, PeriodicLayer, bulk_modulus};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -138,6 +139,10 @@ impl LayerAtSlope {
         }
         variant = variant.and("rows", self.layer.resolution);
         match &self.nonlocal {
+            // displaced layers are the rule, of both laws
+            Some(choice) if self.layer.jitter == 0.0 => {
+                variant.and("surface", choice.surface_name()).and("particles", Arrangement::Lattice.name())
+            }
             Some(choice) => variant.and("surface", choice.surface_name()),
             None => variant,
         }

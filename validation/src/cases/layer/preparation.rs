@@ -32,7 +32,7 @@ const LONGEST: f64 = 60.0;
 /// parts in a thousand, is weightless meanwhile, and so without friction, and picks up speed that no continuum has.
 /// The layer settles as a frictionless liquid under the gravity across it, and whenever its kinetic energy passes a
 /// peak all velocities are set to zero (dynamic relaxation).
-pub(super) fn settled(scene: Scene<2>) -> Result<Scene<2>, SceneError> {
+pub(in crate::cases) fn settled(scene: Scene<2>) -> Result<Scene<2>, SceneError> {
     let height = scene.flow.position.iter().fold(0.0_f64, |most, x| most.max(x[1]));
     let limit = LONGEST * height / scene.equation_of_state.sound_speed();
     let mut resting = scene.clone();

@@ -1,0 +1,227 @@
+//! The two flows, and what is exact of them without particles.
+
+use super::channel::STIFFNESS;
+use crate::reference::{LayerError, NonlocalShear, NonlocalShearProfile, ShearStress};
+use bagnold_solver::material::rheology::field::FieldBoundary;
+use bagnold_solver::material::rheology::{MuI, NonlocalMuI};
+use serde::Serialize;
+
+/// Cells of the solution without particles.
+const CELLS: usize = 2000;
+/// Halvings of a bracket, which leave less than rounding of the solution.
+const HALVINGS: usize = 40;
+/// Largest friction below a plate, and in search of that of a chute, over μ_2 `[-]`: there the shear rate has no bound.
+const MOST_FRICTION: f64 = 0.999;
+
+/// A flow whose stresses the balance of momentum gives.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ShearFlow {
+    /// A vertical chute between two walls.
+    Chute {
+        /// Half the distance of the walls `[m]`.
+        half_width: f64,
+        /// Friction that its walls bear, ρ g W/p `[-]`.
+        wall_friction: f64,
+    },
+    /// Grains under gravity below a plate that drags them.
+    DraggedBed {
+        /// Thickness `[m]`.
+        depth: f64,
+        /// Velocity of the plate `[m/s]`.
+        plate_velocity: f64,
+    },
+}
+
+/// Grains that the flow is one of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShearedGrains {
+    /// The law.
+    pub law: NonlocalMuI,
+    /// Mean pressure in a chute, pressure below a plate `[Pa]`.
+    pub load: f64,
+    /// Density of the bulk `[kg/m³]`.
+    pub density: f64,
+    /// Gravity `[m/s²]`; along a chute it is made to fit the friction of the walls.
+    pub gravity: f64,
+}
+
+/// A steady flow without particles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExactShear {
+    flow: ShearFlow,
+    /// Its stresses.
+    pub shear: NonlocalShear,
+    /// Its profile over the distance from where it flows fastest.
+    pub profile: NonlocalShearProfile,
+}
+
+impl ShearFlow {
+    /// Its name in a variant.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Chute { .. } => "chute",
+            Self::DraggedBed { .. } => "dragged-bed",
+        }
+    }
+
+    /// Distance of its walls `[m]`.
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        match *self {
+            Self::Chute { half_width, .. } => 2.0 * half_width,
+            Self::DraggedBed { depth, .. } => depth,
+        }
+    }
+
+    /// Distance `[m]` from where it flows fastest, the middle of a chute or the plate, of a height above the lower wall `[m]`.
+    #[must_use]
+    pub fn distance(&self, height: f64) -> f64 {
+        match *self {
+            Self::Chute { half_width, .. } => (height - half_width).abs(),
+            Self::DraggedBed { depth, .. } => depth - height,
+        }
+    }
+
+    /// Gravity along the walls and across them `[m/s²]`.
+    #[must_use]
+    pub fn gravity(&self, grains: &ShearedGrains) -> [f64; 2] {
+        match *self {
+            Self::Chute { half_width, wall_friction } => {
+                // the compression makes the grains denser by p/K
+                let density = grains.density * (1.0 + 1.0 / STIFFNESS);
+                [wall_friction * grains.load / (density * half_width), 0.0]
+            }
+            Self::DraggedBed { .. } => [0.0, -grains.gravity],
+        }
+    }
+
+    /// Pressure at a height `[Pa]`.
+    #[must_use]
+    pub fn pressure(&self, grains: &ShearedGrains, height: f64) -> f64 {
+        match *self {
+            Self::Chute { .. } => grains.load,
+            Self::DraggedBed { .. } => grains.load + grains.density * grains.gravity * self.distance(height),
+        }
+    }
+
+    /// The steady flow: of a chute at its friction, below a plate with the traction at which the plate moves as it does; none
+    /// where there is no such flow.
+    #[must_use]
+    pub fn steady(&self, grains: &ShearedGrains) -> Option<ExactShear> {
+        match *self {
+            Self::Chute { wall_friction, .. } => self.under(grains, wall_friction),
+            Self::DraggedBed { plate_velocity, .. } => {
+                self.under(grains, self.friction_of(grains, plate_velocity).ok().flatten()?)
+            }
+        }
+    }
+
+    /// The steady flow whose walls, or plate, bear a friction `[-]`; none at rest.
+    fn under(&self, grains: &ShearedGrains, friction: f64) -> Option<ExactShear> {
+        let shear = self.stressed(grains, friction);
+        let profile = shear.steady(CELLS).ok().filter(|profile| profile.fastest > 0.0)?;
+        Some(ExactShear { flow: *self, shear, profile })
+    }
+
+    /// The stresses under a friction of the walls or the plate `[-]`.
+    fn stressed(&self, grains: &ShearedGrains, friction: f64) -> NonlocalShear {
+        let (load, weight) = (grains.load, grains.density * grains.gravity);
+        let (thickness, stress, near) = match *self {
+            Self::Chute { half_width, .. } => {
+                let stress = ShearStress::Chute { pressure: load, wall_friction: friction };
+                (half_width, stress, FieldBoundary::NoFlux)
+            }
+            Self::DraggedBed { depth, .. } => {
+                let stress = ShearStress::UnderGravity { load, traction: friction * load, weight };
+                (depth, stress, FieldBoundary::Vanishing)
+            }
+        };
+        NonlocalShear {
+            grains: grains.law.local(),
+            cooperativity: grains.law.cooperativity,
+            thickness,
+            stress,
+            ends: [near, FieldBoundary::Vanishing],
+        }
+    }
+
+    /// Friction of the walls or the plate `[-]` at which the flow is as fast as is asked for `[m/s]`; none beyond what it can be.
+    ///
+    /// # Errors
+    /// A solution that does not converge.
+    pub fn friction_of(&self, grains: &ShearedGrains, fastest: f64) -> Result<Option<f64>, LayerError> {
+        let law = &grains.law;
+        let (mut slow, mut fast) = (law.static_friction, MOST_FRICTION * law.limiting_friction);
+        if self.stressed(grains, fast).steady(CELLS)?.fastest < fastest {
+            return Ok(None);
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (slow + fast);
+            let reached = self.stressed(grains, middle).steady(CELLS)?.fastest;
+            if reached < fastest { slow = middle } else { fast = middle }
+        }
+        Ok(Some(fast))
+    }
+}
+
+impl ExactShear {
+    /// Velocity `[m/s]` at a height above the lower wall `[m]`.
+    #[must_use]
+    pub fn velocity(&self, height: f64) -> f64 {
+        self.profile.velocity(self.flow.distance(height))
+    }
+
+    /// Shear rate `[1/s]` at such a height.
+    #[must_use]
+    pub fn shear_rate(&self, height: f64) -> f64 {
+        self.profile.shear_rate(self.flow.distance(height))
+    }
+
+    /// Shear stress s_xy `[Pa]` at such a height.
+    #[must_use]
+    pub fn shear_stress(&self, height: f64) -> f64 {
+        let (pressure, friction) = self.shear.stress.at(self.flow.distance(height), self.shear.thickness);
+        // the velocity of a chute falls from its middle to either wall
+        let slows_upwards = matches!(self.flow, ShearFlow::Chute { half_width, .. } if height > half_width);
+        if slows_upwards { -pressure * friction } else { pressure * friction }
+    }
+
+    /// Distance from where it flows fastest at which the local law changes from flow to rest, or in a chute from rest to flow `[m]`.
+    #[must_use]
+    pub fn yield_distance(&self) -> f64 {
+        let yielding = self.shear.grains.static_friction;
+        match self.shear.stress {
+            ShearStress::Chute { wall_friction, .. } => self.shear.thickness * yielding / wall_friction,
+            ShearStress::UnderGravity { load, traction, weight } => (traction / yielding - load) / weight,
+            ShearStress::Heap { slope, side_friction, .. } => (slope - yielding) / side_friction,
+        }
+    }
+
+    /// (distance from where it flows fastest `[m]`, velocity `[m/s]`) of the local law under the same stresses.
+    #[must_use]
+    pub fn local(&self) -> Vec<(f64, f64)> {
+        let width = self.shear.thickness / CELLS as f64;
+        let mut beyond = 0.0;
+        let mut profile: Vec<(f64, f64)> = (0..CELLS)
+            .rev()
+            .map(|cell| {
+                let distance = (cell as f64 + 0.5) * width;
+                let (pressure, friction) = self.shear.stress.at(distance, self.shear.thickness);
+                let growth = width * local_shear_rate(&self.shear.grains, pressure, friction);
+                beyond += growth;
+                (distance, beyond - 0.5 * growth)
+            })
+            .collect();
+        profile.reverse();
+        profile
+    }
+}
+
+/// Shear rate of the local law `[1/s]`.
+fn local_shear_rate(grains: &MuI, pressure: f64, friction: f64) -> f64 {
+    let above = (friction - grains.static_friction).max(0.0);
+    let inertia = grains.reference_inertia * above / (grains.limiting_friction - friction);
+    inertia * (pressure / grains.grain_density).sqrt() / grains.grain_diameter
+}
