@@ -117,7 +117,7 @@ fn flow_rule(incline: &RoughIncline, parameters: &FlowThicknessParameters, recor
 /// Cells of a steady profile in a curve, whose error is then below the width of its line.
 const CURVE_CELLS: usize = 1000;
 /// Points of a curve.
-const CURVE_POINTS: i32 = 60;
+const CURVE_POINTS: i32 = 200;
 /// What half a degree of the slope makes of h_stop, which no document at hand states the scatter of `[°]`.
 const SLOPE_ERROR: f64 = 0.5;
 
