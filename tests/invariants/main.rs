@@ -25,6 +25,7 @@ mod stopping;
 mod supports;
 mod surface_operators;
 mod symmetries;
+mod thrown_grains;
 mod two_phases;
 mod viscous_step;
 mod walls;

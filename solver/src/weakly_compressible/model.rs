@@ -27,6 +27,8 @@ pub(crate) struct Model<const D: usize> {
     pub(crate) field: Option<LawField>,
     /// Σ −2 V F over a lattice `[1/m²]`.
     pub(crate) full_weight: f64,
+    /// W(0) where tension is cut, so that grains may fly apart, else 0 `[1/m^D]`.
+    pub(crate) lone_density_per_mass: f64,
 }
 
 /// What diffuses among pairs in the pass of continuity.

@@ -2,6 +2,7 @@
 
 use crate::kernel::Kernel;
 use crate::lanes::InstructionSet;
+use crate::material::equation_of_state::Tension;
 use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::{Images, Wall};
@@ -46,6 +47,7 @@ impl<const D: usize> State<D> {
     /// The state of a checked scene, before its first neighbour search.
     pub(crate) fn new(scene: Scene<D>) -> Self {
         let numerics = scene.numerics;
+        let kernel = Kernel::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing);
         let mut particles = Particles::new(&scene);
         particles.artificial_viscosity.fill(initial_artificial_viscosity(&numerics));
         particles.viscosity.fill(scene.rheology.viscosity(0.0, 0.0));
@@ -61,7 +63,7 @@ impl<const D: usize> State<D> {
             ),
             model: Model {
                 list: VerletList::default(),
-                kernel: Kernel::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing),
+                kernel,
                 equation_of_state: scene.equation_of_state,
                 rheology: scene.rheology,
                 numerics,
@@ -71,6 +73,10 @@ impl<const D: usize> State<D> {
                 instruction_set: InstructionSet::best(),
                 field: scene.rheology.field(),
                 full_weight: lattice_weight::<D>(&numerics, scene.spacing),
+                lone_density_per_mass: match scene.equation_of_state.tension {
+                    Tension::Cut => kernel.value_at(0.0),
+                    Tension::Kept => 0.0,
+                },
             },
             pairs: PairData::new(),
             viscous: ViscousSystem::new(),

@@ -134,9 +134,11 @@ impl<const D: usize> Advance<'_, D> {
         let strength = self.model.numerics.density_coupling;
         let density = continuity::advanced(previous, sums.compression, sums.coupling, strength, self.time_step);
         let here = self.block_start + places.start..self.block_start + places.end;
+        let mass = load::<V>(&self.particles.mass[here.clone()]);
+        let density = continuity::held(density, mass, self.model.lone_density_per_mass);
         let time_step = V::splat(self.time_step);
         CompressionStep {
-            mass: load::<V>(&self.particles.mass[here.clone()]),
+            mass,
             density: (previous, density),
             pressure: (load::<V>(&self.particles.pressure[here]), equation_of_state.pressure(density)),
             by_walls: time_step * previous * sums.wall_compression,

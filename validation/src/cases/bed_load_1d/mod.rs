@@ -5,6 +5,7 @@ mod grain_units;
 mod laws;
 mod metrics;
 mod onset;
+mod onset_criterion;
 mod others;
 mod parameters;
 mod records;

@@ -1,5 +1,6 @@
 //! One run: a layer and what it is computed for.
 
+use super::onset_criterion::moves_by_some_criterion;
 use super::replacements::Replaced;
 use crate::case::{ParameterError, Progress, Run};
 use crate::checkpoint::is_interrupted;
@@ -25,6 +26,10 @@ const USUAL_STEPS: f64 = 350.0;
 
 /// Shields numbers at which a layer is computed, over that of the curve `[-]`.
 pub(super) const SCANNED: [f64; 6] = [0.55, 0.75, 1.0, 1.3, 1.7, 2.3];
+/// Where the least of them still carries more than a criterion asks for, the scan goes on below by this factor, as from 0.75 to 0.55.
+const NEXT_BELOW: f64 = 0.75;
+/// But not below this: nobody has measured an onset at a tenth of the curve.
+const LOWEST_SCANNED: f64 = 0.1;
 
 /// What a layer is computed for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -83,6 +88,8 @@ pub struct BedLoadLayerObservation {
     pub second: Option<LayerState>,
     /// Shields numbers and transports of an onset `[-]`.
     pub scan: Vec<(f64, f64)>,
+    /// The same with half the rate of the regularisation: what differs is the creep of a bed that should rest.
+    pub scan_at_half_rate: Vec<(f64, f64)>,
 }
 
 impl Run for BedLoad1dRun {
@@ -124,7 +131,8 @@ impl Run for BedLoad1dRun {
 
     fn particle_steps(&self) -> f64 {
         let layers = match self.purpose {
-            LayerPurpose::Onset => 2.0 * SCANNED.len() as f64,
+            // both starts, and one of half the rate
+            LayerPurpose::Onset => 3.0 * SCANNED.len() as f64,
             _ if self.has_both_starts() => 2.0,
             _ => 1.0,
         };
@@ -146,7 +154,11 @@ impl Run for BedLoad1dRun {
             None
         };
         let mut done = Done::of(&approach, fast.as_ref());
-        let scan = if self.purpose == LayerPurpose::Onset { self.scan(&approach, &mut done)? } else { Vec::new() };
+        let (mut scan, mut scan_at_half_rate) = (Vec::new(), Vec::new());
+        if self.purpose == LayerPurpose::Onset {
+            scan = self.scan(&approach, &mut done)?;
+            scan_at_half_rate = self.scan_at_half_rate(&scan, &mut done)?;
+        }
         if is_interrupted() {
             return Err(ParameterError::Interrupted);
         }
@@ -183,6 +195,7 @@ impl Run for BedLoad1dRun {
                 start_difference: done.difference,
                 second,
                 scan,
+                scan_at_half_rate,
                 state: approach.state,
             },
         })
@@ -215,24 +228,51 @@ impl BedLoad1dRun {
         )
     }
 
-    /// Shields numbers and transports about the onset, from both starts; that of the run itself is known.
+    /// Shields numbers and transports about the onset, from both starts; that of the run itself is known. It begins below every
+    /// criterion, or at [`LOWEST_SCANNED`].
     fn scan(&self, own: &Approach, done: &mut Done) -> Result<Vec<(f64, f64)>, ParameterError> {
         let mut scan = Vec::new();
-        for stream in scanned(&self.stream) {
+        for factor in SCANNED {
+            let stream = scaled(&self.stream, factor);
             if stream == self.stream {
                 scan.push((stream.shields_number(), own.state.transport()));
-                continue;
+            } else {
+                scan.push(self.scanned(stream, done)?);
             }
-            let layer = BedLoadLayer { stream, ..self.layer().map_err(refused)? };
-            let slow = layer.approach_unless(InitialVelocity::Rest, &is_interrupted).map_err(refused)?;
-            let fast = layer.approach_unless(layer.fast_start(), &is_interrupted).map_err(refused)?;
-            let both = Done::of(&slow, Some(&fast));
-            done.steps += both.steps;
-            done.difference = done.difference.max(both.difference);
-            done.unsteady = done.unsteady.take().or(both.unsteady);
-            scan.push((stream.shields_number(), slow.state.transport()));
+        }
+        let mut factor = NEXT_BELOW * SCANNED[0];
+        while moves_by_some_criterion(scan[0]) && factor >= LOWEST_SCANNED {
+            scan.insert(0, self.scanned(scaled(&self.stream, factor), done)?);
+            factor *= NEXT_BELOW;
         }
         Ok(scan)
+    }
+
+    /// The transports of a scan's Shields numbers with half the rate of the regularisation, from rest.
+    fn scan_at_half_rate(&self, scan: &[(f64, f64)], done: &mut Done) -> Result<Vec<(f64, f64)>, ParameterError> {
+        let closures = Closures { regularisation_rate: 0.5 * self.closures.regularisation_rate, ..self.closures };
+        let own = self.stream.shields_number();
+        let transport = |&(shields_number, _): &(f64, f64)| {
+            let stream = scaled(&self.stream, shields_number / own);
+            let layer = BedLoadLayer { stream, closures, ..self.layer().map_err(refused)? };
+            let slow = layer.approach_unless(InitialVelocity::Rest, &is_interrupted).map_err(refused)?;
+            done.steps += slow.steps;
+            done.unsteady = done.unsteady.take().or(slow.unsteady);
+            Ok((shields_number, slow.state.transport()))
+        };
+        scan.iter().map(transport).collect()
+    }
+
+    /// Shields number and transport of a stream, from both starts.
+    fn scanned(&self, stream: Stream, done: &mut Done) -> Result<(f64, f64), ParameterError> {
+        let layer = BedLoadLayer { stream, ..self.layer().map_err(refused)? };
+        let slow = layer.approach_unless(InitialVelocity::Rest, &is_interrupted).map_err(refused)?;
+        let fast = layer.approach_unless(layer.fast_start(), &is_interrupted).map_err(refused)?;
+        let both = Done::of(&slow, Some(&fast));
+        done.steps += both.steps;
+        done.difference = done.difference.max(both.difference);
+        done.unsteady = done.unsteady.take().or(both.unsteady);
+        Ok((stream.shields_number(), slow.state.transport()))
     }
 
     /// The layer.
@@ -281,9 +321,9 @@ fn refused(error: LayerError) -> ParameterError {
     }
 }
 
-/// Layers over the scanned Shields numbers: the slope follows.
-pub(super) fn scanned(stream: &Stream) -> impl Iterator<Item = Stream> {
-    SCANNED.into_iter().map(|factor| Stream { slope: factor * stream.slope, ..*stream })
+/// A stream with so many times the Shields number: the slope follows.
+fn scaled(stream: &Stream, factor: f64) -> Stream {
+    Stream { slope: factor * stream.slope, ..*stream }
 }
 
 /// Name of a slope.

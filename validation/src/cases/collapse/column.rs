@@ -65,6 +65,8 @@ pub enum ColumnPurpose {
     Eddies,
     /// Without the coupling of density and pressure, beside the same column with it.
     Uncoupled,
+    /// Another seed of a column whose velocity profile is judged by the mean over seeds.
+    ProfileSeed,
 }
 
 /// One simulation.
@@ -103,7 +105,7 @@ impl Run for ColumnRun {
             .and("resolution", self.resolution);
         match self.purpose {
             ColumnPurpose::Law => column,
-            ColumnPurpose::Convergence => column.and("seed", self.release.seed),
+            ColumnPurpose::Convergence | ColumnPurpose::ProfileSeed => column.and("seed", self.release.seed),
             ColumnPurpose::Hourglass => {
                 column.and("hourglass", self.release.numerics.hourglass).and("seed", self.release.seed)
             }

@@ -59,7 +59,7 @@ pub(in crate::cases) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
                 round.push((run.initial_height(), ratio.clone()));
                 metrics.push(ratio);
             }
-            metrics.extend(super::flow_metrics::of_run(run, record));
+            metrics.extend(super::flow_metrics::of_run(column, records));
             metrics.extend(super::statements::of_run(run, record));
         } else {
             metrics.extend(conservation(&run.variant(), &record.data, &run.release.numerics));

@@ -21,6 +21,7 @@ quantities! {
     FLOWING_LAYER_SHEAR_RATE:
         validated("flowing_layer_shear_rate", "1/s", "slope of a line through the flowing layer's velocity"),
     FLOWING_LAYER_R_SQUARED: stated("flowing_layer_r_squared", "-", "share of the variance that this line explains"),
+    ENSEMBLE_FLOWING_LAYER_R_SQUARED: stated("ensemble_flowing_layer_r_squared", "-", "mean of that share over the seeds"),
     FASTEST_HEIGHT:
         stated("fastest_height", "-", "height of the fastest row of particles at the column's edge in mid-collapse, over that of the surface"),
     LINEAR_MISFIT_RATIO: stated(

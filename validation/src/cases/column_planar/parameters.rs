@@ -57,6 +57,11 @@ pub struct Sensitivity {
     /// Particles over the half width of these.
     #[schemars(transform = each(rules::rows()))]
     pub hourglass_resolutions: Vec<usize>,
+    /// Aspect ratios of columns of the sand and of Lagrée's grains whose velocity profile is judged by the mean over seeds `[-]`; empty for none.
+    #[schemars(transform = each(between(0.1, 100.0, "the published laws reach from 0.3 to 20")))]
+    pub profile_aspect_ratios: Vec<f64>,
+    /// Their seeds beside the case's own.
+    pub profile_seeds: Vec<u64>,
 }
 
 /// The regularised law with an implicit viscous step, beside the return mapping.

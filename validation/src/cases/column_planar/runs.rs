@@ -24,6 +24,7 @@ pub(super) fn all(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
         .chain(parameters.hourglasses())
         .chain(parameters.other_numerics())
         .chain(parameters.regularised())
+        .chain(parameters.profile_seeds())
         .collect()
 }
 
@@ -154,6 +155,29 @@ impl ColumnPlanarParameters {
                         ColumnRun { purpose: ColumnPurpose::Hourglass, resolution, release, ..own.clone() }
                     }));
                 }
+            }
+        }
+        runs
+    }
+
+    /// Further seeds of columns that stand for themselves, for the mean of their velocity profile.
+    fn profile_seeds(&self) -> Vec<ColumnRun> {
+        let study = &self.sensitivity;
+        let mut runs = Vec::new();
+        for (material, columns) in [(Material::SAND, &self.sand), (Material::LAGREE, &self.lagree)] {
+            for &ratio in study.profile_aspect_ratios.iter().filter(|ratio| columns.aspect_ratios.contains(ratio)) {
+                let own = ColumnRun { shown_times: Vec::new(), ..self.column(material, columns, ratio) };
+                // an ensemble of the same column has them already
+                let is_ensemble = material == Material::LAGREE
+                    && study.aspect_ratios.contains(&ratio)
+                    && study.resolutions.contains(&own.resolution);
+                if is_ensemble {
+                    continue;
+                }
+                runs.extend(study.profile_seeds.iter().filter(|&&seed| seed != self.release.seed).map(|&seed| {
+                    let release = Release { seed, ..self.release };
+                    ColumnRun { purpose: ColumnPurpose::ProfileSeed, release, ..own.clone() }
+                }));
             }
         }
         runs

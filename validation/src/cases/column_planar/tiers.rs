@@ -85,6 +85,9 @@ impl Parameters for ColumnPlanarParameters {
                 hourglass: vec![0.0, 0.2, 0.5],
                 hourglass_seeds: vec![1, 2, 3],
                 hourglass_resolutions: vec![20, 40],
+                // taller ones take minutes each
+                profile_aspect_ratios: vec![7.0, 10.0],
+                profile_seeds: vec![2, 3],
             },
             regularised: Regularised { aspect_ratios: vec![1.0, 3.0], rate: 0.01 },
             other_numerics: OtherNumerics { eddy_aspect_ratios: vec![3.0, 7.0, 14.0], ..quick.other_numerics.clone() },
@@ -147,9 +150,11 @@ impl Parameters for ColumnPlanarParameters {
         collapse::check_size(runs, |run| match run.purpose {
             ColumnPurpose::Convergence => "sensitivity.resolutions".to_owned(),
             ColumnPurpose::Hourglass => "sensitivity.hourglass_resolutions".to_owned(),
-            ColumnPurpose::Law | ColumnPurpose::Regularised | ColumnPurpose::Eddies | ColumnPurpose::Uncoupled => {
-                self.resolution_field(run.material.grains, run.aspect_ratio).to_owned()
-            }
+            ColumnPurpose::Law
+            | ColumnPurpose::Regularised
+            | ColumnPurpose::Eddies
+            | ColumnPurpose::Uncoupled
+            | ColumnPurpose::ProfileSeed => self.resolution_field(run.material.grains, run.aspect_ratio).to_owned(),
         })
     }
 
