@@ -1,6 +1,7 @@
 //! What must hold in every run, whatever the case: balances, symmetries, determinism, exact messages.
 
 mod artificial_viscosity;
+mod cuts;
 mod density_coupling;
 mod determinism;
 mod energy_ledger;

@@ -16,6 +16,7 @@ use crate::weakly_compressible::passes::PairData;
 use crate::weakly_compressible::scene::Scene;
 use crate::weakly_compressible::search::Search;
 use crate::weakly_compressible::surroundings::Surroundings;
+use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
 use crate::weakly_compressible::terms::artificial_viscosity::SWITCH_LOWEST;
 use crate::weakly_compressible::time_step::TimeStepBounds;
 use crate::weakly_compressible::viscous_solve::ViscousSystem;
@@ -77,6 +78,10 @@ impl<const D: usize> State<D> {
                     Tension::Cut => kernel.value_at(0.0),
                     Tension::Kept => 0.0,
                 },
+                artificial_stress: scene.rheology.is_cohesive().then(|| {
+                    let kernel = Kernel::<D>::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing);
+                    ArtificialStress::new(&kernel, scene.spacing)
+                }),
             },
             pairs: PairData::new(),
             viscous: ViscousSystem::new(),
