@@ -78,10 +78,8 @@ impl<const D: usize> State<D> {
                     Tension::Cut => kernel.value_at(0.0),
                     Tension::Kept => 0.0,
                 },
-                artificial_stress: scene.rheology.is_cohesive().then(|| {
-                    let kernel = Kernel::<D>::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing);
-                    ArtificialStress::new(&kernel, scene.spacing)
-                }),
+                artificial_stress: (scene.rheology.is_cohesive())
+                    .then(|| ArtificialStress::new(&kernel, scene.spacing)),
             },
             pairs: PairData::new(),
             viscous: ViscousSystem::new(),
