@@ -2,6 +2,7 @@
 
 mod artificial_viscosity;
 mod channel;
+mod cuts;
 mod density_coupling;
 mod determinism;
 mod energy_ledger;

@@ -50,6 +50,12 @@ impl<const D: usize> Kernel<D> {
         }
     }
 
+    /// Which it is.
+    #[must_use]
+    pub fn shape(&self) -> KernelShape {
+        self.shape
+    }
+
     /// Smoothing length h `[m]`.
     #[must_use]
     pub fn smoothing_length(&self) -> f64 {

@@ -38,7 +38,7 @@ pub struct EnergyLedger {
     pub viscous: f64,
     /// Dissipated by plastic flow, and by the diffusion of the stress ratio.
     pub plastic: f64,
-    /// Dissipated by artificial viscosity and hourglass control among the flow.
+    /// Dissipated by artificial viscosity and hourglass control among the flow, and given to its artificial stress.
     pub artificial: f64,
     /// Dissipated by the hourglass control at walls.
     pub wall_control: f64,

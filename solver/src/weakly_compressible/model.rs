@@ -10,6 +10,7 @@ use crate::material::turbulence::{Smagorinsky, dynamic_eddy_viscosity};
 use crate::vector::Vector;
 use crate::weakly_compressible::neighbours::VerletList;
 use crate::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
 
 /// What stays the same from step to step, except the neighbour list, which a search fills anew.
 #[derive(Debug)]
@@ -27,6 +28,8 @@ pub(crate) struct Model<const D: usize> {
     pub(crate) field: Option<LawField>,
     /// Σ −2 V F over a lattice `[1/m²]`.
     pub(crate) full_weight: f64,
+    /// Where the law holds together.
+    pub(crate) artificial_stress: Option<ArtificialStress>,
 }
 
 /// What diffuses among pairs in the pass of continuity.
@@ -124,6 +127,13 @@ impl<const D: usize> Model<D> {
     /// δ c h `[m²/s]`: diffusivity of the stress ratio among yielding particles.
     pub(crate) fn stress_diffusivity(&self) -> f64 {
         self.numerics.stress_diffusion * self.equation_of_state.sound_speed() * self.kernel.smoothing_length()
+    }
+
+    /// σ of the density–pressure coupling (27) `[-]`. None in soil that holds together: there the pressure is one of the stresses in
+    /// balance and as uneven as they are at faces and corners, where the coupling never vanishes; it would make slopes at rest creep.
+    #[inline(always)]
+    pub(crate) fn density_coupling(&self) -> f64 {
+        if self.rheology.is_cohesive() { 0.0 } else { self.numerics.density_coupling }
     }
 
     /// Whether the terms of pairs are single precision.

@@ -15,6 +15,7 @@ use crate::weakly_compressible::passes::PairData;
 use crate::weakly_compressible::scene::Scene;
 use crate::weakly_compressible::search::Search;
 use crate::weakly_compressible::surroundings::Surroundings;
+use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
 use crate::weakly_compressible::terms::artificial_viscosity::SWITCH_LOWEST;
 use crate::weakly_compressible::time_step::TimeStepBounds;
 use crate::weakly_compressible::viscous_solve::ViscousSystem;
@@ -71,6 +72,10 @@ impl<const D: usize> State<D> {
                 instruction_set: InstructionSet::best(),
                 field: scene.rheology.field(),
                 full_weight: lattice_weight::<D>(&numerics, scene.spacing),
+                artificial_stress: scene.rheology.is_cohesive().then(|| {
+                    let kernel = Kernel::<D>::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing);
+                    ArtificialStress::new(&kernel, scene.spacing)
+                }),
             },
             pairs: PairData::new(),
             viscous: ViscousSystem::new(),

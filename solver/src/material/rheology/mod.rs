@@ -363,6 +363,13 @@ macro_rules! rheology {
                 }
             }
 
+            /// Whether the law carries a stress along that it bears without a pressure: soil that holds together.
+            #[inline]
+            #[must_use]
+            pub fn is_cohesive(&self) -> bool {
+                self.is_plastic() && !self.strength_is_friction()
+            }
+
             /// What the law keeps of each particle beside the stress, if anything.
             #[must_use]
             pub fn field(&self) -> Option<LawField> {

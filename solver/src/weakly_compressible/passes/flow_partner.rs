@@ -5,6 +5,7 @@ use super::records::{self, LaneRecord, Records};
 use crate::lanes::{LaneIndices, Lanes};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::numerics::{HourglassDirection, ViscositySwitch};
+use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
 
 /// What is read of a flow particle.
 pub(super) struct FlowPartner<V, const D: usize> {
@@ -46,6 +47,7 @@ pub(super) struct Constants {
     pub(super) artificial_viscosity: f64,
     pub(super) viscosity_switch: ViscositySwitch,
     pub(super) hourglass_direction: HourglassDirection,
+    pub(super) artificial_stress: Option<ArtificialStress>,
 }
 
 impl Constants {
@@ -59,6 +61,7 @@ impl Constants {
             artificial_viscosity: model.numerics.artificial_viscosity,
             viscosity_switch: model.numerics.viscosity_switch,
             hourglass_direction: model.numerics.hourglass_direction,
+            artificial_stress: model.artificial_stress,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The momentum equation with the single divergence: a_a = g + [Σ V_b F traction]/ρ_a + artificial viscosity (15) +
-//! hourglass control, each a term of its own, in one loop over flow and wall partners.
+//! hourglass control, and the artificial stress of soil that holds together, each a term of its own, in one loop over flow and wall
+//! partners.
 
 use super::PairData;
 use super::flow_partner::{Constants, FlowPartner};
@@ -94,7 +95,7 @@ struct Output<'a, const D: usize> {
 pub(super) struct Forces<V, const D: usize> {
     /// Σ V F traction `[N/m³]`.
     pub(super) divergence: [V; D],
-    /// Artificial viscosity and hourglass control `[m/s²]`.
+    /// Artificial viscosity, artificial stress and hourglass control `[m/s²]`.
     pub(super) damping: [V; D],
     pub(super) mirror_divergence: [V; D],
     pub(super) mirror_damping: [V; D],
@@ -189,11 +190,20 @@ fn flow_forces<V: Lanes, const D: usize>(
         accumulate(&mut forces.divergence, weight, &traction);
         accumulate(&mut forces.damping, mass_weight * push, &r);
         accumulate(&mut forces.damping, mass_weight * drag, &unexplained);
+        let mut relief = V::splat(0.0);
+        if let Some(artificial_stress) = &constants.artificial_stress {
+            let square = dot(&r, &r);
+            relief = weight * artificial_stress.factor(square, dot(&traction, &r) / regular) / own.density;
+            accumulate(&mut forces.damping, relief, &r);
+        }
         if group.has_images {
             let mirrored: V = mirrored_lanes(&particles.mirrored, particles.real_count(), &b);
             accumulate(&mut forces.mirror_divergence, mirrored * weight, &traction);
             accumulate(&mut forces.mirror_damping, mirrored * (mass_weight * push), &r);
             accumulate(&mut forces.mirror_damping, mirrored * (mass_weight * drag), &unexplained);
+            if constants.artificial_stress.is_some() {
+                accumulate(&mut forces.mirror_damping, mirrored * relief, &r);
+            }
         }
     }
 }

@@ -131,7 +131,7 @@ impl<const D: usize> Advance<'_, D> {
     ) {
         let equation_of_state = &self.model.equation_of_state;
         let previous = load::<V>(&out.density[places.clone()]);
-        let strength = self.model.numerics.density_coupling;
+        let strength = self.model.density_coupling();
         let density = continuity::advanced(previous, sums.compression, sums.coupling, strength, self.time_step);
         let here = self.block_start + places.start..self.block_start + places.end;
         let time_step = V::splat(self.time_step);

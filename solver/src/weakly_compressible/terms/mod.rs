@@ -1,6 +1,7 @@
 //! The formulas of one physical idea each, for eight pairs or eight particles at once. A term knows neither particles nor
 //! lists nor laws: a pass gives it numbers.
 
+pub mod artificial_stress;
 pub mod artificial_viscosity;
 pub mod continuity;
 pub mod density_coupling;

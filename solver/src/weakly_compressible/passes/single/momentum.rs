@@ -95,9 +95,13 @@ pub(in super::super) fn flow_forces<V: Lanes, const D: usize>(
             let speed_sum = speed + records::scalar(&other, Place::<D>::SPEED);
             let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum) * (inverse * regular);
             let along = (approach - explained::<V::Single, D>(&own, &other, &r)) * (half * inverse * density_sum);
-            let pull = (weight * other_density) * (push + drag * along);
+            let mut pull = (weight * other_density) * (push + drag * along);
             let theirs = records::tensor::<V::Single, D>(&other, Place::<D>::STRESS);
             let traction = stress_divergence::traction(&stress, &theirs, &r);
+            if let Some(artificial_stress) = &constants.artificial_stress {
+                let factor = artificial_stress.factor(square, dot(&traction, &r) / regular);
+                pull = pull + weight * factor / density;
+            }
             accumulate(&mut divergence, weight, &traction);
             accumulate(&mut damping, pull, &r);
             if group.has_images {
