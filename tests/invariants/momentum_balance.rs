@@ -1,7 +1,7 @@
 //! No pair term makes momentum: Σ m Δv = 0 in every step of a fully periodic block, term by term.
 
 use crate::patches::{Disorder, GRAINS, SPACING, SYRUP, block, exact_pairs, open_scene, periodic_scene, simulation};
-use bagnold_solver::material::rheology::{Bingham, Newtonian, Rheology};
+use bagnold_solver::material::rheology::{Bingham, Newtonian, Rheology, SofteningDruckerPrager};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics, ViscositySwitch};
 use bagnold_solver::weakly_compressible::scene::Scene;
@@ -81,6 +81,19 @@ fn imbalance(numerics: Numerics, rheology: Rheology, disorder: Disorder) -> f64 
 #[test]
 fn the_single_divergence_of_pressure_and_stress_is_balanced() {
     assert!(imbalance(bare(), GRAINS, Disorder::FULL) < ROUNDING);
+}
+
+#[test]
+fn the_artificial_stress_of_soil_that_holds_together_is_balanced() {
+    // a cohesion that bears what the disordered velocities strain, so that pairs are under tension
+    let soil = Rheology::SofteningDruckerPrager(SofteningDruckerPrager {
+        peak_friction: 0.0,
+        residual_friction: 0.0,
+        peak_cohesion: 1e5,
+        residual_cohesion: 1e5,
+        softening_strain: 1.0,
+    });
+    assert!(imbalance(bare(), soil, Disorder::FULL) < ROUNDING);
 }
 
 #[test]
