@@ -92,7 +92,18 @@ impl Cut {
         let wall_particles = wall::fill(&walls, &domain, extent, spacing, 4);
         let gravity = Vector::<2>::new(0.0, -GRAVITY);
         let (rheology, numerics, enclosure) = (self.law(stability), Numerics::default(), Enclosure::default());
-        Scene { flow, walls, wall_particles, enclosure, domain, gravity, spacing, equation_of_state, rheology, numerics }
+        Scene {
+            flow,
+            walls,
+            wall_particles,
+            enclosure,
+            domain,
+            gravity,
+            spacing,
+            equation_of_state,
+            rheology,
+            numerics,
+        }
     }
 
     /// Where the particle at the upper end of the face is among all.
