@@ -97,7 +97,7 @@ pub struct Numerics {
     pub wall_treatment: WallTreatment,
     /// Contact insurance at walls.
     pub contact: Contact,
-    /// σ of the density–pressure coupling (27) `[-]`; 0 switches it off.
+    /// σ of the density–pressure coupling (27) `[-]`; 0 switches it off. Laws with a cohesion go without it.
     #[schemars(transform = between(0.0, 10.0, DEFAULTS))]
     pub density_coupling: f64,
     /// α_Π of the artificial viscosity (15) `[-]`.
