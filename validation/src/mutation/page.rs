@@ -1,9 +1,9 @@
 //! The findings as a table for the terminal, as CSV and as Markdown.
 
-use super::rows::{fallen_rows, summary};
 use super::{Catch, DetectionTally, LEAST_CAUGHT, LEAST_GATED, MutationOutcome};
 use crate::metric::Limit;
 use crate::number::short_digits;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -77,6 +77,30 @@ fn shares(findings: &[MutationOutcome]) -> String {
         percent(LEAST_CAUGHT),
         percent(tally.gated()),
         percent(LEAST_GATED),
+    )
+}
+
+/// Each element that some case reproduces without errors, with the names of the errors under which it falls.
+fn fallen_rows(findings: &[MutationOutcome]) -> BTreeMap<&str, Vec<&str>> {
+    let mut rows: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for finding in findings {
+        for (row, falls) in &finding.rows {
+            let errors = rows.entry(row).or_default();
+            errors.extend(falls.then_some(finding.error.name.as_str()));
+        }
+    }
+    rows
+}
+
+/// What rows fall and which stand under all errors, in words.
+fn summary(findings: &[MutationOutcome]) -> String {
+    let rows = fallen_rows(findings);
+    let standing: Vec<&str> = rows.iter().filter(|(_, errors)| errors.is_empty()).map(|(row, _)| *row).collect();
+    let fallen = rows.len() - standing.len();
+    let which = if standing.is_empty() { String::new() } else { format!(" Standing: {}.", standing.join(", ")) };
+    format!(
+        "Of {} elements of the papers that these cases reproduce, {fallen} fall under at least one error.{which}\n",
+        rows.len()
     )
 }
 

@@ -1,7 +1,7 @@
 //! Which statements of the papers fall with an error: the physics is broken in the program, and whoever still calls a
 //! statement reproduced shows nothing by it.
 
-use super::{MutationOutcome, Sighting};
+use super::Sighting;
 use crate::reference::PAPERS;
 use crate::report::papers::Status;
 use std::collections::BTreeMap;
@@ -27,30 +27,6 @@ pub(super) fn judged_rows(case: &str, right: &Sighting, wrong: &Sighting) -> BTr
         }
     }
     rows
-}
-
-/// Each element that some case reproduces without errors, with the names of the errors under which it falls.
-pub(super) fn fallen_rows(findings: &[MutationOutcome]) -> BTreeMap<&str, Vec<&str>> {
-    let mut rows: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-    for finding in findings {
-        for (row, falls) in &finding.rows {
-            let errors = rows.entry(row).or_default();
-            errors.extend(falls.then_some(finding.error.name.as_str()));
-        }
-    }
-    rows
-}
-
-/// What rows fall and which stand under all errors, in words.
-pub(super) fn summary(findings: &[MutationOutcome]) -> String {
-    let rows = fallen_rows(findings);
-    let standing: Vec<&str> = rows.iter().filter(|(_, errors)| errors.is_empty()).map(|(row, _)| *row).collect();
-    let fallen = rows.len() - standing.len();
-    let which = if standing.is_empty() { String::new() } else { format!(" Standing: {}.", standing.join(", ")) };
-    format!(
-        "Of {} elements of the papers that these cases reproduce, {fallen} fall under at least one error.{which}\n",
-        rows.len()
-    )
 }
 
 #[cfg(test)]

@@ -135,7 +135,7 @@ impl<const D: usize> Advance<'_, D> {
         let density = continuity::advanced(previous, sums.compression, sums.coupling, strength, self.time_step);
         let here = self.block_start + places.start..self.block_start + places.end;
         let mass = load::<V>(&self.particles.mass[here.clone()]);
-        let density = continuity::held(density, mass, self.model.lone_density_per_mass);
+        let density = continuity::held(density, previous, mass, self.model.lone_density_per_mass);
         let time_step = V::splat(self.time_step);
         CompressionStep {
             mass,

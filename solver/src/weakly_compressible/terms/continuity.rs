@@ -33,11 +33,11 @@ pub fn advanced<R: Real>(density: R, compression: R, coupling: R, strength: f64,
 }
 
 /// ρ `[kg/m³]` of a particle of a mass `[kg]`, no less than the m W(0) of a particle alone; `peak` is W(0) `[1/m^D]`, or 0 where
-/// nothing is held. NaN stays NaN.
+/// nothing is held. What was thinner in `previous` is not made denser than it was. NaN stays NaN.
 #[inline(always)]
 #[must_use]
-pub fn held<R: Real>(density: R, mass: R, peak: f64) -> R {
-    (R::splat(peak) * mass).max(density)
+pub fn held<R: Real>(density: R, previous: R, mass: R, peak: f64) -> R {
+    (R::splat(peak) * mass).min(previous).max(density)
 }
 
 #[cfg(test)]
@@ -64,7 +64,7 @@ mod tests {
             for smoothing_ratio in [1.3, 1.5] {
                 let kernel = Kernel::<D>::new(shape, smoothing_ratio);
                 let alone = kernel.value_at(0.0);
-                let relative = held(1e-3, 1.0, alone) * libm::exp(full_neighbourhood(&kernel));
+                let relative = held(1e-3, 1.0, 1.0, alone) * libm::exp(full_neighbourhood(&kernel));
                 assert!(relative > alone && relative < 0.7, "{shape:?} in {D} dimensions: {relative}");
             }
         }
@@ -78,9 +78,11 @@ mod tests {
 
     #[test]
     fn only_what_is_thinner_than_a_particle_alone_is_held() {
-        assert_eq!(held(0.3, 1.0, 0.25), 0.3);
-        assert_eq!(held(0.2, 1.0, 0.25), 0.25);
-        assert_eq!(held(0.2, 1.0, 0.0), 0.2);
-        assert!(held(f64::NAN, 1.0, 0.25).is_nan());
+        assert_eq!(held(0.3, 1.0, 1.0, 0.25), 0.3);
+        assert_eq!(held(0.2, 1.0, 1.0, 0.25), 0.25);
+        assert_eq!(held(0.2, 1.0, 1.0, 0.0), 0.2);
+        // a body that starts thinner
+        assert_eq!((held(0.1, 0.15, 1.0, 0.25), held(0.2, 0.15, 1.0, 0.25)), (0.15, 0.2));
+        assert!(held(f64::NAN, 1.0, 1.0, 0.25).is_nan() && held(f64::NAN, f64::NAN, 1.0, 0.25).is_nan());
     }
 }
