@@ -83,7 +83,7 @@ fn all_below(chunks: &[[u32; LANES]], bound: usize) -> bool {
 }
 
 /// Chunks of eight indices, all below one bound. They change only by [`CheckedIndices::refill`] and
-/// [`CheckedIndices::refill_regions`], which check them, and are checked when they are read back.
+/// `CheckedIndices::refill_regions`, which check them, and are checked when they are read back.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(try_from = "PackedIndices", into = "PackedIndices")]
 pub struct CheckedIndices {
