@@ -73,7 +73,7 @@ fn opening(drawn: &[DrawnFigure]) -> Vec<FigureView> {
     shown.into_iter().take(1).chain(moves).collect()
 }
 
-/// The figure that shares most words with a metric's name; nothing where none does.
+/// The figure that is named like a value of a metric's variant, else the one that shares most words with its name; nothing where none does.
 fn figure(row: &MetricView, drawn: &[DrawnFigure]) -> String {
     let is_word_of = |text: &str, word: &str| text.split(|c: char| !c.is_alphanumeric()).any(|other| other == word);
     let shared = |drawn: &DrawnFigure| {
@@ -86,9 +86,13 @@ fn figure(row: &MetricView, drawn: &[DrawnFigure]) -> String {
         };
         row.metric.split('_').map(weight).sum::<usize>()
     };
+    let is_of_run = |drawn: &DrawnFigure| {
+        row.variant.iter().any(|part| part.split_once('=').is_some_and(|(_, value)| value == drawn.name))
+    };
+    let fit = |drawn: &DrawnFigure| (is_of_run(drawn), shared(drawn));
     // the first of equals
-    let best = drawn.iter().filter(|drawn| drawn.failure.is_none()).rev().max_by_key(|drawn| shared(drawn));
-    best.filter(|best| shared(best) > 0).map(|best| best.name.clone()).unwrap_or_default()
+    let best = drawn.iter().filter(|drawn| drawn.failure.is_none()).rev().max_by_key(|drawn| fit(drawn));
+    best.filter(|best| fit(best) > (false, 0)).map(|best| best.name.clone()).unwrap_or_default()
 }
 
 /// How many metrics of a case are what.
