@@ -7,6 +7,9 @@ use serde_json::{Value, json};
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 
+/// How often a driver is started that finds no port.
+const STARTS: u32 = 10;
+
 /// A window of a browser without a screen. The driver ends when this is dropped, and the browser with it.
 pub(crate) struct Browser {
     /// The session.
@@ -39,20 +42,39 @@ impl WebDriverCompatibleCommand for Own {
     }
 }
 
-impl Browser {
-    /// A window of this size `[px]`.
-    pub(crate) async fn open(width: u32, height: u32) -> Self {
+/// A driver and the port `[-]` that it listens on.
+///
+/// It lets the system choose a free port for IPv6 and ends if a connection of another test holds the same one of IPv4, so
+/// that it is started anew then.
+fn start() -> (Child, u16) {
+    let mut said = String::new();
+    for _ in 0..STARTS {
         let mut driver = Command::new("chromedriver")
             .arg("--port=0")
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
             .expect("chromedriver starts: apt-get install chromium chromium-driver");
-        let lines = BufReader::new(driver.stdout.take().expect("piped")).lines();
-        let port = lines
-            .map_while(Result::ok)
-            .find_map(|line| line.split_once("successfully on port ")?.1.trim_end_matches('.').parse::<u16>().ok())
-            .expect("the driver says its port");
+        said.clear();
+        for line in BufReader::new(driver.stdout.take().expect("piped")).lines().map_while(Result::ok) {
+            let port = line.split_once("successfully on port ").map(|(_, port)| port.trim_end_matches('.'));
+            if let Some(port) = port.and_then(|port| port.parse().ok()) {
+                return (driver, port);
+            }
+            said += &line;
+            said.push('\n');
+        }
+        // best effort: it has closed its output, so that nothing more comes from it
+        let _ = driver.kill();
+        let _ = driver.wait();
+    }
+    panic!("chromedriver ended {STARTS} times before it listened; at last it said:\n{said}");
+}
+
+impl Browser {
+    /// A window of this size `[px]`.
+    pub(crate) async fn open(width: u32, height: u32) -> Self {
+        let (driver, port) = start();
         let arguments =
             ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars"];
         let mut capabilities = Capabilities::new();
