@@ -5,7 +5,7 @@ use bagnold_validation::case::{Case, Parameters, Run, Silent, Tier};
 use bagnold_validation::cases::collapse::Collapse;
 use bagnold_validation::cases::column_planar::{ColumnPlanar, ColumnPlanarParameters};
 use bagnold_validation::metric::COVERAGE;
-use bagnold_validation::observation::Recorded;
+use bagnold_validation::observation::{Frame, Recorded};
 
 /// Columns of Lagrée's grains alone, 20 particles over the half width.
 fn columns(aspect_ratios: &[f64]) -> ColumnPlanarParameters {
@@ -78,4 +78,23 @@ fn the_interval_of_a_shallow_column_holds_what_finer_ones_approach() {
     );
     assert!((mean / APPROACHED - 1.0).abs() < 0.03, "{mean}");
     assert!(covered >= 18, "{covered} of 20");
+}
+
+/// Bulk modulus over the pressure below a column at rest `[-]`, as the paper has it.
+const STIFFNESS: f64 = 50.0;
+
+#[test]
+fn grains_of_the_papers_stiffness_are_nearly_incompressible() {
+    for (run, record) in records(columns(&[1.0, 3.0]).runs()) {
+        let densest = |frame: &Frame| frame.scalar("density").iter().copied().fold(0.0, f64::max) / run.bulk_density;
+        let compressions: Vec<f64> = record.frames.iter().map(|frame| densest(frame) - 1.0).collect();
+        // the lowest grains are half a row above the bed, and displaced
+        let row = 1.0 / (run.aspect_ratio * run.resolution as f64);
+        println!("a = {}: {compressions:?}, over {}", run.aspect_ratio, 1.0 / STIFFNESS);
+        assert!((STIFFNESS * compressions[0] - 1.0).abs() < row, "the weight of the column: {}", compressions[0]);
+        // grains that are let go press with their weight at most
+        let most = (1.0 + row) / STIFFNESS;
+        assert!(compressions.iter().all(|&compression| compression < most), "{compressions:?}");
+        assert!(compressions.len() >= 4 && record.data.run_out() > 0.5, "the column has collapsed");
+    }
 }
