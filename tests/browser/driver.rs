@@ -4,23 +4,37 @@ use fantoccini::wd::{Capabilities, WebDriverCompatibleCommand};
 use fantoccini::{Client, ClientBuilder};
 use hyper_util::client::legacy::connect::HttpConnector;
 use serde_json::{Value, json};
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
+use std::time::Duration;
 
 /// How often a driver is started that finds no port.
 const STARTS: u32 = 10;
+
+/// How long a driver may take to end.
+const PATIENCE: Duration = Duration::from_secs(20);
 
 /// A window of a browser without a screen. The driver ends when this is dropped, and the browser with it.
 pub(crate) struct Browser {
     /// The session.
     pub(crate) client: Client,
     driver: Child,
+    port: u16,
 }
 
 impl Drop for Browser {
+    /// The driver ends its browsers when it is asked to end; one that is killed leaves them behind.
     fn drop(&mut self) {
+        let asked = TcpStream::connect(("127.0.0.1", self.port)).and_then(|mut stream| {
+            stream.set_read_timeout(Some(PATIENCE))?;
+            write!(stream, "GET /shutdown HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n")?;
+            stream.read_to_end(&mut Vec::new())
+        });
         // best effort: a driver that has ended already is as good
-        let _ = self.driver.kill();
+        if asked.is_err() {
+            let _ = self.driver.kill();
+        }
         let _ = self.driver.wait();
     }
 }
@@ -85,7 +99,7 @@ impl Browser {
             .connect(&format!("http://127.0.0.1:{port}"))
             .await
             .expect("a session");
-        let browser = Self { client, driver };
+        let browser = Self { client, driver, port };
         browser.of_size(width, height).await;
         browser
     }
