@@ -157,8 +157,8 @@ fn held(scene: &Scene<2>, time: f64) -> Snapshot<2> {
 
 /// A scene goes on from a state.
 fn resume(scene: &mut Scene<2>, state: Snapshot<2>) {
-    let Snapshot { position, velocity, density, mass, stress, field, .. } = state;
-    scene.flow = Flow { position, velocity, density, mass, stress, field };
+    let Snapshot { position, velocity, density, mass, stress, field, memory, .. } = state;
+    scene.flow = Flow { position, velocity, density, mass, stress, field, memory };
 }
 
 /// Critical N over the exact one of soil without friction `[-]`.

@@ -85,6 +85,12 @@ fn a_law_with_a_field_is_the_same_to_the_last_bit() {
 }
 
 #[test]
+fn a_law_with_memories_is_the_same_to_the_last_bit() {
+    check(&crate::memories::labelled([60, 50]));
+    check(&crate::memories::labelled([13, 12, 14]));
+}
+
+#[test]
 fn the_papers_numerics_are_the_same_to_the_last_bit() {
     let mut scene = column([60, 40]);
     scene.numerics = Numerics { momentum_operator: MomentumOperator::Pairwise, ..Numerics::paper() };

@@ -51,7 +51,7 @@ impl OpenFieldLaw for Spreading {
         FieldReturn { shear_stress: 0.0, field: field.value + trial.time_step * rate }
     }
 
-    fn yield_stress(&self, _pressure: f64, _field: f64) -> f64 {
+    fn yield_stress(&self, _pressure: f64, _field: &FieldStep<f64>) -> f64 {
         0.0
     }
 

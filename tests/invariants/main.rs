@@ -10,6 +10,7 @@ mod frames;
 mod free_fall;
 mod incompressible;
 mod inlets;
+mod memories;
 mod meshes;
 mod momentum_balance;
 mod neighbour_list;

@@ -83,7 +83,7 @@ impl OpenFieldLaw for Softening {
     }
 
     fn end_of_step(&self, trial: &TrialStress<f64>, field: &FieldStep<f64>) -> FieldReturn<f64> {
-        let yield_stress = self.yield_stress(trial.pressure, field.value);
+        let yield_stress = self.yield_stress(trial.pressure, field);
         if trial.shear_stress <= yield_stress {
             return FieldReturn { shear_stress: trial.shear_stress, field: field.value };
         }
@@ -91,8 +91,8 @@ impl OpenFieldLaw for Softening {
         FieldReturn { shear_stress: yield_stress, field: field.value + strain }
     }
 
-    fn yield_stress(&self, pressure: f64, strain: f64) -> f64 {
-        let softened = (strain / self.softening_strain).min(1.0);
+    fn yield_stress(&self, pressure: f64, field: &FieldStep<f64>) -> f64 {
+        let softened = (field.value / self.softening_strain).min(1.0);
         let friction = self.peak_friction + softened * (self.residual_friction - self.peak_friction);
         self.cohesion + friction * pressure.max(0.0)
     }
@@ -125,7 +125,8 @@ fn a_softening_law_goes_from_its_peak_to_its_residual_strength() {
     let shear = Tensor::<2>::new(0.0, rate, 0.0, 0.0);
     let (mut stress, mut strain, mut highest) = (Tensor::<2>::zeros(), 0.0, 0.0_f64);
     for count in 1..=40_000 {
-        (stress, strain) = law.updated_state(&stress, &shear, pressure, &FieldStep::alone(strain), modulus, step);
+        let field = FieldStep::alone(strain);
+        (stress, strain) = law.updated_state(&stress, &shear, pressure, &field, modulus, step).stress_and_field();
         highest = highest.max(stress[(0, 1)]);
         let total = rate * step * f64::from(count);
         if strain > 0.0 {

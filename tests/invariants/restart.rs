@@ -4,6 +4,7 @@
 use crate::determinism::column;
 use crate::fields;
 use crate::inlets;
+use crate::memories;
 use crate::patches::{self, GRAINS, SYRUP, bed, simulation};
 use crate::shells;
 use crate::two_phases;
@@ -90,6 +91,8 @@ fn every_operator_and_step_goes_on_in_the_same_bits() {
 fn a_law_with_a_field_goes_on_in_the_same_bits() {
     check(&fields::flowing([60, 50]));
     check(&fields::flowing([13, 12, 14]));
+    check(&memories::labelled([60, 50]));
+    check(&memories::labelled([13, 12, 14]));
     let mut fed = inlets::fed();
     fed.rheology = fields::nonlocal();
     check(&fed);

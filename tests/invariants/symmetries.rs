@@ -93,6 +93,7 @@ fn a_quarter_turn_of_the_start_turns_the_result() {
                 mass: straight.mass,
                 stress: straight.stress,
                 field: straight.field,
+                memory: straight.memory,
             });
             let velocity = largest_difference(&expected.velocity, &other.velocity);
             let stress = expected.stress.iter().zip(&other.stress).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);

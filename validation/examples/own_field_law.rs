@@ -31,12 +31,12 @@ impl OpenFieldLaw for Softening {
         }
     }
     fn end_of_step(&self, trial: &TrialStress<f64>, field: &FieldStep<f64>) -> FieldReturn<f64> {
-        let yield_stress = self.yield_stress(trial.pressure, field.value);
+        let yield_stress = self.yield_stress(trial.pressure, field);
         let beyond = (trial.shear_stress - yield_stress).max(0.0);
         FieldReturn { shear_stress: trial.shear_stress - beyond, field: field.value + beyond / trial.shear_modulus }
     }
-    fn yield_stress(&self, pressure: f64, strain: f64) -> f64 {
-        let softened = (strain / self.softening_strain).min(1.0);
+    fn yield_stress(&self, pressure: f64, field: &FieldStep<f64>) -> f64 {
+        let softened = (field.value / self.softening_strain).min(1.0);
         (self.peak_friction + softened * (self.residual_friction - self.peak_friction)) * pressure.max(0.0)
     }
     fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64 {

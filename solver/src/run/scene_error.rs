@@ -26,6 +26,16 @@ pub enum SceneError {
         /// How many values there are.
         found: usize,
     },
+    /// A memory of particles whose law keeps nothing beside its field.
+    #[error(
+        "the flow gives {found} particles a memory, but its law `{law}` keeps nothing beside its field; leave the memory out"
+    )]
+    NoMemory {
+        /// The law.
+        law: &'static str,
+        /// How many particles have one.
+        found: usize,
+    },
     /// A value that is not finite or not positive where it must be.
     #[error("the {quantity} of particle {particle} is {value}, but must be {rule}")]
     Value {

@@ -5,6 +5,7 @@ use crate::vector::Vector;
 use crate::weakly_compressible::boundary::inlet::{BLOCKED, FedRow};
 use crate::weakly_compressible::divergence::Quantity;
 use crate::weakly_compressible::energy::energy_of;
+use crate::weakly_compressible::memory;
 use crate::weakly_compressible::model::GradientUse;
 use crate::weakly_compressible::particles::Arriving;
 use crate::weakly_compressible::scene::MOST_PARTICLES;
@@ -50,6 +51,7 @@ impl<const D: usize> State<D> {
             viscosity: self.model.rheology.viscosity(0.0, 0.0),
             artificial_viscosity: self.initial_artificial_viscosity(),
             field: self.model.field.map_or(0.0, |field| field.initial),
+            memory: memory::initial(self.model.rheology.memories()).unwrap_or_default(),
         };
         let arriving: Vec<Arriving<D>> = (0..count).map(particle).collect();
         self.particles.insert(&arriving);

@@ -9,6 +9,7 @@ mod enclosure_step;
 pub mod energy;
 mod forces;
 mod inflow_step;
+mod memory;
 mod model;
 pub mod neighbours;
 pub mod numerics;

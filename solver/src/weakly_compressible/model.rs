@@ -5,7 +5,7 @@ use crate::lanes::algebra::{deviatoric_rate, invariant};
 use crate::lanes::{InstructionSet, Lanes};
 use crate::material::equation_of_state::EquationOfState;
 use crate::material::rheology::Rheology;
-use crate::material::rheology::field::{FieldBoundary, FieldDiffusion, LawField};
+use crate::material::rheology::field::{FieldBoundary, FieldDiffusion, FieldStep, LawField};
 use crate::material::turbulence::{Smagorinsky, dynamic_eddy_viscosity};
 use crate::vector::Vector;
 use crate::weakly_compressible::neighbours::VerletList;
@@ -26,6 +26,8 @@ pub(crate) struct Model<const D: usize> {
     pub(crate) instruction_set: InstructionSet,
     /// What the law keeps of each particle.
     pub(crate) field: Option<LawField>,
+    /// Whether it keeps anything beside.
+    pub(crate) keeps_memory: bool,
     /// Σ −2 V F over a lattice `[1/m²]`.
     pub(crate) full_weight: f64,
     /// W(0) where tension is cut, so that grains may fly apart, else 0 `[1/m^D]`.
@@ -99,7 +101,7 @@ impl<const D: usize> Model<D> {
     }
 
     /// Viscosity beside the law's `[Pa·s]` of eight particles, of elastic damping and eddies, at a velocity gradient
-    /// `[1/s]`, a stress and a pressure `[Pa]`, a density `[kg/m³]` and the law's field; none where there is neither.
+    /// `[1/s]`, a stress and a pressure `[Pa]`, a density `[kg/m³]` and what the law keeps; none where there is neither.
     #[inline(always)]
     pub(crate) fn added_viscosity<V: Lanes>(
         &self,
@@ -107,7 +109,7 @@ impl<const D: usize> Model<D> {
         stress: &[[V; D]; D],
         pressure: V,
         density: V,
-        field: V,
+        field: &FieldStep<V>,
     ) -> Option<V> {
         let (elastic_viscosity, mixing_area) = (self.elastic_viscosity(), self.mixing_area());
         let damped = elastic_viscosity > 0.0 && self.rheology.is_plastic();
@@ -175,9 +177,9 @@ impl<const D: usize> Model<D> {
         self.field_diffusion().is_some_and(|diffusion| diffusion.surface == FieldBoundary::Vanishing)
     }
 
-    /// What of a particle is elastic, from an equivalent shear stress and a pressure `[Pa]`, and the law's field.
+    /// What of a particle is elastic, from an equivalent shear stress and a pressure `[Pa]`, and what the law keeps.
     #[inline(always)]
-    pub(crate) fn elasticity(&self, shear_stress: f64, pressure: f64, field: f64) -> f64 {
+    pub(crate) fn elasticity(&self, shear_stress: f64, pressure: f64, field: &FieldStep<f64>) -> f64 {
         self.rheology.elasticity(shear_stress, pressure, field, self.elastic_viscosity())
     }
 

@@ -1,12 +1,17 @@
 //! The particles as a structure of arrays: flow, walls, images and the sentinel, in this order.
 
-use crate::lanes::LaneTensors;
+use crate::lanes::algebra::load;
+use crate::lanes::{LaneTensors, Lanes};
+use crate::material::rheology::Rheology;
+use crate::material::rheology::field::{FieldStep, Memory};
 use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::boundary::{Images, Surface};
+use crate::weakly_compressible::memory;
 use crate::weakly_compressible::scene::Scene;
 use crate::weakly_compressible::wall_fields::{WallFields, resize};
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// A far place for the sentinel, in units of the smoothing length `[-]`.
 const FAR: f64 = 1e9;
@@ -43,6 +48,8 @@ pub struct Particles<const D: usize> {
     /// What the law keeps of each particle, in the unit of its [`LawField`](crate::material::rheology::field::LawField), zero on
     /// walls; none of a law that keeps nothing.
     pub field: Option<Vec<f64>>,
+    /// What the law keeps beside its field, zero on walls; none of a law that keeps nothing there.
+    pub memory: Option<Vec<Memory<f64>>>,
     /// What only wall particles have.
     pub(crate) walls: WallFields<D>,
     /// 0 for all real particles together, then for every image 1 if it is behind a mirror, and the sentinel `[-]`.
@@ -125,6 +132,12 @@ impl<const D: usize> Particles<D> {
                 values.resize(real, 0.0);
                 values
             }),
+            memory: memory::initial(scene.rheology.memories()).map(|initial| {
+                let given = !flow.memory.is_empty();
+                let mut values = if given { flow.memory.clone() } else { vec![initial; n] };
+                values.resize(real, Memory::default());
+                values
+            }),
             walls: WallFields::default(),
             mirrored: Vec::new(),
             identity: (0..n as u32).collect(),
@@ -181,6 +194,24 @@ impl<const D: usize> Particles<D> {
         }
     }
 
+    /// What the law keeps of a particle, by its storage index.
+    #[inline(always)]
+    pub(crate) fn kept(&self, index: usize) -> FieldStep<f64> {
+        let field = self.field.as_ref().map_or(0.0, |field| field[index]);
+        FieldStep::alone(field).with_memory(self.memory.as_ref().map_or(Memory::default(), |memory| memory[index]))
+    }
+
+    /// What it keeps of eight flow particles.
+    #[inline(always)]
+    pub(crate) fn kept_by<V: Lanes>(&self, places: Range<usize>) -> FieldStep<V> {
+        let field = self.field.as_ref().map_or(V::splat(0.0), |field| load::<V>(&field[places.clone()]));
+        let step = FieldStep::alone(field);
+        match &self.memory {
+            Some(memory) => step.with_memory(memory::load(&memory[places])),
+            None => step,
+        }
+    }
+
     /// Whether a storage index is that of a wall particle or of its image.
     #[inline(always)]
     pub(crate) fn is_wall(&self, index: usize) -> bool {
@@ -200,6 +231,9 @@ impl<const D: usize> Particles<D> {
         });
         if let Some(field) = &mut self.field {
             field.splice(flow..flow, arriving.iter().map(|particle| particle.field));
+        }
+        if let Some(memory) = &mut self.memory {
+            memory.splice(flow..flow, arriving.iter().map(|particle| particle.memory));
         }
         self.flow += count;
         self.identity.extend(arriving.iter().map(|particle| particle.identity));
@@ -227,6 +261,9 @@ impl<const D: usize> Particles<D> {
         for_each_shared_array!(self, array => retain(array, |index| index >= flow || !gone[index]));
         if let Some(field) = &mut self.field {
             retain(field, |index| index >= flow || !gone[index]);
+        }
+        if let Some(memory) = &mut self.memory {
+            retain(memory, |index| index >= flow || !gone[index]);
         }
         let Self { identity, mass, correction, force_correction, acceleration, support, .. } = self;
         retain(identity, |index| !gone[index]);
@@ -266,6 +303,9 @@ impl<const D: usize> Particles<D> {
         if let Some(field) = &mut self.field {
             field.truncate(real);
         }
+        if let Some(memory) = &mut self.memory {
+            memory.truncate(real);
+        }
     }
 
     /// Makes room for images and sentinel and fills what never changes between two neighbour searches.
@@ -276,6 +316,10 @@ impl<const D: usize> Particles<D> {
         if let Some(field) = &mut self.field {
             resize(field, real, total, 0.0);
             images.copy_scalars(field);
+        }
+        if let Some(memory) = &mut self.memory {
+            resize(memory, real, total, Memory::default());
+            images.copy_memories(memory);
         }
         images.copy_positions(&mut self.position);
         images.copy_vectors(&mut self.velocity);
@@ -294,7 +338,7 @@ impl<const D: usize> Particles<D> {
     }
 
     /// Sorts the flow particles into the given order: `order[new] = old`. There are no images now.
-    pub(crate) fn sort_flow(&mut self, order: &[u32], identities: &mut Vec<u32>) {
+    pub(crate) fn sort_flow(&mut self, order: &[u32], identities: &mut Vec<u32>, memories: &mut Vec<Memory<f64>>) {
         let Self { position, velocity, velocity_gradient, stress, density, volume, artificial_viscosity, .. } = self;
         let Self { viscosity, corrected_stress, pressure_gradient, pressure, acceleration, field, .. } = self;
         for vectors in [position, velocity] {
@@ -309,6 +353,10 @@ impl<const D: usize> Particles<D> {
         if let Some(field) = field {
             permute(field, order, pressure);
         }
+        if let Some(memory) = &mut self.memory {
+            memories.resize(memory.len(), Memory::default());
+            permute(memory, order, memories);
+        }
         permute(&mut self.support_impulse, order, acceleration);
         gather(&self.mass, order, &mut pressure[..order.len()]);
         self.mass.copy_from_slice(&pressure[..order.len()]);
@@ -317,8 +365,8 @@ impl<const D: usize> Particles<D> {
     }
 
     /// Whether every array has its length, with so many images, and every particle one identity of those that the scene
-    /// began with; `keeps_field` says whether there is one.
-    pub(crate) fn are_complete(&self, images: usize, begun: usize, keeps_field: bool) -> bool {
+    /// began with; what is kept of them is what the law keeps.
+    pub(crate) fn are_complete(&self, images: usize, begun: usize, law: &Rheology) -> bool {
         let Self { identity, mass, correction, force_correction, acceleration, support, by_walls, by_damping, .. } =
             self;
         let Self { by_wall_control, support_impulse, flow, .. } = self;
@@ -328,7 +376,8 @@ impl<const D: usize> Particles<D> {
         complete &= correction.is_for(*flow) && force_correction.is_for(*flow);
         let total = self.real_count() + images + 1;
         for_each_shared_array!(self, array => complete &= array.len() == total, in &);
-        complete &= self.field.as_ref().map(Vec::len) == keeps_field.then_some(total);
+        complete &= self.field.as_ref().map(Vec::len) == law.field().is_some().then_some(total);
+        complete &= self.memory.as_ref().map(Vec::len) == (!law.memories().is_empty()).then_some(total);
         complete &= self.walls.are_as_long_as(total - flow) && self.mirrored.len() == images + 2;
         let mut seen = vec![false; begun];
         for &identity in identity {
@@ -380,6 +429,8 @@ pub(crate) struct Arriving<const D: usize> {
     pub(crate) artificial_viscosity: f64,
     /// What the law keeps of it, if anything.
     pub(crate) field: f64,
+    /// And beside.
+    pub(crate) memory: Memory<f64>,
 }
 
 /// Brings the first values of an array into an order; the others stay. What `room`, an array of the same length, held is lost.

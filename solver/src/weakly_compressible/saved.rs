@@ -92,7 +92,7 @@ impl<const D: usize> Simulation<D> {
         ForeignState::check("wall particles", particles.wall_count(), wall_particles)?;
         ForeignState::check("walls", walls.len(), scene.walls.len())?;
         ForeignState::check("walls of segments", books.impulses.len(), shells)?;
-        let whole = particles.are_complete(images.len(), begun, scene.rheology.field().is_some())
+        let whole = particles.are_complete(images.len(), begun, &scene.rheology)
             && images.belong_to(real)
             && particles.walls_are_below(walls.len() + shells)
             && books.departures.sides.len() == 2 * D

@@ -3,6 +3,7 @@
 use crate::domain::{AxisBoundary, Domain};
 use crate::material::equation_of_state::EquationOfState;
 use crate::material::rheology::Rheology;
+use crate::material::rheology::field::Memory;
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 use crate::vector::{Tensor, Vector};
@@ -27,6 +28,8 @@ pub struct Flow<const D: usize> {
     pub stress: Vec<Tensor<D>>,
     /// What the law keeps of each particle, in its own unit; empty for its initial value, and of a law that keeps nothing.
     pub field: Vec<f64>,
+    /// What the law keeps beside its field; empty for its initial values, and of a law that keeps nothing there.
+    pub memory: Vec<Memory<f64>>,
 }
 
 impl<const D: usize> Flow<D> {
@@ -40,6 +43,7 @@ impl<const D: usize> Flow<D> {
             mass: vec![density * (0..D).map(|_| spacing).product::<f64>(); count],
             stress: vec![Tensor::zeros(); count],
             field: Vec::new(),
+            memory: Vec::new(),
             position,
         }
     }
@@ -130,7 +134,14 @@ impl<const D: usize> Scene<D> {
             }
             _ => None,
         };
-        for (array, found) in lengths.into_iter().chain(field_length) {
+        let memory_length = match self.flow.memory.len() {
+            0 => None,
+            found if self.rheology.memories().is_empty() => {
+                return Err(SceneError::NoMemory { law: self.rheology.name(), found });
+            }
+            found => Some(("memory", found)),
+        };
+        for (array, found) in lengths.into_iter().chain(field_length).chain(memory_length) {
             if found != expected {
                 return Err(SceneError::Length { array, found, expected });
             }
@@ -166,12 +177,18 @@ impl<const D: usize> Scene<D> {
 
     /// Values of every particle that make sense.
     fn check_values(&self) -> Result<(), SceneError> {
+        let rule = "finite and in the range that its law gives";
         if let Some(field) = self.rheology.field() {
-            let (least, most) = field.bounds;
             for (particle, &value) in self.flow.field.iter().enumerate() {
-                if !(value >= least && value <= most) {
-                    let rule = "finite and in the range that its law gives";
+                if !field.holds(value) {
                     return Err(SceneError::Value { quantity: field.name, particle, value, rule });
+                }
+            }
+        }
+        for (place, memory) in self.rheology.memories().iter().enumerate() {
+            for (particle, values) in self.flow.memory.iter().enumerate() {
+                if !memory.holds(values[place]) {
+                    return Err(SceneError::Value { quantity: memory.name, particle, value: values[place], rule });
                 }
             }
         }

@@ -1,6 +1,7 @@
 //! The neighbour search of a step: particles sorted by cell, images made anew, the list filled.
 
 use crate::domain::Domain;
+use crate::material::rheology::field::Memory;
 use crate::parallel::prelude::*;
 use crate::weakly_compressible::boundary::Images;
 use crate::weakly_compressible::model::Model;
@@ -18,6 +19,8 @@ pub(crate) struct Search<const D: usize> {
     wall_images: Vec<u32>,
     /// Room for the sort of identities.
     identities: Vec<u32>,
+    /// And of what a law keeps beside its field.
+    memories: Vec<Memory<f64>>,
     count: u64,
 }
 
@@ -37,6 +40,7 @@ impl<const D: usize> Search<D> {
             flow_images: Vec::new(),
             wall_images: Vec::new(),
             identities: Vec::new(),
+            memories: Vec::new(),
             count: 0,
         }
     }
@@ -67,7 +71,7 @@ impl<const D: usize> Search<D> {
         self.keep_inside(particles);
         self.flow_grid.cover(&particles.position[..flow], radius);
         self.flow_grid.sort(&particles.position, flow, |entry| entry);
-        particles.sort_flow(&self.flow_grid.index[..flow], &mut self.identities);
+        particles.sort_flow(&self.flow_grid.index[..flow], &mut self.identities, &mut self.memories);
         images.rebuild(&self.domain, &particles.position, radius);
         particles.append_images(images);
         self.flow_images.clear();

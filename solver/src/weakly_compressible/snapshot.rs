@@ -1,6 +1,7 @@
 //! A copy of the flow's state in the order of the scene, for observation, comparison and the last good state.
 
 use crate::material::equation_of_state::EquationOfState;
+use crate::material::rheology::field::Memory;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::energy::EnergyAccount;
 use crate::weakly_compressible::particles::Particles;
@@ -27,6 +28,8 @@ pub struct Snapshot<const D: usize> {
     pub mass: Vec<f64>,
     /// What the law keeps of each particle, in its own unit; empty if that is nothing.
     pub field: Vec<f64>,
+    /// What the law keeps beside its field, in the order in which it declares it; empty if that is nothing.
+    pub memory: Vec<Memory<f64>>,
     /// Impulses that walls, mirror planes and contacts have given each particle since the start `[kg m/s]`; with the
     /// single divergence only.
     pub support_impulse: Vec<Vector<D>>,
@@ -56,6 +59,7 @@ impl<const D: usize> Snapshot<D> {
             density,
             mass: pick(&particles.mass, &order),
             field: particles.field.as_ref().map_or_else(Vec::new, |field| pick(field, &order)),
+            memory: particles.memory.as_ref().map_or_else(Vec::new, |memory| pick(memory, &order)),
             support_impulse: pick(&particles.support_impulse, &order),
             energy,
         }
@@ -71,6 +75,7 @@ impl<const D: usize> Snapshot<D> {
             .chain(tensors)
             .chain(self.density.iter().copied())
             .chain(self.field.iter().copied())
+            .chain(self.memory.iter().flatten().copied())
             .flat_map(f64::to_le_bytes)
             .collect()
     }

@@ -73,6 +73,7 @@ impl<const D: usize> State<D> {
                 contact_friction: scene.rheology.contact_friction(),
                 instruction_set: InstructionSet::best(),
                 field: scene.rheology.field(),
+                keeps_memory: !scene.rheology.memories().is_empty(),
                 full_weight: lattice_weight::<D>(&numerics, scene.spacing),
                 lone_density_per_mass: match scene.equation_of_state.tension {
                     Tension::Cut => kernel.value_at(0.0),

@@ -65,6 +65,9 @@ impl<const D: usize> State<D> {
         if let Some(field) = &mut self.particles.field {
             self.images.copy_scalars(field);
         }
+        if let Some(memory) = &mut self.particles.memory {
+            self.images.copy_memories(memory);
+        }
     }
 
     fn update_density_and_stress(&mut self, time_step: f64) -> Result<(), Divergence<D>> {

@@ -1,7 +1,8 @@
 //! What a law keeps of each particle beside the stress, and how it spreads among particles.
 //!
 //! A law declares its field once, as a [`LawField`]; the model stores it with the particle, sorts, saves and removes it
-//! with it, and hands it to the law together with the elastic trial. A field may diffuse. The model then adds up
+//! with it, and hands it to the law together with the elastic trial. Beside its field a law may keep up to [`MOST_MEMORIES`]
+//! numbers, its memory, which go with the particle alike but stay its own. A field may diffuse. The model then adds up
 //!
 //! D ∇²f_a = Σ_b D w_ab (f_b − f_a) = gain − loss f_a, w_ab = −2 V_b F ≥ 0,
 //!
@@ -35,7 +36,7 @@ pub struct FieldDiffusion {
     pub surface: FieldBoundary,
 }
 
-/// What a law keeps of each particle: one number.
+/// One number that a law keeps of each particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LawField {
     /// Its name, as files and pages have it.
@@ -52,7 +53,21 @@ pub struct LawField {
     pub diffusion: Option<FieldDiffusion>,
 }
 
-/// A field at the start of a step, and what its neighbours do to it.
+impl LawField {
+    /// Whether a value lies in its bounds.
+    #[must_use]
+    pub fn holds(&self, value: f64) -> bool {
+        value >= self.bounds.0 && value <= self.bounds.1
+    }
+}
+
+/// How many numbers a law may keep of each particle beside its field `[-]`.
+pub const MOST_MEMORIES: usize = 3;
+
+/// What a law keeps of a particle beside its field, in the order and the units in which it declares them; zero behind those.
+pub type Memory<R> = [R; MOST_MEMORIES];
+
+/// A field at the start of a step, what its neighbours do to it, and the law's memory beside it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct FieldStep<R> {
@@ -62,19 +77,28 @@ pub struct FieldStep<R> {
     pub gain: R,
     /// Σ D w, with what walls and the surface take; 0 without diffusion.
     pub loss: R,
+    /// What the law keeps beside the field, at the start of the step.
+    pub memory: Memory<R>,
 }
 
 impl<R: Real> FieldStep<R> {
     /// A field that nothing is done to.
     #[inline(always)]
     pub fn alone(value: R) -> Self {
-        Self { value, gain: R::splat(0.0), loss: R::splat(0.0) }
+        Self::new(value, R::splat(0.0), R::splat(0.0))
     }
 
     /// A field with the two sums of its diffusion.
     #[inline(always)]
     pub fn new(value: R, gain: R, loss: R) -> Self {
-        Self { value, gain, loss }
+        Self { value, gain, loss, memory: [R::splat(0.0); MOST_MEMORIES] }
+    }
+
+    /// The same with a memory.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_memory(self, memory: Memory<R>) -> Self {
+        Self { memory, ..self }
     }
 }
 
@@ -87,6 +111,25 @@ pub struct FieldReturn<R> {
     pub field: R,
 }
 
+/// What a particle has at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StateReturn<S, R> {
+    /// Deviatoric stress `[Pa]`.
+    pub stress: S,
+    /// The law's field.
+    pub field: R,
+    /// What the law keeps beside.
+    pub memory: Memory<R>,
+}
+
+impl<S, R> StateReturn<S, R> {
+    /// Stress and field, where nothing is kept beside.
+    #[inline(always)]
+    pub fn stress_and_field(self) -> (S, R) {
+        (self.stress, self.field)
+    }
+}
+
 /// A law that carries the stress along and keeps a field of each particle.
 ///
 /// A cohesion is allowed: the stress up to which the material is elastic need not vanish with the pressure. Only a
@@ -95,17 +138,34 @@ pub trait FieldLaw {
     /// What it keeps.
     fn field(&self) -> LawField;
 
+    /// What it keeps beside: up to [`MOST_MEMORIES`] numbers that do not diffuse.
+    fn memories(&self) -> &[LawField] {
+        &[]
+    }
+
     /// Equivalent shear stress `[Pa]` and field at the end of a time step, from the elastic trial and the field before.
     /// The shear stress is at most the trial's. A step of no length leaves the field as it was.
     fn end_of_step<R: Real>(&self, trial: &TrialStress<R>, field: &FieldStep<R>) -> FieldReturn<R>;
 
+    /// The memory at the end of the step that ended so. A step of no length leaves it as it was.
+    #[inline(always)]
+    fn memory_after<R: Real>(&self, _trial: &TrialStress<R>, field: &FieldStep<R>, _end: &FieldReturn<R>) -> Memory<R> {
+        field.memory
+    }
+
     /// What of a particle is elastic at an equivalent shear stress and a pressure `[Pa]`, from 1 to 0 `[-]`; 0 without
     /// pressure. `elastic_viscosity` `[Pa·s]` is that of the damping which the elastic part feels.
-    fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: R, elastic_viscosity: f64) -> R;
+    fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: &FieldStep<R>, elastic_viscosity: f64) -> R;
 
     /// Which part of the spin turns the stress `[-]`: 1 where nothing flows, 0 where all of the shear is plastic.
     /// `vorticity` is |2ω| `[1/s]`.
-    fn turned_part<R: Real>(&self, trial: &TrialStress<R>, before: R, end: &FieldReturn<R>, vorticity: R) -> R;
+    fn turned_part<R: Real>(
+        &self,
+        trial: &TrialStress<R>,
+        before: &FieldStep<R>,
+        end: &FieldReturn<R>,
+        vorticity: R,
+    ) -> R;
 
     /// Friction coefficient `[-]` of a contact with a rough wall.
     fn contact_friction(&self) -> f64;

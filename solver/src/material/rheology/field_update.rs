@@ -1,7 +1,7 @@
 //! From a scalar law with a field to a stress tensor: the elastic trial, the law's return of both, and the spin.
 
 use super::TrialStress;
-use super::field::{FieldLaw, FieldReturn, FieldStep};
+use super::field::{FieldLaw, FieldReturn, FieldStep, StateReturn};
 use crate::lanes::Real;
 use crate::lanes::algebra::{accumulate, deviatoric_rate, invariant, matrix_product};
 
@@ -16,7 +16,7 @@ pub(super) struct Step<R> {
     pub(super) time_step: f64,
 }
 
-/// Deviatoric stress `[Pa]` and field after an elastic trial and the law's return.
+/// Deviatoric stress `[Pa]`, field and memory after an elastic trial and the law's return.
 ///
 /// As the return of a law without a field, but how much of the trial is turned by the spin is the law's to say: s = (τ/τ*) (s* + w Δt (ω s* − s* ω)).
 #[inline(always)]
@@ -26,7 +26,7 @@ pub(super) fn with_field<R: Real, L: FieldLaw, const D: usize>(
     velocity_gradient: &[[R; D]; D],
     field: &FieldStep<R>,
     step: Step<R>,
-) -> ([[R; D]; D], R) {
+) -> StateReturn<[[R; D]; D], R> {
     let Step { pressure, shear_modulus, time_step } = step;
     let zero = R::splat(0.0);
     let rate = deviatoric_rate(velocity_gradient);
@@ -44,7 +44,7 @@ pub(super) fn with_field<R: Real, L: FieldLaw, const D: usize>(
     let trial_shear_stress = invariant(0.5, &trial_stress);
     let trial = TrialStress::new(trial_shear_stress, pressure, shear_modulus, time_step);
     let end: FieldReturn<R> = law.end_of_step(&trial, field);
-    let half = R::splat(0.5 * time_step) * law.turned_part(&trial, field.value, &end, vorticity.sqrt());
+    let half = R::splat(0.5 * time_step) * law.turned_part(&trial, field, &end, vorticity.sqrt());
     let mut spin = trial_stress;
     for i in 0..D {
         for j in 0..D {
@@ -62,5 +62,5 @@ pub(super) fn with_field<R: Real, L: FieldLaw, const D: usize>(
             stress[i][j] = (scale * turned).where_less(R::splat(least), pressure);
         }
     }
-    (stress, end.field)
+    StateReturn { stress, field: end.field, memory: law.memory_after(&trial, field, &end) }
 }

@@ -49,7 +49,7 @@ pub use regularised_mu_i::RegularisedMuI;
 pub use root_mu_i::RootMuI;
 pub use softening_drucker_prager::SofteningDruckerPrager;
 
-use field::{FieldLaw, FieldStep, LawField};
+use field::{FieldLaw, FieldStep, LawField, StateReturn};
 use open::{OpenField, OpenPlastic, OpenViscous};
 
 use crate::lanes::algebra::{load_tensor, store_tensor};
@@ -215,13 +215,13 @@ macro_rules! rheology {
                     })*
                     $(Self::$keeper(law) => {
                         let field = FieldStep::alone(law.field().initial);
-                        self.updated_state(previous, velocity_gradient, pressure, &field, shear_modulus, time_step).0
+                        self.updated_state(previous, velocity_gradient, pressure, &field, shear_modulus, time_step).stress
                     })*
                 }
             }
 
-            /// Deviatoric stress `[Pa]` and the law's field after a time step, as [`Rheology::updated_stress`]; the field of a law
-            /// that keeps none is what it was.
+            /// Deviatoric stress `[Pa]` and what the law keeps after a time step, as [`Rheology::updated_stress`]; a law that
+            /// keeps nothing leaves it as it was.
             #[must_use]
             pub fn updated_state<const D: usize>(
                 &self,
@@ -231,16 +231,19 @@ macro_rules! rheology {
                 field: &FieldStep<f64>,
                 shear_modulus: f64,
                 time_step: f64,
-            ) -> (Tensor<D>, f64) {
+            ) -> StateReturn<Tensor<D>, f64> {
                 match self {
                     $(Self::$keeper(law) => {
                         let (previous, gradient) = (components(previous), components(velocity_gradient));
                         let step = field_update::Step { pressure, shear_modulus, time_step };
-                        let (stress, field) = field_update::with_field(law, &previous, &gradient, field, step);
-                        (Tensor::from_fn(|i, j| stress[i][j]), field)
+                        let end = field_update::with_field(law, &previous, &gradient, field, step);
+                        let stress = Tensor::from_fn(|i, j| end.stress[i][j]);
+                        StateReturn { stress, field: end.field, memory: end.memory }
                     })*
                     law => {
-                        (law.updated_stress(previous, velocity_gradient, pressure, shear_modulus, time_step), field.value)
+                        let stress =
+                            law.updated_stress(previous, velocity_gradient, pressure, shear_modulus, time_step);
+                        StateReturn { stress, field: field.value, memory: field.memory }
                     }
                 }
             }
@@ -255,7 +258,7 @@ macro_rules! rheology {
                 field: &FieldStep<V>,
                 shear_modulus: f64,
                 time_step: f64,
-            ) -> ([[V; D]; D], V) {
+            ) -> StateReturn<[[V; D]; D], V> {
                 match self {
                     $(Self::$viscous(law) => {
                         let mut gradients = [Tensor::<D>::zeros(); LANES];
@@ -265,12 +268,12 @@ macro_rules! rheology {
                         for lane in 0..LANES {
                             stresses[lane] = stress_update::viscous(law, &gradients[lane], pressure[lane]);
                         }
-                        (load_tensor(&stresses), field.value)
+                        StateReturn { stress: load_tensor(&stresses), field: field.value, memory: field.memory }
                     })*
                     $(Self::$plastic(law) => {
                         let stress =
                             stress_update::plastic(law, previous, velocity_gradient, pressure, shear_modulus, time_step);
-                        (stress, field.value)
+                        StateReturn { stress, field: field.value, memory: field.memory }
                     })*
                     $(Self::$keeper(law) => {
                         let step = field_update::Step { pressure, shear_modulus, time_step };
@@ -319,7 +322,13 @@ macro_rules! rheology {
             /// damping which the elastic part feels.
             #[inline(always)]
             #[must_use]
-            pub fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: R, elastic_viscosity: f64) -> R {
+            pub fn elasticity<R: Real>(
+                &self,
+                shear_stress: R,
+                pressure: R,
+                field: &FieldStep<R>,
+                elastic_viscosity: f64,
+            ) -> R {
                 let (zero, one) = (R::splat(0.0), R::splat(1.0));
                 match self {
                     $(Self::$viscous(_) => zero,)*
@@ -370,13 +379,23 @@ macro_rules! rheology {
                 self.is_plastic() && !self.strength_is_friction()
             }
 
-            /// What the law keeps of each particle beside the stress, if anything.
+            /// The field that the law keeps of each particle beside the stress, if it keeps one.
             #[must_use]
             pub fn field(&self) -> Option<LawField> {
                 match self {
                     $(Self::$viscous(_) => None,)*
                     $(Self::$plastic(_) => None,)*
                     $(Self::$keeper(law) => Some(law.field()),)*
+                }
+            }
+
+            /// What the law keeps beside its field, in the order in which particles have it.
+            #[must_use]
+            pub fn memories(&self) -> &[LawField] {
+                match self {
+                    $(Self::$viscous(_) => &[],)*
+                    $(Self::$plastic(_) => &[],)*
+                    $(Self::$keeper(law) => law.memories(),)*
                 }
             }
 

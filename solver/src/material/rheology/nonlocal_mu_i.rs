@@ -185,16 +185,23 @@ impl FieldLaw for NonlocalMuI {
     }
 
     #[inline(always)]
-    fn elasticity<R: Real>(&self, _shear_stress: R, pressure: R, field: R, elastic_viscosity: f64) -> R {
+    fn elasticity<R: Real>(&self, _shear_stress: R, pressure: R, field: &FieldStep<R>, elastic_viscosity: f64) -> R {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        let flowing = R::splat(DAMPING_LIMIT * elastic_viscosity) * field / pressure.max(R::splat(LEAST_PRESSURE));
+        let flowing =
+            R::splat(DAMPING_LIMIT * elastic_viscosity) * field.value / pressure.max(R::splat(LEAST_PRESSURE));
         (one - flowing).max(zero).where_less(zero, pressure)
     }
 
     /// 1 − 10 γ̇/|2ω| where it is positive: what creeps is not turned. In steady shear the Jaumann rate gives s_yy = −τ μ p/G however
     /// slow it is, which stops layers on slopes that are flatter by a tenth of a degree.
     #[inline(always)]
-    fn turned_part<R: Real>(&self, trial: &TrialStress<R>, _before: R, end: &FieldReturn<R>, vorticity: R) -> R {
+    fn turned_part<R: Real>(
+        &self,
+        trial: &TrialStress<R>,
+        _before: &FieldStep<R>,
+        end: &FieldReturn<R>,
+        vorticity: R,
+    ) -> R {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let rate = end.field * end.shear_stress / trial.pressure.max(R::splat(LEAST_PRESSURE));
         (one - R::splat(UNTURNED) * rate / vorticity.max(R::splat(f64::MIN_POSITIVE))).max(zero)

@@ -28,6 +28,7 @@
 //!
 //! From then on `law = "power-law"` finds it wherever a [`Rheology`](super::Rheology) is read.
 
+mod declaration;
 mod error;
 mod registry;
 mod table;
@@ -40,7 +41,7 @@ pub use registry::{Maker, built_in, register, registered};
 pub use table::Parameters;
 pub(super) use table::Written;
 
-use super::field::{FieldLaw, FieldReturn, FieldStep, LawField};
+use super::field::{FieldLaw, FieldReturn, FieldStep, LawField, Memory};
 use super::{PlasticLaw, TrialStress, ViscousLaw};
 use crate::lanes::Real;
 use std::fmt::Debug;
@@ -67,12 +68,23 @@ pub trait OpenFieldLaw: Debug + Send + Sync {
     /// What it keeps.
     fn field(&self) -> LawField;
 
+    /// What it keeps beside: up to [`MOST_MEMORIES`](super::field::MOST_MEMORIES) numbers that do not diffuse.
+    fn memories(&self) -> &[LawField] {
+        &[]
+    }
+
     /// Equivalent shear stress `[Pa]`, at most the trial's, and field at the end of a time step. A step of no length leaves the
     /// field as it was. The plastic strain of a step is (τ* − τ)/G.
     fn end_of_step(&self, trial: &TrialStress<f64>, field: &FieldStep<f64>) -> FieldReturn<f64>;
 
-    /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]` and a value of its field.
-    fn yield_stress(&self, pressure: f64, field: f64) -> f64;
+    /// What it keeps beside its field at the end of the step that ended so, with zeros behind. A step of no length leaves it as
+    /// it was.
+    fn memory_after(&self, _trial: &TrialStress<f64>, field: &FieldStep<f64>, _end: &FieldReturn<f64>) -> Memory<f64> {
+        field.memory
+    }
+
+    /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]`, a value of its field and a memory.
+    fn yield_stress(&self, pressure: f64, field: &FieldStep<f64>) -> f64;
 
     /// Apparent viscosity τ/|γ̇| `[Pa·s]` of the steady flow at a shear rate `[1/s]` and a pressure `[Pa]`; finite also
     /// at rest.
@@ -219,10 +231,11 @@ impl FieldLaw for OpenField {
 
     fn end_of_step<R: Real>(&self, trial: &TrialStress<R>, field: &FieldStep<R>) -> FieldReturn<R> {
         let &TrialStress { shear_stress, pressure, shear_modulus, time_step, .. } = trial;
-        let values = [shear_stress, pressure, field.value, field.gain, field.loss];
-        let end = |[shear_stress, pressure, value, gain, loss]: [f64; 5]| {
+        let [first, second, third] = field.memory;
+        let values = [shear_stress, pressure, field.value, field.gain, field.loss, first, second, third];
+        let end = |[shear_stress, pressure, value, gain, loss, first, second, third]: [f64; 8]| {
             let trial = TrialStress::new(shear_stress, pressure, shear_modulus, time_step);
-            self.0.law.end_of_step(&trial, &FieldStep { value, gain, loss })
+            self.0.law.end_of_step(&trial, &FieldStep { value, gain, loss, memory: [first, second, third] })
         };
         FieldReturn {
             shear_stress: R::lane_by_lane(values, &|values| end(values).shear_stress),
@@ -230,9 +243,38 @@ impl FieldLaw for OpenField {
         }
     }
 
-    fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: R, _elastic_viscosity: f64) -> R {
-        R::lane_by_lane([shear_stress, pressure, field], &|[shear_stress, pressure, field]| {
-            let yield_stress = self.0.law.yield_stress(pressure, field);
+    fn memories(&self) -> &[LawField] {
+        self.0.law.memories()
+    }
+
+    fn memory_after<R: Real>(&self, trial: &TrialStress<R>, field: &FieldStep<R>, end: &FieldReturn<R>) -> Memory<R> {
+        if self.0.law.memories().is_empty() {
+            return field.memory;
+        }
+        let &TrialStress { shear_stress, pressure, shear_modulus, time_step, .. } = trial;
+        let [first, second, third] = field.memory;
+        let ends = [end.shear_stress, end.field];
+        let values =
+            [shear_stress, pressure, field.value, field.gain, field.loss, first, second, third, ends[0], ends[1]];
+        let after = |values: [f64; 10]| {
+            let [shear_stress, pressure, value, gain, loss, first, second, third, at_end, field] = values;
+            let trial = TrialStress::new(shear_stress, pressure, shear_modulus, time_step);
+            let before = FieldStep { value, gain, loss, memory: [first, second, third] };
+            self.0.law.memory_after(&trial, &before, &FieldReturn { shear_stress: at_end, field })
+        };
+        [
+            R::lane_by_lane(values, &|values| after(values)[0]),
+            R::lane_by_lane(values, &|values| after(values)[1]),
+            R::lane_by_lane(values, &|values| after(values)[2]),
+        ]
+    }
+
+    fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: &FieldStep<R>, _elastic_viscosity: f64) -> R {
+        let [first, second, third] = field.memory;
+        let values = [shear_stress, pressure, field.value, first, second, third];
+        R::lane_by_lane(values, &|[shear_stress, pressure, field, first, second, third]| {
+            let kept = FieldStep::alone(field).with_memory([first, second, third]);
+            let yield_stress = self.0.law.yield_stress(pressure, &kept);
             if pressure > 0.0 && yield_stress > 0.0 {
                 ((1.0 - shear_stress / yield_stress) / YIELDING).clamp(0.0, 1.0)
             } else {
@@ -242,9 +284,18 @@ impl FieldLaw for OpenField {
     }
 
     /// All of it up to the yield stress of the start of the step, nothing beyond.
-    fn turned_part<R: Real>(&self, trial: &TrialStress<R>, before: R, _end: &FieldReturn<R>, _vorticity: R) -> R {
-        R::lane_by_lane([trial.shear_stress, trial.pressure, before], &|[shear_stress, pressure, field]| {
-            if self.0.law.yield_stress(pressure, field) < shear_stress { 0.0 } else { 1.0 }
+    fn turned_part<R: Real>(
+        &self,
+        trial: &TrialStress<R>,
+        before: &FieldStep<R>,
+        _end: &FieldReturn<R>,
+        _vorticity: R,
+    ) -> R {
+        let [first, second, third] = before.memory;
+        let values = [trial.shear_stress, trial.pressure, before.value, first, second, third];
+        R::lane_by_lane(values, &|[shear_stress, pressure, field, first, second, third]| {
+            let kept = FieldStep::alone(field).with_memory([first, second, third]);
+            if self.0.law.yield_stress(pressure, &kept) < shear_stress { 0.0 } else { 1.0 }
         })
     }
 

@@ -157,17 +157,23 @@ impl FieldLaw for SofteningDruckerPrager {
     }
 
     #[inline(always)]
-    fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: R, _elastic_viscosity: f64) -> R {
+    fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: &FieldStep<R>, _elastic_viscosity: f64) -> R {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        let strength = self.strength(pressure, field);
+        let strength = self.strength(pressure, field.value);
         let distance = (one - shear_stress / strength) / R::splat(YIELDING);
         where_held(distance.max(zero).min(one).where_less(zero, strength), pressure, zero)
     }
 
     /// All of it below the yield, nothing beyond: as under the laws without a field.
     #[inline(always)]
-    fn turned_part<R: Real>(&self, trial: &TrialStress<R>, before: R, _end: &FieldReturn<R>, _vorticity: R) -> R {
-        R::splat(0.0).if_less(self.strength(trial.pressure, before), trial.shear_stress, R::splat(1.0))
+    fn turned_part<R: Real>(
+        &self,
+        trial: &TrialStress<R>,
+        before: &FieldStep<R>,
+        _end: &FieldReturn<R>,
+        _vorticity: R,
+    ) -> R {
+        R::splat(0.0).if_less(self.strength(trial.pressure, before.value), trial.shear_stress, R::splat(1.0))
     }
 
     /// The residual friction: what slides along a wall has softened.

@@ -4,6 +4,7 @@
 //! components of tensors that couple normal and tangent, change their sign.
 
 use crate::domain::{AxisBoundary, Domain};
+use crate::material::rheology::field::Memory;
 use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector};
 use serde::{Deserialize, Serialize};
@@ -181,6 +182,10 @@ impl<const D: usize> Images<D> {
 
     pub(crate) fn copy_scalars(&self, field: &mut [f64]) {
         self.copy(field, |value, _| *value);
+    }
+
+    pub(crate) fn copy_memories(&self, memories: &mut [Memory<f64>]) {
+        self.copy(memories, |value, _| *value);
     }
 
     pub(crate) fn copy_tensors(&self, field: &mut [Tensor<D>]) {

@@ -8,6 +8,7 @@ use super::records::{self, LaneRecord};
 use super::single;
 use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, load, sum_of, zero_tensor};
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
+use crate::material::rheology::field::Memory;
 use crate::parallel::prelude::*;
 use crate::vector::equivalent_shear_stress;
 use crate::weakly_compressible::energy::StressWork;
@@ -101,6 +102,7 @@ pub(crate) fn run<const D: usize>(
     pairs.open_ledger(flow);
     let mut energy = std::mem::take(&mut pairs.energy);
     let mut no_field = std::mem::take(&mut pairs.no_field);
+    let mut no_memory = std::mem::take(&mut pairs.no_memory);
     let shared_pairs = &*pairs;
     let mut density = std::mem::take(&mut particles.density);
     let mut velocity_gradient = std::mem::take(&mut particles.velocity_gradient);
@@ -108,10 +110,16 @@ pub(crate) fn run<const D: usize>(
     let mut viscosity = std::mem::take(&mut particles.viscosity);
     let mut artificial_viscosity = std::mem::take(&mut particles.artificial_viscosity);
     let mut field = std::mem::take(&mut particles.field);
+    let mut memory = std::mem::take(&mut particles.memory);
     no_field.resize(flow.div_ceil(BLOCK), 0.0);
     let fields = match &mut field {
         Some(field) => field[..flow].par_chunks_mut(BLOCK),
         None => no_field.par_chunks_mut(1),
+    };
+    no_memory.resize(flow.div_ceil(BLOCK), Memory::default());
+    let memories = match &mut memory {
+        Some(memory) => memory[..flow].par_chunks_mut(BLOCK),
+        None => no_memory.par_chunks_mut(1),
     };
     let shared = &*particles;
     let extremes = (
@@ -120,24 +128,38 @@ pub(crate) fn run<const D: usize>(
         stress[..flow].par_chunks_mut(BLOCK),
         viscosity[..flow].par_chunks_mut(BLOCK),
         artificial_viscosity[..flow].par_chunks_mut(BLOCK),
-        fields,
+        (fields, memories).into_par_iter(),
         &mut energy,
     )
         .into_par_iter()
         .enumerate()
         .with_min_len(4)
-        .map(|(block, (density, velocity_gradient, stress, viscosity, artificial_viscosity, field, energy))| {
-            let out = Output { density, velocity_gradient, stress, viscosity, artificial_viscosity, field, energy };
-            let advance = Advance { model, particles: shared, gradient, time_step, block_start: block * BLOCK };
-            let mut extremes = Extremes::NONE;
-            let extremes_of_block = &mut extremes;
-            model.instruction_set.run(Pass { advance, pairs: shared_pairs, out, extremes: extremes_of_block });
-            extremes
-        })
+        .map(
+            |(
+                block,
+                (density, velocity_gradient, stress, viscosity, artificial_viscosity, (field, memory), energy),
+            )| {
+                let out = Output {
+                    density,
+                    velocity_gradient,
+                    stress,
+                    viscosity,
+                    artificial_viscosity,
+                    field,
+                    memory,
+                    energy,
+                };
+                let advance = Advance { model, particles: shared, gradient, time_step, block_start: block * BLOCK };
+                let mut extremes = Extremes::NONE;
+                let extremes_of_block = &mut extremes;
+                model.instruction_set.run(Pass { advance, pairs: shared_pairs, out, extremes: extremes_of_block });
+                extremes
+            },
+        )
         .reduce(|| Extremes::NONE, Extremes::merge);
     pairs.energy = energy;
-    pairs.no_field = no_field;
-    particles.field = field;
+    (pairs.no_field, pairs.no_memory) = (no_field, no_memory);
+    (particles.field, particles.memory) = (field, memory);
     particles.density = density;
     particles.velocity_gradient = velocity_gradient;
     particles.stress = stress;
@@ -172,15 +194,15 @@ fn fill_records<const D: usize>(
             } else {
                 &particles.pressure_gradient[index]
             });
-            let field = particles.field.as_ref().map_or(0.0, |field| field[index]);
             if diffusion != PairDiffusion::None {
                 let stress = &particles.stress[index];
-                let elasticity = model.elasticity(equivalent_shear_stress(stress), pressure, field);
+                let kept = particles.kept(index);
+                let elasticity = model.elasticity(equivalent_shear_stress(stress), pressure, &kept);
                 record.scalar(stress_diffusion::yielding(elasticity, pressure));
                 record.deviator(stress);
             }
             if diffusion == PairDiffusion::Field {
-                record.scalar(field);
+                record.scalar(particles.field.as_ref().map_or(0.0, |field| field[index]));
             }
         }
     });

@@ -206,11 +206,8 @@ impl<const D: usize> Pass<'_, D> {
         let mut stress = load_tensor::<V, D>(&particles.stress[places.clone()]);
         let gradient = load_tensor::<V, D>(&particles.velocity_gradient[places.clone()]);
         let density = load::<V>(&particles.density[places.clone()]);
-        let field = match &particles.field {
-            Some(field) => load::<V>(&field[places]),
-            None => V::splat(0.0),
-        };
-        if let Some(viscosity) = self.model.added_viscosity(&gradient, &stress, pressure, density, field) {
+        let kept = particles.kept_by::<V>(places);
+        if let Some(viscosity) = self.model.added_viscosity(&gradient, &stress, pressure, density, &kept) {
             let rate = deviatoric_rate(&gradient);
             for i in 0..D {
                 accumulate(&mut stress[i], V::splat(2.0) * viscosity, &rate[i]);

@@ -5,10 +5,11 @@ use crate::lanes::algebra::{
     accumulate, deviatoric_rate, load, load_tensor, matrix_product, store, store_tensor, zero_tensor,
 };
 use crate::lanes::{LANES, Lanes};
-use crate::material::rheology::field::{FieldBoundary, FieldStep};
+use crate::material::rheology::field::{FieldBoundary, FieldStep, Memory};
 use crate::vector::{Tensor, shear_rate};
 use crate::weakly_compressible::divergence::DENSITY_RANGE;
 use crate::weakly_compressible::energy::{CompressionStep, DeformationStep, EnergyLedger, StressWork};
+use crate::weakly_compressible::memory;
 use crate::weakly_compressible::model::{GradientUse, Model};
 use crate::weakly_compressible::numerics::ViscositySwitch;
 use crate::weakly_compressible::particles::Particles;
@@ -45,6 +46,8 @@ pub(super) struct Output<'a, const D: usize> {
     pub(super) artificial_viscosity: &'a mut [f64],
     /// The law's field, or one value that is not written.
     pub(super) field: &'a mut [f64],
+    /// What the law keeps beside, or one that is not written.
+    pub(super) memory: &'a mut [Memory<f64>],
     pub(super) energy: &'a mut EnergyLedger,
 }
 
@@ -193,17 +196,25 @@ impl<const D: usize> Advance<'_, D> {
             }
             let modulus = self.model.shear_modulus();
             let keeps_field = self.model.field.is_some();
+            let keeps_memory = self.model.keeps_memory;
             let field_before = if keeps_field { load::<V>(&out.field[places.clone()]) } else { V::splat(0.0) };
-            let field = self.field_step(field_before, &sums.field);
-            let (stress, field) = law.updated_states(&diffused, &gradient, pressure, &field, modulus, self.time_step);
-            if keeps_field {
-                store(field, &mut out.field[places.clone()]);
+            let mut kept = self.field_step(field_before, &sums.field);
+            if keeps_memory {
+                kept = kept.with_memory(memory::load(&out.memory[places.clone()]));
             }
+            let end = law.updated_states(&diffused, &gradient, pressure, &kept, modulus, self.time_step);
+            if keeps_field {
+                store(end.field, &mut out.field[places.clone()]);
+            }
+            if keeps_memory {
+                memory::store(&end.memory, &mut out.memory[places.clone()]);
+            }
+            let stress = end.stress;
             store_tensor(&stress, &mut out.stress[places.clone()]);
             let pressure_before = load::<V>(&self.particles.pressure[particles_here.clone()]);
             let mut added = zero_tensor::<V, D>();
             let added_viscosity =
-                self.model.added_viscosity(&gradient_before, &before, pressure_before, density, field_before);
+                self.model.added_viscosity(&gradient_before, &before, pressure_before, density, &kept);
             if let Some(viscosity) = added_viscosity {
                 let rate = deviatoric_rate(&gradient_before);
                 for i in 0..D {

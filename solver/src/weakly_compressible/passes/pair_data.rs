@@ -4,6 +4,7 @@ use super::layout;
 use super::records::Records;
 use super::single::SingleRecords;
 use crate::lanes::LANES;
+use crate::material::rheology::field::Memory;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::neighbours::BLOCK;
@@ -19,6 +20,8 @@ pub(crate) struct PairData<const D: usize> {
     pub(super) eigenvalues: Vec<f64>,
     /// A value per block, where a law keeps no field and the loop over blocks wants one to write to.
     pub(super) no_field: Vec<f64>,
+    /// Likewise where the law keeps nothing beside its field.
+    pub(super) no_memory: Vec<Memory<f64>>,
     /// What the pass that runs reads of a neighbour, where pairs are in single precision.
     pub(super) single: SingleRecords,
     /// What the geometry pass reads of a neighbour.
@@ -41,6 +44,7 @@ impl<const D: usize> PairData<D> {
             weights: Vec::new(),
             eigenvalues: Vec::new(),
             no_field: Vec::new(),
+            no_memory: Vec::new(),
             single: SingleRecords::default(),
             geometry: Records::new(layout::geometry(D)),
             momentum: Records::new(layout::momentum(D)),

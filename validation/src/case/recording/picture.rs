@@ -2,6 +2,7 @@
 
 use crate::observation::Frame;
 use bagnold_solver::incompressible::IncompressibleSimulation;
+use bagnold_solver::material::rheology::field::FieldStep;
 use bagnold_solver::vector::{Vector, equivalent_shear_stress, shear_rate};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
@@ -34,9 +35,12 @@ where
             .collect()
     };
     // a law without a yield surface has no such line: there only what flows freely is mobilised
-    let field = |index: usize| snapshot.field.get(index).copied().unwrap_or(0.0);
+    let kept = |index: usize| {
+        let field = snapshot.field.get(index).copied().unwrap_or(0.0);
+        FieldStep::alone(field).with_memory(snapshot.memory.get(index).copied().unwrap_or_default())
+    };
     let elasticity = |(index, (stress, pressure)): (usize, (&f64, &f64))| {
-        law.elasticity(*stress, pressure.max(0.0), field(index), simulation.elastic_viscosity())
+        law.elasticity(*stress, pressure.max(0.0), &kept(index), simulation.elastic_viscosity())
     };
     let states = stresses.iter().zip(&snapshot.pressure).enumerate();
     let mobilised = states.map(|state| if elasticity(state) > 0.0 { 0.0 } else { 1.0 }).collect();
@@ -53,6 +57,10 @@ where
     }
     if let Some(field) = law.field() {
         frame.scalars.push(named(field.name, field.unit, snapshot.field.clone()));
+    }
+    for (place, memory) in law.memories().iter().enumerate() {
+        let values = snapshot.memory.iter().map(|values| values[place]).collect();
+        frame.scalars.push(named(memory.name, memory.unit, values));
     }
     frame
 }

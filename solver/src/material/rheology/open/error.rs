@@ -19,6 +19,20 @@ pub enum OpenLawError {
         /// The names of all laws, each in backticks.
         known: String,
     },
+    /// A law that declares what cannot be kept.
+    #[error("`{declared}` of the law `{name}` is {found}, but must be {rule}; {remedy}")]
+    Declaration {
+        /// The law.
+        name: &'static str,
+        /// The name of what it keeps.
+        declared: String,
+        /// What is wrong with it.
+        found: String,
+        /// The rule.
+        rule: String,
+        /// What to do.
+        remedy: &'static str,
+    },
     /// A parameter that is missing, unknown, or outside its range.
     #[error("{0}")]
     Parameter(String),

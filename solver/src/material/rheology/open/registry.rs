@@ -78,7 +78,10 @@ impl Rheology {
         let law = match maker(&parameters)?.0 {
             Kind::Viscous(law) => Self::OpenViscous(OpenViscous(keep(Instance { name, parameters, law }))),
             Kind::Plastic(law) => Self::OpenPlastic(OpenPlastic(keep(Instance { name, parameters, law }))),
-            Kind::WithField(law) => Self::OpenField(OpenField(keep(Instance { name, parameters, law }))),
+            Kind::WithField(law) => {
+                super::declaration::check(name, law.as_ref())?;
+                Self::OpenField(OpenField(keep(Instance { name, parameters, law })))
+            }
         };
         REGISTRY.lock().unwrap_or_else(PoisonError::into_inner).made.push(law);
         Ok(law)

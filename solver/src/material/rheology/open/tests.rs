@@ -88,8 +88,9 @@ impl LanePass for Update<'_> {
         let pressure = V::load(self.pressures);
         let stress = load_tensor::<V, 3>(self.stress);
         let none = FieldStep::alone(V::splat(0.0));
-        let (stress, field) = self.law.updated_states(&stress, &gradient, pressure, &none, 2e4, 1e-3);
-        *self.elasticity = self.law.elasticity(stress[0][1], pressure, field, 0.0).to_array();
+        let (stress, field) =
+            self.law.updated_states(&stress, &gradient, pressure, &none, 2e4, 1e-3).stress_and_field();
+        *self.elasticity = self.law.elasticity(stress[0][1], pressure, &FieldStep::alone(field), 0.0).to_array();
         store_tensor(&stress, self.stress);
     }
 }

@@ -54,15 +54,15 @@ pub(in super::super) fn fill<const D: usize>(model: &Model<D>, particles: &Parti
         } else {
             &particles.pressure_gradient[index]
         });
-        let field = particles.field.as_ref().map_or(0.0, |field| field[index]);
         if diffusion != PairDiffusion::None {
             let stress = &particles.stress[index];
-            let elasticity = model.elasticity(equivalent_shear_stress(stress), pressure, field);
+            let kept = particles.kept(index);
+            let elasticity = model.elasticity(equivalent_shear_stress(stress), pressure, &kept);
             record.scalar(stress_diffusion::yielding(elasticity, pressure));
             record.deviator(stress);
         }
         if diffusion == PairDiffusion::Field {
-            record.scalar(field);
+            record.scalar(particles.field.as_ref().map_or(0.0, |field| field[index]));
         }
     });
 }

@@ -1,0 +1,35 @@
+//! What a law keeps of each particle beside its field, an array of a few values a particle.
+
+use crate::lanes::{LANES, Lanes};
+use crate::material::rheology::field::{LawField, MOST_MEMORIES, Memory};
+
+/// What particles begin with, if the law keeps anything.
+pub(crate) fn initial(memories: &[LawField]) -> Option<Memory<f64>> {
+    let mut initial = Memory::default();
+    for (value, memory) in initial.iter_mut().zip(memories) {
+        *value = memory.initial;
+    }
+    (!memories.is_empty()).then_some(initial)
+}
+
+/// That of eight particles or fewer; zero in the lanes that are left.
+#[inline(always)]
+pub(crate) fn load<V: Lanes>(memories: &[Memory<f64>]) -> Memory<V> {
+    let mut lanes = [[0.0; LANES]; MOST_MEMORIES];
+    for (lane, memory) in memories.iter().enumerate() {
+        for (place, &value) in memory.iter().enumerate() {
+            lanes[place][lane] = value;
+        }
+    }
+    lanes.map(|values| V::load(&values))
+}
+
+/// Writes that of as many particles as `out` has.
+#[inline(always)]
+pub(crate) fn store<V: Lanes>(lanes: &Memory<V>, out: &mut [Memory<f64>]) {
+    for (place, values) in lanes.iter().enumerate() {
+        for (out, value) in out.iter_mut().zip(values.to_array()) {
+            out[place] = value;
+        }
+    }
+}
