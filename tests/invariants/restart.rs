@@ -33,7 +33,13 @@ where
 {
     let end = |simulation: &Simulation<D>| {
         let counts = (simulation.steps(), simulation.neighbour_searches(), simulation.viscous_iterations());
-        (simulation.snapshot().to_bytes(), counts, simulation.energy(), simulation.side_wall_impulse(), simulation.time().to_bits())
+        (
+            simulation.snapshot().to_bytes(),
+            counts,
+            simulation.energy(),
+            simulation.side_wall_impulse(),
+            simulation.time().to_bits(),
+        )
     };
     let expected = on(1, || {
         let mut whole = simulation(scene.clone());

@@ -122,7 +122,8 @@ impl<const D: usize> State<D> {
         let impulses = &mut blocks[..flow.div_ceil(BLOCK)];
         let (gravity, energy) = (&self.model.gravity, &mut self.pairs.energy);
         side_walls::run(walls, gravity, time_step, &mut self.particles, energy, impulses);
-        books.side_walls = impulses.iter_mut().fold(books.side_walls, |sum, block| sum + std::mem::replace(block, Vector::zeros()));
+        books.side_walls =
+            impulses.iter_mut().fold(books.side_walls, |sum, block| sum + std::mem::replace(block, Vector::zeros()));
         self.pairs.close_ledger(&mut self.energy);
     }
 

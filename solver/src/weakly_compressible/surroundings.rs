@@ -2,11 +2,11 @@
 //! has left and who has come in. The rows of inlets are the last of the shells.
 
 use crate::vector::Vector;
-use crate::weakly_compressible::boundary::{Enclosure, SideWalls};
 use crate::weakly_compressible::boundary::enclosure::{Departures, Exits};
 use crate::weakly_compressible::boundary::facet_grid::FacetGrid;
 use crate::weakly_compressible::boundary::inlet::{Arrivals, Inlet};
 use crate::weakly_compressible::boundary::shell::Shell;
+use crate::weakly_compressible::boundary::{Enclosure, SideWalls};
 use serde::{Deserialize, Serialize};
 
 /// The owner of particles that belong to no shell.

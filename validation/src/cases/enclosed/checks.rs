@@ -44,7 +44,8 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         if shells.iter().any(|shell| shell.roughness == Surface::Smooth) {
             rules::gate("numerics", &self.numerics)?;
         }
-        let enclosure = Enclosure { shells, exits: self.sides.exits(), inlets: self.feeds(), side_walls: self.side_walls };
+        let enclosure =
+            Enclosure { shells, exits: self.sides.exits(), inlets: self.feeds(), side_walls: self.side_walls };
         rules::refuse("numerics", enclosure.numerics_problem(&self.numerics))?;
         if self.numerics.contact == Contact::None && !(self.walls.is_empty() && self.inlets.is_empty()) {
             let remedy = format!("contact keeps particles in front of walls of {}; leave it as it is", S::Wall::FACETS);
