@@ -2,11 +2,12 @@
 
 use super::NonlocalShearRecord;
 use super::flow::{Cooperation, ExactShear, ShearFlow};
-use super::metrics::{
-    COARSE, DECAY_LENGTH, DEEP_TAIL, EXACT, FLOWING_DEPTH, OBSERVED_ORDER, STRAIGHT, SURFACE_VELOCITY_ERROR, TAIL,
-    TAIL_STRAIGHTNESS, length_metric, tail, velocity_l2, velocity_misfit,
-};
 use super::probe::ShearObservation;
+use super::profile::{length_metric, tail, velocity_l2, velocity_misfit};
+use super::quantities::{
+    COARSE, DECAY_LENGTH, DEEP_TAIL, EXACT, FLOWING_DEPTH, OBSERVED_ORDER, STRAIGHT, SURFACE_VELOCITY_ERROR, TAIL,
+    TAIL_STRAIGHTNESS,
+};
 use super::run::ShearRun;
 use crate::case::Run;
 use crate::metric::{Limit, Metric, Variant};

@@ -1,8 +1,8 @@
 //! Heaps between side walls, drawn.
 
 use super::NonlocalShearRecord;
-use super::figures::{LEAST, LEAST_OF_ERRORS, LOCAL, NONLOCAL, label, shown, thinned};
 use super::flow::{Cooperation, ExactShear, ShearFlow};
+use super::marks::{LEAST, LEAST_OF_ERRORS, LOCAL, NONLOCAL, label, shown, thinned};
 use super::run::ShearRun;
 use crate::figure::{Axis, Figure, Panel};
 

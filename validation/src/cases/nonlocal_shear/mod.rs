@@ -5,9 +5,12 @@ mod figures;
 mod flow;
 mod heap;
 mod heap_figure;
+mod marks;
 mod metrics;
 mod parameters;
 mod probe;
+mod profile;
+mod quantities;
 mod run;
 
 pub use channel::{Above, Channel, ChannelGrains, Motion, STIFFNESS};
@@ -40,7 +43,7 @@ impl Case for NonlocalShearFlows {
         that they have: the length over which the velocity falls by e below the depth at which the local law is at rest, the layer \
         that shears at a wall of the chute, the velocities, the traction of the plate. The heap flows under the local law too, whose profile is exact.";
     type Parameters = NonlocalShearParameters;
-    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
+    const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
     fn metrics(_: &NonlocalShearParameters, records: &[NonlocalShearRecord]) -> Vec<Metric> {
         metrics::all(records)
