@@ -90,7 +90,7 @@ fn a_block_is_held_up_to_the_limit_and_slides_beyond_it() {
 #[test]
 fn side_walls_give_the_impulse_that_the_flow_loses() {
     let mut scene = periodic_scene([17, 14], Disorder::FULL, 11);
-    scene.numerics = Numerics { density_coupling: 0.1, ..Numerics::default() };
+    scene.numerics = Numerics { contact: Contact::None, ..exact_pairs() };
     for velocity in &mut scene.flow.velocity {
         velocity[0] += 0.4;
     }
