@@ -152,7 +152,11 @@ impl ShearFlow {
             Self::DraggedBed { plate_velocity, .. } => {
                 self.under(grains, self.friction_of(grains, plate_velocity).ok().flatten()?)
             }
-            Self::Heap { inclination, .. } => self.under(grains, libm::tan(inclination)),
+            Self::Heap { inclination, .. } => {
+                // beyond μ_2 no law of these grains bears the weight
+                let slope = libm::tan(inclination);
+                (slope < grains.law.limiting_friction).then(|| self.under(grains, slope)).flatten()
+            }
         }
     }
 

@@ -276,6 +276,16 @@ mod tests {
         assert!(steep.starts_with("`chute.wall_friction` is 0.7, but must be between 0 and 0.64"), "{steep}");
         let fast = message(|parameters| parameters.dragged_bed.plate_velocity = 1e6);
         assert!(fast.starts_with("`dragged_bed.plate_velocity` is 1000000, but must be a velocity that"), "{fast}");
+        for slope_angle in [15.0, 40.0] {
+            let heap = message(|parameters| {
+                parameters.heap.slope_angle = slope_angle;
+                parameters.heap.particles_per_diameter.clear();
+            });
+            let expected = format!(
+                "`heap.slope_angle` is {slope_angle}, but must be between the angles of the grains' friction, 20.9"
+            );
+            assert!(heap.starts_with(&expected), "{heap}");
+        }
         let local = message(|parameters| parameters.material = Rheology::MuI(GLASS_BEADS.law));
         assert!(local.starts_with("`material.law` is \"mu-i\", but must be \"nonlocal-mu-i\""), "{local}");
     }
