@@ -5,6 +5,7 @@ use crate::patches::{
     simulation,
 };
 use bagnold_solver::domain::AxisBoundary;
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::{SideWalls, wall};
 use bagnold_solver::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics};
@@ -153,6 +154,57 @@ fn a_layer_at_rest_does_not_creep_by_its_side_walls() {
     println!("mean way in spacings and share at rest: {free:?} without, {held:?} with side walls");
     assert!(free.0.abs() < 5e-4 && held.0.abs() < 5e-4, "{held:?} and {free:?}");
     assert!(held.1 > 0.4 && free.1 < 0.1, "{held:?} and {free:?}");
+}
+
+/// Material that sinks between the plates at one velocity hangs on them: dp/dy = ρ g − 2 μ_w p/W, so that its pressure tends to
+/// ρ g W/(2 μ_w) with the depth (Janssen). It sinks with a bed that is drawn down, and begins with the pressure of its whole weight.
+#[test]
+fn what_sinks_between_side_walls_has_the_pressure_of_a_silo() {
+    let (columns, rows, speed) = (12, 40, 0.1);
+    let height = rows as f64 * SPACING;
+    let mut scene = periodic_scene([columns, rows], Disorder { jitter: 0.05, ..Disorder::NONE }, 9);
+    scene.domain.axes[1] = AxisBoundary::Open;
+    let mut bed = bed();
+    (bed.velocity[1], bed.travel) = (-speed, 1.0);
+    scene.walls = vec![bed];
+    let extent = (Vector::zeros(), Vector::repeat(1.5 * height));
+    scene.wall_particles = wall::fill(&scene.walls, &scene.domain, extent, SPACING, 4);
+    scene.gravity[1] = -9.81;
+    scene.flow.velocity.fill(Vector::<2>::new(0.0, -speed));
+    for (position, density) in scene.flow.position.iter().zip(&mut scene.flow.density) {
+        *density = EQUATION_OF_STATE.density(DENSITY * 9.81 * (height - position[1]).max(0.0));
+    }
+    scene.numerics = Numerics::default();
+    // friction does not damp the column's vibrations about its steady motion, a viscosity does
+    scene.rheology = Rheology::Newtonian(Newtonian { viscosity: 400.0 });
+    let side_walls = SideWalls { width: 0.25, friction: 0.4 };
+    scene.enclosure.side_walls = Some(side_walls);
+    let mass = scene.flow.mass[0];
+    let mut simulation = simulation(scene);
+    let mut sums = vec![(0.0, 0.0); rows];
+    while simulation.time() < 1.6 {
+        simulation.step().expect("a stable step");
+        if simulation.time() > 1.2 {
+            let state = simulation.snapshot();
+            // rows keep their order; the weight above a row is known whatever its height
+            for (index, pressure) in state.pressure.iter().enumerate() {
+                let sum = &mut sums[index / columns];
+                *sum = (sum.0 + pressure, sum.1 + 1.0);
+            }
+        }
+    }
+    let depth = side_walls.width / (2.0 * side_walls.friction);
+    let weight = mass / (SPACING * SPACING) * 9.81;
+    let mut worst = 0.0_f64;
+    for (row, (sum, count)) in sums.into_iter().enumerate() {
+        let above = height - (row as f64 + 0.5) * SPACING;
+        let expected = weight * depth * (1.0 - (-above / depth).exp());
+        let found = sum / count;
+        worst = worst.max((found - expected).abs() / (weight * SPACING));
+    }
+    println!("pressures are {worst:.3} of a row's weight off at most");
+    // at which height in its row a displaced particle has its pressure is known to half of that
+    assert!(worst < 0.5, "{worst}");
 }
 
 #[test]
