@@ -5,7 +5,7 @@ use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::lanes::InstructionSet;
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::wall;
+use bagnold_solver::weakly_compressible::boundary::{SideWalls, wall};
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, PairPrecision, ViscousStep};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
@@ -71,6 +71,15 @@ where
 #[test]
 fn a_plane_column_is_the_same_to_the_last_bit() {
     in_both_precisions(&column([110, 80]));
+}
+
+#[test]
+fn a_column_between_side_walls_is_the_same_to_the_last_bit() {
+    let mut scene = column([110, 80]);
+    let free = bytes(&scene, 1, InstructionSet::best());
+    scene.enclosure.side_walls = Some(SideWalls { width: 0.1, friction: 0.3 });
+    assert!(bytes(&scene, 1, InstructionSet::best()) != free, "side walls change the state");
+    in_both_precisions(&scene);
 }
 
 #[test]

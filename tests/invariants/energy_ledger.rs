@@ -8,7 +8,7 @@ use crate::patches::{
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::wall;
+use bagnold_solver::weakly_compressible::boundary::{SideWalls, wall};
 use bagnold_solver::weakly_compressible::energy::{EnergyAccount, EnergyLedger};
 use bagnold_solver::weakly_compressible::numerics::{Contact, Numerics};
 use bagnold_solver::weakly_compressible::scene::Scene;
@@ -127,7 +127,13 @@ fn an_error_of_one_per_cent_in_any_entry_is_noticed() {
         scene
     };
     type Entry = fn(&mut EnergyLedger) -> &mut f64;
-    let runs: [(&str, Scene<2>, f64, Entry); 7] = [
+    let narrow = {
+        let mut scene = block(GRAINS, bare());
+        scene.flow.velocity.iter_mut().for_each(|velocity| velocity[0] += 1.0);
+        scene.enclosure.side_walls = Some(SideWalls { width: 0.01, friction: 0.5 });
+        scene
+    };
+    let runs: [(&str, Scene<2>, f64, Entry); 8] = [
         ("gravity", slope, 0.1, |ledger| &mut ledger.gravity),
         ("walls", belt, 0.1, |ledger| &mut ledger.walls),
         ("viscous", block(SYRUP, Numerics { acoustic_courant: 0.004, ..bare() }), 0.02, |ledger| &mut ledger.viscous),
@@ -139,6 +145,7 @@ fn an_error_of_one_per_cent_in_any_entry_is_noticed() {
             &mut ledger.density_coupling
         }),
         ("contacts", drop, 0.15, |ledger| &mut ledger.contact),
+        ("side walls", narrow, 0.02, |ledger| &mut ledger.side_walls),
     ];
     for (name, scene, end, entry) in runs {
         let accounts = accounts(scene, end);

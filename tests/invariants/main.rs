@@ -22,6 +22,7 @@ mod patches;
 mod restart;
 mod scene_errors;
 mod shells;
+mod side_walls;
 mod softening;
 mod stopping;
 mod supports;

@@ -1,11 +1,12 @@
 //! When a chute of the nonlocal law flows: the case `nonlocal-shear` judges how it does.
 
 use crate::nonlocal_layers::on_one_thread;
+use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_validation::case::recording::Beginning;
 use bagnold_validation::case::{Parameters, Tier};
 use bagnold_validation::cases::nonlocal_shear::{
-    Channel, ChannelGrains, ExactShear, Motion, NonlocalShearParameters, ShearFlow, ShearRun, ShearedGrains,
+    Above, Channel, ChannelGrains, ExactShear, Motion, NonlocalShearParameters, ShearFlow, ShearRun, ShearedGrains,
 };
 
 /// A chute of the case that is 20 diameters wide, whose walls bear a friction.
@@ -21,7 +22,8 @@ fn remaining(run: &ShearRun, grains: &ShearedGrains, start: &ExactShear, wall_fr
         width: flow.width(),
         gravity: flow.gravity(grains),
         pressure: &|_| grains.load,
-        upper_wall: 0.0,
+        above: Above::Wall(0.0),
+        rheology: Rheology::NonlocalMuI(run.grains.law),
         start: &|y| Motion {
             velocity: start.velocity(y),
             shear_rate: start.shear_rate(y),

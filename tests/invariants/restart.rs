@@ -13,6 +13,7 @@ use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::run::{Course, Observer, StopReason};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::SavedSimulation;
+use bagnold_solver::weakly_compressible::boundary::SideWalls;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscousStep};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
@@ -33,7 +34,13 @@ where
 {
     let end = |simulation: &Simulation<D>| {
         let counts = (simulation.steps(), simulation.neighbour_searches(), simulation.viscous_iterations());
-        (simulation.snapshot().to_bytes(), counts, simulation.energy(), simulation.time().to_bits())
+        (
+            simulation.snapshot().to_bytes(),
+            counts,
+            simulation.energy(),
+            simulation.side_wall_impulse(),
+            simulation.time().to_bits(),
+        )
     };
     let expected = on(1, || {
         let mut whole = simulation(scene.clone());
@@ -120,6 +127,9 @@ fn walls_of_segments_and_open_sides_go_on_in_the_same_bits() {
     let mut simulation = simulation(scene);
     patches::advance(&mut simulation, STEPS);
     assert!(simulation.departures().particles() > 0, "somebody leaves on the way");
+    let mut narrow = shells::gated();
+    narrow.enclosure.side_walls = Some(SideWalls { width: 0.1, friction: 0.3 });
+    check(&narrow);
 }
 
 #[test]

@@ -46,6 +46,8 @@ pub struct EnergyLedger {
     pub density_coupling: f64,
     /// Dissipated by contacts with walls.
     pub contact: f64,
+    /// Dissipated by the friction of side walls.
+    pub side_walls: f64,
     /// Fed in by the kernel corrections: the work that the stress does on the gradients as they are taken, less that of
     /// the same stress as the forces take it. Negative where they take energy out.
     pub correction: f64,
@@ -63,6 +65,7 @@ impl EnergyLedger {
             wall_control: f(self.wall_control, other.wall_control),
             density_coupling: f(self.density_coupling, other.density_coupling),
             contact: f(self.contact, other.contact),
+            side_walls: f(self.side_walls, other.side_walls),
             correction: f(self.correction, other.correction),
         }
     }
@@ -75,7 +78,13 @@ impl EnergyLedger {
     /// All that was dissipated `[J]`.
     #[must_use]
     pub fn dissipated(&self) -> f64 {
-        self.viscous + self.plastic + self.artificial + self.wall_control + self.density_coupling + self.contact
+        self.viscous
+            + self.plastic
+            + self.artificial
+            + self.wall_control
+            + self.density_coupling
+            + self.contact
+            + self.side_walls
     }
 }
 
@@ -219,6 +228,15 @@ fn sum_of_lanes<V: Lanes>(lanes: V) -> f64 {
     lanes.to_array().iter().sum()
 }
 
+/// What pushes a particle after its velocity step, and so where its loss is booked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PushCause {
+    /// A contact with a wall of segments.
+    Contact,
+    /// The friction of side walls.
+    SideWalls,
+}
+
 /// What a push adds that follows the velocity step of a particle.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PushStep<'a, const D: usize> {
@@ -241,15 +259,19 @@ impl<const D: usize> PushStep<'_, D> {
     /// Adds the push to a sum that has the step without it: every force has worked at a mean velocity that is half the push
     /// more.
     #[inline(always)]
-    pub(crate) fn add_to(&self, sum: &mut EnergyLedger) {
+    pub(crate) fn add_to(&self, sum: &mut EnergyLedger, cause: PushCause) {
         let momentum = self.mass * self.time_step * self.push;
         sum.gravity += momentum.dot(self.gravity);
         sum.walls += 0.5 * momentum.dot(self.by_walls) + self.given;
         sum.artificial -= 0.5 * momentum.dot(self.by_damping);
         sum.wall_control -= 0.5 * momentum.dot(self.by_wall_control);
-        // an earlier contact with a plane in this step is in both of these means, once with each sign
+        // earlier contacts in this step are in both of these means, once with each sign
         let mean = self.velocity + 0.5 * (self.push - self.time_step * self.acceleration);
-        sum.contact += self.given - self.mass * mean.dot(&self.push);
+        let lost = self.given - self.mass * mean.dot(&self.push);
+        match cause {
+            PushCause::Contact => sum.contact += lost,
+            PushCause::SideWalls => sum.side_walls += lost,
+        }
     }
 }
 

@@ -58,7 +58,7 @@ pub struct Scene<const D: usize> {
     pub walls: Vec<Wall<D>>,
     /// Wall particles, see [`crate::weakly_compressible::boundary::wall::fill`].
     pub wall_particles: Vec<WallParticle<D>>,
-    /// Shells, open sides and inlets.
+    /// Shells, open sides, inlets and side walls.
     pub enclosure: Enclosure<D>,
     /// Boundaries of the domain.
     pub domain: Domain<D>,
@@ -171,7 +171,8 @@ impl<const D: usize> Scene<D> {
             .or_else(|| surfaces.find_map(|roughness| self.numerics.wall_problem(roughness)))
             .or_else(|| self.numerics.step_problem(&self.rheology))
             .or_else(|| self.numerics.field_problem(&self.rheology))
-            .or_else(|| self.enclosure.numerics_problem(&self.numerics));
+            .or_else(|| self.enclosure.numerics_problem(&self.numerics))
+            .or_else(|| self.enclosure.side_walls.and_then(|walls| walls.problem(D)));
         problem.map_or(Ok(()), |problem| Err(problem.into()))
     }
 

@@ -257,6 +257,12 @@ impl<const D: usize> Simulation<D> {
         self.state.surroundings.books.unsolved
     }
 
+    /// Impulse that side walls have given to the flow since the start `[kg m/s]`, per metre of depth.
+    #[must_use]
+    pub fn side_wall_impulse(&self) -> Vector<D> {
+        self.state.surroundings.books.side_walls
+    }
+
     /// The inlets.
     #[must_use]
     pub fn inlets(&self) -> &[Inlet<D>] {

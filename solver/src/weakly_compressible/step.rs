@@ -17,6 +17,7 @@ impl<const D: usize> State<D> {
         self.book_shells(time_step);
         self.update_velocity(time_step)?;
         self.touch_shells(time_step, self.model.contact_friction)?;
+        self.rub_on_side_walls(time_step);
         self.extend_velocity_to_walls();
         self.update_density_and_stress(time_step)?;
         self.update_position(time_step);

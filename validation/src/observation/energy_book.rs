@@ -47,7 +47,10 @@ impl EnergyBook {
             ("density coupling", ledger.density_coupling),
             ("contacts", ledger.contact),
         ];
-        self.dissipated = causes.map(|(cause, energy)| (cause.to_owned(), energy)).to_vec();
+        // few flows have side walls, and none of the others has a cause less for them
+        let side_walls = (ledger.side_walls != 0.0).then_some(("friction of side walls", ledger.side_walls));
+        self.dissipated =
+            causes.into_iter().chain(side_walls).map(|(cause, energy)| (cause.to_owned(), energy)).collect();
     }
 
     /// Largest difference between what the energy has changed by since the start and what the ledger says.

@@ -1,6 +1,7 @@
-//! What encloses the flow beside plane walls: shells of any shape, open sides by which it leaves, and inlets by which it comes
-//! in.
+//! What encloses the flow beside plane walls: shells of any shape, open sides by which it leaves, inlets by which it comes in, and
+//! plates beside a plane flow.
 
+use super::SideWalls;
 use super::inlet::Inlet;
 use super::shell::Shell;
 use crate::parameter::ParameterProblem;
@@ -8,7 +9,7 @@ use crate::vector::Vector;
 use crate::weakly_compressible::numerics::Numerics;
 use serde::{Deserialize, Serialize};
 
-/// Shells, open sides and inlets of a scene; by default there are none.
+/// Shells, open sides, inlets and side walls of a scene; by default there are none.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Enclosure<const D: usize> {
     /// Walls of facets.
@@ -17,10 +18,12 @@ pub struct Enclosure<const D: usize> {
     pub exits: Exits<D>,
     /// Openings by which material comes in.
     pub inlets: Vec<Inlet<D>>,
+    /// Plates that rub on a plane flow from both sides.
+    pub side_walls: Option<SideWalls>,
 }
 
 impl<const D: usize> Enclosure<D> {
-    /// Whether there is nothing to do.
+    /// Whether there is nothing that walls of segments, open sides or inlets do.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.shells.is_empty() && self.inlets.is_empty() && self.exits == Exits::default()

@@ -1,6 +1,6 @@
 //! Boundaries: periodic and mirrored axes as images, solid walls as dummy particles, contact as insurance. Walls are
 //! planes normal to an axis ([`wall`]) or shells of segments and triangles ([`shell`], [`shell::Shell::mesh`]); open sides let
-//! particles leave ([`enclosure`]), and inlets bring some in ([`inlet`]).
+//! particles leave ([`enclosure`]), and inlets bring some in ([`inlet`]). Beside a plane flow there may be two plates ([`SideWalls`]).
 
 pub mod backing;
 pub mod contact;
@@ -16,6 +16,7 @@ mod mesh;
 pub mod mesh_backing;
 pub mod shell;
 pub(crate) mod shell_contact;
+mod side_walls;
 pub mod standing;
 pub mod wall;
 
@@ -23,4 +24,5 @@ pub use enclosure::Enclosure;
 pub use feed_rate::FeedRate;
 pub(crate) use images::Images;
 pub use inlet::Inlet;
+pub use side_walls::SideWalls;
 pub use wall::{Surface, Wall, WallTreatment};

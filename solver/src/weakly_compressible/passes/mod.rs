@@ -12,6 +12,7 @@ mod pair_data;
 pub(crate) mod pairwise;
 pub(crate) mod records;
 pub(crate) mod shell_impulse;
+pub(crate) mod side_walls;
 mod single;
 mod wall_partner;
 pub(crate) mod wall_stress;

@@ -10,7 +10,7 @@ use crate::lanes::{LANES, LanePass, Lanes};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
 use crate::weakly_compressible::boundary::shell_contact::{Passed, Touch};
-use crate::weakly_compressible::energy::{EnergyLedger, PushStep};
+use crate::weakly_compressible::energy::{EnergyLedger, PushCause, PushStep};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
@@ -174,7 +174,7 @@ pub(crate) fn by_contacts<const D: usize>(
                             by_damping: &by_damping[index],
                             by_wall_control: &by_wall_control[index],
                         }
-                        .add_to(energy);
+                        .add_to(energy, PushCause::Contact);
                         *velocity += push;
                         *support_impulse += push * mass;
                         extremes.largest = extremes.largest.max(velocity.norm_squared());

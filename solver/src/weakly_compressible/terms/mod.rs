@@ -11,6 +11,7 @@ pub mod kernel_correction;
 pub mod pair_distance;
 pub mod pair_viscosity;
 pub mod pressure_force;
+pub mod side_walls;
 pub mod stress_diffusion;
 pub mod stress_divergence;
 pub mod wall_extrapolation;

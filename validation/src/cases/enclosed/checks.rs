@@ -44,8 +44,12 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         if shells.iter().any(|shell| shell.roughness == Surface::Smooth) {
             rules::gate("numerics", &self.numerics)?;
         }
-        let enclosure = Enclosure { shells, exits: self.sides.exits(), inlets: self.feeds() };
+        let enclosure =
+            Enclosure { shells, exits: self.sides.exits(), inlets: self.feeds(), side_walls: self.side_walls };
         rules::refuse("numerics", enclosure.numerics_problem(&self.numerics))?;
+        if let Some(problem) = self.side_walls.and_then(|walls| walls.problem(D)) {
+            return Err(problem.into());
+        }
         if self.numerics.contact == Contact::None && !(self.walls.is_empty() && self.inlets.is_empty()) {
             let remedy = format!("contact keeps particles in front of walls of {}; leave it as it is", S::Wall::FACETS);
             return Err(ParameterError::field("numerics.contact", "none", "\"half-spacing\" with walls", &remedy));

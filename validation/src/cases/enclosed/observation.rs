@@ -45,7 +45,7 @@ pub struct SceneObservation<const D: usize> {
     pub fed: Vec<FedMass>,
     /// Largest difference of the mass inside and outside from that of the start and of what came in `[kg]`.
     pub missing_mass: f64,
-    /// Largest impulse that has no cause among gravity, walls, sides, and what implicit steps leave out `[kg m/s]`.
+    /// Largest impulse that has no cause among gravity, walls, side walls, sides, and what implicit steps leave out `[kg m/s]`.
     pub missing_impulse: f64,
     /// Largest impulse that implicit viscous steps have left out up to a sample `[kg m/s]`.
     pub unsolved_impulse: f64,
@@ -112,7 +112,8 @@ impl<const D: usize> SceneObservation<D> {
             self.gauges = vec![Vec::new(); gauges.len()];
         }
         let unsolved = simulation.unsolved_impulse();
-        let missing = held + gone + unsolved - came - self.momentum_at_start - supports - given;
+        let taken = supports + simulation.side_wall_impulse();
+        let missing = held + gone + unsolved - came - self.momentum_at_start - taken - given;
         self.time.push(snapshot.time);
         self.mass.push(inside);
         let squares: f64 = snapshot.velocity.iter().zip(&snapshot.mass).map(|(v, m)| v.norm_squared() * m).sum();

@@ -16,6 +16,7 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::SideWalls;
 use bagnold_solver::weakly_compressible::boundary::facet::Facet;
 use bagnold_solver::weakly_compressible::boundary::shell::Shell;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
@@ -114,6 +115,9 @@ pub struct SceneParameters<S: Setting<D>, const D: usize> {
     pub walls: Vec<S::Wall>,
     /// Openings by which material comes in.
     pub inlets: Vec<S::Inlet>,
+    /// Two plates beside a scene in the plane, which rub on its material; none where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub side_walls: Option<SideWalls>,
     /// What is measured.
     pub gauges: Vec<S::Gauge>,
     /// Measured series that gauges are compared with.
@@ -153,6 +157,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             cut_at_most: 0.1,
             walls: Vec::new(),
             inlets: Vec::new(),
+            side_walls: None,
             gauges: Vec::new(),
             measured: Vec::new(),
             // a liquid comes to rest, grains keep the operator that they are verified with

@@ -8,7 +8,7 @@ mod tables;
 
 pub use periodic::PeriodicLayer;
 pub use preparation::Preparation;
-pub(in crate::cases) use preparation::settled;
+pub(in crate::cases) use preparation::{raised, settled};
 pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 pub use tables::tables_of_runs;
 

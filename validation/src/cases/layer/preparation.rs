@@ -71,7 +71,7 @@ pub(in crate::cases) fn settled(scene: Scene<2>) -> Result<Scene<2>, SceneError>
 /// 2. The density that the continuity equation carries along does not know of it, since sums over displaced neighbours are
 /// not consistent with constants. A layer that stays that low flows as a lower one would at every resolution, as
 /// the square of its height for a liquid. Raised, it has the volume again that its mass and density say.
-pub(super) fn raised(mut scene: Scene<2>, height: f64) -> Scene<2> {
+pub(in crate::cases) fn raised(mut scene: Scene<2>, height: f64) -> Scene<2> {
     let position = &mut scene.flow.position;
     let mean = position.iter().map(|x| x[1]).sum::<f64>() / position.len().max(1) as f64;
     // all particles of a layer have the same volume

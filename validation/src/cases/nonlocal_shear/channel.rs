@@ -1,15 +1,15 @@
-//! Grains between two rough walls, compressed until they carry a pressure.
+//! Grains between two rough walls, compressed until they carry a pressure, or on one of them under their weight.
 
 use crate::case::recording::Beginning;
-use crate::cases::layer::settled;
+use crate::cases::layer::{raised, settled};
 use crate::setup::{Lattice, displaced_flow, wall_rows};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{NonlocalMuI, Rheology};
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::Wall;
 use bagnold_solver::weakly_compressible::boundary::wall::fill;
+use bagnold_solver::weakly_compressible::boundary::{SideWalls, Wall};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use serde::Serialize;
@@ -47,18 +47,29 @@ pub struct ChannelGrains {
     pub numerics: Numerics,
 }
 
-/// Grains that fill the space between a wall at y = 0 and one at some width, periodic along the walls.
+/// What is at the upper end of a channel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Above {
+    /// A rough wall that moves at a velocity `[m/s]`.
+    Wall(f64),
+    /// A free surface between two side walls.
+    Surface(SideWalls),
+}
+
+/// Grains that fill the space between a wall at y = 0 and some width, periodic along the wall.
 pub struct Channel<'a> {
     /// The particles.
     pub grains: ChannelGrains,
-    /// Distance of the walls `[m]`.
+    /// Their law.
+    pub rheology: Rheology,
+    /// Distance of the walls, or of the surface from the wall `[m]`.
     pub width: f64,
     /// Gravity along the walls and across them `[m/s²]`.
     pub gravity: [f64; 2],
     /// Pressure at a height `[Pa]`.
     pub pressure: &'a (dyn Fn(f64) -> f64 + Sync),
-    /// Velocity of the upper wall `[m/s]`.
-    pub upper_wall: f64,
+    /// What is there.
+    pub above: Above,
     /// The motion at a height `[m]` at the start.
     pub start: &'a (dyn Fn(f64) -> Motion + Sync),
 }
@@ -101,14 +112,20 @@ impl Channel<'_> {
     /// A scene that breaks a rule of the solver.
     pub fn scene(&self, beginning: Beginning) -> Result<Scene<2>, SceneError> {
         match beginning {
-            Beginning::New => Ok(self.started(self.compressed(settled(self.at_rest())?))),
+            Beginning::New => {
+                let settled = settled(self.at_rest())?;
+                Ok(self.started(match self.above {
+                    Above::Wall(_) => self.compressed(settled),
+                    Above::Surface(_) => raised(settled, self.width),
+                }))
+            }
             Beginning::Continued => Ok(Scene { gravity: Vector::from(self.gravity), ..self.moving(self.at_rest()) }),
         }
     }
 
     /// Displaced grains between walls at rest, under the gravity across them.
     fn at_rest(&self) -> Scene<2> {
-        let ChannelGrains { law, rows, columns, jitter, seed, numerics, .. } = self.grains;
+        let ChannelGrains { rows, columns, jitter, seed, numerics, .. } = self.grains;
         let spacing = self.spacing();
         let lattice = Lattice { spacing, rows, columns, bottom: 0.0 };
         let material = self.equation_of_state();
@@ -120,7 +137,10 @@ impl Channel<'_> {
         );
         let along = AxisBoundary::Periodic { lower: 0.0, upper: self.length() };
         let domain = Domain { axes: [along, AxisBoundary::Open] };
-        let walls = vec![Wall::still(1, 0.0, 1.0), Wall::still(1, self.width, -1.0)];
+        let mut walls = vec![Wall::still(1, 0.0, 1.0)];
+        if let Above::Wall(_) = self.above {
+            walls.push(Wall::still(1, self.width, -1.0));
+        }
         let extent = (Vector::<2>::zeros(), Vector::<2>::new(self.length(), self.width));
         Scene {
             wall_particles: fill(&walls, &domain, extent, spacing, wall_rows(numerics.smoothing_ratio)),
@@ -128,7 +148,7 @@ impl Channel<'_> {
             domain,
             gravity: Vector::<2>::new(0.0, self.gravity[1]),
             numerics,
-            ..Scene::unbounded(flow, spacing, material, Rheology::NonlocalMuI(law))
+            ..Scene::unbounded(flow, spacing, material, self.rheology)
         }
     }
 
@@ -149,7 +169,10 @@ impl Channel<'_> {
     }
 
     fn moving(&self, mut scene: Scene<2>) -> Scene<2> {
-        scene.walls[1].velocity[0] = self.upper_wall;
+        match self.above {
+            Above::Wall(velocity) => scene.walls[1].velocity[0] = velocity,
+            Above::Surface(side_walls) => scene.enclosure.side_walls = Some(side_walls),
+        }
         scene
     }
 
@@ -162,7 +185,7 @@ impl Channel<'_> {
             let Motion { velocity, shear_rate, shear_stress } = (self.start)(y);
             scene.flow.velocity[index][0] = velocity;
             scene.flow.stress[index] = Tensor::<2>::new(0.0, shear_stress, shear_stress, 0.0);
-            let stress_ratio = shear_stress.abs() / (self.pressure)(y);
+            let stress_ratio = shear_stress.abs() / (self.pressure)(y).max(f64::MIN_POSITIVE);
             scene.flow.field.extend(scene.rheology.field_in_flow(shear_rate, stress_ratio));
         }
         scene

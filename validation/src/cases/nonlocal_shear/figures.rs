@@ -2,49 +2,32 @@
 
 use super::NonlocalShearRecord;
 use super::flow::ShearFlow;
+use super::heap_figure as heap;
+use super::marks::{LEAST, LEAST_OF_ERRORS, LOCAL, NONLOCAL, label, shown, thinned};
 use super::metrics::plug_velocity;
 use super::run::ShearRun;
 use crate::figure::{Axis, Figure, Panel};
 
-/// Least velocity that a logarithmic axis shows, over its largest `[-]`: three decades of a tail.
-const LEAST: f64 = 1e-3;
-/// Least velocity whose relative error is drawn, over that of the plate `[-]`: rows that are nearly at rest keep the unevenness of the start.
-const LEAST_OF_ERRORS: f64 = 1e-2;
-
 pub(super) fn all(records: &[NonlocalShearRecord]) -> Vec<Figure> {
-    let flows = |is_chute: bool| -> Vec<&NonlocalShearRecord> {
-        records.iter().filter(|(run, _)| matches!(run.flow, ShearFlow::Chute { .. }) == is_chute).collect()
+    let flows = |kind: fn(&ShearFlow) -> bool| -> Vec<&NonlocalShearRecord> {
+        records.iter().filter(|(run, _)| kind(&run.flow)).collect()
     };
-    let (chutes, beds) = (flows(true), flows(false));
-    let drawn = [(!beds.is_empty()).then(|| dragged_bed(&beds)), (!chutes.is_empty()).then(|| chute(&chutes))];
+    let chutes = flows(|flow| matches!(flow, ShearFlow::Chute { .. }));
+    let beds = flows(|flow| matches!(flow, ShearFlow::DraggedBed { .. }));
+    let heaps = flows(|flow| matches!(flow, ShearFlow::Heap { .. }));
+    let drawn = [
+        (!beds.is_empty()).then(|| dragged_bed(&beds)),
+        (!chutes.is_empty()).then(|| chute(&chutes)),
+        (!heaps.is_empty()).then(|| heap::drawn(&heaps)),
+    ];
     drawn.into_iter().flatten().collect()
 }
-
-fn label(run: &ShearRun) -> String {
-    match run.particles_per_diameter {
-        1 => "1 particle per diameter".to_owned(),
-        count => format!("{count} particles per diameter"),
-    }
-}
-
-/// Points that an axis from a least value on can show.
-fn shown(points: impl IntoIterator<Item = (f64, f64)>, least: f64) -> Vec<(f64, f64)> {
-    points.into_iter().filter(|(_, value)| *value >= least).collect()
-}
-
-/// One row per diameter, which leaves the curve behind them to be seen.
-fn thinned(run: &ShearRun, rows: Vec<(f64, f64)>) -> impl Iterator<Item = (f64, f64)> {
-    rows.into_iter().skip(run.particles_per_diameter / 2).step_by(run.particles_per_diameter)
-}
-
-const NONLOCAL: &str = "nonlocal law, without particles";
-const LOCAL: &str = "local law under the same stresses";
 
 fn dragged_bed(records: &[&NonlocalShearRecord]) -> Figure {
     let speed = |run: &ShearRun| (run.gravity * run.grains.law.grain_diameter).sqrt();
     let largest = records.iter().map(|(run, _)| match run.flow {
         ShearFlow::DraggedBed { plate_velocity, .. } => plate_velocity / speed(run),
-        ShearFlow::Chute { .. } => 0.0,
+        ShearFlow::Chute { .. } | ShearFlow::Heap { .. } => 0.0,
     });
     let largest = largest.fold(0.0, f64::max);
     let least = LEAST * largest;

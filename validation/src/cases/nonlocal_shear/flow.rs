@@ -1,9 +1,10 @@
-//! The two flows, and what is exact of them without particles.
+//! The flows, and what is exact of them without particles.
 
 use super::channel::STIFFNESS;
 use crate::reference::{LayerError, NonlocalShear, NonlocalShearProfile, ShearStress};
 use bagnold_solver::material::rheology::field::FieldBoundary;
-use bagnold_solver::material::rheology::{MuI, NonlocalMuI};
+use bagnold_solver::material::rheology::{MuI, NonlocalMuI, Rheology};
+use bagnold_solver::weakly_compressible::boundary::SideWalls;
 use serde::Serialize;
 
 /// Cells of the solution without particles.
@@ -31,6 +32,27 @@ pub enum ShearFlow {
         /// Velocity of the plate `[m/s]`.
         plate_velocity: f64,
     },
+    /// A heap between side walls, which flows at its surface over grains that they hold.
+    Heap {
+        /// Thickness down to a rough bed `[m]`.
+        depth: f64,
+        /// Inclination of the surface `[rad]`.
+        inclination: f64,
+        /// The side walls.
+        side_walls: SideWalls,
+        /// Whether its grains cooperate.
+        cooperation: Cooperation,
+    },
+}
+
+/// Whether grains flow together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Cooperation {
+    /// By the nonlocal law.
+    Nonlocal,
+    /// Not at all: the local law of the same grains.
+    Local,
 }
 
 /// Grains that the flow is one of.
@@ -63,24 +85,35 @@ impl ShearFlow {
         match self {
             Self::Chute { .. } => "chute",
             Self::DraggedBed { .. } => "dragged-bed",
+            Self::Heap { cooperation: Cooperation::Nonlocal, .. } => "heap",
+            Self::Heap { cooperation: Cooperation::Local, .. } => "local-heap",
         }
     }
 
-    /// Distance of its walls `[m]`.
+    /// The law that its grains have.
+    #[must_use]
+    pub fn law(&self, law: NonlocalMuI) -> Rheology {
+        match self {
+            Self::Heap { cooperation: Cooperation::Local, .. } => Rheology::MuI(law.local()),
+            _ => Rheology::NonlocalMuI(law),
+        }
+    }
+
+    /// Distance of its walls, or of its surface from the bed `[m]`.
     #[must_use]
     pub fn width(&self) -> f64 {
         match *self {
             Self::Chute { half_width, .. } => 2.0 * half_width,
-            Self::DraggedBed { depth, .. } => depth,
+            Self::DraggedBed { depth, .. } | Self::Heap { depth, .. } => depth,
         }
     }
 
-    /// Distance `[m]` from where it flows fastest, the middle of a chute or the plate, of a height above the lower wall `[m]`.
+    /// Distance `[m]` from where it flows fastest, the middle of a chute, the plate or the surface, of a height above the lower wall `[m]`.
     #[must_use]
     pub fn distance(&self, height: f64) -> f64 {
         match *self {
             Self::Chute { half_width, .. } => (height - half_width).abs(),
-            Self::DraggedBed { depth, .. } => depth - height,
+            Self::DraggedBed { depth, .. } | Self::Heap { depth, .. } => depth - height,
         }
     }
 
@@ -94,6 +127,9 @@ impl ShearFlow {
                 [wall_friction * grains.load / (density * half_width), 0.0]
             }
             Self::DraggedBed { .. } => [0.0, -grains.gravity],
+            Self::Heap { inclination, .. } => {
+                [grains.gravity * libm::sin(inclination), -grains.gravity * libm::cos(inclination)]
+            }
         }
     }
 
@@ -103,6 +139,7 @@ impl ShearFlow {
         match *self {
             Self::Chute { .. } => grains.load,
             Self::DraggedBed { .. } => grains.load + grains.density * grains.gravity * self.distance(height),
+            Self::Heap { .. } => -grains.density * self.gravity(grains)[1] * self.distance(height).max(0.0),
         }
     }
 
@@ -115,17 +152,25 @@ impl ShearFlow {
             Self::DraggedBed { plate_velocity, .. } => {
                 self.under(grains, self.friction_of(grains, plate_velocity).ok().flatten()?)
             }
+            Self::Heap { inclination, .. } => {
+                // beyond μ_2 no law of these grains bears the weight
+                let slope = libm::tan(inclination);
+                (slope < grains.law.limiting_friction).then(|| self.under(grains, slope)).flatten()
+            }
         }
     }
 
-    /// The steady flow whose walls, or plate, bear a friction `[-]`; none at rest.
+    /// The steady flow whose walls, or plate, bear a friction `[-]`, or whose surface has that slope; none at rest.
     fn under(&self, grains: &ShearedGrains, friction: f64) -> Option<ExactShear> {
         let shear = self.stressed(grains, friction);
-        let profile = shear.steady(CELLS).ok().filter(|profile| profile.fastest > 0.0)?;
-        Some(ExactShear { flow: *self, shear, profile })
+        let profile = match self {
+            Self::Heap { cooperation: Cooperation::Local, .. } => local_profile(&shear),
+            _ => shear.steady(CELLS).ok()?,
+        };
+        (profile.fastest > 0.0).then_some(ExactShear { flow: *self, shear, profile })
     }
 
-    /// The stresses under a friction of the walls or the plate `[-]`.
+    /// The stresses under a friction of the walls or the plate, or a slope of the surface `[-]`.
     fn stressed(&self, grains: &ShearedGrains, friction: f64) -> NonlocalShear {
         let (load, weight) = (grains.load, grains.density * grains.gravity);
         let (thickness, stress, near) = match *self {
@@ -136,6 +181,15 @@ impl ShearFlow {
             Self::DraggedBed { depth, .. } => {
                 let stress = ShearStress::UnderGravity { load, traction: friction * load, weight };
                 (depth, stress, FieldBoundary::Vanishing)
+            }
+            Self::Heap { depth, side_walls, .. } => {
+                let across = -grains.density * self.gravity(grains)[1];
+                let stress = ShearStress::Heap {
+                    slope: friction,
+                    weight: across,
+                    side_friction: side_walls.friction_per_width(),
+                };
+                (depth, stress, grains.law.surface)
             }
         };
         NonlocalShear {
@@ -202,21 +256,33 @@ impl ExactShear {
     /// (distance from where it flows fastest `[m]`, velocity `[m/s]`) of the local law under the same stresses.
     #[must_use]
     pub fn local(&self) -> Vec<(f64, f64)> {
-        let width = self.shear.thickness / CELLS as f64;
-        let mut beyond = 0.0;
-        let mut profile: Vec<(f64, f64)> = (0..CELLS)
-            .rev()
-            .map(|cell| {
-                let distance = (cell as f64 + 0.5) * width;
-                let (pressure, friction) = self.shear.stress.at(distance, self.shear.thickness);
-                let growth = width * local_shear_rate(&self.shear.grains, pressure, friction);
-                beyond += growth;
-                (distance, beyond - 0.5 * growth)
-            })
-            .collect();
-        profile.reverse();
-        profile
+        let local = local_profile(&self.shear);
+        local.distances.into_iter().zip(local.velocities).collect()
     }
+}
+
+/// The steady flow of the local law under stresses that the balance of momentum gives: its shear rate is that of I(μ), and the
+/// velocity its integral from the far end.
+fn local_profile(shear: &NonlocalShear) -> NonlocalShearProfile {
+    let width = shear.thickness / CELLS as f64;
+    let mut profile = NonlocalShearProfile {
+        distances: (0..CELLS).map(|cell| (cell as f64 + 0.5) * width).collect(),
+        frictions: Vec::with_capacity(CELLS),
+        fluidities: Vec::with_capacity(CELLS),
+        velocities: vec![0.0; CELLS],
+        fastest: 0.0,
+    };
+    for &distance in &profile.distances {
+        let (pressure, friction) = shear.stress.at(distance, shear.thickness);
+        profile.frictions.push(friction);
+        profile.fluidities.push(local_shear_rate(&shear.grains, pressure, friction) / friction.max(f64::MIN_POSITIVE));
+    }
+    for cell in (0..CELLS).rev() {
+        let growth = width * profile.fluidities[cell] * profile.frictions[cell];
+        profile.fastest += growth;
+        profile.velocities[cell] = profile.fastest - 0.5 * growth;
+    }
+    profile
 }
 
 /// Shear rate of the local law `[1/s]`.
@@ -225,3 +291,7 @@ fn local_shear_rate(grains: &MuI, pressure: f64, friction: f64) -> f64 {
     let inertia = grains.reference_inertia * above / (grains.limiting_friction - friction);
     inertia * (pressure / grains.grain_density).sqrt() / grains.grain_diameter
 }
+
+#[cfg(test)]
+#[path = "flow_tests.rs"]
+mod tests;

@@ -2,56 +2,19 @@
 
 use super::NonlocalShearRecord;
 use super::flow::{ExactShear, ShearFlow};
+use super::heap;
 use super::probe::ShearObservation;
+use super::profile::{length_metric, tail, velocity_l2};
+use super::quantities::*;
 use super::run::ShearRun;
 use crate::case::Run;
 use crate::cases::energy_ledger::{self, EnergyScale};
-use crate::metric::{Confidence, Limit, Metric, Variant, quantities};
+use crate::metric::{Confidence, Limit, Metric, Variant};
 use crate::reference::ShearStress;
-use crate::statistics::{Regression, linear_regression, relative_l2};
-
-quantities! {
-    [energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
-    PARTICLES_LOST: accounted("particles_lost", "-", "particles that ended behind a wall"),
-    OVERFILLING: verified(
-        "overfilling", "%", "volume m/ρ of all particles over that of the channel, less 1, by which they bear more on the walls than their own pressure"
-    ),
-    PRESSURE_UNEVENNESS: verified(
-        "pressure_unevenness", "%", "largest deviation of a row's pressure from that of the balance of momentum, over the mean"
-    ),
-    VELOCITY_L2: verified("velocity_l2", "%", "relative L2 of the velocity profile"),
-    WALL_LAYER: verified(
-        "wall_layer", "diameters", "distance from the wall within which the velocity less that of the middle falls by e"
-    ),
-    PLUG_VELOCITY_ERROR: verified("plug_velocity_error", "%", "velocity in the middle of a chute over the exact one, less 1"),
-    FRICTION_ERROR: verified(
-        "friction_error", "%", "friction of the walls at which the model would have the same velocity in the middle, over theirs, less 1"
-    ),
-    TRACTION_ERROR: verified("traction_error", "%", "mean shear stress over that of the plate's velocity, less 1"),
-    DECAY_LENGTH: verified(
-        "decay_length", "diameters", "length over which the velocity falls by e, below the depth at which the local law is at rest"
-    ),
-    TAIL_STRAIGHTNESS: verified(
-        "tail_straightness", "-", "R² of a straight line through the logarithm of the velocity over that depth"
-    ),
-    DEEP_DECAY_LENGTH: validated(
-        "deep_decay_length", "diameters", "length over which the velocity falls by e in the deeper half of the tail"
-    ),
-}
-
-const EXACT: &str = "steady flow of the nonlocal law in finite volumes over 2000 cells, without particles, at the pressure that the run has";
-/// Depths below that at which the local law is at rest, between which the tail is measured, in diameters: the whole of it, and its
-/// deeper half.
-const TAIL: (f64, f64) = (0.0, 5.0);
-const DEEP_TAIL: (f64, f64) = (2.5, 6.0);
-/// What lengths of the decay and of the layer at a wall may be off by with [`COARSE`] particles per diameter `[-]`.
-const LENGTH_ERROR: f64 = 0.05;
-const COARSE: f64 = 2.0;
-const LENGTH_REASON: &str = "5 % where two particles are as long as a grain, the fewest that resolve a length of 1.2 diameters, and half of it with \
-     twice as many: first order";
+use crate::statistics::Regression;
 
 pub(super) fn all(records: &[NonlocalShearRecord]) -> Vec<Metric> {
-    records.iter().flat_map(of_run).collect()
+    records.iter().flat_map(of_run).chain(heap::orders(records)).collect()
 }
 
 fn of_run((run, record): &NonlocalShearRecord) -> Vec<Metric> {
@@ -61,7 +24,9 @@ fn of_run((run, record): &NonlocalShearRecord) -> Vec<Metric> {
         .exactly(0.0, "no particle passes a wall")
         .gated(Limit::AtMost(0.0), "a particle behind a wall is lost mass");
     let energy = match run.flow {
-        ShearFlow::Chute { .. } => energy_ledger::metrics(&variant, &seen.energy, EnergyScale::Work),
+        ShearFlow::Chute { .. } | ShearFlow::Heap { .. } => {
+            energy_ledger::metrics(&variant, &seen.energy, EnergyScale::Work)
+        }
         // the plate feeds energy in, and its work is none of an error
         ShearFlow::DraggedBed { .. } if seen.energy.total.is_empty() => Vec::new(),
         ShearFlow::DraggedBed { .. } => vec![energy_ledger::residual(&variant, &seen.energy, EnergyScale::Work)],
@@ -70,6 +35,7 @@ fn of_run((run, record): &NonlocalShearRecord) -> Vec<Metric> {
     let own = match run.flow {
         ShearFlow::Chute { half_width, .. } => chute(run, seen, &exact, half_width),
         ShearFlow::DraggedBed { .. } => dragged_bed(run, seen, &exact),
+        ShearFlow::Heap { cooperation, .. } => heap::metrics(run, seen, &exact, cooperation),
     };
     let not_steady = seen.unsteadiness(run.window());
     let own = own.into_iter().map(|metric| metric.unless(not_steady.as_ref()));
@@ -121,7 +87,7 @@ fn chute(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, half_width
     let (grains, flow) = run.found(seen);
     let found = match flow {
         ShearFlow::Chute { wall_friction, .. } => wall_friction,
-        ShearFlow::DraggedBed { .. } => f64::NAN,
+        ShearFlow::DraggedBed { .. } | ShearFlow::Heap { .. } => f64::NAN,
     };
     let coarseness = COARSE / run.particles_per_diameter as f64;
     let implied = flow.friction_of(&grains, plug).ok().flatten().unwrap_or(f64::NAN);
@@ -147,22 +113,6 @@ fn chute(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, half_width
     ]
 }
 
-/// The line through the logarithm of velocities between two depths below that at which the local law is at rest, in diameters.
-fn tail(
-    run: &ShearRun,
-    exact: &ExactShear,
-    (upper, lower): (f64, f64),
-    velocities: impl Iterator<Item = (f64, f64)>,
-) -> Option<Regression> {
-    let diameter = run.grains.law.grain_diameter;
-    let depths = velocities.map(|(y, velocity)| (run.flow.distance(y), velocity));
-    let inside = depths.filter(|(depth, _)| {
-        let below = (depth - exact.yield_distance()) / diameter;
-        below >= upper && below <= lower
-    });
-    linear_regression(&inside.map(|(depth, velocity)| (depth, libm::log(velocity))).collect::<Vec<_>>())
-}
-
 fn dragged_bed(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> Vec<Metric> {
     let (variant, diameter) = (run.variant(), run.grains.law.grain_diameter);
     let rows = seen.velocities();
@@ -183,8 +133,7 @@ fn dragged_bed(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> V
         TAIL_STRAIGHTNESS
             .of(&variant, straightness(found))
             .exactly(straightness(expected), EXACT)
-            .gated(Limit::AtLeast(0.98), "0.98: an exponential leaves a fiftieth of the logarithm's variance at most; the law's own length falls with the depth, so \
-                 that it leaves some, and a velocity that ends at a sharp edge bends far more")
+            .gated(Limit::AtLeast(STRAIGHT.0), STRAIGHT.1)
             .with_snapshot_tolerance(1e-3, 0.0),
     );
     let (found, _) = lines(DEEP_TAIL);
@@ -219,15 +168,4 @@ fn dragged_bed(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> V
          a plate at which the first row is a quarter of a diameter away",
     ));
     metrics
-}
-
-fn length_metric(metric: Metric, expected: f64, run: &ShearRun) -> Metric {
-    let allowed = LENGTH_ERROR * COARSE / run.particles_per_diameter as f64;
-    let limit = Limit::Within((1.0 - allowed) * expected, (1.0 + allowed) * expected);
-    metric.exactly(expected, EXACT).gated(limit, LENGTH_REASON).with_snapshot_tolerance(5e-3, 0.0)
-}
-
-fn velocity_l2(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> Metric {
-    let pairs = seen.velocities().into_iter().map(|(y, velocity)| (velocity, exact.velocity(y)));
-    VELOCITY_L2.of(&run.variant(), 100.0 * relative_l2(pairs)).exactly(0.0, EXACT).with_snapshot_tolerance(5e-2, 1e-2)
 }

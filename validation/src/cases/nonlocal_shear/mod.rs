@@ -1,16 +1,21 @@
-//! Grains that creep beside a flow: a chute between rough walls and a bed below a plate, under the nonlocal law.
+//! Grains that creep beside a flow: a chute between rough walls, a bed below a plate and a heap between side walls, under the nonlocal law.
 
 mod channel;
 mod figures;
 mod flow;
+mod heap;
+mod heap_figure;
+mod marks;
 mod metrics;
 mod parameters;
 mod probe;
+mod profile;
+mod quantities;
 mod run;
 
-pub use channel::{Channel, ChannelGrains, Motion, STIFFNESS};
-pub use flow::{ExactShear, ShearFlow, ShearedGrains};
-pub use parameters::{ChuteParameters, DraggedBedParameters, NonlocalShearParameters};
+pub use channel::{Above, Channel, ChannelGrains, Motion, STIFFNESS};
+pub use flow::{Cooperation, ExactShear, ShearFlow, ShearedGrains};
+pub use parameters::{ChuteParameters, DraggedBedParameters, HeapParameters, NonlocalShearParameters};
 pub use probe::ShearObservation;
 pub use run::ShearRun;
 
@@ -29,15 +34,16 @@ type NonlocalShearRecord = RecordOf<NonlocalShearParameters>;
 impl Case for NonlocalShearFlows {
     const NAME: &'static str = "nonlocal-shear";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
-    const SUMMARY: &'static str = "grains that creep beside a flow: a chute and a dragged bed under the nonlocal law";
-    const DESCRIPTION: &'static str = "Two flows of glass beads between rough walls, periodic along them, whose stresses the balance of momentum gives: a \
-        vertical chute, and a bed under gravity below a plate that drags it. Where the shear stress over the pressure is below μ_s a local \
+    const SUMMARY: &'static str =
+        "grains that creep beside a flow: a chute, a dragged bed and a heap between side walls under the nonlocal law";
+    const DESCRIPTION: &'static str = "Three flows of glass beads, periodic along rough walls, whose stresses the balance of momentum gives: a \
+        vertical chute, a bed under gravity below a plate that drags it, and a heap on a slope between side walls, whose friction stops it below its surface. Where the shear stress over the pressure is below μ_s a local \
         law is at rest. Under the nonlocal law the shear decays there over a few grains, as it does in experiments. The steady \
         flow is an ordinary differential equation, solved without particles; particles begin a tenth too fast and are compared with it at the pressure \
         that they have: the length over which the velocity falls by e below the depth at which the local law is at rest, the layer \
-        that shears at a wall of the chute, the velocities, the traction of the plate.";
+        that shears at a wall of the chute, the velocities, the traction of the plate. The heap flows under the local law too, whose profile is exact.";
     type Parameters = NonlocalShearParameters;
-    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
+    const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
     fn metrics(_: &NonlocalShearParameters, records: &[NonlocalShearRecord]) -> Vec<Metric> {
         metrics::all(records)

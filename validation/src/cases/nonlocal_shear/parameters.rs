@@ -1,13 +1,14 @@
 //! Parameters, tiers and runs.
 
 use super::channel::ChannelGrains;
-use super::flow::ShearFlow;
+use super::flow::{Cooperation, ShearFlow};
 use super::run::ShearRun;
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::cases::rules;
 use crate::reference::GLASS_BEADS;
 use bagnold_solver::material::rheology::{NonlocalMuI, Rheology};
-use bagnold_solver::parameter::{between, each, positive, unique};
+use bagnold_solver::parameter::{between, each, inside, positive, unique};
+use bagnold_solver::weakly_compressible::boundary::SideWalls;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -50,6 +51,35 @@ pub struct DraggedBedParameters {
     pub duration: f64,
 }
 
+/// A heap between side walls.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HeapParameters {
+    /// Thickness over the grain diameter `[-]`.
+    #[schemars(transform = between(2.0, 1000.0, "20 diameters hold a flow of 10 and its tail"))]
+    pub depth: f64,
+    /// Inclination of the surface `[°]`.
+    #[schemars(transform = inside(0.0, 90.0, "give it between the angles of the grains' friction coefficients"))]
+    pub slope_angle: f64,
+    /// Distance of the side walls over the grain diameter `[-]`.
+    #[schemars(transform = between(1.0, 1e4, "30 diameters are a narrow channel"))]
+    pub width: f64,
+    /// Friction of the grains on the side walls `[-]`.
+    #[schemars(transform = between(0.001, 2.0, "0.3 is that of glass beads on glass plates"))]
+    pub wall_friction: f64,
+    /// Particles per grain diameter of grains that flow together, one run each; empty for none.
+    #[schemars(transform = each(between(1.0, 100.0, PARTICLES)))]
+    #[schemars(transform = unique("name every resolution once"))]
+    pub particles_per_diameter: Vec<usize>,
+    /// Particles per grain diameter under the local law, one run each; empty for none.
+    #[schemars(transform = each(between(1.0, 100.0, PARTICLES)))]
+    #[schemars(transform = unique("name every resolution once"))]
+    pub local_particles_per_diameter: Vec<usize>,
+    /// Simulated time `[s]`.
+    #[schemars(transform = between(0.01, 1000.0, "2 s let the start decay"))]
+    pub duration: f64,
+}
+
 const PARTICLES: &str = "2 resolve the length over which the flow decays, which is 1.2 diameters at least";
 
 /// Parameters of the case.
@@ -70,6 +100,8 @@ pub struct NonlocalShearParameters {
     pub chute: ChuteParameters,
     /// The dragged bed.
     pub dragged_bed: DraggedBedParameters,
+    /// The heap.
+    pub heap: HeapParameters,
     /// Columns of particles along the period.
     pub columns: usize,
     /// Largest random displacement of a particle in spacings `[-]`.
@@ -104,8 +136,17 @@ impl Parameters for NonlocalShearParameters {
             dragged_bed: DraggedBedParameters {
                 depth: 20.0,
                 plate_velocity: 2.18,
-                particles_per_diameter: resolutions,
+                particles_per_diameter: resolutions.clone(),
                 duration: 0.5,
+            },
+            heap: HeapParameters {
+                depth: 20.0,
+                slope_angle: 26.0,
+                width: 30.0,
+                wall_friction: 0.3,
+                particles_per_diameter: resolutions.clone(),
+                local_particles_per_diameter: resolutions,
+                duration: 2.0,
             },
             columns: 8,
             jitter: 0.1,
@@ -148,7 +189,16 @@ impl Parameters for NonlocalShearParameters {
                     let field = "dragged_bed.plate_velocity";
                     return Err(ParameterError::field(field, self.dragged_bed.plate_velocity, rule, remedy));
                 }
-                ShearFlow::DraggedBed { .. } => {}
+                ShearFlow::Heap { .. } if !flows => {
+                    let remedy = "a gentler heap is at rest, a steeper one has no steady flow";
+                    let rule = format!(
+                        "between the angles of the grains' friction, {} and {} degrees, ends excluded, and so that the layer flows",
+                        libm::atan(law.static_friction).to_degrees(),
+                        libm::atan(law.limiting_friction).to_degrees()
+                    );
+                    return Err(ParameterError::field("heap.slope_angle", self.heap.slope_angle, &rule, remedy));
+                }
+                ShearFlow::DraggedBed { .. } | ShearFlow::Heap { .. } => {}
             }
         }
         Ok(())
@@ -180,7 +230,18 @@ impl Parameters for NonlocalShearParameters {
         let plate_velocity = plate_velocity * (self.gravity * diameter).sqrt();
         let bed = ShearFlow::DraggedBed { depth: depth * diameter, plate_velocity };
         let beds = self.dragged_bed.particles_per_diameter.iter().map(|&count| run(bed, count, duration));
-        chutes.chain(beds).collect()
+        let heap = |cooperation| ShearFlow::Heap {
+            depth: self.heap.depth * diameter,
+            inclination: self.heap.slope_angle.to_radians(),
+            side_walls: SideWalls { width: self.heap.width * diameter, friction: self.heap.wall_friction },
+            cooperation,
+        };
+        let duration = self.heap.duration;
+        let cooperating =
+            self.heap.particles_per_diameter.iter().map(|&count| run(heap(Cooperation::Nonlocal), count, duration));
+        let alone =
+            self.heap.local_particles_per_diameter.iter().map(|&count| run(heap(Cooperation::Local), count, duration));
+        chutes.chain(beds).chain(cooperating).chain(alone).collect()
     }
 }
 
@@ -215,6 +276,16 @@ mod tests {
         assert!(steep.starts_with("`chute.wall_friction` is 0.7, but must be between 0 and 0.64"), "{steep}");
         let fast = message(|parameters| parameters.dragged_bed.plate_velocity = 1e6);
         assert!(fast.starts_with("`dragged_bed.plate_velocity` is 1000000, but must be a velocity that"), "{fast}");
+        for slope_angle in [15.0, 40.0] {
+            let heap = message(|parameters| {
+                parameters.heap.slope_angle = slope_angle;
+                parameters.heap.particles_per_diameter.clear();
+            });
+            let expected = format!(
+                "`heap.slope_angle` is {slope_angle}, but must be between the angles of the grains' friction, 20.9"
+            );
+            assert!(heap.starts_with(&expected), "{heap}");
+        }
         let local = message(|parameters| parameters.material = Rheology::MuI(GLASS_BEADS.law));
         assert!(local.starts_with("`material.law` is \"mu-i\", but must be \"nonlocal-mu-i\""), "{local}");
     }

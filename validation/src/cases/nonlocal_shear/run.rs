@@ -1,6 +1,6 @@
 //! One simulation: how it starts, and what it ought to come to.
 
-use super::channel::{Channel, ChannelGrains, Motion};
+use super::channel::{Above, Channel, ChannelGrains, Motion};
 use super::flow::{ExactShear, ShearFlow, ShearedGrains};
 use super::probe::{ShearObservation, ShearProbe};
 use crate::case::recording::{SimulationStage, watch};
@@ -28,7 +28,7 @@ pub struct ShearRun {
     pub grains: ChannelGrains,
     /// Particles per grain diameter.
     pub particles_per_diameter: usize,
-    /// Mean pressure in a chute, pressure below a plate `[Pa]`.
+    /// Mean pressure in a chute, pressure below a plate; on a heap there is none `[Pa]`.
     pub load: f64,
     /// Gravity `[m/s²]`.
     pub gravity: f64,
@@ -44,7 +44,7 @@ impl Run for ShearRun {
     }
 
     fn laws(&self) -> Vec<Rheology> {
-        vec![Rheology::NonlocalMuI(self.grains.law)]
+        vec![self.flow.law(self.grains.law)]
     }
 
     fn particles(&self) -> f64 {
@@ -105,6 +105,7 @@ impl ShearRun {
                 (grains(pressure), ShearFlow::Chute { half_width, wall_friction })
             }
             ShearFlow::DraggedBed { depth, .. } => (grains(pressure - 0.5 * density * self.gravity * depth), self.flow),
+            ShearFlow::Heap { .. } => (grains(0.0), self.flow),
         }
     }
 
@@ -129,16 +130,18 @@ impl ShearRun {
             }
         };
         let pressure = |height: f64| self.flow.pressure(&grains, height);
-        let upper_wall = match self.flow {
-            ShearFlow::Chute { .. } => 0.0,
-            ShearFlow::DraggedBed { plate_velocity, .. } => plate_velocity,
+        let above = match self.flow {
+            ShearFlow::Chute { .. } => Above::Wall(0.0),
+            ShearFlow::DraggedBed { plate_velocity, .. } => Above::Wall(plate_velocity),
+            ShearFlow::Heap { side_walls, .. } => Above::Surface(side_walls),
         };
         call(&Channel {
             grains: self.grains,
+            rheology: self.flow.law(self.grains.law),
             width: self.flow.width(),
             gravity: self.flow.gravity(&grains),
             pressure: &pressure,
-            upper_wall,
+            above,
             start: &start,
         })
     }

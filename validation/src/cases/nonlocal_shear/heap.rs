@@ -1,0 +1,120 @@
+//! How heaps between side walls are judged.
+
+use super::NonlocalShearRecord;
+use super::flow::{Cooperation, ExactShear, ShearFlow};
+use super::probe::ShearObservation;
+use super::profile::{length_metric, tail, velocity_l2, velocity_misfit};
+use super::quantities::{
+    COARSE, DECAY_LENGTH, DEEP_TAIL, EXACT, FLOWING_DEPTH, OBSERVED_ORDER, STRAIGHT, SURFACE_VELOCITY_ERROR, TAIL,
+    TAIL_STRAIGHTNESS,
+};
+use super::run::ShearRun;
+use crate::case::Run;
+use crate::metric::{Limit, Metric, Variant};
+use crate::statistics::Regression;
+
+/// Velocity at the depth that a heap counts as flowing down to, over that of its surface `[-]`.
+const STILL: f64 = 0.01;
+const EXACT_LOCAL: &str = "μ(I) inverted under the stresses that gravity and both side walls give, integrated from the depth at which τ/p is μ_s";
+
+/// Metrics of a heap.
+pub(super) fn metrics(
+    run: &ShearRun,
+    seen: &ShearObservation,
+    exact: &ExactShear,
+    cooperation: Cooperation,
+) -> Vec<Metric> {
+    let rows = seen.velocities();
+    let expected: Vec<(f64, f64)> = rows.iter().map(|&(y, _)| (y, exact.velocity(y))).collect();
+    let surface = |rows: &[(f64, f64)]| rows.last().map_or(f64::NAN, |row| row.1);
+    let found = SURFACE_VELOCITY_ERROR.of(&run.variant(), 100.0 * (surface(&rows) / surface(&expected) - 1.0));
+    let (mut metrics, reference) = match cooperation {
+        Cooperation::Nonlocal => (decay(run, seen, exact, &expected), EXACT),
+        Cooperation::Local => (depth(run, seen, exact, &expected), EXACT_LOCAL),
+    };
+    metrics.push(found.exactly(0.0, reference).with_snapshot_tolerance(0.1, 1e-1));
+    metrics
+}
+
+/// How the velocity of grains that flow together decays below the depth at which the local law is at rest.
+fn decay(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, expected: &[(f64, f64)]) -> Vec<Metric> {
+    let (variant, diameter, rows) = (run.variant(), run.grains.law.grain_diameter, seen.velocities());
+    let line = |depths, rows: &[(f64, f64)]| tail(run, exact, depths, rows.iter().copied());
+    let length = |line: Option<Regression>| line.map_or(f64::NAN, |line| -1.0 / (line.slope * diameter));
+    let straightness = |line: Option<Regression>| line.map_or(f64::NAN, |line| line.r_squared);
+    let lengths = [TAIL, DEEP_TAIL].into_iter().map(|depths| {
+        let variant = Variant::of("from", depths.0).and("to", depths.1).followed_by(&variant);
+        length_metric(DECAY_LENGTH.of(&variant, length(line(depths, &rows))), length(line(depths, expected)), run)
+    });
+    let straight = TAIL_STRAIGHTNESS
+        .of(&variant, straightness(line(TAIL, &rows)))
+        .exactly(straightness(line(TAIL, expected)), EXACT)
+        .gated(Limit::AtLeast(STRAIGHT.0), STRAIGHT.1)
+        .with_snapshot_tolerance(1e-3, 0.0);
+    let allowed = 2.0 * COARSE / run.particles_per_diameter as f64;
+    let velocity = velocity_l2(run, seen, exact).gated(
+        Limit::AtMost(allowed),
+        "2 % where two particles are as long as a grain and half of it with twice as many, as below a plate: the flowing layer is thicker, but what flows \
+         between a surface without fluidity and walls that hold it goes with its depth to a higher power",
+    );
+    lengths.chain([straight, velocity]).collect()
+}
+
+/// Depth down to which rows, from below, flow `[m]`.
+fn flowing_depth(run: &ShearRun, rows: &[(f64, f64)]) -> f64 {
+    let Some(surface) = rows.last().map(|row| row.1) else { return f64::NAN };
+    let crossed = rows.windows(2).rev().find(|pair| pair[0].1 < STILL * surface);
+    crossed.map_or(f64::NAN, |pair| {
+        let ((lower, slower), (upper, faster)) = (pair[0], pair[1]);
+        run.flow.distance(lower + (upper - lower) * (STILL * surface - slower) / (faster - slower))
+    })
+}
+
+/// Profile and depth of a flow of the local law.
+fn depth(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, expected: &[(f64, f64)]) -> Vec<Metric> {
+    let (diameter, row) = (run.grains.law.grain_diameter, 1.0 / run.particles_per_diameter as f64);
+    let (found, expected) =
+        (flowing_depth(run, &seen.velocities()) / diameter, flowing_depth(run, expected) / diameter);
+    vec![
+        FLOWING_DEPTH
+            .of(&run.variant(), found)
+            .exactly(expected, EXACT_LOCAL)
+            .gated(
+                Limit::Within(expected - row, expected + row),
+                "a row of particles either way: a particle's velocity gradient is a mean over its neighbours, which straddle the depth where flow ends",
+            )
+            .with_snapshot_tolerance(5e-3, 0.0),
+        velocity_l2(run, seen, exact).exactly(0.0, EXACT_LOCAL).gated(
+            Limit::AtMost(3.0 * COARSE * row),
+            "3 % where two particles are as long as a grain, half of it with twice as many and twice as much with half as many: a shift of a tenth of a row \
+             of the depth where flow ends, at which the velocity begins as its square, is 1 % of the velocity of a layer of 21 rows",
+        ),
+    ]
+}
+
+/// Orders of convergence under the local law, from each resolution to the next.
+pub(super) fn orders(records: &[NonlocalShearRecord]) -> Vec<Metric> {
+    let local = |flow: &ShearFlow| matches!(flow, ShearFlow::Heap { cooperation: Cooperation::Local, .. });
+    let mut errors: Vec<(usize, f64)> = records
+        .iter()
+        .filter(|(run, _)| local(&run.flow))
+        .filter_map(|(run, record)| {
+            let exact = run.exact(&record.data)?;
+            Some((run.particles_per_diameter, velocity_misfit(&record.data, &exact)))
+        })
+        .collect();
+    errors.sort_by_key(|error| error.0);
+    let order = |pair: &[(usize, f64)]| {
+        let ((few, coarse), (many, fine)) = (pair[0], pair[1]);
+        let variant = Variant::of("flow", "local-heap").and("from", few).and("to", many);
+        OBSERVED_ORDER
+            .of(&variant, libm::log(coarse / fine) / libm::log(many as f64 / few as f64))
+            .exactly(2.0, "sums over neighbours are of second order where the shear rate is smooth")
+            .gated(
+                Limit::AtLeast(1.0),
+                "first order: the shear rate has a kink where flow ends, and particles there are displaced at random",
+            )
+            .with_snapshot_tolerance(0.1, 0.1)
+    };
+    errors.windows(2).map(order).collect()
+}
