@@ -129,11 +129,14 @@ pub(super) fn of_run((run, record): &CollapseRecord, records: &[CollapseRecord])
             let active = 45.0 + 0.5 * libm::atan(run.law.contact_friction()).to_degrees();
             let metric = observed(FAILURE_SURFACE_ANGLE, angle);
             if let Some((pile, (angle, error))) = pile_of(run).and_then(|pile| Some((pile, failure_angle(pile)?))) {
-                metrics.push(metric.against(Some(angle), &pile.source, pile.confidence).known_to(
+                let metric = metric.against(Some(angle), &pile.source, pile.confidence).known_to(
                     Origin::Digitisation,
                     Some(error),
                     "standard error of the line through the measured points",
-                ));
+                );
+                metrics.push(super::measured::with_friction(metric, records, run, |(other, seen)| {
+                    self::wedge(other, &seen.frames)?.angle().zip(wedge.angle()).map(|(other, own)| other - own)
+                }));
                 return metrics;
             }
             metrics.push(metric.against(

@@ -33,9 +33,8 @@ const FEWEST: usize = 3;
 const READING: &str =
     "scatter of the points of the surface about the line through their neighbours, at the toe over its slope";
 const AREA: &str = "the area under the points is that much larger than the pile's: heights as a whole are off by it";
-const RATE: &str = "distance to the pile whose friction rises with the rate as that of Lagrée's grains, over √3: that of the bars was not measured";
-const FRICTION: &str =
-    "distance to the pile whose friction is the sine of the measured angle instead of the tangent, over √3";
+const RATE: &str = "friction at a rate (distance to the pile whose friction rises with the rate as that of Lagrée's grains, over √3: that of the bars was not measured)";
+const FRICTION: &str = "meaning of the friction angle (distance to the pile whose friction is the sine of the measured angle instead of the tangent, over √3)";
 
 /// Thickness of a deposit at a distance from the wall, both over r_0; its innermost bin's at the wall.
 fn thickness(collapse: &Collapse, place: f64) -> f64 {
@@ -51,11 +50,11 @@ fn over_surface(pile: &MeasuredPile, difference: impl Fn(f64, f64) -> f64) -> f6
 
 /// A metric with what it moves by if the pile's friction has another meaning or rises with the rate, as standard uncertainties: the pile
 /// stands at one end of each even spread.
-fn with_friction(
+pub(super) fn with_friction(
     metric: Metric,
     records: &[CollapseRecord],
     run: &ColumnRun,
-    difference: impl Fn(&Collapse) -> f64,
+    difference: impl Fn(&CollapseRecord) -> Option<f64>,
 ) -> Metric {
     if !run.material.is_published() {
         return metric;
@@ -66,7 +65,7 @@ fn with_friction(
                 && other.material.alteration.is_some_and(|own| is_it(&own))
                 && other.resolution == run.resolution
         });
-        Some(altered.map(|(_, record)| difference(&record.data).abs()).fold(0.0, f64::max) / 3.0_f64.sqrt())
+        Some(altered.filter_map(|other| Some(difference(other)?.abs())).fold(0.0, f64::max) / 3.0_f64.sqrt())
     };
     metric.known_to(Origin::Input, widest(|own| matches!(own, Alteration::Friction(_))), FRICTION).known_to(
         Origin::Input,
@@ -102,17 +101,19 @@ pub(super) fn of_pile(
     let of_height =
         with_uncertainty(of(FINAL_HEIGHT.of(&variant, tall), height), known.height, None, known.spread.height);
     let distance = over_surface(pile, |x, measured| thickness(collapse, x) - measured);
-    let moved = |other: &Collapse| over_surface(pile, |x, _| thickness(other, x) - thickness(collapse, x));
+    let moved = |(_, other): &CollapseRecord| {
+        Some(over_surface(pile, |x, _| thickness(&other.data, x) - thickness(collapse, x)))
+    };
     let of_surface = of(SURFACE_DISTANCE.of(&variant, distance), 0.0);
     let mut metrics = vec![
-        with_friction(of_run_out, records, run, |other| other.run_out() - own)
+        with_friction(of_run_out, records, run, |(_, other)| Some(other.data.run_out() - own))
             .known_to(Origin::Digitisation, Some(pile.front_reading() / r), READING)
             .gated_by(
                 judged(band(run_out, PILE_RUN_OUT)),
                 "33 %, twice what is not known: most of it how the friction of the bars rises with the rate, which nobody measured; then the meaning of \
                  their friction angle, a row at the toe, and the reading",
             ),
-        with_friction(of_height, records, run, |other| other.final_height() - tall)
+        with_friction(of_height, records, run, |(_, other)| Some(other.data.final_height() - tall))
             .known_to(Origin::Digitisation, Some(pile.reading / r), READING)
             .known_to(Origin::Experiment, Some(pile.excess().abs() * height), AREA)
             .gated_by(judged(band(height, PILE_HEIGHT)), "3 %, twice what the area under the measured points is off by"),
@@ -133,7 +134,15 @@ pub(super) fn of_pile(
         };
         let mean = pile.failure.iter().map(off).sum::<f64>() / pile.failure.len() as f64;
         // how their line was defined is not stated, and ours is by a displacement of a spacing
-        metrics.push(of(FAILURE_LINE_DISTANCE.of(&variant, 100.0 * mean.sqrt() / r), 0.0));
+        let distance = of(FAILURE_LINE_DISTANCE.of(&variant, 100.0 * mean.sqrt() / r), 0.0);
+        metrics.push(with_friction(distance, records, run, |(other, seen)| {
+            let theirs: Vec<(f64, f64)> =
+                flow_metrics::wedge(other, &seen.frames)?.boundary.iter().map(|&(x, y)| (y, x)).collect();
+            let at = |rows: &[(f64, f64)], y: f64| interpolated(rows, y, (Beyond::EndValue, Beyond::EndValue));
+            let squares = pile.failure.iter().map(|&(_, y)| Some((at(&theirs, y)? - at(&rows, y)?).powi(2)));
+            let sum: f64 = squares.sum::<Option<f64>>()?;
+            Some(100.0 * (sum / pile.failure.len() as f64).sqrt() / r)
+        }));
     }
     metrics
 }
