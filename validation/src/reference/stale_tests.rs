@@ -2,11 +2,11 @@
 //! an input, or its results have moved.
 
 use super::sensitivity_table::{RangeEnd, SensitivityRow, sensitivity_table};
-use super::stated_uncertainty::StatedUncertainty;
+use super::stated_uncertainty::{StatedUncertainty, completed};
 use super::validation_set::{ValidatedComparison, ValidationSet};
 use crate::case::{Changes, Tier};
 use crate::cases::REGISTRY;
-use crate::metric::{ComparisonPart, Metric};
+use crate::metric::{ComparisonPart, Confidence, Metric, MetricKind};
 use std::collections::BTreeSet;
 
 /// How far a value with all inputs at their own may have moved since its table was made, relative to it: a derivative of a result that is
@@ -94,5 +94,24 @@ fn ranges_are_about_the_values_that_the_cases_have() {
             let is_own = own.is_some_and(|own| (own - range.own).abs() <= 1e-9 * own.abs());
             assert!(is_own, "{name}: {path} is {own:?} in the case and {} in uncertainty.toml", range.own);
         }
+    }
+}
+
+#[test]
+fn a_bed_of_particles_has_the_uncertainty_by_the_inputs_of_the_layer_with_its_closures() {
+    let bed = StatedUncertainty::of("bed-load").expect("a file");
+    for slope in ["0.02", "0.03", "0.05"] {
+        let variant = format!("slope={slope},start=rest").parse().expect("a variant");
+        let of_layer = Metric::observed("transport_ratio", &variant, 1.0, "-").of_kind(MetricKind::Validation).against(
+            Some(1.0),
+            "a formula",
+            Confidence::High,
+        );
+        let layer = &completed("bed-load-1d", vec![of_layer])[0];
+        let expected = layer.uncertainty.of_part(ComparisonPart::Input).expect("ranges");
+        let variant = format!("formulation=dilating,slope={slope}").parse().expect("a variant");
+        let part = bed.parts.iter().find(|own| own.part == ComparisonPart::Input && own.variant == variant);
+        let stated = part.and_then(|own| own.relative).expect("a number");
+        assert!((stated - expected).abs() <= 0.005, "slope {slope}: {stated} in bed-load, {expected} in bed-load-1d");
     }
 }

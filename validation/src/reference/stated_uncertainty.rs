@@ -116,6 +116,8 @@ pub struct StatedUncertainty {
     /// What is known without runs.
     #[serde(rename = "part")]
     pub parts: Vec<StatedPart>,
+    /// What variants have of runs that are there to show what an input does, and are no comparisons of their own.
+    pub altered: Vec<Variant>,
     /// What is not known.
     #[serde(rename = "unknown")]
     pub unknown: Vec<UnknownPart>,
@@ -145,6 +147,12 @@ impl StatedUncertainty {
     #[must_use]
     pub fn of(case: &str) -> Option<&'static Self> {
         STATED.get(case)
+    }
+
+    /// Whether a comparison is of a run that is there to show what an input does.
+    #[must_use]
+    pub fn is_altered(&self, variant: &Variant) -> bool {
+        self.altered.iter().any(|other| variant.includes(other))
     }
 
     /// Why a part of a comparison is not known; none where no reason is stated.
