@@ -1,8 +1,31 @@
 //! An input that is known within a range: `[[range]]` of `reference-data/CASE/uncertainty.toml`.
 
-use super::stated_uncertainty::Basis;
 use crate::metric::Variant;
 use serde::Deserialize;
+
+/// What a number rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Basis {
+    /// The source states it.
+    Stated,
+    /// It follows from numbers that the source states, as is said.
+    Derived,
+    /// It is the project's choice of a range that the field takes for granted, with the reason.
+    Assumed,
+}
+
+impl Basis {
+    /// For a reader.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Stated => "stated",
+            Self::Derived => "derived",
+            Self::Assumed => "assumed, range of the field",
+        }
+    }
+}
 
 /// What is spread evenly over a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]

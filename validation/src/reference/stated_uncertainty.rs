@@ -4,7 +4,7 @@
 //! `propagation`). A spacing is propagated by a run at half of it: at first order twice the difference is left, taken for the half
 //! width of an even spread. What is not known stands there with the reason.
 
-use super::input_range::InputRange;
+use super::input_range::{Basis, InputRange};
 use super::propagation::{by_input, by_spacing, rows_of};
 use super::sensitivity_table::{SensitivityRow, sensitivity_table};
 use crate::metric::{ComparisonPart, Metric, Origin, Variant};
@@ -17,29 +17,8 @@ include!(concat!(env!("OUT_DIR"), "/stated_uncertainties.rs"));
 /// Name of the file in the folder of a case.
 const FILE: &str = "uncertainty.toml";
 
-/// What a number rests on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Basis {
-    /// The source states it.
-    Stated,
-    /// It follows from numbers that the source states, as is said.
-    Derived,
-    /// It is the project's choice of a range that the field takes for granted, with the reason.
-    Assumed,
-}
-
-impl Basis {
-    /// For a reader.
-    #[must_use]
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Stated => "stated",
-            Self::Derived => "derived",
-            Self::Assumed => "assumed, range of the field",
-        }
-    }
-}
+/// Why a run that shows what an input does has no uncertainty by its inputs.
+const ALTERED: &str = "this run shows what an input does, and is no comparison of its own";
 
 /// The runs that propagate ranges, of the quick tier.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
@@ -159,7 +138,8 @@ impl StatedUncertainty {
     #[must_use]
     pub fn reason(&self, part: ComparisonPart, metric: &Metric) -> Option<&str> {
         let is_it = |own: &&UnknownPart| own.part == part && concerns(&own.quantities, &own.variant, metric);
-        self.unknown.iter().find(is_it).map(|own| own.reason.as_str())
+        let altered = (part == ComparisonPart::Input && self.is_altered(&metric.variant)).then_some(ALTERED);
+        self.unknown.iter().find(is_it).map(|own| own.reason.as_str()).or(altered)
     }
 
     /// Whether something is stated of a part of a comparison without runs: a number, or why there is none.
