@@ -17,8 +17,11 @@ const APART: f64 = 2e-3;
 const SUSPENSION: (f64, f64) = (0.012, 0.050);
 const DEPOSIT: (f64, f64) = (0.002, 0.042);
 
+/// A number of beads and oil.
+type GrainNumber = fn(&mut SettlingGrains) -> &mut f64;
+
 /// The numbers of beads and oil that have a range, by their names in the table.
-const NUMBERS: [(&str, fn(&mut SettlingGrains) -> &mut f64); 4] = [
+const NUMBERS: [(&str, GrainNumber); 4] = [
     ("bead diameter", |grains| &mut grains.grain_diameter),
     ("bead density", |grains| &mut grains.grain_density),
     ("oil density", |grains| &mut grains.fluid_density),

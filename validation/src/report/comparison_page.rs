@@ -6,7 +6,7 @@ use super::template::fill;
 use super::view::{FigureView, VerdictMark, anchor, picture};
 use super::{DrawnFigure, Report};
 use crate::figure::{Axis, Figure, Panel};
-use crate::metric::{ComparisonPart, Metric};
+use crate::metric::{ComparisonPart, Metric, UncertaintyComponent};
 use crate::number::{two_digits, with_unit};
 use crate::reference::StatedUncertainty;
 use serde::Serialize;
@@ -238,9 +238,15 @@ fn row(number: usize, compared: &Comparison<'_>, widest: f64) -> RowView {
 /// The input that most of u_input comes from.
 fn dominant(metric: &Metric) -> String {
     let most = metric.uncertainty.largest(ComparisonPart::Input);
-    most.map_or_else(String::new, |(own, share)| {
-        format!("{} % of its square: {}", two_digits(100.0 * share), own.name())
-    })
+    let words = |(own, share): (&UncertaintyComponent, f64)| {
+        let is_alone = share > 0.995;
+        if is_alone {
+            own.name().to_owned()
+        } else {
+            format!("{} % of its square: {}", two_digits(100.0 * share), own.name())
+        }
+    };
+    most.map(words).unwrap_or_default()
 }
 
 fn bar(compared: &Comparison<'_>, widest: f64) -> BarView {

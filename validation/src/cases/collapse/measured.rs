@@ -6,8 +6,7 @@ use super::deposit::Collapse;
 use super::flow_metrics;
 use super::fronts::FRONT_THICKNESS;
 use super::known::{ColumnUncertainty, with_uncertainty};
-use super::material::Alteration;
-use super::pile::pile_of;
+use super::pile::{pile_of, with_friction};
 use super::quantities::{
     FAILURE_LINE_DISTANCE, FINAL_HEIGHT, MEDIAN_RUN_OUT_RATIO, RUN_OUT, RUN_OUT_RATIO, SURFACE_DISTANCE,
 };
@@ -33,8 +32,6 @@ const FEWEST: usize = 3;
 const READING: &str =
     "scatter of the points of the surface about the line through their neighbours, at the toe over its slope";
 const AREA: &str = "the area under the points is that much larger than the pile's: heights as a whole are off by it";
-const RATE: &str = "friction at a rate (distance to the pile whose friction rises with the rate as that of Lagrée's grains, over √3: that of the bars was not measured)";
-const FRICTION: &str = "meaning of the friction angle (distance to the pile whose friction is the sine of the measured angle instead of the tangent, over √3)";
 
 /// Thickness of a deposit at a distance from the wall, both over r_0; its innermost bin's at the wall.
 fn thickness(collapse: &Collapse, place: f64) -> f64 {
@@ -46,32 +43,6 @@ fn over_surface(pile: &MeasuredPile, difference: impl Fn(f64, f64) -> f64) -> f6
     let square = |&(x, height): &(f64, f64)| difference(x / pile.length, height / pile.length).powi(2);
     let mean = pile.surface.iter().map(square).sum::<f64>() / pile.surface.len() as f64;
     100.0 * mean.sqrt() * pile.length / pile.height
-}
-
-/// A metric with what it moves by if the pile's friction has another meaning or rises with the rate, as standard uncertainties: the pile
-/// stands at one end of each even spread.
-pub(super) fn with_friction(
-    metric: Metric,
-    records: &[CollapseRecord],
-    run: &ColumnRun,
-    difference: impl Fn(&CollapseRecord) -> Option<f64>,
-) -> Metric {
-    if !run.material.is_published() {
-        return metric;
-    }
-    let widest = |is_it: fn(&Alteration) -> bool| {
-        let altered = records.iter().filter(|(other, _)| {
-            pile_of(other).is_some()
-                && other.material.alteration.is_some_and(|own| is_it(&own))
-                && other.resolution == run.resolution
-        });
-        Some(altered.filter_map(|other| Some(difference(other)?.abs())).fold(0.0, f64::max) / 3.0_f64.sqrt())
-    };
-    metric.known_to(Origin::Input, widest(|own| matches!(own, Alteration::Friction(_))), FRICTION).known_to(
-        Origin::Input,
-        widest(|own| matches!(own, Alteration::LimitingFriction(_))),
-        RATE,
-    )
 }
 
 /// Run-out, height, surface and line of failure of the pile of bars against the measured ones.
