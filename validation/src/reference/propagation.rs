@@ -79,6 +79,8 @@ mod tests {
         ends.map(row).to_vec()
     }
 
+    type Function = fn(f64) -> f64;
+
     /// The root mean square of what a function of the place differs by from its value at the own place.
     fn by_sum(function: impl Fn(f64) -> f64, place: f64) -> f64 {
         let points = 20_000;
@@ -90,7 +92,7 @@ mod tests {
     #[test]
     fn an_input_is_propagated_as_by_summing_over_its_range() {
         // straight; at an end; bent at the own value; both ends to the same side
-        let functions: [(fn(f64) -> f64, f64); 5] = [
+        let functions: [(Function, f64); 5] = [
             (|x| 3.0 * x, 0.5),
             (|x| 3.0 * x, 0.3),
             (|x| 3.0 * x, 1.0),

@@ -156,6 +156,12 @@ impl ValidationSet {
         self.comparisons.iter().filter(|row| quantities.contains(&row.quantity.as_str()))
     }
 
+    /// How many comparisons of some quantities there are, without those that show what an input does.
+    #[must_use]
+    pub fn number(&self, quantities: &[&str]) -> usize {
+        self.of(quantities).filter(|row| !row.is_altered()).count()
+    }
+
     /// Bias and scatter of some quantities; none with fewer than three comparisons. What is there to show what an input does is no
     /// comparison of its own: it would count an experiment several times, and its inputs as the model's scatter.
     #[must_use]
@@ -201,14 +207,17 @@ impl ValidationSet {
         let (least, most) = self.next_ratio(quantities)?;
         let outside = |place: usize| {
             let name = REGIME_NUMBERS[place];
-            let (low, high) = self.ranges(quantities)[place]?;
-            match regime.numbers()[place] {
-                Some(own) if (low..=high).contains(&own) => None,
-                Some(own) => {
+            match (regime.numbers()[place], self.ranges(quantities)[place]) {
+                (Some(own), Some((low, high))) if (low..=high).contains(&own) => None,
+                (Some(own), Some((low, high))) => {
                     let [own, low, high] = [own, low, high].map(two_digits);
                     Some(format!("{name} = {own} lies outside of what was validated, {low} to {high}"))
                 }
-                None => Some(format!("{name} is not known of this flow")),
+                (Some(own), None) => {
+                    Some(format!("{name} = {} is known of nothing that was validated", two_digits(own)))
+                }
+                (None, Some(_)) => Some(format!("{name} is not known of this flow")),
+                (None, None) => None,
             }
         };
         Some(PredictionInterval {
@@ -279,6 +288,9 @@ mod tests {
         let found = set.predict(&["run_out"], tall, 2.0).expect("four comparisons");
         assert!(found.warnings[0].starts_with("a = h/r = 9 lies outside"), "{:?}", found.warnings);
         assert!(found.warnings[1].starts_with("θ [°] is not known"), "{:?}", found.warnings);
+        let of_grains = FlowRegime { grain_ratio: Some(0.01), ..known };
+        let found = set.predict(&["run_out"], of_grains, 2.0).expect("four comparisons");
+        assert_eq!(found.warnings, ["d/h = 0.01 is known of nothing that was validated"]);
         assert_eq!(set.predict(&["height"], known, 2.0), None);
     }
 

@@ -150,7 +150,7 @@ pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Result<String, m
         let figure = group.name.replace(' ', "-");
         QuantityView {
             name: group.name.clone(),
-            comparisons: set.of(&names).count(),
+            comparisons: set.number(&names),
             ranges: set.ranges(&names).iter().map(range).collect(),
             bias: bias.map_or_else(|| "none".to_owned(), |bias| four_digits(bias.bias).to_string()),
             inputs: set
